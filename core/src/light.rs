@@ -1,0 +1,145 @@
+//! Light shapes: for one technique, a sample with all that an estimator needs.
+//!
+//! A shape whose lanes are equal (`splat`) draws a packet of samples of one light; lanes may as well hold different lights, and
+//! `p` different shading points. Each method is one technique. The estimator of reflected radiance is
+//! `f · L · cosθ / pdf` where `emits` holds, else 0; with a shadow ray of length `distance` along `direction`.
+//!
+//! | shape | by area | by solid angle |
+//! |---|---|---|
+//! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better |
+//! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others |
+//! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) |
+
+use crate::math::rsqrt;
+use crate::real::Real;
+use crate::seen::{Sighting, SphereCap, SphericalParallelogram, SphericalTriangle, lanewise};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{AreaTriangle, UniformSphere, Warp};
+
+/// One sample of a light from a shading point.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample<R: Real> {
+    /// Unit direction from the shading point to the light.
+    pub direction: Vec3<R>,
+    /// Distance to the light along it.
+    pub distance: R,
+    /// Density per steradian; 0 in lanes that hold no sample (a degenerate light, a point on the light).
+    pub pdf: R,
+    /// True where the point sees the side of the light that emits if the light is one-sided: the side of the normal.
+    pub emits: R::Mask,
+}
+
+/// Area measure to solid angle: 1/area · distance² / |cosθ'|, finite or 0.
+///
+/// `along` = |direction · N| for a normal N of length `area`.
+#[inline]
+fn solid_angle_pdf<R: Real>(distance: R, along: R) -> R {
+    let pdf = distance * distance / R::select(along.gt(R::lit(0.0)), along, R::lit(1.0));
+    pdf.keep(along.gt(R::lit(0.0)) & pdf.lt(R::lit(1e37)) & distance.gt(R::lit(0.0)))
+}
+
+/// Direction and distance of a point relative to the viewpoint, at any scale.
+#[inline]
+fn sighting<R: Real>(point: Vec3<R>) -> Sighting<R> {
+    let scale = point.max_abs().exponent_reciprocal();
+    let scaled = point * scale;
+    let squared = scaled.length_squared();
+    let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
+    Sighting { direction: scaled * inverse, distance: squared * inverse / scale }
+}
+
+lanewise! {
+    /// A sphere that emits outwards.
+    Sphere {
+        /// Centre.
+        pub center: Vec3<R>,
+        /// Radius.
+        pub radius: R,
+    }
+}
+
+impl<R: Real> Sphere<R> {
+    /// Uniform over the surface: half of it and more faces away. pdf = distance²/(|cosθ'| 4πR²).
+    #[inline]
+    pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let normal: Vec3<R> = UniformSphere.sample(u);
+        let Sighting { direction, distance } = sighting((self.center - p) + normal * self.radius);
+        let cos = direction.dot(normal);
+        let area = self.radius * self.radius * R::lit(4.0 * core::f64::consts::PI);
+        let pdf = solid_angle_pdf(distance, cos.abs() * area);
+        LightSample { direction, distance, pdf, emits: cos.lt(R::lit(0.0)) }
+    }
+    /// Uniform over the cone of directions, [`SphereCap`]: every sample hits the near side.
+    #[inline]
+    pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let cap = SphereCap::new(self.center - p, self.radius);
+        let Sighting { direction, distance } = cap.sight(u);
+        LightSample { direction, distance, pdf: cap.density(), emits: !cap.inside() }
+    }
+}
+
+lanewise! {
+    /// A triangle that emits on the side of (v1−v0)×(v2−v0).
+    Triangle {
+        /// First vertex.
+        pub v0: Vec3<R>,
+        /// v1 − v0.
+        pub e1: Vec3<R>,
+        /// v2 − v0.
+        pub e2: Vec3<R>,
+    }
+}
+
+impl<R: Real> Triangle<R> {
+    /// Uniform over the surface. pdf = distance²/(|cosθ'| A).
+    #[inline]
+    pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let b: Vec2<R> = AreaTriangle.sample(u);
+        let point = self.e1.mul_add(b.x, self.e2.mul_add(b.y, self.v0 - p));
+        flat_by_area(point, self.e1.cross(self.e2) * R::lit(0.5))
+    }
+    /// Uniform over the solid angle, [`SphericalTriangle`].
+    #[inline]
+    pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let v0 = self.v0 - p;
+        let seen = SphericalTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2);
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front() }
+    }
+}
+
+lanewise! {
+    /// A parallelogram p + su + tv, s and t in [0, 1], that emits on the side of u×v.
+    Parallelogram {
+        /// Corner.
+        pub p: Vec3<R>,
+        /// Edge.
+        pub u: Vec3<R>,
+        /// Edge.
+        pub v: Vec3<R>,
+    }
+}
+
+impl<R: Real> Parallelogram<R> {
+    /// Uniform over the surface. pdf = distance²/(|cosθ'| A).
+    #[inline]
+    pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let point = self.u.mul_add(u.x, self.v.mul_add(u.y, self.p - p));
+        flat_by_area(point, self.u.cross(self.v))
+    }
+    /// Uniform over the solid angle, [`SphericalParallelogram`].
+    #[inline]
+    pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let seen = SphericalParallelogram::new(self.p - p, self.u, self.v);
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front() }
+    }
+}
+
+/// The sample at a point of a flat shape, uniform over the area |normal|.
+#[inline]
+fn flat_by_area<R: Real>(point: Vec3<R>, normal: Vec3<R>) -> LightSample<R> {
+    let Sighting { direction, distance } = sighting(point);
+    let along = direction.dot(normal);
+    LightSample { direction, distance, pdf: solid_angle_pdf(distance, along.abs()), emits: along.lt(R::lit(0.0)) }
+}

@@ -1,0 +1,668 @@
+//! Scalars and packets under one trait. This is the one file that names `wide` and `libm`.
+//!
+//! A scalar operation that could round differently from its packet twin (`mul_add`, `sqrt`, rounding) is computed as
+//! lane 0 of a packet; the compiler reduces that to the one scalar instruction. This is what makes a body written once
+//! over [`Real`] give the same bits at every width.
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8};
+
+mod sealed {
+    pub trait Sealed {}
+}
+use sealed::Sealed;
+
+/// Truth per lane.
+pub trait Mask:
+    Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>
+{
+    /// The same truth in every lane.
+    fn splat(value: bool) -> Self;
+    /// Lane `i` from bit `i`.
+    fn from_bits(bits: u32) -> Self;
+    /// Lane `i` in bit `i`; bits past the last lane are 0.
+    fn bits(self) -> u32;
+    /// Is any lane true?
+    #[inline]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
+    /// Are all lanes true?
+    fn all(self) -> bool;
+    /// Lane `i`; false past the last lane.
+    #[inline]
+    fn lane(self, i: usize) -> bool {
+        i < 32 && self.bits() >> i & 1 == 1
+    }
+}
+
+/// 32-bit unsigned lanes, for counters, hashes and permutations; arithmetic wraps.
+pub trait Uint: Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> {
+    /// Number of lanes.
+    const LANES: usize;
+    /// The same value in every lane.
+    fn splat(value: u32) -> Self;
+    /// Lane `i` is `f(i)`.
+    fn from_fn(f: impl FnMut(usize) -> u32) -> Self;
+    /// Lane `i`. Panics past the last lane.
+    fn lane(self, i: usize) -> u32;
+    /// Sum modulo 2³².
+    fn wrapping_add(self, other: Self) -> Self;
+    /// Difference modulo 2³².
+    fn wrapping_sub(self, other: Self) -> Self;
+    /// Product modulo 2³².
+    fn wrapping_mul(self, other: Self) -> Self;
+    /// Shift towards the high bits, `bits` < 32.
+    fn shl(self, bits: u32) -> Self;
+    /// Shift towards the low bits, `bits` < 32; zeros come in.
+    fn shr(self, bits: u32) -> Self;
+    /// All ones in the lanes where `self < other`, zeros elsewhere.
+    fn lt(self, other: Self) -> Self;
+    /// Is any bit of any lane set?
+    fn any(self) -> bool;
+}
+
+/// A real number or a packet of them: everything that a warp needs, and no more.
+///
+/// Implemented for `f32`, `f64`, [`f32x4`], [`f32x8`] and [`f64x4`]. Comparisons with NaN are false, as for scalars.
+pub trait Real:
+    Sealed
+    + Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+{
+    /// One lane.
+    type Scalar: Real<Scalar = Self::Scalar> + PartialOrd;
+    /// Truth per lane.
+    type Mask: Mask;
+    /// 32-bit counters, as many lanes.
+    type Uint: Uint;
+    /// Number of lanes.
+    const LANES: usize;
+
+    /// The same value in every lane.
+    fn splat(value: Self::Scalar) -> Self;
+    /// The constant nearest to `value`, in every lane.
+    fn lit(value: f64) -> Self;
+    /// Lane `i` is `f(i)`.
+    fn from_fn(f: impl FnMut(usize) -> Self::Scalar) -> Self;
+    /// Lane `i`. Panics past the last lane.
+    fn lane(self, i: usize) -> Self::Scalar;
+    /// Lane `i` to f64, exactly. Panics past the last lane.
+    fn lane_f64(self, i: usize) -> f64;
+
+    /// `self < other`, per lane.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self <= other`, per lane.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `self > other`, per lane.
+    #[inline]
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+    /// `self >= other`, per lane.
+    #[inline]
+    fn ge(self, other: Self) -> Self::Mask {
+        other.le(self)
+    }
+    /// `yes` where the mask is true, `no` elsewhere.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// `self` where the mask is true, +0 elsewhere.
+    fn keep(self, mask: Self::Mask) -> Self;
+    /// `-self` where the mask is true, `self` elsewhere.
+    fn negate_where(self, mask: Self::Mask) -> Self;
+    /// `self < other ? self : other`: the second where either is NaN.
+    fn min(self, other: Self) -> Self;
+    /// `self > other ? self : other`: the second where either is NaN.
+    fn max(self, other: Self) -> Self;
+    /// Into [lo, hi]; a NaN becomes `lo`.
+    #[inline]
+    fn clamp(self, lo: Self, hi: Self) -> Self {
+        self.max(lo).min(hi)
+    }
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// Magnitude of `self`, sign bit of `sign`.
+    fn copysign(self, sign: Self) -> Self;
+    /// Square root, correctly rounded; NaN for negative numbers.
+    fn sqrt(self) -> Self;
+    /// Nearest integer, ties to even.
+    fn round_ties_even(self) -> Self;
+    /// `self * a + b`: rounded once where the target has fused multiply-add (on all widths alike), twice elsewhere.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    /// `a * b - rounded(a * b)`, exactly, barring overflow and underflow (TwoProd).
+    fn product_error(a: Self, b: Self, product: Self) -> Self;
+    /// 2⁻ᵉ where e is the exponent of `self`: a power of two that brings a finite number to [1, 4) (a subnormal one below
+    /// that) and has a finite reciprocal.
+    fn exponent_reciprocal(self) -> Self;
+    /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
+    #[inline]
+    fn below_one() -> Self {
+        Self::lit(1.0 - 1.0 / 16_777_216.0)
+    }
+    /// A number in [0, 1 − 2⁻²⁴] from the 24 high bits, on the same grid at every precision.
+    fn unit(bits: Self::Uint) -> Self;
+    /// The integers as reals: exact below 2²⁴.
+    fn from_uint(value: Self::Uint) -> Self;
+    /// The integer part of reals in [0, 2²⁴].
+    fn to_uint(self) -> Self::Uint;
+
+    /// (sin 2πu, cos 2πu); see [`math`](crate::math) for the errors.
+    fn sin_cos_turns(self) -> (Self, Self);
+    /// Arc cosine in radians, of the argument clamped to [−1, 1].
+    fn acos(self) -> Self;
+    /// Angle of (x, y) = (`other`, `self`) in radians, in [−π, π]; 0 at the origin.
+    fn atan2(self, other: Self) -> Self;
+}
+
+impl Sealed for bool {}
+impl Mask for bool {
+    #[inline]
+    fn splat(value: bool) -> Self {
+        value
+    }
+    #[inline]
+    fn from_bits(bits: u32) -> Self {
+        bits & 1 == 1
+    }
+    #[inline]
+    fn bits(self) -> u32 {
+        self as u32
+    }
+    #[inline]
+    fn all(self) -> bool {
+        self
+    }
+}
+
+macro_rules! packet_mask {
+    ($(#[$doc:meta])* $mask:ident, $vector:ident, $lanes:literal, $from_bits:expr) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $mask($vector);
+        impl Sealed for $mask {}
+        impl BitAnd for $mask {
+            type Output = Self;
+            #[inline]
+            fn bitand(self, other: Self) -> Self {
+                Self(self.0 & other.0)
+            }
+        }
+        impl BitOr for $mask {
+            type Output = Self;
+            #[inline]
+            fn bitor(self, other: Self) -> Self {
+                Self(self.0 | other.0)
+            }
+        }
+        impl BitXor for $mask {
+            type Output = Self;
+            #[inline]
+            fn bitxor(self, other: Self) -> Self {
+                Self(self.0 ^ other.0)
+            }
+        }
+        impl Not for $mask {
+            type Output = Self;
+            #[inline]
+            fn not(self) -> Self {
+                Self(!self.0)
+            }
+        }
+        impl Mask for $mask {
+            #[inline]
+            fn splat(value: bool) -> Self {
+                Self::from_bits(if value { u32::MAX } else { 0 })
+            }
+            #[inline]
+            fn from_bits(bits: u32) -> Self {
+                let from: fn(u32) -> $vector = $from_bits;
+                Self(from(bits))
+            }
+            #[inline]
+            fn bits(self) -> u32 {
+                self.0.to_bitmask() as u32
+            }
+            #[inline]
+            fn any(self) -> bool {
+                self.0.any()
+            }
+            #[inline]
+            fn all(self) -> bool {
+                self.0.all()
+            }
+        }
+    };
+}
+packet_mask!(
+    /// Mask of [`f32x4`].
+    MaskX4, f32x4, 4, |bits| {
+        let each = u32x4::new([1, 2, 4, 8]);
+        f32x4::from_bits((u32x4::splat(bits) & each).simd_eq(each))
+    }
+);
+packet_mask!(
+    /// Mask of [`f32x8`].
+    MaskX8, f32x8, 8, |bits| {
+        let each = u32x8::new([1, 2, 4, 8, 16, 32, 64, 128]);
+        f32x8::from_bits((u32x8::splat(bits) & each).simd_eq(each))
+    }
+);
+packet_mask!(
+    /// Mask of [`f64x4`].
+    MaskF64X4, f64x4, 4, |bits| {
+        f64x4::new(core::array::from_fn(|i| f64::from_bits(if bits >> i & 1 == 1 { u64::MAX } else { 0 })))
+    }
+);
+
+impl Sealed for u32 {}
+impl Uint for u32 {
+    const LANES: usize = 1;
+    #[inline]
+    fn splat(value: u32) -> Self {
+        value
+    }
+    #[inline]
+    fn from_fn(mut f: impl FnMut(usize) -> u32) -> Self {
+        f(0)
+    }
+    #[inline]
+    fn lane(self, i: usize) -> u32 {
+        [self][i]
+    }
+    #[inline]
+    fn wrapping_add(self, other: Self) -> Self {
+        u32::wrapping_add(self, other)
+    }
+    #[inline]
+    fn wrapping_sub(self, other: Self) -> Self {
+        u32::wrapping_sub(self, other)
+    }
+    #[inline]
+    fn wrapping_mul(self, other: Self) -> Self {
+        u32::wrapping_mul(self, other)
+    }
+    #[inline]
+    fn shl(self, bits: u32) -> Self {
+        self << bits
+    }
+    #[inline]
+    fn shr(self, bits: u32) -> Self {
+        self >> bits
+    }
+    #[inline]
+    fn lt(self, other: Self) -> Self {
+        if self < other { u32::MAX } else { 0 }
+    }
+    #[inline]
+    fn any(self) -> bool {
+        self != 0
+    }
+}
+
+macro_rules! packet_uint {
+    ($vector:ident, $lanes:literal) => {
+        impl Sealed for $vector {}
+        impl Uint for $vector {
+            const LANES: usize = $lanes;
+            #[inline]
+            fn splat(value: u32) -> Self {
+                $vector::splat(value)
+            }
+            #[inline]
+            fn from_fn(f: impl FnMut(usize) -> u32) -> Self {
+                $vector::new(core::array::from_fn(f))
+            }
+            #[inline]
+            fn lane(self, i: usize) -> u32 {
+                self.as_array()[i]
+            }
+            #[inline]
+            fn wrapping_add(self, other: Self) -> Self {
+                self + other
+            }
+            #[inline]
+            fn wrapping_sub(self, other: Self) -> Self {
+                self - other
+            }
+            #[inline]
+            fn wrapping_mul(self, other: Self) -> Self {
+                self * other
+            }
+            #[inline]
+            fn shl(self, bits: u32) -> Self {
+                self << bits
+            }
+            #[inline]
+            fn shr(self, bits: u32) -> Self {
+                self >> bits
+            }
+            #[inline]
+            fn lt(self, other: Self) -> Self {
+                self.simd_lt(other)
+            }
+            #[inline]
+            fn any(self) -> bool {
+                self.simd_ne($vector::splat(0)).any()
+            }
+        }
+    };
+}
+packet_uint!(u32x4, 4);
+packet_uint!(u32x8, 8);
+
+/// `a·b − p` where the target has no fused multiply-add: Veltkamp's split and Dekker's product.
+#[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
+#[inline]
+fn dekker<R: Real>(a: R, b: R, p: R, splitter: f64) -> R {
+    let split = |x: R| {
+        let c = R::lit(splitter) * x;
+        let high = c - (c - x);
+        (high, x - high)
+    };
+    let ((ah, al), (bh, bl)) = (split(a), split(b));
+    ((ah * bh - p) + ah * bl + al * bh) + al * bl
+}
+
+/// What scalars and packets share: everything that is the same expression on both.
+macro_rules! shared {
+    ($splitter:expr) => {
+        #[inline]
+        fn product_error(a: Self, b: Self, product: Self) -> Self {
+            #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
+            return Real::mul_add(a, b, -product);
+            #[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
+            return dekker(a, b, product, $splitter);
+        }
+    };
+}
+
+/// Transcendentals of single precision: own polynomials, in [`crate::math`].
+macro_rules! polynomials {
+    () => {
+        #[inline]
+        fn sin_cos_turns(self) -> (Self, Self) {
+            crate::math::sin_cos_turns_f32(self)
+        }
+        #[inline]
+        fn acos(self) -> Self {
+            crate::math::acos_f32(self)
+        }
+        #[inline]
+        fn atan2(self, other: Self) -> Self {
+            crate::math::atan2_f32(self, other)
+        }
+    };
+}
+
+/// Transcendentals of double precision: `libm`, lane by lane. This precision is the oracle of the other, not the fast one.
+macro_rules! lane_by_lane {
+    () => {
+        #[inline]
+        fn sin_cos_turns(self) -> (Self, Self) {
+            let quarter = (self * Self::lit(4.0)).round_ties_even();
+            let angle = self * Self::lit(4.0) - quarter;
+            let angle = angle * Self::lit(core::f64::consts::FRAC_PI_2);
+            let value = |i| {
+                let (s, c) = libm::sincos(angle.lane(i));
+                match quarter.lane(i) as i64 & 3 {
+                    0 => (s, c),
+                    1 => (c, -s),
+                    2 => (-s, -c),
+                    _ => (-c, s),
+                }
+            };
+            (Self::from_fn(|i| value(i).0), Self::from_fn(|i| value(i).1))
+        }
+        #[inline]
+        fn acos(self) -> Self {
+            Self::from_fn(|i| libm::acos(self.lane(i).clamp(-1.0, 1.0)))
+        }
+        #[inline]
+        fn atan2(self, other: Self) -> Self {
+            Self::from_fn(|i| libm::atan2(self.lane(i), other.lane(i)))
+        }
+    };
+}
+
+macro_rules! scalar_real {
+    ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal, $splitter:literal, $functions:ident) => {
+        impl Sealed for $scalar {}
+        impl Real for $scalar {
+            type Scalar = $scalar;
+            type Mask = bool;
+            type Uint = u32;
+            const LANES: usize = 1;
+            #[inline]
+            fn splat(value: $scalar) -> Self {
+                value
+            }
+            #[inline]
+            fn lit(value: f64) -> Self {
+                value as $scalar
+            }
+            #[inline]
+            fn from_fn(mut f: impl FnMut(usize) -> $scalar) -> Self {
+                f(0)
+            }
+            #[inline]
+            fn lane(self, i: usize) -> $scalar {
+                [self][i]
+            }
+            #[inline]
+            fn lane_f64(self, i: usize) -> f64 {
+                f64::from([self][i])
+            }
+            #[inline]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+            #[inline]
+            fn keep(self, mask: bool) -> Self {
+                if mask { self } else { 0.0 }
+            }
+            #[inline]
+            fn negate_where(self, mask: bool) -> Self {
+                if mask { -self } else { self }
+            }
+            #[inline]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+            #[inline]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline]
+            fn abs(self) -> Self {
+                $scalar::from_bits(self.to_bits() & ($bits::MAX >> 1))
+            }
+            #[inline]
+            fn copysign(self, sign: Self) -> Self {
+                let magnitude = $bits::MAX >> 1;
+                $scalar::from_bits(self.to_bits() & magnitude | sign.to_bits() & !magnitude)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                $packet::splat(self).sqrt().to_array()[0]
+            }
+            #[inline]
+            fn round_ties_even(self) -> Self {
+                $packet::splat(self).round_ties_even().to_array()[0]
+            }
+            #[inline]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $packet::splat(self).mul_add($packet::splat(a), $packet::splat(b)).to_array()[0]
+            }
+            #[inline]
+            fn exponent_reciprocal(self) -> Self {
+                $scalar::from_bits($reflected - (self.to_bits() & $exponent)).max($scalar::MIN_POSITIVE * 0.5)
+            }
+            #[inline]
+            fn unit(bits: u32) -> Self {
+                (bits >> 8) as $scalar * (1.0 / 16_777_216.0)
+            }
+            #[inline]
+            fn from_uint(value: u32) -> Self {
+                value as i32 as $scalar
+            }
+            #[inline]
+            fn to_uint(self) -> u32 {
+                self as i32 as u32
+            }
+            shared!($splitter);
+            $functions!();
+        }
+    };
+}
+scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, 4097.0, polynomials);
+scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 134_217_729.0, lane_by_lane);
+
+macro_rules! packet_real {
+    ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
+     $reflected:literal, $splitter:literal, $from_int:ident, $functions:ident, $to_uint:expr) => {
+        impl Sealed for $packet {}
+        impl Real for $packet {
+            type Scalar = $scalar;
+            type Mask = $mask;
+            type Uint = $uint;
+            const LANES: usize = $lanes;
+            #[inline]
+            fn splat(value: $scalar) -> Self {
+                $packet::splat(value)
+            }
+            #[inline]
+            fn lit(value: f64) -> Self {
+                $packet::splat(value as $scalar)
+            }
+            #[inline]
+            fn from_fn(f: impl FnMut(usize) -> $scalar) -> Self {
+                $packet::new(core::array::from_fn(f))
+            }
+            #[inline]
+            fn lane(self, i: usize) -> $scalar {
+                self.as_array()[i]
+            }
+            #[inline]
+            fn lane_f64(self, i: usize) -> f64 {
+                f64::from(self.as_array()[i])
+            }
+            #[inline]
+            fn lt(self, other: Self) -> $mask {
+                $mask(self.simd_lt(other))
+            }
+            #[inline]
+            fn le(self, other: Self) -> $mask {
+                $mask(self.simd_le(other))
+            }
+            #[inline]
+            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                mask.0.select(yes, no)
+            }
+            #[inline]
+            fn keep(self, mask: $mask) -> Self {
+                self & mask.0
+            }
+            #[inline]
+            fn negate_where(self, mask: $mask) -> Self {
+                self ^ (mask.0 & $packet::splat(-0.0))
+            }
+            // On x86 `fast_min` is minps: `a < b ? a : b`, as the scalar; other targets differ for NaN and ±0.
+            #[inline]
+            fn min(self, other: Self) -> Self {
+                if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
+                    self.fast_min(other)
+                } else {
+                    self.simd_lt(other).select(self, other)
+                }
+            }
+            #[inline]
+            fn max(self, other: Self) -> Self {
+                if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
+                    self.fast_max(other)
+                } else {
+                    other.simd_lt(self).select(self, other)
+                }
+            }
+            #[inline]
+            fn abs(self) -> Self {
+                $packet::abs(self)
+            }
+            #[inline]
+            fn copysign(self, sign: Self) -> Self {
+                $packet::copysign(self, sign)
+            }
+            #[inline]
+            fn sqrt(self) -> Self {
+                $packet::sqrt(self)
+            }
+            #[inline]
+            fn round_ties_even(self) -> Self {
+                $packet::round_ties_even(self)
+            }
+            #[inline]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $packet::mul_add(self, a, b)
+            }
+            #[inline]
+            fn exponent_reciprocal(self) -> Self {
+                $packet::from_bits($bits::splat($reflected) - (self.to_bits() & $bits::splat($exponent)))
+                    .fast_max($packet::splat($scalar::MIN_POSITIVE * 0.5))
+            }
+            #[inline]
+            fn unit(bits: $uint) -> Self {
+                $packet::$from_int((bits >> 8u32).cast_signed()) * $packet::splat(1.0 / 16_777_216.0)
+            }
+            #[inline]
+            fn from_uint(value: $uint) -> Self {
+                $packet::$from_int(value.cast_signed())
+            }
+            #[inline]
+            fn to_uint(self) -> $uint {
+                let convert: fn(Self) -> $uint = $to_uint;
+                convert(self)
+            }
+            shared!($splitter);
+            $functions!();
+        }
+    };
+}
+packet_real!(f32x4, f32, u32x4, MaskX4, u32x4, 4, 0x7f80_0000, 0x7f00_0000, 4097.0, from_i32x4, polynomials, |x| x
+    .fast_trunc_int()
+    .cast_unsigned());
+packet_real!(f32x8, f32, u32x8, MaskX8, u32x8, 8, 0x7f80_0000, 0x7f00_0000, 4097.0, from_i32x8, polynomials, |x| x
+    .fast_trunc_int()
+    .cast_unsigned());
+use wide::u64x4;
+packet_real!(
+    f64x4,
+    f64,
+    u64x4,
+    MaskF64X4,
+    u32x4,
+    4,
+    0x7ff0_0000_0000_0000,
+    0x7fe0_0000_0000_0000,
+    134_217_729.0,
+    from_i32x4,
+    lane_by_lane,
+    |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32))
+);

@@ -1,0 +1,52 @@
+//! Shapes seen from a point: maps from the unit square to the directions in which the shape lies.
+//!
+//! Everything here is prepared once for a shape and a point (`new`, with the shape given relative to the point) and then
+//! sampled as often as wanted. Prepared in scalars, it is widened by `splat` to draw packets of samples from one point; prepared
+//! in packets, it serves as many points as there are lanes. The maps are threshold-free: one formula at every size and
+//! distance, and scaling all lengths by a power of two changes no bit.
+//!
+//! | shape | type | density | degenerate input |
+//! |---|---|---|---|
+//! | sphere | [`SphereCap`] | 1/Ω, Ω = 2π(1−cosσ) | radius ≤ 0: pdf 0; inside: all directions |
+//! | triangle | [`SphericalTriangle`] | 1/Ω | edge-on, zero area, point on a vertex: pdf 0 |
+//! | parallelogram | [`SphericalParallelogram`] | 1/Ω | as the triangle |
+//!
+//! Solid angles Ω in steradians.
+
+mod parallelogram;
+mod sphere;
+mod triangle;
+
+pub use parallelogram::SphericalParallelogram;
+pub use sphere::SphereCap;
+pub use triangle::SphericalTriangle;
+
+use crate::vector::Vec3;
+
+/// A point of a shape as it is seen: in which direction, and how far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sighting<R> {
+    /// Unit direction from the viewpoint.
+    pub direction: Vec3<R>,
+    /// Distance from the viewpoint.
+    pub distance: R,
+}
+
+/// A struct whose fields are lanes, with the operations that go field by field.
+macro_rules! lanewise {
+    ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $vis:vis $field:ident: $kind:ty),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default)]
+        pub struct $name<R> {
+            $($(#[$field_doc])* $vis $field: $kind,)+
+        }
+        impl<R: $crate::real::Real> $name<R> {
+            /// Prepared for one point: the same in every lane.
+            #[inline]
+            pub fn splat(s: $name<R::Scalar>) -> Self {
+                Self { $($field: <$kind>::splat(s.$field)),+ }
+            }
+        }
+    };
+}
+pub(crate) use lanewise;

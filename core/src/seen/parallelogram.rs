@@ -1,0 +1,95 @@
+use super::{Sighting, SphericalTriangle};
+use crate::real::Real;
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{Warp, unit_interval};
+
+/// The directions from a point to a parallelogram (a rectangle among them), uniform by solid angle.
+///
+/// Two [`SphericalTriangle`]s with the corner `p` in common: u₀ sweeps about that corner from one side to the other, across
+/// the diagonal without a jump, so that strata of the square stay connected.
+///
+/// - Formula: Ω = Ω₁ + Ω₂; u₀ < Ω₁/Ω takes the triangle (p+u, p, p+u+v) at u₀Ω/Ω₁, else (p+u+v, p, p+v) with the rest.
+/// - Domain, density, degenerate input, error, source: as the triangle.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SphericalParallelogram<R> {
+    first: SphericalTriangle<R>,
+    second: SphericalTriangle<R>,
+}
+
+impl<R: Real> SphericalParallelogram<R> {
+    /// For the corners p, p+u, p+u+v, p+v, with p relative to the point.
+    #[inline]
+    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
+        let (a, b, c) = (p + u, p + u + v, p + v);
+        Self {
+            first: SphericalTriangle::with_edges(a, p, b, -u, v),
+            second: SphericalTriangle::with_edges(b, p, c, -(u + v), -u),
+        }
+    }
+    /// Prepared for one point: the same in every lane.
+    #[inline]
+    pub fn splat(s: SphericalParallelogram<R::Scalar>) -> Self {
+        Self { first: SphericalTriangle::splat(s.first), second: SphericalTriangle::splat(s.second) }
+    }
+    /// Solid angle in steradians, in [0, 2π].
+    #[inline]
+    pub fn solid_angle(&self) -> R {
+        self.first.solid_angle() + self.second.solid_angle()
+    }
+    /// The density of every direction that hits the parallelogram, 1/Ω; 0 where Ω is 0.
+    #[inline]
+    pub fn density(&self) -> R {
+        let solid_angle = self.solid_angle();
+        let some = solid_angle.gt(R::lit(1e-37));
+        (R::lit(1.0) / R::select(some, solid_angle, R::lit(1.0))).keep(some)
+    }
+    /// True where the point is on the side to which the normal u×v points.
+    #[inline]
+    pub fn in_front(&self) -> R::Mask {
+        // both triangles run p+u → p → p+u+v, which is the other way round
+        !self.first.in_front()
+    }
+    /// Which triangle, and `u` within it.
+    #[inline]
+    fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>) {
+        let (one, zero) = (R::lit(1.0), R::lit(0.0));
+        let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
+        let swept = u.x * (a + b);
+        let first = swept.lt(a);
+        let whole = R::select(first, a, b);
+        let part = R::select(first, swept, swept - a);
+        let x = unit_interval(part / R::select(whole.gt(zero), whole, one));
+        (SphericalTriangle::select(first, &self.first, &self.second), Vec2::new(x, u.y))
+    }
+    /// The direction for `u` and the distance to the parallelogram along it.
+    #[inline]
+    pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
+        let (triangle, u) = self.branch(u);
+        triangle.sight(u)
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalParallelogram<R> {
+    type Point = Vec3<R>;
+    #[inline]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let (triangle, u) = self.branch(u);
+        triangle.sample(u)
+    }
+    #[inline]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.density().keep(self.first.contains(w) | self.second.contains(w))
+    }
+    #[inline]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
+        let first = self.first.contains(w);
+        let (u, v) = (self.first.invert(w), self.second.invert(w));
+        let swept = R::select(first, u.x * a, v.x.mul_add(b, a));
+        let sum = a + b;
+        Vec2 {
+            x: unit_interval(swept / R::select(sum.gt(R::lit(0.0)), sum, R::lit(1.0))),
+            y: R::select(first, u.y, v.y),
+        }
+    }
+}

@@ -1,0 +1,128 @@
+use super::independent::hash4;
+use super::{Independent, Sequence};
+use crate::real::{Real, Uint};
+use crate::vector::Vec2;
+use crate::warp::unit_interval;
+
+/// Jittered strata: the samples of a pixel are dealt to the cells of a grid, each pair of dimensions in its own random order
+/// (padding), and placed uniformly within their cells.
+///
+/// - Formula: cell = permutation of the sample's index, keyed by (pixel, dimension, seed); u = (cell + jitter)/(columns, rows).
+/// - Domain: any count from 1 to 2²²; sample indices beyond the count start over with fresh strata.
+/// - Grid: columns × rows = count where a factorisation no longer than 2 : 1 exists, else the smallest grid that is nearly
+///   square and holds the count; then a random selection of its cells is used, so every point is still uniform.
+/// - Replicates: indices [k·count, (k+1)·count) are independent copies. The variance of an estimate comes from the spread
+///   of the replicates' means, not from the spread of samples, which are negatively correlated.
+/// - Source: Cook, Porter and Carpenter 1984 (jitter); Kensler 2013 and PBR 4th ed., 8.5, for padding by permutation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stratified {
+    random: Independent,
+    count: u32,
+    columns: u32,
+    rows: u32,
+}
+
+impl Stratified {
+    /// `count` strata a replicate; clamped to [1, 2²²].
+    #[must_use]
+    pub fn new(seed: u64, count: u32) -> Self {
+        let count = count.clamp(1, 1 << 22);
+        let (columns, rows) = grid(count);
+        Self { random: Independent::new(seed), count, columns, rows }
+    }
+    /// Strata in each replicate.
+    #[must_use]
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+    /// Columns and rows of the grid.
+    #[must_use]
+    pub const fn grid(&self) -> [u32; 2] {
+        [self.columns, self.rows]
+    }
+}
+
+/// Columns ≤ rows.
+fn grid(count: u32) -> (u32, u32) {
+    let root = count.isqrt();
+    let mut columns = root;
+    while columns > 1 && !count.is_multiple_of(columns) {
+        columns -= 1;
+    }
+    if count / columns <= 2 * columns {
+        return (columns, count / columns);
+    }
+    let rows = if root * root < count { root + 1 } else { root };
+    (count.div_ceil(rows), rows)
+}
+
+/// A permutation of [0, 2^bits): each step is a bijection of that many bits.
+#[inline]
+fn scramble<U: Uint>(mut i: U, mask: U, half: u32, keys: [U; 4]) -> U {
+    for key in keys {
+        i = (i ^ key) & mask;
+        i = i.wrapping_mul(U::splat(0x9e37_79b1)).wrapping_add(key.shr(7)) & mask;
+        i = i ^ i.shr(half);
+    }
+    i
+}
+
+/// A permutation of [0, count) keyed by four words: the one of the next power of two, walked until it falls inside.
+#[inline]
+fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
+    if count < 2 {
+        return i & U::splat(0);
+    }
+    let bits = 32 - (count - 1).leading_zeros();
+    let mask = U::splat(if bits == 32 { u32::MAX } else { (1 << bits) - 1 });
+    let half = bits.div_ceil(2).min(31);
+    let limit = U::splat(count - 1);
+    let mut i = scramble(i, mask, half, keys);
+    loop {
+        let outside = limit.lt(i);
+        if !outside.any() {
+            return i;
+        }
+        // lanes that are done keep their value
+        i = i ^ ((i ^ scramble(i, mask, half, keys)) & outside);
+    }
+}
+
+impl Sequence for Stratified {
+    #[inline]
+    fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
+        // replicate = sample / count and the remainder, exact below 2²⁴ and corrected for the rounding of the quotient
+        let count = R::Uint::splat(self.count);
+        let quotient = R::from_uint(sample) * R::lit(1.0 / f64::from(self.count));
+        let replicate = floor_exact::<R>(quotient, sample, count);
+        let index = sample.wrapping_sub(replicate.wrapping_mul(count));
+        let keys = hash4([
+            pixel,
+            replicate,
+            R::Uint::splat(dimension | 0x8000_0000),
+            self.random.words(pixel, replicate, !dimension)[0],
+        ]);
+        let cells = self.columns * self.rows;
+        let cell = permute(index, cells, keys);
+        let columns = R::Uint::splat(self.columns);
+        let row = floor_exact::<R>(R::from_uint(cell) * R::lit(1.0 / f64::from(self.columns)), cell, columns);
+        let column = cell.wrapping_sub(row.wrapping_mul(columns));
+        let jitter: Vec2<R> = self.random.pair(pixel, sample, dimension);
+        let place = |cell: R::Uint, jitter: R, n: u32| {
+            unit_interval((R::from_uint(cell) + jitter) * R::lit(1.0 / f64::from(n)))
+        };
+        Vec2::new(place(column, jitter.x, self.columns), place(row, jitter.y, self.rows))
+    }
+}
+
+/// ⌊numerator/denominator⌋ from a quotient that may be off by one.
+#[inline]
+fn floor_exact<R: Real>(quotient: R, numerator: R::Uint, denominator: R::Uint) -> R::Uint {
+    let guess = quotient.to_uint();
+    let product = guess.wrapping_mul(denominator);
+    // the guess is too large: all ones are −1
+    let guess = guess.wrapping_add(numerator.lt(product));
+    let rest = numerator.wrapping_sub(guess.wrapping_mul(denominator));
+    let short = denominator.wrapping_sub(R::Uint::splat(1)).lt(rest);
+    guess.wrapping_sub(short)
+}

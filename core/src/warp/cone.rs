@@ -1,0 +1,125 @@
+use super::{Warp, unit_interval};
+use crate::math::atan2_turns;
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
+
+const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
+/// Angle by which a direction may have left its cone through rounding: 4 ulp of a component near 1.
+const SLACK: f64 = 4.0 / 16_777_216.0;
+
+/// Uniform over the directions within an angle σ of +z.
+///
+/// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h(2−u₀h)), φ = 2πu₁. No term cancels at any σ.
+/// - Domain: u in [0, 1)²; h in [0, 2].
+/// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
+/// - Degenerate: h = 0 gives +z and pdf 0.
+/// - Greatest error: pdf 2e−7 relative at every size.
+/// - Source: the inverse of the cap's distribution function, in terms of 1−cosθ.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cone<R> {
+    /// 1 − cosσ, in [0, 2].
+    pub one_minus_cos: R,
+}
+
+impl<R: Real> Cone<R> {
+    /// One cone in every lane.
+    #[inline]
+    pub fn splat(c: Cone<R::Scalar>) -> Self {
+        Self { one_minus_cos: R::splat(c.one_minus_cos) }
+    }
+    /// Solid angle 2πh in steradians.
+    #[inline]
+    pub fn solid_angle(&self) -> R {
+        R::lit(2.0 * core::f64::consts::PI) * self.one_minus_cos
+    }
+    /// The density inside: 1/(2πh), or 0 for an empty cone.
+    #[inline]
+    pub fn density(&self) -> R {
+        let h = self.one_minus_cos;
+        // a subnormal h has no finite reciprocal
+        let some = h.gt(R::lit(1e-37));
+        (R::lit(INV_TWO_PI) / R::select(some, h, R::lit(1.0))).keep(some)
+    }
+    /// Is a direction at `one_minus_cos` from the axis inside, give or take the rounding of the direction?
+    #[inline]
+    pub fn contains(&self, one_minus_cos: R) -> R::Mask {
+        let h = self.one_minus_cos;
+        // (σ + ε)²/2 = σ²/2 + σε + ε²/2
+        let slack = R::lit(SLACK).mul_add((h + h).sqrt(), R::lit(0.5 * SLACK * SLACK));
+        one_minus_cos.le(h + slack)
+    }
+}
+
+/// 1−cosθ of a unit vector's angle to +z: from its distance to the axis in front, from z behind.
+#[inline]
+fn one_minus_z<R: Real>(w: Vec3<R>) -> R {
+    let one = R::lit(1.0);
+    let front = w.x.mul_add(w.x, w.y * w.y) / (one + w.z.abs());
+    R::select(w.z.gt(R::lit(0.0)), front, one - w.z)
+}
+
+impl<R: Real> Warp<R> for Cone<R> {
+    type Point = Vec3<R>;
+    #[inline]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let k = u.x * self.one_minus_cos;
+        let sin = (k * (R::lit(2.0) - k)).max(R::lit(0.0)).sqrt();
+        let (s, c) = u.y.sin_cos_turns();
+        Vec3::new(sin * c, sin * s, R::lit(1.0) - k)
+    }
+    #[inline]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.density().keep(self.contains(one_minus_z(w)))
+    }
+    #[inline]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let h = self.one_minus_cos;
+        let u = one_minus_z(w) / R::select(h.gt(R::lit(0.0)), h, R::lit(1.0));
+        Vec2 { x: unit_interval(u), y: atan2_turns(w.y, w.x) }
+    }
+}
+
+macro_rules! whole_cone {
+    ($(#[$doc:meta])* $name:ident, $h:literal) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, Default)]
+        pub struct $name;
+        impl<R: Real> Warp<R> for $name {
+            type Point = Vec3<R>;
+            #[inline]
+            fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+                Cone { one_minus_cos: R::lit($h) }.sample(u)
+            }
+            #[inline]
+            fn pdf(&self, w: Vec3<R>) -> R {
+                // the whole sphere holds every direction; the hemisphere ends at the horizon, exactly
+                let inside = w.z.ge(R::lit(0.0)) | R::Mask::splat($h > 1.5);
+                R::lit(INV_TWO_PI / $h).keep(inside)
+            }
+            #[inline]
+            fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+                Cone { one_minus_cos: R::lit($h) }.invert(w)
+            }
+        }
+    };
+}
+whole_cone!(
+    /// Uniform over the hemisphere about +z.
+    ///
+    /// - Formula: the [`Cone`] with h = 1: z = 1−u₀, sinθ = √(u₀(2−u₀)), φ = 2πu₁.
+    /// - Domain: u in [0, 1)²; never below the horizon.
+    /// - Density: 1/(2π) per steradian for z ≥ 0, else 0.
+    /// - Greatest error: 1.5e−7 in the direction.
+    UniformHemisphere,
+    1.0
+);
+whole_cone!(
+    /// Uniform over the sphere of directions.
+    ///
+    /// - Formula: the [`Cone`] with h = 2: z = 1−2u₀, sinθ = 2√(u₀(1−u₀)), φ = 2πu₁; nothing cancels near the poles.
+    /// - Domain: u in [0, 1)².
+    /// - Density: 1/(4π) per steradian.
+    /// - Greatest error: 1.5e−7 in the direction.
+    UniformSphere,
+    2.0
+);

@@ -1,0 +1,103 @@
+use super::{Warp, unit_interval};
+use crate::math::{atan2_turns, sin_cos_quarter};
+use crate::real::Real;
+use crate::vector::Vec2;
+
+const INV_PI: f64 = core::f64::consts::FRAC_1_PI;
+
+/// The concentric map's radius (signed) and its angle as a unit vector, shared by disk and hemisphere.
+///
+/// With a = 2u₀−1, b = 2u₁−1 (both exact): r is the one of larger magnitude, φ = π/4·b/a or π/2 − π/4·a/b.
+#[inline]
+pub(super) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
+    let (one, two) = (R::lit(1.0), R::lit(2.0));
+    let (a, b) = (two.mul_add(u.x, -one), two.mul_add(u.y, -one));
+    let first = a.abs().gt(b.abs());
+    let (r, other) = (R::select(first, a, b), R::select(first, b, a));
+    // at the centre r = 0: any finite ratio will do
+    let quarters = other * R::lit(0.5) / R::select(r.abs().gt(R::lit(0.0)), r, one);
+    let (s, c) = sin_cos_quarter(quarters);
+    (r, Vec2 { x: R::select(first, c, s), y: R::select(first, s, c) })
+}
+
+/// Inverse of the concentric map for the point (x, y) at radius r ≥ 0.
+#[inline]
+pub(super) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
+    let first = p.x.abs().gt(p.y.abs());
+    let (major, minor) = (R::select(first, p.x, p.y), R::select(first, p.y, p.x));
+    let signed = r.copysign(major);
+    // angle from the major axis in units of π/4, in [−1, 1]
+    let angle = minor.atan2(major.abs()) * R::lit(4.0 * INV_PI);
+    let other = r * angle;
+    let half = R::lit(0.5);
+    let (a, b) = (R::select(first, signed, other), R::select(first, other, signed));
+    Vec2 { x: unit_interval(a.mul_add(half, half)), y: unit_interval(b.mul_add(half, half)) }
+}
+
+#[inline]
+fn disk_pdf<R: Real>(p: Vec2<R>) -> R {
+    // a sample on the rim may round to 1 + 2ε
+    R::lit(INV_PI).keep(p.length_squared().le(R::lit(1.0 + 4e-7)))
+}
+
+/// Uniform over the unit disk, squares to concentric rings.
+///
+/// - Formula: a = 2u₀−1, b = 2u₁−1; r = a, φ = (π/4)(b/a) where |a| > |b|, else r = b, φ = π/2 − (π/4)(a/b).
+/// - Domain: u in [0, 1)²; the centre u = (½, ½) maps to the origin.
+/// - Density: 1/π per unit area inside, 0 outside.
+/// - Greatest error: 1.2e−7 in the point; 2e−7 in `invert(sample(u))`.
+/// - Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
+///
+/// ```
+/// use etendue::{Vec2, Warp, warp::ConcentricDisk};
+/// let u = Vec2::new(0.25_f32, 0.8);
+/// let p = ConcentricDisk.sample(u);
+/// let back = ConcentricDisk.invert(p);
+/// assert!((back.x - u.x).abs() < 1e-6 && (back.y - u.y).abs() < 1e-6);
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ConcentricDisk;
+
+impl<R: Real> Warp<R> for ConcentricDisk {
+    type Point = Vec2<R>;
+    #[inline]
+    fn sample(&self, u: Vec2<R>) -> Vec2<R> {
+        let (r, direction) = concentric(u);
+        direction * r
+    }
+    #[inline]
+    fn pdf(&self, p: Vec2<R>) -> R {
+        disk_pdf(p)
+    }
+    #[inline]
+    fn invert(&self, p: Vec2<R>) -> Vec2<R> {
+        invert_concentric(p, p.length())
+    }
+}
+
+/// Uniform over the unit disk, by radius and angle.
+///
+/// - Formula: r = √u₀, φ = 2πu₁.
+/// - Domain: u in [0, 1)²; u₀ = 0 maps to the centre, whose inverse is (0, 0).
+/// - Density: 1/π per unit area inside, 0 outside.
+/// - Greatest error: 1.2e−7 in the point.
+/// - Source: the inverse of the disk's distribution function.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PolarDisk;
+
+impl<R: Real> Warp<R> for PolarDisk {
+    type Point = Vec2<R>;
+    #[inline]
+    fn sample(&self, u: Vec2<R>) -> Vec2<R> {
+        let (s, c) = u.y.sin_cos_turns();
+        Vec2 { x: c, y: s } * u.x.max(R::lit(0.0)).sqrt()
+    }
+    #[inline]
+    fn pdf(&self, p: Vec2<R>) -> R {
+        disk_pdf(p)
+    }
+    #[inline]
+    fn invert(&self, p: Vec2<R>) -> Vec2<R> {
+        Vec2 { x: unit_interval(p.length_squared()), y: atan2_turns(p.y, p.x) }
+    }
+}

@@ -1,0 +1,35 @@
+use super::Warp;
+use super::disk::{concentric, invert_concentric};
+use crate::real::Real;
+use crate::vector::{Vec2, Vec3};
+
+/// Directions about +z with density proportional to the cosine.
+///
+/// - Formula: the concentric disk lifted to z = √((1−|r|)(1+|r|)) (Malley). |r| = |2u−1| is exact, so z keeps its digits at
+///   the rim, where √(1−x²−y²) loses them.
+/// - Domain: u in [0, 1)²; z ≥ 0 always, and 0 only on the boundary u₀ = 0 or u₁ = 0.
+/// - Density: z/π per steradian for z ≥ 0, else 0.
+/// - Greatest error: 1.5e−7 in the direction, 2e−7 relative in z.
+/// - Source: Shirley and Chiu 1997 for the disk; Malley's method in Pharr, Jakob and Humphreys, PBR 4th ed., A.5.3.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CosineHemisphere;
+
+impl<R: Real> Warp<R> for CosineHemisphere {
+    type Point = Vec3<R>;
+    #[inline]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let (r, direction) = concentric(u);
+        let one = R::lit(1.0);
+        let z = ((one - r.abs()) * (one + r.abs())).max(R::lit(0.0)).sqrt();
+        Vec3::new(direction.x * r, direction.y * r, z)
+    }
+    #[inline]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        w.z.max(R::lit(0.0)) * R::lit(core::f64::consts::FRAC_1_PI)
+    }
+    #[inline]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let p = Vec2::new(w.x, w.y);
+        invert_concentric(p, p.length())
+    }
+}
