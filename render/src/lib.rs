@@ -1,1 +1,13 @@
-//! Library.
+//! A direct-lighting renderer that measures techniques of light sampling: scenes in, images with their variance out.
+
+pub mod accel;
+pub mod camera;
+pub mod compare;
+pub mod film;
+pub mod image;
+pub mod integrator;
+pub mod lights;
+pub mod scene;
+
+pub use integrator::{RayCount, Sampler, Settings, World};
+pub use lights::Technique;

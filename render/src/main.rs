@@ -1,1 +1,265 @@
-fn main() {}
+//! The command line of the renderer.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use etendue_render::compare::Comparison;
+use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// Direct lighting, and how well it is sampled
+#[derive(Parser)]
+#[command(name = "etendue", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Render a scene to an EXR file, with a PNG beside it
+    Render(Render),
+    /// Compare an image with a reference
+    Compare(Compare),
+    /// List built-in scenes, techniques and samplers
+    List,
+}
+
+#[derive(Args)]
+struct Render {
+    /// A built-in scene's name, or a pbrt-v4 file
+    scene: String,
+    /// Where to write; else what the scene says, else SCENE.exr
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// Samples per pixel; else what the scene says
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
+    spp: Option<u32>,
+    /// How lights are sampled
+    #[arg(long, value_enum, default_value = "solid-angle")]
+    technique: Technique,
+    /// Where random numbers come from
+    #[arg(long, value_enum, default_value = "stratified")]
+    sampler: Sampler,
+    /// Image size in pixels; else what the scene says
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<(u32, u32)>,
+    /// Images of different seeds are independent
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Threads; 0 is one per core
+    #[arg(long, default_value_t = 0)]
+    threads: usize,
+    /// Render the same image this often, for timing
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeat: u32,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args)]
+struct Compare {
+    /// The reference
+    reference: PathBuf,
+    /// The image
+    image: PathBuf,
+    /// Mean squared standard error of the reference, if its file has no variance
+    #[arg(long, default_value_t = 0.0)]
+    reference_error: f64,
+    /// Print one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(['x', 'X']).ok_or("want WIDTHxHEIGHT, such as 640x480")?;
+    let side = |s: &str| match s.parse::<u32>() {
+        Ok(n) if (1..=65_536).contains(&n) => Ok(n),
+        _ => Err(format!("a side of {s:?} is not within 1 and 65536")),
+    };
+    let (width, height) = (side(sides.0)?, side(sides.1)?);
+    if u64::from(width) * u64::from(height) > 1 << 28 {
+        return Err(format!("{width}x{height} is more than 2^28 pixels"));
+    }
+    Ok((width, height))
+}
+
+/// The instructions that this program was built with and this machine does not have.
+fn missing_features() -> Vec<&'static str> {
+    let mut missing = Vec::new();
+    #[cfg(target_arch = "x86_64")]
+    {
+        macro_rules! need {
+            ($($feature:tt)*) => {
+                $(if cfg!(target_feature = $feature) && !std::arch::is_x86_feature_detected!($feature) {
+                    missing.push($feature);
+                })*
+            };
+        }
+        need!("sse3" "ssse3" "sse4.1" "sse4.2" "popcnt" "avx" "avx2" "bmi1" "bmi2" "f16c" "fma" "lzcnt" "movbe" "avx512f");
+    }
+    missing
+}
+
+fn main() -> ExitCode {
+    let missing = missing_features();
+    if !missing.is_empty() {
+        eprintln!(
+            "etendue: this program was built for a processor with {}, which this one lacks.\n\
+             Build it again here without that: CARGO_ENCODED_RUSTFLAGS= cargo build --release",
+            missing.join(", ")
+        );
+        return ExitCode::from(3);
+    }
+    let result = match Cli::parse().command {
+        Command::Render(options) => render(&options),
+        Command::Compare(options) => compare(&options),
+        Command::List => {
+            list();
+            Ok(())
+        }
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("etendue: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn name(value: impl ValueEnum) -> String {
+    value.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+}
+
+fn list() {
+    println!("scenes");
+    for (name, about) in scene::builtin() {
+        println!("  {name:20} {about}");
+    }
+    fn values<T: ValueEnum>(title: &str) {
+        println!("{title}");
+        for value in T::value_variants().iter().filter_map(ValueEnum::to_possible_value) {
+            println!("  {:20} {}", value.get_name(), value.get_help().map(ToString::to_string).unwrap_or_default());
+        }
+    }
+    values::<Technique>("techniques");
+    values::<Sampler>("samplers");
+}
+
+fn render(options: &Render) -> Result<(), Box<dyn Error>> {
+    let start = Instant::now();
+    let scene = scene::load(&options.scene)?;
+    let load = start.elapsed().as_secs_f64();
+    for warning in &scene.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let (width, height) = options.size.unwrap_or((scene.film.width, scene.film.height));
+    let settings = Settings {
+        width,
+        height,
+        spp: options.spp.unwrap_or(scene.pixel_samples),
+        technique: options.technique,
+        sampler: options.sampler,
+        seed: options.seed,
+    };
+    let output = options.output.clone().unwrap_or_else(|| match &scene.film.filename {
+        Some(file) => Path::new(file).with_extension("exr"),
+        None => PathBuf::from(format!("{}.exr", scene.name)),
+    });
+    image::check_writable(&output)?;
+
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let start = Instant::now();
+    let world = pool.install(|| World::new(&scene))?;
+    let build = start.elapsed().as_secs_f64();
+
+    let pixels = u64::from(width) * u64::from(height);
+    // indicatif draws nothing where stderr is not a terminal
+    let bar = ProgressBar::new(pixels * u64::from(options.repeat))
+        .with_style(ProgressStyle::with_template("{wide_bar} {percent:>3} %  {elapsed} of {duration}")?);
+    let mut seconds = Vec::new();
+    let mut last = None;
+    for _ in 0..options.repeat {
+        let start = Instant::now();
+        last = Some(pool.install(|| world.render(&settings, |done| bar.inc(done))));
+        seconds.push(start.elapsed().as_secs_f64());
+    }
+    bar.finish_and_clear();
+    let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
+    image::write_exr(&output, &film)?;
+    let picture = output.with_extension("png");
+    image::write_png(&picture, &film)?;
+
+    let mean = film.mean();
+    if options.json {
+        let report = json!({
+            "scene": options.scene,
+            "width": width,
+            "height": height,
+            "spp": settings.spp,
+            "technique": name(settings.technique),
+            "sampler": name(settings.sampler),
+            "seed": settings.seed,
+            "threads": pool.current_num_threads(),
+            "seconds": { "load": load, "build": build, "render": seconds },
+            "rays": { "camera": rays.camera, "shadow": rays.shadow },
+            "mean": mean,
+            "output": output,
+        });
+        println!("{report}");
+    } else {
+        report(&settings, &scene.name, &output, &picture, mean, rays, load, build, &mut seconds);
+    }
+    Ok(())
+}
+
+#[expect(clippy::too_many_arguments, reason = "it prints them all")]
+fn report(
+    settings: &Settings,
+    scene: &str,
+    output: &Path,
+    picture: &Path,
+    mean: [f64; 3],
+    rays: RayCount,
+    load: f64,
+    build: f64,
+    seconds: &mut [f64],
+) {
+    seconds.sort_by(f64::total_cmp);
+    let median = seconds[seconds.len() / 2];
+    println!(
+        "{scene}: {}x{}, {} samples per pixel, {}, {}",
+        settings.width,
+        settings.height,
+        settings.spp,
+        name(settings.technique),
+        name(settings.sampler)
+    );
+    println!("load {load:.3} s, build {build:.3} s, render {median:.3} s");
+    println!(
+        "{:.1} million samples/s; {} camera rays, {} shadow rays",
+        rays.camera as f64 / median / 1e6,
+        rays.camera,
+        rays.shadow
+    );
+    println!("mean radiance {:.6} {:.6} {:.6}", mean[0], mean[1], mean[2]);
+    println!("wrote {} and {}", output.display(), picture.display());
+}
+
+fn compare(options: &Compare) -> Result<(), Box<dyn Error>> {
+    let reference = image::read_exr(&options.reference)?;
+    let other = image::read_exr(&options.image)?;
+    let comparison = Comparison::new(&reference, &other, options.reference_error)
+        .map_err(|what| format!("{}: {what}", options.image.display()))?;
+    if options.json {
+        println!("{}", comparison.to_json());
+    } else {
+        println!("{comparison}");
+    }
+    Ok(())
+}

@@ -1,0 +1,202 @@
+//! Ray intersection in packets of 8: trees built by obvhs, traversed here.
+//!
+//! Guarantees: the tree never loses a hit that [`triangle::intersect`] would report (slabs are widened by more than the error of the
+//! triangle test); neighbouring triangles leave no gap between them; zero components and −0 in directions are as good as others;
+//! nothing depends on the unit of length. Ties of equal distance go to the triangle of lower index.
+
+mod shape;
+mod tree;
+mod triangle;
+
+pub use shape::ShapeSet;
+pub use tree::BuildError;
+use tree::Tree;
+
+use etendue::{Frame, Mask, Real, Vec3, f32x8, u32x8};
+
+/// Eight lanes.
+pub type X8 = f32x8;
+/// Eight points or directions.
+pub type V8 = Vec3<f32x8>;
+/// Truth in eight lanes.
+pub type M8 = <f32x8 as Real>::Mask;
+
+/// Marks an id as one of a shape (sphere, emitter) and not of a mesh triangle.
+pub const SHAPE: u32 = 1 << 31;
+/// The id where nothing was hit.
+pub const NOTHING: u32 = u32::MAX;
+
+/// Eight rays in the form in which they are traversed.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays {
+    /// Origins.
+    pub origin: V8,
+    /// Unit directions.
+    pub direction: V8,
+    /// Two unit vectors that complete the direction to a frame: a vertex is projected along the ray onto them.
+    frame: [V8; 2],
+    inverse: V8,
+    /// −(origin ± pad)/direction, for the lower and the upper planes of boxes.
+    lower: V8,
+    upper: V8,
+    /// Per axis: do all rays run towards +, all towards −, or neither?
+    common_sign: Option<[bool; 3]>,
+}
+
+impl Rays {
+    /// Eight rays. `reach` is the greatest magnitude of a coordinate in the scene: slabs are widened in proportion to it.
+    #[inline]
+    pub fn new(origin: V8, direction: V8, reach: f32) -> Self {
+        let frame = Frame::new(direction);
+        // a ray that is parallel to a plane to within 1e−18 of its length never reaches it
+        let invert = |d: X8| X8::lit(1.0) / max(d.abs(), X8::lit(1e-18)).copysign(d);
+        let inverse = Vec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
+        // 2⁻²⁰ of the largest coordinate involved: 16 times the rounding of a vertex relative to the origin
+        let pad = (origin.max_abs() + X8::splat(reach)) * X8::lit(1.0 / 1_048_576.0);
+        let plane = |o: V8, pad: X8| {
+            Vec3::new(-((o.x + pad) * inverse.x), -((o.y + pad) * inverse.y), -((o.z + pad) * inverse.z))
+        };
+        let negative =
+            [direction.x, direction.y, direction.z].map(|d| X8::lit(1.0).copysign(d).lt(X8::lit(0.0)).bits());
+        let common = negative.iter().all(|&bits| bits == 0 || bits == 0xff);
+        Self {
+            origin,
+            direction,
+            frame: [frame.s, frame.t],
+            inverse,
+            lower: plane(origin, pad),
+            upper: plane(origin, -pad),
+            common_sign: common.then(|| negative.map(|bits| bits != 0)),
+        }
+    }
+}
+
+/// What eight rays hit first.
+#[derive(Clone, Copy, Debug)]
+pub struct Hits {
+    /// Distance; the rays' limit where nothing was hit.
+    pub distance: X8,
+    /// Place of a triangle in the order of the leaves, or index of a shape with [`SHAPE`] set, or [`NOTHING`].
+    pub place: u32x8,
+    /// Barycentric coordinates of the second vertex of a triangle.
+    pub b1: X8,
+    /// Barycentric coordinates of the third vertex of a triangle.
+    pub b2: X8,
+}
+
+impl Hits {
+    /// Nothing hit up to `limit`.
+    #[inline]
+    pub fn none(limit: X8) -> Self {
+        Self { distance: limit, place: u32x8::splat(NOTHING), b1: X8::lit(0.0), b2: X8::lit(0.0) }
+    }
+    /// True where something was hit.
+    #[inline]
+    pub fn any(&self) -> M8 {
+        !equal(self.place, u32x8::splat(NOTHING))
+    }
+    /// True where a shape was hit.
+    #[inline]
+    pub fn shapes(&self) -> M8 {
+        self.any() & !below(self.place, u32x8::splat(SHAPE))
+    }
+}
+
+/// `yes` where the mask is true, `no` elsewhere. (A free function, as are [`min`] and [`max`]: the packet type has methods of
+/// these names that would be found first, with other arguments or with checks for NaN.)
+#[inline]
+pub fn select(mask: M8, yes: X8, no: X8) -> X8 {
+    Real::select(mask, yes, no)
+}
+
+/// The lesser; `b` where either is NaN.
+#[inline]
+pub fn min(a: X8, b: X8) -> X8 {
+    Real::min(a, b)
+}
+
+/// The greater; `b` where either is NaN.
+#[inline]
+pub fn max(a: X8, b: X8) -> X8 {
+    Real::max(a, b)
+}
+
+/// `a == b` per lane.
+#[inline]
+pub fn equal(a: u32x8, b: u32x8) -> M8 {
+    M8::from_bits(a.simd_eq(b).to_bitmask())
+}
+
+/// `a < b` per lane.
+#[inline]
+pub fn below(a: u32x8, b: u32x8) -> M8 {
+    M8::from_bits(a.simd_lt(b).to_bitmask())
+}
+
+/// `yes` where the mask is true, `no` elsewhere.
+#[inline]
+pub fn pick(mask: M8, yes: u32x8, no: u32x8) -> u32x8 {
+    select(mask, X8::from_bits(yes), X8::from_bits(no)).to_bits()
+}
+
+/// All that rays can meet: mesh triangles in a tree, and the shapes that are intersected as they are.
+#[derive(Debug)]
+pub struct Accel {
+    triangles: Tree<triangle::Soup>,
+    /// Spheres and emitters.
+    pub shapes: ShapeSet,
+    reach: f32,
+}
+
+impl Accel {
+    /// Builds over mesh triangles and shapes.
+    ///
+    /// # Errors
+    /// More than 2³¹ − 1 triangles.
+    pub fn new(triangles: &[[[f32; 3]; 3]], shapes: ShapeSet) -> Result<Self, BuildError> {
+        let mesh = triangles.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
+        let reach = mesh.max(shapes.reach());
+        Ok(Self { triangles: triangle::Soup::tree(triangles)?, shapes, reach })
+    }
+    /// Rays for this scene.
+    #[inline]
+    pub fn rays(&self, origin: V8, direction: V8) -> Rays {
+        Rays::new(origin, direction, self.reach)
+    }
+    /// The nearest hits in the lanes of `active`, nearer than `limit`.
+    #[inline]
+    pub fn closest(&self, rays: &Rays, active: M8, limit: X8) -> Hits {
+        let mut hits = Hits::none(limit);
+        self.shapes.closest(rays, active, &mut hits);
+        self.triangles.closest(rays, active, &mut hits);
+        hits
+    }
+    /// The nearest hits of shapes alone.
+    #[inline]
+    pub fn closest_shape(&self, rays: &Rays, active: M8, limit: X8) -> Hits {
+        let mut hits = Hits::none(limit);
+        self.shapes.closest(rays, active, &mut hits);
+        hits
+    }
+    /// In which of the lanes of `active` something lies nearer than `limit`, other than shape `target`
+    /// (an index without [`SHAPE`], or [`NOTHING`]).
+    #[inline]
+    pub fn occluded(&self, rays: &Rays, active: M8, limit: X8, target: u32x8) -> M8 {
+        let hidden = self.shapes.occluded(rays, active, limit, target);
+        let left = active & !hidden;
+        if left.any() { hidden | self.triangles.occluded(rays, left, limit, target) } else { hidden }
+    }
+    /// The corners of the mesh triangle at a place.
+    #[inline]
+    pub fn corners(&self, place: u32) -> &[f32; 9] {
+        self.triangles.primitives().corners(place)
+    }
+    /// For each place, the index of its triangle in the slice that the tree was built over.
+    pub fn order(&self) -> &[u32] {
+        self.triangles.primitives().ids()
+    }
+    /// Bytes held by tree and triangles.
+    pub fn bytes(&self) -> usize {
+        self.triangles.bytes()
+    }
+}

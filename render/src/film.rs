@@ -1,0 +1,107 @@
+//! Mean and variance of a pixel, and the image they make.
+
+use crate::accel::{V8, X8};
+use etendue::{Real, estimate::Welford};
+
+/// One pixel's finished estimate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pixel {
+    /// Mean radiance.
+    pub mean: [f32; 3],
+    /// Variance of that mean; infinite if the samples cannot tell.
+    pub variance: [f32; 3],
+}
+
+/// A rendered image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Samples in each pixel.
+    pub samples: u32,
+    /// Row by row from the top left.
+    pub pixels: Vec<Pixel>,
+}
+
+impl Film {
+    /// Mean over all pixels.
+    pub fn mean(&self) -> [f64; 3] {
+        let sum = |k: usize| self.pixels.iter().map(|p| f64::from(p.mean[k])).sum::<f64>();
+        std::array::from_fn(|k| sum(k) / self.pixels.len() as f64)
+    }
+}
+
+/// Packets that one set of lanes takes before it is merged: keeps single precision from piling up error.
+const BLOCK: u32 = 64;
+
+/// Samples of one pixel on their way to a [`Pixel`].
+///
+/// Samples of one replicate are independent of those of another. Where each sample is its own replicate the variance
+/// comes from the samples; else from the replicates' means.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PixelSum {
+    lanes: [Welford<X8>; 3],
+    packets: u32,
+    samples: [Welford<f64>; 3],
+    count: f64,
+    replicates: [Welford<f64>; 3],
+    finished: f64,
+}
+
+impl PixelSum {
+    /// Eight samples of this pixel and replicate.
+    #[inline]
+    pub fn push_packet(&mut self, radiance: V8) {
+        self.packets += 1;
+        let reciprocal = X8::splat(1.0 / self.packets as f32);
+        for (lane, x) in self.lanes.iter_mut().zip([radiance.x, radiance.y, radiance.z]) {
+            lane.push(x, reciprocal);
+        }
+        if self.packets == BLOCK {
+            self.flush();
+        }
+    }
+    /// One sample.
+    #[inline]
+    pub fn push(&mut self, radiance: [f32; 3]) {
+        self.count += 1.0;
+        for (sum, x) in self.samples.iter_mut().zip(radiance) {
+            sum.push(f64::from(x), 1.0 / self.count);
+        }
+    }
+    fn flush(&mut self) {
+        let n = f64::from(self.packets);
+        if n == 0.0 {
+            return;
+        }
+        for lane in 0..8 {
+            for (sum, packet) in self.samples.iter_mut().zip(&self.lanes) {
+                let one = Welford { mean: f64::from(packet.mean.lane(lane)), m2: f64::from(packet.m2.lane(lane)) };
+                *sum = sum.merge(self.count, one, n);
+            }
+            self.count += n;
+        }
+        self.lanes = Default::default();
+        self.packets = 0;
+    }
+    /// Ends a replicate.
+    pub fn end_replicate(&mut self) {
+        self.flush();
+        self.finished += 1.0;
+        for (sum, samples) in self.replicates.iter_mut().zip(&self.samples) {
+            sum.push(samples.mean, 1.0 / self.finished);
+        }
+        self.samples = Default::default();
+        self.count = 0.0;
+    }
+    /// The pixel, and a clean slate.
+    pub fn finish(&mut self) -> Pixel {
+        self.flush();
+        let (sums, n) = if self.finished > 0.0 { (self.replicates, self.finished) } else { (self.samples, self.count) };
+        let pixel = Pixel { mean: sums.map(|s| s.mean as f32), variance: sums.map(|s| (s.variance(n) / n) as f32) };
+        *self = Self::default();
+        pixel
+    }
+}

@@ -1,0 +1,162 @@
+//! Image files: EXR with the estimate's variance, a PNG to look at, and the comparison of two images. The one file that names exr.
+
+use crate::film::{Film, Pixel};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
+    ReadChannels, ReadLayers, WritableImage, read,
+};
+use std::fmt;
+use std::io::{BufWriter, Cursor, Write};
+use std::path::{Path, PathBuf};
+
+/// Why an image file could not be read or written.
+#[derive(Debug)]
+pub struct ImageError {
+    path: PathBuf,
+    what: String,
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.display(), self.what)
+    }
+}
+
+impl std::error::Error for ImageError {}
+
+fn failed(path: &Path, what: impl fmt::Display) -> ImageError {
+    ImageError { path: path.to_owned(), what: what.to_string() }
+}
+
+/// Writes all of the bytes or leaves the file as it was: beside it first, then in its place.
+fn replace(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
+    let mut name = path.file_name().ok_or_else(|| failed(path, "not a file name"))?.to_owned();
+    name.push(format!(".{}.part", std::process::id()));
+    let part = path.with_file_name(name);
+    let write = || {
+        let mut file = std::fs::File::create(&part)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&part, path)
+    };
+    write().map_err(|error| {
+        // the write's own error says more than that of tidying up after it
+        let _ = std::fs::remove_file(&part);
+        failed(path, format!("cannot write: {error}"))
+    })
+}
+
+/// Fails early where an image could not be written in the end.
+///
+/// # Errors
+/// The folder does not exist, or the name is one of a folder.
+pub fn check_writable(path: &Path) -> Result<(), ImageError> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if path.file_name().is_none() || path.is_dir() {
+        return Err(failed(path, "is a folder, not a file to write to"));
+    }
+    if !folder.is_dir() {
+        return Err(failed(path, format!("the folder {} does not exist", folder.display())));
+    }
+    Ok(())
+}
+
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// Writes radiance (R, G, B), the variance of the mean (variance.R, …) and the sample count (samples.N), the same
+/// bytes for the same film.
+///
+/// # Errors
+/// The file cannot be written; what was there before stays.
+pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
+    let plane = |f: &dyn Fn(&Pixel) -> f32| FlatSamples::F32(film.pixels.iter().map(f).collect());
+    let mut channels = Vec::new();
+    for (k, name) in CHANNELS.into_iter().enumerate() {
+        channels.push(AnyChannel::new(name, plane(&|p| p.mean[k])));
+        channels.push(AnyChannel::new(format!("variance.{name}").as_str(), plane(&|p| p.variance[k])));
+    }
+    channels.push(AnyChannel::new("samples.N", FlatSamples::U32(vec![film.samples; film.pixels.len()])));
+    // an increasing line order makes the bytes independent of the threads that compress
+    let encoding =
+        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+    let size = (film.width as usize, film.height as usize);
+    let layer =
+        Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels.into_iter().collect()));
+    let mut bytes = Cursor::new(Vec::new());
+    Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|error| failed(path, error))?;
+    replace(path, bytes.get_ref())
+}
+
+/// Writes the picture for the eye: Reinhard's curve (extended, white at radiance 4) on luminance, then sRGB, 8 bits.
+///
+/// # Errors
+/// The file cannot be written; what was there before stays.
+pub fn write_png(path: &Path, film: &Film) -> Result<(), ImageError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(BufWriter::new(&mut bytes), film.width, film.height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    let data: Vec<u8> = film.pixels.iter().flat_map(|p| tone_map(p.mean)).collect();
+    let write = || -> Result<(), png::EncodingError> {
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&data)?;
+        writer.finish()
+    };
+    write().map_err(|error| failed(path, error))?;
+    replace(path, &bytes)
+}
+
+fn tone_map(radiance: [f32; 3]) -> [u8; 3] {
+    let [r, g, b] = radiance;
+    let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let scale = (1.0 + luminance / 16.0) / (1.0 + luminance);
+    radiance.map(|x| {
+        let x = (x * scale).clamp(0.0, 1.0);
+        let encoded = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+        (encoded * 255.0).round() as u8
+    })
+}
+
+/// An image read from a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// R, G, B of each pixel, row by row.
+    pub radiance: Vec<[f32; 3]>,
+    /// Variance of the mean, if the file has it.
+    pub variance: Option<Vec<[f32; 3]>>,
+}
+
+/// Reads R, G, B and, where they are, variance.R, variance.G, variance.B.
+///
+/// # Errors
+/// The file is missing, damaged, or has no R, G, B.
+pub fn read_exr(path: &Path) -> Result<Picture, ImageError> {
+    let bytes = std::fs::read(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|error| failed(path, format!("not an EXR image that can be read: {error}")))?;
+    let layer = &image.layer_data;
+    let (width, height) = (layer.size.width(), layer.size.height());
+    let channel = |name: &str| -> Option<Vec<f32>> {
+        let found = layer.channel_data.list.iter().find(|c| c.name.to_string() == name)?;
+        let values: Vec<f32> = found.sample_data.values_as_f32().collect();
+        (values.len() == width * height).then_some(values)
+    };
+    let three = |prefix: &str| -> Option<Vec<[f32; 3]>> {
+        let [r, g, b] = CHANNELS.map(|name| channel(&format!("{prefix}{name}")));
+        let (r, g, b) = (r?, g?, b?);
+        Some((0..width * height).map(|i| [r[i], g[i], b[i]]).collect())
+    };
+    let radiance = three("").ok_or_else(|| failed(path, "has no channels R, G and B of full resolution"))?;
+    Ok(Picture { width, height, radiance, variance: three("variance.") })
+}

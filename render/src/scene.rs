@@ -1,0 +1,253 @@
+//! Scene files: reads the part of the pbrt-v4 format that direct lighting needs.
+//!
+//! What the file asks for and this renderer cannot do is an error that names file and line; what does not change
+//! the image much, or only its noise, is a warning. Coordinates are transformed in f64 and rounded once to f32.
+
+mod lexer;
+mod params;
+mod ply;
+mod reader;
+mod shapes;
+mod terrain;
+#[cfg(test)]
+mod tests;
+mod transform;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::{fmt, fs, io};
+
+/// All that a scene file says, in world space.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The name of a built-in scene, else the file's name without its extension.
+    pub name: String,
+    /// The one camera.
+    pub camera: Camera,
+    /// Image size and file name, as in the file.
+    pub film: Film,
+    /// Samples per pixel; 16 if the file does not say.
+    pub pixel_samples: u32,
+    /// Lambertian albedo per material, linear RGB; no two are equal.
+    pub materials: Vec<[f32; 3]>,
+    /// Triangles that do not emit. Their normal is (v1 − v0) × (v2 − v0); none has zero area.
+    pub triangles: Vec<[[f32; 3]; 3]>,
+    /// One index into `materials` per triangle.
+    pub triangle_materials: Vec<u32>,
+    /// Every sphere, and every triangle and parallelogram that emits.
+    pub shapes: Vec<Shape>,
+    /// What was read but not honoured, in the order of the file.
+    pub warnings: Vec<Message>,
+}
+
+/// The image to be written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Pixels across, 1 to 65,536.
+    pub width: u32,
+    /// Pixels down, 1 to 65,536; at most 2²⁸ pixels in all.
+    pub height: u32,
+    /// Where the file wants its image written.
+    pub filename: Option<String>,
+}
+
+/// A pinhole camera.
+///
+/// With `t = tan_half(width, height)`, the ray through image position (x, y) in \[0,1\]² from the top left has the
+/// direction `forward + (2x−1) t[0] right + (1−2y) t[1] up`. The three axes are orthonormal unless the file's
+/// camera transform is not a similarity; `forward` always has length 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// The pinhole.
+    pub origin: [f64; 3],
+    /// Towards the middle of the image.
+    pub forward: [f64; 3],
+    /// Towards the right edge of the image.
+    pub right: [f64; 3],
+    /// Towards the upper edge of the image.
+    pub up: [f64; 3],
+    /// Full angle across the shorter side of the image in degrees, in (0, 180).
+    pub fov: f64,
+}
+
+impl Camera {
+    /// Tangents of half the angle of view across and down, for an image of this size (both at least 1).
+    pub fn tan_half(&self, width: u32, height: u32) -> [f64; 2] {
+        let shorter = (self.fov.to_radians() / 2.0).tan();
+        let aspect = f64::from(width) / f64::from(height);
+        if aspect >= 1.0 { [shorter * aspect, shorter] } else { [shorter, shorter / aspect] }
+    }
+}
+
+/// A shape that rays meet as such, not as triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Where it is.
+    pub geometry: Geometry,
+    /// Index into the materials.
+    pub material: u32,
+    /// The light it gives off.
+    pub emission: Option<Emission>,
+}
+
+/// The form of a [`Shape`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// A whole sphere; its normal points outwards.
+    Sphere {
+        /// Its centre.
+        center: [f32; 3],
+        /// Its radius, over 0.
+        radius: f32,
+    },
+    /// Three corners; the normal is (v1 − v0) × (v2 − v0).
+    Triangle([[f32; 3]; 3]),
+    /// `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.
+    Parallelogram {
+        /// A corner.
+        p: [f32; 3],
+        /// One edge from that corner.
+        u: [f32; 3],
+        /// The other edge from that corner.
+        v: [f32; 3],
+    },
+}
+
+/// Constant emission of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Radiance, linear RGB; at least one channel is over 0.
+    pub radiance: [f32; 3],
+    /// Whether it emits on both sides, not on that of its normal only.
+    pub two_sided: bool,
+}
+
+/// Something to tell about a line of a scene file. Shown as `file:line: text`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Message {
+    /// The file as the user named it, or as its parent included it.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u32,
+    /// What is wrong there.
+    pub text: String,
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.file, self.line, self.text)
+    }
+}
+
+/// Why a scene could not be read.
+#[derive(Debug)]
+pub enum SceneError {
+    /// A line that is wrong, or asks for what is not supported.
+    At(Message),
+    /// The scene file itself could not be read.
+    Io {
+        /// The path that was given.
+        path: String,
+        /// What the system said.
+        error: io::Error,
+    },
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SceneError::At(message) => message.fmt(f),
+            SceneError::Io { path, error } => {
+                write!(f, "cannot read {path:?}: {error}")?;
+                if error.kind() == io::ErrorKind::NotFound {
+                    let names = BUILTIN.map(|(name, ..)| name).join(", ");
+                    write!(f, "; built-in scenes: {names}")?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl std::error::Error for SceneError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            SceneError::At(_) => None,
+            SceneError::Io { error, .. } => Some(error),
+        }
+    }
+}
+
+impl From<Message> for SceneError {
+    fn from(message: Message) -> Self {
+        SceneError::At(message)
+    }
+}
+
+/// A line of a file, cheap to copy.
+#[derive(Clone, Debug)]
+struct Place {
+    file: Arc<str>,
+    line: u32,
+}
+
+impl Place {
+    fn message(&self, text: impl Into<String>) -> Message {
+        Message { file: self.file.to_string(), line: self.line, text: text.into() }
+    }
+}
+
+const DESCRIBED: [(&str, &str); 4] = [
+    ("sphere-light", "two boxes under a sphere light out of view"),
+    ("triangle-light", "a box before a large triangle light in view"),
+    ("quads", "three boxes under five quadrilateral lights of very different size and power"),
+    ("terrain", "a height field and 25 bumpy spheres, a million triangles, under one square light"),
+];
+
+const BUILTIN: [(&str, &str); 4] = [
+    (DESCRIBED[0].0, include_str!("../scenes/sphere-light.pbrt")),
+    (DESCRIBED[1].0, include_str!("../scenes/triangle-light.pbrt")),
+    (DESCRIBED[2].0, include_str!("../scenes/quads.pbrt")),
+    (DESCRIBED[3].0, include_str!("../scenes/terrain.pbrt")),
+];
+
+/// Name and description of each built-in scene.
+pub fn builtin() -> &'static [(&'static str, &'static str)] {
+    &DESCRIBED
+}
+
+/// Reads the built-in scene of this name, else the file at this path.
+pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
+    if let Some((name, text)) = BUILTIN.iter().find(|(name, _)| *name == name_or_path) {
+        return Ok(reader::read(text, &format!("{name}.pbrt"), Path::new("."), true)?);
+    }
+    let path = Path::new(name_or_path);
+    let failed = |error| SceneError::Io { path: name_or_path.to_string(), error };
+    let bytes = read_file(path).map_err(failed)?;
+    let text = utf8(&bytes, &Arc::from(name_or_path))?;
+    parse(text, name_or_path, path.parent().unwrap_or(Path::new("")))
+}
+
+/// Reads a scene from `text`. Messages call it `file`; file names in it are relative to `dir`.
+///
+/// Total: any text gives a scene or an error, in bounded depth.
+pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
+    Ok(reader::read(text, file, dir, false)?)
+}
+
+/// The bytes of a regular file; never waits on a pipe or reads a device without end.
+fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
+    }
+    fs::read(path)
+}
+
+fn utf8<'a>(bytes: &'a [u8], file: &Arc<str>) -> Result<&'a str, Message> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let valid = &bytes[..error.valid_up_to()];
+        let line = 1 + valid.iter().filter(|&&b| b == b'\n').count() as u32;
+        let byte = bytes[error.valid_up_to()];
+        Place { file: file.clone(), line }.message(format!("the byte 0x{byte:02x} is not UTF-8"))
+    })
+}

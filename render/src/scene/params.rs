@@ -1,0 +1,254 @@
+//! Parameter lists: `"type name" [ values ]`, as they follow most directives.
+
+use super::lexer::{Lexer, Token, number, shortened};
+use super::{Message, Place};
+
+/// Far more than any directive has; keeps look-ups by name short.
+const MOST_PARAMETERS: usize = 100;
+
+/// The values of one parameter.
+#[derive(Clone, Debug)]
+enum Values {
+    Numbers(Vec<f64>),
+    Flags(Vec<bool>),
+    Texts(Vec<String>),
+}
+
+/// One parameter, and the line of its declaration.
+#[derive(Clone, Debug)]
+struct Param {
+    kind: &'static str,
+    name: String,
+    values: Values,
+    line: u32,
+}
+
+/// The parameters of one directive. Each is taken out when it is looked up; what stays is warned of.
+#[derive(Clone, Debug)]
+pub(super) struct Params {
+    /// The directive as messages show it, like `Shape "sphere"`.
+    pub(super) owner: String,
+    /// The line of the directive.
+    pub(super) place: Place,
+    list: Vec<Param>,
+}
+
+/// The name by which this file knows a parameter type.
+fn canonical(kind: &str) -> Option<&'static str> {
+    Some(match kind {
+        "integer" => "integer",
+        "float" => "float",
+        "point2" => "point2",
+        "vector2" => "vector2",
+        "point3" | "point" => "point3",
+        "vector3" | "vector" => "vector3",
+        "normal" | "normal3" => "normal",
+        "rgb" | "color" => "rgb",
+        "spectrum" => "spectrum",
+        "blackbody" => "blackbody",
+        "bool" => "bool",
+        "string" => "string",
+        "texture" => "texture",
+        _ => return None,
+    })
+}
+
+impl Values {
+    fn new(kind: &str) -> Self {
+        match kind {
+            "bool" => Values::Flags(Vec::new()),
+            "string" | "texture" | "spectrum" => Values::Texts(Vec::new()),
+            _ => Values::Numbers(Vec::new()),
+        }
+    }
+
+    fn push(&mut self, kind: &str, token: Token<'_>) -> Result<(), String> {
+        let found = token.show();
+        match (self, token) {
+            (Values::Flags(flags), Token::Word("true")) => flags.push(true),
+            (Values::Flags(flags), Token::Word("false")) => flags.push(false),
+            (Values::Flags(flags), Token::Text(s)) if s == "true" || s == "false" => flags.push(s == "true"),
+            (Values::Flags(_), _) => return Err(format!("expected true or false, found {found}")),
+            (Values::Texts(texts), Token::Text(s)) => texts.push(s),
+            (Values::Texts(texts), Token::Word(_)) if kind == "spectrum" => texts.push(found),
+            (Values::Texts(_), _) => return Err(format!("expected a string in quotes, found {found}")),
+            (Values::Numbers(numbers), token) => {
+                let value = number(&token)?;
+                let range = f64::from(i32::MIN)..=f64::from(i32::MAX);
+                if kind == "integer" && !(value.fract() == 0.0 && range.contains(&value)) {
+                    return Err(format!("expected an integer, found {found}"));
+                }
+                numbers.push(value);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Params {
+    /// Reads the parameters that follow the directive `owner`.
+    pub(super) fn read(lexer: &mut Lexer<'_>, owner: String, place: Place) -> Result<Self, Message> {
+        let mut params = Params { owner, place, list: Vec::new() };
+        while let Some(Token::Text(_)) = lexer.peek()? {
+            let param = Self::read_one(lexer, &params.owner)?;
+            let duplicate = params.list.iter().any(|p| p.name == param.name);
+            if duplicate || params.list.len() == MOST_PARAMETERS {
+                let why = if duplicate { "given twice" } else { "one parameter too many" };
+                return Err(lexer.place(param.line).message(format!("{}: {:?}: {why}", params.owner, param.name)));
+            }
+            params.list.push(param);
+        }
+        Ok(params)
+    }
+
+    fn read_one(lexer: &mut Lexer<'_>, owner: &str) -> Result<Param, Message> {
+        let (token, line) = lexer.expect("a parameter")?;
+        let Token::Text(declaration) = token else {
+            return Err(lexer.place(line).message(format!("{owner}: expected a parameter, found {}", token.show())));
+        };
+        let wrong = |line: u32, text: String| lexer.place(line).message(format!("{owner}: {text}"));
+        let mut words = declaration.split_whitespace();
+        let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
+            return Err(wrong(line, format!("{:?} is not a parameter's type and name", shortened(&declaration))));
+        };
+        let name = shortened(name);
+        let kind = canonical(kind)
+            .ok_or_else(|| wrong(line, format!("parameter {name:?} has the unknown type {:?}", shortened(kind))))?;
+
+        let mut values = Values::new(kind);
+        let what = format!("a value of {name:?}");
+        let (token, at) = lexer.expect(&what)?;
+        if token == Token::Open {
+            loop {
+                let (token, at) = lexer.expect(&format!("the ] of {name:?}"))?;
+                if token == Token::Close {
+                    break;
+                }
+                let pushed = values.push(kind, token);
+                pushed.map_err(|why| lexer.place(at).message(format!("{owner}: {name:?}: {why}")))?;
+            }
+        } else {
+            let pushed = values.push(kind, token);
+            pushed.map_err(|why| lexer.place(at).message(format!("{owner}: {name:?}: {why}")))?;
+        }
+        Ok(Param { kind, name, values, line })
+    }
+
+    /// An error at the directive.
+    pub(super) fn error(&self, text: impl AsRef<str>) -> Message {
+        self.place.message(format!("{}: {}", self.owner, text.as_ref()))
+    }
+
+    /// An error or a warning at one parameter.
+    fn at(&self, param: &Param, text: impl AsRef<str>) -> Message {
+        let place = Place { file: self.place.file.clone(), line: param.line };
+        place.message(format!("{}: {:?}: {}", self.owner, param.name, text.as_ref()))
+    }
+
+    fn take(&mut self, name: &str, kind: &str) -> Result<Option<Param>, Message> {
+        let Some(i) = self.list.iter().position(|p| p.name == name) else {
+            return Ok(None);
+        };
+        let param = self.list.remove(i);
+        if param.kind != kind {
+            return Err(self.at(&param, format!("type {} is not supported, only {kind}", param.kind)));
+        }
+        Ok(Some(param))
+    }
+
+    fn single<T>(&self, param: &Param, mut values: Vec<T>) -> Result<Option<T>, Message> {
+        match values.pop() {
+            Some(value) if values.is_empty() => Ok(Some(value)),
+            Some(_) => Err(self.at(param, format!("expected one value, found {}", values.len() + 1))),
+            None => Err(self.at(param, "expected one value, found none")),
+        }
+    }
+
+    /// Numbers of type `kind`; their count is a multiple of `group`.
+    pub(super) fn numbers(&mut self, name: &str, kind: &str, group: usize) -> Result<Option<Vec<f64>>, Message> {
+        let Some(mut param) = self.take(name, kind)? else { return Ok(None) };
+        let numbers = match &mut param.values {
+            Values::Numbers(numbers) => std::mem::take(numbers),
+            _ => Vec::new(),
+        };
+        if !numbers.len().is_multiple_of(group) {
+            return Err(self.at(&param, format!("{} numbers are not a multiple of {group}", numbers.len())));
+        }
+        Ok(Some(numbers))
+    }
+
+    fn one_number(&mut self, name: &str, kind: &str) -> Result<Option<f64>, Message> {
+        match self.take(name, kind)? {
+            Some(param) => match &param.values {
+                Values::Numbers(numbers) => self.single(&param, numbers.clone()),
+                _ => Ok(None),
+            },
+            None => Ok(None),
+        }
+    }
+
+    /// One `float`.
+    pub(super) fn float(&mut self, name: &str) -> Result<Option<f64>, Message> {
+        self.one_number(name, "float")
+    }
+
+    /// One `integer`.
+    pub(super) fn integer(&mut self, name: &str) -> Result<Option<i64>, Message> {
+        Ok(self.one_number(name, "integer")?.map(|value| value as i64))
+    }
+
+    /// One `bool`.
+    pub(super) fn flag(&mut self, name: &str) -> Result<Option<bool>, Message> {
+        match self.take(name, "bool")? {
+            Some(param) => match &param.values {
+                Values::Flags(flags) => self.single(&param, flags.clone()),
+                _ => Ok(None),
+            },
+            None => Ok(None),
+        }
+    }
+
+    /// One `string`.
+    pub(super) fn text(&mut self, name: &str) -> Result<Option<String>, Message> {
+        match self.take(name, "string")? {
+            Some(param) => match &param.values {
+                Values::Texts(texts) => self.single(&param, texts.clone()),
+                _ => Ok(None),
+            },
+            None => Ok(None),
+        }
+    }
+
+    /// One colour: three numbers, none negative.
+    pub(super) fn rgb(&mut self, name: &str) -> Result<Option<[f64; 3]>, Message> {
+        let Some(param) = self.take(name, "rgb")? else { return Ok(None) };
+        let Values::Numbers(numbers) = &param.values else { return Ok(None) };
+        let Ok(rgb) = <[f64; 3]>::try_from(numbers.as_slice()) else {
+            return Err(self.at(&param, format!("expected three numbers, found {}", numbers.len())));
+        };
+        match rgb.iter().find(|&&x| x < 0.0) {
+            Some(x) => Err(self.at(&param, format!("{x} is negative"))),
+            None => Ok(Some(rgb.map(|x| x + 0.0))), // no −0
+        }
+    }
+
+    /// Whether this parameter is given, of whatever type; takes it out.
+    pub(super) fn given(&mut self, name: &str) -> bool {
+        let before = self.list.len();
+        self.list.retain(|p| p.name != name);
+        self.list.len() != before
+    }
+
+    /// An error if one of these is given.
+    pub(super) fn reject(&self, names: &[&str]) -> Result<(), Message> {
+        match self.list.iter().find(|p| names.contains(&p.name.as_str())) {
+            Some(param) => Err(self.at(param, "not supported")),
+            None => Ok(()),
+        }
+    }
+
+    /// A warning for each parameter that nothing asked for.
+    pub(super) fn finish(self) -> Vec<Message> {
+        self.list.iter().map(|param| self.at(param, "ignored")).collect()
+    }
+}

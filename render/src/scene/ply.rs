@@ -1,0 +1,205 @@
+//! Mesh files in the PLY format, ascii or binary: the points and faces, with every count checked against the file.
+
+use super::lexer::shortened;
+use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::ply::{
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
+};
+use std::io::ErrorKind;
+
+/// What a mesh file holds.
+#[derive(Debug)]
+pub(super) struct Mesh {
+    /// In the order of the file; may be NaN or infinite.
+    pub(super) points: Vec<[f64; 3]>,
+    /// In the order of the file; their indices are not checked.
+    pub(super) faces: Vec<Face>,
+    /// Whether the vertices have normals.
+    pub(super) has_normals: bool,
+    /// What was left unread.
+    pub(super) warnings: Vec<String>,
+}
+
+/// A triangle or a quad.
+#[derive(Debug)]
+pub(super) struct Face {
+    /// In cyclic order; the last is unused in a triangle.
+    pub(super) indices: [i64; 4],
+    /// 3 or 4.
+    pub(super) corners: usize,
+}
+
+struct Vertex([f64; 3]);
+
+struct Other;
+
+impl PropertyAccess for Vertex {
+    fn new() -> Self {
+        Vertex([f64::NAN; 3])
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        let Some(axis) = ["x", "y", "z"].iter().position(|axis| *axis == name) else {
+            return PropertyAccessResult::Ignored;
+        };
+        self.0[axis] = match value {
+            Property::Char(x) => x.into(),
+            Property::UChar(x) => x.into(),
+            Property::Short(x) => x.into(),
+            Property::UShort(x) => x.into(),
+            Property::Int(x) => x.into(),
+            Property::UInt(x) => x.into(),
+            Property::Float(x) => x.into(),
+            Property::Double(x) => x,
+            _ => return PropertyAccessResult::UnsupportedType,
+        };
+        PropertyAccessResult::Set
+    }
+}
+
+impl PropertyAccess for Face {
+    fn new() -> Self {
+        Face { indices: [-1; 4], corners: 0 }
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        if !is_index_list(name) {
+            return PropertyAccessResult::Ignored;
+        }
+        match value {
+            Property::ListChar(list) => self.fill(&list),
+            Property::ListUChar(list) => self.fill(&list),
+            Property::ListShort(list) => self.fill(&list),
+            Property::ListUShort(list) => self.fill(&list),
+            Property::ListInt(list) => self.fill(&list),
+            Property::ListUInt(list) => self.fill(&list),
+            _ => return PropertyAccessResult::UnsupportedType,
+        }
+        PropertyAccessResult::Set
+    }
+}
+
+impl PropertyAccess for Other {
+    fn new() -> Self {
+        Other
+    }
+}
+
+impl Face {
+    fn fill<T: Copy + Into<i64>>(&mut self, list: &[T]) {
+        self.corners = list.len();
+        self.indices.iter_mut().zip(list).for_each(|(to, &from)| *to = from.into());
+    }
+}
+
+fn is_index_list(name: &str) -> bool {
+    name == "vertex_indices" || name == "vertex_index"
+}
+
+/// Reads the file that messages call `name`. An error starts with `name:line:` or `name: byte n:`.
+pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
+    let mut reader = Reader::new(bytes);
+    let header = Parser::<Other>::new().read_header(&mut reader);
+    let header = header.map_err(|error| describe(name, bytes, &error, None, "the header"))?;
+    check_header(&header, bytes, reader.get_ref().len()).map_err(|why| format!("{name}: header: {why}"))?;
+
+    let mut mesh = Mesh { points: Vec::new(), faces: Vec::new(), has_normals: false, warnings: Vec::new() };
+    for (element, def) in &header.elements {
+        match element.as_str() {
+            "vertex" => {
+                let vertices = read_element::<Vertex>(name, bytes, &mut reader, def, &header)?;
+                mesh.points = vertices.into_iter().map(|vertex| vertex.0).collect();
+                mesh.has_normals = ["nx", "ny", "nz"].iter().all(|n| def.properties.contains_key(*n));
+            }
+            "face" => mesh.faces = read_element::<Face>(name, bytes, &mut reader, def, &header)?,
+            _ => {
+                read_element::<Other>(name, bytes, &mut reader, def, &header)?;
+                mesh.warnings.push(format!("{name}: element {element:?} ignored"));
+            }
+        }
+    }
+    if let Some(i) = mesh.faces.iter().position(|face| !(3..=4).contains(&face.corners)) {
+        return Err(format!("{name}: face {i} has {} corners, only 3 or 4 are supported", mesh.faces[i].corners));
+    }
+    let rest = *reader.get_ref();
+    if !rest.iter().all(u8::is_ascii_whitespace) {
+        mesh.warnings.push(format!("{name}: {} bytes after the last element ignored", rest.len()));
+    }
+    Ok(mesh)
+}
+
+fn read_element<E: PropertyAccess>(
+    name: &str,
+    bytes: &[u8],
+    reader: &mut Reader<&[u8]>,
+    def: &ElementDef,
+    header: &Header,
+) -> Result<Vec<E>, String> {
+    let elements = Parser::<E>::new().read_payload_for_element(reader, def, header);
+    elements.map_err(|error| {
+        let byte = (header.encoding != Encoding::Ascii).then(|| bytes.len() - reader.get_ref().len());
+        let text = match error.line() {
+            Some(_) => describe(name, bytes, &error, byte, &format!("element {:?}", def.name)),
+            None => format!("{name}:{}: {error}", reader.line()), // not UTF-8
+        };
+        shortened_lines(&text)
+    })
+}
+
+/// What the crate lets through: repeated names, elements without properties, and counts that no file could hold.
+fn check_header(header: &Header, bytes: &[u8], body: usize) -> Result<(), String> {
+    // The crate keeps one of two equal names, and would then read the body in the wrong layout.
+    let text = &bytes[..bytes.len() - body];
+    let declared = text.split(|&b| b == b'\n').filter(|l| l.starts_with(b"element") || l.starts_with(b"property"));
+    let kept: usize = header.elements.values().map(|def| 1 + def.properties.len()).sum();
+    if declared.count() != kept {
+        return Err("an element or a property is declared twice".into());
+    }
+    for (name, def) in &header.elements {
+        // The shortest an element can be; a face needs at least three indices.
+        let least = if name == "face" { 4 } else { def.properties.len() };
+        if least == 0 {
+            return Err(format!("element {name:?} has no properties"));
+        }
+        if def.count.checked_mul(least).is_none_or(|needed| needed > body) {
+            return Err(format!("{} elements {name:?} do not fit into the {body} bytes that follow", def.count));
+        }
+    }
+    let vertex = header.elements.get("vertex").ok_or("no element \"vertex\"")?;
+    for axis in ["x", "y", "z"] {
+        match vertex.properties.get(axis).map(|def| &def.data_type) {
+            Some(PropertyType::Scalar(_)) => {}
+            _ => return Err(format!("element \"vertex\" has no number {axis:?}")),
+        }
+    }
+    let face = header.elements.get("face").ok_or("no element \"face\"")?;
+    let lists = face.properties.values().filter(|def| is_index_list(&def.name));
+    let mut types = lists.map(|def| &def.data_type);
+    match (types.next(), types.next()) {
+        (Some(PropertyType::List(_, item)), None) if !matches!(item, ScalarType::Float | ScalarType::Double) => Ok(()),
+        _ => Err("element \"face\" needs one list of integers \"vertex_indices\"".into()),
+    }
+}
+
+/// One line: the file, the line or byte, the text of that line and the innermost reason.
+fn describe(name: &str, bytes: &[u8], error: &ParseError, byte: Option<usize>, what: &str) -> String {
+    let full = error.to_string();
+    let reason = full.rsplit("Error: ").next().unwrap_or(&full);
+    let line = error.line().unwrap_or(1);
+    let ended = error.kind() == ErrorKind::UnexpectedEof;
+    match byte {
+        Some(byte) if ended => format!("{name}: byte {byte}: the file ends within {what}"),
+        Some(byte) => format!("{name}: byte {byte}: {what}: {}", shortened_lines(reason)),
+        None if ended => format!("{name}:{line}: the file ends within {what}"),
+        None => {
+            let text = bytes.split(|&b| b == b'\n').nth(line - 1).unwrap_or_default();
+            let text = shortened(String::from_utf8_lossy(&text[..text.len().min(240)]).trim());
+            format!("{name}:{line}: {what}: {text:?}: {}", shortened_lines(reason))
+        }
+    }
+}
+
+/// `text` on one line, of at most 300 characters.
+fn shortened_lines(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(300).collect()
+}

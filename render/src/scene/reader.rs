@@ -1,0 +1,453 @@
+//! The directives of a scene file, one by one, and the graphics state that they change.
+
+use super::lexer::{Lexer, Token, shortened};
+use super::params::Params;
+use super::shapes::{self, Output, Surface};
+use super::transform::{Transform, length, scaled};
+use super::{Camera, Emission, Film, Message, Place, Scene, read_file, utf8};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Files open at once through `Include`, and files included in all.
+const DEEPEST_INCLUDE: usize = 32;
+const MOST_INCLUDES: usize = 4096;
+/// `AttributeBegin` within `AttributeBegin`.
+const DEEPEST_ATTRIBUTES: usize = 1024;
+const MOST_PIXELS: i64 = 1 << 28;
+const MOST_SAMPLES: i64 = 1 << 24;
+
+/// What `AttributeBegin` saves and `AttributeEnd` restores.
+#[derive(Clone, Debug)]
+struct State {
+    ctm: Transform,
+    reverse: bool,
+    albedo: [f32; 3],
+    emission: Option<Emission>,
+}
+
+struct Reader<'a> {
+    main_dir: &'a Path,
+    is_builtin: bool,
+    camera: Option<Camera>,
+    film: Option<Film>,
+    pixel_samples: Option<u32>,
+    out: Output,
+    state: State,
+    saved: Vec<(State, Place)>,
+    systems: HashMap<String, Transform>,
+    named: HashMap<String, [f32; 3]>,
+    in_world: bool,
+    open_files: Vec<PathBuf>,
+    included: usize,
+}
+
+/// Reads a whole scene; only a built-in one may name `builtin:` meshes.
+pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Result<Scene, Message> {
+    let state = State { ctm: Transform::IDENTITY, reverse: false, albedo: [0.5; 3], emission: None };
+    let mut reader = Reader {
+        main_dir: dir,
+        is_builtin,
+        camera: None,
+        film: None,
+        pixel_samples: None,
+        out: Output::default(),
+        state,
+        saved: Vec::new(),
+        systems: HashMap::new(),
+        named: HashMap::new(),
+        in_world: false,
+        open_files: Vec::new(),
+        included: 0,
+    };
+    let file: Arc<str> = Arc::from(file);
+    reader.file(text, file.clone(), dir)?;
+
+    let lines = u32::try_from(text.lines().count()).unwrap_or(u32::MAX);
+    let end = Place { file: file.clone(), line: lines.max(1) };
+    if let Some((_, place)) = reader.saved.last() {
+        return Err(place.message("AttributeBegin or TransformBegin without its end"));
+    }
+    let Some(camera) = reader.camera else {
+        return Err(end.message("the scene has no Camera"));
+    };
+    if !reader.in_world {
+        return Err(end.message("the scene has no WorldBegin"));
+    }
+    let mut out = reader.out;
+    if !out.shapes.iter().any(|shape| shape.emission.is_some()) {
+        out.warnings.push(end.message("nothing emits light: the image will be black"));
+    }
+    let name = Path::new(&*file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    Ok(Scene {
+        name: name.unwrap_or_else(|| file.to_string()),
+        camera,
+        film: reader.film.unwrap_or(Film { width: 1280, height: 720, filename: None }),
+        pixel_samples: reader.pixel_samples.unwrap_or(16),
+        materials: out.materials,
+        triangles: out.triangles,
+        triangle_materials: out.triangle_materials,
+        shapes: out.shapes,
+        warnings: out.warnings,
+    })
+}
+
+impl Reader<'_> {
+    fn file(&mut self, text: &str, file: Arc<str>, dir: &Path) -> Result<(), Message> {
+        let mut lexer = Lexer::new(text, file);
+        while let Some((token, line)) = lexer.next()? {
+            let place = lexer.place(line);
+            match token {
+                Token::Word(word) => self.directive(word, place, &mut lexer, dir)?,
+                other => return Err(place.message(format!("expected a directive, found {}", other.show()))),
+            }
+        }
+        Ok(())
+    }
+
+    fn directive(&mut self, word: &str, place: Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
+        const OPTIONS: [&str; 7] = ["Camera", "Film", "Sampler", "PixelFilter", "Integrator", "Accelerator", "Option"];
+        const WORLD: [&str; 10] = [
+            "AttributeBegin",
+            "AttributeEnd",
+            "TransformBegin",
+            "TransformEnd",
+            "ReverseOrientation",
+            "AreaLightSource",
+            "Material",
+            "MakeNamedMaterial",
+            "NamedMaterial",
+            "Shape",
+        ];
+        if self.in_world && OPTIONS.contains(&word) {
+            return Err(place.message(format!("{word} must come before WorldBegin")));
+        }
+        if !self.in_world && WORLD.contains(&word) {
+            return Err(place.message(format!("{word} must come after WorldBegin")));
+        }
+        match word {
+            "Identity" => self.state.ctm = Transform::IDENTITY,
+            "Translate" | "Scale" | "Rotate" | "LookAt" | "Transform" | "ConcatTransform" => {
+                self.transform(word, &place, lexer)?;
+            }
+            "CoordinateSystem" => {
+                self.systems.insert(lexer.text("a name")?, self.state.ctm);
+            }
+            "CoordSysTransform" => {
+                let name = lexer.text("a name")?;
+                let unknown = || place.message(format!("no CoordinateSystem {:?}", shortened(&name)));
+                self.state.ctm = *self.systems.get(&name).ok_or_else(unknown)?;
+            }
+            "ActiveTransform" => match lexer.expect("All, StartTime or EndTime")?.0 {
+                Token::Word("All") => {}
+                other => {
+                    return Err(
+                        place.message(format!("ActiveTransform {}: not supported: nothing moves", other.show()))
+                    );
+                }
+            },
+            "ReverseOrientation" => self.state.reverse = !self.state.reverse,
+            "WorldBegin" => {
+                if self.in_world {
+                    return Err(place.message("a second WorldBegin"));
+                }
+                self.in_world = true;
+                self.state.ctm = Transform::IDENTITY;
+                self.systems.insert("world".into(), Transform::IDENTITY);
+            }
+            "AttributeBegin" | "TransformBegin" => {
+                if self.saved.len() == DEEPEST_ATTRIBUTES {
+                    return Err(place.message(format!("{word} nested over {DEEPEST_ATTRIBUTES} deep")));
+                }
+                self.saved.push((self.state.clone(), place));
+            }
+            "AttributeEnd" | "TransformEnd" => match self.saved.pop() {
+                Some((state, _)) => self.state = state,
+                None => return Err(place.message(format!("{word} without its beginning"))),
+            },
+            "Include" => self.include(&place, lexer, dir)?,
+            "ColorSpace" => {
+                let name = lexer.text("a name")?;
+                if name != "srgb" {
+                    self.warn(&place, format!("ColorSpace {:?} ignored: colours are linear sRGB", shortened(&name)));
+                }
+            }
+            "Option" => {
+                let name = lexer.text("an option")?;
+                lexer.expect("the option's value")?;
+                self.warn(&place, format!("Option {:?} ignored", shortened(&name)));
+            }
+            "NamedMaterial" => {
+                let name = lexer.text("a name")?;
+                let unknown = || place.message(format!("no MakeNamedMaterial {:?} before this", shortened(&name)));
+                self.state.albedo = *self.named.get(&name).ok_or_else(unknown)?;
+            }
+            "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
+            | "Material" | "MakeNamedMaterial" | "Shape" => {
+                let kind = lexer.text("a type")?;
+                let params = Params::read(lexer, format!("{word} {:?}", shortened(&kind)), place)?;
+                self.with_params(word, &kind, params, dir)?;
+            }
+            "LightSource" | "Texture" | "ObjectBegin" | "ObjectEnd" | "ObjectInstance" | "MediumInterface"
+            | "MakeNamedMedium" | "Attribute" | "Import" | "TransformTimes" => {
+                return Err(place.message(format!("{word} is not supported")));
+            }
+            _ => return Err(place.message(format!("unknown directive {}", shortened(word)))),
+        }
+        Ok(())
+    }
+
+    fn with_params(&mut self, word: &str, kind: &str, mut params: Params, dir: &Path) -> Result<(), Message> {
+        match word {
+            "Camera" => self.camera(kind, &mut params)?,
+            "Film" => self.film(kind, &mut params)?,
+            "Sampler" => self.sampler(kind, &mut params)?,
+            "PixelFilter" => {
+                let mut half = |name| Ok(params.float(name)?.is_none_or(|radius| radius == 0.5));
+                if !(half("xradius")? & half("yradius")? & (kind == "box")) {
+                    let text = params.error("ignored: each pixel is the mean over its own square").text;
+                    self.warn(&params.place, text);
+                }
+            }
+            "Integrator" => {
+                let direct = params.integer("maxdepth")? == Some(1);
+                if !(direct && ["path", "volpath", "simplepath"].contains(&kind)) {
+                    let text = params.error("only direct light is rendered (as by \"path\" with maxdepth 1)").text;
+                    self.warn(&params.place, text);
+                }
+            }
+            "Accelerator" => {
+                self.warn(&params.place, params.error("ignored").text);
+                return Ok(());
+            }
+            "Material" => self.state.albedo = self.material(kind, &mut params)?,
+            "MakeNamedMaterial" => {
+                let Some(of) = params.text("type")? else {
+                    return Err(params.error("\"string type\" is missing"));
+                };
+                let albedo = self.material(&of, &mut params)?;
+                self.named.insert(kind.into(), albedo);
+            }
+            "AreaLightSource" => self.area_light(kind, &mut params)?,
+            _ => self.shape(kind, &mut params, dir)?,
+        }
+        self.out.warnings.extend(params.finish());
+        Ok(())
+    }
+
+    fn warn(&mut self, place: &Place, text: String) {
+        self.out.warnings.push(place.message(text));
+    }
+
+    fn include(&mut self, place: &Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
+        let name = lexer.text("a file name")?;
+        let path = self.resolve(&name, dir);
+        let shown = path.display().to_string();
+        self.included += 1;
+        if self.open_files.len() == DEEPEST_INCLUDE || self.included > MOST_INCLUDES {
+            return Err(place.message(format!(
+                "Include {shown:?}: over {DEEPEST_INCLUDE} files deep, or over {MOST_INCLUDES} files"
+            )));
+        }
+        let failed = |error| place.message(format!("Include: cannot read {shown:?}: {error}"));
+        let real = path.canonicalize().map_err(failed)?;
+        if self.open_files.contains(&real) {
+            return Err(place.message(format!("Include: {shown:?} includes itself")));
+        }
+        let bytes = read_file(&path).map_err(failed)?;
+        let file: Arc<str> = Arc::from(shown);
+        let text = utf8(&bytes, &file)?;
+        self.open_files.push(real);
+        self.file(text, file, path.parent().unwrap_or(Path::new("")))?;
+        self.open_files.pop();
+        Ok(())
+    }
+
+    /// A file beside the one that names it, else beside the main file (as in pbrt).
+    fn resolve(&self, name: &str, dir: &Path) -> PathBuf {
+        let near = dir.join(name);
+        let main = self.main_dir.join(name);
+        if !near.exists() && main.exists() { main } else { near }
+    }
+
+    fn transform(&mut self, word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {
+        let matrix = word == "Transform" || word == "ConcatTransform";
+        let count = match word {
+            "LookAt" => 9,
+            "Rotate" => 4,
+            "Translate" | "Scale" => 3,
+            _ => 16,
+        };
+        let bracket = |lexer: &mut Lexer<'_>, wanted: Token<'_>| {
+            let (found, line) = lexer.expect(&wanted.show())?;
+            let wrong =
+                || lexer.place(line).message(format!("{word}: expected {}, found {}", wanted.show(), found.show()));
+            if found == wanted { Ok(()) } else { Err(wrong()) }
+        };
+        if matrix {
+            bracket(lexer, Token::Open)?;
+        }
+        let mut m = [0.0; 16];
+        for x in &mut m[..count] {
+            *x = lexer.number(word)?;
+        }
+        if matrix {
+            bracket(lexer, Token::Close)?;
+        }
+
+        let three = |i: usize| [m[i], m[i + 1], m[i + 2]];
+        let made = match word {
+            "Translate" => Ok(Transform::translate(three(0))),
+            "Scale" => Ok(Transform::scale(three(0))),
+            "Rotate" => Transform::rotate(m[0], three(1)).ok_or("the axis has no direction"),
+            "LookAt" => {
+                Transform::look_at(three(0), three(3), three(6)).ok_or("eye, target and up do not define a view")
+            }
+            _ => Transform::from_columns(&m).ok_or("not affine: every fourth number must be 0, the last one 1"),
+        };
+        let made = made.map_err(|why| place.message(format!("{word} {:?}: {why}", &m[..count])))?;
+        self.state.ctm = if word == "Transform" { made } else { self.state.ctm.after(&made) };
+        if !self.state.ctm.is_finite() {
+            return Err(place.message(format!("{word}: the transform is no longer finite")));
+        }
+        Ok(())
+    }
+
+    fn camera(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
+        if kind != "perspective" {
+            return Err(params.error("not supported, only \"perspective\""));
+        }
+        if self.camera.is_some() {
+            return Err(params.error("a second camera"));
+        }
+        params.reject(&["screenwindow", "frameaspectratio"])?;
+        if let Some(lens) = params.float("lensradius")?.filter(|&radius| radius != 0.0) {
+            return Err(params.error(format!("\"lensradius\": {lens} is not supported: the camera is a pinhole")));
+        }
+        let fov = params.float("fov")?.unwrap_or(90.0);
+        if !(fov > 0.0 && fov < 180.0) {
+            return Err(params.error(format!("\"fov\": {fov} is not between 0 and 180")));
+        }
+        let singular = || params.error("its transform is singular");
+        let world = self.state.ctm.inverse().ok_or_else(singular)?;
+        self.systems.insert("camera".into(), world);
+        let forward = world.vector([0.0, 0.0, 1.0]);
+        let axis = |v: [f64; 3]| scaled(world.vector(v), 1.0 / length(forward));
+        let camera = Camera {
+            origin: world.shift,
+            forward: axis([0.0, 0.0, 1.0]),
+            right: axis([1.0, 0.0, 0.0]),
+            up: axis([0.0, 1.0, 0.0]),
+            fov,
+        };
+        let mut numbers = camera.forward.iter().chain(&camera.right).chain(&camera.up);
+        if !numbers.all(|x| x.is_finite()) {
+            return Err(singular());
+        }
+        self.camera = Some(camera);
+        Ok(())
+    }
+
+    fn film(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
+        if kind != "rgb" {
+            return Err(params.error("not supported, only \"rgb\""));
+        }
+        let width = params.integer("xresolution")?.unwrap_or(1280);
+        let height = params.integer("yresolution")?.unwrap_or(720);
+        let side = 1..=65_536;
+        if !(side.contains(&width) && side.contains(&height) && width * height <= MOST_PIXELS) {
+            return Err(
+                params.error(format!("{width} × {height} pixels: each side must be 1 to 65536, and all at most 2^28"))
+            );
+        }
+        let filename = params.text("filename")?;
+        self.film = Some(Film { width: width as u32, height: height as u32, filename });
+        Ok(())
+    }
+
+    fn sampler(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
+        let samples = if kind == "stratified" {
+            params.integer("xsamples")?.unwrap_or(4).saturating_mul(params.integer("ysamples")?.unwrap_or(4))
+        } else {
+            params.integer("pixelsamples")?.unwrap_or(16)
+        };
+        if !(1..=MOST_SAMPLES).contains(&samples) {
+            return Err(params.error(format!("{samples} samples per pixel: must be 1 to 2^24")));
+        }
+        if kind != "independent" && kind != "stratified" {
+            self.warn(&params.place, params.error("only the number of samples is used").text);
+        }
+        self.pixel_samples = Some(samples as u32);
+        Ok(())
+    }
+
+    fn material(&mut self, kind: &str, params: &mut Params) -> Result<[f32; 3], Message> {
+        if kind != "diffuse" {
+            return Err(params.error(format!("material type {:?} is not supported, only \"diffuse\"", shortened(kind))));
+        }
+        let albedo = params.rgb("reflectance")?.unwrap_or([0.5; 3]);
+        if let Some(x) = albedo.iter().find(|&&x| x > 1.0) {
+            let text = params.error(format!("\"reflectance\": {x} is over 1: more light leaves than arrives")).text;
+            self.warn(&params.place, text);
+        }
+        rounded(albedo).ok_or_else(|| params.error(format!("\"reflectance\": {albedo:?} is too large for f32")))
+    }
+
+    fn area_light(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
+        if kind != "diffuse" {
+            return Err(params.error("not supported, only \"diffuse\""));
+        }
+        params.reject(&["power", "filename"])?;
+        let radiance = params.rgb("L")?.unwrap_or([1.0; 3]);
+        let scale = params.float("scale")?.unwrap_or(1.0);
+        if scale < 0.0 {
+            return Err(params.error(format!("\"scale\": {scale} is negative")));
+        }
+        let radiance = radiance.map(|x| x * scale);
+        let two_sided = params.flag("twosided")?.unwrap_or(false);
+        let too_large = || params.error(format!("the radiance {radiance:?} is too large for f32"));
+        let radiance = rounded(radiance).ok_or_else(too_large)?;
+        let dark = radiance == [0.0; 3];
+        if dark {
+            self.warn(&params.place, params.error("emits nothing").text);
+        }
+        self.state.emission = (!dark).then_some(Emission { radiance, two_sided });
+        Ok(())
+    }
+
+    fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
+        let det = self.state.ctm.determinant();
+        if det == 0.0 || !det.is_finite() {
+            return Err(params.error("its transform is singular"));
+        }
+        let surface = Surface {
+            ctm: self.state.ctm,
+            flip: self.state.reverse != (det < 0.0),
+            material: self.out.material(self.state.albedo),
+            emission: self.state.emission,
+        };
+        params.reject(&["alpha", "displacement", "emissionfilename"])?;
+        match kind {
+            "sphere" => shapes::sphere(&mut self.out, &surface, params),
+            "trianglemesh" => shapes::triangle_mesh(&mut self.out, &surface, params),
+            "bilinearmesh" => shapes::bilinear_mesh(&mut self.out, &surface, params),
+            "plymesh" => {
+                let Some(name) = params.text("filename")? else {
+                    return Err(params.error("\"string filename\" is missing"));
+                };
+                if self.is_builtin && name == "builtin:terrain" {
+                    return shapes::terrain(&mut self.out, &surface, params);
+                }
+                let path = self.resolve(&name, dir);
+                shapes::ply_mesh(&mut self.out, &surface, params, &path)
+            }
+            _ => Err(params.error("shape not supported, only sphere, trianglemesh, bilinearmesh and plymesh")),
+        }
+    }
+}
+
+/// A colour in f32; `None` if a channel overflows.
+fn rounded(rgb: [f64; 3]) -> Option<[f32; 3]> {
+    let rgb = rgb.map(|x| x as f32);
+    rgb.iter().all(|x| x.is_finite()).then_some(rgb)
+}

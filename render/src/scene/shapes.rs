@@ -1,0 +1,270 @@
+//! Shapes: object space to world space in f64, checked, oriented and rounded once to f32.
+
+use super::params::Params;
+use super::transform::{Transform, add, cross, dot, length, sub};
+use super::{Emission, Geometry, Message, Shape, ply, read_file, terrain as generated};
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+/// How far a bilinear patch may be from a planar parallelogram, and a quad of a mesh file from its plane, relative
+/// to its size: coordinates of six digits pass, a visible bend does not.
+const FLATNESS: f64 = 1e-5;
+
+/// What the shapes of a scene become.
+#[derive(Debug, Default)]
+pub(super) struct Output {
+    pub(super) materials: Vec<[f32; 3]>,
+    pub(super) triangles: Vec<[[f32; 3]; 3]>,
+    pub(super) triangle_materials: Vec<u32>,
+    pub(super) shapes: Vec<Shape>,
+    pub(super) warnings: Vec<Message>,
+    material_index: HashMap<[u32; 3], u32>,
+    warned: HashSet<&'static str>,
+}
+
+/// What the graphics state says of a shape.
+#[derive(Clone, Debug)]
+pub(super) struct Surface {
+    pub(super) ctm: Transform,
+    /// Whether the normal is against the order of the vertices after the transform.
+    pub(super) flip: bool,
+    pub(super) material: u32,
+    pub(super) emission: Option<Emission>,
+}
+
+impl Output {
+    /// The index of the material with this albedo.
+    pub(super) fn material(&mut self, albedo: [f32; 3]) -> u32 {
+        *self.material_index.entry(albedo.map(f32::to_bits)).or_insert_with(|| {
+            self.materials.push(albedo);
+            (self.materials.len() - 1) as u32
+        })
+    }
+
+    /// Warns once in a scene of a parameter that has no effect.
+    fn warn_once(&mut self, params: &Params, name: &'static str, why: &str) {
+        if self.warned.insert(name) {
+            self.warnings.push(params.error(format!("{name:?}: {why} (said once)")));
+        }
+    }
+
+    fn push(&mut self, surface: &Surface, geometry: Geometry) {
+        match geometry {
+            Geometry::Triangle(corners) if surface.emission.is_none() => {
+                self.triangles.push(corners);
+                self.triangle_materials.push(surface.material);
+            }
+            _ => self.shapes.push(Shape { geometry, material: surface.material, emission: surface.emission }),
+        }
+    }
+
+    /// A triangle of world points; `name` says which in an error.
+    fn triangle(
+        &mut self,
+        surface: &Surface,
+        [a, b, c]: [[f64; 3]; 3],
+        name: &dyn Fn() -> String,
+    ) -> Result<(), String> {
+        let corners = (if surface.flip { [a, c, b] } else { [a, b, c] }).map(round);
+        let [a, b, c] = corners.map(|p| p.map(f64::from));
+        if cross(sub(b, a), sub(c, a)) == [0.0; 3] {
+            return Err(format!("{} has no area: {:?}", name(), corners));
+        }
+        self.push(surface, Geometry::Triangle(corners));
+        Ok(())
+    }
+
+    /// A parallelogram with corners p00, p10, p01, p11, or an error that says how far it is from one.
+    fn parallelogram(&mut self, surface: &Surface, p: [[f64; 3]; 4], name: &dyn Fn() -> String) -> Result<(), String> {
+        let [p00, p10, p01, p11] = p;
+        let (u, v) = (sub(p10, p00), sub(p01, p00));
+        let off = length(sub(p11, add(p10, v))) / length(u).max(length(v));
+        if off > FLATNESS {
+            return Err(format!("{} is not a parallelogram: its last corner is off by {off:.1e} of its size", name()));
+        }
+        if surface.emission.is_none() {
+            self.triangle(surface, [p00, p10, p11], name)?;
+            return self.triangle(surface, [p00, p11, p01], name);
+        }
+        let (u, v) = if surface.flip { (v, u) } else { (u, v) };
+        let (p, u, v) = (round(p00), round(u), round(v));
+        if cross(u.map(f64::from), v.map(f64::from)) == [0.0; 3] {
+            return Err(format!("{} has no area: {:?}", name(), [p, u, v]));
+        }
+        self.push(surface, Geometry::Parallelogram { p, u, v });
+        Ok(())
+    }
+
+    /// Four corners in cyclic order: a parallelogram, or two triangles if they are planar and convex.
+    fn quad(
+        &mut self,
+        surface: &Surface,
+        [a, b, c, d]: [[f64; 3]; 4],
+        name: &dyn Fn() -> String,
+    ) -> Result<(), String> {
+        let off = length(sub(add(a, c), add(b, d)));
+        let size = length(sub(c, a)).max(length(sub(d, b)));
+        if off <= FLATNESS * length(sub(b, a)).max(length(sub(d, a))) {
+            return self.parallelogram(surface, [a, b, d, c], name);
+        }
+        let normal = cross(sub(c, a), sub(d, b));
+        let convex = [[d, a, b], [a, b, c], [b, c, d], [c, d, a]]
+            .iter()
+            .all(|[before, at, after]| dot(cross(sub(*after, *at), sub(*before, *at)), normal) > 0.0);
+        let bend = dot(sub(b, a), normal).abs() / length(normal);
+        if !(convex && bend <= FLATNESS * size) {
+            return Err(format!("{} is a quad that is not planar and convex: split it into triangles", name()));
+        }
+        self.triangle(surface, [a, b, c], name)?;
+        self.triangle(surface, [a, c, d], name)
+    }
+}
+
+fn round(p: [f64; 3]) -> [f32; 3] {
+    p.map(|x| x as f32)
+}
+
+impl Surface {
+    /// World points that f32 can hold.
+    fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
+        let place = |(i, p): (usize, [f64; 3])| {
+            let world = self.ctm.point(p);
+            let finite = round(world).iter().all(|x| x.is_finite());
+            let shown = if p.iter().all(|x| x.is_finite()) { world } else { p };
+            finite.then_some(world).ok_or_else(|| format!("vertex {i} is at {shown:?}, which is not finite in f32"))
+        };
+        points.enumerate().map(place).collect()
+    }
+}
+
+/// `Shape "sphere"`.
+pub(super) fn sphere(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
+    params.reject(&["zmin", "zmax", "phimax"])?;
+    let radius = params.float("radius")?.unwrap_or(1.0);
+    let Some(factor) = surface.ctm.similarity() else {
+        return Err(params.error("its transform stretches it into an ellipsoid, which is not supported"));
+    };
+    if surface.flip && surface.emission.is_some_and(|emission| !emission.two_sided) {
+        return Err(params
+            .error("it would emit inwards (ReverseOrientation, or a mirroring transform), which is not supported"));
+    }
+    let center = surface.place(std::iter::once([0.0; 3])).map_err(|why| params.error(why))?;
+    let world_radius = (radius * factor) as f32;
+    if !(world_radius > 0.0 && world_radius.is_finite()) {
+        return Err(
+            params.error(format!("\"radius\": {radius} (in the world {world_radius:e}) is not positive and finite"))
+        );
+    }
+    out.push(surface, Geometry::Sphere { center: round(center[0]), radius: world_radius });
+    Ok(())
+}
+
+/// World points from "P", and index groups of `N` from "indices"; `N` points need no indices.
+#[allow(clippy::type_complexity)] // a pair that only two callers see
+fn indexed<const N: usize>(
+    surface: &Surface,
+    params: &mut Params,
+) -> Result<(Vec<[f64; 3]>, Vec<[usize; N]>), Message> {
+    let Some(numbers) = params.numbers("P", "point3", 3)? else {
+        return Err(params.error("\"point3 P\" is missing"));
+    };
+    let points = numbers.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
+    let points = surface.place(points).map_err(|why| params.error(why))?;
+    let Some(indices) = params.numbers("indices", "integer", N)? else {
+        if points.len() != N {
+            return Err(params.error(format!("\"indices\" is missing, which only {N} points may do without")));
+        }
+        return Ok((points, vec![std::array::from_fn(|i| i)]));
+    };
+    if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i as usize >= points.len()) {
+        return Err(params.error(format!("index {i} is out of range: there are {} points", points.len())));
+    }
+    let groups = indices.chunks_exact(N).map(|group| std::array::from_fn(|i| group[i] as usize));
+    Ok((points, groups.collect()))
+}
+
+/// Normals turn the emitting side in pbrt, so they are refused where that matters; elsewhere all is flat shaded.
+fn shading(out: &mut Output, surface: &Surface, params: &mut Params, has_normals: bool) -> Result<(), Message> {
+    let given = params.given("N") | has_normals;
+    if given && surface.emission.is_some_and(|emission| !emission.two_sided) {
+        return Err(
+            params.error("\"N\" on a light is not supported: its emitting side follows the order of its vertices")
+        );
+    }
+    if given {
+        out.warn_once(params, "N", "ignored: surfaces are flat shaded");
+    }
+    for name in ["uv", "S"] {
+        if params.given(name) {
+            out.warn_once(params, name, "ignored: nothing uses it");
+        }
+    }
+    Ok(())
+}
+
+/// `Shape "trianglemesh"`.
+pub(super) fn triangle_mesh(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
+    shading(out, surface, params, false)?;
+    let (points, indices) = indexed::<3>(surface, params)?;
+    for (i, corners) in indices.iter().enumerate() {
+        let done = out.triangle(surface, corners.map(|k| points[k]), &|| format!("triangle {i}"));
+        done.map_err(|why| params.error(why))?;
+    }
+    Ok(())
+}
+
+/// `Shape "bilinearmesh"`.
+pub(super) fn bilinear_mesh(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
+    shading(out, surface, params, false)?;
+    let (points, indices) = indexed::<4>(surface, params)?;
+    for (i, corners) in indices.iter().enumerate() {
+        let done = out.parallelogram(surface, corners.map(|k| points[k]), &|| format!("patch {i}"));
+        done.map_err(|why| params.error(why))?;
+    }
+    Ok(())
+}
+
+/// `Shape "plymesh"` from a file.
+pub(super) fn ply_mesh(out: &mut Output, surface: &Surface, params: &mut Params, path: &Path) -> Result<(), Message> {
+    let shown = path.display().to_string();
+    let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
+    let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
+    drop(bytes);
+    shading(out, surface, params, mesh.has_normals)?;
+    out.warnings.extend(mesh.warnings.iter().map(|text| params.error(text)));
+
+    let in_file = |why: String| params.error(format!("{shown}: {why}"));
+    let points = surface.place(mesh.points.iter().copied()).map_err(in_file)?;
+    for (i, face) in mesh.faces.iter().enumerate() {
+        let name = || format!("face {i}");
+        let corner = |k: usize| {
+            let outside = || {
+                in_file(format!(
+                    "face {i}: index {} is out of range: there are {} vertices",
+                    face.indices[k],
+                    points.len()
+                ))
+            };
+            let index = usize::try_from(face.indices[k]).map_err(|_| outside())?;
+            points.get(index).copied().ok_or_else(outside)
+        };
+        let [a, b, c] = [corner(0)?, corner(1)?, corner(2)?];
+        let done = match face.corners {
+            3 => out.triangle(surface, [a, b, c], &name),
+            _ => out.quad(surface, [a, b, c, corner(3)?], &name),
+        };
+        done.map_err(in_file)?;
+    }
+    Ok(())
+}
+
+/// The mesh of the built-in terrain scene, which is known to be sound; the scene has no transform there.
+pub(super) fn terrain(out: &mut Output, surface: &Surface, params: &Params) -> Result<(), Message> {
+    if surface.ctm != Transform::IDENTITY || surface.flip || surface.emission.is_some() {
+        return Err(params.error("builtin:terrain takes no transform and no light"));
+    }
+    let triangles = generated::triangles();
+    out.triangle_materials.extend(std::iter::repeat_n(surface.material, triangles.len()));
+    out.triangles.extend(triangles);
+    Ok(())
+}

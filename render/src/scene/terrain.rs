@@ -1,0 +1,116 @@
+//! The mesh of the built-in scene `terrain`: a height field and 25 bumpy spheres, computed in f64 and rounded once.
+
+/// Cells along each side of the height field.
+const CELLS: usize = 512;
+/// Times that each face of the icosahedron is split in four.
+const LEVEL: usize = 5;
+/// Spheres along each side of their grid.
+const SPHERES: usize = 5;
+
+/// All 1,036,288 triangles, normals up and outwards.
+pub(super) fn triangles() -> Vec<[[f32; 3]; 3]> {
+    let faces = bumpy_sphere();
+    let mut out = Vec::with_capacity(2 * CELLS * CELLS + SPHERES * SPHERES * faces.len());
+    height_field(&mut out);
+    for i in 0..SPHERES {
+        for j in 0..SPHERES {
+            let (i, j) = (i as f64, j as f64);
+            let centre = [-3.0 + 1.5 * i, 0.9 + 0.5 * (2.1 * i + 1.3 * j).sin(), -3.0 + 1.5 * j];
+            let radius = 0.45 + 0.1 * (1.7 * i - 0.9 * j).cos();
+            let place = |v: [f64; 3]| [0, 1, 2].map(|k| (centre[k] + radius * v[k]) as f32);
+            out.extend(faces.iter().map(|face| face.map(place)));
+        }
+    }
+    out
+}
+
+fn height_field(out: &mut Vec<[[f32; 3]; 3]>) {
+    let grid = |i: usize| -12.0 + 24.0 * i as f64 / CELLS as f64;
+    let point = |i: usize, j: usize| {
+        let (x, z) = (grid(i), grid(j));
+        let height = 0.25 * (1.7 * x).sin() * (1.3 * z).cos()
+            + 0.10 * (5.3 * x + 1.1).sin() * (4.7 * z + 0.3).sin()
+            + 0.03 * (17.1 * x + 2.3 * z).sin() * (15.7 * z - 1.9 * x).cos();
+        [x as f32, height as f32, z as f32]
+    };
+    let row = |i: usize| (0..=CELLS).map(|j| point(i, j)).collect::<Vec<_>>();
+    let mut low = row(0);
+    for i in 0..CELLS {
+        let high = row(i + 1);
+        for (a, b) in low.windows(2).zip(high.windows(2)) {
+            out.push([a[0], a[1], b[1]]);
+            out.push([a[0], b[1], b[0]]);
+        }
+        low = high;
+    }
+}
+
+/// The faces of a subdivided icosahedron on the unit sphere, each vertex then moved by the bumps.
+fn bumpy_sphere() -> Vec<[[f64; 3]; 3]> {
+    let bump = |v: [f64; 3]| {
+        let s = 1.0 + 0.05 * (9.0 * v[0]).sin() * (9.0 * v[1]).sin() * (9.0 * v[2]).sin();
+        v.map(|x| x * s)
+    };
+    let mut faces = icosahedron();
+    for _ in 0..LEVEL {
+        let quarter = |k: usize| {
+            faces.iter().map(move |&[a, b, c]| {
+                let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]][k]
+            })
+        };
+        faces = quarter(0).chain(quarter(1)).chain(quarter(2)).chain(quarter(3)).collect();
+    }
+    faces.into_iter().map(|face| face.map(bump)).collect()
+}
+
+fn icosahedron() -> Vec<[[f64; 3]; 3]> {
+    const FACES: [[usize; 3]; 20] = [
+        [0, 11, 5],
+        [0, 5, 1],
+        [0, 1, 7],
+        [0, 7, 10],
+        [0, 10, 11],
+        [1, 5, 9],
+        [5, 11, 4],
+        [11, 10, 2],
+        [10, 7, 6],
+        [7, 1, 8],
+        [3, 9, 4],
+        [3, 4, 2],
+        [3, 2, 6],
+        [3, 6, 8],
+        [3, 8, 9],
+        [4, 9, 5],
+        [2, 4, 11],
+        [6, 2, 10],
+        [8, 6, 7],
+        [9, 8, 1],
+    ];
+    let t = (1.0 + 5f64.sqrt()) / 2.0;
+    let corners = [
+        [-1.0, t, 0.0],
+        [1.0, t, 0.0],
+        [-1.0, -t, 0.0],
+        [1.0, -t, 0.0],
+        [0.0, -1.0, t],
+        [0.0, 1.0, t],
+        [0.0, -1.0, -t],
+        [0.0, 1.0, -t],
+        [t, 0.0, -1.0],
+        [t, 0.0, 1.0],
+        [-t, 0.0, -1.0],
+        [-t, 0.0, 1.0],
+    ]
+    .map(normalized);
+    FACES.iter().map(|face| face.map(|i| corners[i])).collect()
+}
+
+fn middle(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    normalized([a[0] + b[0], a[1] + b[1], a[2] + b[2]])
+}
+
+fn normalized(v: [f64; 3]) -> [f64; 3] {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    v.map(|x| x / length)
+}

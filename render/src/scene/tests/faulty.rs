@@ -1,0 +1,279 @@
+//! Errors and warnings: each at its line, each with the value that is wrong; and no input that panics.
+
+use super::*;
+
+fn error(text: &str) -> String {
+    match parse(text, "a.pbrt", Path::new("no such directory")) {
+        Ok(_) => panic!("read without an error:\n{text}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Each text follows a sound first line, unless it starts with its own camera.
+#[test]
+fn errors_name_line_and_value() {
+    let cases: &[(&str, u32, &str)] = &[
+        // words and tokens
+        ("Flim \"rgb\"", 2, "unknown directive Flim"),
+        ("# comment\r\nFlim", 3, "unknown directive Flim"),
+        ("#\u{e9}\nAttributeBegin\u{e9}", 3, "unknown directive AttributeBegin\u{e9}"),
+        ("\n\"Shape\"", 3, "expected a directive, found \"Shape\""),
+        ("Shape \"sphere", 2, "the string \"sphere\" is not closed"),
+        ("Shape \"sph\\qere\"", 2, "unknown escape \\q"),
+        ("Shape sphere", 2, "expected a type in quotes, found sphere"),
+        ("Shape", 2, "the file ends where a type is expected"),
+        ("Translate 1 2", 2, "the file ends where Translate is expected"),
+        ("Translate 1\n2 x3", 3, "expected a number, found x3"),
+        ("Translate 1 2 nan", 2, "the number nan is not finite"),
+        ("Translate 1 2 1e999", 2, "the number 1e999 is not finite"),
+        ("Translate [1 2 3]", 2, "expected a number, found ["),
+        // parameters
+        ("Shape \"sphere\" \"radius\" 1", 2, "\"radius\" is not a parameter's type and name"),
+        ("Shape \"sphere\" \"real radius\" 1", 2, "unknown type \"real\""),
+        ("Shape \"sphere\"\n\"integer radius\" 1", 3, "\"radius\": type integer is not supported, only float"),
+        ("Shape \"sphere\" \"float radius\" [1\n2z]", 3, "\"radius\": expected a number, found 2z"),
+        ("Shape \"sphere\" \"float radius\" [1 2]", 2, "expected one value, found 2"),
+        ("Shape \"sphere\" \"float radius\" []", 2, "expected one value, found none"),
+        ("Shape \"sphere\" \"float radius\" [1", 2, "the file ends where the ] of \"radius\""),
+        ("Shape \"sphere\" \"float radius\" 1 2", 2, "unknown directive 2"),
+        ("Shape \"sphere\" \"float radius\" 1\n\"float radius\" 1", 3, "\"radius\": given twice"),
+        ("Shape \"trianglemesh\" \"integer indices\" [0 1.5 2]", 2, "expected an integer, found 1.5"),
+        ("Shape \"trianglemesh\" \"integer indices\" [9999999999]", 2, "expected an integer, found 9999999999"),
+        ("AreaLightSource \"diffuse\" \"bool twosided\" 1", 2, "expected true or false, found 1"),
+        // state
+        ("AttributeBegin\n\n", 2, "AttributeBegin or TransformBegin without its end"),
+        ("AttributeEnd", 2, "AttributeEnd without its beginning"),
+        ("WorldBegin", 2, "a second WorldBegin"),
+        ("Film \"rgb\"", 2, "Film must come before WorldBegin"),
+        ("CoordSysTransform \"x\"", 2, "no CoordinateSystem \"x\""),
+        ("NamedMaterial \"x\"", 2, "no MakeNamedMaterial \"x\""),
+        ("Rotate 30 0 0 0", 2, "the axis has no direction"),
+        ("LookAt 0 0 0 0 1 0 0 1 0", 2, "do not define a view"),
+        ("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]", 2, "not affine"),
+        ("Transform 1 0 0 0", 2, "expected [, found 1"),
+        ("Scale 1e300 1 1 Scale 1e300 1 1", 2, "no longer finite"),
+        ("Scale 1 0 1\nShape \"sphere\"", 3, "its transform is singular"),
+        // not supported
+        ("LightSource \"point\"", 2, "LightSource is not supported"),
+        ("Texture \"a\" \"float\" \"constant\"", 2, "Texture is not supported"),
+        ("ObjectBegin \"a\"", 2, "ObjectBegin is not supported"),
+        ("ActiveTransform EndTime", 2, "ActiveTransform EndTime: not supported"),
+        ("Import \"a.pbrt\"", 2, "Import is not supported"),
+        ("Include \"none.pbrt\"", 2, "cannot read"),
+        ("Shape \"disk\"", 2, "Shape \"disk\": shape not supported"),
+        ("Shape \"sphere\" \"float alpha\" 1", 2, "\"alpha\": not supported"),
+        ("Material \"\"", 2, "material type \"\" is not supported"),
+        ("Material \"conductor\"", 2, "material type \"conductor\" is not supported"),
+        ("Material \"diffuse\" \"texture reflectance\" \"t\"", 2, "type texture is not supported, only rgb"),
+        ("MakeNamedMaterial \"m\"", 2, "\"string type\" is missing"),
+        ("AreaLightSource \"spot\"", 2, "AreaLightSource \"spot\": not supported"),
+        ("AreaLightSource \"diffuse\" \"blackbody L\" 3000", 2, "type blackbody is not supported, only rgb"),
+        ("AreaLightSource \"diffuse\" \"spectrum L\" \"stdillum-D65\"", 2, "type spectrum is not supported"),
+        ("AreaLightSource \"diffuse\" \"float power\" 3", 2, "\"power\": not supported"),
+        // values
+        ("Material \"diffuse\" \"rgb reflectance\" [.1 .2]", 2, "expected three numbers, found 2"),
+        ("Material \"diffuse\" \"rgb reflectance\" [.1 .2 -.5]", 2, "-0.5 is negative"),
+        ("AreaLightSource \"diffuse\" \"rgb L\" [1 -2 3]", 2, "-2 is negative"),
+        ("AreaLightSource \"diffuse\" \"rgb L\" [1e39 1 1]", 2, "too large for f32"),
+        ("AreaLightSource \"diffuse\" \"float scale\" -1", 2, "\"scale\": -1 is negative"),
+        // spheres
+        ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": 0 "),
+        ("Shape \"sphere\" \"float radius\" -3", 2, "\"radius\": -3 "),
+        ("Shape \"sphere\" \"float zmin\" -.5", 2, "\"zmin\": not supported"),
+        ("Scale 1 1 2\nShape \"sphere\"", 3, "ellipsoid"),
+        ("AreaLightSource \"diffuse\" ReverseOrientation\nShape \"sphere\"", 3, "emit inwards"),
+        ("AreaLightSource \"diffuse\" Scale 1 -1 1\nShape \"sphere\"", 3, "emit inwards"),
+        ("Translate 1e39 0 0\nShape \"sphere\"", 3, "[1e39, 0.0, 0.0], which is not finite in f32"),
+        // meshes
+        ("Shape \"trianglemesh\"", 2, "\"point3 P\" is missing"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]", 2, "4 numbers are not a multiple of 3"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0]", 2, "\"indices\" is missing"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1e39 1 0]", 2, "vertex 2 is at [1e39, 1.0, 0.0]"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 inf 1 0]", 2, "the number inf is not finite"),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]",
+            2,
+            "index 3 is out of range: there are 3",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 -1 2]",
+            2,
+            "index -1 is out of range",
+        ),
+        (
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]",
+            2,
+            "4 numbers are not a multiple of 3",
+        ),
+        (
+            "Shape \"trianglemesh\"\n\"point3 P\" [0 0 0 1 0 0 0 1 0 2 0 0] \"integer indices\" [0 1 2 0 1 3]",
+            2,
+            "triangle 1 has no area",
+        ),
+        ("Shape \"trianglemesh\" \"point3 P\" [1 0 0 1 0 1e-30 1 1e-50 0]", 2, "triangle 0 has no area"),
+        (
+            "AreaLightSource \"diffuse\"\nShape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1]",
+            3,
+            "\"N\" on a light",
+        ),
+        ("Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1.1 0]", 2, "patch 0 is not a parallelogram"),
+        ("Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 .1]", 2, "patch 0 is not a parallelogram"),
+        (
+            "AreaLightSource \"diffuse\"\nShape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0]",
+            3,
+            "patch 0 has no area",
+        ),
+        (
+            "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2]",
+            2,
+            "3 numbers are not a multiple of 4",
+        ),
+        ("Shape \"plymesh\"", 2, "\"string filename\" is missing"),
+        ("Shape \"plymesh\" \"string filename\" \"builtin:terrain\"", 2, "cannot read"),
+    ];
+    for (text, line, part) in cases {
+        let message = error(&world(text));
+        assert!(message.starts_with(&format!("a.pbrt:{line}: ")), "{message}\n{text}");
+        assert!(message.contains(part), "{message}\n{text}");
+    }
+}
+
+#[test]
+fn errors_before_the_world() {
+    let cases: &[(&str, u32, &str)] = &[
+        ("", 1, "no Camera"),
+        ("WorldBegin\n\n", 2, "no Camera"),
+        ("Camera \"perspective\"\n", 1, "no WorldBegin"),
+        ("Shape \"sphere\"", 1, "Shape must come after WorldBegin"),
+        ("Camera \"orthographic\"", 1, "Camera \"orthographic\": not supported"),
+        ("Camera \"perspective\"\nCamera \"perspective\"", 2, "a second camera"),
+        ("Camera \"perspective\" \"float lensradius\" .1", 1, "\"lensradius\": 0.1"),
+        ("Camera \"perspective\" \"float screenwindow\" [-1 1 -1 1]", 1, "\"screenwindow\": not supported"),
+        ("Camera \"perspective\" \"float fov\" 180", 1, "\"fov\": 180 is not between"),
+        ("Camera \"perspective\" \"float fov\" 0", 1, "\"fov\": 0 is not between"),
+        ("Scale 1 1 0\nCamera \"perspective\"", 2, "its transform is singular"),
+        ("Film \"gbuffer\"", 1, "Film \"gbuffer\": not supported"),
+        ("Film \"rgb\" \"integer xresolution\" 0", 1, "0 × 720 pixels"),
+        ("Film \"rgb\" \"integer yresolution\" -1", 1, "1280 × -1 pixels"),
+        ("Film \"rgb\" \"integer xresolution\" 65537", 1, "65537 × 720 pixels"),
+        ("Film \"rgb\" \"integer xresolution\" 65536 \"integer yresolution\" 65536", 1, "65536 × 65536 pixels"),
+        ("Sampler \"independent\" \"integer pixelsamples\" 0", 1, "0 samples per pixel"),
+    ];
+    for (text, line, part) in cases {
+        let message = error(text);
+        assert!(message.starts_with(&format!("a.pbrt:{line}: ")) && message.contains(part), "{message}\n{text}");
+    }
+    assert!(matches!(load("no-such-scene"), Err(SceneError::Io { .. })));
+    assert!(load("no-such-scene").unwrap_err().to_string().contains("built-in scenes: sphere-light, "));
+    assert!(load(".").unwrap_err().to_string().contains("not a regular file"));
+}
+
+#[test]
+fn warnings_name_line_and_parameter() {
+    let scene = read(
+        "Option \"disablepixeljitter\" true\nColorSpace \"aces2065-1\" ColorSpace \"srgb\"\nAccelerator \"bvh\"\n\
+         Film \"rgb\" \"float iso\" 100\nSampler \"halton\" \"integer seed\" 1\nPixelFilter \"gaussian\" PixelFilter \"box\"\n\
+         Integrator \"path\" Integrator \"volpath\" \"integer maxdepth\" 1\nCamera \"perspective\" \"float shutteropen\" 1\nWorldBegin\n\
+         Material \"diffuse\" \"rgb reflectance\" [2 0 0] \"float roughness\" 1\n\
+         Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1] \"normal N\" [0 0 1 0 0 1 0 0 1]\n\
+         Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"point2 uv\" [0 0 1 0 0 1]\n\
+         AreaLightSource \"diffuse\" \"rgb L\" [0 0 0]\nShape \"sphere\"",
+    );
+    let expected = [
+        "a.pbrt:1: Option \"disablepixeljitter\" ignored",
+        "a.pbrt:2: ColorSpace \"aces2065-1\" ignored",
+        "a.pbrt:3: Accelerator \"bvh\": ignored",
+        "a.pbrt:4: Film \"rgb\": \"iso\": ignored",
+        "a.pbrt:5: Sampler \"halton\": only the number of samples",
+        "a.pbrt:5: Sampler \"halton\": \"seed\": ignored",
+        "a.pbrt:6: PixelFilter \"gaussian\": ignored",
+        "a.pbrt:7: Integrator \"path\": only direct light",
+        "a.pbrt:8: Camera \"perspective\": \"shutteropen\": ignored",
+        "a.pbrt:10: Material \"diffuse\": \"reflectance\": 2 is over 1",
+        "a.pbrt:10: Material \"diffuse\": \"roughness\": ignored",
+        "a.pbrt:11: Shape \"trianglemesh\": \"N\": ignored",
+        "a.pbrt:11: Shape \"trianglemesh\": \"uv\": ignored",
+        "a.pbrt:13: AreaLightSource \"diffuse\": emits nothing",
+        "a.pbrt:14: nothing emits light",
+    ];
+    let found = warnings(&scene);
+    assert_eq!(found.len(), expected.len(), "{found:#?}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!(found.starts_with(expected), "{found}\n{expected}");
+    }
+    assert!(scene.shapes[0].emission.is_none());
+}
+
+#[test]
+fn nesting_is_bounded() {
+    let deep = "AttributeBegin\n".repeat(2000);
+    assert!(error(&world(&deep)).starts_with("a.pbrt:1026: AttributeBegin nested over 1024 deep"));
+}
+
+#[test]
+fn includes_are_relative_bounded_and_name_their_own_lines() {
+    let dir = meshes::Scratch::new("include");
+    dir.write("sub/shape.pbrt", format!("\n{TRIANGLE}").as_bytes());
+    dir.write("sub/both.pbrt", b"Include \"shape.pbrt\"\nInclude \"shape.pbrt\"");
+    dir.write("sub/faulty.pbrt", b"\n\nShape \"disk\"");
+    dir.write("sub/self.pbrt", b"Include \"self.pbrt\"");
+    dir.write("sub/main.pbrt", b"Include \"sub/shape.pbrt\""); // found beside the main file
+    dir.write("bytes.pbrt", b"\n\xff\n");
+    let read = |text: &str| parse(&world(text), "a.pbrt", &dir.path);
+    assert_eq!(read("Include \"sub/both.pbrt\"").unwrap().triangles.len(), 2);
+    assert_eq!(read("Include \"sub/main.pbrt\"").unwrap().triangles.len(), 1);
+    let message = |text: &str| read(text).unwrap_err().to_string();
+    assert!(message("Include \"sub/faulty.pbrt\"").ends_with(
+        "faulty.pbrt:3: Shape \"disk\": shape not supported, only sphere, trianglemesh, bilinearmesh and plymesh"
+    ));
+    let own = message("Include \"sub/self.pbrt\"");
+    assert!(own.contains("self.pbrt:1: ") && own.contains("includes itself"), "{own}");
+    assert!(message("Include \"bytes.pbrt\"").contains("bytes.pbrt:2: the byte 0xff is not UTF-8"));
+    assert!(message("Include \"sub\"").contains("not a regular file"));
+    // A chain of files over the limit, and many small ones.
+    for i in 0..40 {
+        dir.write(&format!("{i}.pbrt"), format!("Include \"{}.pbrt\"", i + 1).as_bytes());
+    }
+    assert!(message("Include \"0.pbrt\"").contains("over 32 files deep"));
+    dir.write("empty.pbrt", b"");
+    assert!(message(&"Include \"empty.pbrt\"\n".repeat(4097)).starts_with("a.pbrt:4098: "));
+}
+
+/// Every prefix of a scene, and many scenes with some bytes changed, give a scene or an error.
+#[test]
+fn no_text_panics() {
+    let text = include_str!("../../../scenes/quads.pbrt");
+    let directory = Path::new("no such directory");
+    for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
+        let _ = parse(&text[..end], "a.pbrt", directory);
+    }
+    // Knuth's MMIX generator.
+    let mut state = 1_u64;
+    let mut next = |n: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % n
+    };
+    let pieces =
+        ["\"", "[", "]", "-", "1e308", "nan", "é", "\0", "#", "\\", "Include ", "AttributeBegin ", "\"float x\" ", "0"];
+    let (mut sound, mut faulty) = (0, 0);
+    for _ in 0..4000 {
+        let mut bytes = text.as_bytes().to_vec();
+        for _ in 0..1 + next(6) {
+            let at = next(bytes.len());
+            match next(4) {
+                0 => bytes[at] = next(256) as u8,
+                1 => drop(bytes.drain(at..(at + next(20)).min(bytes.len()))),
+                2 => drop(bytes.splice(at..at, pieces[next(pieces.len())].bytes())),
+                _ => bytes.swap(at, at / 2),
+            }
+        }
+        match parse(&String::from_utf8_lossy(&bytes), "a.pbrt", directory) {
+            Ok(scene) => {
+                sound += 1;
+                assert!(scene.triangles.iter().flatten().flatten().all(|x| x.is_finite()));
+            }
+            Err(_) => faulty += 1,
+        }
+    }
+    assert!(sound > 100 && faulty > 1000, "{sound} {faulty}");
+}

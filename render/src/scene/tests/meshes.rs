@@ -1,0 +1,198 @@
+//! Mesh files: the three encodings, and files that are not what they say.
+
+use super::*;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// A directory that goes when the test ends.
+pub(super) struct Scratch {
+    pub(super) path: PathBuf,
+}
+
+impl Scratch {
+    pub(super) fn new(name: &str) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let unique = format!("etendue-{name}-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(unique);
+        fs::create_dir_all(&path).unwrap();
+        Scratch { path }
+    }
+
+    pub(super) fn write(&self, name: &str, bytes: &[u8]) {
+        let path = self.path.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.path);
+    }
+}
+
+const POINTS: [[f32; 3]; 5] = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 3.0, -1.25]];
+const FACES: [&[u32]; 2] = [&[0, 1, 2, 3], &[3, 2, 4]];
+
+fn header(format: &str, vertices: usize, faces: usize) -> String {
+    format!(
+        "ply\nformat {format} 1.0\ncomment x\nelement vertex {vertices}\nproperty float x\nproperty float y\nproperty float z\n\
+         property uchar red\nelement face {faces}\nproperty list uchar uint vertex_indices\nend_header\n"
+    )
+}
+
+fn ascii() -> Vec<u8> {
+    let mut text = header("ascii", 5, 2);
+    for p in POINTS {
+        text += &format!("{} {} {} 7\n", p[0], p[1], p[2]);
+    }
+    for face in FACES {
+        let indices: Vec<_> = face.iter().map(u32::to_string).collect();
+        text += &format!("{} {}\n", face.len(), indices.join(" "));
+    }
+    text.into_bytes()
+}
+
+fn binary(big: bool) -> Vec<u8> {
+    let mut bytes = header(if big { "binary_big_endian" } else { "binary_little_endian" }, 5, 2).into_bytes();
+    let word = |bits: u32| if big { bits.to_be_bytes() } else { bits.to_le_bytes() };
+    for p in POINTS {
+        p.iter().for_each(|x| bytes.extend(word(x.to_bits())));
+        bytes.push(7);
+    }
+    for face in FACES {
+        bytes.push(face.len() as u8);
+        face.iter().for_each(|&i| bytes.extend(word(i)));
+    }
+    bytes
+}
+
+fn load_mesh(bytes: &[u8], before: &str) -> Result<Scene, String> {
+    let dir = Scratch::new("mesh");
+    dir.write("m.ply", bytes);
+    let text = world(&format!("{before}\nShape \"plymesh\" \"string filename\" \"m.ply\""));
+    parse(&text, "a.pbrt", &dir.path).map_err(|error| error.to_string().replace(&dir.path.display().to_string(), ""))
+}
+
+#[test]
+fn all_encodings_give_the_same_triangles() {
+    let p = POINTS;
+    let expected = [[p[0], p[1], p[2]], [p[0], p[2], p[3]], [p[3], p[2], p[4]]];
+    for bytes in [ascii(), binary(false), binary(true)] {
+        let scene = load_mesh(&bytes, "").unwrap();
+        assert_eq!(scene.triangles, expected);
+        assert_eq!(scene.warnings.len(), 1, "{:?}", warnings(&scene)); // no light
+        // The same mesh as a light: the quad is one shape.
+        let scene = load_mesh(&bytes, LIGHT).unwrap();
+        assert!(scene.triangles.is_empty() && scene.warnings.is_empty());
+        let quad = Geometry::Parallelogram { p: p[0], u: [2.0, 0.0, 0.0], v: [0.0, 1.0, 0.0] };
+        assert_eq!((scene.shapes.len(), &scene.shapes[0].geometry), (2, &quad));
+        assert_eq!(scene.shapes[1].geometry, Geometry::Triangle(expected[2]));
+    }
+    // Windows line ends, doubles, the other name of the list, an element that is not needed.
+    let text = "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty double x\r\nproperty double y\r\nproperty double z\r\n\
+        element edge 1\r\nproperty int a\r\nelement face 1\r\nproperty list uchar int vertex_index\r\nend_header\r\n\
+        0 0 0\r\n1e0 0 0\r\n0 1 0\r\n5\r\n3 0 1 2\r\n";
+    let scene = load_mesh(text.as_bytes(), LIGHT).unwrap();
+    assert_eq!(scene.shapes.len(), 1);
+    assert_eq!(warnings(&scene).len(), 1);
+    assert!(warnings(&scene)[0].contains("element \"edge\" ignored"));
+}
+
+#[test]
+fn quads_are_split_only_if_planar_and_convex() {
+    let with = |x: &str| String::from_utf8(ascii()).unwrap().replace("2 1 0 7", x).into_bytes();
+    let trapezoid = load_mesh(&with("1 1 0 7"), "").unwrap();
+    assert_eq!(
+        trapezoid.triangles[..2],
+        [[POINTS[0], POINTS[1], [1.0, 1.0, 0.0]], [POINTS[0], [1.0, 1.0, 0.0], POINTS[3]]]
+    );
+    assert_eq!(load_mesh(&with("1 1 0 7"), LIGHT).unwrap().shapes.len(), 3);
+    for bent in ["2 1 1 7", "0.1 0.1 0 7"] {
+        let message = load_mesh(&with(bent), "").unwrap_err();
+        assert!(message.contains("/m.ply: face 0 is a quad that is not planar and convex"), "{message}");
+    }
+}
+
+#[test]
+fn malformed_files_name_both_files() {
+    let sound = String::from_utf8(ascii()).unwrap();
+    let changed = |from: &str, to: &str| {
+        assert!(sound.contains(from), "{from}");
+        sound.replacen(from, to, 1).into_bytes()
+    };
+    let huge = "18446744073709551615";
+    let cut = binary(false)[..binary(false).len() - 3].to_vec();
+    let cut_message = format!("/m.ply: byte {}: the file ends within element \"face\"", cut.len());
+    let cases: Vec<(Vec<u8>, &str)> = vec![
+        (Vec::new(), "/m.ply:1: the file ends within the header"),
+        (b"plyx\n".to_vec(), "/m.ply:1: the header: \"plyx\""),
+        (changed("format ascii 1.0\n", ""), "/m.ply:"),
+        (changed("property float y", "property floaty y"), "/m.ply:6: the header: \"property floaty y\""),
+        (changed("end_header\n", ""), "/m.ply:11: the header: \"0 0 0 7\""),
+        (changed("element vertex 5", &format!("element vertex {huge}")), "do not fit into the"),
+        (changed("element vertex 5", &format!("element vertex {huge}9")), "/m.ply:4: "),
+        (changed("element face 2", "element face 4000000000"), "4000000000 elements \"face\" do not fit"),
+        (changed("property list uchar uint vertex_indices\n", ""), "\"face\" needs one list of integers"),
+        (changed("uint vertex_indices", "float vertex_indices"), "\"face\" needs one list of integers"),
+        (changed("property float z", "property float w"), "element \"vertex\" has no number \"z\""),
+        (changed("property float z", "property list uchar float z"), "element \"vertex\" has no number \"z\""),
+        (changed("property uchar red", "property float x"), "declared twice"),
+        (
+            changed("element face", &format!("element empty {huge}\nelement face")),
+            "element \"empty\" has no properties",
+        ),
+        (changed("2 0 0 7", "2 0 zero 7"), "/m.ply:13: element \"vertex\": \"2 0 zero 7\": "),
+        (changed("2 0 0 7", "2 0"), "/m.ply:13: element \"vertex\": \"2 0\": Expected element"),
+        (changed("2 0 0 7", "2 0 nan 7"), "/m.ply:13: element \"vertex\": \"2 0 nan 7\": "),
+        (changed("2 0 0 7", "2 1e39 0 7"), "vertex 1 is at [2.0, inf, 0.0], which is not finite in f32"),
+        (changed("3 3 2 4", "3 3 2"), "/m.ply:18: element \"face\": \"3 3 2\": Expected 3 list elements"),
+        (changed("3 3 2 4", "3 3 2 -1"), "/m.ply:18: element \"face\": \"3 3 2 -1\": "),
+        (changed("3 3 2 4", "3 3 2 5"), "/m.ply: face 1: index 5 is out of range: there are 5 vertices"),
+        (changed("3 3 2 4", "3 3 2 2"), "/m.ply: face 1 has no area"),
+        (changed("3 3 2 4", "5 3 2 4 1 0"), "/m.ply: face 1 has 5 corners"),
+        (changed("3 3 2 4", "18446744073709551615 1"), "/m.ply:18: "),
+        (changed("3 3 2 4\n", ""), "/m.ply:18: the file ends within element \"face\""),
+        ([&b"ply\nformat ascii 1.0\nelement vertex 1\xff"[..], b"\n"].concat(), "/m.ply:"),
+        (cut, &cut_message),
+    ];
+    for (bytes, part) in cases {
+        let message = load_mesh(&bytes, "").unwrap_err();
+        assert!(message.starts_with("a.pbrt:3: Shape \"plymesh\": "), "{message}");
+        assert!(message.contains(part) && !message.contains('\n'), "{message}\n{part}");
+    }
+    // Normals decide the emitting side in pbrt.
+    let normals =
+        sound.replace("float x", "float nx\nproperty float x").replace("float y", "float ny\nproperty float y");
+    let normals = normals.replace("float z", "float nz\nproperty float z").replace(" 7\n", " 0 0 0 7\n");
+    assert!(load_mesh(normals.as_bytes(), LIGHT).unwrap_err().contains("\"N\" on a light"));
+    let trailing = [ascii(), b"more".to_vec()].concat();
+    assert!(warnings(&load_mesh(&trailing, "").unwrap())[0].contains("4 bytes after the last element ignored"));
+}
+
+/// Every prefix, and many files with some bytes changed, give a mesh or an error, in little memory.
+#[test]
+fn no_file_panics() {
+    let mut state = 7_u64;
+    let mut next = |n: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % n
+    };
+    for sound in [ascii(), binary(false), binary(true)] {
+        for end in 0..sound.len() {
+            let _ = ply::read("m.ply", &sound[..end]);
+        }
+        for _ in 0..3000 {
+            let mut bytes = sound.clone();
+            for _ in 0..1 + next(4) {
+                let at = next(bytes.len());
+                match next(3) {
+                    0 => bytes[at] = next(256) as u8,
+                    1 => bytes.insert(at, b'0' + next(10) as u8),
+                    _ => drop(bytes.remove(at)),
+                }
+            }
+            let _ = ply::read("m.ply", &bytes);
+        }
+    }
+}
