@@ -1,1 +1,18 @@
-//! Library.
+//! Oracles, domains, tolerances, and the laws that every warp obeys.
+//!
+//! A law is a plain function of a [`Subject`](laws::Subject) (a warp with its parameters) and perhaps a point of the unit square;
+//! it panics with the subject, the argument and the figure when it is broken. The tests in `tests/` run the laws over
+//! the regimes of [`domain`]; fuzz targets run them over arbitrary bits. A new warp needs a `Subject` and a line in a list.
+//!
+//! - [`oracle`]: closed forms, double-double arithmetic and quadrature; nothing here calls the code under test.
+//! - [`domain`]: arguments biased to where methods fail.
+//! - [`tolerances`]: the one table of tolerances, each with its reason.
+//! - [`stats`]: p-values.
+
+pub mod domain;
+pub mod double_double;
+pub mod laws;
+pub mod oracle;
+pub mod stats;
+pub mod subjects;
+pub mod tolerances;

@@ -12,24 +12,25 @@ lanewise! {
     /// The directions from a point to a triangle, uniform by solid angle.
     ///
     /// The map is Arvo's: u₀ sweeps the great circle through the vertex `v1` from `v0` to `v2` so that the swept area is u₀Ω, and u₁
-    /// moves away from `v1` uniformly in 1−cos. It is computed on the edges and never on differences of unit vectors, so that a
-    /// triangle of 1e−9 of its distance is sampled as well as a large one.
+    /// moves away from `v1` uniformly in 1−cos. Small differences come from the edges and never from unit vectors, so that a
+    /// triangle of 1e−9 of its distance is sampled as well as a large one; directions come from unit vectors and never from
+    /// points of the plane, so that the plane may be as near as it likes.
     ///
     /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l and cosines d between the V:
     ///   tan(Ω/2) = |V₀·(E₁×E₂)| / (l₀l₁l₂ + (V₀·V₁)l₂ + (V₀·V₂)l₁ + (V₁·V₂)l₀).
     ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), G₁ = d₀₂+d₁₂, G₂ = 1+d₀₁, η = u₀Ω/2, α = G₀cosη − G₁sinη, β = G₂sinη;
-    ///   the point P = V₀ + τE₂ of the far edge has τ : 1−τ = 2β(α+βd₀₂)/l₂ : (α−β)(α+β)/l₀; with δ = 1−cos∠(V₁,P),
-    ///   t = √(u₁(2−u₁δ)/(2−δ)) and k = 1−u₁δ−t(1−δ), the direction is V₁ + w(P−V₁), w = t·l₁/(k|P| + t·l₁).
+    ///   the point P = V₀ + τE₂ of the far edge has τ : 1−τ = 2β(α+βd₀₂)/l₂ : (α−β)(α+β)/l₀; with c = cos∠(V₁,P), δ = 1−c,
+    ///   z = 1−u₁δ and t = √(u₁(1+z)/(2−δ)), the direction is kV₁/l₁ + tP/|P|, k = z − tc, at the distance l₁|P|/(k|P| + tl₁).
     /// - Domain: u in [0, 1)²; any triangle, from any side.
     /// - Density: 1/Ω per steradian inside (and within 4 ulp of the direction beyond), 0 outside.
-    /// - Degenerate: edge-on from outside, zero area, or the point on a vertex: Ω = 0 and pdf 0. A point inside the triangle
-    ///   sees the hemisphere, Ω = 2π, over which this map is not defined everywhere: directions stay in the shape's plane.
-    /// - Greatest error: see `tests/src/tolerances.rs`: Ω 1e−6 relative; direction 1e−6 of the triangle's angular size or 2 ulp.
+    /// - Degenerate: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
+    /// - Greatest error: see `tests/src/tolerances.rs`.
     /// - Source: Arvo 1995, "Stratified Sampling of Spherical Triangles"; Van Oosterom and Strackee 1983 for Ω; Peters 2021,
     ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry; here on edges.
     SphericalTriangle {
         v0: Vec3<R>,
         v1: Vec3<R>,
+        v2: Vec3<R>,
         e1: Vec3<R>,
         e2: Vec3<R>,
         l1: R,
@@ -48,29 +49,48 @@ lanewise! {
     }
 }
 
+/// The point P of the far edge, and the angle between it and the apex.
+struct Arc<R> {
+    p: Vec3<R>,
+    inv_p: R,
+    /// 1−c, 1+c and c, none of them by cancellation
+    minus: R,
+    plus: R,
+    cos: R,
+}
+
 impl<R: Real> SphericalTriangle<R> {
     /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point.
     #[inline]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
-        Self::with_edges(v0, v1, v2, v1 - v0, v2 - v0)
+        let scale = v0.max_abs().max(v1.max_abs()).max(v2.max_abs()).exponent_reciprocal();
+        let (v0, v1, v2) = (v0 * scale, v1 * scale, v2 * scale);
+        Self::prepare(v0, v1, v2, v1 - v0, v2 - v0, scale)
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
     /// were moved to the point: for a small and far triangle they hold its shape.
     #[inline]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let reach = v0.max_abs().max(v1.max_abs()).max(v2.max_abs());
+        let reach = v0.max_abs().max(v1.max_abs()).max(v2.max_abs()).max(e1.max_abs()).max(e2.max_abs());
+        // sums that overflowed: a triangle of no extent
+        let finite = reach.lt(R::lit(f64::INFINITY));
         let scale = reach.exponent_reciprocal();
-        let (v0, v1, v2, e1, e2) = (v0 * scale, v1 * scale, v2 * scale, e1 * scale, e2 * scale);
-        let inverse_length = |v: Vec3<R>| {
-            let squared = v.length_squared();
-            rsqrt(squared).keep(squared.gt(R::lit(1e-36)))
-        };
-        let (i0, i1, i2) = (inverse_length(v0), inverse_length(v1), inverse_length(v2));
-        let l1 = v1.length();
+        let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
+        Self::prepare(scaled(v0), scaled(v1), scaled(v2), scaled(e1), scaled(e2), scale)
+    }
+
+    /// With all lengths below 4.
+    #[inline]
+    fn prepare(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, scale: R) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let squared = [v0, v1, v2].map(Vec3::length_squared);
+        let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
         let (d01, d02, d12) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2, v1.dot(v2) * i1 * i2);
-        let volume = v0.dot(e1.cross(e2));
+        // the same at each vertex; at the nearest it cancels least
+        let nearest = Vec3::select(squared[1].lt(squared[0]), v1, v0);
+        let nearest = Vec3::select(squared[2].lt(squared[0].min(squared[1])), v2, nearest);
+        let volume = nearest.dot(e1.cross(e2));
         let g0 = volume.abs() * i0 * i1 * i2;
         let (g1, g2) = (d02 + d12, one + d01);
         // at a vertex all of them are 0, and so is the angle
@@ -79,9 +99,10 @@ impl<R: Real> SphericalTriangle<R> {
         Self {
             v0,
             v1,
+            v2,
             e1,
             e2,
-            l1,
+            l1: squared[1] * i1,
             apex: v1 * i1,
             inv_l0: i0,
             inv_l2: i2,
@@ -103,6 +124,7 @@ impl<R: Real> SphericalTriangle<R> {
         Self {
             v0: vector(yes.v0, no.v0),
             v1: vector(yes.v1, no.v1),
+            v2: vector(yes.v2, no.v2),
             e1: vector(yes.e1, no.e1),
             e2: vector(yes.e2, no.e2),
             l1: real(yes.l1, no.l1),
@@ -138,9 +160,34 @@ impl<R: Real> SphericalTriangle<R> {
         self.volume.lt(R::lit(0.0))
     }
 
-    /// The point of the triangle for `u`, relative to the viewpoint and in units of `self.unit`.
+    /// P at τ of the far edge.
     #[inline]
-    fn point(&self, u: Vec2<R>) -> Vec3<R> {
+    fn arc(&self, tau: R) -> Arc<R> {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let p = self.v0.mul_add(one - tau, self.v2 * tau);
+        let p_squared = p.length_squared();
+        let inv_p = rsqrt(p_squared.max(R::lit(1e-36)));
+        // sin²∠(V₁,P) from P−V₁, or from P where that is the shorter: both err by parts in 2²⁴ of themselves
+        let edge = self.e2 * tau - self.e1;
+        let arm = Vec3::select(edge.length_squared().lt(p_squared), edge, p);
+        let sin_squared = (self.apex.cross(arm) * inv_p).length_squared();
+        let cos = self.apex.dot(p) * inv_p;
+        // 1 − |c|
+        let small = sin_squared / (one + cos.abs());
+        let acute = cos.gt(zero);
+        let large = two - small;
+        Arc {
+            p,
+            inv_p,
+            minus: R::select(acute, small, large),
+            plus: R::select(acute, large, small),
+            cos: (one - small).negate_where(!acute),
+        }
+    }
+
+    /// For `u`: the weights of the unit vectors to `v1` and to P whose sum is the direction; and P.
+    #[inline]
+    fn weights(&self, u: Vec2<R>) -> (R, R, Arc<R>) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let (s, c) = (u.x * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
         let alpha = self.g0.mul_add(c, -(self.g1 * s));
@@ -148,36 +195,29 @@ impl<R: Real> SphericalTriangle<R> {
         let w_a = ((alpha - beta) * (alpha + beta) * self.inv_l0).max(zero);
         let w_c = (two * beta * beta.mul_add(self.d02, alpha) * self.inv_l2).max(zero);
         let sum = w_a + w_c;
-        let tau = w_c / R::select(sum.gt(zero), sum, one);
+        let arc = self.arc(w_c / R::select(sum.gt(zero), sum, one));
 
-        let edge = self.e2 * tau - self.e1;
-        let p = self.e2.mul_add(tau, self.v0);
-        let p_squared = p.length_squared();
-        let inv_p = rsqrt(p_squared.max(R::lit(1e-36)));
-        let cos = self.apex.dot(p) * inv_p;
-        let sin = self.apex.cross(edge) * inv_p;
-        // 1 − cos: from the sine where the angle is acute
-        let acute = cos.gt(zero);
-        let delta = R::select(acute, sin.length_squared(), one - cos) / R::select(acute, one + cos, one);
-        let delta = delta.min(two);
-
-        let shrunk = (-u.y).mul_add(delta, one);
-        let t = (u.y * (one + shrunk) / (two - delta).max(R::lit(1e-12))).max(zero).sqrt();
-        let k = (-t).mul_add(one - delta, shrunk).max(zero);
-        let far = t * self.l1;
-        let near = k * (p_squared * inv_p);
-        let total = near + far;
-        let w = far / R::select(total.gt(zero), total, one);
-        edge.mul_add(w, self.v1)
+        let z = (-u.y).mul_add(arc.minus, one);
+        let t = (u.y * (one + z) / arc.plus.max(R::lit(1e-30))).max(zero).sqrt();
+        let tc = t * arc.cos;
+        // k = z − tc; where both have one sign that is (z² − t²c²)/(z + tc) = (1−u₁)(z+c)/((1+c)(z+tc))
+        let mixed = (z * arc.cos).le(zero);
+        let numerator = R::select(mixed, z - tc, (one - u.y) * (z + arc.cos));
+        let denominator = R::select(mixed, one, arc.plus * (z + tc));
+        let some = denominator.abs().gt(R::lit(1e-30));
+        let k = (numerator / R::select(some, denominator, one)).max(zero);
+        (k, t, arc)
     }
 
     /// The direction for `u` and the distance to the triangle along it.
     #[inline]
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
-        let point = self.point(u);
-        let squared = point.length_squared();
-        let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
-        Sighting { direction: point * inverse, distance: squared * inverse * self.unit }
+        let (k, t, arc) = self.weights(u);
+        let direction = self.apex.mul_add(k, arc.p * (t * arc.inv_p)).normalize();
+        // l₁/distance = k + tl₁/|P|
+        let reciprocal = t.mul_add(arc.inv_p * self.l1, k);
+        let some = reciprocal.gt(R::lit(0.0));
+        Sighting { direction, distance: (self.l1 / R::select(some, reciprocal, R::lit(1.0)) * self.unit).keep(some) }
     }
 
     /// Is the direction inside, give or take the rounding of the direction itself?
@@ -185,8 +225,15 @@ impl<R: Real> SphericalTriangle<R> {
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
         let [n0, n1, n2] = self.sides();
         let normal = self.e1.cross(self.e2);
-        let within = |n: Vec3<R>| (w.dot(n).negate_where(self.in_front())).ge(-(n.length() * R::lit(SLACK)));
-        within(n0) & within(n1) & within(n2) & within(normal)
+        // the great circle through two vertices that are nearly opposite is known no better than −cos : sin of their angle
+        let within = |n: Vec3<R>, opposite: R| {
+            let slack = n.length().max(opposite) * R::lit(SLACK);
+            w.dot(n).negate_where(self.in_front()).ge(-slack)
+        };
+        within(n0, -self.v1.dot(self.v2))
+            & within(n1, -self.v2.dot(self.v0))
+            & within(n2, -self.v0.dot(self.v1))
+            & within(normal, R::lit(0.0))
     }
 
     /// Normals of the planes through the viewpoint and the edges opposite v0, v1, v2; a direction's barycentrics are
@@ -201,7 +248,8 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     type Point = Vec3<R>;
     #[inline]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.point(u).normalize()
+        let (k, t, arc) = self.weights(u);
+        self.apex.mul_add(k, arc.p * (t * arc.inv_p)).normalize()
     }
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -216,21 +264,15 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
         let sum = b0 + b2;
         let tau = b2 / R::select(sum.gt(zero), sum, one);
         // the triangle v0, v1, P has the same form of solid angle, with the edge τE₂
-        let p = self.e2.mul_add(tau, self.v0);
-        let p_squared = p.length_squared();
-        let inv_p = rsqrt(p_squared.max(R::lit(1e-36)));
+        let Arc { p, inv_p, minus, cos, .. } = self.arc(tau);
         let inv_l1 = one / self.l1.max(R::lit(1e-18));
         let d0p = self.v0.dot(p) * self.inv_l0 * inv_p;
-        let d1p = self.apex.dot(p) * inv_p;
         let swept_g0 = tau * self.volume.abs() * self.inv_l0 * inv_l1 * inv_p;
-        let swept = two * swept_g0.atan2(self.g2 + d0p + d1p);
-        let sin = self.apex.cross(self.e2 * tau - self.e1) * inv_p;
-        let acute = d1p.gt(zero);
-        let delta = R::select(acute, sin.length_squared(), one - d1p) / R::select(acute, one + d1p, one);
+        let swept = two * swept_g0.atan2(self.g2 + d0p + cos);
         let moved = (w - self.apex).length_squared() * R::lit(0.5);
         Vec2 {
             x: unit_interval(swept / self.solid_angle.max(R::lit(1e-37))),
-            y: unit_interval(moved / delta.max(R::lit(1e-37))),
+            y: unit_interval(moved / minus.max(R::lit(1e-37))),
         }
     }
 }

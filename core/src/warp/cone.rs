@@ -9,7 +9,8 @@ const SLACK: f64 = 4.0 / 16_777_216.0;
 
 /// Uniform over the directions within an angle σ of +z.
 ///
-/// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h(2−u₀h)), φ = 2πu₁. No term cancels at any σ.
+/// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h · ((2−h) + h(1−u₀))), φ = 2πu₁. No term cancels at any σ, nor near
+///   the far pole.
 /// - Domain: u in [0, 1)²; h in [0, 2].
 /// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
 /// - Degenerate: h = 0 gives +z and pdf 0.
@@ -62,8 +63,11 @@ impl<R: Real> Warp<R> for Cone<R> {
     type Point = Vec3<R>;
     #[inline]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let k = u.x * self.one_minus_cos;
-        let sin = (k * (R::lit(2.0) - k)).max(R::lit(0.0)).sqrt();
+        let h = self.one_minus_cos;
+        let k = u.x * h;
+        // 2 − k without cancellation: both terms are ≥ 0, and 2−h is exact where it matters
+        let rest = h.mul_add(R::lit(1.0) - u.x, R::lit(2.0) - h);
+        let sin = (k * rest).max(R::lit(0.0)).sqrt();
         let (s, c) = u.y.sin_cos_turns();
         Vec3::new(sin * c, sin * s, R::lit(1.0) - k)
     }

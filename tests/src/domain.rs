@@ -1,0 +1,263 @@
+//! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
+
+use crate::subjects::{Cap, Cone, Parallelogram, Triangle};
+
+/// SplitMix64: nothing of the generators under test.
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+impl Random {
+    /// A stream.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def0)
+    }
+    /// 64 bits.
+    pub fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ z >> 31
+    }
+    /// A multiple of 2⁻²⁴ in [0, 1).
+    pub fn unit(&mut self) -> f32 {
+        (self.word() >> 40) as f32 / 16_777_216.0
+    }
+    /// In [0, 1).
+    pub fn unit_f64(&mut self) -> f64 {
+        (self.word() >> 11) as f64 / 9_007_199_254_740_992.0
+    }
+    /// Uniform between the two.
+    pub fn range(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit_f64()
+    }
+    /// Uniform on a logarithmic scale between the two.
+    pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+        self.range(low.ln(), high.ln()).exp()
+    }
+    /// A unit vector, uniform.
+    pub fn direction(&mut self) -> [f64; 3] {
+        let (z, phi) = (self.range(-1.0, 1.0), self.range(0.0, core::f64::consts::TAU));
+        let r = (1.0 - z * z).sqrt();
+        [r * phi.cos(), r * phi.sin(), z]
+    }
+    /// Any finite f32: random bits.
+    pub fn any_f32(&mut self) -> f32 {
+        loop {
+            let x = f32::from_bits(self.word() as u32);
+            if x.is_finite() {
+                return x;
+            }
+        }
+    }
+}
+
+const EPSILON: f32 = 1.0 / 16_777_216.0;
+/// Numbers of [0, 1) at which maps break: the ends, the middle, their neighbours.
+pub const EDGES: [f32; 11] = [
+    0.0,
+    EPSILON,
+    2.0 * EPSILON,
+    1e-3,
+    0.25,
+    0.5 - EPSILON,
+    0.5,
+    0.5 + EPSILON,
+    0.75,
+    1.0 - 2.0 * EPSILON,
+    1.0 - EPSILON,
+];
+
+/// All pairs of [`EDGES`] and `random` points more.
+#[must_use]
+pub fn square(random: usize, seed: u64) -> Vec<[f32; 2]> {
+    let mut rng = Random::new(seed);
+    let mut all: Vec<_> = EDGES.iter().flat_map(|&x| EDGES.map(|y| [x, y])).collect();
+    all.extend((0..random).map(|_| [rng.unit(), rng.unit()]));
+    all
+}
+
+/// A shape and the regime that it stands for.
+pub type Case<S> = (&'static str, S);
+
+fn narrow(a: [f64; 3]) -> [f32; 3] {
+    a.map(|x| x as f32)
+}
+fn frame(random: &mut Random) -> [[f64; 3]; 3] {
+    let n = random.direction();
+    let (s, t) = crate::oracle::basis(n);
+    let turn = random.range(0.0, core::f64::consts::TAU);
+    let mix = |a: [f64; 3], b: [f64; 3], c: f64, d: f64| core::array::from_fn(|i| a[i] * c + b[i] * d);
+    [mix(s, t, turn.cos(), turn.sin()), mix(s, t, -turn.sin(), turn.cos()), n]
+}
+fn combine(axes: &[[f64; 3]; 3], x: f64, y: f64, z: f64) -> [f64; 3] {
+    core::array::from_fn(|i| axes[0][i] * x + axes[1][i] * y + axes[2][i] * z)
+}
+
+/// Cones from 1e−6 to π, by half-angle.
+#[must_use]
+pub fn cones() -> Vec<Case<Cone>> {
+    let of = |sigma: f64| Cone { one_minus_cos: (2.0 * (sigma / 2.0).sin().powi(2)) as f32 };
+    let mut all: Vec<_> = [
+        ("1e-15", 1e-15),
+        ("1e-9", 1e-9),
+        ("1e-6", 1e-6),
+        ("1e-4", 1e-4),
+        ("series seam of others", 0.0262),
+        ("0.1", 0.1),
+        ("1", 1.0),
+        ("just below a hemisphere", 1.57),
+        ("beyond a hemisphere", 1.58),
+        ("2.5", 2.5),
+        ("near the sphere", 3.1),
+        ("nearer the sphere", 3.14),
+    ]
+    .map(|(name, sigma)| (name, of(sigma)))
+    .to_vec();
+    all.push(("hemisphere", Cone { one_minus_cos: 1.0 }));
+    all.push(("sphere", Cone { one_minus_cos: 2.0 }));
+    all.push(("sphere, all but a point", Cone { one_minus_cos: 2.0 - 2.0 * EPSILON }));
+    all
+}
+
+/// Flat shapes by regime: corner, two edges. `each` random ones of every regime; the second half of them is given by corners that
+/// were moved to the viewpoint, the first by edges.
+fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        let mut push = |name, f: &mut dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3]| {
+            let axes = frame(&mut random);
+            all.push((name, f(&mut random, axes).map(narrow)));
+        };
+        // edges in the plane z = const of the frame, around the axis
+        let facing = |r: &mut Random, a: [[f64; 3]; 3], size: f64, shift: f64| {
+            let (x, y) = (r.range(-1.0, 1.0) * shift, r.range(-1.0, 1.0) * shift);
+            let angle = r.range(0.6, 2.4);
+            let e1 = combine(&a, size, 0.0, 0.0);
+            let e2 = combine(&a, size * angle.cos(), size * angle.sin(), 0.0);
+            let v0 = combine(&a, x - 0.4 * size, y - 0.3 * size, 1.0);
+            [v0, e1, e2]
+        };
+        push("ordinary", &mut |r, a| facing(r, a, 1.0, 0.7));
+        push("small 1e-2", &mut |r, a| facing(r, a, 1e-2, 0.7));
+        push("tiny 1e-5", &mut |r, a| facing(r, a, 1e-5, 0.7));
+        push("tiny 1e-7", &mut |r, a| facing(r, a, 1e-7, 0.7));
+        push("tiny 1e-9", &mut |r, a| facing(r, a, 1e-9, 0.7));
+        push("far 1e9", &mut |r, a| facing(r, a, 1e-9, 0.7).map(|v| v.map(|x| x * 1e12)));
+        let upright = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        push("on the axis, 1e-4", &mut |r, _| facing(r, upright, 1e-4, 1e-4));
+        push("on the axis, 1e-9", &mut |r, _| facing(r, upright, 1e-9, 1e-9));
+        push("large 6", &mut |r, a| facing(r, a, 6.0, 1.0));
+        push("near-hemisphere 30", &mut |r, a| facing(r, a, 30.0, 3.0));
+        push("near-hemisphere 1e3", &mut |r, a| facing(r, a, 1e3, 30.0));
+        push("near-hemisphere 1e5", &mut |r, a| facing(r, a, 1e5, 1e3));
+        push("oblique", &mut |r, a| {
+            let v0 = combine(&a, r.range(-1.0, 1.0), 2.0, 1.0);
+            [v0, combine(&a, 1.0, 0.2, 0.6), combine(&a, -0.5, 0.4, -0.8)]
+        });
+        push("grazing 1e-2", &mut |r, a| {
+            [combine(&a, r.range(-1.0, 1.0), 2.0, 1e-2), combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)]
+        });
+        push("grazing 1e-4", &mut |r, a| {
+            [combine(&a, r.range(-1.0, 1.0), 2.0, 1e-4), combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)]
+        });
+        push("sliver 1e2", &mut |r, a| {
+            [combine(&a, -0.5, r.range(-1.0, 1.0), 1.0), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.5, 1e-2, 0.0)]
+        });
+        push("sliver 1e4", &mut |r, a| {
+            [combine(&a, -0.5, r.range(-1.0, 1.0), 1.0), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.5, 1e-4, 0.0)]
+        });
+        push("sliver 1e4 from its end", &mut |r, a| {
+            [combine(&a, r.range(0.1, 1.0), 0.0, 1.0), combine(&a, 1e-4, 0.0, 0.0), combine(&a, 0.0, 1.0, 0.0)]
+        });
+        push("near a vertex", &mut |r, a| {
+            [combine(&a, 1e-3 * r.range(-1.0, 1.0), 1e-3, 1e-3), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.3, 0.9, 0.0)]
+        });
+        push("near an edge", &mut |r, a| {
+            [combine(&a, -0.5, 1e-3 * r.range(-1.0, 1.0), 1e-3), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.3, 0.9, 0.0)]
+        });
+    }
+    all
+}
+
+/// Triangles of every regime.
+#[must_use]
+pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
+    flats(each, seed)
+        .into_iter()
+        .enumerate()
+        .map(|(i, (name, [v0, e1, e2]))| {
+            let by_edges = Triangle::by_edges(v0, e1, e2);
+            // a corner that is moved to the viewpoint loses a tiny shape, and the sum rounds: then the shape is another, but exact
+            let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
+            let by_vertices = Triangle::by_vertices(v0, add(v0, e1), add(v0, e2));
+            let whole = !(name.contains("tiny") || name.contains("far") || name.contains("sliver 1e4"));
+            (name, if whole && i % 2 == 0 { by_vertices } else { by_edges })
+        })
+        .collect()
+}
+
+/// Parallelograms of every regime.
+#[must_use]
+pub fn parallelograms(each: usize, seed: u64) -> Vec<Case<Parallelogram>> {
+    flats(each, seed).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
+}
+
+/// Spheres of every regime.
+#[must_use]
+pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, ratio, unit) in [
+            ("ordinary", 0.3, 1.0),
+            ("small 1e-3", 1e-3, 1.0),
+            ("tiny 1e-7", 1e-7, 1.0),
+            ("tiny 1e-9", 1e-9, 1.0),
+            ("far 1e9", 1e-9, 1e12),
+            ("small units", 0.2, 1e-12),
+            ("close", 0.9, 1.0),
+            ("touching 1e-3", 0.999, 1.0),
+            ("touching 1e-5", 0.99999, 1.0),
+            ("inside, near the surface", 1.0001, 1.0),
+            ("inside", 1.5, 1.0),
+            ("deep inside", 1e3, 1.0),
+        ] {
+            let center = narrow(random.direction().map(|x| x * unit));
+            all.push((name, Cap::new(center, (ratio * unit) as f32)));
+        }
+        let size = random.magnitude(1e-9, 1e-2);
+        all.push(("on the axis", Cap::new([0.0, 0.0, 1.0], size as f32)));
+    }
+    all
+}
+
+/// Lengths and coordinates that break naive code.
+pub const NASTY: [f32; 14] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    1e-30,
+    -1e-30,
+    1e30,
+    -1e30,
+    1e-42,
+    1e-45,
+    f32::MIN_POSITIVE,
+    1.0 + 2.0 * EPSILON,
+    f32::MAX,
+    -f32::MAX,
+];
+
+/// A vector of [`NASTY`] coordinates, often with equal ones.
+pub fn nasty(random: &mut Random) -> [f32; 3] {
+    let mut pick = || NASTY[(random.word() % NASTY.len() as u64) as usize];
+    let (a, b, c) = (pick(), pick(), pick());
+    match random.word() % 4 {
+        0 => [0.0, a, 0.0],
+        1 => [a, a, b],
+        _ => [a, b, c],
+    }
+}

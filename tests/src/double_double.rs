@@ -1,0 +1,108 @@
+//! 106-bit arithmetic: sums and products of pairs of f64, exact to about 2⁻¹⁰⁴. Source: Dekker 1971; Knuth, TAOCP 2, 4.2.2.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// An unevaluated sum of two f64.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Dd(f64, f64);
+
+fn two_sum(a: f64, b: f64) -> Dd {
+    let s = a + b;
+    let t = s - a;
+    Dd(s, (a - (s - t)) + (b - t))
+}
+
+impl Dd {
+    /// Rounded to f64.
+    #[must_use]
+    pub fn to_f64(self) -> f64 {
+        self.0 + self.1
+    }
+    /// Square root, by one step of Newton's method.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        if self.0 <= 0.0 {
+            return Self(0.0, 0.0);
+        }
+        let x = self.0.sqrt();
+        let rest = self - Self(x, 0.0) * Self(x, 0.0);
+        Self(x, 0.0) + Self(rest.to_f64() / (2.0 * x), 0.0)
+    }
+    /// Absolute value.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        if self.0 < 0.0 { -self } else { self }
+    }
+}
+
+impl From<f64> for Dd {
+    fn from(x: f64) -> Self {
+        Self(x, 0.0)
+    }
+}
+impl Add for Dd {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        let (high, low) = (two_sum(self.0, o.0), two_sum(self.1, o.1));
+        let s = two_sum(high.0, high.1 + low.0);
+        two_sum(s.0, s.1 + low.1)
+    }
+}
+impl Neg for Dd {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0, -self.1)
+    }
+}
+impl Sub for Dd {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        self + -o
+    }
+}
+impl Mul for Dd {
+    type Output = Self;
+    fn mul(self, o: Self) -> Self {
+        let p = self.0 * o.0;
+        let e = self.0.mul_add(o.0, -p);
+        two_sum(p, e + (self.0 * o.1 + self.1 * o.0))
+    }
+}
+impl Div for Dd {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        let q = self.0 / o.0;
+        let rest = self - Self(q, 0.0) * o;
+        two_sum(q, rest.to_f64() / o.0)
+    }
+}
+
+/// Three of them.
+pub type Dd3 = [Dd; 3];
+
+/// Inner product.
+#[must_use]
+pub fn dot(a: Dd3, b: Dd3) -> Dd {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// a·(b×c).
+#[must_use]
+pub fn determinant(a: Dd3, b: Dd3, c: Dd3) -> Dd {
+    let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+    dot(a, cross)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[test]
+    fn third_and_root() {
+        let third = Dd::from(1.0) / Dd::from(3.0);
+        assert!((third * Dd::from(3.0) - Dd::from(1.0)).to_f64().abs() < 1e-31);
+        let root = Dd::from(2.0).sqrt();
+        assert!((root * root - Dd::from(2.0)).to_f64().abs() < 1e-31);
+        let tiny = (Dd::from(1.0) + Dd::from(1e-25)) - Dd::from(1.0);
+        assert!((tiny.to_f64() / 1e-25 - 1.0).abs() < 1e-6);
+    }
+}

@@ -1,0 +1,7 @@
+//! The warps under test, with what is known about each from elsewhere.
+
+mod flat;
+mod round;
+
+pub use flat::{AreaTriangle, Parallelogram, Triangle};
+pub use round::{Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, off_the_sphere};

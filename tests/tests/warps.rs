@@ -1,0 +1,127 @@
+//! Every law for every warp in every regime. `--nocapture` prints the greatest figure of each (warp, regime, law).
+
+use etendue_tests::domain::{self, Case, Random};
+use etendue_tests::laws::{self, Subject};
+use etendue_tests::subjects::{
+    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, Triangle, UniformHemisphere,
+    UniformSphere,
+};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Runs one law over the cases; reports every regime that breaks it, with the first message.
+fn each<S: Subject>(law: &str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> Option<String> {
+    let mut regimes: Vec<(&str, f64, usize, String)> = Vec::new();
+    for (i, (regime, subject)) in cases.iter().enumerate() {
+        let at = regimes.iter().position(|r| r.0 == *regime).unwrap_or_else(|| {
+            regimes.push((regime, 0.0, 0, String::new()));
+            regimes.len() - 1
+        });
+        let entry = &mut regimes[at];
+        match catch_unwind(AssertUnwindSafe(|| run(subject, i))) {
+            Ok(figure) => entry.1 = entry.1.max(figure),
+            Err(error) => {
+                if entry.2 == 0 {
+                    entry.3 = error.downcast_ref::<String>().map_or_else(|| "panic inside".into(), Clone::clone);
+                }
+                entry.2 += 1;
+            }
+        }
+    }
+    for (regime, figure, broken, _) in &regimes {
+        println!("{law:10} {regime:28} {figure:9.3e} {}", if *broken > 0 { "BROKEN" } else { "" });
+    }
+    let failures: Vec<_> = regimes.iter().filter(|r| r.2 > 0).map(|r| format!("[{}] ×{}: {}", r.0, r.2, r.3)).collect();
+    (!failures.is_empty()).then(|| format!("{law}:\n{}", failures.join("\n")))
+}
+
+/// All laws over the cases, at the edges of the square and `random` points more.
+fn all<S: Subject>(cases: &[Case<S>], random: usize) {
+    // broken laws are reported together, at the end
+    std::panic::set_hook(Box::new(|_| {}));
+    let square = domain::square(random, 1);
+    let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
+        let square = &square;
+        move |s: &S, seed: usize| {
+            let mut random = Random::new(seed as u64);
+            square.iter().map(|&u| run(s, u, &mut random)).fold(0.0, f64::max)
+        }
+    };
+    let failures: Vec<_> = [
+        each("total", cases, at(|s, u, _| {
+            laws::total(s, u);
+            0.0
+        })),
+        each("scale", cases, at(|s, u, _| {
+            laws::scale(s, u);
+            0.0
+        })),
+        each("accurate", cases, at(|s, u, _| laws::accurate(s, u))),
+        each("closed", cases, at(|s, u, _| laws::closed(s, u))),
+        each("density", cases, at(|s, u, r| laws::density(s, u, [r.unit_f64(), r.unit_f64()]))),
+        each("onto", cases, at(|s, _, r| laws::onto(s, [r.unit_f64(), r.unit_f64()]))),
+        each("jacobian", cases, at(|s, _, r| laws::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
+        each("outside", cases, at(|s, _, r| {
+            laws::outside(s, r);
+            0.0
+        })),
+        each("integral", cases, |s, _| laws::integral(s)),
+        each("chi-square", cases, |s, i| laws::chi_square(s, i as u64)),
+        each("lanes", cases, |_, i| {
+            // each lane a different regime, each with its own u
+            let kin: Vec<S> = cases.iter().map(|c| c.1).filter(|s| s.kin(&cases[i].1)).collect();
+            let lanes = core::array::from_fn(|k| kin[(i + k * 3) % kin.len()]);
+            for start in (0..square.len() - 8).step_by(5) {
+                laws::lanes(&lanes, &core::array::from_fn(|k| square[start + k]));
+            }
+            0.0
+        }),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if !failures.is_empty() {
+        println!("broken laws:\n{}", failures.join("\n"));
+        panic!("broken laws: see above");
+    }
+}
+
+#[test]
+fn concentric_disk() {
+    all(&[("whole", ConcentricDisk)], 4000);
+}
+#[test]
+fn polar_disk() {
+    all(&[("whole", PolarDisk)], 4000);
+}
+#[test]
+fn area_triangle() {
+    all(&[("whole", AreaTriangle)], 4000);
+}
+#[test]
+fn cosine_hemisphere() {
+    all(&[("whole", CosineHemisphere)], 4000);
+}
+#[test]
+fn uniform_hemisphere() {
+    all(&[("whole", UniformHemisphere)], 4000);
+}
+#[test]
+fn uniform_sphere() {
+    all(&[("whole", UniformSphere)], 4000);
+}
+#[test]
+fn cone() {
+    all(&domain::cones(), 1000);
+}
+#[test]
+fn sphere_cap() {
+    all(&domain::caps(8, 11), 200);
+}
+#[test]
+fn spherical_triangle() {
+    all(&domain::triangles(4, 12), 60);
+}
+#[test]
+fn spherical_parallelogram() {
+    all(&domain::parallelograms(8, 13), 200);
+}
