@@ -1,0 +1,205 @@
+//! Images against the references of an independent renderer (256×256, 32,768 samples per pixel).
+//!
+//! Significance: three scenes × four techniques × two samplers give 24 images with four figures each (z of the mean in three
+//! channels, z of the mean squared error). A correct renderer passes all 96 bounds of 4.5 with probability 1 − 96 · 6.8e−6 = 0.9993;
+//! seeds are fixed, so that a test that passes once passes always. Both signs count: a variance layer that claims too much
+//! is as wrong as one that claims too little. The last checks of [`scene`] show what the bounds would reject.
+
+use etendue_render::compare::{Comparison, Prediction};
+use etendue_render::film::Film;
+use etendue_render::image::{self, Picture};
+use etendue_render::{Sampler, Settings, Technique, World, scene};
+use std::path::Path;
+
+const LIMIT: f64 = 4.5;
+const TECHNIQUES: [Technique; 4] =
+    [Technique::Area, Technique::SolidAngle, Technique::CosineHemisphere, Technique::UniformHemisphere];
+const SAMPLERS: [Sampler; 2] = [Sampler::Independent, Sampler::Stratified];
+
+fn picture(film: &Film) -> Picture {
+    Picture {
+        width: film.width as usize,
+        height: film.height as usize,
+        radiance: film.pixels.iter().map(|p| p.mean).collect(),
+        variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
+    }
+}
+
+fn reference(name: &str) -> Picture {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/references/{name}.exr"));
+    image::read_exr(&path).unwrap()
+}
+
+fn prediction(reference: &Picture, image: &Picture, reference_error: f64) -> Prediction {
+    Comparison::new(reference, image, reference_error).unwrap().predicted.expect("the variance is finite")
+}
+
+fn mean_agrees(p: &Prediction) -> bool {
+    p.z.iter().all(|z| z.abs() < LIMIT)
+}
+
+fn agrees(p: &Prediction) -> bool {
+    mean_agrees(p) && p.z_mse.abs() < LIMIT
+}
+
+/// All techniques and samplers on one scene. `hemisphere_spp` is more where few directions find a light; `hemisphere_scale` is the
+/// factor of radiance that so noisy an image must still betray, for the techniques that sample lights it is 1.01.
+fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemisphere_scale: f32) {
+    let reference = reference(name);
+    let pixels = reference.radiance.len() as f64;
+    let sum: f64 = reference.radiance.iter().flatten().map(|&x| f64::from(x)).sum();
+    assert!(
+        (sum / (3.0 * pixels) - mean).abs() < 1e-6,
+        "not the reference that it should be: {}",
+        sum / (3.0 * pixels)
+    );
+
+    let world = World::new(&scene::load(name).unwrap()).unwrap();
+    for technique in TECHNIQUES {
+        let towards_lights = matches!(technique, Technique::Area | Technique::SolidAngle);
+        let (spp, scale) = if towards_lights { (64, 1.01) } else { (hemisphere_spp, hemisphere_scale) };
+        for sampler in SAMPLERS {
+            let settings = Settings { width: 256, height: 256, spp, technique, sampler, seed: 1 };
+            let image = picture(&world.render(&settings, |_| ()).0);
+            let p = prediction(&reference, &image, reference_error);
+            println!("{name} {technique:?} {sampler:?} {spp} spp: {p:?}");
+            assert!(agrees(&p), "{name} {technique:?} {sampler:?}: {p:?}");
+
+            // the same check must fail for an image that is slightly wrong
+            for factor in [0.5, 2.0] {
+                let variance = image.variance.as_ref().unwrap().iter().map(|v| v.map(|x| x * factor)).collect();
+                let wrong = Picture { variance: Some(variance), ..image.clone() };
+                let p = prediction(&reference, &wrong, reference_error);
+                assert!(!agrees(&p), "{name} {technique:?} {sampler:?}: variance × {factor} passes: {p:?}");
+            }
+            for factor in [scale, 1.0 / scale] {
+                let radiance = image.radiance.iter().map(|p| p.map(|x| x * factor)).collect();
+                let wrong = Picture { radiance, ..image.clone() };
+                let p = prediction(&reference, &wrong, reference_error);
+                assert!(!mean_agrees(&p), "{name} {technique:?} {sampler:?}: radiance × {factor} passes: {p:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sphere_light() {
+    scene("sphere-light", 0.230_541, 4.8e-9, 128, 1.05);
+}
+
+#[test]
+fn triangle_light() {
+    scene("triangle-light", 0.297_986, 2.6e-8, 128, 1.01);
+}
+
+#[test]
+fn quads() {
+    scene("quads", 0.123_276, 1.9e-8, 128, 1.05);
+}
+
+/// One film for one seed: on one, two or three threads, which take tiles in different orders.
+#[test]
+fn threads_do_not_matter_and_seeds_do() {
+    let world = World::new(&scene::load("quads").unwrap()).unwrap();
+    for (technique, sampler, spp) in [
+        (Technique::SolidAngle, Sampler::Stratified, 16),
+        (Technique::Area, Sampler::Independent, 5),
+        (Technique::CosineHemisphere, Sampler::Independent, 8),
+        (Technique::UniformHemisphere, Sampler::Stratified, 6),
+    ] {
+        // 16 divides neither side: some tiles are smaller
+        let settings = Settings { width: 100, height: 75, spp, technique, sampler, seed: 7 };
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| world.render(&settings, |_| ()))
+        };
+        let one = on(1);
+        assert_eq!(one, on(2));
+        assert_eq!(one, on(3));
+        let other = world.render(&Settings { seed: 8, ..settings }, |_| ());
+        assert_eq!(other.1.camera, one.1.camera);
+        let same = one.0.pixels.iter().zip(&other.0.pixels).filter(|(a, b)| a == b && a.mean != [0.0; 3]).count();
+        assert!(same * 100 < one.0.pixels.len(), "{same} pixels do not depend on the seed");
+        // and the two agree
+        let p = prediction(&picture(&one.0), &picture(&other.0), 0.0);
+        assert!(mean_agrees(&p), "{technique:?} {sampler:?}: {p:?}");
+    }
+}
+
+/// Counts that fill no packet, counts that strata do not divide, and images smaller than a tile have the mean of a precise image.
+#[test]
+fn any_number_of_samples_and_any_size() {
+    let world = World::new(&scene::load("triangle-light").unwrap()).unwrap();
+    for (width, height) in [(1, 1), (17, 5), (64, 33)] {
+        let of = |spp, technique, sampler, seed| {
+            let settings = Settings { width, height, spp, technique, sampler, seed };
+            let (film, rays) = world.render(&settings, |_| ());
+            assert_eq!((film.width, film.height, film.samples), (width, height, spp));
+            assert_eq!(film.pixels.len(), (width * height) as usize);
+            assert_eq!(rays.camera, u64::from(width * height * spp));
+            assert!(film.pixels.iter().flat_map(|p| p.mean).all(|x| x.is_finite() && x >= 0.0));
+            picture(&film)
+        };
+        let precise = of(4096, Technique::SolidAngle, Sampler::Stratified, 1);
+        for spp in [1, 2, 3, 7, 8, 12, 15, 16, 20, 24] {
+            for technique in TECHNIQUES {
+                for sampler in SAMPLERS {
+                    let mut image = of(spp, technique, sampler, 2);
+                    let known = match sampler {
+                        Sampler::Independent => spp > 1,
+                        Sampler::Stratified => spp.is_multiple_of(2),
+                    };
+                    let variance = image.variance.as_ref().unwrap();
+                    let at = |i: usize| variance[i].iter().all(|x| x.is_finite() && *x >= 0.0);
+                    assert!((0..variance.len()).all(|i| at(i) == known), "{spp} {sampler:?}: {variance:?}");
+                    if !known {
+                        // its variance is at most that of independent samples: from as many seeds as make it known
+                        let more: Vec<_> = (3..19).map(|seed| of(spp, technique, sampler, seed).radiance).collect();
+                        let n = more.len() as f32;
+                        image.radiance = (0..variance.len())
+                            .map(|i| std::array::from_fn(|k| more.iter().map(|r| r[i][k]).sum::<f32>() / n))
+                            .collect();
+                        let mean = image.radiance.clone();
+                        let spread = |i: usize, k: usize| {
+                            more.iter().map(|r| (r[i][k] - mean[i][k]).powi(2)).sum::<f32>() / (n - 1.0) / n
+                        };
+                        image.variance = Some((0..mean.len()).map(|i| std::array::from_fn(|k| spread(i, k))).collect());
+                    }
+                    // one pixel of few samples has no normal distribution: its z is bounded elsewhere, by the larger images
+                    if width > 1 {
+                        let p = prediction(&precise, &image, 0.0);
+                        assert!(mean_agrees(&p), "{width}x{height}, {spp} spp, {technique:?} {sampler:?}: {p:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A million triangles: two techniques that share nothing but the scene agree.
+#[test]
+fn terrain_agrees_with_itself() {
+    let world = World::new(&scene::load("terrain").unwrap()).unwrap();
+    // techniques that share a seed share their noise in part
+    let of = |spp, technique| {
+        let seed = technique as u64;
+        let settings = Settings { width: 64, height: 64, spp, technique, sampler: Sampler::Independent, seed };
+        picture(&world.render(&settings, |_| ()).0)
+    };
+    let lights = of(64, Technique::SolidAngle);
+    for (spp, technique) in
+        [(64, Technique::Area), (1024, Technique::CosineHemisphere), (1024, Technique::UniformHemisphere)]
+    {
+        let p = prediction(&lights, &of(spp, technique), 0.0);
+        println!("{technique:?}: {p:?}");
+        assert!(agrees(&p), "{technique:?}: {p:?}");
+    }
+    // one sample has no variance of its own: the spread over pixels stands in for it
+    let one = of(1, Technique::Area);
+    let difference = |i: usize| f64::from(one.radiance[i][0]) - f64::from(lights.radiance[i][0]);
+    let n = one.radiance.len();
+    let mean = (0..n).map(difference).sum::<f64>() / n as f64;
+    let variance = (0..n).map(|i| (difference(i) - mean).powi(2)).sum::<f64>() / (n as f64 - 1.0);
+    let z = mean / (variance / n as f64).sqrt();
+    assert!(z.abs() < LIMIT, "z = {z}");
+}
