@@ -1,0 +1,352 @@
+//! The program as its user meets it: output, messages, exit codes.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::{env, fs, process};
+
+/// A folder of its own for each test, gone when the test ends.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Self {
+        static NEXT: AtomicU32 = AtomicU32::new(0);
+        let name = format!("etendue-cli-{}-{}", process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+        let path = env::temp_dir().join(name);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(name)
+    }
+    /// A file in the folder.
+    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        fs::write(&path, bytes).unwrap();
+        path
+    }
+    /// Names of the files in the folder.
+    fn names(&self) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(&self.0).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+    /// Runs the program in the folder.
+    fn run(&self, arguments: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_etendue")).current_dir(&self.0).args(arguments).output().unwrap()
+    }
+    /// Its standard output, after success without a word on standard error.
+    fn succeed(&self, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success() && error.is_empty(), "{arguments:?}: {:?}: {error}", output.status);
+        String::from_utf8(output.stdout).unwrap()
+    }
+    /// Its message, after exit code 2 and nothing on standard output.
+    fn fail(&self, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(output.stdout.is_empty() && !error.is_empty(), "{arguments:?}: {:?}", output.stdout);
+        assert!(!error.contains("panicked"), "{error}");
+        error
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn json(text: &str) -> Value {
+    assert_eq!(text.trim_end().lines().count(), 1, "one object on one line: {text}");
+    serde_json::from_str(text).unwrap()
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    let mut keys: Vec<_> = value.as_object().unwrap().keys().map(String::as_str).collect();
+    keys.sort_unstable();
+    keys
+}
+
+/// A scene on five lines: line 1 the camera and film, 2 `WorldBegin`, 3 a light, 4 the ground, 5 `last`.
+fn scene(last: &str) -> String {
+    format!(
+        "LookAt 0 4 6 0 0 0 0 1 0 Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n\
+         WorldBegin\n\
+         AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] Translate 0 3 0 Shape \"sphere\" AttributeEnd\n\
+         Shape \"trianglemesh\" \"point3 P\" [-9 0 9 9 0 9 0 0 -9]\n\
+         {last}\n"
+    )
+}
+
+#[test]
+fn json_has_the_fields_that_it_should() {
+    let folder = Folder::new();
+    let text = folder.succeed(&[
+        "render",
+        "quads",
+        "--json",
+        "--size",
+        "40x24",
+        "--spp",
+        "6",
+        "--technique",
+        "area",
+        "--sampler",
+        "independent",
+        "--seed",
+        "3",
+        "--threads",
+        "2",
+        "--repeat",
+        "3",
+        "-o",
+        "a.exr",
+    ]);
+    let report = json(&text);
+    let expected = [
+        "height",
+        "mean",
+        "output",
+        "rays",
+        "sampler",
+        "scene",
+        "seconds",
+        "seed",
+        "spp",
+        "technique",
+        "threads",
+        "width",
+    ];
+    assert_eq!(keys(&report), expected);
+    assert_eq!(keys(&report["seconds"]), ["build", "load", "render"]);
+    assert_eq!(keys(&report["rays"]), ["camera", "shadow"]);
+    assert_eq!((&report["scene"], &report["output"]), (&Value::from("quads"), &Value::from("a.exr")));
+    assert_eq!((&report["technique"], &report["sampler"]), (&Value::from("area"), &Value::from("independent")));
+    let number = |key: &str| report[key].as_u64().unwrap();
+    assert_eq!(["width", "height", "spp", "seed", "threads"].map(number), [40, 24, 6, 3, 2]);
+    assert_eq!(report["rays"]["camera"], 40 * 24 * 6);
+    assert!((1..=40 * 24 * 6).contains(&report["rays"]["shadow"].as_u64().unwrap()));
+    let seconds = report["seconds"]["render"].as_array().unwrap();
+    assert_eq!(seconds.len(), 3);
+    assert!(
+        seconds
+            .iter()
+            .chain([&report["seconds"]["load"], &report["seconds"]["build"]])
+            .all(|s| s.as_f64() >= Some(0.0))
+    );
+    let mean = report["mean"].as_array().unwrap();
+    assert!(mean.len() == 3 && mean.iter().all(|m| (0.05..0.6).contains(&m.as_f64().unwrap())), "{mean:?}");
+    assert_eq!(folder.names(), ["a.exr", "a.png"]);
+}
+
+#[test]
+fn render_writes_an_image_and_a_picture() {
+    let folder = Folder::new();
+    let text = folder.succeed(&["render", "sphere-light", "--size", "17x5", "--spp", "4"]);
+    assert_eq!(folder.names(), ["sphere-light.exr", "sphere-light.png"]);
+    assert!(text.contains("wrote sphere-light.exr and sphere-light.png"), "{text}");
+    let image = etendue_render::image::read_exr(&folder.path("sphere-light.exr")).unwrap();
+    assert_eq!((image.width, image.height), (17, 5));
+    assert!(image.variance.unwrap().iter().flatten().all(|x| x.is_finite()));
+    let picture = fs::read(folder.path("sphere-light.png")).unwrap();
+    let header = png::Decoder::new(std::io::Cursor::new(picture)).read_info().unwrap().info().size();
+    assert_eq!(header, (17, 5));
+
+    // a scene file names its image; what --output says comes before that
+    let text = scene("").replace("Film \"rgb\"", "Film \"rgb\" \"string filename\" \"mine.png\"");
+    folder.write("file.pbrt", text);
+    folder.succeed(&["render", "file.pbrt"]);
+    folder.succeed(&["render", "file.pbrt", "-o", "other.exr"]);
+    let expected = ["file.pbrt", "mine.exr", "mine.png", "other.exr", "other.png"];
+    assert_eq!(folder.names()[..5], expected);
+    assert_eq!(fs::read(folder.path("mine.exr")).unwrap(), fs::read(folder.path("other.exr")).unwrap());
+}
+
+#[test]
+fn bytes_depend_on_the_seed_and_not_on_threads() {
+    let folder = Folder::new();
+    let of = |seed: &str, threads: &str| {
+        let arguments =
+            ["render", "quads", "--size", "50x37", "--spp", "8", "-o", "a.exr", "--seed", seed, "--threads", threads];
+        folder.succeed(&arguments);
+        [fs::read(folder.path("a.exr")).unwrap(), fs::read(folder.path("a.png")).unwrap()]
+    };
+    let one = of("5", "1");
+    assert_eq!(one, of("5", "2"));
+    assert_eq!(one, of("5", "3"));
+    assert_ne!(one, of("6", "1"));
+    assert_ne!(of("5", "1"), of("4294967301", "1"), "all 64 bits of a seed count");
+}
+
+/// Runs `render` on a faulty scene, over an image that is already there.
+fn faulty(folder: &Folder, name: &str, text: impl AsRef<[u8]>, message: &[&str]) {
+    folder.write(name, text);
+    fails_untouched(folder, &["render", name, "-o", "kept.exr"], message);
+}
+
+fn fails_untouched(folder: &Folder, arguments: &[&str], message: &[&str]) {
+    let (image, picture) = (folder.write("kept.exr", "an image"), folder.write("kept.png", "a picture"));
+    let names = folder.names();
+    let error = folder.fail(arguments);
+    for part in message {
+        assert!(error.contains(part), "{arguments:?}: {error:?} should tell {part:?}");
+    }
+    assert_eq!((fs::read(image).unwrap(), fs::read(picture).unwrap()), (b"an image".into(), b"a picture".into()));
+    assert_eq!(folder.names(), names, "no file is left behind");
+}
+
+#[test]
+fn bad_scenes_are_told_with_file_and_line() {
+    let folder = Folder::new();
+    let cases = [
+        ("Sahpe \"sphere\"", "5: ", "unknown directive Sahpe"),
+        ("Shape \"sphere\" \"float radius\" 1.2.3", "5: ", "expected a number, found 1.2.3"),
+        ("Shape \"sphere\"\n\"float radius\" [\n1x]", "7: ", "expected a number, found 1x"),
+        ("Shape \"trianglemesh\"\n\"point3 P\" [0 0 0 nan 0 0 0 1 0]", "6: ", "nan"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 inf 0 0 0 1 0]", "5: ", "inf"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1e39 0 0 0 1 0]", "5: ", ""),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 2 0 0]", "5: ", "triangle 0 has no area"),
+        ("Shape \"sphere\" \"float radius\" -1", "5: ", "radius"),
+        ("Shape \"plymesh\" \"string filename\" \"none.ply\"", "5: ", "none.ply"),
+        ("Include \"none.pbrt\"", "5: ", "none.pbrt"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]", "5: ", "3"),
+        ("AttributeBegin", "5: ", "AttributeBegin"),
+        ("LightSource \"point\"", "5: ", "not supported"),
+    ];
+    for (last, line, what) in cases {
+        faulty(&folder, "bad.pbrt", scene(last), &[&format!("etendue: bad.pbrt:{line}"), what]);
+    }
+    for film in ["0 \"integer yresolution\" 8", "8 \"integer yresolution\" 0", "-8 \"integer yresolution\" 8"] {
+        let text = scene("").replace("8 \"integer yresolution\" 8", film);
+        faulty(&folder, "film.pbrt", text, &["etendue: film.pbrt:1: ", "each side must be 1 to 65536"]);
+    }
+    // the fault lies in an included file
+    folder.write("part.pbrt", "# first line\nShape \"sphere\" \"float radius\" one\n");
+    faulty(&folder, "whole.pbrt", scene("Include \"part.pbrt\""), &["part.pbrt:2: ", "expected a number, found one"]);
+    faulty(&folder, "bytes.pbrt", b"LookAt\n\xff\xfe", &["bytes.pbrt:2: ", "UTF-8"]);
+    faulty(&folder, "empty.pbrt", "", &["empty.pbrt:1: "]);
+}
+
+#[test]
+fn bad_arguments_are_told() {
+    let folder = Folder::new();
+    fails_untouched(&folder, &["render", "none.pbrt", "-o", "kept.exr"], &["none.pbrt", "quads"]);
+    fails_untouched(&folder, &["render", ".", "-o", "kept.exr"], &["\".\""]);
+    for size in ["0x5", "5x0", "5", "5x", "x", "-1x5", "5x5x5", "65537x1", "65536x65536", "4.5x4"] {
+        fails_untouched(&folder, &["render", "quads", "-o", "kept.exr", &format!("--size={size}")], &["--size", size]);
+    }
+    for (option, value) in [
+        ("--spp", "0"),
+        ("--spp", "-1"),
+        ("--spp", "many"),
+        ("--spp", "4294967296"),
+        ("--technique", "luck"),
+        ("--sampler", "dice"),
+        ("--seed", "x"),
+        ("--threads", "-1"),
+        ("--repeat", "0"),
+    ] {
+        fails_untouched(
+            &folder,
+            &["render", "quads", "-o", "kept.exr", &format!("{option}={value}")],
+            &[option, value],
+        );
+    }
+    fails_untouched(&folder, &["render", "quads", "-o", "none/kept.exr"], &["none", "does not exist"]);
+    fails_untouched(&folder, &["render", "quads", "-o", "."], &["folder"]);
+    fails_untouched(&folder, &["render"], &["SCENE"]);
+    fails_untouched(&folder, &["paint"], &["paint"]);
+}
+
+#[test]
+fn compare_tells_images_apart() {
+    let folder = Folder::new();
+    let render = |name: &str, size: &str, spp: &str, seed: &str| {
+        folder.succeed(&["render", "quads", "-o", name, "--size", size, "--spp", spp, "--seed", seed]);
+    };
+    render("a.exr", "32x32", "64", "0");
+    render("b.exr", "32x32", "64", "1");
+    render("one.exr", "32x32", "1", "0");
+    render("small.exr", "31x32", "4", "0");
+
+    let expected = ["largest", "mean_difference", "mse", "mse_over_predicted", "predicted_mse", "z", "z_mse"];
+    let same = json(&folder.succeed(&["compare", "a.exr", "a.exr", "--json"]));
+    assert_eq!(keys(&same), expected);
+    assert_eq!(same["mse"], 0.0);
+    assert_eq!(same["z"], serde_json::json!([0.0, 0.0, 0.0]));
+    assert_eq!(same["largest"]["difference"], 0.0);
+
+    let two = json(&folder.succeed(&["compare", "a.exr", "b.exr", "--json"]));
+    assert!(two["mse"].as_f64().unwrap() > 0.0);
+    assert!(two["z"].as_array().unwrap().iter().all(|z| z.as_f64().unwrap().abs() < 4.5), "{two}");
+    assert!(two["z_mse"].as_f64().unwrap().abs() < 4.5, "{two}");
+    let pixel = two["largest"]["pixel"].as_array().unwrap();
+    assert!(pixel.iter().all(|x| x.as_u64().unwrap() < 32), "{two}");
+    assert!(folder.succeed(&["compare", "a.exr", "b.exr"]).contains("z of the mean"));
+
+    // an image of one sample has no variance to judge by
+    let blind = json(&folder.succeed(&["compare", "a.exr", "one.exr", "--json"]));
+    assert_eq!(keys(&blind), ["largest", "mean_difference", "mse"]);
+    assert!(folder.succeed(&["compare", "a.exr", "one.exr"]).contains("no variance"));
+
+    // faults
+    let error = folder.fail(&["compare", "a.exr", "small.exr"]);
+    assert!(error.contains("32x32") && error.contains("31x32"), "{error}");
+    let error = folder.fail(&["compare", "none.exr", "a.exr"]);
+    assert!(error.contains("none.exr"), "{error}");
+    let bytes = fs::read(folder.path("a.exr")).unwrap();
+    for length in [0, 3, 100, bytes.len() / 2, bytes.len() - 1] {
+        folder.write("cut.exr", &bytes[..length]);
+        let error = folder.fail(&["compare", "a.exr", "cut.exr"]);
+        assert!(error.contains("cut.exr"), "{length} of {} bytes: {error}", bytes.len());
+    }
+    let error = folder.fail(&["compare", "a.exr", "a.png"]);
+    assert!(error.contains("a.png"), "{error}");
+}
+
+/// Whatever bytes change, the program ends well or says what is wrong.
+#[test]
+fn damaged_images_never_crash() {
+    let folder = Folder::new();
+    folder.succeed(&["render", "quads", "--size", "9x7", "--spp", "4", "-o", "a.exr"]);
+    let bytes = fs::read(folder.path("a.exr")).unwrap();
+    let mut state = 1_u32;
+    for _ in 0..300 {
+        let mut damaged = bytes.clone();
+        for _ in 0..3 {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let at = (state >> 8) as usize % damaged.len();
+            damaged[at] = (state >> 3) as u8;
+        }
+        let path = folder.write("damaged.exr", &damaged);
+        // in this process: 300 starts of the program would take a while
+        let _ = etendue_render::image::read_exr(Path::new(&path));
+    }
+}
+
+#[test]
+fn list_names_everything() {
+    let text = Folder::new().succeed(&["list"]);
+    let names: Vec<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    let expected = [
+        "scenes",
+        "sphere-light",
+        "triangle-light",
+        "quads",
+        "terrain",
+        "techniques",
+        "uniform-hemisphere",
+        "cosine-hemisphere",
+        "area",
+        "solid-angle",
+        "samplers",
+        "independent",
+        "stratified",
+    ];
+    assert_eq!(names, expected);
+}
