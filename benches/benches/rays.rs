@@ -1,0 +1,2 @@
+//! Rays.
+fn main() {}

@@ -1,0 +1,40 @@
+//! One table: time per sample of every routine in f32, f32x4 and f32x8, and how much faster eight lanes are than one.
+//!
+//! The median of repetitions that take turns, so that a change of the processor's clock meets all widths alike.
+
+use etendue::{f32x4, f32x8};
+use etendue_benches::{Routine, SAMPLES, routines};
+use std::time::Instant;
+
+const REPETITIONS: usize = 31;
+/// Samples in a repetition: a few hundred microseconds.
+const CALLS: u32 = 64;
+
+fn nanoseconds(routine: &mut Routine) -> f64 {
+    let start = Instant::now();
+    for _ in 0..CALLS {
+        (routine.run)();
+    }
+    start.elapsed().as_secs_f64() * 1e9 / (f64::from(CALLS) * SAMPLES as f64)
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn main() {
+    // `cargo bench -- WORD` shows the routines whose names contain it; cargo itself passes --bench
+    let filter = std::env::args().skip(1).find(|a| !a.starts_with('-')).unwrap_or_default();
+    println!("{:38} {:>8} {:>8} {:>8} {:>7}", "ns/sample, median", "f32", "f32x4", "f32x8", "x1/x8");
+    let widths = routines::<f32>().into_iter().zip(routines::<f32x4>()).zip(routines::<f32x8>());
+    for ((one, four), eight) in widths.filter(|((one, _), _)| one.name.contains(&filter)) {
+        let mut each = [one, four, eight];
+        for routine in &mut each {
+            nanoseconds(routine);
+        }
+        let rounds: Vec<_> = (0..REPETITIONS).map(|_| each.each_mut().map(nanoseconds)).collect();
+        let [one, four, eight] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
+        println!("{:38} {one:8.2} {four:8.2} {eight:8.2} {:7.1}", each[0].name, one / eight);
+    }
+}

@@ -1,0 +1,38 @@
+//! Time per sample of every routine in f32, f32x4 and f32x8. `cargo bench -p etendue-benches --bench warps -- "cone"` for some.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use etendue::{Real, f32x4, f32x8};
+use etendue_benches::{SAMPLES, routines};
+use std::time::{Duration, Instant};
+
+/// One iteration is one sample, whatever the width: criterion's time is the time per sample.
+fn width<R: Real + 'static>(criterion: &mut Criterion, width: &str) {
+    for mut routine in routines::<R>() {
+        criterion.bench_function(&format!("{}/{width}", routine.name), |bencher| {
+            bencher.iter_custom(|iterations| {
+                let calls = iterations.div_ceil(SAMPLES as u64);
+                let start = Instant::now();
+                for _ in 0..calls {
+                    (routine.run)();
+                }
+                start.elapsed().mul_f64(iterations as f64 / (calls * SAMPLES as u64) as f64)
+            });
+        });
+    }
+}
+
+fn warps(criterion: &mut Criterion) {
+    width::<f32>(criterion, "f32");
+    width::<f32x4>(criterion, "f32x4");
+    width::<f32x8>(criterion, "f32x8");
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(600))
+        .sample_size(20);
+    targets = warps
+}
+criterion_main!(benches);

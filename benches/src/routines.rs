@@ -1,0 +1,120 @@
+//! Samples, densities and inverses.
+
+use etendue::seen::{SphereCap, SphericalParallelogram, SphericalTriangle};
+use etendue::sequence::{Independent, Sequence, Stratified};
+use etendue::warp::{
+    AreaTriangle, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, Warp,
+};
+use etendue::{Parallelogram, Real, Sphere, Triangle, Uint, Vec2, Vec3};
+use std::hint::black_box;
+
+/// Samples per call of [`Routine::run`].
+pub const SAMPLES: usize = 1024;
+
+/// Something to be timed.
+pub struct Routine {
+    /// What, such as `cone sample`.
+    pub name: String,
+    /// Computes [`SAMPLES`] samples.
+    pub run: Box<dyn FnMut()>,
+}
+
+/// Lane `i` of packet `k` is pixel or sample 8k + i: the same samples at every width.
+fn index<R: Real>(packet: usize) -> R::Uint {
+    R::Uint::from_fn(|lane| (packet * R::LANES + lane) as u32)
+}
+
+fn squares<R: Real>(dimension: u32) -> Vec<Vec2<R>> {
+    let sequence = Independent::new(1);
+    (0..SAMPLES / R::LANES).map(|k| sequence.pair(R::Uint::splat(0), index::<R>(k), dimension)).collect()
+}
+
+/// Points about the origin to look from, a unit across.
+fn viewpoints<R: Real>() -> Vec<Vec3<R>> {
+    let half = R::lit(0.5);
+    squares::<R>(1).iter().zip(&squares::<R>(2)).map(|(a, b)| Vec3::new(a.x - half, a.y - half, b.x - half)).collect()
+}
+
+struct List<R> {
+    routines: Vec<Routine>,
+    squares: Vec<Vec2<R>>,
+    viewpoints: Vec<Vec3<R>>,
+}
+
+impl<R: Real + 'static> List<R> {
+    fn push<A: Copy + 'static, W: Copy + 'static, T>(
+        &mut self,
+        name: &str,
+        with: W,
+        arguments: Vec<A>,
+        compute: impl Fn(&W, A) -> T + 'static,
+    ) {
+        let run = move || {
+            // a local that nobody has the address of: it may stay in registers
+            let with = with;
+            for &argument in &arguments {
+                black_box(compute(&with, argument));
+            }
+        };
+        self.routines.push(Routine { name: name.to_owned(), run: Box::new(run) });
+    }
+    /// The three methods of a prepared warp.
+    fn warp<W: Warp<R, Point: Copy> + Copy + 'static>(&mut self, name: &str, warp: W) {
+        let points: Vec<_> = self.squares.iter().map(|&u| warp.sample(u)).collect();
+        self.push(&format!("{name} sample"), warp, self.squares.clone(), |w, u| w.sample(u));
+        self.push(&format!("{name} pdf"), warp, points.clone(), |w, p| w.pdf(p));
+        self.push(&format!("{name} invert"), warp, points, |w, p| w.invert(p));
+    }
+    /// Something that is prepared for every sample.
+    fn prepared<T>(&mut self, name: &str, compute: impl Fn(Vec3<R>, Vec2<R>) -> T + 'static) {
+        let arguments: Vec<_> = self.viewpoints.iter().copied().zip(self.squares.iter().copied()).collect();
+        self.push(name, (), arguments, move |(), (p, u)| compute(p, u));
+    }
+}
+
+/// Everything, at one width.
+#[must_use]
+pub fn routines<R: Real + 'static>() -> Vec<Routine> {
+    let mut list = List::<R> { routines: Vec::new(), squares: squares(0), viewpoints: viewpoints() };
+    let vector = |v: [f64; 3]| Vec3::<R>::new(R::lit(v[0]), R::lit(v[1]), R::lit(v[2]));
+
+    list.warp("concentric disk", ConcentricDisk);
+    list.warp("polar disk", PolarDisk);
+    list.warp("uniform hemisphere", UniformHemisphere);
+    list.warp("uniform sphere", UniformSphere);
+    list.warp("cosine hemisphere", CosineHemisphere);
+    list.warp("cone", Cone { one_minus_cos: R::lit(0.1) });
+    list.warp("area triangle", AreaTriangle);
+
+    let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
+    list.warp("sphere cap", SphereCap::new(a, R::lit(0.7)));
+    list.warp("spherical triangle", SphericalTriangle::new(a, b, c));
+    list.warp("spherical parallelogram", SphericalParallelogram::new(a, b - a, c - a));
+    // a loaded value each time, so that nothing of the preparation is moved out of the loop
+    let (radius, corners) = (black_box(R::lit(0.7)), black_box([a, b, c]));
+    list.prepared("sphere cap new + sample", move |p, u| SphereCap::new(corners[0] - p, radius).sample(u));
+    list.prepared("spherical triangle new + sample", move |p, u| {
+        SphericalTriangle::new(corners[0] - p, corners[1] - p, corners[2] - p).sample(u)
+    });
+    let (e1, e2) = (b - a, c - a);
+    list.prepared("spherical parallelogram new + sample", move |p, u| {
+        SphericalParallelogram::new(corners[0] - p, e1, e2).sample(u)
+    });
+
+    let sphere = Sphere { center: a, radius };
+    list.prepared("light sphere by area", move |p, u| sphere.by_area(p, u));
+    list.prepared("light sphere by solid angle", move |p, u| sphere.by_solid_angle(p, u));
+    let triangle = Triangle { v0: a, e1, e2 };
+    list.prepared("light triangle by area", move |p, u| triangle.by_area(p, u));
+    list.prepared("light triangle by solid angle", move |p, u| triangle.by_solid_angle(p, u));
+    let quad = Parallelogram { p: a, u: e1, v: e2 };
+    list.prepared("light parallelogram by area", move |p, u| quad.by_area(p, u));
+    list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p, u));
+
+    let samples: Vec<_> = (0..SAMPLES / R::LANES).map(index::<R>).collect();
+    list.push("sequence independent pair", Independent::new(1), samples.clone(), |s, i| {
+        s.pair::<R>(R::Uint::splat(7), i, 0)
+    });
+    list.push("sequence stratified pair", Stratified::new(1, 64), samples, |s, i| s.pair::<R>(R::Uint::splat(7), i, 0));
+    list.routines
+}

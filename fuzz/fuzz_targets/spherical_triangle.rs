@@ -1,0 +1,16 @@
+//! Any bits as a triangle: total and the same in every lane. Triangles of the domain's regimes: every law.
+#![no_main]
+
+use etendue_tests::domain::{self, Random};
+use etendue_tests::{laws, subjects::Triangle};
+
+libfuzzer_sys::fuzz_target!(|bits: ([[f32; 3]; 3], [u32; 2], u64)| {
+    let (corners @ [v0, e1, e2], words, seed) = bits;
+    let u = words.map(|w| (w >> 8) as f32 / 16_777_216.0);
+    if corners.as_flattened().iter().all(|x| x.is_finite()) {
+        laws::any_bits(&Triangle::by_edges(v0, e1, e2), u);
+        laws::any_bits(&Triangle::by_vertices(v0, e1, e2), u);
+    }
+    let regimes = domain::triangles(1, seed);
+    laws::pointwise(&regimes[seed as usize % regimes.len()].1, u, &mut Random::new(seed));
+});
