@@ -4,12 +4,14 @@
 //! triangle test); neighbouring triangles leave no gap between them; zero components and −0 in directions are as good as others;
 //! nothing depends on the unit of length. Ties of equal distance go to the triangle of lower index.
 
+mod shaft;
 mod shape;
 mod tree;
 mod triangle;
 
 pub use shape::ShapeSet;
-pub use tree::BuildError;
+pub use tree::{BuildError, Stack};
+use shaft::Shaft;
 use tree::Tree;
 
 use etendue::{Frame, Mask, Real, Vec3, f32x8, u32x8};
@@ -23,6 +25,10 @@ pub type M8 = <f32x8 as Real>::Mask;
 
 /// Marks an id as one of a shape (sphere, emitter) and not of a mesh triangle.
 pub const SHAPE: u32 = 1 << 31;
+/// Children of a node of a tree.
+pub(crate) const WIDTH: usize = 8;
+/// Packets that are traced together, at the most.
+pub const GROUP: usize = 8;
 /// The id where nothing was hit.
 pub const NOTHING: u32 = u32::MAX;
 
@@ -41,6 +47,24 @@ pub struct Rays {
     upper: V8,
     /// Per axis: do all rays run towards +, all towards −, or neither?
     common_sign: Option<[bool; 3]>,
+    /// By how much boxes are widened, at the most.
+    pad: f32,
+}
+
+impl Default for Rays {
+    fn default() -> Self {
+        let zero = V8::default();
+        Self {
+            origin: zero,
+            direction: zero,
+            frame: [zero; 2],
+            inverse: zero,
+            lower: zero,
+            upper: zero,
+            common_sign: None,
+            pad: 0.0,
+        }
+    }
 }
 
 impl Rays {
@@ -67,6 +91,7 @@ impl Rays {
             lower: plane(origin, pad),
             upper: plane(origin, -pad),
             common_sign: common.then(|| negative.map(|bits| bits != 0)),
+            pad: pad.to_array().into_iter().fold(0.0, f32::max),
         }
     }
 }
@@ -163,28 +188,49 @@ impl Accel {
     pub fn rays(&self, origin: V8, direction: V8) -> Rays {
         Rays::new(origin, direction, self.reach)
     }
-    /// The nearest hits in the lanes of `active`, nearer than `limit`.
+    /// The nearest hits in the lanes of `active`, nearer than what `hits` holds, for a group of packets at once: best for
+    /// packets that have much in common.
+    ///
+    /// All slices are of one length, up to [`GROUP`].
     #[inline]
-    pub fn closest(&self, rays: &Rays, active: M8, limit: X8) -> Hits {
-        let mut hits = Hits::none(limit);
-        self.shapes.closest(rays, active, &mut hits);
-        self.triangles.closest(rays, active, &mut hits);
-        hits
+    pub fn closest(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
+        self.in_groups(rays, active, |range, shaft| {
+            let (rays, active, hits) = (&rays[range.clone()], &active[range.clone()], &mut hits[range]);
+            self.shapes.tree().closest(rays, active, shaft, hits, stack);
+            self.triangles.closest(rays, active, shaft, hits, stack);
+        });
     }
     /// The nearest hits of shapes alone.
     #[inline]
-    pub fn closest_shape(&self, rays: &Rays, active: M8, limit: X8) -> Hits {
-        let mut hits = Hits::none(limit);
-        self.shapes.closest(rays, active, &mut hits);
-        hits
+    pub fn closest_shape(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
+        self.in_groups(rays, active, |range, shaft| {
+            let (rays, active, hits) = (&rays[range.clone()], &active[range.clone()], &mut hits[range]);
+            self.shapes.tree().closest(rays, active, shaft, hits, stack);
+        });
     }
-    /// In which of the lanes of `active` something lies nearer than `limit`, other than shape `target`
+    /// Takes out of `active` the lanes in which something lies nearer than `limit`, other than shape `target`
     /// (an index without [`SHAPE`], or [`NOTHING`]).
     #[inline]
-    pub fn occluded(&self, rays: &Rays, active: M8, limit: X8, target: u32x8) -> M8 {
-        let hidden = self.shapes.occluded(rays, active, limit, target);
-        let left = active & !hidden;
-        if left.any() { hidden | self.triangles.occluded(rays, left, limit, target) } else { hidden }
+    pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], stack: &mut Stack) {
+        let before: [M8; GROUP] = std::array::from_fn(|p| active.get(p).copied().unwrap_or(M8::splat(false)));
+        self.in_groups(rays, &before[..rays.len()], |range, shaft| {
+            let (rays, active) = (&rays[range.clone()], &mut active[range.clone()]);
+            let (limit, target) = (&limit[range.clone()], &target[range]);
+            self.shapes.tree().occluded(rays, active, limit, target, shaft, stack);
+            if active.iter().any(|a| a.any()) {
+                self.triangles.occluded(rays, active, limit, target, shaft, stack);
+            }
+        });
+    }
+    /// As one group where the packets have a shaft in common, else packet by packet.
+    #[inline]
+    fn in_groups(&self, rays: &[Rays], active: &[M8], mut each: impl FnMut(std::ops::Range<usize>, Option<&Shaft>)) {
+        if let Some(shaft) = Shaft::new(rays, active) {
+            return each(0..rays.len(), Some(&shaft));
+        }
+        for p in (0..rays.len()).filter(|&p| active[p].any()) {
+            each(p..p + 1, None);
+        }
     }
     /// The corners of the mesh triangle at a place.
     #[inline]

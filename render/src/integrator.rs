@@ -1,6 +1,6 @@
 //! Direct light, in packets: camera rays, light samples, shadow rays.
 
-use crate::accel::{Accel, BuildError, Hits, M8, NOTHING, SHAPE, ShapeSet, V8, X8, pick, select};
+use crate::accel::{Accel, BuildError, GROUP, Hits, M8, NOTHING, Rays, SHAPE, ShapeSet, Stack, V8, X8, pick, select};
 use crate::camera::Pinhole;
 use crate::film::{Film, Pixel, PixelSum};
 use crate::lights::{Lights, Technique};
@@ -59,6 +59,8 @@ pub struct World {
 
 /// A side of a square of pixels that one thread renders at a time.
 const TILE: u32 = 16;
+/// What touches a light does not hide it: a shadow ray ends 2⁻¹⁷ of its length before it.
+const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
 /// Random numbers for a pixel's samples.
@@ -88,6 +90,7 @@ impl Source {
 }
 
 /// The points that eight rays meet.
+#[derive(Clone, Copy)]
 struct Surface {
     point: V8,
     normal: V8,
@@ -95,6 +98,25 @@ struct Surface {
     emission: V8,
     /// Lanes that reflect.
     reflects: M8,
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        let zero = V8::default();
+        Self { point: zero, normal: zero, albedo: zero, emission: zero, reflects: M8::splat(false) }
+    }
+}
+
+/// How many independent replicates a stratified pixel of `spp` samples is made of: as few as can tell their variance, four where
+/// that leaves eight strata or more to each.
+fn replicates(spp: u32) -> u32 {
+    if spp.is_multiple_of(4) && spp >= 32 {
+        4
+    } else if spp.is_multiple_of(2) {
+        2
+    } else {
+        1
+    }
 }
 
 impl World {
@@ -163,9 +185,7 @@ impl World {
     fn surface(&self, hits: &Hits, direction: V8) -> Surface {
         let shapes = hits.shapes();
         let meshes = hits.any() & !shapes;
-        let zero = V8::default();
-        let mut surface =
-            Surface { point: zero, normal: zero, albedo: zero, emission: zero, reflects: M8::splat(false) };
+        let mut surface = Surface::default();
         if meshes.any() {
             self.mesh(hits, meshes, direction, &mut surface);
         }
@@ -283,6 +303,23 @@ struct Work<'a> {
     /// Samples in a replicate; 0 where each sample is one.
     replicate: u32,
     rays: RayCount,
+    stack: Stack,
+}
+
+/// Eight samples to be taken.
+#[derive(Clone, Copy)]
+struct Packet {
+    x: u32x8,
+    y: u32x8,
+    sample: u32x8,
+    active: M8,
+}
+
+/// The pixels of an area [x0, y0, x1, y1) along a Z-order curve: neighbours in the list are neighbours in the image.
+fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
+    let even = |i: u32| (0..4).fold(0, |n, bit| n | (i >> (2 * bit) & 1) << bit);
+    let all = (0..TILE * TILE).map(|i| [x0 + even(i), y0 + even(i >> 1)]);
+    all.filter(|&[x, y]| x < x1 && y < y1).collect()
 }
 
 impl<'a> Work<'a> {
@@ -291,142 +328,203 @@ impl<'a> Work<'a> {
         let (source, replicate) = match settings.sampler {
             Sampler::Independent => (Source::Independent(Independent::new(settings.seed)), 0),
             Sampler::Stratified => {
-                // two replicates are the fewest that can tell their variance
-                let replicate = if spp.is_multiple_of(2) { spp / 2 } else { spp };
+                let replicate = spp / replicates(spp);
                 (Source::Stratified(Stratified::new(settings.seed, replicate)), replicate)
             }
         };
         let camera = Pinhole::new(&world.camera, settings.width, settings.height);
-        Self { world, settings, camera, source, replicate, rays: RayCount::default() }
+        Self { world, settings, camera, source, replicate, rays: RayCount::default(), stack: Stack::default() }
     }
 
     /// The pixels of an area [x0, y0, x1, y1), row by row.
-    fn tile(&mut self, [x0, y0, x1, y1]: [u32; 4]) -> Vec<Pixel> {
+    fn tile(&mut self, area: [u32; 4]) -> Vec<Pixel> {
+        let [x0, y0, x1, _] = area;
         let spp = self.settings.spp;
-        let across = x1 - x0;
-        let count = across * (y1 - y0);
-        let position = |i: u32| (x0 + i % across, y0 + i / across);
+        let pixels = z_order(area);
+        let mut sums = vec![PixelSum::default(); pixels.len()];
+        let total = pixels.len() as u64 * u64::from(spp);
         let span = if self.replicate == 0 { spp } else { self.replicate };
-        if span.is_multiple_of(8) {
-            let mut sum = PixelSum::default();
-            let pixel = |i| {
-                let (x, y) = position(i);
-                for start in (0..spp).step_by(8) {
-                    let sample = u32x8::from(std::array::from_fn(|k| start + k as u32));
-                    let (radiance, _) = self.packet(u32x8::splat(x), u32x8::splat(y), sample, M8::splat(true));
-                    sum.push_packet(radiance);
-                    if self.replicate != 0 && (start + 8).is_multiple_of(self.replicate) {
-                        sum.end_replicate();
+        // packets that hold samples of one pixel and replicate are summed in lanes, else sample by sample
+        let whole = span.is_multiple_of(8);
+        let place = |item: u64| ((item / u64::from(spp)) as usize, (item % u64::from(spp)) as u32);
+        let packet = |start: u64| {
+            if whole {
+                let (pixel, sample) = place(start);
+                let [x, y] = pixels[pixel].map(u32x8::splat);
+                let sample = u32x8::splat(sample) + u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
+                return Packet { x, y, sample, active: M8::splat(true) };
+            }
+            let lanes: [_; 8] = std::array::from_fn(|k| place((start + k as u64).min(total - 1)));
+            let count = (total - start).min(8) as u32;
+            Packet {
+                x: u32x8::new(lanes.map(|(pixel, _)| pixels[pixel][0])),
+                y: u32x8::new(lanes.map(|(pixel, _)| pixels[pixel][1])),
+                sample: u32x8::new(lanes.map(|(_, sample)| sample)),
+                active: M8::from_bits((1 << count) - 1),
+            }
+        };
+        let mut packets = Vec::with_capacity(GROUP);
+        for start in (0..total).step_by(8 * GROUP) {
+            let starts = (start..total).step_by(8).take(GROUP);
+            packets.clear();
+            packets.extend(starts.clone().map(packet));
+            let radiance = self.group(&packets);
+            for ((start, packet), radiance) in starts.zip(&packets).zip(radiance) {
+                if whole {
+                    let (pixel, sample) = place(start);
+                    sums[pixel].push_packet(radiance);
+                    if self.replicate != 0 && (sample + 8).is_multiple_of(self.replicate) {
+                        sums[pixel].end_replicate();
                     }
+                    continue;
                 }
-                sum.finish()
-            };
-            return (0..count).map(pixel).collect();
-        }
-        // lanes run on from pixel to pixel
-        let mut sums = vec![PixelSum::default(); count as usize];
-        let total = u64::from(count) * u64::from(spp);
-        for start in (0..total).step_by(8) {
-            let item = |k: usize| (start + k as u64).min(total - 1);
-            let pixel = |k: usize| (item(k) / u64::from(spp)) as u32;
-            let sample = |k: usize| (item(k) % u64::from(spp)) as u32;
-            let lanes = (total - start).min(8) as u32;
-            let (radiance, _) = self.packet(
-                u32x8::from(std::array::from_fn(|k| position(pixel(k)).0)),
-                u32x8::from(std::array::from_fn(|k| position(pixel(k)).1)),
-                u32x8::from(std::array::from_fn(sample)),
-                M8::from_bits((1 << lanes) - 1),
-            );
-            for k in 0..lanes as usize {
-                let sum = &mut sums[pixel(k) as usize];
-                sum.push(radiance.lane(k).into());
-                if self.replicate != 0 && (sample(k) + 1).is_multiple_of(self.replicate) {
-                    sum.end_replicate();
+                for k in (0..8).filter(|&k| packet.active.lane(k)) {
+                    let (pixel, sample) = place(start + k as u64);
+                    sums[pixel].push(radiance.lane(k).into());
+                    if self.replicate != 0 && (sample + 1).is_multiple_of(self.replicate) {
+                        sums[pixel].end_replicate();
+                    }
                 }
             }
         }
-        sums.iter_mut().map(PixelSum::finish).collect()
+        let mut rows = vec![Pixel::default(); pixels.len()];
+        for ([x, y], sum) in pixels.into_iter().zip(&mut sums) {
+            rows[((y - y0) * (x1 - x0) + (x - x0)) as usize] = sum.finish();
+        }
+        rows
     }
 
-    /// Radiance of eight samples, and the lanes that met something.
-    #[inline]
-    fn packet(&mut self, x: u32x8, y: u32x8, sample: u32x8, active: M8) -> (V8, M8) {
-        let pixel = y * u32x8::splat(self.settings.width) + x;
-        let [film, light] = self.source.pairs(pixel, sample);
-        let (origin, direction) = self.camera.ray(X8::from_uint(x) + film.x, X8::from_uint(y) + film.y);
+    /// Radiance of the samples of a group of packets.
+    fn group(&mut self, packets: &[Packet]) -> [V8; GROUP] {
         let world = self.world;
-        let rays = world.accel.rays(origin, direction);
-        self.rays.camera += u64::from(active.bits().count_ones());
-        let hits = world.accel.closest(&rays, active, X8::lit(f64::INFINITY));
-        let met = hits.any();
-        let surface = world.surface(&hits, direction);
-        let mut radiance = surface.emission;
-        if surface.reflects.any() && !world.lights.is_empty() {
-            radiance += match self.settings.technique {
-                Technique::Area => self.light(&surface, pixel, sample, light, true),
-                Technique::SolidAngle => self.light(&surface, pixel, sample, light, false),
-                Technique::UniformHemisphere => self.hemisphere(&surface, light, false),
-                Technique::CosineHemisphere => self.hemisphere(&surface, light, true),
-            };
+        let count = packets.len();
+        let width = u32x8::splat(self.settings.width);
+        let pixel = |p: usize| packets[p].y * width + packets[p].x;
+        let mut light = [Vec2::default(); GROUP];
+        let mut rays = [Rays::default(); GROUP];
+        let mut active = [M8::splat(false); GROUP];
+        let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
+        for (p, packet) in packets.iter().enumerate() {
+            let [film, second] = self.source.pairs(pixel(p), packet.sample);
+            let position = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
+            let (origin, direction) = self.camera.ray(position[0], position[1]);
+            light[p] = second;
+            rays[p] = world.accel.rays(origin, direction);
+            active[p] = packet.active;
+            self.rays.camera += u64::from(packet.active.bits().count_ones());
         }
-        (radiance, met)
+        world.accel.closest(&rays[..count], &active[..count], &mut hits[..count], &mut self.stack);
+
+        let mut radiance = [V8::default(); GROUP];
+        let mut surfaces = [Surface::default(); GROUP];
+        for p in 0..count {
+            surfaces[p] = world.surface(&hits[p], rays[p].direction);
+            radiance[p] = surfaces[p].emission;
+        }
+        if world.lights.is_empty() {
+            return radiance;
+        }
+        let surfaces = &surfaces[..count];
+        let reflected = match self.settings.technique {
+            Technique::Area | Technique::SolidAngle => {
+                let choice = world.lights.many().then(|| {
+                    let mut choice = [X8::lit(0.0); GROUP];
+                    for (p, packet) in packets.iter().enumerate() {
+                        choice[p] = self.source.choice(pixel(p), packet.sample);
+                    }
+                    choice
+                });
+                self.light(surfaces, light, choice)
+            }
+            Technique::UniformHemisphere => self.hemisphere(surfaces, light, false),
+            Technique::CosineHemisphere => self.hemisphere(surfaces, light, true),
+        };
+        for p in 0..count {
+            radiance[p] += reflected[p];
+        }
+        radiance
     }
 
     /// Reflected light by sampling a light.
     #[inline]
-    fn light(&mut self, surface: &Surface, pixel: u32x8, sample: u32x8, mut u: Vec2<X8>, by_area: bool) -> V8 {
+    fn light(&mut self, surfaces: &[Surface], light: [Vec2<X8>; GROUP], choice: Option<[X8; GROUP]>) -> [V8; GROUP] {
         let world = self.world;
-        let chosen = if world.lights.many() {
-            world.lights.choose(self.source.choice(pixel, sample)).0
-        } else {
-            let (chosen, rest) = world.lights.choose(u.x);
-            u.x = rest;
-            chosen
-        };
-        let zero = X8::lit(0.0);
-        let light = world.lights.sample(&chosen, by_area, surface.point, u);
-        let cos = light.direction.dot(surface.normal);
-        let lit = surface.reflects & light.emits & light.pdf.gt(zero) & cos.gt(zero);
-        if !lit.any() {
-            return V8::default();
+        let by_area = self.settings.technique == Technique::Area;
+        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+        let count = surfaces.len();
+        let mut rays = [Rays::default(); GROUP];
+        let mut lit = [M8::splat(false); GROUP];
+        let mut limit = [zero; GROUP];
+        let mut target = [u32x8::splat(NOTHING); GROUP];
+        let mut reflected = [V8::default(); GROUP];
+        for (p, surface) in surfaces.iter().enumerate().filter(|(_, s)| s.reflects.any()) {
+            let mut u = light[p];
+            let (chosen, rest) = world.lights.choose(choice.map_or(u.x, |choice| choice[p]));
+            if choice.is_none() {
+                u.x = rest;
+            }
+            let sample = world.lights.sample(&chosen, by_area, surface.point, u);
+            let cos = sample.direction.dot(surface.normal);
+            lit[p] = surface.reflects & sample.emits & sample.pdf.gt(zero) & cos.gt(zero);
+            self.rays.shadow += u64::from(lit[p].bits().count_ones());
+            rays[p] = world.accel.rays(surface.point, sample.direction);
+            limit[p] = sample.distance * X8::lit(SPARED);
+            target[p] = chosen.shape;
+            let density = select(lit[p], sample.pdf * chosen.probability, one);
+            reflected[p] = product(surface.albedo, chosen.radiance) * (cos * X8::lit(INV_PI) / density);
         }
-        self.rays.shadow += u64::from(lit.bits().count_ones());
-        let rays = world.accel.rays(surface.point, light.direction);
-        // what touches the light does not hide it: 2⁻¹⁷ of the distance is spared
-        let limit = light.distance * X8::lit(1.0 - 1.0 / 131_072.0);
-        let visible = lit & !world.accel.occluded(&rays, lit, limit, chosen.shape);
-        let density = select(lit, light.pdf * chosen.probability, X8::lit(1.0));
-        let weight = (cos * X8::lit(INV_PI) / density).keep(visible);
-        product(surface.albedo, chosen.radiance) * weight
+        world.accel.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        for p in 0..count {
+            reflected[p] = keep(reflected[p], lit[p]);
+        }
+        reflected
     }
 
     /// Reflected light by sampling the hemisphere.
-    #[inline]
-    fn hemisphere(&mut self, surface: &Surface, u: Vec2<X8>, cosine: bool) -> V8 {
+    fn hemisphere(&mut self, surfaces: &[Surface], light: [Vec2<X8>; GROUP], cosine: bool) -> [V8; GROUP] {
         let world = self.world;
-        let local: V8 = if cosine { CosineHemisphere.sample(u) } else { UniformHemisphere.sample(u) };
-        let direction = Frame::new(surface.normal).to_world(local);
-        let rays = world.accel.rays(surface.point, direction);
-        self.rays.shadow += u64::from(surface.reflects.bits().count_ones());
-        let hits = world.accel.closest_shape(&rays, surface.reflects, X8::lit(f64::INFINITY));
-        let mut radiance = V8::default();
-        let mut lit = M8::splat(false);
-        for lane in (0..8).filter(|&i| hits.any().lane(i)) {
-            if let Some(emitted) = self.emitted(&hits, lane, surface.point.lane(lane), direction.lane(lane)) {
-                let here = M8::from_bits(1 << lane);
-                radiance = V8::select(here, emitted.into(), radiance);
-                lit = lit | here;
+        let count = surfaces.len();
+        let infinite = X8::lit(f64::INFINITY);
+        let mut rays = [Rays::default(); GROUP];
+        let mut lit = [M8::splat(false); GROUP];
+        let mut hits = [Hits::none(infinite); GROUP];
+        let mut weight = [X8::lit(1.0); GROUP];
+        for (p, surface) in surfaces.iter().enumerate() {
+            let local: V8 = if cosine { CosineHemisphere.sample(light[p]) } else { UniformHemisphere.sample(light[p]) };
+            rays[p] = world.accel.rays(surface.point, Frame::new(surface.normal).to_world(local));
+            lit[p] = surface.reflects;
+            self.rays.shadow += u64::from(surface.reflects.bits().count_ones());
+            // f·L·cos/pdf: cos/π for the cosine's density z/π leaves the albedo, for 1/2π it leaves 2cos
+            if !cosine {
+                weight[p] = local.z * X8::lit(2.0);
             }
         }
-        if !lit.any() {
-            return radiance;
+        // lights are few and found at once; only what hits one is worth a shadow ray
+        world.accel.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
+        let mut reflected = [V8::default(); GROUP];
+        let mut target = [u32x8::splat(NOTHING); GROUP];
+        let mut limit = [infinite; GROUP];
+        for (p, surface) in surfaces.iter().enumerate() {
+            let met = lit[p] & hits[p].any();
+            lit[p] = M8::splat(false);
+            let mut emitted = V8::default();
+            for lane in (0..8).filter(|&i| met.lane(i)) {
+                let (origin, direction) = (surface.point.lane(lane), rays[p].direction.lane(lane));
+                if let Some(radiance) = self.emitted(&hits[p], lane, origin, direction) {
+                    let here = M8::from_bits(1 << lane);
+                    emitted = V8::select(here, radiance.into(), emitted);
+                    lit[p] = lit[p] | here;
+                }
+            }
+            reflected[p] = product(surface.albedo, emitted) * weight[p];
+            target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
+            limit[p] = hits[p].distance * X8::lit(SPARED);
         }
-        let target = pick(lit, hits.place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
-        let limit = hits.distance * X8::lit(1.0 - 1.0 / 131_072.0);
-        let visible = lit & !world.accel.occluded(&rays, lit, limit, target);
-        // f·L·cos/pdf: cos/π for the cosine's density z/π leaves the albedo, for 1/2π it leaves 2cos
-        let weight = if cosine { X8::lit(1.0) } else { local.z * X8::lit(2.0) };
-        product(surface.albedo, radiance) * weight.keep(visible)
+        world.accel.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        for p in 0..count {
+            reflected[p] = keep(reflected[p], lit[p]);
+        }
+        reflected
     }
 
     /// What the shape that a lane has hit sends back along the ray.
@@ -443,6 +541,11 @@ impl<'a> Work<'a> {
         };
         (emission.two_sided || outward.dot(direction) < 0.0).then_some(emission.radiance)
     }
+}
+
+#[inline]
+fn keep(v: V8, mask: M8) -> V8 {
+    V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
 }
 
 #[inline]

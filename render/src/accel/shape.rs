@@ -23,7 +23,7 @@ enum Solid {
 }
 
 #[derive(Debug)]
-struct Solids {
+pub(super) struct Solids {
     solids: Vec<Solid>,
     ids: Vec<u32>,
 }
@@ -98,13 +98,8 @@ impl ShapeSet {
     pub fn reach(&self) -> f32 {
         self.reach
     }
-    #[inline]
-    pub(super) fn closest(&self, rays: &Rays, active: M8, hits: &mut Hits) {
-        self.tree.closest(rays, active, hits);
-    }
-    #[inline]
-    pub(super) fn occluded(&self, rays: &Rays, active: M8, limit: X8, target: u32x8) -> M8 {
-        self.tree.occluded(rays, active, limit, target)
+    pub(super) fn tree(&self) -> &Tree<Solids> {
+        &self.tree
     }
 }
 

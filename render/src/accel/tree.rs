@@ -1,16 +1,21 @@
-//! A binary tree of boxes, built by obvhs and traversed by packets. The one file that names obvhs.
+//! A tree of boxes with eight children a node, built by obvhs and traversed by groups of packets. The one file that names obvhs.
 
-use super::{Hits, M8, Rays, X8, max, min, select};
+use super::{Hits, M8, Rays, Shaft, WIDTH, X8, max, min};
 use etendue::{Mask, Real, u32x8};
 use glam::Vec3A;
 use obvhs::{BvhBuildParams, aabb::Aabb, bvh2::Bvh2, bvh2::builder::build_bvh2};
 use std::ops::Range;
 use std::time::Duration;
 
-/// Deepest tree that is traversed: the stack holds one entry a level.
+/// Deepest binary tree that is taken from obvhs.
 const DEPTH: usize = 96;
+/// A node leaves at most seven of its children on the stack.
+const STACK: usize = 7 * DEPTH + 8;
 /// A leaf holds no more than this.
-const LEAF: usize = 8;
+const LEAF: usize = 4;
+/// A packet tests a triangle in about the time in which it tests a node's boxes: small leaves.
+const PARAMETERS: BvhBuildParams =
+    BvhBuildParams { max_prims_per_leaf: LEAF as u32, collapse_traversal_cost: 1.0, ..BvhBuildParams::medium_build() };
 
 /// What lies in the leaves, in leaf order.
 pub(super) trait Primitives {
@@ -37,16 +42,42 @@ impl std::fmt::Display for BuildError {
 
 impl std::error::Error for BuildError {}
 
-/// Both children of an inner node: one cache line.
-#[derive(Clone, Copy, Debug, Default)]
+/// An inner node: boxes of up to eight children, coordinate by coordinate.
+#[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct Node {
-    /// Per child, lower and upper corner.
-    bounds: [[[f32; 3]; 2]; 2],
+pub(super) struct Node {
+    /// Lower and upper planes of each axis; an absent child has an empty box.
+    pub(super) lower: [[f32; WIDTH]; 3],
+    pub(super) upper: [[f32; WIDTH]; 3],
     /// Per child: index of an inner node, or of the first primitive.
-    first: [u32; 2],
+    first: [u32; WIDTH],
     /// Per child: number of primitives, 0 for an inner node.
-    count: [u32; 2],
+    count: [u8; WIDTH],
+    /// Number of children.
+    children: u32,
+}
+
+impl Default for Node {
+    fn default() -> Self {
+        Self {
+            lower: [[f32::INFINITY; WIDTH]; 3],
+            upper: [[f32::NEG_INFINITY; WIDTH]; 3],
+            first: [0; WIDTH],
+            count: [0; WIDTH],
+            children: 0,
+        }
+    }
+}
+
+impl Node {
+    fn push(&mut self, bounds: &Bounds, first: u32, count: usize) {
+        let slot = self.children as usize;
+        for k in 0..3 {
+            (self.lower[k][slot], self.upper[k][slot]) = (bounds[0][k], bounds[1][k]);
+        }
+        (self.first[slot], self.count[slot]) = (first, count as u8);
+        self.children += 1;
+    }
 }
 
 /// A tree over primitives of one kind.
@@ -61,14 +92,6 @@ type Bounds = [[f32; 3]; 2];
 
 fn union(a: Bounds, b: Bounds) -> Bounds {
     [std::array::from_fn(|k| a[0][k].min(b[0][k])), std::array::from_fn(|k| a[1][k].max(b[1][k]))]
-}
-
-/// A subtree while the nodes are written.
-#[derive(Clone, Copy)]
-struct Child {
-    bounds: Bounds,
-    first: u32,
-    count: u32,
 }
 
 impl<P> Tree<P> {
@@ -92,51 +115,64 @@ impl<P> Tree<P> {
     }
 }
 
-/// obvhs's tree in our layout, or nothing if it would be too deep (many primitives in one place).
+/// obvhs's binary tree, collapsed, or nothing if it would be too deep (many primitives in one place).
 fn built_by_obvhs(all: &[Bounds]) -> Option<(Vec<Node>, Vec<u32>)> {
     if all.len() <= LEAF || crowded(all) {
         return None;
     }
-    let boxes: Vec<Aabb> =
-        all.iter().map(|[lo, hi]| Aabb::new(Vec3A::from_array(*lo), Vec3A::from_array(*hi))).collect();
-    let bvh = build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default());
-    let mut nodes = Vec::with_capacity(bvh.nodes.len() / 2);
-    let mut order = Vec::with_capacity(all.len());
-    nodes.push(Node::default());
-    // (obvhs index of the first child, our index of the node, depth), depth first so that subtrees are contiguous
-    let mut pending = vec![(bvh.nodes[0].first_index as usize, 0_usize, 1_usize)];
+    let boxes: Vec<Aabb> = all.iter().map(|[lo, hi]| Aabb::new(Vec3A::from_array(*lo), Vec3A::from_array(*hi))).collect();
+    let bvh = build_bvh2(&boxes, PARAMETERS, &mut Duration::default());
     if bvh.nodes[0].is_leaf() {
         return None;
     }
-    while let Some((first, place, depth)) = pending.pop() {
+    let mut nodes = vec![Node::default()];
+    let mut order = Vec::with_capacity(all.len());
+    // (obvhs's node, ours, depth), depth first so that subtrees are contiguous
+    let mut pending = vec![(0_usize, 0_usize, 1_usize)];
+    while let Some((index, place, depth)) = pending.pop() {
         if depth >= DEPTH {
             return None;
         }
-        for side in [1, 0] {
-            let child = convert(&bvh, first + side, &mut order, &mut nodes);
-            let node = &mut nodes[place];
-            (node.bounds[side], node.first[side], node.count[side]) = (child.bounds, child.first, child.count);
-            if child.count == 0 {
-                pending.push((bvh.nodes[first + side].first_index as usize, child.first as usize, depth + 1));
+        let (children, count) = open(&bvh, index);
+        let mut inner = [(0, 0, 0); WIDTH];
+        let mut inners = 0;
+        for &child in &children[..count] {
+            let node = &bvh.nodes[child];
+            let bounds = [node.aabb().min.to_array(), node.aabb().max.to_array()];
+            if node.is_leaf() {
+                let first = order.len() as u32;
+                let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
+                order.extend_from_slice(&bvh.primitive_indices[range]);
+                nodes[place].push(&bounds, first, node.prim_count as usize);
+            } else {
+                nodes.push(Node::default());
+                let to = nodes.len() - 1;
+                nodes[place].push(&bounds, to as u32, 0);
+                inner[inners] = (child, to, depth + 1);
+                inners += 1;
             }
         }
+        pending.extend(inner[..inners].iter().rev());
     }
     Some((nodes, order))
 }
 
-/// One of obvhs's nodes: a leaf's primitives go to `order`, an inner node gets a place in `nodes`.
-fn convert(bvh: &Bvh2, index: usize, order: &mut Vec<u32>, nodes: &mut Vec<Node>) -> Child {
-    let node = &bvh.nodes[index];
-    let bounds = [node.aabb().min.to_array(), node.aabb().max.to_array()];
-    if node.is_leaf() {
-        let first = order.len() as u32;
-        let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
-        order.extend_from_slice(&bvh.primitive_indices[range]);
-        Child { bounds, first, count: node.prim_count }
-    } else {
-        nodes.push(Node::default());
-        Child { bounds, first: nodes.len() as u32 - 1, count: 0 }
+/// Up to eight descendants that together stand for a node: the largest inner one is opened first.
+fn open(bvh: &Bvh2, index: usize) -> ([usize; WIDTH], usize) {
+    let first = bvh.nodes[index].first_index as usize;
+    let mut children = [0; WIDTH];
+    children[..2].copy_from_slice(&[first, first + 1]);
+    let mut count = 2;
+    while count < WIDTH {
+        let inner = (0..count).filter(|&i| !bvh.nodes[children[i]].is_leaf());
+        let area = |i: &usize| bvh.nodes[children[*i]].aabb().half_area();
+        let Some(largest) = inner.max_by(|a, b| area(a).total_cmp(&area(b))) else { break };
+        let first = bvh.nodes[children[largest]].first_index as usize;
+        children[largest] = first;
+        children[count] = first + 1;
+        count += 1;
     }
+    (children, count)
 }
 
 /// Are more than 64 primitives alike? obvhs's builder recurses once for each of those.
@@ -157,77 +193,138 @@ fn crowded(all: &[Bounds]) -> bool {
 fn balanced(all: &[Bounds]) -> (Vec<Node>, Vec<u32>) {
     let mut order: Vec<u32> = (0..all.len() as u32).collect();
     let mut nodes = vec![Node::default()];
-    // an empty or small set is one leaf, beside an empty one
     let empty = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-    nodes[0].bounds = [empty, empty];
-    nodes[0].count = [1, 1];
-    nodes[0].first = [0, 0];
-    if all.len() <= LEAF {
-        if !all.is_empty() {
-            nodes[0].bounds[0] = all.iter().fold(empty, |a, b| union(a, *b));
-            nodes[0].count[0] = all.len() as u32;
-        }
-        return (nodes, order);
-    }
-    let mut pending = vec![(0..all.len(), 0_usize)];
+    let mut pending = if all.is_empty() { vec![] } else { vec![(0..all.len(), 0_usize)] };
     while let Some((range, place)) = pending.pop() {
-        let part = &mut order[range.clone()];
-        let center = |i: u32, axis: usize| all[i as usize][0][axis] + all[i as usize][1][axis];
-        let extent = |axis: usize| {
-            let (lo, hi) = part.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &i| {
-                (lo.min(center(i, axis)), hi.max(center(i, axis)))
-            });
-            hi - lo
-        };
-        let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
-        let middle = part.len() / 2;
-        part.select_nth_unstable_by(middle, |&a, &b| center(a, axis).total_cmp(&center(b, axis)).then(a.cmp(&b)));
-        for (side, half) in [range.start..range.start + middle, range.start + middle..range.end].into_iter().enumerate()
-        {
-            nodes[place].bounds[side] = order[half.clone()].iter().fold(empty, |a, &i| union(a, all[i as usize]));
-            if half.len() <= LEAF {
-                nodes[place].first[side] = half.start as u32;
-                nodes[place].count[side] = half.len() as u32;
+        let mut parts = vec![range];
+        while parts.len() < WIDTH {
+            let Some(largest) = (0..parts.len()).filter(|&i| parts[i].len() > LEAF).max_by_key(|&i| parts[i].len()) else {
+                break;
+            };
+            let range = parts[largest].clone();
+            let middle = range.start + range.len() / 2;
+            halve(all, &mut order[range.clone()]);
+            parts[largest] = range.start..middle;
+            parts.push(middle..range.end);
+        }
+        for part in parts {
+            let bounds = order[part.clone()].iter().fold(empty, |a, &i| union(a, all[i as usize]));
+            if part.len() <= LEAF {
+                nodes[place].push(&bounds, part.start as u32, part.len());
             } else {
                 nodes.push(Node::default());
-                nodes[place].first[side] = nodes.len() as u32 - 1;
-                nodes[place].count[side] = 0;
-                pending.push((half, nodes.len() - 1));
+                let to = nodes.len() - 1;
+                nodes[place].push(&bounds, to as u32, 0);
+                pending.push((part, to));
             }
         }
     }
     (nodes, order)
 }
 
-/// Where the rays enter and leave a box.
+/// Puts the lesser half along the longest axis of the centres first.
+fn halve(all: &[Bounds], part: &mut [u32]) {
+    let center = |i: u32, axis: usize| all[i as usize][0][axis] + all[i as usize][1][axis];
+    let extent = |axis: usize| {
+        let ends = part.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &i| {
+            (lo.min(center(i, axis)), hi.max(center(i, axis)))
+        });
+        ends.1 - ends.0
+    };
+    let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let middle = part.len() / 2;
+    part.select_nth_unstable_by(middle, |&a, &b| center(a, axis).total_cmp(&center(b, axis)).then(a.cmp(&b)));
+}
+
+/// Where the rays enter a child's box, and in which lanes they do before their limit.
 #[inline(always)]
-fn slabs<const COMMON: bool>(bounds: &Bounds, rays: &Rays, sign: [bool; 3], limit: X8) -> (X8, M8) {
-    let lower = |k: usize| match k {
-        0 => X8::splat(bounds[0][0]).mul_add(rays.inverse.x, rays.lower.x),
-        1 => X8::splat(bounds[0][1]).mul_add(rays.inverse.y, rays.lower.y),
-        _ => X8::splat(bounds[0][2]).mul_add(rays.inverse.z, rays.lower.z),
+fn slabs<const COMMON: bool>(node: &Node, slot: usize, rays: &Rays, sign: [bool; 3], limit: X8) -> (X8, M8) {
+    let axis = |k: usize, inverse: X8, below: X8, above: X8| {
+        let a = X8::splat(node.lower[k][slot]).mul_add(inverse, below);
+        let b = X8::splat(node.upper[k][slot]).mul_add(inverse, above);
+        if !COMMON {
+            (min(a, b), max(a, b))
+        } else if sign[k] {
+            (b, a)
+        } else {
+            (a, b)
+        }
     };
-    let upper = |k: usize| match k {
-        0 => X8::splat(bounds[1][0]).mul_add(rays.inverse.x, rays.upper.x),
-        1 => X8::splat(bounds[1][1]).mul_add(rays.inverse.y, rays.upper.y),
-        _ => X8::splat(bounds[1][2]).mul_add(rays.inverse.z, rays.upper.z),
-    };
-    let axis = |k: usize| {
-        let (a, b) = (lower(k), upper(k));
-        if COMMON { if sign[k] { (b, a) } else { (a, b) } } else { (min(a, b), max(a, b)) }
-    };
-    let ((nx, fx), (ny, fy), (nz, fz)) = (axis(0), axis(1), axis(2));
+    let (nx, fx) = axis(0, rays.inverse.x, rays.lower.x, rays.upper.x);
+    let (ny, fy) = axis(1, rays.inverse.y, rays.lower.y, rays.upper.y);
+    let (nz, fz) = axis(2, rays.inverse.z, rays.lower.z, rays.upper.z);
     let near = max(max(nx, ny), max(nz, X8::lit(0.0)));
     let far = min(min(fx, fy), min(fz, limit));
     (near, near.le(far))
 }
 
-/// A subtree or a leaf that is still to be visited, and where the rays enter it.
-#[derive(Clone, Copy)]
+/// Room for a traversal, made once and used for many.
+#[derive(Debug)]
+pub struct Stack {
+    pending: Box<[Pending; STACK]>,
+}
+
+impl Default for Stack {
+    fn default() -> Self {
+        Self { pending: Box::new([Pending::default(); STACK]) }
+    }
+}
+
+/// A child that is still to be visited.
+#[derive(Clone, Copy, Debug, Default)]
 struct Pending {
-    near: X8,
-    first: u32,
-    count: u32,
+    /// Index of the parent, and which of its children.
+    parent: u32,
+    slot: u32,
+    /// No ray enters it before this distance.
+    near: f32,
+}
+
+/// A group of packets on its way through a tree: as one shaft that holds them all, or as the one packet that it is.
+struct Traversal<'a, const COMMON: bool> {
+    rays: &'a [Rays],
+    sign: [bool; 3],
+    shaft: Option<&'a Shaft>,
+    /// An active lane of the first packet.
+    lead: usize,
+}
+
+impl<const COMMON: bool> Traversal<'_, COMMON> {
+    /// The children that may be entered within `reach`, as bits, and, if an order is wanted, roughly where: a lower bound for a
+    /// shaft, the entry of the packet's first lane else.
+    #[inline(always)]
+    fn enter<const ORDER: bool>(&self, node: &Node, limit: X8, active: M8, reach: f32) -> (u32, [f32; WIDTH]) {
+        if let Some(shaft) = self.shaft {
+            let (near, mask) = shaft.enter(node, reach);
+            return (mask.bits(), if ORDER { near.to_array() } else { [0.0; WIDTH] });
+        }
+        let mut bits = 0;
+        let mut nearest = [0.0; WIDTH];
+        for (slot, nearest) in nearest.iter_mut().enumerate().take(node.children as usize) {
+            let (near, hit) = slabs::<COMMON>(node, slot, &self.rays[0], self.sign, limit);
+            bits |= u32::from((hit & active).any()) << slot;
+            if ORDER {
+                *nearest = near.as_array()[self.lead];
+            }
+        }
+        (bits, nearest)
+    }
+
+    /// The packets, as bits, that enter a leaf.
+    #[inline(always)]
+    fn packets(&self, node: &Node, slot: usize, limit: impl Fn(usize) -> X8, active: &[M8]) -> u32 {
+        let test = |p: usize| (slabs::<COMMON>(node, slot, &self.rays[p], self.sign, limit(p)).1 & active[p]).any();
+        (0..self.rays.len()).fold(0, |bits, p| bits | u32::from(test(p)) << p)
+    }
+}
+
+/// Calls `f` with the index of each set bit.
+#[inline(always)]
+fn each_bit(mut bits: u32, mut f: impl FnMut(usize)) {
+    while bits != 0 {
+        f(bits.trailing_zeros() as usize);
+        bits &= bits - 1;
+    }
 }
 
 impl<P: Primitives> Tree<P> {
@@ -236,113 +333,156 @@ impl<P: Primitives> Tree<P> {
         size_of_val(&self.nodes[..]) + self.primitives.bytes()
     }
 
-    #[inline]
-    pub(super) fn closest(&self, rays: &Rays, active: M8, hits: &mut Hits) {
+    /// Nearest hits of a group of packets, nearer than those that `hits` holds.
+    pub(super) fn closest(
+        &self,
+        rays: &[Rays],
+        active: &[M8],
+        shaft: Option<&Shaft>,
+        hits: &mut [Hits],
+        stack: &mut Stack,
+    ) {
         if self.count == 0 {
             return;
         }
-        match rays.common_sign {
-            Some(sign) => self.closest_with::<true>(rays, active, hits, sign),
-            None => self.closest_with::<false>(rays, active, hits, [false; 3]),
+        let lead = active[0].bits().trailing_zeros() as usize & 7;
+        match common_sign(rays) {
+            Some(sign) => self.closest_with(&Traversal::<true> { rays, sign, shaft, lead }, active, hits, stack),
+            None => self.closest_with(&Traversal::<false> { rays, sign: [false; 3], shaft, lead }, active, hits, stack),
         }
     }
 
-    fn closest_with<const COMMON: bool>(&self, rays: &Rays, active: M8, hits: &mut Hits, sign: [bool; 3]) {
-        let zero = X8::lit(0.0);
-        let mut stack = [Pending { near: zero, first: 0, count: 0 }; DEPTH + 1];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let Pending { near, mut first, mut count } = stack[height];
-            if !(near.le(hits.distance) & active).any() {
-                continue;
-            }
-            while count == 0 {
-                let node = &self.nodes[first as usize];
-                let (near0, hit0) = slabs::<COMMON>(&node.bounds[0], rays, sign, hits.distance);
-                let (near1, hit1) = slabs::<COMMON>(&node.bounds[1], rays, sign, hits.distance);
-                let (hit0, hit1) = (hit0 & active, hit1 & active);
-                match (hit0.any(), hit1.any()) {
-                    (false, false) => break,
-                    (true, false) => (first, count) = (node.first[0], node.count[0]),
-                    (false, true) => (first, count) = (node.first[1], node.count[1]),
-                    (true, true) => {
-                        // the side that most rays enter first
-                        let votes = (near0.le(near1) & hit0).bits().count_ones();
-                        let others = (near1.lt(near0) & hit1).bits().count_ones();
-                        let (this, other) = if votes >= others { (0, 1) } else { (1, 0) };
-                        let near = if other == 0 {
-                            select(hit0, near0, X8::lit(f64::INFINITY))
-                        } else {
-                            select(hit1, near1, X8::lit(f64::INFINITY))
-                        };
-                        stack[height] = Pending { near, first: node.first[other], count: node.count[other] };
-                        height += 1;
-                        (first, count) = (node.first[this], node.count[this]);
-                    }
+    fn closest_with<const COMMON: bool>(
+        &self,
+        traversal: &Traversal<'_, COMMON>,
+        active: &[M8],
+        hits: &mut [Hits],
+        stack: &mut Stack,
+    ) {
+        let stack = &mut *stack.pending;
+        let mut height = 0;
+        // how far the farthest ray still looks
+        let mut reach = farthest(hits, active);
+        let mut place = 0_usize;
+        loop {
+            let node = &self.nodes[place];
+            let (bits, near) = traversal.enter::<true>(node, hits[0].distance, active[0], reach);
+            // the nearest child goes to the top of the stack
+            let floor = height;
+            each_bit(bits, |slot| {
+                let child = Pending { parent: place as u32, slot: slot as u32, near: near[slot] };
+                let mut at = height;
+                while at > floor && stack[at - 1].near < child.near {
+                    stack[at] = stack[at - 1];
+                    at -= 1;
                 }
-            }
-            if count > 0 {
-                let first = first as usize;
-                self.primitives.closest(first..first + count as usize, rays, active, hits);
-            }
+                stack[at] = child;
+                height += 1;
+            });
+            place = loop {
+                if height == 0 {
+                    return;
+                }
+                height -= 1;
+                let Pending { parent, slot, near } = stack[height];
+                // a packet's entry bounds one lane alone: its leaves are tested again
+                if traversal.shaft.is_some() && near > reach {
+                    continue;
+                }
+                let (node, slot) = (&self.nodes[parent as usize], slot as usize);
+                let (first, count) = (node.first[slot] as usize, usize::from(node.count[slot]));
+                if count == 0 {
+                    break first;
+                }
+                let entered = traversal.packets(node, slot, |p| hits[p].distance, active);
+                each_bit(entered, |p| {
+                    self.primitives.closest(first..first + count, &traversal.rays[p], active[p], &mut hits[p]);
+                });
+                if entered != 0 {
+                    reach = farthest(hits, active);
+                }
+            };
         }
     }
 
-    #[inline]
-    pub(super) fn occluded(&self, rays: &Rays, active: M8, limit: X8, skip: u32x8) -> M8 {
+    /// Takes out of `active` the lanes in which something other than `skip` lies before `limit`.
+    pub(super) fn occluded(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        limit: &[X8],
+        skip: &[u32x8],
+        shaft: Option<&Shaft>,
+        stack: &mut Stack,
+    ) {
         if self.count == 0 {
-            return M8::splat(false);
+            return;
         }
-        match rays.common_sign {
-            Some(sign) => self.occluded_with::<true>(rays, active, limit, skip, sign),
-            None => self.occluded_with::<false>(rays, active, limit, skip, [false; 3]),
+        let lead = active[0].bits().trailing_zeros() as usize & 7;
+        match common_sign(rays) {
+            Some(sign) => self.occluded_with(&Traversal::<true> { rays, sign, shaft, lead }, active, limit, skip, stack),
+            None => {
+                self.occluded_with(&Traversal::<false> { rays, sign: [false; 3], shaft, lead }, active, limit, skip, stack);
+            }
         }
     }
 
     fn occluded_with<const COMMON: bool>(
         &self,
-        rays: &Rays,
-        mut active: M8,
-        limit: X8,
-        skip: u32x8,
-        sign: [bool; 3],
-    ) -> M8 {
-        let mut stack = [(0_u32, 0_u32); DEPTH + 1];
-        let mut height = 1;
-        let mut hidden = M8::splat(false);
-        while height > 0 {
-            height -= 1;
-            let (mut first, mut count) = stack[height];
-            while count == 0 {
-                let node = &self.nodes[first as usize];
-                let (near0, hit0) = slabs::<COMMON>(&node.bounds[0], rays, sign, limit);
-                let (near1, hit1) = slabs::<COMMON>(&node.bounds[1], rays, sign, limit);
-                let (hit0, hit1) = (hit0 & active, hit1 & active);
-                match (hit0.any(), hit1.any()) {
-                    (false, false) => break,
-                    (true, false) => (first, count) = (node.first[0], node.count[0]),
-                    (false, true) => (first, count) = (node.first[1], node.count[1]),
-                    (true, true) => {
-                        let votes = (near0.le(near1) & hit0).bits().count_ones();
-                        let others = (near1.lt(near0) & hit1).bits().count_ones();
-                        let (this, other) = if votes >= others { (0, 1) } else { (1, 0) };
-                        stack[height] = (node.first[other], node.count[other]);
-                        height += 1;
-                        (first, count) = (node.first[this], node.count[this]);
-                    }
+        traversal: &Traversal<'_, COMMON>,
+        active: &mut [M8],
+        limit: &[X8],
+        skip: &[u32x8],
+        stack: &mut Stack,
+    ) {
+        let stack = &mut *stack.pending;
+        let reach = limit.iter().zip(&*active).fold(X8::lit(0.0), |m, (&l, &a)| max(m, l.keep(a)));
+        let reach = reach.to_array().into_iter().fold(0.0, f32::max);
+        let mut height = 0;
+        let mut place = 0_usize;
+        loop {
+            let node = &self.nodes[place];
+            let (bits, _) = traversal.enter::<false>(node, limit[0], active[0], reach);
+            each_bit(bits, |slot| {
+                stack[height] = Pending { parent: place as u32, slot: slot as u32, near: 0.0 };
+                height += 1;
+            });
+            place = loop {
+                if height == 0 {
+                    return;
                 }
-            }
-            if count > 0 {
-                let first = first as usize;
-                let more = self.primitives.occluded(first..first + count as usize, rays, active, limit, skip);
-                hidden = hidden | more;
-                active = active & !more;
-                if !active.any() {
-                    return hidden;
+                height -= 1;
+                let Pending { parent, slot, .. } = stack[height];
+                let (node, slot) = (&self.nodes[parent as usize], slot as usize);
+                let (first, count) = (node.first[slot] as usize, usize::from(node.count[slot]));
+                if count == 0 {
+                    break first;
                 }
-            }
+                let mut closed = false;
+                each_bit(traversal.packets(node, slot, |p| limit[p], active), |p| {
+                    let range = first..first + count;
+                    let hidden = self.primitives.occluded(range, &traversal.rays[p], active[p], limit[p], skip[p]);
+                    active[p] = active[p] & !hidden;
+                    closed |= !active[p].any();
+                });
+                if closed && !active.iter().any(|a| a.any()) {
+                    return;
+                }
+            };
         }
-        hidden
     }
+}
+
+/// The greatest distance at which an active ray still looks for something.
+#[inline]
+fn farthest(hits: &[Hits], active: &[M8]) -> f32 {
+    let most = hits.iter().zip(active).fold(X8::lit(0.0), |m, (h, &a)| max(m, h.distance.keep(a)));
+    most.to_array().into_iter().fold(0.0, f32::max)
+}
+
+/// The signs that all rays of a group share, if they do.
+#[inline]
+fn common_sign(rays: &[Rays]) -> Option<[bool; 3]> {
+    let sign = rays[0].common_sign?;
+    rays[1..].iter().all(|r| r.common_sign == Some(sign)).then_some(sign)
 }
