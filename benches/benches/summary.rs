@@ -1,9 +1,13 @@
-//! One table: time per sample of every routine in f32, f32x4 and f32x8, and how much faster eight lanes are than one.
+//! Two tables: time per sample of every routine in f32, f32x4 and f32x8, and how much faster eight lanes are than one; rays per
+//! second on one thread. `cargo bench -p etendue-benches --bench summary -- cone` for some.
 //!
 //! The median of repetitions that take turns, so that a change of the processor's clock meets all widths alike.
 
 use etendue::{f32x4, f32x8};
+use etendue_benches::rays::{Spread, Workload};
 use etendue_benches::{Routine, SAMPLES, routines};
+use etendue_render::accel::Stack;
+use std::hint::black_box;
 use std::time::Instant;
 
 const REPETITIONS: usize = 31;
@@ -24,7 +28,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 fn main() {
-    // `cargo bench -- WORD` shows the routines whose names contain it; cargo itself passes --bench
+    // cargo itself passes --bench
     let filter = std::env::args().skip(1).find(|a| !a.starts_with('-')).unwrap_or_default();
     println!("{:38} {:>8} {:>8} {:>8} {:>7}", "ns/sample, median", "f32", "f32x4", "f32x8", "x1/x8");
     let widths = routines::<f32>().into_iter().zip(routines::<f32x4>()).zip(routines::<f32x8>());
@@ -36,5 +40,29 @@ fn main() {
         let rounds: Vec<_> = (0..REPETITIONS).map(|_| each.each_mut().map(nanoseconds)).collect();
         let [one, four, eight] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
         println!("{:38} {one:8.2} {four:8.2} {eight:8.2} {:7.1}", each[0].name, one / eight);
+    }
+    if "rays".contains(&filter) {
+        rays();
+    }
+}
+
+fn rays() {
+    println!("\n{:38} {:>8} {:>8}", "million rays/s, median", "camera", "shadow");
+    for scene in ["quads", "terrain"] {
+        for (spread, name) in [(Spread::Pixel, "64 rays of a pixel"), (Spread::Block, "64 rays of 8x8 pixels")] {
+            let workload = Workload::new(scene, 512, spread);
+            let mut stack = Stack::default();
+            let mut speed = |rays: u64, trace: fn(&Workload, &mut Stack) -> u64| {
+                let start = Instant::now();
+                black_box(trace(&workload, &mut stack));
+                rays as f64 / start.elapsed().as_secs_f64() / 1e6
+            };
+            let [camera, shadow] = workload.rays();
+            let rounds: Vec<_> = (0..REPETITIONS)
+                .map(|_| [speed(camera, Workload::closest), speed(shadow, Workload::occluded)])
+                .collect();
+            let [camera, shadow] = [0, 1].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
+            println!("{:38} {camera:8.1} {shadow:8.1}", format!("{scene}, {name}"));
+        }
     }
 }
