@@ -69,7 +69,7 @@ impl Default for Rays {
 
 impl Rays {
     /// Eight rays. `reach` is the greatest magnitude of a coordinate in the scene: slabs are widened in proportion to it.
-    #[inline]
+    #[inline(always)]
     pub fn new(origin: V8, direction: V8, reach: f32) -> Self {
         let frame = Frame::new(direction);
         // a ray that is parallel to a plane to within 1e−18 of its length never reaches it
@@ -184,7 +184,7 @@ impl Accel {
         Ok(Self { triangles: triangle::Soup::tree(triangles)?, shapes, reach })
     }
     /// Rays for this scene.
-    #[inline]
+    #[inline(always)]
     pub fn rays(&self, origin: V8, direction: V8) -> Rays {
         Rays::new(origin, direction, self.reach)
     }
@@ -222,7 +222,7 @@ impl Accel {
             }
         });
     }
-    /// As one group where the packets have a shaft in common, else packet by packet.
+    /// As one group where the packets have a narrow shaft in common, else packet by packet.
     #[inline]
     fn in_groups(&self, rays: &[Rays], active: &[M8], mut each: impl FnMut(std::ops::Range<usize>, Option<&Shaft>)) {
         if let Some(shaft) = Shaft::new(rays, active) {

@@ -163,7 +163,7 @@ impl World {
                 let mut work = Work::new(self, settings);
                 let pixels = work.tile(area);
                 progress(pixels.len() as u64);
-                (area, pixels, work.rays)
+                (area, pixels, work.count)
             })
             .collect();
         let mut pixels = vec![Pixel::default(); width as usize * height as usize];
@@ -278,6 +278,21 @@ impl World {
             surface.reflects = surface.reflects | here;
         }
     }
+
+    /// What the shape that a lane has hit sends back along the ray.
+    fn emitted(&self, hits: &Hits, lane: usize, origin: Vec3<f32>, direction: Vec3<f32>) -> Option<[f32; 3]> {
+        let shape = &self.shapes[(hits.place.as_array()[lane] & !SHAPE) as usize];
+        let emission = shape.emission?;
+        let outward = match shape.geometry {
+            Geometry::Sphere { center, .. } => origin - center.into() + direction * hits.distance.lane(lane),
+            Geometry::Triangle([a, b, c]) => {
+                let [a, b, c] = [a, b, c].map(Vec3::<f32>::from);
+                (b - a).cross(c - a)
+            }
+            Geometry::Parallelogram { u, v, .. } => Vec3::from(u).cross(Vec3::from(v)),
+        };
+        (emission.two_sided || outward.dot(direction) < 0.0).then_some(emission.radiance)
+    }
 }
 
 /// The normal on the side from which the ray comes.
@@ -302,8 +317,10 @@ struct Work<'a> {
     source: Source,
     /// Samples in a replicate; 0 where each sample is one.
     replicate: u32,
-    rays: RayCount,
+    count: RayCount,
     stack: Stack,
+    /// Camera rays of a group, and their shadow rays.
+    rays: Box<[[Rays; GROUP]; 2]>,
 }
 
 /// Eight samples to be taken.
@@ -333,7 +350,7 @@ impl<'a> Work<'a> {
             }
         };
         let camera = Pinhole::new(&world.camera, settings.width, settings.height);
-        Self { world, settings, camera, source, replicate, rays: RayCount::default(), stack: Stack::default() }
+        Self { world, settings, camera, source, replicate, count: RayCount::default(), stack: Stack::default(), rays: Box::default() }
     }
 
     /// The pixels of an area [x0, y0, x1, y1), row by row.
@@ -401,7 +418,7 @@ impl<'a> Work<'a> {
         let width = u32x8::splat(self.settings.width);
         let pixel = |p: usize| packets[p].y * width + packets[p].x;
         let mut light = [Vec2::default(); GROUP];
-        let mut rays = [Rays::default(); GROUP];
+        let rays = &mut self.rays[0];
         let mut active = [M8::splat(false); GROUP];
         let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
         for (p, packet) in packets.iter().enumerate() {
@@ -411,7 +428,7 @@ impl<'a> Work<'a> {
             light[p] = second;
             rays[p] = world.accel.rays(origin, direction);
             active[p] = packet.active;
-            self.rays.camera += u64::from(packet.active.bits().count_ones());
+            self.count.camera += u64::from(packet.active.bits().count_ones());
         }
         world.accel.closest(&rays[..count], &active[..count], &mut hits[..count], &mut self.stack);
 
@@ -452,7 +469,7 @@ impl<'a> Work<'a> {
         let by_area = self.settings.technique == Technique::Area;
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
         let count = surfaces.len();
-        let mut rays = [Rays::default(); GROUP];
+        let rays = &mut self.rays[1];
         let mut lit = [M8::splat(false); GROUP];
         let mut limit = [zero; GROUP];
         let mut target = [u32x8::splat(NOTHING); GROUP];
@@ -466,7 +483,7 @@ impl<'a> Work<'a> {
             let sample = world.lights.sample(&chosen, by_area, surface.point, u);
             let cos = sample.direction.dot(surface.normal);
             lit[p] = surface.reflects & sample.emits & sample.pdf.gt(zero) & cos.gt(zero);
-            self.rays.shadow += u64::from(lit[p].bits().count_ones());
+            self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[p] = world.accel.rays(surface.point, sample.direction);
             limit[p] = sample.distance * X8::lit(SPARED);
             target[p] = chosen.shape;
@@ -485,7 +502,7 @@ impl<'a> Work<'a> {
         let world = self.world;
         let count = surfaces.len();
         let infinite = X8::lit(f64::INFINITY);
-        let mut rays = [Rays::default(); GROUP];
+        let rays = &mut self.rays[1];
         let mut lit = [M8::splat(false); GROUP];
         let mut hits = [Hits::none(infinite); GROUP];
         let mut weight = [X8::lit(1.0); GROUP];
@@ -493,7 +510,7 @@ impl<'a> Work<'a> {
             let local: V8 = if cosine { CosineHemisphere.sample(light[p]) } else { UniformHemisphere.sample(light[p]) };
             rays[p] = world.accel.rays(surface.point, Frame::new(surface.normal).to_world(local));
             lit[p] = surface.reflects;
-            self.rays.shadow += u64::from(surface.reflects.bits().count_ones());
+            self.count.shadow += u64::from(surface.reflects.bits().count_ones());
             // f·L·cos/pdf: cos/π for the cosine's density z/π leaves the albedo, for 1/2π it leaves 2cos
             if !cosine {
                 weight[p] = local.z * X8::lit(2.0);
@@ -510,7 +527,7 @@ impl<'a> Work<'a> {
             let mut emitted = V8::default();
             for lane in (0..8).filter(|&i| met.lane(i)) {
                 let (origin, direction) = (surface.point.lane(lane), rays[p].direction.lane(lane));
-                if let Some(radiance) = self.emitted(&hits[p], lane, origin, direction) {
+                if let Some(radiance) = world.emitted(&hits[p], lane, origin, direction) {
                     let here = M8::from_bits(1 << lane);
                     emitted = V8::select(here, radiance.into(), emitted);
                     lit[p] = lit[p] | here;
@@ -525,21 +542,6 @@ impl<'a> Work<'a> {
             reflected[p] = keep(reflected[p], lit[p]);
         }
         reflected
-    }
-
-    /// What the shape that a lane has hit sends back along the ray.
-    fn emitted(&self, hits: &Hits, lane: usize, origin: Vec3<f32>, direction: Vec3<f32>) -> Option<[f32; 3]> {
-        let shape = &self.world.shapes[(hits.place.as_array()[lane] & !SHAPE) as usize];
-        let emission = shape.emission?;
-        let outward = match shape.geometry {
-            Geometry::Sphere { center, .. } => origin - center.into() + direction * hits.distance.lane(lane),
-            Geometry::Triangle([a, b, c]) => {
-                let [a, b, c] = [a, b, c].map(Vec3::<f32>::from);
-                (b - a).cross(c - a)
-            }
-            Geometry::Parallelogram { u, v, .. } => Vec3::from(u).cross(Vec3::from(v)),
-        };
-        (emission.two_sided || outward.dot(direction) < 0.0).then_some(emission.radiance)
     }
 }
 

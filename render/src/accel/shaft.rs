@@ -1,7 +1,7 @@
 //! What a whole group of packets can meet.
 
 use super::tree::Node;
-use super::{M8, Rays, X8, max, min, select};
+use super::{M8, Rays, V8, X8, max, min, select};
 use etendue::{Mask, Real};
 
 /// A region that holds all rays of a group: along one axis all of them run the same way, and across it they spread by their
@@ -36,6 +36,9 @@ impl Shaft {
         for (r, &a) in rays.iter().zip(active) {
             let d = [r.direction.x, r.direction.y, r.direction.z][axis].negate_where(M8::splat(negative));
             let slope = r.direction * (X8::lit(1.0) / d);
+            if Self::wide(slope, a) {
+                return None;
+            }
             let values = [r.origin.x, r.origin.y, r.origin.z, slope.x, slope.y, slope.z, d];
             for (k, value) in values.into_iter().enumerate() {
                 least[k] = min(least[k], select(a, value, infinite));
@@ -54,6 +57,16 @@ impl Shaft {
             slope: [[low[3], low[4], low[5]], [high[3], high[4], high[5]]],
             along: high[6],
         })
+    }
+
+    /// Does one packet alone spread too far?
+    #[inline(always)]
+    fn wide(slope: V8, active: M8) -> bool {
+        let lead = slope.lane(active.bits().trailing_zeros() as usize & 7);
+        let apart = slope - V8::splat(lead);
+        // a NaN is not within either
+        let near = max(max(apart.x.abs(), apart.y.abs()), apart.z.abs()).le(X8::splat(SPREAD));
+        (active & !near).any()
     }
 
     /// The children of a node that a ray of the group may enter within `reach`, and a lower bound of the distance at which.
