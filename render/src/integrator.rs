@@ -50,6 +50,8 @@ pub struct RayCount {
 pub struct World {
     accel: Accel,
     shapes: Vec<Shape>,
+    /// Of the flat ones among the shapes.
+    normals: Vec<[f32; 3]>,
     materials: Vec<[f32; 3]>,
     /// Material of each place of the tree; empty where there is but one.
     place_materials: Vec<u32>,
@@ -139,6 +141,7 @@ impl World {
         };
         Ok(Self {
             lights: Lights::new(scene),
+            normals: scene.shapes.iter().map(|s| normal_of(&s.geometry)).collect(),
             shapes: scene.shapes.clone(),
             camera: scene.camera.clone(),
             accel,
@@ -182,17 +185,15 @@ impl World {
 
     /// Geometry and material where eight rays from the camera meet the scene.
     #[inline]
-    fn surface(&self, hits: &Hits, direction: V8) -> Surface {
+    fn surface(&self, hits: &Hits, rays: &Rays) -> Surface {
         let shapes = hits.shapes();
         let meshes = hits.any() & !shapes;
         let mut surface = Surface::default();
         if meshes.any() {
-            self.mesh(hits, meshes, direction, &mut surface);
+            self.mesh(hits, meshes, rays.direction, &mut surface);
         }
         if shapes.any() {
-            for lane in (0..8).filter(|&i| shapes.lane(i)) {
-                self.shape(hits, lane, direction, &mut surface);
-            }
+            self.shapes(hits, shapes, rays, &mut surface);
         }
         surface
     }
@@ -241,58 +242,63 @@ impl World {
         self.materials[material as usize]
     }
 
-    /// A lane that meets a sphere or an emitter.
-    #[cold]
-    fn shape(&self, hits: &Hits, lane: usize, direction: V8, surface: &mut Surface) {
-        let shape = &self.shapes[(hits.place.as_array()[lane] & !SHAPE) as usize];
-        let d = direction.lane(lane);
-        let ray = |t: f32| d * t;
-        let (outward, reach) = match shape.geometry {
-            Geometry::Sphere { center, radius } => {
-                let origin = Vec3::from(self.camera.origin.map(|x| x as f32));
-                let offset = origin - Vec3::from(center) + ray(hits.distance.lane(lane));
-                (offset.normalize(), Vec3::<f32>::from(center).max_abs() + radius)
-            }
-            Geometry::Triangle([a, b, c]) => {
-                let [a, b, c] = [a, b, c].map(Vec3::<f32>::from);
-                ((b - a).cross(c - a).normalize(), a.max_abs().max(b.max_abs()).max(c.max_abs()))
-            }
-            Geometry::Parallelogram { p, u, v } => {
-                let [p, u, v] = [p, u, v].map(Vec3::<f32>::from);
-                (u.cross(v).normalize(), p.max_abs() + u.max_abs() + v.max_abs())
-            }
-        };
-        let here = M8::from_bits(1 << lane);
-        let front = outward.dot(d) < 0.0;
-        if let Some(emission) = shape.emission.filter(|e| front || e.two_sided) {
-            surface.emission = V8::select(here, emission.radiance.into(), surface.emission);
-        }
-        let albedo = self.materials[shape.material as usize];
-        if albedo != [0.0; 3] {
-            let normal = if front { outward } else { -outward };
-            let origin = Vec3::from(self.camera.origin.map(|x| x as f32));
-            let point = lift(V8::splat(origin + ray(hits.distance.lane(lane))), V8::splat(normal), X8::splat(reach));
-            surface.point = V8::select(here, point, surface.point);
-            surface.normal = V8::select(here, V8::splat(normal), surface.normal);
-            surface.albedo = V8::select(here, albedo.into(), surface.albedo);
-            surface.reflects = surface.reflects | here;
+    /// Calls `f` for each of the shapes that lanes have met: the lanes, the shape, and its outward normal there.
+    #[inline]
+    fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(M8, &Shape, V8)) {
+        while lanes.any() {
+            let lane = lanes.bits().trailing_zeros() as usize & 7;
+            let place = hits.place.as_array()[lane];
+            let here = lanes & crate::accel::equal(hits.place, u32x8::splat(place));
+            let index = (place & !SHAPE) as usize;
+            let shape = &self.shapes[index];
+            let outward = match shape.geometry {
+                Geometry::Sphere { center, .. } => {
+                    rays.direction.mul_add(hits.distance, rays.origin - V8::from(center)).normalize()
+                }
+                Geometry::Triangle(_) | Geometry::Parallelogram { .. } => V8::from(self.normals[index]),
+            };
+            f(here, shape, outward);
+            lanes = lanes & !here;
         }
     }
 
-    /// What the shape that a lane has hit sends back along the ray.
-    fn emitted(&self, hits: &Hits, lane: usize, origin: Vec3<f32>, direction: Vec3<f32>) -> Option<[f32; 3]> {
-        let shape = &self.shapes[(hits.place.as_array()[lane] & !SHAPE) as usize];
-        let emission = shape.emission?;
-        let outward = match shape.geometry {
-            Geometry::Sphere { center, .. } => origin - center.into() + direction * hits.distance.lane(lane),
-            Geometry::Triangle([a, b, c]) => {
-                let [a, b, c] = [a, b, c].map(Vec3::<f32>::from);
-                (b - a).cross(c - a)
+    /// Spheres and emitters that eight rays meet.
+    fn shapes(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
+        self.each_shape(hits, lanes, rays, |here, shape, outward| {
+            if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
+                surface.emission = V8::select(lit, radiance, surface.emission);
             }
-            Geometry::Parallelogram { u, v, .. } => Vec3::from(u).cross(Vec3::from(v)),
-        };
-        (emission.two_sided || outward.dot(direction) < 0.0).then_some(emission.radiance)
+            let albedo = self.materials[shape.material as usize];
+            if albedo != [0.0; 3] {
+                let normal = facing(outward, rays.direction);
+                let point = rays.direction.mul_add(hits.distance, rays.origin);
+                let point = lift(point, normal, X8::splat(self.accel.shapes.reach()));
+                surface.point = V8::select(here, point, surface.point);
+                surface.normal = V8::select(here, normal, surface.normal);
+                surface.albedo = V8::select(here, albedo.into(), surface.albedo);
+                surface.reflects = surface.reflects | here;
+            }
+        });
     }
+}
+
+/// What a shape sends back along the rays, and in which of the lanes.
+#[inline]
+fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(V8, M8)> {
+    let emission = shape.emission?;
+    let front = outward.dot(direction).lt(X8::lit(0.0));
+    Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
+}
+
+/// The unit normal of a flat shape.
+fn normal_of(geometry: &Geometry) -> [f32; 3] {
+    let [a, b] = match *geometry {
+        Geometry::Sphere { .. } => return [0.0; 3],
+        Geometry::Triangle([a, b, c]) => [b, c].map(|p| std::array::from_fn(|k| f64::from(p[k]) - f64::from(a[k]))),
+        Geometry::Parallelogram { u, v, .. } => [u, v].map(|e| e.map(f64::from)),
+    };
+    let normal = Vec3::<f64>::from(a).cross(b.into()).normalize();
+    [normal.x as f32, normal.y as f32, normal.z as f32]
 }
 
 /// The normal on the side from which the ray comes.
@@ -435,7 +441,7 @@ impl<'a> Work<'a> {
         let mut radiance = [V8::default(); GROUP];
         let mut surfaces = [Surface::default(); GROUP];
         for p in 0..count {
-            surfaces[p] = world.surface(&hits[p], rays[p].direction);
+            surfaces[p] = world.surface(&hits[p], &rays[p]);
             radiance[p] = surfaces[p].emission;
         }
         if world.lights.is_empty() {
@@ -524,16 +530,14 @@ impl<'a> Work<'a> {
         for (p, surface) in surfaces.iter().enumerate() {
             let met = lit[p] & hits[p].any();
             lit[p] = M8::splat(false);
-            let mut emitted = V8::default();
-            for lane in (0..8).filter(|&i| met.lane(i)) {
-                let (origin, direction) = (surface.point.lane(lane), rays[p].direction.lane(lane));
-                if let Some(radiance) = world.emitted(&hits[p], lane, origin, direction) {
-                    let here = M8::from_bits(1 << lane);
-                    emitted = V8::select(here, radiance.into(), emitted);
+            let mut found = V8::default();
+            world.each_shape(&hits[p], met, &rays[p], |here, shape, outward| {
+                if let Some((radiance, here)) = emitted(here, shape, outward, rays[p].direction) {
+                    found = V8::select(here, radiance, found);
                     lit[p] = lit[p] | here;
                 }
-            }
-            reflected[p] = product(surface.albedo, emitted) * weight[p];
+            });
+            reflected[p] = product(surface.albedo, found) * weight[p];
             target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
             limit[p] = hits[p].distance * X8::lit(SPARED);
         }
