@@ -9,10 +9,10 @@ mod shape;
 mod tree;
 mod triangle;
 
-pub use shape::ShapeSet;
-pub use tree::{BuildError, Stack};
 use shaft::Shaft;
+pub use shape::ShapeSet;
 use tree::Tree;
+pub use tree::{BuildError, Stack};
 
 use etendue::{Frame, Mask, Real, Vec3, f32x8, u32x8};
 

@@ -356,7 +356,16 @@ impl<'a> Work<'a> {
             }
         };
         let camera = Pinhole::new(&world.camera, settings.width, settings.height);
-        Self { world, settings, camera, source, replicate, count: RayCount::default(), stack: Stack::default(), rays: Box::default() }
+        Self {
+            world,
+            settings,
+            camera,
+            source,
+            replicate,
+            count: RayCount::default(),
+            stack: Stack::default(),
+            rays: Box::default(),
+        }
     }
 
     /// The pixels of an area [x0, y0, x1, y1), row by row.

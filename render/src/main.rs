@@ -6,6 +6,7 @@ use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::error::Error;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -118,13 +119,14 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Render(options) => render(&options),
         Command::Compare(options) => compare(&options),
-        Command::List => {
-            list();
-            Ok(())
-        }
+        Command::List => list().map_err(Into::into),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        // whoever reads our output has had enough of it
+        Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
+            ExitCode::SUCCESS
+        }
         Err(error) => {
             eprintln!("etendue: {error}");
             ExitCode::from(2)
@@ -136,19 +138,22 @@ fn name(value: impl ValueEnum) -> String {
     value.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
 }
 
-fn list() {
-    println!("scenes");
+fn list() -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "scenes")?;
     for (name, about) in scene::builtin() {
-        println!("  {name:20} {about}");
+        writeln!(out, "  {name:20} {about}")?;
     }
-    fn values<T: ValueEnum>(title: &str) {
-        println!("{title}");
+    fn values<T: ValueEnum>(out: &mut impl Write, title: &str) -> io::Result<()> {
+        writeln!(out, "{title}")?;
         for value in T::value_variants().iter().filter_map(ValueEnum::to_possible_value) {
-            println!("  {:20} {}", value.get_name(), value.get_help().map(ToString::to_string).unwrap_or_default());
+            let help = value.get_help().map(ToString::to_string).unwrap_or_default();
+            writeln!(out, "  {:20} {help}", value.get_name())?;
         }
+        Ok(())
     }
-    values::<Technique>("techniques");
-    values::<Sampler>("samplers");
+    values::<Technique>(&mut out, "techniques")?;
+    values::<Sampler>(&mut out, "samplers")
 }
 
 fn render(options: &Render) -> Result<(), Box<dyn Error>> {
@@ -211,44 +216,36 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
             "mean": mean,
             "output": output,
         });
-        println!("{report}");
+        writeln!(io::stdout(), "{report}")?;
     } else {
-        report(&settings, &scene.name, &output, &picture, mean, rays, load, build, &mut seconds);
+        let seconds = [load, build, median(&mut seconds)];
+        report(&settings, &scene.name, [&output, &picture], mean, rays, seconds)?;
     }
     Ok(())
 }
 
-#[expect(clippy::too_many_arguments, reason = "it prints them all")]
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
 fn report(
     settings: &Settings,
     scene: &str,
-    output: &Path,
-    picture: &Path,
-    mean: [f64; 3],
+    [output, picture]: [&Path; 2],
+    [r, g, b]: [f64; 3],
     rays: RayCount,
-    load: f64,
-    build: f64,
-    seconds: &mut [f64],
-) {
-    seconds.sort_by(f64::total_cmp);
-    let median = seconds[seconds.len() / 2];
-    println!(
-        "{scene}: {}x{}, {} samples per pixel, {}, {}",
-        settings.width,
-        settings.height,
-        settings.spp,
-        name(settings.technique),
-        name(settings.sampler)
-    );
-    println!("load {load:.3} s, build {build:.3} s, render {median:.3} s");
-    println!(
-        "{:.1} million samples/s; {} camera rays, {} shadow rays",
-        rays.camera as f64 / median / 1e6,
-        rays.camera,
-        rays.shadow
-    );
-    println!("mean radiance {:.6} {:.6} {:.6}", mean[0], mean[1], mean[2]);
-    println!("wrote {} and {}", output.display(), picture.display());
+    [load, build, render]: [f64; 3],
+) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    let Settings { width, height, spp, .. } = settings;
+    let (technique, sampler) = (name(settings.technique), name(settings.sampler));
+    writeln!(out, "{scene}: {width}x{height}, {spp} samples per pixel, {technique}, {sampler}")?;
+    writeln!(out, "load {load:.3} s, build {build:.3} s, render {render:.3} s")?;
+    let rate = rays.camera as f64 / render / 1e6;
+    writeln!(out, "{rate:.1} million samples/s; {} camera rays, {} shadow rays", rays.camera, rays.shadow)?;
+    writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?;
+    writeln!(out, "wrote {} and {}", output.display(), picture.display())
 }
 
 fn compare(options: &Compare) -> Result<(), Box<dyn Error>> {
@@ -257,9 +254,9 @@ fn compare(options: &Compare) -> Result<(), Box<dyn Error>> {
     let comparison = Comparison::new(&reference, &other, options.reference_error)
         .map_err(|what| format!("{}: {what}", options.image.display()))?;
     if options.json {
-        println!("{}", comparison.to_json());
+        writeln!(io::stdout(), "{}", comparison.to_json())?;
     } else {
-        println!("{comparison}");
+        writeln!(io::stdout(), "{comparison}")?;
     }
     Ok(())
 }

@@ -72,8 +72,9 @@ impl Default for Node {
 impl Node {
     fn push(&mut self, bounds: &Bounds, first: u32, count: usize) {
         let slot = self.children as usize;
+        let [low, high] = bounds;
         for k in 0..3 {
-            (self.lower[k][slot], self.upper[k][slot]) = (bounds[0][k], bounds[1][k]);
+            (self.lower[k][slot], self.upper[k][slot]) = (low[k], high[k]);
         }
         (self.first[slot], self.count[slot]) = (first, count as u8);
         self.children += 1;
@@ -120,7 +121,8 @@ fn built_by_obvhs(all: &[Bounds]) -> Option<(Vec<Node>, Vec<u32>)> {
     if all.len() <= LEAF || crowded(all) {
         return None;
     }
-    let boxes: Vec<Aabb> = all.iter().map(|[lo, hi]| Aabb::new(Vec3A::from_array(*lo), Vec3A::from_array(*hi))).collect();
+    let boxes: Vec<Aabb> =
+        all.iter().map(|[lo, hi]| Aabb::new(Vec3A::from_array(*lo), Vec3A::from_array(*hi))).collect();
     let bvh = build_bvh2(&boxes, PARAMETERS, &mut Duration::default());
     if bvh.nodes[0].is_leaf() {
         return None;
@@ -198,7 +200,8 @@ fn balanced(all: &[Bounds]) -> (Vec<Node>, Vec<u32>) {
     while let Some((range, place)) = pending.pop() {
         let mut parts = vec![range];
         while parts.len() < WIDTH {
-            let Some(largest) = (0..parts.len()).filter(|&i| parts[i].len() > LEAF).max_by_key(|&i| parts[i].len()) else {
+            let Some(largest) = (0..parts.len()).filter(|&i| parts[i].len() > LEAF).max_by_key(|&i| parts[i].len())
+            else {
                 break;
             };
             let range = parts[largest].clone();
@@ -420,9 +423,17 @@ impl<P: Primitives> Tree<P> {
         }
         let lead = active[0].bits().trailing_zeros() as usize & 7;
         match common_sign(rays) {
-            Some(sign) => self.occluded_with(&Traversal::<true> { rays, sign, shaft, lead }, active, limit, skip, stack),
+            Some(sign) => {
+                self.occluded_with(&Traversal::<true> { rays, sign, shaft, lead }, active, limit, skip, stack)
+            }
             None => {
-                self.occluded_with(&Traversal::<false> { rays, sign: [false; 3], shaft, lead }, active, limit, skip, stack);
+                self.occluded_with(
+                    &Traversal::<false> { rays, sign: [false; 3], shaft, lead },
+                    active,
+                    limit,
+                    skip,
+                    stack,
+                );
             }
         }
     }
