@@ -90,6 +90,14 @@ pub trait Subject: Copy + Debug {
         let d = sub(a, b);
         if self.granularity() < 1.0 { d[0].hypot(d[1]) } else { length(d) }
     }
+    /// The length to whose rounding a distance is known, besides itself.
+    fn reach(&self) -> f64 {
+        0.0
+    }
+    /// Relative change of the distance per turn of the direction.
+    fn slant(&self, _w: V3) -> f64 {
+        1.0
+    }
     /// Relative change of the density per relative change of a parameter.
     fn condition(&self) -> f64 {
         1.0
@@ -360,26 +368,27 @@ pub fn jacobian<S: Subject>(s: &S, u: [f64; 2]) -> f64 {
     (product - 1.0).abs()
 }
 
-/// f32 against f64 of the same body: the point, and the distance where there is one; that one give or take 4 steps of u₀ by 2⁻²⁴, since it
-/// has an infinite slope at a sphere's limb.
+/// f32 against f64 of the same body: the point, and the distance where there is one; each give or take what steps of 2⁻²⁴ in
+/// either `u` do to it (8 to the point, 4 to the distance), since Ω and products like u₀Ω are rounded.
 ///
 /// Returns the point's error in units of the rounding, or the distance's in units in the last place.
 pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
     let narrow = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
-    let wide = observe::<S, f64>(&S::prepare::<f64>(&[*s]), squares_of(&[u]))[0];
-    let error = s.distance(narrow.point, wide.point);
-    let allowed = s.tolerance().point * rounding(s, ULP);
-    assert!(error <= allowed, "point: {s:?} at {u:?}: error {error:e}, allowed {allowed:e}\n{narrow:?}\n{wide:?}");
+    let warp = S::prepare::<f64>(&[*s]);
+    let at = |u: [f64; 2]| observe::<S, f64>(&warp, Vec2::new(u[0], u[1]))[0];
+    let u = u.map(f64::from);
+    let wide = at(u);
+    let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
+        .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0 - ULP), (u[1] + d[1]).clamp(0.0, 1.0 - ULP)]));
+    let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).fold(0.0, f64::max);
+    let excess = s.distance(narrow.point, wide.point) - 8.0 * step(&|o| s.distance(o.point, wide.point));
+    let point = excess / rounding(s, ULP);
+    assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.sighting[3], wide.sighting[3]);
-    let step = [ULP, -ULP].map(|d| {
-        let u = [(f64::from(u[0]) + d).clamp(0.0, 1.0), f64::from(u[1])];
-        let sighting = S::sight(&S::prepare::<f64>(&[*s]), Vec2::new(u[0], u[1]));
-        sighting.map_or(0.0, |s| (s.distance - e).abs())
-    });
-    let allowed = s.tolerance().distance * ULP * e + 4.0 * step[0].max(step[1]);
-    assert!((d - e).abs() <= allowed, "distance: {s:?} at {u:?}: {d} for {e}: allowed {allowed:e}");
-    let relative = if e > 0.0 { ((d - e).abs() - 4.0 * step[0].max(step[1])) / (e * ULP) } else { 0.0 };
-    (error / rounding(s, ULP)).max(relative)
+    let excess = (d - e).abs() - 4.0 * step(&|o| (o.sighting[3] - e).abs());
+    let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
+    assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d} for {e}: {distance:e} units");
+    point.max(distance)
 }
 
 /// ∫ pdf = 1, over the independent parameterisation.

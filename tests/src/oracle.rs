@@ -150,11 +150,12 @@ pub fn gauss_legendre<const N: usize>() -> [(f64, f64); N] {
     })
 }
 
-/// ∫ f over the rectangle [low, high], split until a split changes the estimate by less than `tolerance` times the absolute value (or 12 times).
+/// ∫ f over the rectangle [low, high], split until a split changes the sum by less than `tolerance` of the first estimate of it
+/// (or 20 times).
 pub fn integrate(f: &mut impl FnMut(f64, f64) -> f64, low: [f64; 2], high: [f64; 2], tolerance: f64) -> f64 {
     let nodes = gauss_legendre::<8>();
     let whole = tensor(f, &nodes, low, high);
-    refine(f, &nodes, low, high, whole, tolerance, 12)
+    refine(f, &nodes, low, high, whole, tolerance * whole.abs(), 20)
 }
 
 fn tensor(f: &mut impl FnMut(f64, f64) -> f64, nodes: &[(f64, f64); 8], low: [f64; 2], high: [f64; 2]) -> f64 {
@@ -185,7 +186,7 @@ fn refine(
     };
     let parts: [f64; 4] = core::array::from_fn(|i| tensor(f, nodes, corners(i).0, corners(i).1));
     let sum: f64 = parts.iter().sum();
-    if depth == 0 || (sum - whole).abs() <= tolerance * sum.abs() {
+    if depth == 0 || (sum - whole).abs() <= tolerance {
         return sum;
     }
     (0..4).map(|i| refine(f, nodes, corners(i).0, corners(i).1, parts[i], tolerance, depth - 1)).sum()

@@ -39,6 +39,6 @@ pub const COSINE: Tolerance = Tolerance { point: 3.0, distance: 0.0, density: 4.
 /// Spheres.
 pub const CAP: Tolerance = Tolerance { point: 8.0, distance: 16.0, density: 8.0, round_trip: 12.0 };
 /// Triangles.
-pub const TRIANGLE: Tolerance = Tolerance { point: 8e9, distance: 16e9, density: 8e9, round_trip: 16e9 };
+pub const TRIANGLE: Tolerance = Tolerance { point: 16.0, distance: 32.0, density: 3.0, round_trip: 16.0 };
 /// Parallelograms.
-pub const PARALLELOGRAM: Tolerance = Tolerance { point: 8.0, distance: 16.0, density: 8.0, round_trip: 16.0 };
+pub const PARALLELOGRAM: Tolerance = Tolerance { point: 16.0, distance: 32.0, density: 3.0, round_trip: 16.0 };

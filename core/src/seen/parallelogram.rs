@@ -22,8 +22,9 @@ impl<R: Real> SphericalParallelogram<R> {
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (a, b, c) = (p + u, p + u + v, p + v);
         Self {
-            first: SphericalTriangle::with_edges(a, p, b, -u, v),
-            second: SphericalTriangle::with_edges(b, p, c, -(u + v), -u),
+            first: SphericalTriangle::with_normal([a, p, b], [-u, v], [v, u]),
+            // the diagonal is a rounded sum; of a sliver it would not leave the area
+            second: SphericalTriangle::with_normal([b, p, c], [-(u + v), -u], [v, u]),
         }
     }
     /// Prepared for one point: the same in every lane.
@@ -78,12 +79,14 @@ impl<R: Real> Warp<R> for SphericalParallelogram<R> {
     }
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.density().keep(self.first.contains(w) | self.second.contains(w))
+        let (first, second) = (&self.first, &self.second);
+        let inside = first.within_v0_v1(w) & first.within_v2_v0(w) & second.within_v2_v0(w) & second.within_v1_v2(w);
+        self.density().keep(inside & first.ahead(w))
     }
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
-        let first = self.first.contains(w);
+        let first = self.second.beyond_v0_v1(w);
         let (u, v) = (self.first.invert(w), self.second.invert(w));
         let swept = R::select(first, u.x * a, v.x.mul_add(b, a));
         let sum = a + b;

@@ -18,9 +18,10 @@ lanewise! {
     ///
     /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l and cosines d between the V:
     ///   tan(Ω/2) = |V₀·(E₁×E₂)| / (l₀l₁l₂ + (V₀·V₁)l₂ + (V₀·V₂)l₁ + (V₁·V₂)l₀).
-    ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), G₁ = d₀₂+d₁₂, G₂ = 1+d₀₁, η = u₀Ω/2, α = G₀cosη − G₁sinη, β = G₂sinη;
-    ///   the point P = V₀ + τE₂ of the far edge has τ : 1−τ = 2β(α+βd₀₂)/l₂ : (α−β)(α+β)/l₀; with c = cos∠(V₁,P), δ = 1−c,
-    ///   z = 1−u₁δ and t = √(u₁(1+z)/(2−δ)), the direction is kV₁/l₁ + tP/|P|, k = z − tc, at the distance l₁|P|/(k|P| + tl₁).
+    ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), G₁ = d₀₂+d₁₂, G₂ = 1+d₀₁, η = u₀Ω/2, a = G₀cosη − G₁sinη, b = G₂sinη;
+    ///   the point P = V₀ + τE₂ of the far edge has τ : 1−τ = 2b(a+bd₀₂)/l₂ : (a−b)(a+b)/l₀. With α the angle at v0, the angle swept at
+    ///   v1 has tanφ = σ sin(α−η) / (sinα − σ cos(α−η)), σ = 2 sinη/(1−d₀₁); with δ = 1−cos∠(V₁,P) and z = 1−u₁δ the
+    ///   direction is zV₁/l₁ + √(u₁δ(1+z)) T, T the tangent at v1 that is turned by φ from v0 towards v2.
     /// - Domain: u in [0, 1)²; any triangle, from any side.
     /// - Density: 1/Ω per steradian inside (and within 4 ulp of the direction beyond), 0 outside.
     /// - Degenerate: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
@@ -33,9 +34,18 @@ lanewise! {
         v2: Vec3<R>,
         e1: Vec3<R>,
         e2: Vec3<R>,
+        normal: Vec3<R>,
         l1: R,
-        /// unit vector to `v1`
+        /// unit vector to `v1`, and tangents there: towards `v0`, and across towards `v2`
         apex: Vec3<R>,
+        along: Vec3<R>,
+        across: Vec3<R>,
+        /// sine and cosine of the angle at `v0`; 2/(1−d₀₁)
+        sin_alpha: R,
+        cos_alpha: R,
+        stretch: R,
+        /// sine of the side v0 v1
+        sin_side: R,
         inv_l0: R,
         inv_l2: R,
         g0: R,
@@ -49,13 +59,21 @@ lanewise! {
     }
 }
 
-/// The point P of the far edge, and the angle between it and the apex.
+/// a×b = a×(b−a), from the shorter of the two: each is good to parts in 2²⁴ of itself.
+#[inline]
+fn plane<R: Real>(a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> Vec3<R> {
+    a.cross(Vec3::select(edge.length_squared().lt(b.length_squared()), edge, b))
+}
+
+/// A direction on the arc from `v1` to the point P of the far edge.
 struct Arc<R> {
-    p: Vec3<R>,
+    direction: Vec3<R>,
+    /// of the direction's angle to `v1`
+    z: R,
+    sin: R,
     inv_p: R,
-    /// 1−c, 1+c and c, none of them by cancellation
-    minus: R,
-    plus: R,
+    /// of the whole arc: 1−|cos|, and cos
+    small: R,
     cos: R,
 }
 
@@ -65,34 +83,60 @@ impl<R: Real> SphericalTriangle<R> {
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
         let scale = v0.max_abs().max(v1.max_abs()).max(v2.max_abs()).exponent_reciprocal();
         let (v0, v1, v2) = (v0 * scale, v1 * scale, v2 * scale);
-        Self::prepare(v0, v1, v2, v1 - v0, v2 - v0, scale)
+        let (e1, e2) = (v1 - v0, v2 - v0);
+        Self::prepare([v0, v1, v2], [e1, e2, e1.cross(e2)], scale)
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
     /// were moved to the point: for a small and far triangle they hold its shape.
     #[inline]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
-        let reach = v0.max_abs().max(v1.max_abs()).max(v2.max_abs()).max(e1.max_abs()).max(e2.max_abs());
+        Self::with_normal([v0, v1, v2], [e1, e2], [e1, e2])
+    }
+
+    /// As `with_edges`, with the normal as the product of two vectors, for edges that are themselves rounded sums.
+    #[inline]
+    pub(super) fn with_normal(vertices: [Vec3<R>; 3], edges: [Vec3<R>; 2], factors: [Vec3<R>; 2]) -> Self {
+        let reach = |all: &[Vec3<R>]| all.iter().fold(R::lit(0.0), |most, v| most.max(v.max_abs()));
+        let reach = reach(&vertices).max(reach(&edges));
         // sums that overflowed: a triangle of no extent
         let finite = reach.lt(R::lit(f64::INFINITY));
         let scale = reach.exponent_reciprocal();
         let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
-        Self::prepare(scaled(v0), scaled(v1), scaled(v2), scaled(e1), scaled(e2), scale)
+        let [e1, e2] = edges.map(scaled);
+        let [f1, f2] = factors.map(scaled);
+        Self::prepare(vertices.map(scaled), [e1, e2, f1.cross(f2)], scale)
     }
 
     /// With all lengths below 4.
     #[inline]
-    fn prepare(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, scale: R) -> Self {
+    fn prepare([v0, v1, v2]: [Vec3<R>; 3], [e1, e2, normal]: [Vec3<R>; 3], scale: R) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let squared = [v0, v1, v2].map(Vec3::length_squared);
         let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
-        let (d01, d02, d12) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2, v1.dot(v2) * i1 * i2);
+        let (d01, d02) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2);
         // the same at each vertex; at the nearest it cancels least
+        let (n01, n02) = (plane(v0, v1, e1), plane(v0, v2, e2));
+        let inverse = |n: Vec3<R>| {
+            let squared = n.length_squared();
+            rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
+        };
+        let (i01, i02) = (inverse(n01), inverse(n02));
+        let sin_side = n01.length_squared() * i01 * i0 * i1;
+        // 1−d₀₁ and 1+d₀₁, the small one from the sine
+        let small = sin_side * sin_side / (one + d01.abs());
+        let obtuse = d01.lt(zero);
+        let (minus, g2) = (R::select(obtuse, one - d01, small), R::select(obtuse, small, one + d01));
         let nearest = Vec3::select(squared[1].lt(squared[0]), v1, v0);
         let nearest = Vec3::select(squared[2].lt(squared[0].min(squared[1])), v2, nearest);
-        let volume = nearest.dot(e1.cross(e2));
+        let volume = nearest.dot(normal);
         let g0 = volume.abs() * i0 * i1 * i2;
-        let (g1, g2) = (d02 + d12, one + d01);
+        // (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
+        let apex = v1 * i1;
+        let g1 = (v0 * i0 + apex).dot(v2) * i2;
+        let towards = volume.lt(zero);
+        let pole = n01 * i01;
+        let across = Vec3::select(towards, -pole, pole);
         // at a vertex all of them are 0, and so is the angle
         let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
         let solid_angle = (R::lit(2.0) * g0.atan2(g1 + g2)).keep(somewhere);
@@ -102,8 +146,15 @@ impl<R: Real> SphericalTriangle<R> {
             v2,
             e1,
             e2,
+            normal,
             l1: squared[1] * i1,
-            apex: v1 * i1,
+            apex,
+            along: apex.cross(pole),
+            across,
+            sin_alpha: volume.abs() * (squared[0] * i0) * i01 * i02,
+            cos_alpha: n01.dot(n02) * i01 * i02,
+            stretch: R::lit(2.0) / R::select(minus.gt(zero), minus, one),
+            sin_side,
             inv_l0: i0,
             inv_l2: i2,
             g0,
@@ -127,8 +178,15 @@ impl<R: Real> SphericalTriangle<R> {
             v2: vector(yes.v2, no.v2),
             e1: vector(yes.e1, no.e1),
             e2: vector(yes.e2, no.e2),
+            normal: vector(yes.normal, no.normal),
             l1: real(yes.l1, no.l1),
             apex: vector(yes.apex, no.apex),
+            along: vector(yes.along, no.along),
+            across: vector(yes.across, no.across),
+            sin_alpha: real(yes.sin_alpha, no.sin_alpha),
+            cos_alpha: real(yes.cos_alpha, no.cos_alpha),
+            stretch: real(yes.stretch, no.stretch),
+            sin_side: real(yes.sin_side, no.sin_side),
             inv_l0: real(yes.inv_l0, no.inv_l0),
             inv_l2: real(yes.inv_l2, no.inv_l2),
             g0: real(yes.g0, no.g0),
@@ -160,87 +218,104 @@ impl<R: Real> SphericalTriangle<R> {
         self.volume.lt(R::lit(0.0))
     }
 
-    /// P at τ of the far edge.
+    /// For `u`: the arc from `v1` to P, and the direction on it.
     #[inline]
-    fn arc(&self, tau: R) -> Arc<R> {
+    fn arc(&self, u: Vec2<R>) -> Arc<R> {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let (s, c) = (u.x * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
+        // P, by its weights of v0 and v2
+        let a = self.g0.mul_add(c, -(self.g1 * s));
+        let b = self.g2 * s;
+        let w0 = ((a - b) * (a + b) * self.inv_l0).max(zero);
+        let w2 = (two * b * b.mul_add(self.d02, a) * self.inv_l2).max(zero);
+        let sum = w0 + w2;
+        let tau = w2 / R::select(sum.gt(zero), sum, one);
         let p = self.v0.mul_add(one - tau, self.v2 * tau);
         let p_squared = p.length_squared();
         let inv_p = rsqrt(p_squared.max(R::lit(1e-36)));
-        // sin²∠(V₁,P) from P−V₁, or from P where that is the shorter: both err by parts in 2²⁴ of themselves
+        // sin²∠(V₁,P) from P−V₁, or from P where that is the shorter: each is good to parts in 2²⁴ of itself
         let edge = self.e2 * tau - self.e1;
         let arm = Vec3::select(edge.length_squared().lt(p_squared), edge, p);
         let sin_squared = (self.apex.cross(arm) * inv_p).length_squared();
         let cos = self.apex.dot(p) * inv_p;
-        // 1 − |c|
         let small = sin_squared / (one + cos.abs());
-        let acute = cos.gt(zero);
-        let large = two - small;
-        Arc {
-            p,
-            inv_p,
-            minus: R::select(acute, small, large),
-            plus: R::select(acute, large, small),
-            cos: (one - small).negate_where(!acute),
-        }
-    }
+        let delta = R::select(cos.gt(zero), small, two - small);
 
-    /// For `u`: the weights of the unit vectors to `v1` and to P whose sum is the direction; and P.
-    #[inline]
-    fn weights(&self, u: Vec2<R>) -> (R, R, Arc<R>) {
-        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let (s, c) = (u.x * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
-        let alpha = self.g0.mul_add(c, -(self.g1 * s));
-        let beta = self.g2 * s;
-        let w_a = ((alpha - beta) * (alpha + beta) * self.inv_l0).max(zero);
-        let w_c = (two * beta * beta.mul_add(self.d02, alpha) * self.inv_l2).max(zero);
-        let sum = w_a + w_c;
-        let arc = self.arc(w_c / R::select(sum.gt(zero), sum, one));
+        // the tangent towards P: not from P, which may lie nearly opposite
+        let (x, y) = (self.sin_alpha.mul_add(c, -(self.cos_alpha * s)), self.cos_alpha.mul_add(c, self.sin_alpha * s));
+        let stretched = s * self.stretch;
+        let (x, y) = ((-stretched).mul_add(y, self.sin_alpha), stretched * x);
+        let squared = x.mul_add(x, y * y);
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
+        let tangent = self.along.mul_add(x * inverse, self.across * (y * inverse));
 
-        let z = (-u.y).mul_add(arc.minus, one);
-        let t = (u.y * (one + z) / arc.plus.max(R::lit(1e-30))).max(zero).sqrt();
-        let tc = t * arc.cos;
-        // k = z − tc; where both have one sign that is (z² − t²c²)/(z + tc) = (1−u₁)(z+c)/((1+c)(z+tc))
-        let mixed = (z * arc.cos).le(zero);
-        let numerator = R::select(mixed, z - tc, (one - u.y) * (z + arc.cos));
-        let denominator = R::select(mixed, one, arc.plus * (z + tc));
-        let some = denominator.abs().gt(R::lit(1e-30));
-        let k = (numerator / R::select(some, denominator, one)).max(zero);
-        (k, t, arc)
+        let moved = u.y * delta;
+        let z = one - moved;
+        let sin = (moved * (one + z)).max(zero).sqrt();
+        Arc { direction: self.apex.mul_add(z, tangent * sin), z, sin, inv_p, small, cos }
     }
 
     /// The direction for `u` and the distance to the triangle along it.
     #[inline]
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
-        let (k, t, arc) = self.weights(u);
-        let direction = self.apex.mul_add(k, arc.p * (t * arc.inv_p)).normalize();
-        // l₁/distance = k + tl₁/|P|
-        let reciprocal = t.mul_add(arc.inv_p * self.l1, k);
-        let some = reciprocal.gt(R::lit(0.0));
-        Sighting { direction, distance: (self.l1 / R::select(some, reciprocal, R::lit(1.0)) * self.unit).keep(some) }
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let Arc { direction, z, sin, inv_p, small, cos } = self.arc(u);
+        let direction = direction.normalize();
+        // direction = kV₁/l₁ + tP/|P| with t = sin/sin∠(V₁,P), k = z − t cos; so l₁/distance = k + tl₁/|P|, also at grazing
+        let arc_sin = (small * (two - small)).max(zero).sqrt();
+        let t = sin / R::select(arc_sin.gt(zero), arc_sin, one);
+        let cos_abs = one - small;
+        // k = (z² − t²c²)/(z + tc) = (1−u₁)(z+c)/((1+c)(z+tc))
+        let denominator = (one + cos_abs) * t.mul_add(cos_abs, z);
+        let k = (one - u.y) * (z + cos_abs) / R::select(denominator.gt(zero), denominator, one);
+        let reciprocal = t.mul_add(inv_p * self.l1, k);
+        // where P lies behind v1 that cancels; but then the triangle is large, and the plane will do
+        let behind = cos.lt(zero);
+        let numerator = R::select(behind, self.volume.abs(), self.l1);
+        let denominator = R::select(behind, direction.dot(self.normal).abs(), reciprocal);
+        let some = denominator.gt(zero) & self.solid_angle.gt(zero);
+        let reach = R::lit(8.0);
+        let distance = (numerator / R::select(some, denominator, one)).min(reach) * self.unit;
+        Sighting { direction, distance: distance.keep(some) }
     }
 
     /// Is the direction inside, give or take the rounding of the direction itself?
     #[inline]
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
-        let [n0, n1, n2] = self.sides();
-        let normal = self.e1.cross(self.e2);
-        // the great circle through two vertices that are nearly opposite is known no better than −cos : sin of their angle
-        let within = |n: Vec3<R>, opposite: R| {
-            let slack = n.length().max(opposite) * R::lit(SLACK);
-            w.dot(n).negate_where(self.in_front()).ge(-slack)
-        };
-        within(n0, -self.v1.dot(self.v2))
-            & within(n1, -self.v2.dot(self.v0))
-            & within(n2, -self.v0.dot(self.v1))
-            & within(normal, R::lit(0.0))
+        self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w)
     }
-
-    /// Normals of the planes through the viewpoint and the edges opposite v0, v1, v2; a direction's barycentrics are
-    /// proportional to its products with them.
+    /// On the inner side of the plane through the viewpoint and two vertices, to 4 ulp of the direction; where these vertices, or v0
+    /// and v1 from which the map starts, lie nearly opposite, their plane is known no better than −cos : sin of their angle.
     #[inline]
-    fn sides(&self) -> [Vec3<R>; 3] {
-        [self.v1.cross(self.e2 - self.e1), self.e2.cross(self.v0), self.v0.cross(self.e1)]
+    fn within(&self, w: Vec3<R>, a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> R::Mask {
+        let n = plane(a, b, edge);
+        let some = self.sin_side.gt(R::lit(0.0));
+        let start = (R::lit(1.0) - self.g2) / R::select(some, self.sin_side, R::lit(1.0));
+        let slack = (n.length() * start.max(R::lit(1.0))).max(-a.dot(b)) * R::lit(SLACK);
+        w.dot(n).negate_where(self.in_front()).ge(-slack)
+    }
+    #[inline]
+    pub(super) fn within_v1_v2(&self, w: Vec3<R>) -> R::Mask {
+        self.within(w, self.v1, self.v2, self.e2 - self.e1)
+    }
+    #[inline]
+    pub(super) fn within_v2_v0(&self, w: Vec3<R>) -> R::Mask {
+        self.within(w, self.v2, self.v0, -self.e2)
+    }
+    #[inline]
+    pub(super) fn within_v0_v1(&self, w: Vec3<R>) -> R::Mask {
+        self.within(w, self.v0, self.v1, self.e1)
+    }
+    /// Towards the plane of the triangle.
+    #[inline]
+    pub(super) fn ahead(&self, w: Vec3<R>) -> R::Mask {
+        let slack = self.normal.length() * R::lit(SLACK);
+        w.dot(self.normal).negate_where(self.in_front()).ge(-slack)
+    }
+    /// On the far side of the plane through the viewpoint, v0 and v1 from v2.
+    #[inline]
+    pub(super) fn beyond_v0_v1(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.across).lt(R::lit(0.0))
     }
 }
 
@@ -248,8 +323,7 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     type Point = Vec3<R>;
     #[inline]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let (k, t, arc) = self.weights(u);
-        self.apex.mul_add(k, arc.p * (t * arc.inv_p)).normalize()
+        self.arc(u).direction.normalize()
     }
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -258,17 +332,22 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let [n0, _, n2] = self.sides();
-        let b0 = w.dot(n0).negate_where(self.in_front()).max(zero);
-        let b2 = w.dot(n2).negate_where(self.in_front()).max(zero);
-        let sum = b0 + b2;
-        let tau = b2 / R::select(sum.gt(zero), sum, one);
-        // the triangle v0, v1, P has the same form of solid angle, with the edge τE₂
-        let Arc { p, inv_p, minus, cos, .. } = self.arc(tau);
-        let inv_l1 = one / self.l1.max(R::lit(1e-18));
-        let d0p = self.v0.dot(p) * self.inv_l0 * inv_p;
-        let swept_g0 = tau * self.volume.abs() * self.inv_l0 * inv_l1 * inv_p;
-        let swept = two * swept_g0.atan2(self.g2 + d0p + cos);
+        let (x, y) = (w.dot(self.along), w.dot(self.across).max(zero));
+        let squared = x.mul_add(x, y * y);
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
+        let (x, y) = (x * inverse, y * inverse);
+        // the side θ to the far edge: cotθ = (cosφ cos(side) + sinφ cotα)/sin(side)
+        let opposite = self.sin_alpha * self.sin_side;
+        let adjacent = (self.g2 - one).mul_add(x * self.sin_alpha, y * self.cos_alpha);
+        let squared = opposite.mul_add(opposite, adjacent * adjacent);
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
+        let (sin, cos) = (opposite * inverse, adjacent * inverse);
+        let small = sin * sin / (one + cos.abs());
+        let acute = cos.gt(zero);
+        let (minus, plus) = (R::select(acute, small, two - small), R::select(acute, two - small, small));
+        // tan(swept/2) from two sides and the angle between them
+        let both = self.sin_side * sin;
+        let swept = two * (both * y).atan2(self.g2.mul_add(plus, both * x));
         let moved = (w - self.apex).length_squared() * R::lit(0.5);
         Vec2 {
             x: unit_interval(swept / self.solid_angle.max(R::lit(1e-37))),

@@ -74,6 +74,9 @@ impl Flat {
         let sum = b[0] + b[1] + b[2];
         b.map(|b| b / sum)
     }
+    fn reach(&self) -> f64 {
+        self.vertices().into_iter().map(length).fold(0.0, f64::max)
+    }
     fn known(&self) -> Known {
         let v = self.vertices();
         let [v0, v1, v2] = v;
@@ -84,6 +87,12 @@ impl Flat {
             let n = unit(cross(a, sub(b, a)));
             extent[1] = extent[1].min(dot(n, sub(c, a)).abs() / length(c));
         }
+        let mut opposite = 1.0_f64;
+        for (a, b) in [(v[0], v[1]), (v[1], v[2]), (v[2], v[0])] {
+            if dot(a, b) < 0.0 {
+                opposite = opposite.max(length(a) * length(b) / length(cross(a, b)));
+            }
+        }
         let solid_angle = triangle_solid_angle(self.exact);
         let normal = cross(self.e1, self.e2);
         let nearest = length(v0).min(length(v1)).min(length(v2));
@@ -92,7 +101,7 @@ impl Flat {
         let under = 1.0 + dot(a, b) + dot(b, c) + dot(c, a);
         let over = dot(v0, normal).abs() / (length(v0) * length(v1) * length(v2));
         let slope = solid_angle.sin().abs() / elevation + 4.0 * over / (over * over + under * under);
-        Known { solid_angle, condition: 1.0 + slope / solid_angle, extent }
+        Known { solid_angle, condition: 1.0 + slope / solid_angle, extent, opposite }
     }
 }
 
@@ -104,12 +113,20 @@ struct Known {
     condition: f64,
     /// Longest side; least distance of a vertex from the opposite side's plane.
     extent: [f64; 2],
+    /// Greatest 1/sin of an obtuse angle between two vertices.
+    opposite: f64,
 }
 impl Known {
-    /// The tolerance, for directions times how much longer than wide the shape is seen.
+    /// The tolerance of this shape. A great circle through nearly opposite vertices is known no better than 1/sin of their angle;
+    /// an inverse is known no better than how much longer than wide the shape is seen.
     fn widened(&self, tolerance: Tolerance) -> Tolerance {
-        let aspect = self.extent[0].max(1e-300) / self.extent[1].max(1e-300);
-        Tolerance { round_trip: tolerance.round_trip * aspect.max(1.0), ..tolerance }
+        let aspect = self.extent[0] / self.extent[1].max(1e-300);
+        Tolerance {
+            point: tolerance.point * self.opposite,
+            distance: tolerance.distance * self.opposite,
+            round_trip: tolerance.round_trip * aspect.max(1.0) * self.opposite,
+            ..tolerance
+        }
     }
 }
 
@@ -201,7 +218,7 @@ impl Subject for Triangle {
     fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
         let v = self.flat.vertices();
         let i = (random.word() % 3) as usize;
-        Some(beyond(v[i], v[(i + 1) % 3], v[(i + 2) % 3], margin, random.unit_f64()))
+        Some(beyond(v[i], v[(i + 1) % 3], v[(i + 2) % 3], margin * self.known.opposite, random.unit_f64()))
     }
     fn extent(&self) -> [f64; 2] {
         self.known.extent
@@ -211,6 +228,12 @@ impl Subject for Triangle {
     }
     fn condition(&self) -> f64 {
         self.known.condition
+    }
+    fn reach(&self) -> f64 {
+        self.flat.reach()
+    }
+    fn slant(&self, w: V3) -> f64 {
+        1.0 / dot(w, unit(cross(self.flat.e1, self.flat.e2))).abs()
     }
     fn sight<R: Real>(warp: &Self::Warp<R>, u: Vec2<R>) -> Option<Sighting<R>> {
         Some(warp.sight(u))
@@ -248,6 +271,7 @@ impl Parallelogram {
         let known = Known {
             solid_angle: first.solid_angle + second.solid_angle,
             condition: first.condition.max(second.condition),
+            opposite: first.opposite.max(second.opposite),
             extent: [first.extent[0].max(second.extent[0]), first.extent[1].min(second.extent[1])],
         };
         let flat = Flat { v0: p, e1: u, e2: v, exact: [corners[0], corners[1], corners[3]] };
@@ -288,7 +312,7 @@ impl Subject for Parallelogram {
     fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
         let v = self.corners();
         let i = (random.word() % 4) as usize;
-        Some(beyond(v[i], v[(i + 1) % 4], v[(i + 2) % 4], margin, random.unit_f64()))
+        Some(beyond(v[i], v[(i + 1) % 4], v[(i + 2) % 4], margin * self.known.opposite, random.unit_f64()))
     }
     fn extent(&self) -> [f64; 2] {
         self.known.extent
@@ -301,6 +325,12 @@ impl Subject for Parallelogram {
     }
     fn smooth(&self, u: [f64; 2]) -> bool {
         (u[0] - self.first / self.known.solid_angle).abs() > 0.01
+    }
+    fn reach(&self) -> f64 {
+        self.flat.reach()
+    }
+    fn slant(&self, w: V3) -> f64 {
+        1.0 / dot(w, unit(cross(self.flat.e1, self.flat.e2))).abs()
     }
     fn sight<R: Real>(warp: &Self::Warp<R>, u: Vec2<R>) -> Option<Sighting<R>> {
         Some(warp.sight(u))

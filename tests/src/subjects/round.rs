@@ -178,8 +178,8 @@ impl Subject for Cone {
         [w[0].hypot(w[1]).atan2(w[2]) / self.sigma(), turns(w[1], w[0])]
     }
     fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
-        let theta = self.sigma() + margin;
-        // within 1e-3 of the far pole a direction in f32 does not tell its angle
+        // the angle of a direction is known no better than 1/sin of it where z tells it, behind
+        let theta = self.sigma() + if self.sigma() > FRAC_PI_2 { margin / self.sigma().sin() } else { margin };
         (theta < PI - 1e-2).then(|| polar(UPRIGHT, theta, random.range(0.0, TAU)))
     }
     fn extent(&self) -> [f64; 2] {
