@@ -188,9 +188,16 @@ pub fn lanes<S: Subject>(subjects: &[S; 8], us: &[[f32; 2]; 8]) {
     same(subjects, us, &scalars, &observe::<S, f32x8>(&S::prepare(subjects), squares_of(us)), "f32x8");
     for half in [0..4, 4..8] {
         let (subjects, us) = (&subjects[half.clone()], &us[half.clone()]);
-        same(subjects, us, &scalars[half.clone()], &observe::<S, f32x4>(&S::prepare(subjects), squares_of(us)), "f32x4");
-        let doubles: Vec<_> =
-            (0..4).map(|i| observe::<S, f64>(&S::prepare::<f64>(&subjects[i..=i]), squares_of(&us[i..=i]))[0]).collect();
+        same(
+            subjects,
+            us,
+            &scalars[half.clone()],
+            &observe::<S, f32x4>(&S::prepare(subjects), squares_of(us)),
+            "f32x4",
+        );
+        let doubles: Vec<_> = (0..4)
+            .map(|i| observe::<S, f64>(&S::prepare::<f64>(&subjects[i..=i]), squares_of(&us[i..=i]))[0])
+            .collect();
         same(subjects, us, &doubles, &observe::<S, f64x4>(&S::prepare(subjects), squares_of(us)), "f64x4");
     }
     let splatted = S::splat::<f32x8>(S::prepare::<f32>(&subjects[..1]));
@@ -286,7 +293,8 @@ pub fn onto<S: Subject>(s: &S, st: [f64; 2]) -> f64 {
     let warp = S::prepare::<f32>(&[*s]);
     let point = S::Point::<f32>::gather(&[w]);
     let inverse = warp.invert(point).at(0);
-    points_agree(s, point.at(0), [inverse[0], inverse[1]], s.tolerance().round_trip * rounding(s, ULP)) / rounding(s, ULP)
+    points_agree(s, point.at(0), [inverse[0], inverse[1]], s.tolerance().round_trip * rounding(s, ULP))
+        / rounding(s, ULP)
 }
 fn points_agree<S: Subject>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> f64 {
     let again = sample_at(s, inverse);
@@ -368,8 +376,7 @@ pub fn jacobian<S: Subject>(s: &S, u: [f64; 2]) -> f64 {
     (product - 1.0).abs()
 }
 
-/// f32 against f64 of the same body: the point, and the distance where there is one; each give or take what steps of 2⁻²⁴ in
-/// either `u` do to it (8 to the point, 4 to the distance), since Ω and products like u₀Ω are rounded.
+/// f32 against f64 of the same body: the point, and the distance where there is one.
 ///
 /// Returns the point's error in units of the rounding, or the distance's in units in the last place.
 pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
@@ -381,7 +388,8 @@ pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
     let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0 - ULP), (u[1] + d[1]).clamp(0.0, 1.0 - ULP)]));
     let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).fold(0.0, f64::max);
-    let excess = s.distance(narrow.point, wide.point) - 8.0 * step(&|o| s.distance(o.point, wide.point));
+    let excess =
+        s.distance(narrow.point, wide.point) - s.tolerance().steps * step(&|o| s.distance(o.point, wide.point));
     let point = excess / rounding(s, ULP);
     assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.sighting[3], wide.sighting[3]);
