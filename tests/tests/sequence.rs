@@ -5,8 +5,9 @@ use etendue::{Uint, Vec2, f32x8, u32x8};
 use etendue_tests::stats;
 use etendue_tests::tolerances::SIGNIFICANCE;
 
-/// What a counter counts, and two points or cells that it leads to.
-type Neighbours<'a, T> = (&'a str, &'a dyn Fn(u32) -> (T, T));
+/// What a counter counts, and what it leads to: one point; or two points or cells that it leads to.
+type Counted<'a, T> = (&'a str, &'a dyn Fn(u32) -> T);
+type Neighbours<'a, T> = Counted<'a, (T, T)>;
 
 fn pair(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [f64; 2] {
     let u: Vec2<f32> = sequence.pair(pixel, sample, dimension);
@@ -46,7 +47,7 @@ fn packets_are_scalars() {
 #[test]
 fn independent_marginals() {
     // along samples, pixels, dimensions and seeds
-    let along: [(&str, &dyn Fn(u32) -> [f64; 2]); 4] = [
+    let along: [Counted<'_, [f64; 2]>; 4] = [
         ("samples", &|i| pair(&Independent::new(1), 17, i, 0)),
         ("pixels", &|i| pair(&Independent::new(1), i, 3, 1)),
         ("dimensions", &|i| pair(&Independent::new(1), 17, 3, i)),
