@@ -72,8 +72,9 @@ fn plane<R: Real>(a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> Vec3<R> {
 
 /// The arc from `v1` to the point P of the far edge.
 struct Arc<R> {
-    /// tangent at `v1` towards P
-    tangent: Vec3<R>,
+    /// cosine and sine of the angle turned by at `v1`, in any unit, and the reciprocal of that unit
+    turned: [R; 2],
+    inverse: R,
     /// of the whole arc: sine, 1−|cos|, and cos
     sin: R,
     small: R,
@@ -238,10 +239,10 @@ impl<R: Real> SphericalTriangle<R> {
         let (x, y) = ((-stretched).mul_add(y, self.sin_alpha), stretched * x);
         let squared = x.mul_add(x, y * y);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
-        let (x, y) = (x * inverse, y * inverse);
-        let (sin, small, cos) = self.side(x, y);
-        let tangent = self.along.mul_add(x, self.across * y);
-        let arc = Arc { tangent, sin, small, cos: R::select(cos.gt(zero), one - small, small - one), swept: [s, c] };
+        let (sin_over, small, cos) = self.side(x, y, squared);
+        let cos = R::select(cos.gt(zero), one - small, small - one);
+        let sin = sin_over * (squared * inverse);
+        let arc = Arc { turned: [x, y], inverse, sin, small, cos, swept: [s, c] };
         // a side of more than 120° is rare: the work is done where there is one
         let long = self.g2.lt(R::lit(0.5));
         if long.any() { self.opposite_arc(arc, long) } else { arc }
@@ -277,25 +278,28 @@ impl<R: Real> SphericalTriangle<R> {
         [w0 * inverse, w2 * inverse]
     }
 
-    /// The side from v1 to the far edge under the angle of cosine `x` and sine `y`: its sine, 1−|cos| and cos, by
-    /// cotθ = (cosφ cos(side) + sinφ cotα)/sin(side).
+    /// The side from v1 to the far edge under the angle whose cosine and sine, in a unit of the given square, are `x` and `y`:
+    /// its sine over that unit, 1−|cos| and cos, by cotθ = (cosφ cos(side) + sinφ cotα)/sin(side).
     #[inline]
-    fn side(&self, x: R, y: R) -> (R, R, R) {
+    fn side(&self, x: R, y: R, unit_squared: R) -> (R, R, R) {
         let one = R::lit(1.0);
         let opposite = self.sin_alpha * self.sin_side;
         let adjacent = (self.g2 - one).mul_add(x * self.sin_alpha, y * self.cos_alpha);
-        let squared = opposite.mul_add(opposite, adjacent * adjacent);
+        let squared = (opposite * opposite).mul_add(unit_squared, adjacent * adjacent);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
         let (sin, cos) = (opposite * inverse, adjacent * inverse);
-        (sin, sin * sin / (one + cos.abs()), cos)
+        (sin, sin * sin * unit_squared / (one + cos.abs()), cos)
     }
 
-    /// 1−cos and sine of the angle from v1 at which `u` of the arc lies before it.
+    /// The direction at `u` of the arc, and the cosine and the sine of its angle to v1.
     #[inline]
-    fn along_arc(arc: &Arc<R>, u: R) -> (R, R) {
-        let (zero, two) = (R::lit(0.0), R::lit(2.0));
+    fn along_arc(&self, arc: &Arc<R>, u: R) -> (Vec3<R>, R, R) {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let moved = u * R::select(arc.cos.gt(zero), arc.small, two - arc.small);
-        (moved, (moved * (two - moved)).max(zero).sqrt())
+        let z = one - moved;
+        let sin = (moved * (one + z)).max(zero).sqrt();
+        let [x, y] = arc.turned.map(|t| t * (arc.inverse * sin));
+        (self.apex.mul_add(z, self.along.mul_add(x, self.across * y)), z, sin)
     }
 
     /// The direction for `u` and the distance to the triangle along it.
@@ -303,9 +307,8 @@ impl<R: Real> SphericalTriangle<R> {
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let arc = self.arc(u.x);
-        let (moved, sin) = Self::along_arc(&arc, u.y);
-        let z = one - moved;
-        let direction = self.apex.mul_add(z, arc.tangent * sin).normalize();
+        let (direction, z, sin) = self.along_arc(&arc, u.y);
+        let direction = direction.normalize();
         let [w0, w2] = self.weights(arc.swept);
         let inv_p = w0.mul_add(self.inv_l0, w2 * self.inv_l2);
         // direction = kV₁/l₁ + tP/|P| with t = sin/sin∠(V₁,P), k = z − t cos; so l₁/distance = k + tl₁/|P|, also at grazing
@@ -370,9 +373,7 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     type Point = Vec3<R>;
     #[inline]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let arc = self.arc(u.x);
-        let (moved, sin) = Self::along_arc(&arc, u.y);
-        self.apex.mul_add(R::lit(1.0) - moved, arc.tangent * sin)
+        self.along_arc(&self.arc(u.x), u.y).0
     }
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -380,12 +381,12 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     }
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let (zero, two) = (R::lit(0.0), R::lit(2.0));
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let (x, y) = (w.dot(self.along), w.dot(self.across).max(zero));
         let squared = x.mul_add(x, y * y);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
         let (x, y) = (x * inverse, y * inverse);
-        let (sin, small, cos) = self.side(x, y);
+        let (sin, small, cos) = self.side(x, y, one);
         let acute = cos.gt(zero);
         let (minus, plus) = (R::select(acute, small, two - small), R::select(acute, two - small, small));
         // tan(swept/2) from two sides and the angle between them
