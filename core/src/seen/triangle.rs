@@ -235,7 +235,8 @@ impl<R: Real> SphericalTriangle<R> {
         let (s, c) = (u * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
         // sine and cosine of α − η
         let (x, y) = (self.sin_alpha.mul_add(c, -(self.cos_alpha * s)), self.cos_alpha.mul_add(c, self.sin_alpha * s));
-        let stretched = s * self.stretch;
+        // past this the angle is 180° − α and nothing else; its square must fit
+        let stretched = (s * self.stretch).min(R::lit(1e17));
         let (x, y) = ((-stretched).mul_add(y, self.sin_alpha), stretched * x);
         let squared = x.mul_add(x, y * y);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
