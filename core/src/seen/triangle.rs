@@ -65,7 +65,7 @@ lanewise! {
 }
 
 /// a×b = a×(b−a), from the shorter of the two: each is good to parts in 2²⁴ of itself.
-#[inline]
+#[inline(always)]
 fn plane<R: Real>(a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> Vec3<R> {
     a.cross(Vec3::select(edge.length_squared().lt(b.length_squared()), edge, b))
 }
@@ -85,7 +85,7 @@ struct Arc<R> {
 
 impl<R: Real> SphericalTriangle<R> {
     /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point.
-    #[inline]
+    #[inline(always)]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
         let scale = v0.max_abs().max(v1.max_abs()).max(v2.max_abs()).exponent_reciprocal();
         let (v0, v1, v2) = (v0 * scale, v1 * scale, v2 * scale);
@@ -95,13 +95,13 @@ impl<R: Real> SphericalTriangle<R> {
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
     /// were moved to the point: for a small and far triangle they hold its shape.
-    #[inline]
+    #[inline(always)]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
         Self::with_normal([v0, v1, v2], [e1, e2], [e1, e2])
     }
 
     /// As `with_edges`, with the normal as the product of two vectors, for edges that are themselves rounded sums.
-    #[inline]
+    #[inline(always)]
     pub(super) fn with_normal(vertices: [Vec3<R>; 3], edges: [Vec3<R>; 2], factors: [Vec3<R>; 2]) -> Self {
         let reach = |all: &[Vec3<R>]| all.iter().fold(R::lit(0.0), |most, v| most.max(v.max_abs()));
         let reach = reach(&vertices).max(reach(&edges));
@@ -115,7 +115,7 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// With all lengths below 4.
-    #[inline]
+    #[inline(always)]
     fn prepare([v0, v1, v2]: [Vec3<R>; 3], [e1, e2, normal]: [Vec3<R>; 3], scale: R) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let squared = [v0, v1, v2].map(Vec3::length_squared);
@@ -177,7 +177,7 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// `yes` where the mask is true, `no` elsewhere.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
         let real = |a, b| R::select(mask, a, b);
         let vector = |a, b| Vec3::select(mask, a, b);
@@ -210,26 +210,26 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// Solid angle in steradians, in [0, 2π].
-    #[inline]
+    #[inline(always)]
     pub fn solid_angle(&self) -> R {
         self.solid_angle
     }
 
     /// The density of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
-    #[inline]
+    #[inline(always)]
     pub fn density(&self) -> R {
         let some = self.solid_angle.gt(R::lit(1e-37));
         (R::lit(1.0) / R::select(some, self.solid_angle, R::lit(1.0))).keep(some)
     }
 
     /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
-    #[inline]
+    #[inline(always)]
     pub fn in_front(&self) -> R::Mask {
         self.volume.lt(R::lit(0.0))
     }
 
     /// The arc that cuts `u` of the area off.
-    #[inline]
+    #[inline(always)]
     fn arc(&self, u: R) -> Arc<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (s, c) = (u * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
@@ -250,7 +250,7 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// Where v0 lies nearly opposite v1 the side θ follows from its angle no more: then from P itself, where that is better.
-    #[inline]
+    #[inline(always)]
     fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
         let one = R::lit(1.0);
         let [w0, w2] = self.weights(arc.swept);
@@ -267,7 +267,7 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// P as a sum of the unit vectors to v0 and v2.
-    #[inline]
+    #[inline(always)]
     fn weights(&self, [s, c]: [R; 2]) -> [R; 2] {
         let (zero, two) = (R::lit(0.0), R::lit(2.0));
         let a = (-s).mul_add(self.g1, c);
@@ -281,7 +281,7 @@ impl<R: Real> SphericalTriangle<R> {
 
     /// The side from v1 to the far edge under the angle whose cosine and sine, in a unit of the given square, are `x` and `y`:
     /// its sine over that unit, 1−|cos| and cos, by cotθ = (cosφ cos(side) + sinφ cotα)/sin(side).
-    #[inline]
+    #[inline(always)]
     fn side(&self, x: R, y: R, unit_squared: R) -> (R, R, R) {
         let one = R::lit(1.0);
         let opposite = self.sin_alpha * self.sin_side;
@@ -293,7 +293,7 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// The direction at `u` of the arc, and the cosine and the sine of its angle to v1.
-    #[inline]
+    #[inline(always)]
     fn along_arc(&self, arc: &Arc<R>, u: R) -> (Vec3<R>, R, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let moved = u * R::select(arc.cos.gt(zero), arc.small, two - arc.small);
@@ -304,7 +304,7 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// The direction for `u` and the distance to the triangle along it.
-    #[inline]
+    #[inline(always)]
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let arc = self.arc(u.x);
@@ -331,13 +331,13 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// Is the direction inside, give or take the rounding of the direction itself?
-    #[inline]
+    #[inline(always)]
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
         self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w)
     }
     /// On the inner side of the plane through the viewpoint and two vertices, to 8 ulp of the direction; where these vertices, or v0
     /// and v1 from which the map starts, lie nearly opposite, their plane is known no better than −cos : sin of their angle.
-    #[inline]
+    #[inline(always)]
     fn within(&self, w: Vec3<R>, a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> R::Mask {
         let n = plane(a, b, edge);
         let some = self.sin_side.gt(R::lit(0.0));
@@ -345,26 +345,26 @@ impl<R: Real> SphericalTriangle<R> {
         let slack = (n.length() * start.max(R::lit(1.0))).max(-a.dot(b)) * R::lit(SLACK);
         w.dot(n).negate_where(self.in_front()).ge(-slack)
     }
-    #[inline]
+    #[inline(always)]
     pub(super) fn within_v1_v2(&self, w: Vec3<R>) -> R::Mask {
         self.within(w, self.v1, self.v2, self.e2 - self.e1)
     }
-    #[inline]
+    #[inline(always)]
     pub(super) fn within_v2_v0(&self, w: Vec3<R>) -> R::Mask {
         self.within(w, self.v2, self.v0, -self.e2)
     }
-    #[inline]
+    #[inline(always)]
     pub(super) fn within_v0_v1(&self, w: Vec3<R>) -> R::Mask {
         self.within(w, self.v0, self.v1, self.e1)
     }
     /// Towards the plane of the triangle.
-    #[inline]
+    #[inline(always)]
     pub(super) fn ahead(&self, w: Vec3<R>) -> R::Mask {
         let slack = self.normal.length() * R::lit(SLACK);
         w.dot(self.normal).negate_where(self.in_front()).ge(-slack)
     }
     /// On the far side of the plane through the viewpoint, v0 and v1 from v2.
-    #[inline]
+    #[inline(always)]
     pub(super) fn beyond_v0_v1(&self, w: Vec3<R>) -> R::Mask {
         w.dot(self.across).lt(R::lit(0.0))
     }
@@ -372,15 +372,15 @@ impl<R: Real> SphericalTriangle<R> {
 
 impl<R: Real> Warp<R> for SphericalTriangle<R> {
     type Point = Vec3<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         self.along_arc(&self.arc(u.x), u.y).0
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.density().keep(self.contains(w))
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let (x, y) = (w.dot(self.along), w.dot(self.across).max(zero));
