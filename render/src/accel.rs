@@ -1,6 +1,6 @@
 //! Ray intersection in packets of 8: trees built by obvhs, traversed here.
 //!
-//! Guarantees: the tree never loses a hit that [`triangle::intersect`] would report (slabs are widened by more than the error of the
+//! Guarantees: the tree never loses a hit that the test of a triangle would report (slabs are widened by more than the error of the
 //! triangle test); neighbouring triangles leave no gap between them; zero components and −0 in directions are as good as others;
 //! nothing depends on the unit of length. Ties of equal distance go to the triangle of lower index.
 

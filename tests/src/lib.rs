@@ -16,3 +16,8 @@ pub mod oracle;
 pub mod stats;
 pub mod subjects;
 pub mod tolerances;
+
+/// The README's example, compiled and run with the documentation's.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;

@@ -18,10 +18,11 @@ lanewise! {
     ///
     /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l and cosines d between the V:
     ///   tan(Ω/2) = |V₀·(E₁×E₂)| / (l₀l₁l₂ + (V₀·V₁)l₂ + (V₀·V₂)l₁ + (V₁·V₂)l₀).
-    ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), G₁ = d₀₂+d₁₂, G₂ = 1+d₀₁, η = u₀Ω/2, a = G₀cosη − G₁sinη, b = G₂sinη;
-    ///   the point P = V₀ + τE₂ of the far edge has τ : 1−τ = 2b(a+bd₀₂)/l₂ : (a−b)(a+b)/l₀. With α the angle at v0, the angle swept at
-    ///   v1 has tanφ = σ sin(α−η) / (sinα − σ cos(α−η)), σ = 2 sinη/(1−d₀₁); with δ = 1−cos∠(V₁,P) and z = 1−u₁δ the
-    ///   direction is zV₁/l₁ + √(u₁δ(1+z)) T, T the tangent at v1 that is turned by φ from v0 towards v2.
+    ///   With c the side v0 v1, α the angle at v0, η = u₀Ω/2 and k = tan(c/2), the point P of the far edge lies, in stereographic projection
+    ///   from opposite v1, at X = k − σ k cos(α−η)/sinα, Y = σ k sin(α−η)/sinα, σ = 2 sinη/(1−cos c). With M = X² + Y² = tan²(∠(V₁,P)/2)
+    ///   and g = 2u₁/(1+M) the direction is zV₁/l₁ + √(g(1+z)) (X, Y), z = 1 − gM, with X along the tangent towards v0. Where c is
+    ///   long, M comes from P = ((a−b)(a+b) V₀/l₀ + 2b(a+bd₀₂) V₂/l₂)/|·|, a = cosη − (d₀₂+d₁₂) sinη/G₀, b = (1+d₀₁) sinη/G₀,
+    ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), if that is the better conditioned; so does the distance.
     /// - Domain: u in [0, 1)²; any triangle, from any side.
     /// - Density: 1/Ω per steradian inside (and within 8 ulp of the direction beyond), 0 outside.
     /// - Degenerate: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
@@ -43,10 +44,12 @@ lanewise! {
         apex: Vec3<R>,
         along: Vec3<R>,
         across: Vec3<R>,
-        /// sine and cosine of the angle at `v0`; 2/(1−d₀₁)
+        /// sine and cosine of the angle at `v0`; 2/(1−d₀₁); tangent of half the side v0 v1, and that over tanα
         sin_alpha: R,
         cos_alpha: R,
         stretch: R,
+        tan_half: R,
+        tan_half_cot: R,
         /// sine of the side v0 v1
         sin_side: R,
         inv_l0: R,
@@ -72,13 +75,11 @@ fn plane<R: Real>(a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> Vec3<R> {
 
 /// The arc from `v1` to the point P of the far edge.
 struct Arc<R> {
-    /// cosine and sine of the angle turned by at `v1`, in any unit, and the reciprocal of that unit
-    turned: [R; 2],
-    inverse: R,
-    /// of the whole arc: sine, 1−|cos|, and cos
-    sin: R,
-    small: R,
-    cos: R,
+    /// P in stereographic projection from opposite `v1`: tan(θ/2) times the cosine and the sine of the angle turned by
+    x: R,
+    y: R,
+    /// tan²(θ/2)
+    m: R,
     /// sine and cosine of the half of the area swept
     swept: [R; 2],
 }
@@ -143,6 +144,11 @@ impl<R: Real> SphericalTriangle<R> {
         let towards = volume.lt(zero);
         let pole = n01 * i01;
         let across = Vec3::select(towards, -pole, pole);
+        let sin_alpha = volume.abs() * (squared[0] * i0) * i01 * i02;
+        let cos_alpha = n01.dot(n02) * i01 * i02;
+        let tan_half = (minus / g2.max(R::lit(1e-30))).sqrt();
+        let angle = sin_alpha.gt(R::lit(1e-30));
+        let tan_half_cot = (tan_half * cos_alpha / R::select(angle, sin_alpha, one)).keep(angle);
         // at a vertex all of them are 0, and so is the angle
         let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
         let solid_angle = (R::lit(2.0) * g0.atan2(g1 + g2)).keep(somewhere);
@@ -158,10 +164,12 @@ impl<R: Real> SphericalTriangle<R> {
             apex,
             along: apex.cross(pole),
             across,
-            sin_alpha: volume.abs() * (squared[0] * i0) * i01 * i02,
-            cos_alpha: n01.dot(n02) * i01 * i02,
+            sin_alpha,
+            cos_alpha,
             // a side of 1e−18 and less has no finite reciprocal
             stretch: R::lit(2.0) / R::select(minus.gt(R::lit(1e-37)), minus, one),
+            tan_half,
+            tan_half_cot,
             sin_side,
             inv_l0: i0,
             inv_l2: i2,
@@ -195,6 +203,8 @@ impl<R: Real> SphericalTriangle<R> {
             sin_alpha: real(yes.sin_alpha, no.sin_alpha),
             cos_alpha: real(yes.cos_alpha, no.cos_alpha),
             stretch: real(yes.stretch, no.stretch),
+            tan_half: real(yes.tan_half, no.tan_half),
+            tan_half_cot: real(yes.tan_half_cot, no.tan_half_cot),
             sin_side: real(yes.sin_side, no.sin_side),
             inv_l0: real(yes.inv_l0, no.inv_l0),
             inv_l2: real(yes.inv_l2, no.inv_l2),
@@ -231,39 +241,33 @@ impl<R: Real> SphericalTriangle<R> {
     /// The arc that cuts `u` of the area off.
     #[inline(always)]
     fn arc(&self, u: R) -> Arc<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let zero = R::lit(0.0);
         let (s, c) = (u * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
-        // sine and cosine of α − η
-        let (x, y) = (self.sin_alpha.mul_add(c, -(self.cos_alpha * s)), self.cos_alpha.mul_add(c, self.sin_alpha * s));
-        // past this the angle is 180° − α and nothing else; its square must fit
-        let stretched = (s * self.stretch).min(R::lit(1e17));
-        let (x, y) = ((-stretched).mul_add(y, self.sin_alpha), stretched * x);
-        let squared = x.mul_add(x, y * y);
-        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
-        let (sin_over, small, cos) = self.side(x, y, squared);
-        let cos = R::select(cos.gt(zero), one - small, small - one);
-        let sin = sin_over * (squared * inverse);
-        let arc = Arc { turned: [x, y], inverse, sin, small, cos, swept: [s, c] };
+        // cos(α−η) and sin(α−η), times tan(side/2)/sinα
+        let (k, q) = (self.tan_half, self.tan_half_cot);
+        let (turn_cos, turn_sin) = (q.mul_add(c, k * s), k.mul_add(c, -(q * s)));
+        let stretched = s * self.stretch;
+        // P opposite v1 would be at infinity; its square must fit
+        let most = R::lit(1e15);
+        let x = (-stretched).mul_add(turn_cos, k).clamp(-most, most);
+        let y = (stretched * turn_sin).clamp(zero, most);
+        let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, c] };
         // a side of more than 120° is rare: the work is done where there is one
         let long = self.g2.lt(R::lit(0.5));
         if long.any() { self.opposite_arc(arc, long) } else { arc }
     }
 
-    /// Where v0 lies nearly opposite v1 the side θ follows from its angle no more: then from P itself, where that is better.
-    #[inline(always)]
+    /// Where v0 lies nearly opposite v1 the arc's length follows from its angle no more: then from P itself, where that is better.
+    #[inline]
     fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
-        let one = R::lit(1.0);
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let [w0, w2] = self.weights(arc.swept);
         let cos = w0.mul_add(self.g2 - one, w2 * self.d12).clamp(-one, one);
-        let squared = (one - cos) * (one + cos);
         // errors of θ: ε/sinθ from P, ε sinθ/(sinα sin(side)) from the angle
-        let better = long & squared.gt(self.sin_alpha * self.sin_side);
-        Arc {
-            sin: R::select(better, squared.sqrt(), arc.sin),
-            small: R::select(better, one - cos.abs(), arc.small),
-            cos: R::select(better, cos, arc.cos),
-            ..arc
-        }
+        let better = long & ((one - cos) * (one + cos)).gt(self.sin_alpha * self.sin_side) & arc.m.gt(zero);
+        let m = R::select(better, (one - cos) / R::select(better, one + cos, one), arc.m);
+        let scale = R::select(better, (m / R::select(better, arc.m, one)).sqrt(), one);
+        Arc { x: arc.x * scale, y: arc.y * scale, m, swept: arc.swept }
     }
 
     /// P as a sum of the unit vectors to v0 and v2.
@@ -293,14 +297,18 @@ impl<R: Real> SphericalTriangle<R> {
     }
 
     /// The direction at `u` of the arc, and the cosine and the sine of its angle to v1.
-    #[inline(always)]
+    #[inline]
     fn along_arc(&self, arc: &Arc<R>, u: R) -> (Vec3<R>, R, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let moved = u * R::select(arc.cos.gt(zero), arc.small, two - arc.small);
-        let z = one - moved;
-        let sin = (moved * (one + z)).max(zero).sqrt();
-        let [x, y] = arc.turned.map(|t| t * (arc.inverse * sin));
-        (self.apex.mul_add(z, self.along.mul_add(x, self.across * y)), z, sin)
+        // 1−cosθ = 2M/(1+M), and the sine of the angle over √M
+        let over = u * (two / (one + arc.m));
+        let z = (-over).mul_add(arc.m, one);
+        let sin_over = (over * (one + z)).max(zero).sqrt();
+        let tangent = self.along.mul_add(arc.x, self.across * arc.y);
+        let direction = self.apex.mul_add(z, tangent * sin_over);
+        // a unit vector but for rounding: one step of Newton's to 1/√
+        let unit = direction * direction.length_squared().mul_add(R::lit(-0.5), R::lit(1.5));
+        (unit, z, sin_over)
     }
 
     /// The direction for `u` and the distance to the triangle along it.
@@ -308,19 +316,19 @@ impl<R: Real> SphericalTriangle<R> {
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let arc = self.arc(u.x);
-        let (direction, z, sin) = self.along_arc(&arc, u.y);
-        let direction = direction.normalize();
+        let (direction, z, sin_over) = self.along_arc(&arc, u.y);
         let [w0, w2] = self.weights(arc.swept);
         let inv_p = w0.mul_add(self.inv_l0, w2 * self.inv_l2);
         // direction = kV₁/l₁ + tP/|P| with t = sin/sin∠(V₁,P), k = z − t cos; so l₁/distance = k + tl₁/|P|, also at grazing
-        let t = sin / R::select(arc.sin.gt(zero), arc.sin, one);
-        let cos_abs = one - arc.small;
+        // sin∠(V₁,P) = 2√M/(1+M)
+        let t = sin_over * R::lit(0.5) * (one + arc.m);
+        let behind = arc.m.gt(one);
+        let cos_abs = (one - arc.m).abs() / (one + arc.m);
         // k = (z² − t²c²)/(z + tc) = (1−u₁)(z+c)/((1+c)(z+tc))
         let denominator = (one + cos_abs) * t.mul_add(cos_abs, z);
         let k = (one - u.y) * (z + cos_abs) / R::select(denominator.gt(zero), denominator, one);
         let reciprocal = t.mul_add(inv_p * self.l1, k);
         // where P lies behind v1 that cancels; but then the triangle is large, and the plane will do
-        let behind = arc.cos.lt(zero);
         let numerator = R::select(behind, self.volume.abs(), self.l1);
         let denominator = R::select(behind, direction.dot(self.normal).abs(), reciprocal);
         let some = denominator.gt(zero) & self.solid_angle.gt(zero);
