@@ -8,9 +8,15 @@
 //! A dimension is a pair: dimension 0 might be the pixel, 1 the light, 2 the lens. Pairs of different dimensions are independent.
 
 mod independent;
+mod latin;
+mod lattice;
+mod owen_sobol;
 mod stratified;
 
 pub use independent::{CounterRng, Independent};
+pub use latin::LatinHypercube;
+pub use lattice::Lattice;
+pub use owen_sobol::{OwenSobol, ZOrder};
 pub use stratified::Stratified;
 
 use crate::real::Real;

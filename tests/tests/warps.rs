@@ -47,23 +47,35 @@ fn all<S: Subject>(cases: &[Case<S>], random: usize) {
         }
     };
     let failures: Vec<_> = [
-        each("total", cases, at(|s, u, _| {
-            laws::total(s, u);
-            0.0
-        })),
-        each("scale", cases, at(|s, u, _| {
-            laws::scale(s, u);
-            0.0
-        })),
+        each(
+            "total",
+            cases,
+            at(|s, u, _| {
+                laws::total(s, u);
+                0.0
+            }),
+        ),
+        each(
+            "scale",
+            cases,
+            at(|s, u, _| {
+                laws::scale(s, u);
+                0.0
+            }),
+        ),
         each("accurate", cases, at(|s, u, _| laws::accurate(s, u))),
         each("closed", cases, at(|s, u, _| laws::closed(s, u))),
         each("density", cases, at(|s, u, r| laws::density(s, u, [r.unit_f64(), r.unit_f64()]))),
         each("onto", cases, at(|s, _, r| laws::onto(s, [r.unit_f64(), r.unit_f64()]))),
         each("jacobian", cases, at(|s, _, r| laws::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
-        each("outside", cases, at(|s, _, r| {
-            laws::outside(s, r);
-            0.0
-        })),
+        each(
+            "outside",
+            cases,
+            at(|s, _, r| {
+                laws::outside(s, r);
+                0.0
+            }),
+        ),
         each("integral", cases, |s, _| laws::integral(s)),
         each("chi-square", cases, |s, i| laws::chi_square(s, i as u64)),
         each("lanes", cases, |_, i| {

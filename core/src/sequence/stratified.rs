@@ -69,7 +69,7 @@ fn scramble<U: Uint>(mut i: U, mask: U, half: u32, keys: [U; 4]) -> U {
 
 /// A permutation of [0, count) keyed by four words: the one of the next power of two, walked until it falls inside.
 #[inline]
-fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
+pub(super) fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
     if count < 2 {
         return i & U::splat(0);
     }
@@ -117,7 +117,7 @@ impl Sequence for Stratified {
 
 /// ⌊numerator/denominator⌋ from a quotient that may be off by one.
 #[inline]
-fn floor_exact<R: Real>(quotient: R, numerator: R::Uint, denominator: R::Uint) -> R::Uint {
+pub(super) fn floor_exact<R: Real>(quotient: R, numerator: R::Uint, denominator: R::Uint) -> R::Uint {
     let guess = quotient.to_uint();
     let product = guess.wrapping_mul(denominator);
     // the guess is too large: all ones are −1
