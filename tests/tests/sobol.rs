@@ -124,7 +124,8 @@ fn latin_hypercube_is_latin() {
         }
     }
     // the axes are permuted apart
-    let points: Vec<_> = (0..4096).map(|i| point(&LatinHypercube::new(3, 4096), 2, i, 0)).map(|[x, y]| (x, y)).collect();
+    let points: Vec<_> =
+        (0..4096).map(|i| point(&LatinHypercube::new(3, 4096), 2, i, 0)).map(|[x, y]| (x, y)).collect();
     assert!(stats::correlation(&points).abs() < 5.0 / 64.0);
 }
 
@@ -207,45 +208,157 @@ fn each_point_is_uniform_over_pixels_dimensions_and_seeds() {
     uniform_over("z-order, tiles", |i| point(&ZOrder::new(1, 1 << 31), 2 * i, 3, 0));
 }
 
-/// The pairs of two dimensions are associated at random, whatever the sequence: 16 samples have no common strata.
+/// Rank among the permutations of four of the one that takes the order of x in one dimension to that in another.
+fn association(sequence: &impl Sequence, pixel: u32, dimensions: [u32; 2]) -> usize {
+    let order = |dimension| {
+        let x = [0, 1, 2, 3].map(|sample| point(sequence, pixel, sample, dimension)[0]);
+        let mut order = [0, 1, 2, 3];
+        order.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
+        order
+    };
+    let (a, b) = (order(dimensions[0]), order(dimensions[1]));
+    let mut map = [0; 4];
+    for k in 0..4 {
+        map[a[k]] = b[k];
+    }
+    (0..4).fold(0, |rank, k| rank * (4 - k) + map[k + 1..].iter().filter(|m| **m < map[k]).count())
+}
+
 #[test]
 fn dimensions_are_padded_at_random() {
-    fn check(name: &str, sequence: &impl Sequence) {
-        // for many pixels, in which halves of dimensions 1 and 2 the first four samples fall, both of x
-        let mut counts = vec![0_u64; 16];
-        let mut halves = vec![0_u64; 2];
-        for pixel in 0..40_000 {
-            let half = |sample, dimension| usize::from(point(sequence, pixel, sample, dimension)[0] >= 0.5);
-            let bits = |dimension| half(0, dimension) << 1 | half(1, dimension);
-            counts[bits(1) << 2 | bits(2)] += 1;
-            // do samples 0 and 1 agree in one dimension where they agree in the other?
-            let agree = |dimension| half(0, dimension) == half(1, dimension);
-            halves[usize::from(agree(1) == agree(2))] += 1;
+    fn orders(sequence: &impl Sequence) -> Vec<u64> {
+        let mut counts = vec![0; 24];
+        for pixel in 0..60_000 {
+            counts[association(sequence, pixel, [1, 2])] += 1;
         }
-        let _ = counts;
-        // four samples of two dimensions: 4D cells of the product of halves, over a net of 4 in each
-        let mut joint = vec![0_u64; 24];
-        for pixel in 0..40_000 {
-            let order = |dimension| -> Vec<usize> {
-                let mut order: Vec<usize> = (0..4).collect();
-                order.sort_by(|&a, &b| {
-                    let x = |i: usize| point(sequence, pixel, i as u32, dimension)[0];
-                    x(a).total_cmp(&x(b))
-                });
-                order
-            };
-            let (a, b) = (order(1), order(2));
-            // the permutation that takes one order to the other
-            let mut map = [0; 4];
-            for k in 0..4 {
-                map[a[k]] = b[k];
-            }
-            let rank = (0..4).fold(0, |rank, k| rank * (4 - k) + map[k + 1..].iter().filter(|m| **m < map[k]).count());
-            joint[rank] += 1;
-        }
-        let p = stats::uniform(&joint);
-        assert!(p > SIGNIFICANCE, "{name}: p = {p}, {joint:?}");
+        counts
     }
-    check("latin", &LatinHypercube::new(1, 4));
-    check("stratified", &Stratified::new(1, 4));
+    let latin = orders(&LatinHypercube::new(1, 4));
+    assert!(stats::uniform(&latin) > SIGNIFICANCE, "{latin:?}");
+    // a nested shuffle keeps pairs of samples together: samples 0 and 1 are in opposite halves in both dimensions
+    let sobol = orders(&OwenSobol::new(1));
+    let kept: Vec<u64> = sobol.iter().copied().filter(|&n| n > 0).collect();
+    println!("{sobol:?}");
+    assert!(kept.len() >= 16, "{sobol:?}");
+    assert!(stats::uniform(&orders(&Lattice::r2(1))) < SIGNIFICANCE, "24 orders of a lattice of four are not alike");
+}
+
+/// Variance of the mean of `n` samples: mean square error over pixels and dimensions, f over integral.
+fn variance(sequence: &impl Sequence, n: u32, trials: u32, f: impl Fn([f64; 2], u32) -> f64) -> f64 {
+    (0..trials)
+        .map(|trial| {
+            let mean = (0..n).map(|i| f(point(sequence, trial, i, 1), trial)).sum::<f64>() / f64::from(n);
+            mean * mean
+        })
+        .sum::<f64>()
+        / f64::from(trials)
+}
+
+/// Owen's scrambling as it is defined: a random bit for each prefix, here of Sobol's points from their matrices.
+struct TrueOwen {
+    seed: u64,
+}
+
+impl TrueOwen {
+    fn coordinate(&self, value: u32, pixel: u32, axis: u32) -> f64 {
+        let mut result = 0;
+        for bit in 0..24 {
+            let prefix = if bit == 0 { 0 } else { value >> (32 - bit) };
+            let [word, ..] = Independent::new(self.seed ^ 0x1234).words(pixel, prefix, bit << 1 | axis);
+            result |= ((value >> (31 - bit)) ^ (word >> 31)) << 31 >> bit;
+        }
+        f64::from(result >> 8) / 16_777_216.0
+    }
+    fn point(&self, pixel: u32, index: u32) -> [f64; 2] {
+        let mut second = 0;
+        let mut column = 0x8000_0000_u32;
+        for bit in 0..32 {
+            if index >> bit & 1 == 1 {
+                second ^= column;
+            }
+            column ^= column >> 1;
+        }
+        [self.coordinate(index.reverse_bits(), pixel, 0), self.coordinate(second, pixel, 1)]
+    }
+}
+
+impl Sequence for TrueOwen {
+    fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, _: u32) -> Vec2<R> {
+        let [x, y] = [0, 1].map(|axis| {
+            let at = |i| (self.point(pixel.lane(i), sample.lane(i))[axis] * 4_294_967_296.0) as u32;
+            R::unit(R::Uint::from_fn(at))
+        });
+        Vec2::new(x, y)
+    }
+}
+
+/// How many times less variance than independent samples have, of f = xy − ¼ and of a straight edge.
+fn gains(sequence: &impl Sequence, n: u32, trials: u32) -> [f64; 2] {
+    // Var xy = 1/9 − 1/16
+    let smooth = 7.0 / 144.0 / f64::from(n) / variance(sequence, n, trials, |[x, y], _| x * y - 0.25);
+    // half-planes through the centre of the square, at any angle: half of it each
+    let edge = variance(sequence, n, trials, |[x, y], trial| {
+        let (s, c) = (f64::from(trial) * 2.399_963_2).sin_cos();
+        if (x - 0.5) * c + (y - 0.5) * s > 0.0 { 0.5 } else { -0.5 }
+    });
+    [smooth, 0.25 / f64::from(n) / edge]
+}
+
+#[test]
+fn variance_against_independent_samples() {
+    const TRIALS: u32 = 20_000;
+    for n in [16, 64] {
+        println!("{n} owen sobol {:?}", gains(&OwenSobol::new(1), n, TRIALS));
+        println!("{n} true owen {:?}", gains(&TrueOwen { seed: 1 }, n, TRIALS / 4));
+        println!("{n} jitter {:?}", gains(&Stratified::new(1, n), n, TRIALS));
+        println!("{n} latin {:?}", gains(&LatinHypercube::new(1, n), n, TRIALS));
+        println!("{n} r2 {:?}", gains(&Lattice::r2(1), n, TRIALS));
+        println!("{n} fibonacci {:?}", gains(&Lattice::fibonacci(1, n), n, TRIALS));
+        println!("{n} z-order {:?}", gains(&ZOrder::new(1, n), n, TRIALS));
+        println!("{n} independent {:?}", gains(&Independent::new(1), n, TRIALS));
+    }
+}
+
+#[test]
+fn packets_are_scalars() {
+    fn check(name: &str, sequence: &impl Sequence) {
+        for start in [0, 1, 65_535, 1 << 24, 0x7fff_fff0, u32::MAX - 8] {
+            for dimension in [0, 1, 5, u32::MAX] {
+                let pixels = |k: usize| start.wrapping_add(k as u32 * 977);
+                let samples = |k: usize| (start / 2).wrapping_add(k as u32 * 3);
+                let eight: Vec2<f32x8> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
+                let four: Vec2<f32x4> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
+                let double: Vec2<f64x4> = sequence.pair(u32x4::from_fn(pixels), u32x4::from_fn(samples), dimension);
+                for k in 0..8 {
+                    let one: Vec2<f32> = sequence.pair(pixels(k), samples(k), dimension);
+                    assert!((0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y), "{name}: {one:?}");
+                    assert_eq!(eight.lane(k), one, "{name}, lane {k}");
+                    let wide: Vec2<f64> = sequence.pair(pixels(k), samples(k), dimension);
+                    assert!((wide.x - f64::from(one.x)).abs() < 2.4e-7, "{name}: {one:?} {wide:?}");
+                    if k < 4 {
+                        assert_eq!(four.lane(k), one, "{name}, lane {k} of 4");
+                        assert_eq!(double.lane(k), wide, "{name}, lane {k} in f64");
+                    }
+                }
+            }
+        }
+    }
+    check("owen sobol", &OwenSobol::new(3));
+    check("lattice", &Lattice::r2(3));
+    for count in [0, 1, 2, 7, 64, 100, 4096, u32::MAX] {
+        check("latin", &LatinHypercube::new(3, count));
+        check("z-order", &ZOrder::new(3, count));
+        check("fibonacci", &Lattice::fibonacci(3, count));
+    }
+}
+
+#[test]
+fn bits_are_reversed_at_every_width() {
+    let value = |k: usize| (k as u32 + 1).wrapping_mul(0x9e37_79b1);
+    for k in 0..8 {
+        assert_eq!(etendue::u32x8::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
+    }
+    for k in 0..4 {
+        assert_eq!(u32x4::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
+    }
 }

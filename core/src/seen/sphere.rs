@@ -39,8 +39,10 @@ impl<R: Real> SphereCap<R> {
         let cos = (power.max(zero) * inverse).sqrt();
         let h = R::select(outside, sin_squared / (one + cos), R::lit(2.0));
         let distance = squared.sqrt();
-        let axis = c * R::select(some, one / R::select(some, distance, one), zero);
-        let axis = Vec3::new(axis.x, axis.y, R::select(some, axis.z, one));
+        // in units of its own: the centre may be as near as it likes to a point inside a large sphere
+        let axis = (center * center.max_abs().exponent_reciprocal()).normalize();
+        let somewhere = axis.max_abs().gt(zero);
+        let axis = Vec3::new(axis.x, axis.y, R::select(somewhere, axis.z, one));
         Self {
             frame: Frame::new(axis),
             cone: Cone { one_minus_cos: h.keep(r.gt(zero)) },
@@ -83,7 +85,10 @@ impl<R: Real> SphereCap<R> {
         let sum = square.max(zero).sqrt() + along.abs();
         let quotient = self.power.abs() / R::select(sum.gt(zero), sum, one);
         let far = !outside & along.ge(zero);
-        Sighting { direction: self.sample(u), distance: R::select(far, sum, quotient) * self.unit }
+        Sighting {
+            direction: self.sample(u),
+            distance: (R::select(far, sum, quotient) * self.unit).min(R::lit(f64::from(f32::MAX))),
+        }
     }
 }
 

@@ -153,7 +153,8 @@ impl<R: Real> SphericalTriangle<R> {
             across,
             sin_alpha: volume.abs() * (squared[0] * i0) * i01 * i02,
             cos_alpha: n01.dot(n02) * i01 * i02,
-            stretch: R::lit(2.0) / R::select(minus.gt(zero), minus, one),
+            // a side of 1e−18 and less has no finite reciprocal
+            stretch: R::lit(2.0) / R::select(minus.gt(R::lit(1e-37)), minus, one),
             sin_side,
             inv_l0: i0,
             inv_l2: i2,
@@ -274,8 +275,9 @@ impl<R: Real> SphericalTriangle<R> {
         let numerator = R::select(behind, self.volume.abs(), self.l1);
         let denominator = R::select(behind, direction.dot(self.normal).abs(), reciprocal);
         let some = denominator.gt(zero) & self.solid_angle.gt(zero);
-        let reach = R::lit(8.0);
-        let distance = (numerator / R::select(some, denominator, one)).min(reach) * self.unit;
+        // a point of the triangle is within 4 units; what does not fit f32 ends at its largest number
+        let distance = (numerator / R::select(some, denominator, one)).min(R::lit(4.0));
+        let distance = (distance * self.unit).min(R::lit(f64::from(f32::MAX)));
         Sighting { direction, distance: distance.keep(some) }
     }
 

@@ -1,5 +1,5 @@
 use super::independent::hash4;
-use super::stratified::{floor_exact, permute};
+use super::stratified::{divide, permute};
 use super::{Independent, Sequence};
 use crate::real::{Real, Uint};
 use crate::vector::Vec2;
@@ -38,7 +38,7 @@ impl Sequence for LatinHypercube {
     fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
         let scale = R::lit(1.0 / f64::from(self.count));
         let count = R::Uint::splat(self.count);
-        let replicate = floor_exact::<R>(R::from_uint(sample) * scale, sample, count);
+        let replicate = divide::<R>(sample, self.count);
         let index = sample.wrapping_sub(replicate.wrapping_mul(count));
         let keys = hash4([
             pixel,
