@@ -14,7 +14,7 @@ const SLACK: f64 = 4.0 / 16_777_216.0;
 /// - Domain: u in [0, 1)²; h in [0, 2].
 /// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
 /// - Degenerate: h = 0 gives +z and pdf 0.
-/// - Greatest error: pdf 2e−7 relative at every size.
+/// - Greatest error: pdf 1.2e−7 relative, direction 1.8e−7 of the cone's width, at every size.
 /// - Source: the inverse of the cap's distribution function, in terms of 1−cosθ.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cone<R> {
