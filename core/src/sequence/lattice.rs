@@ -31,7 +31,7 @@ impl Lattice {
     /// Roberts's R2: steps 1/g and 1/g², g³ = g + 1. Any number of samples, known beforehand or not.
     #[must_use]
     pub fn r2(seed: u64) -> Self {
-        // 1/g and 1/g² in units of 2⁻³², to the nearest odd number: all 2³² points differ
+        // 1/g and 1/g² in units of 2⁻³², rounded to odd numbers: all 2³² points differ in both coordinates
         Self { random: Independent::new(seed), steps: [0xc13f_a9a9, 0x91e1_0da5] }
     }
     /// Fibonacci's: steps 1/count and the golden ratio − 1. Best at Fibonacci numbers, good at any count; clamped to [1, 2²²].
