@@ -121,7 +121,6 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("light parallelogram by area", move |p, u| quad.by_area(p, u));
     list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p, u));
 
-    let samples: Vec<_> = (0..SAMPLES / R::LANES).map(index::<R>).collect();
     list.sequence("independent", Independent::new(1));
     list.sequence("stratified", Stratified::new(1, 64));
     list.sequence("latin hypercube", LatinHypercube::new(1, 64));
