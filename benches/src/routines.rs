@@ -1,7 +1,7 @@
 //! Samples, densities and inverses.
 
 use etendue::seen::{SphereCap, SphericalParallelogram, SphericalTriangle};
-use etendue::sequence::{Independent, Sequence, Stratified};
+use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::warp::{
     AreaTriangle, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, Warp,
 };
@@ -65,6 +65,16 @@ impl<R: Real + 'static> List<R> {
         self.push(&format!("{name} pdf"), warp, points.clone(), |w, p| w.pdf(p));
         self.push(&format!("{name} invert"), warp, points, |w, p| w.invert(p));
     }
+    /// Samples of one pixel, then one sample each of as many pixels.
+    fn sequence(&mut self, name: &str, sequence: impl Sequence + Copy + 'static) {
+        let indices: Vec<_> = (0..SAMPLES / R::LANES).map(index::<R>).collect();
+        self.push(&format!("sequence {name} pair"), sequence, indices.clone(), |s, i| {
+            s.pair::<R>(R::Uint::splat(7), i, 1)
+        });
+        self.push(&format!("sequence {name} pair, pixels"), sequence, indices, |s, i| {
+            s.pair::<R>(i, R::Uint::splat(7), 1)
+        });
+    }
     /// Something that is prepared for every sample.
     fn prepared<T>(&mut self, name: &str, compute: impl Fn(Vec3<R>, Vec2<R>) -> T + 'static) {
         let arguments: Vec<_> = self.viewpoints.iter().copied().zip(self.squares.iter().copied()).collect();
@@ -111,10 +121,11 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("light parallelogram by area", move |p, u| quad.by_area(p, u));
     list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p, u));
 
-    let samples: Vec<_> = (0..SAMPLES / R::LANES).map(index::<R>).collect();
-    list.push("sequence independent pair", Independent::new(1), samples.clone(), |s, i| {
-        s.pair::<R>(R::Uint::splat(7), i, 0)
-    });
-    list.push("sequence stratified pair", Stratified::new(1, 64), samples, |s, i| s.pair::<R>(R::Uint::splat(7), i, 0));
+    list.sequence("independent", Independent::new(1));
+    list.sequence("stratified", Stratified::new(1, 64));
+    list.sequence("latin hypercube", LatinHypercube::new(1, 64));
+    list.sequence("owen sobol", OwenSobol::new(1));
+    list.sequence("z-order", ZOrder::new(1, 64));
+    list.sequence("lattice", Lattice::r2(1));
     list.routines
 }

@@ -1,4 +1,17 @@
-//! What to do with samples: mean and variance, exactly mergeable.
+//! What to do with samples: mean and variance, exactly mergeable; weights of several techniques; choice from a stream.
+//!
+//! | | what |
+//! |---|---|
+//! | [`Welford`] | mean and variance of a stream |
+//! | [`Heuristic`], [`density`] | multiple importance sampling |
+//! | [`Measured`], [`log_variance_error`] | efficiency: variance against cost |
+//! | [`Reservoir`] | one of a stream in proportion to weights: choice among lights, resampling |
+
+mod mis;
+mod reservoir;
+
+pub use mis::{Heuristic, Measured, density, log_variance_error};
+pub use reservoir::Reservoir;
 
 use crate::real::Real;
 

@@ -42,6 +42,7 @@ pub mod light;
 pub mod math;
 pub mod real;
 pub mod seen;
+pub mod select;
 pub mod sequence;
 pub mod vector;
 pub mod warp;

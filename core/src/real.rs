@@ -57,6 +57,8 @@ pub trait Uint: Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = S
     fn shl(self, bits: u32) -> Self;
     /// Shift towards the low bits, `bits` < 32; zeros come in.
     fn shr(self, bits: u32) -> Self;
+    /// Bit k becomes bit 31 − k.
+    fn reverse_bits(self) -> Self;
     /// All ones in the lanes where `self < other`, zeros elsewhere.
     fn lt(self, other: Self) -> Self;
     /// Is any bit of any lane set?
@@ -117,6 +119,8 @@ pub trait Real:
     }
     /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// [`select`](Real::select) for counters.
+    fn select_uint(mask: Self::Mask, yes: Self::Uint, no: Self::Uint) -> Self::Uint;
     /// `self` where the mask is true, +0 elsewhere.
     fn keep(self, mask: Self::Mask) -> Self;
     /// `-self` where the mask is true, `self` elsewhere.
@@ -301,6 +305,10 @@ impl Uint for u32 {
         self >> bits
     }
     #[inline(always)]
+    fn reverse_bits(self) -> Self {
+        u32::reverse_bits(self)
+    }
+    #[inline(always)]
     fn lt(self, other: Self) -> Self {
         if self < other { u32::MAX } else { 0 }
     }
@@ -346,6 +354,11 @@ macro_rules! packet_uint {
             #[inline(always)]
             fn shr(self, bits: u32) -> Self {
                 self >> bits
+            }
+            // the compiler makes one reversal of the whole register of this: two table look-ups for every four bits
+            #[inline(always)]
+            fn reverse_bits(self) -> Self {
+                $vector::new(self.to_array().map(u32::reverse_bits))
             }
             #[inline(always)]
             fn lt(self, other: Self) -> Self {
@@ -476,6 +489,10 @@ macro_rules! scalar_real {
                 if mask { yes } else { no }
             }
             #[inline(always)]
+            fn select_uint(mask: bool, yes: u32, no: u32) -> u32 {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
             fn keep(self, mask: bool) -> Self {
                 if mask { self } else { 0.0 }
             }
@@ -539,7 +556,7 @@ scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 134_
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
-     $reflected:literal, $splitter:literal, $from_int:ident, $functions:ident, $to_uint:expr) => {
+     $reflected:literal, $splitter:literal, $from_int:ident, $functions:ident, $to_uint:expr, $mask_uint:expr) => {
         impl Sealed for $packet {}
         impl Real for $packet {
             type Scalar = $scalar;
@@ -577,6 +594,11 @@ macro_rules! packet_real {
             #[inline(always)]
             fn select(mask: $mask, yes: Self, no: Self) -> Self {
                 mask.0.select(yes, no)
+            }
+            #[inline(always)]
+            fn select_uint(mask: $mask, yes: $uint, no: $uint) -> $uint {
+                let bits: fn($mask) -> $uint = $mask_uint;
+                no ^ ((no ^ yes) & bits(mask))
             }
             #[inline(always)]
             fn keep(self, mask: $mask) -> Self {
@@ -646,12 +668,36 @@ macro_rules! packet_real {
         }
     };
 }
-packet_real!(f32x4, f32, u32x4, MaskX4, u32x4, 4, 0x7f80_0000, 0x7f00_0000, 4097.0, from_i32x4, polynomials, |x| x
-    .fast_trunc_int()
-    .cast_unsigned());
-packet_real!(f32x8, f32, u32x8, MaskX8, u32x8, 8, 0x7f80_0000, 0x7f00_0000, 4097.0, from_i32x8, polynomials, |x| x
-    .fast_trunc_int()
-    .cast_unsigned());
+packet_real!(
+    f32x4,
+    f32,
+    u32x4,
+    MaskX4,
+    u32x4,
+    4,
+    0x7f80_0000,
+    0x7f00_0000,
+    4097.0,
+    from_i32x4,
+    polynomials,
+    |x| x.fast_trunc_int().cast_unsigned(),
+    |mask| mask.0.to_bits()
+);
+packet_real!(
+    f32x8,
+    f32,
+    u32x8,
+    MaskX8,
+    u32x8,
+    8,
+    0x7f80_0000,
+    0x7f00_0000,
+    4097.0,
+    from_i32x8,
+    polynomials,
+    |x| x.fast_trunc_int().cast_unsigned(),
+    |mask| mask.0.to_bits()
+);
 use wide::u64x4;
 packet_real!(
     f64x4,
@@ -665,5 +711,6 @@ packet_real!(
     134_217_729.0,
     from_i32x4,
     lane_by_lane,
-    |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32))
+    |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
+    |mask| u32x4::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 }))
 );

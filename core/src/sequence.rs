@@ -1,16 +1,34 @@
 //! Random numbers and point sets in packets: pure functions of (pixel, sample, dimension, seed), with no state.
 //!
-//! | sequence | variance | notes |
-//! |---|---|---|
-//! | [`Independent`] | N⁻¹ | the yardstick |
-//! | [`Stratified`] | N⁻² smooth, N^(−3/2) with edges, in each pair of dimensions | any count; pairs are associated at random |
+//! Variance of the mean of N samples in a pair of dimensions, and how many times less it is than that of independent samples:
+//! f = exp(x + y), and a straight edge at a random place and angle. Time for a pair, of many samples of one pixel, on one thread of
+//! a Xeon at x86-64-v3, all lanes counted. (`cargo test -p etendue-tests --test sobol -- --nocapture variance`,
+//! `cargo bench -p etendue-benches --bench summary -- sequence`.)
 //!
-//! A dimension is a pair: dimension 0 might be the pixel, 1 the light, 2 the lens. Pairs of different dimensions are independent.
+//! | sequence | variance: smooth, edge | gain at 16 | gain at 64 | ns: f32, f32x4, f32x8 | when |
+//! |---|---|---|---|---|---|
+//! | [`Independent`] | N⁻¹ | 1 | 1 | 3.0, 1.6, 0.8 | the yardstick; the spread of samples tells the variance |
+//! | [`LatinHypercube`] | N⁻¹, less what is a function of x or of y alone | 22, 3.5 | 25, 3.7 | 53, 28, 16 | any count, nearly additive integrands |
+//! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 37, 21, 11 | any count |
+//! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 4.4, 1.2, 0.6 | a count not known beforehand, and cheap |
+//! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 4.4, 1.2, 0.6 | a Fibonacci count; edges |
+//! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 8.3, 3.1, 1.4 | the choice wherever the count is a power of two |
+//! | [`ZOrder`] | in a pixel as [`OwenSobol`] | | | 17, 8.5, 4.3 | few samples a pixel, an image for the eye: blue noise |
+//!
+//! Pairs of samples in one dimension are what these figures are of. Pairs of different dimensions are associated at random.
+//!
+//! A dimension is a pair: dimension 0 might be the pixel, 1 the light, 2 the lens.
 
 mod independent;
+mod latin;
+mod lattice;
+mod owen_sobol;
 mod stratified;
 
 pub use independent::{CounterRng, Independent};
+pub use latin::LatinHypercube;
+pub use lattice::Lattice;
+pub use owen_sobol::{OwenSobol, ZOrder};
 pub use stratified::Stratified;
 
 use crate::real::Real;

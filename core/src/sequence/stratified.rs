@@ -73,7 +73,7 @@ fn scramble<U: Uint>(mut i: U, mask: U, half: u32, keys: [U; 4]) -> U {
 
 /// A permutation of [0, count) keyed by four words: the one of the next power of two, walked until it falls inside.
 #[inline]
-fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
+pub(super) fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
     if count < 2 {
         return i & U::splat(0);
     }
@@ -119,7 +119,7 @@ impl Sequence for Stratified {
 /// ⌊numerator/denominator⌋ for numerators below 2³¹: a rounded quotient, the rounded quotient of what is left, and at most one
 /// more or less.
 #[inline]
-fn divide<R: Real>(numerator: R::Uint, denominator: u32) -> R::Uint {
+pub(super) fn divide<R: Real>(numerator: R::Uint, denominator: u32) -> R::Uint {
     let inverse = R::lit(1.0 / f64::from(denominator));
     let denominator = R::Uint::splat(denominator);
     let guess = (R::from_uint(numerator) * inverse).to_uint();

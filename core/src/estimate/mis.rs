@@ -1,0 +1,119 @@
+use crate::real::Real;
+
+/// Multiple importance sampling: how samples of several techniques share one integral.
+///
+/// - Formula: with densities dᵢ = nᵢpᵢ of the techniques at one point, weights wᵢ = dᵢ^β/Σdⱼ^β; the estimator is the sum over
+///   techniques of w·f/(n·p).
+/// - Domain: densities in [0, ∞]; a negative number or NaN counts as 0. Densities are divided by the largest before they are
+///   raised to a power, so nothing over- or underflows that matters: any common factor of the densities changes nothing.
+/// - Delta distributions: a technique that alone can sample the point (a point light, a mirror) has density ∞, see
+///   [`density`]; it has weight 1 and the others 0. Several of them share equally.
+/// - Degenerate: all densities 0 give weights 0.
+/// - Greatest error: weights sum to 1 within 2⁻²³ for two techniques.
+/// - Source: Veach 1997, *Robust Monte Carlo Methods for Light Transport Simulation*, 9.2.
+///
+/// | heuristic | when |
+/// |---|---|
+/// | [`Balance`](Heuristic::Balance) | never far from the best; the choice for sums over many similar techniques, and for reservoirs |
+/// | [`POWER`](Heuristic::POWER) | where one technique is nearly perfect: a small light, a glossy surface |
+/// | [`Power(β)`](Heuristic::Power) | between it and the maximum |
+/// | [`Maximum`](Heuristic::Maximum) | discontinuous weights; for comparison |
+///
+/// ```
+/// use etendue::estimate::{Heuristic, density};
+/// let [light, surface] = Heuristic::POWER.weights([3.0_f32, 1.0]);
+/// assert!((light - 0.9).abs() < 1e-6 && (surface - 0.1).abs() < 1e-6);
+/// // squares of these would overflow
+/// assert_eq!(Heuristic::POWER.weights([3e30_f32, 3e30]), [0.5, 0.5]);
+/// // a point light: a delta
+/// assert_eq!(Heuristic::POWER.weights([density(1.0_f32, 1.0, true), 7.0]), [1.0, 0.0]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Heuristic {
+    /// β = 1.
+    Balance,
+    /// Any β from 0 (every technique alike, where its density is not 0).
+    Power(u32),
+    /// β → ∞: all to the technique of the largest density, the first of equals.
+    Maximum,
+}
+
+impl Heuristic {
+    /// The power heuristic with β = 2, Veach's choice.
+    pub const POWER: Self = Self::Power(2);
+
+    /// The weight of each technique at a point where they have these densities.
+    #[inline]
+    pub fn weights<R: Real, const N: usize>(self, densities: [R; N]) -> [R; N] {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let densities = densities.map(|d| d.max(zero));
+        let largest = densities.into_iter().fold(zero, R::max);
+        let some = largest.gt(zero);
+        let Self::Power(exponent) = (if self == Self::Balance { Self::Power(1) } else { self }) else {
+            let mut free = some;
+            return densities.map(|d| {
+                let chosen = free & d.ge(largest);
+                free = free & !chosen;
+                one.keep(chosen)
+            });
+        };
+        // ∞/∞ is 1 here, and 0/0 is 0
+        let divisor = R::select(some, largest, one);
+        let shares = densities.map(|d| {
+            let ratio = R::select(d.ge(largest), one, d / divisor).keep(some & d.gt(zero));
+            match exponent {
+                0 => one.keep(ratio.gt(zero)),
+                _ => (1..exponent).fold(ratio, |power, _| power * ratio),
+            }
+        });
+        // at least 1 where there is any
+        let sum = shares.into_iter().fold(zero, |sum, share| sum + share);
+        shares.map(|share| share / R::select(some, sum, one))
+    }
+}
+
+/// The density of a technique that takes `samples` samples with density `pdf`, for [`Heuristic::weights`]: their
+/// product, which saturates; ∞ where `delta` holds.
+#[inline]
+pub fn density<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
+    let product = (samples * pdf).clamp(R::lit(0.0), R::lit(f64::from(f32::MAX)));
+    R::select(delta, R::lit(f64::INFINITY), product)
+}
+
+/// Variance and cost of a technique, as measured.
+///
+/// ```
+/// use etendue::estimate::Measured;
+/// let (area, solid_angle) = (Measured { variance: 16.0, cost: 1.0 }, Measured { variance: 1.0, cost: 2.0 });
+/// assert_eq!(solid_angle.gain_over(area), 8.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// Variance of the estimate; of stratified or low-discrepancy samples from independent replicates.
+    pub variance: f64,
+    /// What it took, in any unit: seconds, rays, samples.
+    pub cost: f64,
+}
+
+impl Measured {
+    /// 1/(variance·cost), which more samples do not change; ∞ for an exact estimate or a free one.
+    #[must_use]
+    pub fn efficiency(self) -> f64 {
+        1.0 / (self.variance * self.cost)
+    }
+    /// How many times less this costs for the same variance: the ratio of the efficiencies; 1 if both are exact or free.
+    #[must_use]
+    pub fn gain_over(self, other: Self) -> f64 {
+        let (own, others) = (self.variance * self.cost, other.variance * other.cost);
+        if own == others { 1.0 } else { others / own }
+    }
+}
+
+/// Standard error of the logarithm of a variance, from `n` independent samples that are nearly normal (means are):
+/// √(2/(n − 1)). The interval of a ratio of variances is the ratio times exp(±z √(a² + b²)) of their two errors.
+///
+/// Infinite for fewer than two.
+#[must_use]
+pub fn log_variance_error(n: u32) -> f64 {
+    if n < 2 { f64::INFINITY } else { Real::sqrt(2.0 / (f64::from(n) - 1.0)) }
+}

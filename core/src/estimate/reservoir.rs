@@ -1,0 +1,80 @@
+use crate::real::{Real, Uint};
+
+/// One candidate of a stream, chosen in proportion to weights that become known one at a time: for lights, or samples of them.
+///
+/// - Formula: candidate i replaces the one held with probability wᵢ/Σ_{j≤i} wⱼ; at the end each is held with
+///   probability wᵢ/Σw. One uniform number serves the whole stream: what decided is stretched back to [0, 1).
+/// - Domain: weights in [0, ∞); NaN, negative and infinite ones count as 0, and such a candidate is never held.
+/// - Lanes are reservoirs of their own.
+/// - Precision: `u` has 24 bits, and the stretching leaves fewer for what comes after: each candidate's frequency is
+///   within some 2⁻²⁴ of its probability for each candidate of the stream. Push a fresh `u` now and then for long streams.
+/// - Source: Chao 1982; Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", EGSR 2005; Ogaki 2021 for
+///   the reuse of u; Wyman and Panteleev 2021.
+///
+/// Two uses:
+/// 1. *Choice of a light* by a bound of its contribution: the weight is the bound, [`probability`](Reservoir::probability) is the
+///    probability of the one held, to divide by.
+/// 2. *Resampled importance sampling*: candidates xᵢ come from densities pᵢ, weights are mᵢ·p̂(xᵢ)/pᵢ with MIS weights mᵢ (1/M of M
+///    candidates from one density); the sample held is worth f·[`contribution`](Reservoir::contribution)(p̂) without bias where p̂ > 0
+///    wherever f ≠ 0.
+///
+/// ```
+/// use etendue::estimate::Reservoir;
+/// let mut lights = Reservoir::<f32>::default();
+/// let mut u = 0.6;
+/// for (light, bound) in [3.0, 0.0, 1.0, 4.0].into_iter().enumerate() {
+///     u = lights.push(light as u32, bound, u);
+/// }
+/// assert_ne!(lights.held, 1);
+/// assert_eq!(lights.probability(), [3.0, 0.0, 1.0, 4.0][lights.held as usize] / 8.0);
+/// assert!((0.0..1.0).contains(&u));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Reservoir<R: Real> {
+    /// The candidate held; 0 if there was none of positive weight.
+    pub held: R::Uint,
+    /// Its weight.
+    pub weight: R,
+    /// Sum of the weights of all candidates.
+    pub sum: R,
+}
+
+impl<R: Real> Default for Reservoir<R> {
+    #[inline]
+    fn default() -> Self {
+        Self { held: R::Uint::splat(0), weight: R::lit(0.0), sum: R::lit(0.0) }
+    }
+}
+
+impl<R: Real> Reservoir<R> {
+    /// Offers a candidate. `u` in [0, 1); returns what is left of it, uniform again and independent of the decision.
+    #[inline]
+    pub fn push(&mut self, candidate: R::Uint, weight: R, u: R) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let largest = R::lit(f64::from(f32::MAX));
+        let weight = weight.keep(weight.gt(zero) & weight.le(largest));
+        let sum = (self.sum + weight).min(largest);
+        let chance = weight / R::select(sum.gt(zero), sum, one);
+        let take = u.lt(chance);
+        self.held = R::select_uint(take, candidate, self.held);
+        self.weight = R::select(take, weight, self.weight);
+        self.sum = sum;
+        let (offset, width) = (R::select(take, zero, chance), R::select(take, chance, one - chance));
+        let rest = (u - offset) / R::select(width.gt(zero), width, one);
+        crate::warp::unit_interval(rest)
+    }
+    /// Probability of the candidate held, weight/Σweights; 0 if there is none.
+    #[inline]
+    #[must_use]
+    pub fn probability(&self) -> R {
+        self.weight / R::select(self.sum.gt(R::lit(0.0)), self.sum, R::lit(1.0))
+    }
+    /// What stands for 1/pdf of a resampled sample: Σweights/target, where `target` is p̂ of the sample held; 0 where
+    /// it is 0.
+    #[inline]
+    #[must_use]
+    pub fn contribution(&self, target: R) -> R {
+        let some = target.gt(R::lit(0.0));
+        (self.sum / R::select(some, target, R::lit(1.0))).keep(some)
+    }
+}

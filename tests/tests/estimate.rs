@@ -1,0 +1,256 @@
+//! Estimators: MIS weights, efficiency, reservoirs: sums, limits, and expectations by enumeration.
+
+use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, density, log_variance_error};
+use etendue::sequence::{Independent, Sequence};
+use etendue::{Real, Uint, Vec2, f32x4, f32x8};
+use etendue_tests::stats;
+
+const HEURISTICS: [Heuristic; 6] = [
+    Heuristic::Balance,
+    Heuristic::POWER,
+    Heuristic::Power(0),
+    Heuristic::Power(1),
+    Heuristic::Power(5),
+    Heuristic::Maximum,
+];
+const EXTREMES: [f32; 13] =
+    [0.0, 1e-45, 1e-40, f32::MIN_POSITIVE, 1e-30, 1e-10, 0.3, 1.0, 7.0, 1e20, 1e38, f32::MAX, f32::INFINITY];
+
+#[test]
+fn weights_sum_to_one_at_every_extreme() {
+    for heuristic in HEURISTICS {
+        let check = |densities: &[f32], weights: &[f32]| {
+            let sum: f64 = weights.iter().copied().map(f64::from).sum();
+            let expected = f64::from(u8::from(densities.iter().any(|d| *d > 0.0)));
+            assert!((sum - expected).abs() <= 2.4e-7, "{heuristic:?} {densities:?} {weights:?}");
+            assert!(weights.iter().all(|w| (0.0..=1.0).contains(w)), "{heuristic:?} {densities:?} {weights:?}");
+            for (d, w) in densities.iter().zip(weights) {
+                assert!(*d > 0.0 || *w == 0.0, "{heuristic:?} {densities:?} {weights:?}");
+            }
+        };
+        for a in EXTREMES {
+            for b in EXTREMES {
+                check(&[a, b], &heuristic.weights([a, b]));
+                for c in EXTREMES {
+                    check(&[a, b, c], &heuristic.weights([a, b, c]));
+                }
+            }
+            assert_eq!(heuristic.weights([a, f32::NAN, -1.0]), heuristic.weights([a, 0.0, 0.0]));
+        }
+        assert_eq!(heuristic.weights::<f32, 0>([]), []);
+    }
+    // the formula as it is often written fails at both ends
+    let naive = |a: f32, b: f32| a * a / (a * a + b * b);
+    assert!(naive(3e30, 3e30).is_nan() && naive(1e-30, 1e-30).is_nan());
+    assert_eq!(Heuristic::POWER.weights([3e30_f32, 3e30]), [0.5, 0.5]);
+    assert_eq!(Heuristic::POWER.weights([1e-30_f32, 1e-30]), [0.5, 0.5]);
+}
+
+#[test]
+fn weights_are_their_formula_at_every_scale_and_width() {
+    let sequence = Independent::new(5);
+    for i in 0..2000 {
+        let u: Vec2<f64> = sequence.pair(0, i, 0);
+        let v: Vec2<f64> = sequence.pair(0, i, 1);
+        let densities = [u.x * 10.0, u.y, v.x * 0.1].map(|d| d as f32);
+        for (heuristic, beta) in [(Heuristic::Balance, 1), (Heuristic::POWER, 2), (Heuristic::Power(7), 7)] {
+            let weights = heuristic.weights(densities);
+            let powers = densities.map(|d| f64::from(d).powi(beta));
+            for (weight, power) in weights.iter().zip(powers) {
+                let expected = power / powers.iter().sum::<f64>();
+                assert!((f64::from(*weight) - expected).abs() < 1e-6 * expected + 1e-30, "{weight} {expected}");
+            }
+            for scale in [2.0_f32.powi(-100), 2.0_f32.powi(100)] {
+                assert_eq!(heuristic.weights(densities.map(|d| d * scale)), weights);
+            }
+        }
+        for heuristic in HEURISTICS {
+            let other = EXTREMES[i as usize % EXTREMES.len()];
+            let lane = |k: usize| if k.is_multiple_of(2) { densities } else { [other, densities[1], other] };
+            let four = heuristic.weights([0, 1, 2].map(|t| f32x4::from_fn(|k| lane(k)[t])));
+            let eight = heuristic.weights([0, 1, 2].map(|t| f32x8::from_fn(|k| lane(k)[t])));
+            for k in 0..8 {
+                let one = heuristic.weights(lane(k));
+                for t in 0..3 {
+                    assert_eq!(eight[t].lane(k).to_bits(), one[t].to_bits());
+                    assert!(k > 3 || four[t].lane(k).to_bits() == one[t].to_bits());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn deltas_take_all() {
+    for heuristic in HEURISTICS {
+        assert_eq!(heuristic.weights([density(1.0_f32, 3.0, true), 1e38]), [1.0, 0.0]);
+        assert_eq!(heuristic.weights([density(0.0_f32, 0.0, true), f32::MAX]), [1.0, 0.0]);
+        // a density that overflows is no delta
+        let [huge, delta] = heuristic.weights([density(16.0_f32, 1e38, false), density(1.0, 1.0, true)]);
+        assert_eq!([huge, delta], [0.0, 1.0]);
+    }
+    assert_eq!(density(2.0_f32, 0.25, false), 0.5);
+}
+
+/// E Σᵢ wᵢ f/(nᵢ pᵢ) over points of a finite set, exactly.
+#[test]
+fn combinations_are_unbiased() {
+    let f = [0.0, 1.0, 5.0, 0.2, 3.0, 1e-3];
+    let p = [[0.1, 0.2, 0.3, 0.4, 0.0, 0.0], [0.3, 0.0, 0.1, 0.1, 0.45, 0.05]];
+    let samples = [1.0, 3.0];
+    for heuristic in HEURISTICS {
+        let mut expectation = 0.0;
+        for x in 0..f.len() {
+            let weights = heuristic.weights([0, 1].map(|t| density(samples[t], p[t][x], false)));
+            for t in 0..2 {
+                if p[t][x] > 0.0 {
+                    // n samples, each x with probability p, each worth w f/(n p)
+                    expectation += samples[t] * p[t][x] * weights[t] * f[x] / (samples[t] * p[t][x]);
+                }
+            }
+        }
+        assert!((expectation - f.iter().sum::<f64>()).abs() < 1e-12, "{heuristic:?}: {expectation}");
+    }
+    // f = x² on [0, 1] from densities 1 and 2x, as regular samples of each: ⅓
+    let n = 1 << 16;
+    for heuristic in HEURISTICS {
+        let mut sum = 0.0;
+        for i in 0..n {
+            let u = (f64::from(i) + 0.5) / f64::from(n);
+            for (t, x) in [u, u.sqrt()].into_iter().enumerate() {
+                let pdf = [1.0, 2.0 * x];
+                sum += heuristic.weights(pdf)[t] * x * x / pdf[t] / f64::from(n);
+            }
+        }
+        assert!((sum - 1.0 / 3.0).abs() < 1e-5, "{heuristic:?}: {sum}");
+    }
+}
+
+/// f = exp(−1000(x−¼)²) by uniform samples and by two densities of three steps.
+#[test]
+fn importance_sampling_example() {
+    let f = |x: f64| (-1000.0 * (x - 0.25) * (x - 0.25)).exp();
+    let measure = |outside: f64, inside: f64| {
+        let split = [0.15 * outside, 0.15 * outside + 0.2 * inside];
+        let mut welford = Welford::<f64>::default();
+        let mut fourth = Vec::new();
+        let n = 1 << 18;
+        for i in 0..n {
+            let u: Vec2<f64> = Independent::new(8).pair(0, i, 0);
+            let (x, pdf) = if u.x < split[0] {
+                (u.x / outside, outside)
+            } else if u.x < split[1] {
+                (0.15 + (u.x - split[0]) / inside, inside)
+            } else {
+                (0.35 + (u.x - split[1]) / outside, outside)
+            };
+            let value = f(x) / pdf;
+            welford.push(value, 1.0 / f64::from(i + 1));
+            fourth.push(value);
+        }
+        let n = f64::from(n);
+        let variance = welford.variance(n);
+        let integral = (std::f64::consts::PI / 1000.0).sqrt();
+        assert!((welford.mean - integral).abs() < 5.0 * (variance / n).sqrt(), "{}", welford.mean);
+        let (_, spread) = stats::mean_variance(&fourth.iter().map(|v| (v - integral).powi(2)).collect::<Vec<_>>());
+        (variance, (spread / n).sqrt())
+    };
+    let (uniform, error) = measure(1.0, 1.0);
+    println!("variance {uniform} ± {error}");
+    assert!((uniform - 0.036_492).abs() < 5.0 * error && error < 4e-4, "{uniform} ± {error}");
+    for ((outside, inside), ratio, half_unit) in [((0.1, 4.6), 6.67, 0.005), ((1.2, 0.2), 1.0 / 5.34, 1e-4)] {
+        let (variance, other) = measure(outside, inside);
+        let gain = Measured { variance, cost: 1.0 }.gain_over(Measured { variance: uniform, cost: 1.0 });
+        let relative = (error / uniform).hypot(other / variance);
+        println!("gain {gain} ± {}", gain * relative);
+        assert!((gain - ratio).abs() < 5.0 * gain * relative + half_unit && relative < 0.03, "{gain} is not {ratio}");
+    }
+}
+
+#[test]
+fn efficiency() {
+    let (a, b) = (Measured { variance: 2.0, cost: 3.0 }, Measured { variance: 1.0, cost: 1.5 });
+    assert_eq!((a.efficiency(), b.gain_over(a), a.gain_over(b)), (1.0 / 6.0, 4.0, 0.25));
+    let exact = Measured { variance: 0.0, cost: 1.0 };
+    assert_eq!((exact.gain_over(a), a.gain_over(exact), exact.gain_over(exact)), (f64::INFINITY, 0.0, 1.0));
+    assert_eq!(log_variance_error(1), f64::INFINITY);
+    // variances of 65 normal deviates: the spread of their logarithms
+    let logs: Vec<f64> = (0..4000)
+        .map(|k| {
+            let values: Vec<f64> = (0..65)
+                .map(|i| {
+                    let u: Vec2<f64> = Independent::new(6).pair(k, i, 0);
+                    (-2.0 * (1.0 - u.x).ln()).sqrt() * (u.y * std::f64::consts::TAU).cos()
+                })
+                .collect();
+            stats::mean_variance(&values).1.ln()
+        })
+        .collect();
+    let spread = stats::mean_variance(&logs).1.sqrt();
+    assert!((spread / log_variance_error(65) - 1.0).abs() < 0.06, "{spread}");
+}
+
+#[test]
+fn reservoir_holds_in_proportion_and_leaves_a_uniform_number() {
+    let steps = 1 << 16;
+    for weights in [&[1.0_f32, 2.0, 0.0, 5.0][..], &[0.0, 0.0, 1e-20, 3e-20], &[1e30, 1e28, 2e30], &[7.0]] {
+        let total: f64 = weights.iter().copied().map(f64::from).sum();
+        let mut left = vec![Vec::new(); weights.len()];
+        for i in 0..steps {
+            let mut reservoir = Reservoir::<f32>::default();
+            let mut u = (i as f32 + 0.5) / steps as f32;
+            for (k, &weight) in weights.iter().enumerate() {
+                u = reservoir.push(k as u32, weight, u);
+            }
+            assert!((0.0..1.0).contains(&u));
+            let held = reservoir.held as usize;
+            let expected = f64::from(weights[held]) / total;
+            assert!((f64::from(reservoir.probability()) - expected).abs() < 2e-7 * expected);
+            left[held].push(u);
+        }
+        for (k, left) in left.iter_mut().enumerate() {
+            let expected = f64::from(weights[k]) / total * f64::from(steps);
+            assert!((left.len() as f64 - expected).abs() <= weights.len() as f64, "{weights:?}: {k} {}", left.len());
+            left.sort_by(f32::total_cmp);
+            for (i, &u) in left.iter().enumerate() {
+                let off = f64::from(u) - (i as f64 + 0.5) / left.len() as f64;
+                assert!(off.abs() < 3.0 / left.len() as f64 + 1e-5, "{weights:?}: {k} {off}");
+            }
+        }
+    }
+    let mut none = Reservoir::<f32x8>::default();
+    for weight in [0.0, f32::NAN, -1.0, f32::INFINITY] {
+        none.push(etendue::u32x8::splat(3), f32x8::splat(weight), f32x8::splat(0.0));
+    }
+    assert_eq!(none.probability(), f32x8::splat(0.0));
+    assert_eq!(none.contribution(f32x8::splat(0.0)), f32x8::splat(0.0));
+    assert_eq!(none.held.lane(5), 0);
+}
+
+/// Resampling from M candidates, every outcome by its probability: E f(y)·contribution = Σf.
+#[test]
+fn resampling_is_unbiased() {
+    let p = [0.1, 0.2, 0.3, 0.4];
+    let target = [0.0, 4.0, 0.5, 1.0];
+    let f = [0.0, 2.0, 1.0, 5.0];
+    let mut expectation = 0.0;
+    for first in 0..4 {
+        for second in 0..4 {
+            let weights = [first, second].map(|x| target[x] / p[x] / 2.0);
+            let sum = weights[0] + weights[1];
+            for (k, x) in [first, second].into_iter().enumerate() {
+                if weights[k] > 0.0 {
+                    let mut reservoir = Reservoir::<f64>::default();
+                    reservoir.push(first as u32, weights[0], 0.5);
+                    // below the chance of the second, or above
+                    reservoir.push(second as u32, weights[1], if k == 1 { 0.0 } else { 1.0 - 1e-9 });
+                    assert_eq!(reservoir.held as usize, x);
+                    assert!((reservoir.probability() - weights[k] / sum).abs() < 1e-15);
+                    let worth = f[x] * reservoir.contribution(target[x]);
+                    expectation += p[first] * p[second] * weights[k] / sum * worth;
+                }
+            }
+        }
+    }
+    assert!((expectation - 8.0).abs() < 1e-12, "{expectation}");
+}

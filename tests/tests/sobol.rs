@@ -1,0 +1,423 @@
+//! Point sets: that they are what they claim (nets, strata, lattices), at every width, and how much variance they save.
+
+use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
+use etendue::{Real, Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
+use etendue_tests::stats;
+use etendue_tests::tolerances::SIGNIFICANCE;
+
+fn point(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [f64; 2] {
+    let u: Vec2<f64> = sequence.pair(pixel, sample, dimension);
+    [u.x, u.y]
+}
+
+/// Does every box of 2⁻ᵃ × 2ᵃ⁻ᵐ hold one of the 2ᵐ points? The first a where one does not.
+fn failed_shape(points: &[[f64; 2]]) -> Option<u32> {
+    let m = points.len().ilog2();
+    assert_eq!(points.len(), 1 << m);
+    (0..=m).find(|&a| {
+        let mut seen = vec![false; points.len()];
+        for [x, y] in points {
+            let (column, row) = ((x * f64::from(1_u32 << a)) as usize, (y * f64::from(1_u32 << (m - a))) as usize);
+            seen[column << (m - a) | row] = true;
+        }
+        seen.contains(&false)
+    })
+}
+
+#[test]
+fn owen_sobol_is_a_net() {
+    for m in 0..=14 {
+        for (scramble, pixel, dimension) in [(1, 0, 0), (1, 1, 0), (2, 12_345, 7), (3, u32::MAX, u32::MAX)] {
+            let sobol = OwenSobol::new(scramble);
+            // the first block, one amid 2¹⁶ samples, one past them, the last of all
+            for first in [0, 3 << m, 65_536 + (5 << m), 0x8765_4000, u32::MAX - ((1 << m) - 1)] {
+                let points: Vec<_> = (0..1 << m).map(|i| point(&sobol, pixel, first + i, dimension)).collect();
+                assert_eq!(failed_shape(&points), None, "2^{m} points from {first}, pixel {pixel}");
+            }
+        }
+    }
+    // as fine as the grid of u lets one see: 2²⁰ points in one scramble
+    let points: Vec<_> = (0..1 << 20).map(|i| point(&OwenSobol::new(9), 4, i, 2)).collect();
+    assert_eq!(failed_shape(&points), None, "2^20 points");
+}
+
+#[test]
+fn the_check_of_nets_can_fail() {
+    for (name, points) in [
+        ("independent", (0..16).map(|i| point(&Independent::new(1), 0, i, 0)).collect::<Vec<_>>()),
+        ("jitter", (0..16).map(|i| point(&Stratified::new(1, 16), 0, i, 0)).collect()),
+        ("latin", (0..16).map(|i| point(&LatinHypercube::new(1, 16), 0, i, 0)).collect()),
+        ("unaligned", (2..18).map(|i| point(&OwenSobol::new(1), 0, i, 0)).collect()),
+        ("two pixels", (0..16).map(|i| point(&OwenSobol::new(1), i / 8, i, 0)).collect()),
+    ] {
+        assert!(failed_shape(&points).is_some(), "{name}");
+    }
+}
+
+#[test]
+fn z_order_is_a_net_in_a_pixel_and_over_squares() {
+    for samples in [1, 2, 3, 4, 8, 16, 32] {
+        let z = ZOrder::new(5, samples);
+        let held = z.samples();
+        assert_eq!(held, samples.next_power_of_two());
+        for dimension in [0, 1, 6] {
+            for [x0, y0, side] in [[0, 0, 1], [3, 5, 1], [6, 4, 2], [24, 40, 8], [4096, 8192, 16]] {
+                // in the first net of a pixel and in later ones
+                for replicate in [0, 1, 1000] {
+                    let mut points = Vec::new();
+                    for y in y0..y0 + side {
+                        for x in x0..x0 + side {
+                            let pixel = ZOrder::pixel(x, y);
+                            points.extend((0..held).map(|i| point(&z, pixel, replicate * held + i, dimension)));
+                        }
+                    }
+                    assert_eq!(failed_shape(&points), None, "{samples} samples, {side}² pixels, dimension {dimension}");
+                }
+            }
+        }
+    }
+    // 2³¹ samples in a pixel: no shift may be by 32
+    let points: Vec<_> = (0..1024).map(|i| point(&ZOrder::new(5, u32::MAX), 7, (1 << 30) + i, 0)).collect();
+    assert_eq!(failed_shape(&points), None);
+    // and one, where all 32 bits are the pixel's
+    let points: Vec<_> = (0..1024).map(|i| point(&ZOrder::new(5, 0), (1 << 31) + i, 0, 0)).collect();
+    assert_eq!(failed_shape(&points), None);
+}
+
+/// The base-4 digits take all 24 orders, nearly equally often: nested permutations in base 2 are 8 of them.
+#[test]
+fn z_order_permutes_digits_in_every_way() {
+    for samples in [1, 2, 4] {
+        let z = ZOrder::new(11, samples);
+        let mut orders = std::collections::BTreeMap::new();
+        for block in 0..24_000 {
+            // one sample of each of four neighbours: which quarter it is in was the last digit of its index if there is one sample,
+            // and the scramble of the first bits is the same everywhere
+            let x = [0, 1, 2, 3].map(|k| point(&z, block * 4 + k, 0, 3)[0]);
+            let mut order = [0, 1, 2, 3];
+            order.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
+            *orders.entry(order).or_insert(0_u64) += 1;
+        }
+        println!("{samples}: {:?}", orders.values().collect::<Vec<_>>());
+        assert_eq!(orders.len(), 24, "{orders:?}");
+        if samples == 1 {
+            // 0.344/8 and 0.656/16 for 1/24: 1031 and 984; five standard deviations of chance
+            assert!(orders.values().all(|n| (826..1190).contains(n)), "{orders:?}");
+        }
+    }
+}
+
+#[test]
+fn latin_hypercube_is_latin() {
+    for count in [1, 2, 3, 7, 16, 60, 1000, 4096] {
+        let latin = LatinHypercube::new(3, count);
+        for (pixel, replicate, dimension) in [(0, 0, 0), (7, 5, 3), (u32::MAX, 1000, 9)] {
+            for axis in 0..2 {
+                let mut seen = vec![false; count as usize];
+                for i in 0..count {
+                    let u = point(&latin, pixel, replicate * count + i, dimension)[axis];
+                    seen[(u * f64::from(count) + 1e-9) as usize] = true;
+                }
+                assert!(!seen.contains(&false), "{count} in pixel {pixel}");
+            }
+        }
+    }
+    // the axes are permuted apart
+    let points: Vec<_> =
+        (0..4096).map(|i| point(&LatinHypercube::new(3, 4096), 2, i, 0)).map(|[x, y]| (x, y)).collect();
+    assert!(stats::correlation(&points).abs() < 5.0 / 64.0);
+}
+
+#[test]
+fn lattice_is_exact_far_out() {
+    let unit = 1.0 / 16_777_216.0;
+    for lattice in [Lattice::r2(2), Lattice::fibonacci(2, 89)] {
+        let at = |i| point(&lattice, 9, i, 0);
+        let steps = [0, 1].map(|axis| at(1)[axis] - at(0)[axis]);
+        for i in [1, 65_535, 65_536, 1 << 24, 0x7fff_ffff, 0xffff_fff0] {
+            for (axis, step) in steps.iter().enumerate() {
+                let off = at(i + 1)[axis] - at(i)[axis] - step;
+                assert!((off - off.round()).abs() <= unit, "sample {i}: {off}");
+            }
+        }
+    }
+    // Fibonacci's lattice of 89: neighbours on the torus are at least 0.93/√89 apart
+    let points: Vec<_> = (0..89).map(|i| point(&Lattice::fibonacci(2, 89), 3, i, 0)).collect();
+    let mut least = f64::INFINITY;
+    for (i, a) in points.iter().enumerate() {
+        for b in &points[..i] {
+            let along = |k: usize| (a[k] - b[k]) - (a[k] - b[k]).round();
+            least = least.min(along(0).hypot(along(1)));
+        }
+    }
+    assert!(least * 89_f64.sqrt() > 0.93, "{}", least * 89_f64.sqrt());
+    // R2: the same measure is at least ½ at every count
+    let points: Vec<_> = (0..2000).map(|i| point(&Lattice::r2(2), 3, i, 0)).collect();
+    for count in [10_usize, 50, 89, 500, 2000] {
+        let mut least = f64::INFINITY;
+        for (i, a) in points[..count].iter().enumerate() {
+            for b in &points[..i] {
+                let along = |k: usize| (a[k] - b[k]) - (a[k] - b[k]).round();
+                least = least.min(along(0).hypot(along(1)));
+            }
+        }
+        assert!(least * (count as f64).sqrt() > 0.5, "{count}: {}", least * (count as f64).sqrt());
+    }
+}
+
+/// One sample of each of many pixels, seeds or dimensions: uniform, and independent of one another.
+fn uniform_over(name: &str, sequence: impl Fn(u32) -> [f64; 2]) {
+    const SIDE: usize = 32;
+    let mut cells = vec![0_u64; SIDE * SIDE];
+    let mut axes = [vec![0_u64; 4096], vec![0_u64; 4096]];
+    let mut successive = Vec::new();
+    let mut last = [0.0; 2];
+    for i in 0..200_000 {
+        let [x, y] = sequence(i);
+        cells[(x * SIDE as f64) as usize * SIDE + (y * SIDE as f64) as usize] += 1;
+        axes[0][(x * 4096.0) as usize] += 1;
+        axes[1][(y * 4096.0) as usize] += 1;
+        successive.extend([(x, y), (last[0], x), (last[1], y), (last[1], x)]);
+        last = [x, y];
+    }
+    for p in [&cells, &axes[0], &axes[1]].map(|observed| stats::uniform(observed)) {
+        assert!(p > SIGNIFICANCE, "{name}: p = {p}");
+    }
+    for k in 0..4 {
+        let pairs: Vec<_> = successive.iter().copied().skip(k).step_by(4).collect();
+        let p = stats::two_sided(stats::correlation(&pairs) * (pairs.len() as f64).sqrt());
+        assert!(p > SIGNIFICANCE, "{name}: correlation {k}, p = {p}");
+    }
+}
+
+#[test]
+fn each_point_is_uniform_over_pixels_dimensions_and_seeds() {
+    let (sobol, latin, r2) = (OwenSobol::new(1), LatinHypercube::new(1, 48), Lattice::r2(1));
+    for sample in [0, 1, 5, 70_000] {
+        uniform_over("sobol, pixels", |i| point(&sobol, i, sample, 0));
+        uniform_over("sobol, dimensions", |i| point(&sobol, 3, sample, i));
+        uniform_over("sobol, seeds", |i| point(&OwenSobol::new(u64::from(i)), 3, sample, 1));
+    }
+    uniform_over("latin, pixels", |i| point(&latin, i, 5, 0));
+    uniform_over("latin, dimensions", |i| point(&latin, 3, 5, i));
+    uniform_over("lattice, pixels", |i| point(&r2, i, 5, 0));
+    uniform_over("lattice, dimensions", |i| point(&r2, 3, 5, i));
+    uniform_over("z-order, seeds", |i| point(&ZOrder::new(u64::from(i), 4), 1000, 3, 1));
+    uniform_over("z-order, dimensions", |i| point(&ZOrder::new(1, 4), 1000, 3, i));
+    uniform_over("z-order, tiles", |i| point(&ZOrder::new(1, 1 << 31), 2 * i, 3, 0));
+}
+
+/// Rank among the permutations of four of the one that takes the order of x in one dimension to that in another.
+fn association(sequence: &impl Sequence, pixel: u32, dimensions: [u32; 2]) -> usize {
+    let order = |dimension| {
+        let x = [0, 1, 2, 3].map(|sample| point(sequence, pixel, sample, dimension)[0]);
+        let mut order = [0, 1, 2, 3];
+        order.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
+        order
+    };
+    let (a, b) = (order(dimensions[0]), order(dimensions[1]));
+    let mut map = [0; 4];
+    for k in 0..4 {
+        map[a[k]] = b[k];
+    }
+    (0..4).fold(0, |rank, k| rank * (4 - k) + map[k + 1..].iter().filter(|m| **m < map[k]).count())
+}
+
+#[test]
+fn dimensions_are_padded_at_random() {
+    fn orders(sequence: &impl Sequence) -> Vec<u64> {
+        let mut counts = vec![0; 24];
+        for pixel in 0..60_000 {
+            counts[association(sequence, pixel, [1, 2])] += 1;
+        }
+        counts
+    }
+    let latin = orders(&LatinHypercube::new(1, 4));
+    assert!(stats::uniform(&latin) > SIGNIFICANCE, "{latin:?}");
+    // a nested shuffle keeps pairs of samples together: samples 0 and 1 are in opposite halves in both dimensions
+    let sobol = orders(&OwenSobol::new(1));
+    // a nested shuffle keeps (0, 1) and (2, 3) together; the order along x keeps (0, 2) and (1, 3): any of 8 of one and 8 of the other
+    let kept = [0, 1, 6, 7, 16, 17, 22, 23];
+    let expected: Vec<f64> = (0..24).map(|rank| if kept.contains(&rank) { 3750.0 } else { 1875.0 }).collect();
+    let p = stats::chi_square(&sobol, &expected);
+    assert!(p > SIGNIFICANCE, "p = {p}: {sobol:?}");
+    assert!(stats::uniform(&orders(&Lattice::r2(1))) < SIGNIFICANCE, "24 orders of a lattice of four are not alike");
+}
+
+/// Owen's scrambling as it is defined: a random bit for each prefix, here of Sobol's points from their matrices.
+struct TrueOwen {
+    seed: u64,
+}
+
+impl TrueOwen {
+    fn coordinate(&self, value: u32, pixel: u32, axis: u32) -> f64 {
+        let mut result = 0;
+        for bit in 0..24 {
+            let prefix = if bit == 0 { 0 } else { value >> (32 - bit) };
+            let [word, ..] = Independent::new(self.seed ^ 0x1234).words(pixel, prefix, bit << 1 | axis);
+            result |= ((value >> (31 - bit)) ^ (word >> 31)) << 31 >> bit;
+        }
+        f64::from(result >> 8) / 16_777_216.0
+    }
+    fn point(&self, pixel: u32, index: u32) -> [f64; 2] {
+        let mut second = 0;
+        let mut column = 0x8000_0000_u32;
+        for bit in 0..32 {
+            if index >> bit & 1 == 1 {
+                second ^= column;
+            }
+            column ^= column >> 1;
+        }
+        [self.coordinate(index.reverse_bits(), pixel, 0), self.coordinate(second, pixel, 1)]
+    }
+}
+
+impl Sequence for TrueOwen {
+    fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, _: u32) -> Vec2<R> {
+        let [x, y] = [0, 1].map(|axis| {
+            let at = |i| (self.point(pixel.lane(i), sample.lane(i))[axis] * 4_294_967_296.0) as u32;
+            R::unit(R::Uint::from_fn(at))
+        });
+        Vec2::new(x, y)
+    }
+}
+
+/// A half-plane c·x + s·y < d through a random point of the square, at a random angle: its value less its area, and the area.
+struct HalfPlane {
+    c: f64,
+    s: f64,
+    d: f64,
+    area: f64,
+    flip: bool,
+}
+
+impl HalfPlane {
+    fn new(trial: u32) -> Self {
+        let [a, x] = point(&Independent::new(77), trial, 0, 0);
+        let [y, flip] = point(&Independent::new(77), trial, 0, 1);
+        let (s, c) = (a * std::f64::consts::FRAC_PI_2 + 1e-9).sin_cos();
+        let d = c * x + s * y;
+        let half_square = |d: f64| 0.5 * d.max(0.0).powi(2);
+        let area = (half_square(d) - half_square(d - c) - half_square(d - s) + half_square(d - c - s)) / (c * s);
+        Self { c, s, d, area, flip: flip < 0.5 }
+    }
+    fn value(&self, [x, y]: [f64; 2]) -> f64 {
+        let x = if self.flip { 1.0 - x } else { x };
+        f64::from(u8::from(self.c * x + self.s * y < self.d)) - self.area
+    }
+}
+
+/// How many times less variance than independent samples have, of exp(x + y) and of straight edges, each with its standard error.
+fn gains(sequence: &impl Sequence, n: u32) -> [[f64; 2]; 2] {
+    const TRIALS: u32 = 20_000;
+    let integral = (std::f64::consts::E - 1.0).powi(2);
+    let square = ((1.0_f64.exp().powi(2) - 1.0) / 2.0).powi(2);
+    let mut squares = [Vec::new(), Vec::new()];
+    let mut random = [square - integral * integral, 0.0];
+    for trial in 0..TRIALS {
+        let plane = HalfPlane::new(trial);
+        let (mut smooth, mut edge) = (0.0, 0.0);
+        for i in 0..n {
+            let u = point(sequence, trial, i, 1);
+            smooth += (u[0] + u[1]).exp() - integral;
+            edge += plane.value(u);
+        }
+        squares[0].push((smooth / f64::from(n)).powi(2));
+        squares[1].push((edge / f64::from(n)).powi(2));
+        random[1] += plane.area * (1.0 - plane.area) / f64::from(TRIALS);
+    }
+    [0, 1].map(|k| {
+        let (mean, variance) = stats::mean_variance(&squares[k]);
+        let gain = random[k] / f64::from(n) / mean;
+        [gain, gain * (variance / f64::from(TRIALS)).sqrt() / mean]
+    })
+}
+
+/// The gains that are known, within five standard errors and the half unit of their last digit.
+fn gain_is([gain, error]: [f64; 2], known: f64, half_unit: f64) {
+    assert!((gain - known).abs() < 5.0 * error + half_unit, "{gain} ± {error}, not {known}");
+}
+
+#[test]
+fn variance_against_independent_samples() {
+    let table = [16, 64].map(|n| {
+        [
+            gains(&Independent::new(1), n),
+            gains(&Stratified::new(1, n), n),
+            gains(&LatinHypercube::new(1, n), n),
+            gains(&Lattice::r2(1), n),
+            gains(&Lattice::fibonacci(1, n), n),
+            gains(&OwenSobol::new(1), n),
+            gains(&TrueOwen { seed: 1 }, n),
+            gains(&ZOrder::new(1, n), n),
+        ]
+    });
+    for (n, row) in [16, 64].iter().zip(&table) {
+        for (name, gain) in
+            ["independent", "jitter", "latin", "r2", "fibonacci", "owen sobol", "true owen", "z-order"].iter().zip(row)
+        {
+            println!("{n} {name:12} smooth {:.4?} edge {:.4?}", gain[0], gain[1]);
+        }
+    }
+    let [sixteen, sixty_four] = table;
+    for row in [sixteen, sixty_four] {
+        gain_is(row[0][0], 1.0, 0.0);
+        gain_is(row[0][1], 1.0, 0.0);
+        // the hash is as good as independent random bits for each prefix
+        for (hashed, exact) in row[5].iter().zip(row[6]) {
+            gain_is([hashed[0], hashed[1].hypot(exact[1])], exact[0], 0.0);
+        }
+    }
+    gain_is(sixteen[1][0], 14.0, 0.5);
+    gain_is(sixty_four[1][0], 56.0, 0.5);
+    gain_is(sixteen[1][1], 4.3, 0.05);
+    gain_is(sixty_four[1][1], 8.7, 0.05);
+    gain_is(sixteen[5][1], 6.1, 0.05);
+    gain_is(sixty_four[5][1], 12.3, 0.05);
+    gain_is(sixteen[5][0], 126.0, 0.5);
+    gain_is(sixty_four[5][0], 1630.0, 5.0);
+}
+
+#[test]
+fn packets_are_scalars() {
+    fn check(name: &str, sequence: &impl Sequence) {
+        for start in [0, 1, 65_535, 1 << 24, 0x7fff_fff0, u32::MAX - 8] {
+            for dimension in [0, 1, 5, u32::MAX] {
+                let pixels = |k: usize| start.wrapping_add(k as u32 * 977);
+                let samples = |k: usize| (start / 2).wrapping_add(k as u32 * 3);
+                let eight: Vec2<f32x8> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
+                let four: Vec2<f32x4> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
+                let double: Vec2<f64x4> = sequence.pair(u32x4::from_fn(pixels), u32x4::from_fn(samples), dimension);
+                for k in 0..8 {
+                    let one: Vec2<f32> = sequence.pair(pixels(k), samples(k), dimension);
+                    assert!((0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y), "{name}: {one:?}");
+                    assert_eq!(eight.lane(k), one, "{name}, lane {k}");
+                    let wide: Vec2<f64> = sequence.pair(pixels(k), samples(k), dimension);
+                    assert!((wide.x - f64::from(one.x)).abs() < 2.4e-7, "{name}: {one:?} {wide:?}");
+                    if k < 4 {
+                        assert_eq!(four.lane(k), one, "{name}, lane {k} of 4");
+                        assert_eq!(double.lane(k), wide, "{name}, lane {k} in f64");
+                    }
+                }
+            }
+        }
+    }
+    check("owen sobol", &OwenSobol::new(3));
+    check("lattice", &Lattice::r2(3));
+    for count in [0, 1, 2, 7, 64, 100, 4096, u32::MAX] {
+        check("latin", &LatinHypercube::new(3, count));
+        check("z-order", &ZOrder::new(3, count));
+        check("fibonacci", &Lattice::fibonacci(3, count));
+    }
+}
+
+#[test]
+fn bits_are_reversed_at_every_width() {
+    let value = |k: usize| (k as u32 + 1).wrapping_mul(0x9e37_79b1);
+    for k in 0..8 {
+        assert_eq!(etendue::u32x8::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
+    }
+    for k in 0..4 {
+        assert_eq!(u32x4::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
+    }
+}
