@@ -11,7 +11,7 @@ const SLACK: f64 = 4.0 / 16_777_216.0;
 ///
 /// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h · ((2−h) + h(1−u₀))), φ = 2πu₁. No term cancels at any σ, nor near
 ///   the far pole.
-/// - Domain: u in [0, 1)²; h in [0, 2].
+/// - Domain: u in [0, 1)²; h in [0, 2], clamped to it.
 /// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
 /// - Degenerate: h = 0 gives +z and pdf 0.
 /// - Greatest error: pdf 1.2e−7 relative, direction 1.8e−7 of the cone's width, at every size.
@@ -28,15 +28,20 @@ impl<R: Real> Cone<R> {
     pub fn splat(c: Cone<R::Scalar>) -> Self {
         Self { one_minus_cos: R::splat(c.one_minus_cos) }
     }
+    /// h where it is one, in [0, 2]; NaN counts as 0.
+    #[inline(always)]
+    fn height(&self) -> R {
+        self.one_minus_cos.clamp(R::lit(0.0), R::lit(2.0))
+    }
     /// Solid angle 2πh in steradians.
     #[inline(always)]
     pub fn solid_angle(&self) -> R {
-        R::lit(2.0 * core::f64::consts::PI) * self.one_minus_cos
+        R::lit(2.0 * core::f64::consts::PI) * self.height()
     }
     /// The density inside: 1/(2πh), or 0 for an empty cone.
     #[inline(always)]
     pub fn density(&self) -> R {
-        let h = self.one_minus_cos;
+        let h = self.height();
         // a subnormal h has no finite reciprocal
         let some = h.gt(R::lit(1e-37));
         (R::lit(INV_TWO_PI) / R::select(some, h, R::lit(1.0))).keep(some)
@@ -44,7 +49,7 @@ impl<R: Real> Cone<R> {
     /// Is a direction at `one_minus_cos` from the axis inside, give or take the rounding of the direction?
     #[inline(always)]
     pub fn contains(&self, one_minus_cos: R) -> R::Mask {
-        let h = self.one_minus_cos;
+        let h = self.height();
         // (σ + ε)²/2 = σ²/2 + σε + ε²/2
         let slack = R::lit(SLACK).mul_add((h + h).sqrt(), R::lit(0.5 * SLACK * SLACK));
         one_minus_cos.le(h + slack)
@@ -63,7 +68,7 @@ impl<R: Real> Warp<R> for Cone<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let h = self.one_minus_cos;
+        let h = self.height();
         let k = u.x * h;
         // 2 − k without cancellation: both terms are ≥ 0, and 2−h is exact where it matters
         let rest = h.mul_add(R::lit(1.0) - u.x, R::lit(2.0) - h);
@@ -77,7 +82,7 @@ impl<R: Real> Warp<R> for Cone<R> {
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let h = self.one_minus_cos;
+        let h = self.height();
         let u = one_minus_z(w) / R::select(h.gt(R::lit(0.0)), h, R::lit(1.0));
         Vec2 { x: unit_interval(u), y: atan2_turns(w.y, w.x) }
     }
