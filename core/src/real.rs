@@ -514,7 +514,8 @@ macro_rules! scalar_real {
             }
             #[inline]
             fn exponent_reciprocal(self) -> Self {
-                $scalar::from_bits($bits::wrapping_sub($reflected, self.to_bits() & $exponent)).max($scalar::MIN_POSITIVE * 0.5)
+                $scalar::from_bits($bits::wrapping_sub($reflected, self.to_bits() & $exponent))
+                    .max($scalar::MIN_POSITIVE * 0.5)
             }
             #[inline]
             fn unit(bits: u32) -> Self {

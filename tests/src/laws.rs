@@ -188,9 +188,16 @@ pub fn lanes<S: Subject>(subjects: &[S; 8], us: &[[f32; 2]; 8]) {
     same(subjects, us, &scalars, &observe::<S, f32x8>(&S::prepare(subjects), squares_of(us)), "f32x8");
     for half in [0..4, 4..8] {
         let (subjects, us) = (&subjects[half.clone()], &us[half.clone()]);
-        same(subjects, us, &scalars[half.clone()], &observe::<S, f32x4>(&S::prepare(subjects), squares_of(us)), "f32x4");
-        let doubles: Vec<_> =
-            (0..4).map(|i| observe::<S, f64>(&S::prepare::<f64>(&subjects[i..=i]), squares_of(&us[i..=i]))[0]).collect();
+        same(
+            subjects,
+            us,
+            &scalars[half.clone()],
+            &observe::<S, f32x4>(&S::prepare(subjects), squares_of(us)),
+            "f32x4",
+        );
+        let doubles: Vec<_> = (0..4)
+            .map(|i| observe::<S, f64>(&S::prepare::<f64>(&subjects[i..=i]), squares_of(&us[i..=i]))[0])
+            .collect();
         same(subjects, us, &doubles, &observe::<S, f64x4>(&S::prepare(subjects), squares_of(us)), "f64x4");
     }
     let splatted = S::splat::<f32x8>(S::prepare::<f32>(&subjects[..1]));
@@ -286,7 +293,8 @@ pub fn onto<S: Subject>(s: &S, st: [f64; 2]) -> f64 {
     let warp = S::prepare::<f32>(&[*s]);
     let point = S::Point::<f32>::gather(&[w]);
     let inverse = warp.invert(point).at(0);
-    points_agree(s, point.at(0), [inverse[0], inverse[1]], s.tolerance().round_trip * rounding(s, ULP)) / rounding(s, ULP)
+    points_agree(s, point.at(0), [inverse[0], inverse[1]], s.tolerance().round_trip * rounding(s, ULP))
+        / rounding(s, ULP)
 }
 fn points_agree<S: Subject>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> f64 {
     let again = sample_at(s, inverse);

@@ -42,3 +42,5 @@ pub const CAP: Tolerance = Tolerance { point: 8.0, distance: 16.0, density: 8.0,
 pub const TRIANGLE: Tolerance = Tolerance { point: 16.0, distance: 32.0, density: 3.0, round_trip: 16.0 };
 /// Parallelograms.
 pub const PARALLELOGRAM: Tolerance = Tolerance { point: 16.0, distance: 32.0, density: 3.0, round_trip: 16.0 };
+/// Rectangles.
+pub const RECTANGLE: Tolerance = Tolerance { point: 16.0, distance: 32.0, density: 3.0, round_trip: 16.0 };

@@ -3,8 +3,8 @@
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
-    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, Triangle, UniformHemisphere,
-    UniformSphere,
+    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, Rectangle, Triangle,
+    UniformHemisphere, UniformSphere,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -47,23 +47,35 @@ fn all<S: Subject>(cases: &[Case<S>], random: usize) {
         }
     };
     let failures: Vec<_> = [
-        each("total", cases, at(|s, u, _| {
-            laws::total(s, u);
-            0.0
-        })),
-        each("scale", cases, at(|s, u, _| {
-            laws::scale(s, u);
-            0.0
-        })),
+        each(
+            "total",
+            cases,
+            at(|s, u, _| {
+                laws::total(s, u);
+                0.0
+            }),
+        ),
+        each(
+            "scale",
+            cases,
+            at(|s, u, _| {
+                laws::scale(s, u);
+                0.0
+            }),
+        ),
         each("accurate", cases, at(|s, u, _| laws::accurate(s, u))),
         each("closed", cases, at(|s, u, _| laws::closed(s, u))),
         each("density", cases, at(|s, u, r| laws::density(s, u, [r.unit_f64(), r.unit_f64()]))),
         each("onto", cases, at(|s, _, r| laws::onto(s, [r.unit_f64(), r.unit_f64()]))),
         each("jacobian", cases, at(|s, _, r| laws::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
-        each("outside", cases, at(|s, _, r| {
-            laws::outside(s, r);
-            0.0
-        })),
+        each(
+            "outside",
+            cases,
+            at(|s, _, r| {
+                laws::outside(s, r);
+                0.0
+            }),
+        ),
         each("integral", cases, |s, _| laws::integral(s)),
         each("chi-square", cases, |s, i| laws::chi_square(s, i as u64)),
         each("lanes", cases, |_, i| {
@@ -124,4 +136,8 @@ fn spherical_triangle() {
 #[test]
 fn spherical_parallelogram() {
     all(&domain::parallelograms(8, 13), 200);
+}
+#[test]
+fn spherical_rectangle() {
+    all(&domain::rectangles(24, 14), 200);
 }
