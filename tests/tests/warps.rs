@@ -141,3 +141,18 @@ fn spherical_parallelogram() {
 fn spherical_rectangle() {
     all(&domain::rectangles(24, 14), 200);
 }
+#[test]
+fn nasty_rectangles() {
+    let mut random = Random::new(15);
+    for _ in 0..20_000 {
+        let mut vector = || domain::nasty(&mut random);
+        let rectangle = Rectangle::new(vector(), vector(), vector());
+        laws::any_bits(&rectangle, [random.unit(), random.unit()]);
+    }
+    // bits at random: mostly of no common scale at all
+    for _ in 0..20_000 {
+        let mut vector = || core::array::from_fn(|_| random.any_f32());
+        let rectangle = Rectangle::new(vector(), vector(), vector());
+        laws::any_bits(&rectangle, [random.unit(), random.unit()]);
+    }
+}

@@ -1,5 +1,5 @@
 use super::{Sighting, lanewise};
-use crate::math::rsqrt;
+use crate::math::{rsqrt, two_sum};
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
@@ -79,6 +79,28 @@ fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
     (v * inverse, squared * inverse / scale)
 }
 
+/// Unit normal of the plane through `p` along `u` and `v`, and p·normal: from a far corner the height is a small difference, and it is formed
+/// in twice the working precision.
+#[inline]
+fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
+    let (u, v) = (u * u.max_abs().exponent_reciprocal(), v * v.max_abs().exponent_reciprocal());
+    // a·b − c·d as a sum of two
+    let cross = |a: R, b: R, c: R, d: R| {
+        let (ab, cd) = (a * b, c * d);
+        let (sum, error) = two_sum(ab, -cd);
+        (sum, error + (R::product_error(a, b, ab) - R::product_error(c, d, cd)))
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (cross(u.y, v.z, u.z, v.y), cross(u.z, v.x, u.x, v.z), cross(u.x, v.y, u.y, v.x));
+    let (normal, length) = unit_and_length(Vec3::new(x + ex, y + ey, z + ez));
+    let term = |a: R, b: R| (a * b, R::product_error(a, b, a * b));
+    let ((a, ea), (b, eb), (c, ec)) = (term(p.x, x), term(p.y, y), term(p.z, z));
+    let (sum, e1) = two_sum(a, b);
+    let (sum, e2) = two_sum(sum, c);
+    let rest = (e1 + e2) + ((ea + eb) + ec) + p.dot(Vec3::new(ex, ey, ez));
+    let some = length.gt(R::lit(0.0));
+    (normal, ((sum + rest) / R::select(some, length, R::lit(1.0))).keep(some))
+}
+
 /// `a/b`, 0 where b is not positive.
 #[inline]
 fn ratio<R: Real>(a: R, b: R) -> R {
@@ -141,18 +163,15 @@ impl<R: Real> SphericalRectangle<R> {
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let reach = p.max_abs().max(u.max_abs()).max(v.max_abs());
+        // every point of the rectangle has a finite distance
+        let sum = p.max_abs() + u.max_abs() + v.max_abs();
+        let finite = (sum + sum).lt(R::lit(f64::INFINITY));
         let scale = reach.exponent_reciprocal();
         let (p, u, v) = (p * scale, u * scale, v * scale);
         let ((x_axis, dx), (y_axis, dy)) = (unit_and_length(u), unit_and_length(v));
-        let (z_axis, _) = unit_and_length(x_axis.cross(y_axis));
+        let (z_axis, signed) = normal_and_height(p, u, v);
         let corners = [p, p + u, p + u + v, p + v];
 
-        // the nearest corner tells the height best
-        let mut nearest = p;
-        for &corner in &corners[1..] {
-            nearest = Vec3::select(corner.length_squared().lt(nearest.length_squared()), corner, nearest);
-        }
-        let signed = nearest.dot(z_axis);
         let (z, side) = (signed.abs(), one.copysign(signed));
 
         // both axes point to the far end
@@ -202,7 +221,7 @@ impl<R: Real> SphericalRectangle<R> {
         let ((minus_p, plus_p), (minus_s, plus_s)) = (one_minus_plus(sin_p, cos_p), one_minus_plus(sin_s, cos_s));
         let (minus_w, plus_w) = one_minus_plus(sin_w1, cos_w1);
         let solid_angle = window(Vec2::new(x0, y0), Vec2::new(x1, y1), Vec2::new(dx, dy), z);
-        let some = reach.lt(R::lit(f64::INFINITY))
+        let some = finite
             & solid_angle.gt(R::lit(1e-36))
             & solid_angle.lt(R::lit(7.0))
             & sin_w1.gt(zero)
