@@ -219,6 +219,9 @@ fn coarse(x: f64) -> f64 {
     (x / unit).round() * unit
 }
 
+/// In a frame whose z axis is the normal.
+type SizeAndCorner = ([f64; 2], [f64; 3]);
+
 /// Rectangles of every regime, with right angles that no rounding has changed.
 #[must_use]
 pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
@@ -226,7 +229,7 @@ pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
     let mut all = Vec::new();
     for _ in 0..each {
         // size, and the corner in a frame whose z axis is the normal
-        let mut push = |name, f: &dyn Fn(&mut Random) -> ([f64; 2], [f64; 3])| {
+        let mut push = |name, f: &dyn Fn(&mut Random) -> SizeAndCorner| {
             let a = exact_axes(&mut random);
             let unit = [a[0], a[1], a[2]].map(crate::oracle::unit);
             let (size, corner) = f(&mut random);
