@@ -8,7 +8,7 @@
 //! | shape | type | density | degenerate input |
 //! |---|---|---|---|
 //! | sphere | [`SphereCap`] | 1/Ω, Ω = 2π(1−cosσ) | radius ≤ 0: pdf 0; inside: all directions |
-//! | triangle | [`SphericalTriangle`] | 1/Ω | edge-on, zero area, point on a vertex: pdf 0 |
+//! | triangle | [`SphericalTriangle`] | 1/Ω | point in the plane or on a vertex, zero area: pdf 0 |
 //! | parallelogram | [`SphericalParallelogram`] | 1/Ω | as the triangle |
 //! | rectangle | [`SphericalRectangle`] | 1/Ω | as the triangle |
 //!

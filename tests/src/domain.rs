@@ -110,7 +110,7 @@ pub fn cones() -> Vec<Case<Cone>> {
         ("beyond a hemisphere", 1.58),
         ("2.5", 2.5),
         ("near the sphere", 3.1),
-        ("nearer the sphere", 3.14),
+        ("nearer the sphere", 3.139),
     ]
     .map(|(name, sigma)| (name, of(sigma)))
     .to_vec();
@@ -120,13 +120,15 @@ pub fn cones() -> Vec<Case<Cone>> {
     all
 }
 
-/// Flat shapes by regime: corner, two edges. `each` random ones of every regime; the second half of them is given by corners that
-/// were moved to the viewpoint, the first by edges.
+/// A corner and two edges, about the given axes.
+type Place<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
+
+/// Flat shapes by regime: corner, two edges. `each` random ones of every regime.
 fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
     let mut random = Random::new(seed);
     let mut all = Vec::new();
     for _ in 0..each {
-        let mut push = |name, f: &mut dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3]| {
+        let mut push = |name, f: &mut Place<'_>| {
             let axes = frame(&mut random);
             all.push((name, f(&mut random, axes).map(narrow)));
         };

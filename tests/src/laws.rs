@@ -376,8 +376,7 @@ pub fn jacobian<S: Subject>(s: &S, u: [f64; 2]) -> f64 {
     (product - 1.0).abs()
 }
 
-/// f32 against f64 of the same body: the point, and the distance where there is one; each give or take what steps of 2⁻²⁴ in
-/// either `u` do to it (8 to the point, 4 to the distance), since Ω and products like u₀Ω are rounded.
+/// f32 against f64 of the same body: the point, and the distance where there is one.
 ///
 /// Returns the point's error in units of the rounding, or the distance's in units in the last place.
 pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
@@ -389,11 +388,14 @@ pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
     let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0 - ULP), (u[1] + d[1]).clamp(0.0, 1.0 - ULP)]));
     let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).fold(0.0, f64::max);
-    let excess = s.distance(narrow.point, wide.point) - 8.0 * step(&|o| s.distance(o.point, wide.point));
+    let excess =
+        s.distance(narrow.point, wide.point) - s.tolerance().steps * step(&|o| s.distance(o.point, wide.point));
     let point = excess / rounding(s, ULP);
     assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.sighting[3], wide.sighting[3]);
-    let excess = (d - e).abs() - 4.0 * step(&|o| (o.sighting[3] - e).abs());
+    // the distance is along the direction that was drawn: it moves by as many steps
+    let steps = s.tolerance().steps.max(4.0);
+    let excess = (d - e).abs() - steps * step(&|o| (o.sighting[3] - e).abs());
     let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
     assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d} for {e}: {distance:e} units");
     point.max(distance)

@@ -7,7 +7,7 @@
 //! - [`oracle`]: closed forms, double-double arithmetic and quadrature; nothing here calls the code under test.
 //! - [`domain`]: arguments biased to where methods fail.
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
-//! - [`stats`]: p-values.
+//! - [`stats`]: probabilities of what was observed.
 
 pub mod domain;
 pub mod double_double;

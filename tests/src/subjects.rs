@@ -5,5 +5,5 @@ mod round;
 
 pub use flat::{AreaTriangle, Parallelogram, Rectangle, Triangle};
 pub use round::{
-    Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, off_the_sphere,
+    Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };

@@ -8,7 +8,7 @@ use crate::warp::unit_interval;
 /// (padding), and placed uniformly within their cells.
 ///
 /// - Formula: cell = permutation of the sample's index, keyed by (pixel, dimension, seed); u = (cell + jitter)/(columns, rows).
-/// - Domain: any count from 1 to 2²²; sample indices beyond the count start over with fresh strata.
+/// - Domain: any count from 1 to 2²²; any sample below 2³¹: indices beyond the count start over with fresh strata.
 /// - Grid: columns × rows = count where a factorisation no longer than 2 : 1 exists, else the smallest grid that is nearly
 ///   square and holds the count; then a random selection of its cells is used, so every point is still uniform.
 /// - Replicates: indices [k·count, (k+1)·count) are independent copies. The variance of an estimate comes from the spread
@@ -59,10 +59,14 @@ fn grid(count: u32) -> (u32, u32) {
 /// A permutation of [0, 2^bits): each step is a bijection of that many bits.
 #[inline]
 fn scramble<U: Uint>(mut i: U, mask: U, half: u32, keys: [U; 4]) -> U {
+    let one = U::splat(1);
     for key in keys {
-        i = (i ^ key) & mask;
-        i = i.wrapping_mul(U::splat(0x9e37_79b1)).wrapping_add(key.shr(7)) & mask;
-        i = i ^ i.shr(half);
+        for key in [key, key.shr(15)] {
+            // each step with bits of its own: few bits need all of them, to reach every permutation
+            i = (i ^ key) & mask;
+            i = i ^ i.shr(half);
+            i = i.wrapping_mul(key.shr(4) ^ (key.shr(4) & one) ^ one).wrapping_add(key.shr(10)) & mask;
+        }
     }
     i
 }
@@ -91,10 +95,8 @@ fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
 impl Sequence for Stratified {
     #[inline]
     fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
-        // replicate = sample / count and the remainder, exact below 2²⁴ and corrected for the rounding of the quotient
         let count = R::Uint::splat(self.count);
-        let quotient = R::from_uint(sample) * R::lit(1.0 / f64::from(self.count));
-        let replicate = floor_exact::<R>(quotient, sample, count);
+        let replicate = divide::<R>(sample, self.count);
         let index = sample.wrapping_sub(replicate.wrapping_mul(count));
         let keys = hash4([
             pixel,
@@ -104,9 +106,8 @@ impl Sequence for Stratified {
         ]);
         let cells = self.columns * self.rows;
         let cell = permute(index, cells, keys);
-        let columns = R::Uint::splat(self.columns);
-        let row = floor_exact::<R>(R::from_uint(cell) * R::lit(1.0 / f64::from(self.columns)), cell, columns);
-        let column = cell.wrapping_sub(row.wrapping_mul(columns));
+        let row = divide::<R>(cell, self.columns);
+        let column = cell.wrapping_sub(row.wrapping_mul(R::Uint::splat(self.columns)));
         let jitter: Vec2<R> = self.random.pair(pixel, sample, dimension);
         let place = |cell: R::Uint, jitter: R, n: u32| {
             unit_interval((R::from_uint(cell) + jitter) * R::lit(1.0 / f64::from(n)))
@@ -115,10 +116,15 @@ impl Sequence for Stratified {
     }
 }
 
-/// ⌊numerator/denominator⌋ from a quotient that may be off by one.
+/// ⌊numerator/denominator⌋ for numerators below 2³¹: a rounded quotient, the rounded quotient of what is left, and at most one
+/// more or less.
 #[inline]
-fn floor_exact<R: Real>(quotient: R, numerator: R::Uint, denominator: R::Uint) -> R::Uint {
-    let guess = quotient.to_uint();
+fn divide<R: Real>(numerator: R::Uint, denominator: u32) -> R::Uint {
+    let inverse = R::lit(1.0 / f64::from(denominator));
+    let denominator = R::Uint::splat(denominator);
+    let guess = (R::from_uint(numerator) * inverse).to_uint();
+    let rest = numerator.wrapping_sub(guess.wrapping_mul(denominator));
+    let guess = guess.wrapping_add((R::from_uint(rest) * inverse).to_uint());
     let product = guess.wrapping_mul(denominator);
     // the guess is too large: all ones are −1
     let guess = guess.wrapping_add(numerator.lt(product));

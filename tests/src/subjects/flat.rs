@@ -5,6 +5,7 @@ use crate::double_double::Dd3;
 use crate::laws::{Subject, vectors_of};
 use crate::oracle::{V3, along, cross, dot, exact_sum, length, sub, triangle_solid_angle, unit, wide};
 use crate::tolerances::{self, Tolerance};
+use core::f64::consts::PI;
 use core::fmt::{self, Debug, Formatter};
 use etendue::seen::{Sighting, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::{Real, Vec2, Vec3, warp};
@@ -123,6 +124,7 @@ impl Known {
         let aspect = self.extent[0] / self.extent[1].max(1e-300);
         Tolerance {
             point: tolerance.point * self.opposite,
+            steps: if self.solid_angle > PI { tolerances::NEAR_HEMISPHERE_STEPS } else { 0.0 },
             distance: tolerance.distance * self.opposite,
             round_trip: tolerance.round_trip * aspect.max(1.0) * self.opposite,
             ..tolerance
@@ -363,7 +365,8 @@ impl Subject for Rectangle {
         SphericalRectangle::splat(warp)
     }
     fn tolerance(&self) -> Tolerance {
-        self.0.known.widened(tolerances::RECTANGLE)
+        let steps = tolerances::RECTANGLE.steps;
+        Tolerance { steps, ..self.0.known.widened(tolerances::RECTANGLE) }
     }
     fn scaled(&self, factor: f32) -> Self {
         Self(self.0.scaled(factor))

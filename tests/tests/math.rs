@@ -1,0 +1,155 @@
+//! Greatest errors of the elementary functions. `--nocapture` prints what the table in `core/src/math.rs` rounds up.
+
+use core::f64::consts::PI;
+use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
+use etendue::{Real, f32x8};
+use etendue_tests::domain::Random;
+
+/// The greatest error seen, where, and the figure that the documentation states.
+struct Greatest {
+    name: &'static str,
+    error: f64,
+    at: [f32; 2],
+}
+impl Greatest {
+    fn of(name: &'static str) -> Self {
+        Self { name, error: 0.0, at: [0.0; 2] }
+    }
+    fn take(&mut self, error: f64, at: [f32; 2]) {
+        // a NaN is the greatest error of all
+        let error = if error.is_nan() { f64::INFINITY } else { error };
+        if error > self.error {
+            self.error = error;
+            self.at = at;
+        }
+    }
+    fn assert_below(&self, documented: f64) {
+        println!("{:40} {:.3e} at {:?}, documented {documented:.2e}", self.name, self.error, self.at);
+        assert!(self.error <= documented, "{}: {:e} at {:?}", self.name, self.error, self.at);
+        assert!(self.error >= 0.9 * documented, "{}: the figure can be tightened to {:e}", self.name, self.error);
+    }
+}
+
+#[test]
+fn sin_cos_turns() {
+    let mut greatest = Greatest::of("sin_cos_turns, absolute");
+    let mut unit = Greatest::of("sin² + cos² − 1");
+    for i in (0..1 << 24).step_by(8) {
+        let u = f32x8::from_fn(|k| (i + k) as f32 / 16_777_216.0);
+        let (s, c) = u.sin_cos_turns();
+        for k in 0..8 {
+            let (x, s, c) = (u.lane(k), s.lane_f64(k), c.lane_f64(k));
+            let (sin, cos) = (2.0 * PI * f64::from(x)).sin_cos();
+            greatest.take((s - sin).abs().max((c - cos).abs()), [x, 0.0]);
+            unit.take((s * s + c * c - 1.0).abs(), [x, 0.0]);
+        }
+    }
+    greatest.assert_below(8.4e-8);
+    unit.assert_below(1.9e-7);
+    for (u, s, c) in [(0.0, 0.0, 1.0), (0.25, 1.0, 0.0), (0.5, 0.0, -1.0), (0.75, -1.0, 0.0), (1.0, 0.0, 1.0)] {
+        let (sin, cos) = Real::sin_cos_turns(u as f32);
+        assert!(sin == s && cos == c, "{u}: {sin} {cos}");
+    }
+}
+
+#[test]
+fn acos() {
+    let (mut relative, mut absolute) = (Greatest::of("acos, relative"), Greatest::of("acos, absolute"));
+    let mut random = Random::new(1);
+    let mut check = |x: f32, y: f32| {
+        let truth = f64::from(x).acos();
+        absolute.take((f64::from(y) - truth).abs(), [x, y]);
+        if truth > 0.0 {
+            relative.take((f64::from(y) / truth - 1.0).abs(), [x, y]);
+        }
+    };
+    for i in (0..1 << 24).step_by(8) {
+        let x = f32x8::from_fn(|k| (i + k) as f32 / 8_388_608.0 - 1.0);
+        let y = x.acos();
+        (0..8).for_each(|k| check(x.lane(k), y.lane(k)));
+    }
+    for _ in 0..1 << 20 {
+        // next to ±1 and to 0
+        let x = 1.0 - random.magnitude(1e-7, 1.0) as f32;
+        check(x, Real::acos(x));
+        check(-x, Real::acos(-x));
+        let x = random.magnitude(1e-30, 1.0) as f32;
+        check(x, Real::acos(x));
+    }
+    relative.assert_below(2.1e-7);
+    absolute.assert_below(4.0e-7);
+    assert_eq!((Real::acos(1.0_f32), Real::acos(2.0_f32)), (0.0, 0.0));
+}
+
+#[test]
+fn atan2() {
+    let mut relative = Greatest::of("atan2, relative");
+    let mut random = Random::new(2);
+    for i in 0..1 << 21 {
+        let scale = random.magnitude(1e-30, 1e30);
+        let ratio = if i % 2 == 0 { random.magnitude(1e-38, 1.0) } else { random.unit_f64() };
+        let (a, b) = (scale as f32, (scale * ratio) as f32);
+        let signs = random.word();
+        let sign = |x: f32, bit: u32| if signs >> bit & 1 == 1 { -x } else { x };
+        let (y, x) = if signs >> 2 & 1 == 1 { (sign(a, 0), sign(b, 1)) } else { (sign(b, 0), sign(a, 1)) };
+        let truth = f64::from(y).atan2(f64::from(x));
+        if truth.abs() > f64::from(f32::MIN_POSITIVE) {
+            relative.take((f64::from(Real::atan2(y, x)) / truth - 1.0).abs(), [y, x]);
+        }
+    }
+    relative.assert_below(2.0e-7);
+    // both subnormal, and an angle that is
+    let tiny = 1e-42_f32;
+    assert!((f64::from(Real::atan2(tiny, tiny)) - PI / 4.0).abs() < 3e-7);
+    assert!((f64::from(Real::atan2(-3.0 * tiny, -tiny)) - (-3.0_f64).atan2(-1.0)).abs() < 1e-3);
+    assert_eq!(Real::atan2(1e-30_f32, 1e10), 1e-40);
+    // axes and signed zeros, as in IEEE 754
+    for y in [0.0_f32, -0.0, 1.0, -1.0] {
+        for x in [0.0_f32, -0.0, 1.0, -1.0] {
+            let (ours, std) = (Real::atan2(y, x), y.atan2(x));
+            if y == 0.0 && x == 0.0 {
+                assert!(ours == 0.0 && ours.is_sign_negative() == y.is_sign_negative(), "{y} {x}: {ours}");
+            } else {
+                assert!(
+                    (ours - std).abs() <= 3e-7 && ours.is_sign_negative() == std.is_sign_negative(),
+                    "{y} {x}: {ours}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn roots_and_differences() {
+    let mut random = Random::new(3);
+    let mut root = Greatest::of("rsqrt, relative");
+    let mut cosine = Greatest::of("one_minus_cos, relative");
+    let mut difference = Greatest::of("difference_of_products, ulp");
+    for i in 0..1 << 21 {
+        let x = random.magnitude(2.0_f64.powi(-100), 2.0_f64.powi(100)) as f32;
+        root.take((f64::from(rsqrt(x)) * f64::from(x).sqrt() - 1.0).abs(), [x, 0.0]);
+
+        let sin_squared = if i % 2 == 0 { random.unit() } else { random.magnitude(1e-30, 1.0) as f32 };
+        if sin_squared > 0.0 {
+            let s = f64::from(sin_squared);
+            let truth = s / (1.0 + (1.0 - s).sqrt());
+            // next to s = 1 the argument's own grid is coarse: √(1−s) has an infinite slope there, but s is exact
+            cosine.take((f64::from(one_minus_cos(sin_squared)) / truth - 1.0).abs(), [sin_squared, 0.0]);
+        }
+
+        // nearly equal products
+        let [a, b, c] = core::array::from_fn(|_| random.range(-1.0, 1.0) as f32);
+        let d = if i % 2 == 0 { a * b / c * (1.0 + random.range(-1e-6, 1e-6) as f32) } else { random.unit() };
+        // 48 bits each: their difference is rounded once in f64 where they are far apart, which does not matter
+        let truth = f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d);
+        let (value, rounded) = (difference_of_products(a, b, c, d), truth.abs() as f32);
+        if d.is_finite() && rounded > 1e-30 {
+            let ulp = f64::from(f32::from_bits(rounded.to_bits() + 1)) - f64::from(rounded);
+            difference.take((f64::from(value) - truth).abs() / ulp, [a, d]);
+        }
+    }
+    root.assert_below(9.0e-8);
+    cosine.assert_below(1.1e-7);
+    difference.assert_below(1.5);
+    assert_eq!((one_minus_cos(0.0_f32), one_minus_cos(1.0_f32)), (0.0, 1.0));
+}

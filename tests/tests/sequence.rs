@@ -1,0 +1,248 @@
+//! Sequences: marginals, independence, strata, permutations, and the variances that theory gives.
+
+use etendue::sequence::{CounterRng, Independent, Sequence, Stratified};
+use etendue::{Uint, Vec2, f32x8, u32x8};
+use etendue_tests::stats;
+use etendue_tests::tolerances::SIGNIFICANCE;
+
+/// What a counter counts, and what it leads to: one point; or two points or cells that it leads to.
+type Counted<'a, T> = (&'a str, &'a dyn Fn(u32) -> T);
+type Neighbours<'a, T> = Counted<'a, (T, T)>;
+
+fn pair(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [f64; 2] {
+    let u: Vec2<f32> = sequence.pair(pixel, sample, dimension);
+    assert!((0.0..1.0).contains(&u.x) && (0.0..1.0).contains(&u.y), "{u:?}");
+    [f64::from(u.x), f64::from(u.y)]
+}
+fn likely(p: f64, what: &str) {
+    println!("{what:40} p = {p:.2e}");
+    assert!(p > SIGNIFICANCE, "{what}: p = {p:e}");
+}
+
+#[test]
+fn packets_are_scalars() {
+    fn check(sequence: &impl Sequence) {
+        for start in [0, 5, 1 << 20, u32::MAX - 8] {
+            for dimension in 0..4 {
+                let pixels = u32x8::from_fn(|k| start.wrapping_add(k as u32 * 977));
+                let samples = u32x8::from_fn(|k| start / 2 + k as u32 * 3);
+                let packet: Vec2<f32x8> = sequence.pair(pixels, samples, dimension);
+                for k in 0..8 {
+                    let one: Vec2<f32> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
+                    let wide: Vec2<f64> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
+                    assert_eq!(packet.lane(k), one);
+                    // f64 places the jitter without rounding
+                    let error = (wide.x - f64::from(one.x)).abs().max((wide.y - f64::from(one.y)).abs());
+                    assert!(error < 2.4e-7, "{error:e}: {one:?} {wide:?} for sample {}", samples.lane(k));
+                }
+            }
+        }
+    }
+    check(&Independent::new(3));
+    for count in [1, 7, 64, 100, 4096] {
+        check(&Stratified::new(3, count));
+    }
+}
+
+#[test]
+fn independent_marginals() {
+    // along samples, pixels, dimensions and seeds
+    let along: [Counted<'_, [f64; 2]>; 4] = [
+        ("samples", &|i| pair(&Independent::new(1), 17, i, 0)),
+        ("pixels", &|i| pair(&Independent::new(1), i, 3, 1)),
+        ("dimensions", &|i| pair(&Independent::new(1), 17, 3, i)),
+        ("seeds", &|i| pair(&Independent::new(u64::from(i) << (i % 33)), 17, 3, 0)),
+    ];
+    for (name, f) in along {
+        let n = 1 << 18;
+        let (mut x, mut y, mut xy) = (vec![0_u64; 256], vec![0_u64; 256], vec![0_u64; 1024]);
+        let mut low = vec![0_u64; 256];
+        let mut last = f(0);
+        let mut serial = vec![0_u64; 1024];
+        for i in 1..n {
+            let u = f(i);
+            x[(u[0] * 256.0) as usize] += 1;
+            y[(u[1] * 256.0) as usize] += 1;
+            xy[(u[0] * 32.0) as usize + 32 * (u[1] * 32.0) as usize] += 1;
+            serial[(u[0] * 32.0) as usize + 32 * (last[0] * 32.0) as usize] += 1;
+            low[(u[0] * 16_777_216.0) as usize % 256] += 1;
+            last = u;
+        }
+        if name == "seeds" {
+            // some of these seeds are equal: only ask for the marginals
+            continue;
+        }
+        for (what, cells) in [("x", &x), ("y", &y), ("xy", &xy), ("serial", &serial), ("low bits", &low)] {
+            likely(stats::uniform(cells), &format!("{name} {what}"));
+        }
+    }
+}
+
+#[test]
+fn neighbours_are_not_correlated() {
+    let n = 1 << 17;
+    let at =
+        |seed: u64, pixel: u32, sample: u32, dimension: u32| pair(&Independent::new(seed), pixel, sample, dimension);
+    let neighbours: [Neighbours<'_, [f64; 2]>; 6] = [
+        ("pixels", &|i| (at(1, i, 0, 0), at(1, i + 1, 0, 0))),
+        ("rows of pixels", &|i| (at(1, i, 0, 0), at(1, i + 1920, 0, 0))),
+        ("samples", &|i| (at(1, 9, i, 0), at(1, 9, i + 1, 0))),
+        ("dimensions of a block", &|i| (at(1, i, 2, 0), at(1, i, 2, 1))),
+        ("dimensions", &|i| (at(1, i, 2, 0), at(1, i, 2, 2))),
+        ("seeds", &|i| (at(1, i, 2, 0), at(2, i, 2, 0))),
+    ];
+    for (name, f) in neighbours {
+        let both: Vec<_> = (0..n).map(f).collect();
+        for (a, b) in [(0, 0), (0, 1), (1, 1)] {
+            let pairs: Vec<_> = both.iter().map(|(u, v)| (u[a], v[b])).collect();
+            likely(stats::two_sided(stats::correlation(&pairs) * f64::from(n).sqrt()), &format!("{name} {a}{b}"));
+        }
+        let mut cells = vec![0_u64; 256];
+        both.iter().for_each(|(u, v)| cells[(u[0] * 16.0) as usize + 16 * (v[0] * 16.0) as usize] += 1);
+        likely(stats::uniform(&cells), &format!("{name} joint"));
+    }
+}
+
+#[test]
+fn counter_rng() {
+    use rand_core::{Rng, SeedableRng};
+    let mut rng = CounterRng::seed_from_u64(5);
+    let mut cells = vec![0_u64; 4096];
+    for _ in 0..1 << 20 {
+        cells[rng.next_u32() as usize >> 20] += 1;
+    }
+    likely(stats::uniform(&cells), "words");
+    let (mut a, mut b) = (CounterRng::seed_from_u64(5), CounterRng::seed_from_u64(6));
+    assert_ne!(a.next_u64(), b.next_u64());
+}
+
+/// The cells of a replicate, per axis; a point within rounding of a boundary may belong to either side.
+fn candidates(u: f64, n: u32) -> [u32; 2] {
+    let place = u * f64::from(n);
+    let step = f64::from(n) * 2.0_f64.powi(-23);
+    [(place - step).max(0.0) as u32, ((place + step) as u32).min(n - 1)]
+}
+
+#[test]
+fn every_stratum_once() {
+    for count in [1, 2, 3, 5, 7, 12, 13, 16, 64, 100, 1024, 1 << 17] {
+        let sequence = Stratified::new(11, count);
+        let [columns, rows] = sequence.grid();
+        assert!(columns * rows >= count && columns <= rows && rows <= 2 * columns, "{count}: {columns} × {rows}");
+        assert!(columns * rows < 2 * count || count < 4, "{count}: {columns} × {rows}");
+        for (pixel, replicate, dimension) in [(0, 0, 0), (5, 0, 1), (5, 3, 2)] {
+            let mut taken = vec![false; (columns * rows) as usize];
+            let mut doubtful = Vec::new();
+            for i in 0..count {
+                let u = pair(&sequence, pixel, replicate * count + i, dimension);
+                let (c, r) = (candidates(u[0], columns), candidates(u[1], rows));
+                let cells =
+                    [c[0] + columns * r[0], c[1] + columns * r[0], c[0] + columns * r[1], c[1] + columns * r[1]];
+                if cells[0] == cells[3] {
+                    let cell = cells[0] as usize;
+                    assert!(!taken[cell], "{count}: stratum {cell} twice");
+                    taken[cell] = true;
+                } else {
+                    doubtful.push(cells);
+                }
+            }
+            assert!(doubtful.len() as f64 <= 3.0 + f64::from(count) * 2e-3, "{} at boundaries", doubtful.len());
+            for cells in doubtful {
+                let free = cells.into_iter().find(|&c| !taken[c as usize]);
+                taken[free.expect("a stratum twice, at its boundary") as usize] = true;
+            }
+        }
+    }
+}
+
+#[test]
+fn permutations_are_uniform_and_independent() {
+    for count in [4, 7, 12, 16, 64, 100] {
+        let sequence = Stratified::new(12, count);
+        let [columns, rows] = sequence.grid();
+        let cells = columns * rows;
+        let cell = |pixel, replicate, dimension, index| {
+            let u = pair(&sequence, pixel, replicate * count + index, dimension);
+            (u[0] * f64::from(columns)) as usize + columns as usize * (u[1] * f64::from(rows)) as usize
+        };
+        let n = 40_000;
+        // where the first index goes, and the last; over pixels, replicates and dimensions
+        let over: [Neighbours<'_, usize>; 4] = [
+            ("pixels", &|i| (cell(i, 0, 0, 0), cell(i, 0, 0, count - 1))),
+            ("replicates", &|i| (cell(3, i, 0, 0), cell(3, i, 0, 1 % count))),
+            ("dimensions", &|i| (cell(3, 0, i, 0), cell(3, 0, i, count / 2))),
+            ("neighbouring dimensions", &|i| (cell(i, 0, 0, 2 % count), cell(i, 0, 1, 2 % count))),
+        ];
+        for (name, f) in over {
+            let (mut first, mut second) = (vec![0_u64; cells as usize], vec![0_u64; cells as usize]);
+            let mut joint = vec![0_u64; (cells * cells) as usize];
+            for i in 0..n {
+                let (a, b) = f(i);
+                first[a] += 1;
+                second[b] += 1;
+                joint[a * cells as usize + b] += 1;
+            }
+            likely(stats::uniform(&first), &format!("{count} {name}: first"));
+            likely(stats::uniform(&second), &format!("{count} {name}: second"));
+            if cells <= 16 {
+                // two indices of one permutation never meet; those of two permutations do
+                let same = name == "neighbouring dimensions";
+                let expected = f64::from(n) / f64::from(if same { cells * cells } else { cells * (cells - 1) });
+                let expected: Vec<f64> =
+                    (0..cells * cells).map(|k| if !same && k % (cells + 1) == 0 { 0.0 } else { expected }).collect();
+                likely(stats::chi_square(&joint, &expected), &format!("{count} {name}: joint"));
+            }
+        }
+    }
+}
+
+/// Variance of the mean of `f` over replicates, and its standard error as a fraction.
+fn variance(sequence: &Stratified, replicates: u32, f: impl Fn(f64, f64, u32) -> f64) -> f64 {
+    let n = sequence.count();
+    let means: Vec<f64> = (0..replicates)
+        .map(|r| {
+            let sum: f64 = (0..n)
+                .map(|i| {
+                    let u = pair(sequence, r % 97, r / 97 * n + i, 0);
+                    f(u[0], u[1], r)
+                })
+                .sum();
+            sum / f64::from(n)
+        })
+        .collect();
+    stats::mean_variance(&means).1
+}
+
+#[test]
+fn variances() {
+    let replicates = 40_000;
+    // a variance of nearly normal means is known to √(2/n); 5 of these, as it is asked for 8 times
+    let interval = 5.0 * (2.0 / f64::from(replicates)).sqrt();
+    for count in [16, 64, 100] {
+        let sequence = Stratified::new(21, count);
+        let [columns, _] = sequence.grid();
+        let n = f64::from(count);
+        // f = x: each of the N points jitters by 1/columns: variance 1/(12 columns² N)
+        let measured = variance(&sequence, replicates, |x, _, _| x);
+        let truth = 1.0 / (12.0 * f64::from(columns).powi(2) * n);
+        assert!((measured / truth - 1.0).abs() < interval, "f = x, {count}: {measured:e} for {truth:e}");
+        // a straight edge at a uniform offset: N^(−3/2)/6; a bimodal mean of kurtosis up to 6 has a wider interval
+        let offset = |r: u32| pair(&Independent::new(77), r, 0, 0)[0];
+        let measured = variance(&sequence, replicates, |x, _, r| f64::from(x < offset(r)) - offset(r));
+        let truth = n.powf(-1.5) / 6.0;
+        assert!((measured / truth - 1.0).abs() < 2.0 * interval, "edge, {count}: {measured:e} for {truth:e}");
+    }
+    // one stratum is independent sampling; N⁻² in one dimension: a column of strata for a pair has none of it for two
+    let measured = variance(&Stratified::new(22, 1), replicates, |x, _, _| x);
+    assert!((measured * 12.0 - 1.0).abs() < interval, "one stratum: {measured:e}");
+    // what does not factor is still uniform: the mean is right
+    for count in [7, 13] {
+        let sequence = Stratified::new(23, count);
+        let mut cells = vec![0_u64; 64];
+        for i in 0..100_000 {
+            let u = pair(&sequence, i, 3, 1);
+            cells[(u[0] * 8.0) as usize + 8 * (u[1] * 8.0) as usize] += 1;
+        }
+        likely(stats::uniform(&cells), "marginal of one point");
+    }
+}
