@@ -7,7 +7,7 @@ use crate::seen::{Sighting, lanewise};
 use crate::vector::Vec3;
 
 /// Square of a distance, where it is finite and not 0.
-#[inline]
+#[inline(always)]
 fn inverse_square<R: Real>(distance: R) -> R {
     let squared = distance * distance;
     squared.keep(squared.lt(R::lit(1e37)))
@@ -23,7 +23,7 @@ lanewise! {
 
 impl<R: Real> Point<R> {
     /// The one direction: with `pdf` = distance², f·I·cosθ/pdf is what arrives of the intensity I. At the point itself `pdf` is 0.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, p: Vec3<R>) -> LightSample<R> {
         let Sighting { direction, distance } = sighting(self.position - p);
         let pdf = inverse_square(distance);
@@ -48,7 +48,7 @@ lanewise! {
 impl<R: Real> Spot<R> {
     /// The intensity in the direction `w` away from the light, over that on the axis: t²(3−2t) with
     /// t = (cosθ − cosθₒ)/(cosθᵢ − cosθₒ), as in PBR 4th ed., 12.2.1; a step where the two cosines are equal.
-    #[inline]
+    #[inline(always)]
     pub fn falloff(&self, w: Vec3<R>) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let cos = w.dot(self.axis);
@@ -59,7 +59,7 @@ impl<R: Real> Spot<R> {
     }
     /// The one direction: with `pdf` = distance²/falloff, f·I·cosθ/pdf is what arrives of the intensity I on the axis. Outside the cone
     /// `emits` is false and `pdf` 0.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, p: Vec3<R>) -> LightSample<R> {
         let Sighting { direction, distance } = sighting(self.position - p);
         let falloff = self.falloff(-direction);
@@ -80,7 +80,7 @@ lanewise! {
 
 impl<R: Real> Directional<R> {
     /// The one direction: with `pdf` = 1, f·E·cosθ/pdf is what arrives of the irradiance E on a receiver that faces the light.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self) -> LightSample<R> {
         LightSample {
             direction: self.direction,

@@ -23,7 +23,7 @@ impl<R: Real> Disk<R> {
     /// - Domain: u in [0, 1)²; any unit normal, radius > 0.
     /// - Density: distance²/(|cosθ'| πR²) per steradian.
     /// - Degenerate: a radius of 0, a point in the plane: pdf 0.
-    #[inline]
+    #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let q: Vec2<R> = ConcentricDisk.sample(u);
         let frame = Frame::new(self.normal);
@@ -52,7 +52,7 @@ impl<R: Real> Cylinder<R> {
     /// - Domain: u in [0, 1)²; any axis that is not 0, radius > 0.
     /// - Density: distance²/(|cosθ'| 2πR·|axis|) per steradian.
     /// - Degenerate: a radius or axis of 0: pdf 0.
-    #[inline]
+    #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let Sighting { direction: along, distance: length } = sighting(self.axis);
         let frame = Frame::new(along);
