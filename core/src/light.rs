@@ -9,6 +9,7 @@
 //! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better |
 //! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others |
 //! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) |
+//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | |
 //! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) |
@@ -25,7 +26,7 @@ pub use round::{Cylinder, Disk};
 
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
-use crate::seen::{Sighting, SphereCap, SphericalParallelogram, SphericalTriangle, lanewise};
+use crate::seen::{Sighting, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle, lanewise};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, UniformSphere, Warp};
 
@@ -154,6 +155,33 @@ impl<R: Real> Parallelogram<R> {
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = SphericalParallelogram::new(self.p - p, self.u, self.v);
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+    }
+}
+
+lanewise! {
+    /// A rectangle p + su + tv, s and t in [0, 1], u perpendicular to v, that emits on the side of u×v.
+    Rectangle {
+        /// Corner.
+        pub p: Vec3<R>,
+        /// Edge.
+        pub u: Vec3<R>,
+        /// Edge, perpendicular to `u`.
+        pub v: Vec3<R>,
+    }
+}
+
+impl<R: Real> Rectangle<R> {
+    /// Uniform over the surface. pdf = distance²/(|cosθ'| A).
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        Parallelogram { p: self.p, u: self.u, v: self.v }.by_area(p, u)
+    }
+    /// Uniform over the solid angle, [`SphericalRectangle`]: as the parallelogram, but strata keep their sides along the edges.
+    #[inline(always)]
+    pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let seen = SphericalRectangle::new(self.p - p, self.u, self.v);
         let Sighting { direction, distance } = seen.sight(u);
         LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
     }

@@ -2,12 +2,14 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::{
-    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Mask, Point, Real, Spot, Sun, Vec2, Vec3, f32x4,
-    f32x8,
+    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Mask, Point, Real, Rectangle, Spot, Sun, Vec2, Vec3,
+    f32x4, f32x8,
 };
 use etendue_tests::domain::{self, Random};
 use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
-use etendue_tests::oracle::{V3, basis, dot, facing_disk, length, perpendicular_disk, sub, unit};
+use etendue_tests::oracle::{
+    V3, along, basis, dot, facing_disk, length, perpendicular_disk, projected_polygon, sub, unit,
+};
 
 /// Mean of f over an n × n grid of `u`.
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
@@ -38,6 +40,30 @@ fn disk_has_its_form_factor() {
         // from behind it is dark
         let behind = Disk { normal: -disk.normal, ..disk };
         assert!(mean(50, |u| irradiance(&behind.by_area(origin(), u), [0.0, 0.0, 1.0])) == 0.0);
+    }
+}
+
+#[test]
+fn rectangle_has_its_projected_solid_angle() {
+    let mut random = Random::new(5);
+    for (size, height) in [(1.0, 1.0), (1e-3, 1.0), (4.0, 0.5), (1.0, 1e-2), (30.0, 1.0)] {
+        let (s, t) = basis(random.direction());
+        let n = unit(etendue_tests::oracle::cross(s, t));
+        let (u, v) = (s.map(|x| x * size), t.map(|x| x * 0.7 * size));
+        let shift = random.range(0.0, 1.0);
+        let p: V3 = core::array::from_fn(|k| -height * n[k] - shift * u[k] - 0.3 * v[k]);
+        let corners = [p, along(p, u, 1.0), along(along(p, u, 1.0), v, 1.0), along(p, v, 1.0)];
+        // the receiver faces the rectangle, or cuts it with its horizon
+        for receiver in [n.map(|x| -x), unit(along(u, n, -0.3 * size))] {
+            let light = Rectangle { p: p.into(), u: u.into(), v: v.into() };
+            let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin(), u), receiver));
+            let truth = projected_polygon(&corners, receiver);
+            assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
+            let by_area = mean(1024, |u| irradiance(&light.by_area(origin(), u), receiver));
+            assert!((by_area / truth - 1.0).abs() < 1e-3 || height < size, "{size} {height}: {by_area} for {truth}");
+            let behind = Rectangle { u: light.v, v: light.u, ..light };
+            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin(), u), receiver)), 0.0);
+        }
     }
 }
 
