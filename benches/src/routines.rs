@@ -1,6 +1,6 @@
 //! Samples, densities and inverses.
 
-use etendue::seen::{SphereCap, SphericalParallelogram, SphericalTriangle};
+use etendue::seen::{SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::warp::{
     AreaTriangle, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, Warp,
@@ -100,6 +100,8 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.warp("sphere cap", SphereCap::new(a, R::lit(0.7)));
     list.warp("spherical triangle", SphericalTriangle::new(a, b, c));
     list.warp("spherical parallelogram", SphericalParallelogram::new(a, b - a, c - a));
+    let [corner, du, dv] = [[-1.0, 2.0, -0.5], [2.0, 0.5, 0.0], [-0.25, 1.0, 1.5]].map(vector);
+    list.warp("spherical rectangle", SphericalRectangle::new(corner, du, dv));
     // a loaded value each time, so that nothing of the preparation is moved out of the loop
     let (radius, corners) = (black_box(R::lit(0.7)), black_box([a, b, c]));
     list.prepared("sphere cap new + sample", move |p, u| SphereCap::new(corners[0] - p, radius).sample(u));
@@ -109,6 +111,10 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let (e1, e2) = (b - a, c - a);
     list.prepared("spherical parallelogram new + sample", move |p, u| {
         SphericalParallelogram::new(corners[0] - p, e1, e2).sample(u)
+    });
+    let [corner, du, dv] = black_box([corner, du, dv]);
+    list.prepared("spherical rectangle new + sample", move |p, u| {
+        SphericalRectangle::new(corner - p, du, dv).sample(u)
     });
 
     let sphere = Sphere { center: a, radius };

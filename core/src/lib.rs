@@ -47,7 +47,10 @@ pub mod sequence;
 pub mod vector;
 pub mod warp;
 
-pub use light::{LightSample, Parallelogram, Sphere, Triangle};
+pub use light::{
+    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Parallelogram, Point, Rectangle, Sphere, Spot, Sun,
+    Triangle,
+};
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};
 pub use warp::Warp;

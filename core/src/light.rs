@@ -9,10 +9,24 @@
 //! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better |
 //! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others |
 //! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) |
+//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) |
+//! | [`Disk`] | [`by_area`](Disk::by_area) | |
+//! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | |
+//! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) |
+//! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle), or by the cosine |
+//! | [`Point`], [`Spot`], [`Directional`] | one direction: `delta` holds | |
+
+mod delta;
+mod distant;
+mod round;
+
+pub use delta::{Directional, Point, Spot};
+pub use distant::{ConstantEnvironment, Sun};
+pub use round::{Cylinder, Disk};
 
 use crate::math::rsqrt;
-use crate::real::Real;
-use crate::seen::{Sighting, SphereCap, SphericalParallelogram, SphericalTriangle, lanewise};
+use crate::real::{Mask, Real};
+use crate::seen::{Sighting, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle, lanewise};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, UniformSphere, Warp};
 
@@ -27,7 +41,13 @@ pub struct LightSample<R: Real> {
     pub pdf: R,
     /// True where the point sees the side of the light that emits if the light is one-sided: the side of the normal.
     pub emits: R::Mask,
+    /// True where the light has one direction only ([`Point`], [`Spot`], [`Directional`]). Then `pdf` is no density: it is what the
+    /// estimator divides by, and multiple importance sampling must give the sample the weight 1.
+    pub delta: R::Mask,
 }
+
+/// The distance to a light that is infinitely far: the largest single-precision number.
+pub const FAR: f64 = f32::MAX as f64;
 
 /// Area measure to solid angle: 1/area · distance² / |cosθ'|, finite or 0.
 ///
@@ -38,14 +58,18 @@ fn solid_angle_pdf<R: Real>(distance: R, along: R) -> R {
     pdf.keep(along.gt(R::lit(0.0)) & pdf.lt(R::lit(1e37)) & distance.gt(R::lit(0.0)))
 }
 
-/// Direction and distance of a point relative to the viewpoint, at any scale.
+/// Direction and distance of a point relative to the viewpoint, at any scale; zeros where either is beyond the largest number.
 #[inline(always)]
 fn sighting<R: Real>(point: Vec3<R>) -> Sighting<R> {
-    let scale = point.max_abs().exponent_reciprocal();
-    let scaled = point * scale;
+    let (zero, infinity) = (R::lit(0.0), R::lit(f64::INFINITY));
+    let reach = point.max_abs();
+    let finite = reach.lt(infinity);
+    let scale = reach.keep(finite).exponent_reciprocal();
+    let scaled = Vec3::new(point.x.keep(finite), point.y.keep(finite), point.z.keep(finite)) * scale;
     let squared = scaled.length_squared();
-    let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
-    Sighting { direction: scaled * inverse, distance: squared * inverse / scale }
+    let inverse = rsqrt(squared).keep(squared.gt(zero));
+    let distance = squared * inverse / scale;
+    Sighting { direction: scaled * inverse, distance: distance.keep(distance.lt(infinity)) }
 }
 
 lanewise! {
@@ -67,14 +91,14 @@ impl<R: Real> Sphere<R> {
         let cos = direction.dot(normal);
         let area = self.radius * self.radius * R::lit(4.0 * core::f64::consts::PI);
         let pdf = solid_angle_pdf(distance, cos.abs() * area);
-        LightSample { direction, distance, pdf, emits: cos.lt(R::lit(0.0)) }
+        LightSample { direction, distance, pdf, emits: cos.lt(R::lit(0.0)), delta: R::Mask::splat(false) }
     }
     /// Uniform over the cone of directions, [`SphereCap`]: every sample hits the near side.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let cap = SphereCap::new(self.center - p, self.radius);
         let Sighting { direction, distance } = cap.sight(u);
-        LightSample { direction, distance, pdf: cap.density(), emits: !cap.inside() }
+        LightSample { direction, distance, pdf: cap.density(), emits: !cap.inside(), delta: R::Mask::splat(false) }
     }
 }
 
@@ -104,7 +128,7 @@ impl<R: Real> Triangle<R> {
         let v0 = self.v0 - p;
         let seen = SphericalTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2);
         let Sighting { direction, distance } = seen.sight(u);
-        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front() }
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }
 
@@ -132,7 +156,34 @@ impl<R: Real> Parallelogram<R> {
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = SphericalParallelogram::new(self.p - p, self.u, self.v);
         let Sighting { direction, distance } = seen.sight(u);
-        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front() }
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+    }
+}
+
+lanewise! {
+    /// A rectangle p + su + tv, s and t in [0, 1], u perpendicular to v, that emits on the side of u×v.
+    Rectangle {
+        /// Corner.
+        pub p: Vec3<R>,
+        /// Edge.
+        pub u: Vec3<R>,
+        /// Edge, perpendicular to `u`.
+        pub v: Vec3<R>,
+    }
+}
+
+impl<R: Real> Rectangle<R> {
+    /// Uniform over the surface. pdf = distance²/(|cosθ'| A).
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        Parallelogram { p: self.p, u: self.u, v: self.v }.by_area(p, u)
+    }
+    /// Uniform over the solid angle, [`SphericalRectangle`]: as the parallelogram, but strata keep their sides along the edges.
+    #[inline(always)]
+    pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let seen = SphericalRectangle::new(self.p - p, self.u, self.v);
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }
 
@@ -141,5 +192,11 @@ impl<R: Real> Parallelogram<R> {
 fn flat_by_area<R: Real>(point: Vec3<R>, normal: Vec3<R>) -> LightSample<R> {
     let Sighting { direction, distance } = sighting(point);
     let along = direction.dot(normal);
-    LightSample { direction, distance, pdf: solid_angle_pdf(distance, along.abs()), emits: along.lt(R::lit(0.0)) }
+    LightSample {
+        direction,
+        distance,
+        pdf: solid_angle_pdf(distance, along.abs()),
+        emits: along.lt(R::lit(0.0)),
+        delta: R::Mask::splat(false),
+    }
 }

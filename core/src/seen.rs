@@ -10,14 +10,17 @@
 //! | sphere | [`SphereCap`] | 1/Ω, Ω = 2π(1−cosσ) | radius ≤ 0: pdf 0; inside: all directions |
 //! | triangle | [`SphericalTriangle`] | 1/Ω | point in the plane or on a vertex, zero area: pdf 0 |
 //! | parallelogram | [`SphericalParallelogram`] | 1/Ω | as the triangle |
+//! | rectangle | [`SphericalRectangle`] | 1/Ω | as the triangle |
 //!
 //! Solid angles Ω in steradians.
 
 mod parallelogram;
+mod rectangle;
 mod sphere;
 mod triangle;
 
 pub use parallelogram::SphericalParallelogram;
+pub use rectangle::SphericalRectangle;
 pub use sphere::SphereCap;
 pub use triangle::SphericalTriangle;
 

@@ -1,6 +1,6 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
-use crate::subjects::{Cap, Cone, Parallelogram, Triangle};
+use crate::subjects::{Cap, Cone, Parallelogram, Rectangle, Triangle};
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -204,6 +204,85 @@ pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
 #[must_use]
 pub fn parallelograms(each: usize, seed: u64) -> Vec<Case<Parallelogram>> {
     flats(each, seed).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
+}
+
+/// Two perpendicular vectors of a random orientation whose products with numbers of 8 bits are exact in f32, and the unit normal: columns of
+/// the rotation by a quaternion of small integers.
+fn exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
+    let mut pick = || (random.word() % 13) as f64 - 6.0;
+    let (a, b, c, d) = (pick() + 0.5, pick(), pick(), pick());
+    let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
+    let v = [2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)];
+    [u, v, crate::oracle::unit(crate::oracle::cross(u, v))]
+}
+/// Rounded to 8 bits.
+fn coarse(x: f64) -> f64 {
+    let unit = (x.abs().log2().floor() - 7.0).exp2();
+    (x / unit).round() * unit
+}
+
+/// In a frame whose z axis is the normal.
+type SizeAndCorner = ([f64; 2], [f64; 3]);
+
+/// Rectangles of every regime, with right angles that no rounding has changed.
+#[must_use]
+pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        // size, and the corner in a frame whose z axis is the normal
+        let mut push = |name, f: &dyn Fn(&mut Random) -> SizeAndCorner| {
+            let a = exact_axes(&mut random);
+            let unit = [a[0], a[1], a[2]].map(crate::oracle::unit);
+            let (size, corner) = f(&mut random);
+            let edge = |k: usize| a[k].map(|x| x * coarse(size[k] / crate::oracle::length(a[k])));
+            let (mut u, mut v) = (edge(0), edge(1));
+            if random.word() & 1 == 0 {
+                (u, v) = (v, u);
+            }
+            all.push((
+                name,
+                Rectangle::new(narrow(combine(&unit, corner[0], corner[1], corner[2])), narrow(u), narrow(v)),
+            ));
+        };
+        let facing = |r: &mut Random, size: f64, shift: f64| {
+            let at = |r: &mut Random| r.range(-1.0, 1.0) * shift - 0.5 * size;
+            ([size, size * r.range(0.5, 1.0)], [at(r), at(r), 1.0])
+        };
+        push("ordinary", &|r| facing(r, 1.0, 0.7));
+        push("ordinary, aside", &|r| facing(r, 1.0, 3.0));
+        push("small 1e-2", &|r| facing(r, 1e-2, 1.0));
+        push("tiny 1e-5", &|r| facing(r, 1e-5, 1.0));
+        push("tiny 1e-7", &|r| facing(r, 1e-7, 1.0));
+        push("tiny 1e-9", &|r| facing(r, 1e-9, 1.0));
+        push("tiny 1e-9 below", &|r| facing(r, 1e-9, 1e-9));
+        push("far 1e9", &|r| {
+            let (size, corner) = facing(r, 1e-9, 1.0);
+            (size.map(|x| x * 1e12), corner.map(|x| x * 1e12))
+        });
+        push("large 6", &|r| facing(r, 6.0, 1.0));
+        push("near-hemisphere 30", &|r| facing(r, 30.0, 3.0));
+        push("near-hemisphere 1e3", &|r| facing(r, 1e3, 30.0));
+        push("near-hemisphere 1e5", &|r| facing(r, 1e5, 1e3));
+        push("grazing 1e-2", &|r| ([1.0, 1.0], [r.range(-1.0, 1.0), 2.0, 1e-2]));
+        push("grazing 1e-4", &|r| ([1.0, 1.0], [r.range(-1.0, 1.0), 2.0, 1e-4]));
+        push("grazing 1e-4, diagonal", &|r| ([1.0, 0.6], [r.range(0.2, 1.0), r.range(-2.0, -1.0), 1e-4]));
+        push("sliver 1e2", &|r| ([1.0, 1e-2], [-0.5, r.range(-1.0, 1.0), 1.0]));
+        push("sliver 1e4", &|r| ([1.0, 1e-4], [-0.5, r.range(-1.0, 1.0), 1.0]));
+        push("sliver 1e4 from its end", &|r| ([1e-4, 1.0], [r.range(0.1, 1.0), 0.0, 1.0]));
+        push("near a vertex", &|r| ([1.0, 0.9], [1e-3 * r.range(-1.0, 1.0), 1e-3, 1e-3]));
+        push("near an edge", &|r| ([1.0, 0.9], [-0.5, 1e-3 * r.range(-1.0, 1.0), 1e-3]));
+        // tilted rectangles on the z axis of the world, whose coordinates tell less than 1
+        let tilt = exact_axes(&mut random);
+        let length = crate::oracle::length(tilt[0]);
+        for (name, size) in [("on the axis, 1e-4", 1e-4), ("on the axis, 1e-9", 1e-9)] {
+            let edge = |k: usize, size: f64| tilt[k].map(|x| x * coarse(size / length));
+            let (u, v) = (edge(0, size), edge(1, 0.7 * size));
+            let p = [-0.4 * (u[0] + v[0]), -0.3 * (u[1] + v[1]), 1.0];
+            all.push((name, Rectangle::new(narrow(p), narrow(u), narrow(v))));
+        }
+    }
+    all
 }
 
 /// Spheres of every regime.

@@ -3,7 +3,7 @@
 mod flat;
 mod round;
 
-pub use flat::{AreaTriangle, Parallelogram, Triangle};
+pub use flat::{AreaTriangle, Parallelogram, Rectangle, Triangle};
 pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };

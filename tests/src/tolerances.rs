@@ -42,12 +42,15 @@ pub const CONE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, d
 pub const COSINE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
 /// A cone in a frame that is orthonormal to 4 units.
 pub const CAP: Tolerance = Tolerance { point: 5.0, steps: 0.0, distance: 6.0, density: 3.0, round_trip: 7.0 };
-/// A tangent and an arc of a dozen roundings each; times 1/sin of vertices that lie nearly opposite, and for inverses the aspect. The
-/// density has three reciprocal lengths of three roundings each, four products, an arc tangent and a quotient: √17 of them.
-pub const TRIANGLE: Tolerance = Tolerance { point: 9.0, steps: 0.0, distance: 9.0, density: 4.0, round_trip: 10.0 };
+/// A tangent and an arc of a dozen roundings each; times 1/sin of vertices that lie nearly opposite, and for inverses the aspect: 9 units
+/// at the most in the tests' regimes; near a hemisphere fuzzing has seen a distance off by 14. The density has three reciprocal lengths of
+/// three roundings each, four products, an arc tangent and a quotient: √17 of them.
+pub const TRIANGLE: Tolerance = Tolerance { point: 12.0, steps: 0.0, distance: 16.0, density: 4.0, round_trip: 12.0 };
 /// As the triangle, of which it has two.
-pub const PARALLELOGRAM: Tolerance =
-    Tolerance { point: 9.0, steps: 0.0, distance: 9.0, density: 4.0, round_trip: 10.0 };
+pub const PARALLELOGRAM: Tolerance = TRIANGLE;
+/// As the triangle, but that x follows from u₀Ω, where both Ω and the product are rounded: everywhere, by so many steps. Ω has lengths for
+/// edges, which are roots.
+pub const RECTANGLE: Tolerance = Tolerance { point: 9.0, steps: 8.0, distance: 9.0, density: 3.0, round_trip: 10.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

@@ -3,8 +3,8 @@
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
-    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, Triangle, UniformHemisphere,
-    UniformSphere, nearest_hit,
+    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, Rectangle, Triangle,
+    UniformHemisphere, UniformSphere, nearest_hit,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -198,5 +198,24 @@ fn spheres_are_hit_in_front() {
     let square = domain::square(200, 7);
     for (_, cap) in domain::caps(3, 17) {
         square.iter().for_each(|&u| nearest_hit(&cap, u));
+    }
+}
+#[test]
+fn spherical_rectangle() {
+    all(&domain::rectangles(8, 14), 200);
+}
+#[test]
+fn nasty_rectangles() {
+    let mut random = Random::new(15);
+    for _ in 0..20_000 {
+        let mut vector = || domain::nasty(&mut random);
+        let rectangle = Rectangle::new(vector(), vector(), vector());
+        laws::any_bits(&rectangle, [random.unit(), random.unit()]);
+    }
+    // bits at random: mostly of no common scale at all
+    for _ in 0..20_000 {
+        let mut vector = || core::array::from_fn(|_| random.any_f32());
+        let rectangle = Rectangle::new(vector(), vector(), vector());
+        laws::any_bits(&rectangle, [random.unit(), random.unit()]);
     }
 }

@@ -7,7 +7,7 @@ use crate::oracle::{V3, along, cross, dot, exact_sum, length, sub, triangle_soli
 use crate::tolerances::{self, Tolerance};
 use core::f64::consts::PI;
 use core::fmt::{self, Debug, Formatter};
-use etendue::seen::{Sighting, SphericalParallelogram, SphericalTriangle};
+use etendue::seen::{Sighting, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::{Real, Vec2, Vec3, warp};
 
 /// `warp::AreaTriangle`.
@@ -333,6 +333,70 @@ impl Subject for Parallelogram {
     }
     fn slant(&self, w: V3) -> f64 {
         1.0 / dot(w, unit(cross(self.flat.e1, self.flat.e2))).abs()
+    }
+    fn sight<R: Real>(warp: &Self::Warp<R>, u: Vec2<R>) -> Option<Sighting<R>> {
+        Some(warp.sight(u))
+    }
+}
+
+/// `seen::SphericalRectangle`: known as the parallelogram is.
+#[derive(Clone, Copy)]
+pub struct Rectangle(Parallelogram);
+impl Debug for Rectangle {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "Rectangle::new({:?}, {:?}, {:?})", self.0.p, self.0.u, self.0.v)
+    }
+}
+impl Rectangle {
+    /// Corner, relative to the viewpoint, and edges.
+    #[must_use]
+    pub fn new(corner: [f32; 3], side_u: [f32; 3], side_v: [f32; 3]) -> Self {
+        Self(Parallelogram::new(corner, side_u, side_v))
+    }
+}
+impl Subject for Rectangle {
+    type Warp<R: Real> = SphericalRectangle<R>;
+    type Point<R: Real> = Vec3<R>;
+    fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R> {
+        let of = |i: usize| lanes[i % lanes.len()].0;
+        SphericalRectangle::new(vectors_of(|i| of(i).p), vectors_of(|i| of(i).u), vectors_of(|i| of(i).v))
+    }
+    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
+        SphericalRectangle::splat(warp)
+    }
+    fn tolerance(&self) -> Tolerance {
+        let steps = tolerances::RECTANGLE.steps;
+        Tolerance { steps, ..self.0.known.widened(tolerances::RECTANGLE) }
+    }
+    fn scaled(&self, factor: f32) -> Self {
+        Self(self.0.scaled(factor))
+    }
+    fn density(&self, w: V3) -> f64 {
+        self.0.density(w)
+    }
+    fn chart(&self, s: f64, t: f64) -> (V3, f64) {
+        self.0.chart(s, t)
+    }
+    fn locate(&self, w: V3) -> [f64; 2] {
+        self.0.locate(w)
+    }
+    fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
+        self.0.outside(margin, random)
+    }
+    fn extent(&self) -> [f64; 2] {
+        self.0.extent()
+    }
+    fn granularity(&self) -> f64 {
+        self.0.granularity()
+    }
+    fn condition(&self) -> f64 {
+        self.0.condition()
+    }
+    fn reach(&self) -> f64 {
+        self.0.reach()
+    }
+    fn slant(&self, w: V3) -> f64 {
+        self.0.slant(w)
     }
     fn sight<R: Real>(warp: &Self::Warp<R>, u: Vec2<R>) -> Option<Sighting<R>> {
         Some(warp.sight(u))

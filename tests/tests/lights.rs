@@ -1,0 +1,278 @@
+//! Lights: means against closed forms, points on the shape, lanes, scale, arguments of any bits.
+
+use core::f64::consts::{PI, TAU};
+use etendue::{
+    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Mask, Point, Real, Rectangle, Spot, Sun, Vec2, Vec3,
+    f32x4, f32x8,
+};
+use etendue_tests::domain::{self, Random};
+use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
+use etendue_tests::oracle::{
+    V3, along, basis, dot, facing_disk, length, perpendicular_disk, projected_polygon, sub, unit,
+};
+
+/// Mean of f over an n × n grid of `u`.
+fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
+    let at = |i: usize| (i as f64 + 0.5) / n as f64;
+    (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
+}
+/// Irradiance of one sample, where the radiance is 1 on the emitting side.
+fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
+    let cos = dot(s.direction.at(0), n).max(0.0);
+    if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
+}
+fn origin() -> Vec3<f64> {
+    Vec3::new(0.0, 0.0, 0.0)
+}
+
+#[test]
+fn disk_has_its_form_factor() {
+    for (r, h, a) in [(0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (2.0, 0.3, 2.5), (1e-3, 1.0, 3.0), (30.0, 1.0, 31.0)] {
+        let disk = Disk { center: [a, 0.0, h].into(), normal: [0.0, 0.0, -1.0].into(), radius: r };
+        let of = |n: V3| mean(1500, |u| irradiance(&disk.by_area(origin(), u), n));
+        let (facing, upright) = (of([0.0, 0.0, 1.0]) / PI, of([1.0, 0.0, 0.0]) / PI);
+        let truth = facing_disk(r, h, a);
+        assert!((facing / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {facing} for {truth}");
+        if r <= a {
+            let truth = perpendicular_disk(r, h, a);
+            assert!((upright / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {upright} for {truth}");
+        }
+        // from behind it is dark
+        let behind = Disk { normal: -disk.normal, ..disk };
+        assert!(mean(50, |u| irradiance(&behind.by_area(origin(), u), [0.0, 0.0, 1.0])) == 0.0);
+    }
+}
+
+#[test]
+fn rectangle_has_its_projected_solid_angle() {
+    let mut random = Random::new(5);
+    for (size, height) in [(1.0, 1.0), (1e-3, 1.0), (4.0, 0.5), (1.0, 1e-2), (30.0, 1.0)] {
+        let (s, t) = basis(random.direction());
+        let n = unit(etendue_tests::oracle::cross(s, t));
+        let (u, v) = (s.map(|x| x * size), t.map(|x| x * 0.7 * size));
+        let shift = random.range(0.0, 1.0);
+        let p: V3 = core::array::from_fn(|k| -height * n[k] - shift * u[k] - 0.3 * v[k]);
+        let corners = [p, along(p, u, 1.0), along(along(p, u, 1.0), v, 1.0), along(p, v, 1.0)];
+        // the receiver faces the rectangle, or cuts it with its horizon
+        for receiver in [n.map(|x| -x), unit(along(u, n, -0.3 * size))] {
+            let light = Rectangle { p: p.into(), u: u.into(), v: v.into() };
+            let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin(), u), receiver));
+            let truth = projected_polygon(&corners, receiver);
+            assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
+            let by_area = mean(1024, |u| irradiance(&light.by_area(origin(), u), receiver));
+            assert!((by_area / truth - 1.0).abs() < 1e-3 || height < size, "{size} {height}: {by_area} for {truth}");
+            let behind = Rectangle { u: light.v, v: light.u, ..light };
+            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin(), u), receiver)), 0.0);
+        }
+    }
+}
+
+#[test]
+fn disk_points_lie_on_it() {
+    let mut random = Random::new(1);
+    for _ in 0..2000 {
+        let (c, n, r) = (random.direction(), random.direction(), random.magnitude(1e-3, 10.0));
+        let disk = Disk { center: c.into(), normal: n.into(), radius: r };
+        let s = disk.by_area(origin(), Vec2::new(random.unit_f64(), random.unit_f64()));
+        let x = sub(s.direction.at(0).map(|w| w * s.distance), c);
+        assert!(dot(x, n).abs() < 1e-14 * (1.0 + r) && length(x) <= r * (1.0 + 1e-13) + 1e-15);
+        let density = s.distance * s.distance / (dot(s.direction.at(0), n).abs() * PI * r * r);
+        assert!((s.pdf / density - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Solid angle of a long cylinder from outside, its ends beyond sight: that of the wedge between two planes, 2·asin(R/d) wide.
+#[test]
+fn cylinder_is_a_wedge() {
+    let (r, d, half) = (0.4_f64, 1.5_f64, 400.0_f64);
+    let cylinder = Cylinder { p: [d, 0.0, -half].into(), axis: [0.0, 0.0, 2.0 * half].into(), radius: r };
+    // u₀ from tangents, so that the near part is sampled: the integral over the axis in closed form is the wedge's
+    let n = 1200;
+    let mut sum = 0.0;
+    for i in 0..n {
+        let z = ((i as f64 + 0.5) / n as f64 - 0.5) * 2.0 * (half / d).atan();
+        let (u0, weight) =
+            (0.5 + d * z.tan() / (2.0 * half), 2.0 * (half / d).atan() * d / (2.0 * half * z.cos().powi(2)));
+        for j in 0..n {
+            let s = cylinder.by_area(origin(), Vec2::new(u0, (j as f64 + 0.5) / n as f64));
+            sum += if s.emits { weight / s.pdf } else { 0.0 };
+        }
+    }
+    let omega = sum / (n * n) as f64;
+    // the wedge takes 2 asin(R/d)/2π of the sphere but for its ends
+    let truth = 4.0 * (r / d).asin();
+    assert!((omega / truth - 1.0).abs() < 1e-2, "{omega} for {truth}");
+    // far away it is seen as a rectangle 2R × length
+    let far = Cylinder { p: [100.0, 0.0, -0.5].into(), axis: [0.0, 0.0, 1.0].into(), radius: 0.1 };
+    let omega = mean(800, |u| {
+        let s = far.by_area(origin(), u);
+        if s.emits { 1.0 / s.pdf } else { 0.0 }
+    });
+    assert!((omega / (0.2 / 1e4) - 1.0).abs() < 1e-3, "{omega}");
+}
+
+#[test]
+fn cylinder_points_lie_on_it() {
+    let mut random = Random::new(2);
+    for _ in 0..2000 {
+        let (p, axis, r) = (random.direction(), random.direction(), random.magnitude(1e-3, 10.0));
+        let cylinder = Cylinder { p: p.into(), axis: axis.into(), radius: r };
+        let u = [random.unit_f64(), random.unit_f64()];
+        let s = cylinder.by_area(origin(), Vec2::new(u[0], u[1]));
+        let x = sub(s.direction.at(0).map(|w| w * s.distance), p);
+        let t = dot(x, axis);
+        let radial = sub(x, axis.map(|a| a * t));
+        assert!((t - u[0]).abs() < 1e-13 * (1.0 + r) && (length(radial) - r).abs() < 1e-13 * (1.0 + r));
+        let cos = dot(unit(radial), s.direction.at(0));
+        assert!((s.pdf * cos.abs() * TAU * r / (s.distance * s.distance) - 1.0).abs() < 1e-6);
+        assert_eq!(s.emits, cos < 0.0);
+    }
+}
+
+#[test]
+fn sun_and_sky() {
+    let h = 0.1;
+    let sun = Sun { direction: [0.6, 0.0, 0.8].into(), one_minus_cos: h };
+    let e = mean(300, |u| irradiance(&sun.by_solid_angle(u), [0.0, 0.0, 1.0]));
+    // π sin²σ cosω
+    let truth = PI * h * (2.0 - h) * 0.8;
+    assert!((e / truth - 1.0).abs() < 1e-9, "{e} for {truth}");
+    for i in 0..100 {
+        let u = Vec2::new(f64::from(i) / 100.0, 0.3);
+        let s = sun.by_solid_angle(u);
+        let again = sun.invert(s.direction);
+        assert!((again.x - u.x).abs() < 1e-13 && (again.y - u.y).abs() < 1e-13 || i == 0);
+        assert_eq!(sun.pdf(s.direction), s.pdf);
+        assert_eq!(sun.pdf(-s.direction), 0.0);
+    }
+    let n = unit([0.3, -0.5, 0.2]);
+    let uniform = mean(400, |u| irradiance(&ConstantEnvironment.by_solid_angle(u), n));
+    assert!((uniform / PI - 1.0).abs() < 1e-4, "{uniform}");
+    // the first would lie on the horizon
+    for i in 1..1000 {
+        let u = Vec2::new((f64::from(i) * 0.618_033_988_7).fract(), (f64::from(i) * 0.754_877_666_2).fract());
+        let e = irradiance(&ConstantEnvironment.by_projected_solid_angle(n.into(), u), n);
+        assert!((e / PI - 1.0).abs() < 1e-12, "{e}");
+    }
+}
+
+#[test]
+fn delta_lights() {
+    let point = Point { position: [0.0, 3.0, 4.0].into() };
+    let s = point.sample(origin());
+    assert!(s.delta && s.emits && s.distance == 5.0 && (s.pdf - 25.0).abs() < 1e-13);
+    assert_eq!(point.sample(point.position).pdf, 0.0);
+    let (inner, outer) = (0.9, 0.7);
+    let axis = [0.0, -0.6, -0.8];
+    let spot = Spot { position: point.position, axis: axis.into(), cos_inner: inner, cos_outer: outer };
+    assert!((spot.sample(origin()).pdf - 25.0).abs() < 1e-12);
+    let (side, _) = basis(axis);
+    let at = |cos: f64| {
+        let w: V3 = core::array::from_fn(|k| axis[k] * cos + side[k] * (1.0 - cos * cos).sqrt());
+        spot.sample(core::array::from_fn::<_, 3, _>(|k| [0.0, 3.0, 4.0][k] + 2.0 * w[k]).into())
+    };
+    assert!((at(0.95).pdf - 4.0).abs() < 1e-12 && (at(0.8).pdf - 8.0).abs() < 1e-9);
+    assert!(at(0.69).pdf == 0.0 && !at(0.69).emits && !at(-0.95).emits);
+    let s = Directional { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.sample();
+    assert!(s.delta && s.emits && s.pdf == 1.0 && s.distance.is_finite());
+}
+
+/// All lights with the parameters a, b (b also as a unit vector) and r, from the point p.
+fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [LightSample<R>; 9] {
+    let n = b.normalize();
+    [
+        Disk { center: a, normal: n, radius: r }.by_area(p, u),
+        Cylinder { p: a, axis: b, radius: r }.by_area(p, u),
+        Point { position: a }.sample(p),
+        Spot { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.sample(p),
+        Spot { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.sample(p),
+        Directional { direction: n }.sample(),
+        Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle(u),
+        ConstantEnvironment.by_solid_angle(u),
+        ConstantEnvironment.by_projected_solid_angle(n, u),
+    ]
+}
+fn bits<R: Real>(s: &LightSample<R>, i: usize) -> [u64; 7] {
+    let [x, y, z] = s.direction.at(i);
+    let masks = u64::from(s.emits.lane(i)) + 2 * u64::from(s.delta.lane(i));
+    [x.to_bits(), y.to_bits(), z.to_bits(), s.distance.lane_f64(i).to_bits(), s.pdf.lane_f64(i).to_bits(), masks, 0]
+}
+
+#[test]
+fn any_bits_in_every_lane() {
+    let mut random = Random::new(3);
+    for round in 0..5000 {
+        let mut vectors = || -> [[f32; 3]; 8] {
+            core::array::from_fn(|_| {
+                if round % 3 == 0 { domain::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+            })
+        };
+        let (p, a, b, r) = (vectors(), vectors(), vectors(), vectors());
+        let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
+        let radius = |i: usize| r[i][0];
+        let one: Vec<_> = (0..8)
+            .map(|i| {
+                let v = |x: [f32; 3]| vectors_of::<f32>(|_| x);
+                samples(v(p[i]), v(a[i]), v(b[i]), radius(i), squares_of(&us[i..=i]))
+            })
+            .collect();
+        let eight = samples::<f32x8>(
+            vectors_of(|i| p[i]),
+            vectors_of(|i| a[i]),
+            vectors_of(|i| b[i]),
+            f32x8::from_fn(radius),
+            squares_of(&us),
+        );
+        let four = samples::<f32x4>(
+            vectors_of(|i| p[i]),
+            vectors_of(|i| a[i]),
+            vectors_of(|i| b[i]),
+            f32x4::from_fn(radius),
+            squares_of(&us[..4]),
+        );
+        for (i, scalars) in one.iter().enumerate() {
+            for (k, scalar) in scalars.iter().enumerate() {
+                assert_eq!(bits(scalar, 0), bits(&eight[k], i), "light {k}, lane {i}: {scalar:?}\n{:?}", eight[k]);
+                assert!(i > 3 || bits(scalar, 0) == bits(&four[k], i), "light {k}, lane {i}");
+                let s = scalar;
+                let finite = length(s.direction.at(0)).is_finite() && s.pdf.is_finite() && s.pdf >= 0.0;
+                assert!(
+                    finite && s.distance.is_finite(),
+                    "light {k}: {s:?}\n{:?} {:?} {:?} {}",
+                    p[i],
+                    a[i],
+                    b[i],
+                    r[i][0]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn scale_changes_no_direction() {
+    let mut random = Random::new(4);
+    for _ in 0..2000 {
+        let [p, a, b] = [(); 3].map(|()| random.direction().map(|x| x as f32));
+        let (r, u) = (random.unit() + 0.01, [random.unit(), random.unit()]);
+        for power in [-20, -7, 20] {
+            let f = 2.0_f32.powi(power);
+            let times = |v: [f32; 3], f: f32| vectors_of::<f32>(|_| v.map(|x| x * f));
+            let one = [
+                Disk { center: times(a, 1.0), normal: times(b, 1.0), radius: r }
+                    .by_area(times(p, 1.0), squares_of(&[u])),
+                Cylinder { p: times(a, 1.0), axis: times(b, 1.0), radius: r }.by_area(times(p, 1.0), squares_of(&[u])),
+            ];
+            let other = [
+                Disk { center: times(a, f), normal: times(b, 1.0), radius: r * f }
+                    .by_area(times(p, f), squares_of(&[u])),
+                Cylinder { p: times(a, f), axis: times(b, f), radius: r * f }.by_area(times(p, f), squares_of(&[u])),
+            ];
+            for (s, t) in one.iter().zip(&other) {
+                assert_eq!(s.direction, t.direction);
+                assert_eq!(s.pdf.to_bits(), t.pdf.to_bits());
+                assert_eq!(s.distance * f, t.distance);
+            }
+        }
+    }
+}
