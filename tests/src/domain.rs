@@ -1,6 +1,6 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
-use crate::subjects::{Cap, Cone, Parallelogram, Triangle};
+use crate::subjects::{Cap, Cone, Parallelogram, ProjectedCap, Triangle};
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -231,6 +231,45 @@ pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
         }
         let size = random.magnitude(1e-9, 1e-2);
         all.push(("on the axis", Cap::new([0.0, 0.0, 1.0], size as f32)));
+    }
+    all
+}
+
+/// Spheres over a horizon, of every regime: by ratio of radius to distance, and cosine from normal to axis (in units of that ratio if small).
+#[must_use]
+pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, ratio, cos) in [
+            ("ordinary", 0.3, 0.8),
+            ("tiny 1e-6", 1e-6, 0.8),
+            ("large, whole", 0.9, 0.95),
+            ("nearly tangent to the horizon", 0.3, 0.3001),
+            ("nearly tangent from below", 0.3, 0.2999),
+            ("tiny, over the horizon", 1e-6, 3e-6),
+            ("cut", 0.5, 0.3),
+            ("cut, large", 0.95, 0.6),
+            ("cut, nearly touching", 0.99999, 0.5),
+            ("cut, tiny 1e-3", 1e-3, 4e-4),
+            ("cut, tiny 1e-6", 1e-6, 4e-7),
+            ("axis near the horizon", 0.4, 1e-5),
+            ("axis below", 0.5, -0.2),
+            ("axis below, large", 0.9, -0.5),
+            ("axis below, tiny 1e-3", 1e-3, -4e-4),
+            ("axis below, tiny 1e-6", 1e-6, -4e-7),
+            ("sliver of a lune", 0.5, -0.45),
+            ("axis far below, large", 0.95, -0.8),
+        ] {
+            let a = frame(&mut random);
+            let center = narrow(combine(&a, f64::sqrt(1.0 - cos * cos), 0.0, cos));
+            all.push((name, ProjectedCap::new(center, ratio as f32, narrow(a[2]))));
+        }
+        let normal = narrow(random.direction());
+        all.push(("along the normal", ProjectedCap::new(normal.map(|x| x * 3.0), 1.0, normal)));
+        all.push(("inside", ProjectedCap::new(narrow(random.direction()), 1.5, normal)));
+        let about = [0.3, 0.1, 1e-7].map(|x: f32| x * random.range(-1.0, 1.0) as f32);
+        all.push(("horizon of coordinates", ProjectedCap::new(about, 1e-3, [0.0, 0.0, 1.0])));
     }
     all
 }
