@@ -266,7 +266,13 @@ pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
             all.push((name, ProjectedCap::new(center, ratio as f32, narrow(a[2]))));
         }
         let normal = narrow(random.direction());
-        all.push(("along the normal", ProjectedCap::new(normal.map(|x| x * 3.0), 1.0, normal)));
+        // exactly: beside the normal by rounding alone, the azimuth is that of the rounding
+        all.push((
+            "along the normal",
+            ProjectedCap::new([0.0, 0.0, 3.0], random.range(0.1, 3.0) as f32, [0.0, 0.0, 1.0]),
+        ));
+        let beside = [1e-4, 3e-4, 1.0].map(|x: f32| x * random.range(0.5, 1.0) as f32);
+        all.push(("nearly along the normal", ProjectedCap::new(beside, 0.3, [0.0, 0.0, 1.0])));
         all.push(("inside", ProjectedCap::new(narrow(random.direction()), 1.5, normal)));
         let about = [0.3, 0.1, 1e-7].map(|x: f32| x * random.range(-1.0, 1.0) as f32);
         all.push(("horizon of coordinates", ProjectedCap::new(about, 1e-3, [0.0, 0.0, 1.0])));

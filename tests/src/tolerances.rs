@@ -41,10 +41,11 @@ pub const CONE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, d
 pub const COSINE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
 /// A cone in a frame that is orthonormal to 4 units.
 pub const CAP: Tolerance = Tolerance { point: 5.0, steps: 0.0, distance: 6.0, density: 3.0, round_trip: 7.0 };
-/// As the cap; cosines and areas are products of four or five rounded factors more. The cosine of a direction is known to one unit: the
-/// condition has its reciprocal.
+/// As the cap, in a frame about the normal. An area that is inverted is a sum of a dozen rounded terms; near the horizon, where z is a
+/// square root, that is worth 4 steps of u. For a lune times 1/sin²ω: the segments of circle and ellipse of which it is the
+/// difference are alike when the axis is far below.
 pub const PROJECTED_CAP: Tolerance =
-    Tolerance { point: 8.0, steps: 4.0, distance: 8.0, density: 8.0, round_trip: 10.0 };
+    Tolerance { point: 10.0, steps: 4.0, distance: 8.0, density: 8.0, round_trip: 14.0 };
 /// A tangent and an arc of a dozen roundings each; times 1/sin of vertices that lie nearly opposite, and for inverses the aspect.
 pub const TRIANGLE: Tolerance = Tolerance { point: 9.0, steps: 0.0, distance: 9.0, density: 2.0, round_trip: 10.0 };
 /// As the triangle, of which it has two.

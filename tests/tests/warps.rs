@@ -131,7 +131,7 @@ fn sphere_cap() {
 }
 #[test]
 fn projected_cap() {
-    all(&domain::projected_caps(3, 14), 200);
+    all(&domain::projected_caps(3, 14), 100);
 }
 #[test]
 fn spherical_triangle() {

@@ -139,7 +139,7 @@ fn invert_segment<R: Real>(area: R) -> (R, R) {
 
 /// (C(x), C(x) − C(y) over 1 − x²/y²) for 0 ≤ x ≤ y, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds.
 ///
-/// Up to 1 by Gauss and Legendre, where (C(x)−C(y))/(y²−x²) = ∫ s²(1−s²)/((1+x²s²)(1+y²s²)) ds; beyond in closed form.
+/// Up to 1 (2.5 in single precision) by Gauss and Legendre, where (C(x)−C(y))/(y²−x²) = ∫ s²(1−s²)/((1+x²s²)(1+y²s²)) ds; beyond in closed form.
 #[inline]
 fn arcs<R: Real>(x: R, y: R) -> (R, R) {
     // s² and weight · (1−s²)
@@ -163,31 +163,38 @@ fn arcs<R: Real>(x: R, y: R) -> (R, R) {
         (0.986_304_414_519_349_03, 0.000_241_234_140_431_037_57),
     ];
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let (near_x, near_y) = (x.min(one), y.min(one));
-    let (x2, y2) = (near_x * near_x, near_y * near_y);
-    let (mut first, mut both) = (zero, zero);
-    let nodes: &[(f64, f64)] = if double::<R>() { &WIDE } else { &NARROW };
-    for &(s2, weight) in nodes {
-        let s2 = R::lit(s2);
-        let (dx, dy) = (x2.mul_add(s2, one), y2.mul_add(s2, one));
-        let term = R::lit(weight) / (dx * dy);
-        first = term.mul_add(dy, first);
-        both = term.mul_add(s2, both);
-    }
+    let quadrature = |nodes: &[(f64, f64)], reach: R| {
+        let (x, y) = (x.min(reach), y.min(reach));
+        let (x2, y2) = (x * x, y * y);
+        let (mut first, mut both) = (zero, zero);
+        for &(s2, weight) in nodes {
+            let s2 = R::lit(s2);
+            let (dx, dy) = (x2.mul_add(s2, one), y2.mul_add(s2, one));
+            let term = R::lit(weight) / (dx * dy);
+            first = term.mul_add(dy, first);
+            both = term.mul_add(s2, both);
+        }
+        (first, both * y2)
+    };
     let far = y.gt(one);
+    let (first, difference) = quadrature(if double::<R>() { &WIDE } else { &NARROW }, one);
     if !far.any() {
-        return (first, both * y2);
+        return (first, difference);
     }
-    // ((1+x²) atan x − x)/x³, in terms of 1/x
+    // in single precision the difference has too few digits up to 2.5, and twice as many nodes still do
+    let reach = R::lit(if double::<R>() { 1.0 } else { 2.5 });
+    let wide = if double::<R>() { (first, difference) } else { quadrature(&WIDE, reach) };
     let closed = |x: R| {
+        // ((1+x²) atan x − x)/x³, in terms of 1/x
         let inverse = one / x.max(one);
         let square = inverse * inverse;
         (one + square) * inverse * one.atan2(inverse) - square
     };
-    let first = R::select(x.gt(one), closed(x), first);
+    let far_first = R::select(x.gt(reach), closed(x), wide.0);
     let q = x / y.max(one);
-    let difference = ratio(first - closed(y), (one - q) * (one + q));
-    (first, R::select(far, difference, both * y2))
+    let beyond = ratio(far_first - closed(y), (one - q) * (one + q));
+    let far_difference = R::select(y.gt(reach), beyond, wide.1);
+    (R::select(far, far_first, first), R::select(far, far_difference, difference))
 }
 
 /// A slice of the lune at ±t: its half-area up to t and its width, in common units.
@@ -230,10 +237,13 @@ impl<R: Real> ProjectedCap<R> {
 
         // seen from inside, the hemisphere is a cap about the normal
         let pick = |yes: R, no: f64| R::select(outside, yes, R::lit(no));
-        let sin_sigma = pick((r.max(zero) * inverse).min(one), 1.0);
-        let cos_sigma = pick(power.max(zero).sqrt() * inverse, 0.0);
-        let sin_omega = pick((along_x * inverse).min(one), 0.0);
-        let cos_omega = pick((along_z * inverse).clamp(-one, one), 1.0);
+        let reciprocal = |square: R| rsqrt(R::select(square.gt(zero), square, one));
+        let by_radius = reciprocal(r.mul_add(r, power.max(zero)));
+        let sin_sigma = pick((r.max(zero) * by_radius).min(one), 1.0);
+        let cos_sigma = pick((power.max(zero).sqrt() * by_radius).min(one), 0.0);
+        let by_height = reciprocal(along_x.mul_add(along_x, along_z * along_z));
+        let sin_omega = pick((along_x * by_height).min(one), 0.0);
+        let cos_omega = pick((along_z * by_height).clamp(-one, one), 1.0);
         let height_squared = ((r - along_z) * (r + along_z)).max(zero) * inverse * inverse;
         let height = height_squared.sqrt().keep(outside);
         let whole = cos_omega.ge(sin_sigma);
@@ -382,7 +392,7 @@ impl<R: Real> ProjectedCap<R> {
     fn lune(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let side = two.mul_add(u.x, -one);
-        let t = self.invert_lune(side.abs());
+        let t = self.invert_lune(two * u.x.min(one - u.x));
         let width = self.width(t);
         let y = (self.sin_theta * t).copysign(side);
         let arc = ((one - y) * (one + y)).max(zero).sqrt();
@@ -421,21 +431,51 @@ impl<R: Real> ProjectedCap<R> {
         let by_m = ratio(R::lit(2.0), m) - dp / p1 - dq / q1 - beta.mul_add(dp, dq) / pq;
         Slice { area, width, slope: -(t + t) * by_m }
     }
-    /// t in [0, 1] up to which the half-lune has the share `v` of its area.
+    /// The half-lune's area beyond t, in the units of a slice: what is left after a difference would have few digits.
     #[inline]
-    fn invert_lune(&self, v: R) -> R {
+    fn tail(&self, t: R) -> R {
+        let rest = R::lit(1.0) - t;
+        let mut sum = R::lit(0.0);
+        for (x, weight) in [
+            (0.0198550717512319, 0.0506142681451885),
+            (0.1016667612931866, 0.1111905172266872),
+            (0.2372337950418355, 0.1568533229389434),
+            (0.4082826787521751, 0.1813418916891808),
+            (0.5917173212478248, 0.1813418916891808),
+            (0.7627662049581645, 0.1568533229389434),
+            (0.8983332387068134, 0.1111905172266872),
+            (0.9801449282487681, 0.0506142681451885),
+        ] {
+            sum = R::lit(weight).mul_add(self.slice(rest.mul_add(R::lit(x), t), false).width, sum);
+        }
+        sum * rest
+    }
+    /// Where single precision would leave an area beyond t of few digits: that is less than a share of 1/8 of the half.
+    #[inline]
+    fn ends(share: R) -> R::Mask {
+        share.lt(R::lit(if double::<R>() { -1.0 } else { 0.125 }))
+    }
+    /// t in [0, 1] beyond which lies the share `left` of the half-lune.
+    #[inline]
+    fn invert_lune(&self, left: R) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let v = one - left;
         let target = v * self.half;
+        let ends = Self::ends(left);
         let start = self.slice(zero, false);
         // from the two ends: area ≈ width · t, and the rest of it like (1−t)^p
-        let (near, left) = (v * ratio(self.half, start.width), (one - v).max(zero));
-        let root = left.sqrt().sqrt();
+        let near = v * ratio(self.half, start.width);
+        let root = left.max(zero).sqrt().sqrt();
         let far = one - root * root.sqrt().sqrt();
         let mut t = R::select(v.lt(R::lit(0.5)), near, near.max(far)).clamp(zero, one);
-        let steps = if double::<R>() { 6 } else { 4 };
+        let steps = if double::<R>() { 7 } else { 5 };
         for _ in 0..steps {
             let slice = self.slice(t, true);
-            let newton = ratio(slice.area - target, slice.width);
+            let mut off = slice.area - target;
+            if ends.any() {
+                off = R::select(ends, left * self.half - self.tail(t), off);
+            }
+            let newton = ratio(off, slice.width);
             // Halley: off/(1 − ½ off f′/f)
             let halley = one - R::lit(0.5) * newton * slice.slope;
             let step = newton / halley.max(R::lit(0.5));
@@ -456,7 +496,9 @@ impl<R: Real> ProjectedCap<R> {
         let along = w.x.mul_add(self.along_x, w.z * self.along_z);
         let root = (along * along - self.power).max(zero).sqrt();
         let far = R::select(along.lt(zero), ratio(-self.power, root - along), root + along);
-        Sighting { direction: self.frame.to_world(w), distance: R::select(self.inside(), far, near) * self.unit }
+        let most = R::lit(if double::<R>() { f64::MAX } else { f64::from(f32::MAX) });
+        let distance = (R::select(self.inside(), far, near) * self.unit).min(most);
+        Sighting { direction: self.frame.to_world(w), distance }
     }
 }
 
@@ -489,7 +531,11 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         let across = ratio(off_centre, self.sin_sigma * self.cos_omega);
         if whole.any() {
             let p = Vec2::new(across, ratio(w.y, self.sin_sigma));
-            u = invert_concentric(p, p.length());
+            // near the limb of a large cap z tells better than x and y how far out a direction is
+            let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * across).max(zero);
+            let rest = (z - rim) * (z + rim) / (self.sin_sigma * self.sin_sigma).max(R::lit(1e-37));
+            let r = R::select(z.le(self.sin_sigma) & rest.lt(half), (one - rest).max(zero).sqrt(), p.length());
+            u = invert_concentric(p, r.min(one));
         }
         let cut = !whole & !below;
         if cut.any() {
@@ -499,7 +545,9 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             let in_segment = segment(phi.clamp(zero, R::lit(FRAC_PI_2)));
             let on_circle = span.le(self.sin_theta) & w.x.gt(zero);
             let c = (-across).clamp(-one, one);
-            let s = ((one - c) * (one + c)).sqrt();
+            // sinφ from how far z is above the rim at the same x, and y
+            let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).max(zero);
+            let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).max(zero)).sqrt() / self.sin_sigma).min(one);
             let phi = s.atan2(c.abs());
             let from_left = segment(phi);
             let from_left = R::select(c.lt(zero), R::lit(PI) - from_left, from_left) * area;
@@ -514,10 +562,14 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         if below.any() {
             let t = ratio(w.y.abs(), self.sin_theta).min(one);
             let slice = self.slice(t, true);
-            let share = half * ratio(slice.area, self.half).copysign(w.y);
+            let mut left = half - half * ratio(slice.area, self.half);
+            let ends = Self::ends(left + left);
+            if ends.any() {
+                left = R::select(ends, half * ratio(self.tail(t), self.half), left);
+            }
             let arc = ((one - w.y) * (one + w.y)).max(zero).sqrt();
             let inward = ratio(z * z, arc + w.x.max(zero));
-            let x = unit_interval(half + share);
+            let x = unit_interval(R::select(w.y.lt(zero), left, one - left));
             let y = unit_interval(ratio(inward, self.width(t)));
             u = Vec2 { x: R::select(below, x, u.x), y: R::select(below, y, u.y) };
         }

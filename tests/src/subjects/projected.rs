@@ -6,11 +6,12 @@ use crate::laws::{Subject, lanes_of, vectors_of};
 use crate::oracle::{self, V3, along, cross, dot, exact_sum, unit, wide};
 use crate::tolerances::{self, Tolerance};
 use core::f64::consts::{FRAC_PI_2, PI};
+use core::fmt::{self, Debug, Formatter};
 use etendue::seen::{self, Sighting};
 use etendue::{Real, Vec2, Vec3};
 
 /// `seen::ProjectedCap`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct ProjectedCap {
     center: [f32; 3],
     radius: f32,
@@ -26,6 +27,11 @@ struct Truth {
     /// Axis, upwards, across; and the normal.
     axes: [V3; 4],
     inside: bool,
+}
+impl Debug for ProjectedCap {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "ProjectedCap::new({:?}, {:?}, {:?})", self.center, self.radius, self.normal)
+    }
 }
 impl ProjectedCap {
     /// Centre, relative to the viewpoint, radius, and normal.
@@ -94,7 +100,9 @@ impl Subject for ProjectedCap {
         seen::ProjectedCap::splat(warp)
     }
     fn tolerance(&self) -> Tolerance {
-        tolerances::PROJECTED_CAP
+        let all = tolerances::PROJECTED_CAP;
+        let alike = if self.truth.cos_omega < 0.0 { self.sin_omega().powi(-2) } else { 1.0 };
+        Tolerance { point: all.point * alike, round_trip: all.round_trip * alike, ..all }
     }
     fn scaled(&self, factor: f32) -> Self {
         Self { center: self.center.map(|x| x * factor), radius: self.radius * factor, ..*self }
@@ -116,7 +124,7 @@ impl Subject for ProjectedCap {
         [s.clamp(0.0, 1.0), (0.5 + 0.5 * y.atan2(x) / half).clamp(0.0, 1.0)]
     }
     fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
-        if self.truth.inside || self.cut() && random.word() % 2 == 0 {
+        if self.truth.inside || self.cut() && random.word().is_multiple_of(2) {
             // straight down from the horizon
             let n = self.truth.axes[3];
             let theta = self.truth.sigma;
@@ -135,8 +143,8 @@ impl Subject for ProjectedCap {
         let (s, c) = (self.truth.sigma.sin(), self.truth.cos_omega);
         if c < 0.0 { 1.0 + 3.0 * c.abs() / (s + c) } else { 1.0 }
     }
-    fn condition_at(&self, w: V3) -> f64 {
-        self.condition() + 1.0 / dot(w, self.truth.axes[3]).max(1e-300)
+    fn gradient(&self) -> f64 {
+        1.0 / self.truth.projected
     }
     fn quadrature(&self) -> f64 {
         if self.cut() { 1e-7 } else { 1e-9 }
