@@ -59,7 +59,7 @@ impl Workload {
         let camera: Vec<Group> = (0..groups)
             .map(|group| {
                 // places in order of a bit-reversed index are spread evenly
-                let [x, y] = random.words(group, 0, 3).map(|w| (w >> 16) * (SIDE - 8) >> 16)[..2] else {
+                let [x, y] = random.words(group, 0, 3).map(|w| ((w >> 16) * (SIDE - 8)) >> 16)[..2] else {
                     unreachable!()
                 };
                 std::array::from_fn(|p| {

@@ -32,14 +32,14 @@ pub struct LightSample<R: Real> {
 /// Area measure to solid angle: 1/area · distance² / |cosθ'|, finite or 0.
 ///
 /// `along` = |direction · N| for a normal N of length `area`.
-#[inline]
+#[inline(always)]
 fn solid_angle_pdf<R: Real>(distance: R, along: R) -> R {
     let pdf = distance * distance / R::select(along.gt(R::lit(0.0)), along, R::lit(1.0));
     pdf.keep(along.gt(R::lit(0.0)) & pdf.lt(R::lit(1e37)) & distance.gt(R::lit(0.0)))
 }
 
 /// Direction and distance of a point relative to the viewpoint, at any scale.
-#[inline]
+#[inline(always)]
 fn sighting<R: Real>(point: Vec3<R>) -> Sighting<R> {
     let scale = point.max_abs().exponent_reciprocal();
     let scaled = point * scale;
@@ -60,7 +60,7 @@ lanewise! {
 
 impl<R: Real> Sphere<R> {
     /// Uniform over the surface: half of it and more faces away. pdf = distance²/(|cosθ'| 4πR²).
-    #[inline]
+    #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let normal: Vec3<R> = UniformSphere.sample(u);
         let Sighting { direction, distance } = sighting((self.center - p) + normal * self.radius);
@@ -70,7 +70,7 @@ impl<R: Real> Sphere<R> {
         LightSample { direction, distance, pdf, emits: cos.lt(R::lit(0.0)) }
     }
     /// Uniform over the cone of directions, [`SphereCap`]: every sample hits the near side.
-    #[inline]
+    #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let cap = SphereCap::new(self.center - p, self.radius);
         let Sighting { direction, distance } = cap.sight(u);
@@ -103,14 +103,14 @@ lanewise! {
 
 impl<R: Real> Triangle<R> {
     /// Uniform over the surface. pdf = distance²/(|cosθ'| A).
-    #[inline]
+    #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let b: Vec2<R> = AreaTriangle.sample(u);
         let point = self.e1.mul_add(b.x, self.e2.mul_add(b.y, self.v0 - p));
         flat_by_area(point, self.e1.cross(self.e2) * R::lit(0.5))
     }
     /// Uniform over the solid angle, [`SphericalTriangle`].
-    #[inline]
+    #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let v0 = self.v0 - p;
         let seen = SphericalTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2);
@@ -133,13 +133,13 @@ lanewise! {
 
 impl<R: Real> Parallelogram<R> {
     /// Uniform over the surface. pdf = distance²/(|cosθ'| A).
-    #[inline]
+    #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let point = self.u.mul_add(u.x, self.v.mul_add(u.y, self.p - p));
         flat_by_area(point, self.u.cross(self.v))
     }
     /// Uniform over the solid angle, [`SphericalParallelogram`].
-    #[inline]
+    #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = SphericalParallelogram::new(self.p - p, self.u, self.v);
         let Sighting { direction, distance } = seen.sight(u);
@@ -148,7 +148,7 @@ impl<R: Real> Parallelogram<R> {
 }
 
 /// The sample at a point of a flat shape, uniform over the area |normal|.
-#[inline]
+#[inline(always)]
 fn flat_by_area<R: Real>(point: Vec3<R>, normal: Vec3<R>) -> LightSample<R> {
     let Sighting { direction, distance } = sighting(point);
     let along = direction.dot(normal);

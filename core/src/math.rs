@@ -17,20 +17,20 @@
 use crate::real::Real;
 
 /// 1/√x: a division and a square root, both correctly rounded. 0 gives infinity; callers guard.
-#[inline]
+#[inline(always)]
 pub fn rsqrt<R: Real>(x: R) -> R {
     R::lit(1.0) / x.sqrt()
 }
 
 /// 1 − cosθ for θ in [0, π/2], from sin²θ in [0, 1]: `s²/(1 + √(1 − s²))`, free of cancellation at every size.
-#[inline]
+#[inline(always)]
 pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
     let cos = (R::lit(1.0) - sin_squared).max(R::lit(0.0)).sqrt();
     sin_squared / (R::lit(1.0) + cos)
 }
 
 /// `a·b − c·d` to within 1.5 ulp of the exact result (Kahan; Jeannerod, Louvet and Muller 2013).
-#[inline]
+#[inline(always)]
 pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
     let cd = c * d;
     let error = R::product_error(c, d, cd);
@@ -43,7 +43,7 @@ pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
 }
 
 /// `a + b` and its rounding error, exactly (Knuth's TwoSum).
-#[inline]
+#[inline(always)]
 pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
     let sum = a + b;
     let other = sum - a;
@@ -51,7 +51,7 @@ pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
 }
 
 /// Angle of (x, y) in turns, in [0, 1): the inverse of [`Real::sin_cos_turns`]. 0 at the origin.
-#[inline]
+#[inline(always)]
 pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
     let turns = y.atan2(x) * R::lit(0.5 / core::f64::consts::PI);
     let turns = R::select(turns.lt(R::lit(0.0)), turns + R::lit(1.0), turns);
@@ -59,7 +59,7 @@ pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
 }
 
 /// Horner's rule with `mul_add`, coefficients from the constant term up.
-#[inline]
+#[inline(always)]
 pub(crate) fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
     let mut sum = R::lit(coefficients[N - 1]);
     for &c in coefficients[..N - 1].iter().rev() {
@@ -69,7 +69,7 @@ pub(crate) fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) 
 }
 
 /// Sine and cosine of `r` quarter turns, |r| ≤ ½: minimax polynomials of degrees 7 and 8.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos_quarter<R: Real>(r: R) -> (R, R) {
     let s = r * r;
     let sin = r * polynomial(s, [1.570_796_321_71, -0.645_963_460_233, 0.079_680_032_770_4, -0.004_601_657_891_18]);
@@ -78,7 +78,7 @@ pub(crate) fn sin_cos_quarter<R: Real>(r: R) -> (R, R) {
 }
 
 /// Quadrant and remainder are exact in turns: q = round(4u), r = 4u − q; no argument of trigonometry is ever rounded.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos_turns_f32<R: Real>(u: R) -> (R, R) {
     let u4 = u * R::lit(4.0);
     let q = u4.round_ties_even();
@@ -93,7 +93,7 @@ pub(crate) fn sin_cos_turns_f32<R: Real>(u: R) -> (R, R) {
 }
 
 /// `√(1−|x|)` times a minimax polynomial of degree 7, reflected for negative x.
-#[inline]
+#[inline(always)]
 pub(crate) fn acos_f32<R: Real>(x: R) -> R {
     let a = x.abs().min(R::lit(1.0));
     let p = polynomial(
@@ -114,7 +114,7 @@ pub(crate) fn acos_f32<R: Real>(x: R) -> R {
 }
 
 /// Reduced to |t| ≤ tan(π/8) by one division; relative accuracy is kept down to denormals, and 0/0 is 0.
-#[inline]
+#[inline(always)]
 pub(crate) fn atan2_f32<R: Real>(y: R, x: R) -> R {
     let (ay, ax) = (y.abs(), x.abs());
     let swap = ay.gt(ax);

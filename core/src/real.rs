@@ -24,14 +24,14 @@ pub trait Mask:
     /// Lane `i` in bit `i`; bits past the last lane are 0.
     fn bits(self) -> u32;
     /// Is any lane true?
-    #[inline]
+    #[inline(always)]
     fn any(self) -> bool {
         self.bits() != 0
     }
     /// Are all lanes true?
     fn all(self) -> bool;
     /// Lane `i`; false past the last lane.
-    #[inline]
+    #[inline(always)]
     fn lane(self, i: usize) -> bool {
         i < 32 && self.bits() >> i & 1 == 1
     }
@@ -106,12 +106,12 @@ pub trait Real:
     /// `self <= other`, per lane.
     fn le(self, other: Self) -> Self::Mask;
     /// `self > other`, per lane.
-    #[inline]
+    #[inline(always)]
     fn gt(self, other: Self) -> Self::Mask {
         other.lt(self)
     }
     /// `self >= other`, per lane.
-    #[inline]
+    #[inline(always)]
     fn ge(self, other: Self) -> Self::Mask {
         other.le(self)
     }
@@ -126,7 +126,7 @@ pub trait Real:
     /// `self > other ? self : other`: the second where either is NaN.
     fn max(self, other: Self) -> Self;
     /// Into [lo, hi]; a NaN becomes `lo`.
-    #[inline]
+    #[inline(always)]
     fn clamp(self, lo: Self, hi: Self) -> Self {
         self.max(lo).min(hi)
     }
@@ -146,7 +146,7 @@ pub trait Real:
     /// that) and has a finite reciprocal.
     fn exponent_reciprocal(self) -> Self;
     /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
-    #[inline]
+    #[inline(always)]
     fn below_one() -> Self {
         Self::lit(1.0 - 1.0 / 16_777_216.0)
     }
@@ -167,19 +167,19 @@ pub trait Real:
 
 impl Sealed for bool {}
 impl Mask for bool {
-    #[inline]
+    #[inline(always)]
     fn splat(value: bool) -> Self {
         value
     }
-    #[inline]
+    #[inline(always)]
     fn from_bits(bits: u32) -> Self {
         bits & 1 == 1
     }
-    #[inline]
+    #[inline(always)]
     fn bits(self) -> u32 {
         self as u32
     }
-    #[inline]
+    #[inline(always)]
     fn all(self) -> bool {
         self
     }
@@ -193,51 +193,51 @@ macro_rules! packet_mask {
         impl Sealed for $mask {}
         impl BitAnd for $mask {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn bitand(self, other: Self) -> Self {
                 Self(self.0 & other.0)
             }
         }
         impl BitOr for $mask {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn bitor(self, other: Self) -> Self {
                 Self(self.0 | other.0)
             }
         }
         impl BitXor for $mask {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn bitxor(self, other: Self) -> Self {
                 Self(self.0 ^ other.0)
             }
         }
         impl Not for $mask {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn not(self) -> Self {
                 Self(!self.0)
             }
         }
         impl Mask for $mask {
-            #[inline]
+            #[inline(always)]
             fn splat(value: bool) -> Self {
                 Self::from_bits(if value { u32::MAX } else { 0 })
             }
-            #[inline]
+            #[inline(always)]
             fn from_bits(bits: u32) -> Self {
                 let from: fn(u32) -> $vector = $from_bits;
                 Self(from(bits))
             }
-            #[inline]
+            #[inline(always)]
             fn bits(self) -> u32 {
                 self.0.to_bitmask() as u32
             }
-            #[inline]
+            #[inline(always)]
             fn any(self) -> bool {
                 self.0.any()
             }
-            #[inline]
+            #[inline(always)]
             fn all(self) -> bool {
                 self.0.all()
             }
@@ -268,43 +268,43 @@ packet_mask!(
 impl Sealed for u32 {}
 impl Uint for u32 {
     const LANES: usize = 1;
-    #[inline]
+    #[inline(always)]
     fn splat(value: u32) -> Self {
         value
     }
-    #[inline]
+    #[inline(always)]
     fn from_fn(mut f: impl FnMut(usize) -> u32) -> Self {
         f(0)
     }
-    #[inline]
+    #[inline(always)]
     fn lane(self, i: usize) -> u32 {
         [self][i]
     }
-    #[inline]
+    #[inline(always)]
     fn wrapping_add(self, other: Self) -> Self {
         u32::wrapping_add(self, other)
     }
-    #[inline]
+    #[inline(always)]
     fn wrapping_sub(self, other: Self) -> Self {
         u32::wrapping_sub(self, other)
     }
-    #[inline]
+    #[inline(always)]
     fn wrapping_mul(self, other: Self) -> Self {
         u32::wrapping_mul(self, other)
     }
-    #[inline]
+    #[inline(always)]
     fn shl(self, bits: u32) -> Self {
         self << bits
     }
-    #[inline]
+    #[inline(always)]
     fn shr(self, bits: u32) -> Self {
         self >> bits
     }
-    #[inline]
+    #[inline(always)]
     fn lt(self, other: Self) -> Self {
         if self < other { u32::MAX } else { 0 }
     }
-    #[inline]
+    #[inline(always)]
     fn any(self) -> bool {
         self != 0
     }
@@ -315,43 +315,43 @@ macro_rules! packet_uint {
         impl Sealed for $vector {}
         impl Uint for $vector {
             const LANES: usize = $lanes;
-            #[inline]
+            #[inline(always)]
             fn splat(value: u32) -> Self {
                 $vector::splat(value)
             }
-            #[inline]
+            #[inline(always)]
             fn from_fn(f: impl FnMut(usize) -> u32) -> Self {
                 $vector::new(core::array::from_fn(f))
             }
-            #[inline]
+            #[inline(always)]
             fn lane(self, i: usize) -> u32 {
                 self.as_array()[i]
             }
-            #[inline]
+            #[inline(always)]
             fn wrapping_add(self, other: Self) -> Self {
                 self + other
             }
-            #[inline]
+            #[inline(always)]
             fn wrapping_sub(self, other: Self) -> Self {
                 self - other
             }
-            #[inline]
+            #[inline(always)]
             fn wrapping_mul(self, other: Self) -> Self {
                 self * other
             }
-            #[inline]
+            #[inline(always)]
             fn shl(self, bits: u32) -> Self {
                 self << bits
             }
-            #[inline]
+            #[inline(always)]
             fn shr(self, bits: u32) -> Self {
                 self >> bits
             }
-            #[inline]
+            #[inline(always)]
             fn lt(self, other: Self) -> Self {
                 self.simd_lt(other)
             }
-            #[inline]
+            #[inline(always)]
             fn any(self) -> bool {
                 self.simd_ne($vector::splat(0)).any()
             }
@@ -363,7 +363,7 @@ packet_uint!(u32x8, 8);
 
 /// `a·b − p` where the target has no fused multiply-add: Veltkamp's split and Dekker's product.
 #[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
-#[inline]
+#[inline(always)]
 fn dekker<R: Real>(a: R, b: R, p: R, splitter: f64) -> R {
     let split = |x: R| {
         let c = R::lit(splitter) * x;
@@ -377,7 +377,7 @@ fn dekker<R: Real>(a: R, b: R, p: R, splitter: f64) -> R {
 /// What scalars and packets share: everything that is the same expression on both.
 macro_rules! shared {
     ($splitter:expr) => {
-        #[inline]
+        #[inline(always)]
         fn product_error(a: Self, b: Self, product: Self) -> Self {
             #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
             return Real::mul_add(a, b, -product);
@@ -390,15 +390,15 @@ macro_rules! shared {
 /// Transcendentals of single precision: own polynomials, in [`crate::math`].
 macro_rules! polynomials {
     () => {
-        #[inline]
+        #[inline(always)]
         fn sin_cos_turns(self) -> (Self, Self) {
             crate::math::sin_cos_turns_f32(self)
         }
-        #[inline]
+        #[inline(always)]
         fn acos(self) -> Self {
             crate::math::acos_f32(self)
         }
-        #[inline]
+        #[inline(always)]
         fn atan2(self, other: Self) -> Self {
             crate::math::atan2_f32(self, other)
         }
@@ -408,7 +408,7 @@ macro_rules! polynomials {
 /// Transcendentals of double precision: `libm`, lane by lane. This precision is the oracle of the other, not the fast one.
 macro_rules! lane_by_lane {
     () => {
-        #[inline]
+        #[inline(always)]
         fn sin_cos_turns(self) -> (Self, Self) {
             let quarter = (self * Self::lit(4.0)).round_ties_even();
             let angle = self * Self::lit(4.0) - quarter;
@@ -424,11 +424,11 @@ macro_rules! lane_by_lane {
             };
             (Self::from_fn(|i| value(i).0), Self::from_fn(|i| value(i).1))
         }
-        #[inline]
+        #[inline(always)]
         fn acos(self) -> Self {
             Self::from_fn(|i| libm::acos(self.lane(i).clamp(-1.0, 1.0)))
         }
-        #[inline]
+        #[inline(always)]
         fn atan2(self, other: Self) -> Self {
             Self::from_fn(|i| libm::atan2(self.lane(i), other.lane(i)))
         }
@@ -443,89 +443,89 @@ macro_rules! scalar_real {
             type Mask = bool;
             type Uint = u32;
             const LANES: usize = 1;
-            #[inline]
+            #[inline(always)]
             fn splat(value: $scalar) -> Self {
                 value
             }
-            #[inline]
+            #[inline(always)]
             fn lit(value: f64) -> Self {
                 value as $scalar
             }
-            #[inline]
+            #[inline(always)]
             fn from_fn(mut f: impl FnMut(usize) -> $scalar) -> Self {
                 f(0)
             }
-            #[inline]
+            #[inline(always)]
             fn lane(self, i: usize) -> $scalar {
                 [self][i]
             }
-            #[inline]
+            #[inline(always)]
             fn lane_f64(self, i: usize) -> f64 {
                 f64::from([self][i])
             }
-            #[inline]
+            #[inline(always)]
             fn lt(self, other: Self) -> bool {
                 self < other
             }
-            #[inline]
+            #[inline(always)]
             fn le(self, other: Self) -> bool {
                 self <= other
             }
-            #[inline]
+            #[inline(always)]
             fn select(mask: bool, yes: Self, no: Self) -> Self {
                 if mask { yes } else { no }
             }
-            #[inline]
+            #[inline(always)]
             fn keep(self, mask: bool) -> Self {
                 if mask { self } else { 0.0 }
             }
-            #[inline]
+            #[inline(always)]
             fn negate_where(self, mask: bool) -> Self {
                 if mask { -self } else { self }
             }
-            #[inline]
+            #[inline(always)]
             fn min(self, other: Self) -> Self {
                 if self < other { self } else { other }
             }
-            #[inline]
+            #[inline(always)]
             fn max(self, other: Self) -> Self {
                 if self > other { self } else { other }
             }
-            #[inline]
+            #[inline(always)]
             fn abs(self) -> Self {
                 $scalar::from_bits(self.to_bits() & ($bits::MAX >> 1))
             }
-            #[inline]
+            #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
                 let magnitude = $bits::MAX >> 1;
                 $scalar::from_bits(self.to_bits() & magnitude | sign.to_bits() & !magnitude)
             }
-            #[inline]
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 $packet::splat(self).sqrt().to_array()[0]
             }
-            #[inline]
+            #[inline(always)]
             fn round_ties_even(self) -> Self {
                 $packet::splat(self).round_ties_even().to_array()[0]
             }
-            #[inline]
+            #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 $packet::splat(self).mul_add($packet::splat(a), $packet::splat(b)).to_array()[0]
             }
-            #[inline]
+            #[inline(always)]
             fn exponent_reciprocal(self) -> Self {
                 $scalar::from_bits($bits::wrapping_sub($reflected, self.to_bits() & $exponent))
                     .max($scalar::MIN_POSITIVE * 0.5)
             }
-            #[inline]
+            #[inline(always)]
             fn unit(bits: u32) -> Self {
                 (bits >> 8) as $scalar * (1.0 / 16_777_216.0)
             }
-            #[inline]
+            #[inline(always)]
             fn from_uint(value: u32) -> Self {
                 value as i32 as $scalar
             }
-            #[inline]
+            #[inline(always)]
             fn to_uint(self) -> u32 {
                 self as i32 as u32
             }
@@ -546,48 +546,48 @@ macro_rules! packet_real {
             type Mask = $mask;
             type Uint = $uint;
             const LANES: usize = $lanes;
-            #[inline]
+            #[inline(always)]
             fn splat(value: $scalar) -> Self {
                 $packet::splat(value)
             }
-            #[inline]
+            #[inline(always)]
             fn lit(value: f64) -> Self {
                 $packet::splat(value as $scalar)
             }
-            #[inline]
+            #[inline(always)]
             fn from_fn(f: impl FnMut(usize) -> $scalar) -> Self {
                 $packet::new(core::array::from_fn(f))
             }
-            #[inline]
+            #[inline(always)]
             fn lane(self, i: usize) -> $scalar {
                 self.as_array()[i]
             }
-            #[inline]
+            #[inline(always)]
             fn lane_f64(self, i: usize) -> f64 {
                 f64::from(self.as_array()[i])
             }
-            #[inline]
+            #[inline(always)]
             fn lt(self, other: Self) -> $mask {
                 $mask(self.simd_lt(other))
             }
-            #[inline]
+            #[inline(always)]
             fn le(self, other: Self) -> $mask {
                 $mask(self.simd_le(other))
             }
-            #[inline]
+            #[inline(always)]
             fn select(mask: $mask, yes: Self, no: Self) -> Self {
                 mask.0.select(yes, no)
             }
-            #[inline]
+            #[inline(always)]
             fn keep(self, mask: $mask) -> Self {
                 self & mask.0
             }
-            #[inline]
+            #[inline(always)]
             fn negate_where(self, mask: $mask) -> Self {
                 self ^ (mask.0 & $packet::splat(-0.0))
             }
             // On x86 `fast_min` is minps: `a < b ? a : b`, as the scalar; other targets differ for NaN and ±0.
-            #[inline]
+            #[inline(always)]
             fn min(self, other: Self) -> Self {
                 if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
                     self.fast_min(other)
@@ -595,7 +595,7 @@ macro_rules! packet_real {
                     self.simd_lt(other).select(self, other)
                 }
             }
-            #[inline]
+            #[inline(always)]
             fn max(self, other: Self) -> Self {
                 if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
                     self.fast_max(other)
@@ -603,40 +603,40 @@ macro_rules! packet_real {
                     other.simd_lt(self).select(self, other)
                 }
             }
-            #[inline]
+            #[inline(always)]
             fn abs(self) -> Self {
                 $packet::abs(self)
             }
-            #[inline]
+            #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
                 $packet::copysign(self, sign)
             }
-            #[inline]
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 $packet::sqrt(self)
             }
-            #[inline]
+            #[inline(always)]
             fn round_ties_even(self) -> Self {
                 $packet::round_ties_even(self)
             }
-            #[inline]
+            #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 $packet::mul_add(self, a, b)
             }
-            #[inline]
+            #[inline(always)]
             fn exponent_reciprocal(self) -> Self {
                 $packet::from_bits($bits::splat($reflected) - (self.to_bits() & $bits::splat($exponent)))
                     .fast_max($packet::splat($scalar::MIN_POSITIVE * 0.5))
             }
-            #[inline]
+            #[inline(always)]
             fn unit(bits: $uint) -> Self {
                 $packet::$from_int((bits >> 8u32).cast_signed()) * $packet::splat(1.0 / 16_777_216.0)
             }
-            #[inline]
+            #[inline(always)]
             fn from_uint(value: $uint) -> Self {
                 $packet::$from_int(value.cast_signed())
             }
-            #[inline]
+            #[inline(always)]
             fn to_uint(self) -> $uint {
                 let convert: fn(Self) -> $uint = $to_uint;
                 convert(self)

@@ -9,7 +9,7 @@
 //! |---|---|---|---|
 //! | sphere | [`SphereCap`] | 1/Ω, Ω = 2π(1−cosσ) | radius ≤ 0: pdf 0; inside: all directions |
 //! | sphere | [`ProjectedCap`] | cosθ/Ω⊥ | radius ≤ 0, below the horizon: pdf 0; inside: the hemisphere |
-//! | triangle | [`SphericalTriangle`] | 1/Ω | edge-on, zero area, point on a vertex: pdf 0 |
+//! | triangle | [`SphericalTriangle`] | 1/Ω | point in the plane or on a vertex, zero area: pdf 0 |
 //! | parallelogram | [`SphericalParallelogram`] | 1/Ω | as the triangle |
 //!
 //! Solid angles Ω in steradians; Ω⊥ projected on the surface at the viewpoint, above its horizon, at most π.

@@ -13,71 +13,71 @@ macro_rules! vector {
         }
         impl<R: Real> $name<R> {
             /// From components.
-            #[inline]
+            #[inline(always)]
             pub const fn new($($axis: R),+) -> Self {
                 Self { $($axis),+ }
             }
             /// One vector in every lane.
-            #[inline]
+            #[inline(always)]
             pub fn splat(v: $name<R::Scalar>) -> Self {
                 Self { $($axis: R::splat(v.$axis)),+ }
             }
             /// Lane `i`. Panics past the last lane.
-            #[inline]
+            #[inline(always)]
             pub fn lane(self, i: usize) -> $name<R::Scalar> {
                 $name { $($axis: self.$axis.lane(i)),+ }
             }
             /// `yes` where the mask is true, `no` elsewhere.
-            #[inline]
+            #[inline(always)]
             pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
                 Self { $($axis: R::select(mask, yes.$axis, no.$axis)),+ }
             }
             /// `self * scale + other`.
-            #[inline]
+            #[inline(always)]
             pub fn mul_add(self, scale: R, other: Self) -> Self {
                 Self { $($axis: self.$axis.mul_add(scale, other.$axis)),+ }
             }
             /// Squared length.
-            #[inline]
+            #[inline(always)]
             pub fn length_squared(self) -> R {
                 self.dot(self)
             }
             /// Length; 0 for vectors so short that the square underflows.
-            #[inline]
+            #[inline(always)]
             pub fn length(self) -> R {
                 self.length_squared().sqrt()
             }
         }
         impl<R: Real> Add for $name<R> {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn add(self, o: Self) -> Self {
                 Self { $($axis: self.$axis + o.$axis),+ }
             }
         }
         impl<R: Real> AddAssign for $name<R> {
-            #[inline]
+            #[inline(always)]
             fn add_assign(&mut self, o: Self) {
                 *self = *self + o;
             }
         }
         impl<R: Real> Sub for $name<R> {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn sub(self, o: Self) -> Self {
                 Self { $($axis: self.$axis - o.$axis),+ }
             }
         }
         impl<R: Real> Mul<R> for $name<R> {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn mul(self, s: R) -> Self {
                 Self { $($axis: self.$axis * s),+ }
             }
         }
         impl<R: Real> Neg for $name<R> {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn neg(self) -> Self {
                 Self { $($axis: -self.$axis),+ }
             }
@@ -95,7 +95,7 @@ vector!(
 
 impl<R: Real> Vec2<R> {
     /// Inner product.
-    #[inline]
+    #[inline(always)]
     pub fn dot(self, o: Self) -> R {
         self.x.mul_add(o.x, self.y * o.y)
     }
@@ -103,12 +103,12 @@ impl<R: Real> Vec2<R> {
 
 impl<R: Real> Vec3<R> {
     /// Inner product.
-    #[inline]
+    #[inline(always)]
     pub fn dot(self, o: Self) -> R {
         self.x.mul_add(o.x, self.y.mul_add(o.y, self.z * o.z))
     }
     /// Outer product; each component is good to 1.5 ulp of itself, however nearly parallel the factors are.
-    #[inline]
+    #[inline(always)]
     pub fn cross(self, o: Self) -> Self {
         Self {
             x: difference_of_products(self.y, o.z, self.z, o.y),
@@ -117,13 +117,13 @@ impl<R: Real> Vec3<R> {
         }
     }
     /// Unit vector; lanes whose squared length is 0 become the zero vector.
-    #[inline]
+    #[inline(always)]
     pub fn normalize(self) -> Self {
         let squared = self.length_squared();
         self * rsqrt(squared).keep(squared.gt(R::lit(0.0)))
     }
     /// `|self|² − r²` as if computed in twice the working precision and rounded once.
-    #[inline]
+    #[inline(always)]
     pub fn length_squared_minus_square(self, r: R) -> R {
         let square = |a: R| {
             let p = a * a;
@@ -136,7 +136,7 @@ impl<R: Real> Vec3<R> {
         s + ((e1 + e2 + e3) + ((ex - eq) + (ey + ez)))
     }
     /// Largest magnitude of a component.
-    #[inline]
+    #[inline(always)]
     pub fn max_abs(self) -> R {
         self.x.abs().max(self.y.abs()).max(self.z.abs())
     }
@@ -158,7 +158,7 @@ impl<R: Real> Frame<R> {
     ///
     /// Orthonormal to 2.4e−7 for any unit `n`, at `n.z = −1` too. Source: Duff et al., "Building an Orthonormal Basis,
     /// Revisited", JCGT 6(1), 2017, listing 3.
-    #[inline]
+    #[inline(always)]
     pub fn new(n: Vec3<R>) -> Self {
         let sign = R::lit(1.0).copysign(n.z);
         let a = R::lit(-1.0) / (sign + n.z);
@@ -170,17 +170,17 @@ impl<R: Real> Frame<R> {
         }
     }
     /// One frame in every lane.
-    #[inline]
+    #[inline(always)]
     pub fn splat(f: Frame<R::Scalar>) -> Self {
         Self { s: Vec3::splat(f.s), t: Vec3::splat(f.t), n: Vec3::splat(f.n) }
     }
     /// From local coordinates to the frame's space.
-    #[inline]
+    #[inline(always)]
     pub fn to_world(&self, v: Vec3<R>) -> Vec3<R> {
         self.s.mul_add(v.x, self.t.mul_add(v.y, self.n * v.z))
     }
     /// From the frame's space to local coordinates.
-    #[inline]
+    #[inline(always)]
     pub fn to_local(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(v.dot(self.s), v.dot(self.t), v.dot(self.n))
     }

@@ -402,7 +402,9 @@ pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
     let point = excess / rounding(s, ULP);
     assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.sighting[3], wide.sighting[3]);
-    let excess = (d - e).abs() - 4.0 * step(&|o| (o.sighting[3] - e).abs());
+    // the distance is along the direction that was drawn: it moves by as many steps
+    let steps = s.tolerance().steps.max(4.0);
+    let excess = (d - e).abs() - steps * step(&|o| (o.sighting[3] - e).abs());
     let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
     assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d} for {e}: {distance:e} units");
     point.max(distance)

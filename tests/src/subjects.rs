@@ -7,5 +7,5 @@ mod round;
 pub use flat::{AreaTriangle, Parallelogram, Triangle};
 pub use projected::ProjectedCap;
 pub use round::{
-    Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, off_the_sphere,
+    Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };

@@ -23,7 +23,8 @@ pub struct Tolerance {
     pub point: f64,
     /// Besides, what so many steps of 2⁻²⁴ in `u` do to the point: for shapes where Ω and u₀Ω, which are rounded, decide that much.
     pub steps: f64,
-    /// Distance, f32 against f64, relative; besides 4 steps, since a sphere's distance has an infinite slope at its limb.
+    /// Distance, f32 against f64, relative; besides 4 steps, since a sphere's distance has an infinite slope at its limb, or as many
+    /// as the point may move by.
     pub distance: f64,
     /// Density against truth, relative; times the shape's condition.
     pub density: f64,

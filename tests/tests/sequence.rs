@@ -5,6 +5,10 @@ use etendue::{Uint, Vec2, f32x8, u32x8};
 use etendue_tests::stats;
 use etendue_tests::tolerances::SIGNIFICANCE;
 
+/// What a counter counts, and what it leads to: one point; or two points or cells that it leads to.
+type Counted<'a, T> = (&'a str, &'a dyn Fn(u32) -> T);
+type Neighbours<'a, T> = Counted<'a, (T, T)>;
+
 fn pair(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [f64; 2] {
     let u: Vec2<f32> = sequence.pair(pixel, sample, dimension);
     assert!((0.0..1.0).contains(&u.x) && (0.0..1.0).contains(&u.y), "{u:?}");
@@ -43,11 +47,11 @@ fn packets_are_scalars() {
 #[test]
 fn independent_marginals() {
     // along samples, pixels, dimensions and seeds
-    let along: [(&str, fn(u32) -> [f64; 2]); 4] = [
-        ("samples", |i| pair(&Independent::new(1), 17, i, 0)),
-        ("pixels", |i| pair(&Independent::new(1), i, 3, 1)),
-        ("dimensions", |i| pair(&Independent::new(1), 17, 3, i)),
-        ("seeds", |i| pair(&Independent::new(u64::from(i) << (i % 33)), 17, 3, 0)),
+    let along: [Counted<'_, [f64; 2]>; 4] = [
+        ("samples", &|i| pair(&Independent::new(1), 17, i, 0)),
+        ("pixels", &|i| pair(&Independent::new(1), i, 3, 1)),
+        ("dimensions", &|i| pair(&Independent::new(1), 17, 3, i)),
+        ("seeds", &|i| pair(&Independent::new(u64::from(i) << (i % 33)), 17, 3, 0)),
     ];
     for (name, f) in along {
         let n = 1 << 18;
@@ -79,7 +83,7 @@ fn neighbours_are_not_correlated() {
     let n = 1 << 17;
     let at =
         |seed: u64, pixel: u32, sample: u32, dimension: u32| pair(&Independent::new(seed), pixel, sample, dimension);
-    let neighbours: [(&str, &dyn Fn(u32) -> ([f64; 2], [f64; 2])); 6] = [
+    let neighbours: [Neighbours<'_, [f64; 2]>; 6] = [
         ("pixels", &|i| (at(1, i, 0, 0), at(1, i + 1, 0, 0))),
         ("rows of pixels", &|i| (at(1, i, 0, 0), at(1, i + 1920, 0, 0))),
         ("samples", &|i| (at(1, 9, i, 0), at(1, 9, i + 1, 0))),
@@ -163,7 +167,7 @@ fn permutations_are_uniform_and_independent() {
         };
         let n = 40_000;
         // where the first index goes, and the last; over pixels, replicates and dimensions
-        let over: [(&str, &dyn Fn(u32) -> (usize, usize)); 4] = [
+        let over: [Neighbours<'_, usize>; 4] = [
             ("pixels", &|i| (cell(i, 0, 0, 0), cell(i, 0, 0, count - 1))),
             ("replicates", &|i| (cell(3, i, 0, 0), cell(3, i, 0, 1 % count))),
             ("dimensions", &|i| (cell(3, 0, i, 0), cell(3, 0, i, count / 2))),

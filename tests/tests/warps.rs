@@ -4,7 +4,7 @@ use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
     AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, ProjectedCap, Triangle,
-    UniformHemisphere, UniformSphere,
+    UniformHemisphere, UniformSphere, nearest_hit,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -194,5 +194,14 @@ fn contact() {
             let solid_angle = f64::from(Cap::prepare::<f32>(&[cap]).solid_angle());
             assert!((solid_angle - omega * core::f64::consts::PI).abs() < 1e-6, "{cap:?} {solid_angle}");
         }
+    }
+}
+
+/// The distance to a sphere is that of its near side.
+#[test]
+fn spheres_are_hit_in_front() {
+    let square = domain::square(200, 7);
+    for (_, cap) in domain::caps(3, 17) {
+        square.iter().for_each(|&u| nearest_hit(&cap, u));
     }
 }

@@ -18,7 +18,7 @@ pub struct SphericalParallelogram<R> {
 
 impl<R: Real> SphericalParallelogram<R> {
     /// For the corners p, p+u, p+u+v, p+v, with p relative to the point.
-    #[inline]
+    #[inline(always)]
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (a, b, c) = (p + u, p + u + v, p + v);
         Self {
@@ -28,30 +28,30 @@ impl<R: Real> SphericalParallelogram<R> {
         }
     }
     /// Prepared for one point: the same in every lane.
-    #[inline]
+    #[inline(always)]
     pub fn splat(s: SphericalParallelogram<R::Scalar>) -> Self {
         Self { first: SphericalTriangle::splat(s.first), second: SphericalTriangle::splat(s.second) }
     }
     /// Solid angle in steradians, in [0, 2π].
-    #[inline]
+    #[inline(always)]
     pub fn solid_angle(&self) -> R {
         self.first.solid_angle() + self.second.solid_angle()
     }
     /// The density of every direction that hits the parallelogram, 1/Ω; 0 where Ω is 0.
-    #[inline]
+    #[inline(always)]
     pub fn density(&self) -> R {
         let solid_angle = self.solid_angle();
         let some = solid_angle.gt(R::lit(1e-37));
         (R::lit(1.0) / R::select(some, solid_angle, R::lit(1.0))).keep(some)
     }
     /// True where the point is on the side to which the normal u×v points.
-    #[inline]
+    #[inline(always)]
     pub fn in_front(&self) -> R::Mask {
         // both triangles run p+u → p → p+u+v, which is the other way round
         !self.first.in_front()
     }
     /// Which triangle, and `u` within it.
-    #[inline]
+    #[inline(always)]
     fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>) {
         let (one, zero) = (R::lit(1.0), R::lit(0.0));
         let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
@@ -63,7 +63,7 @@ impl<R: Real> SphericalParallelogram<R> {
         (SphericalTriangle::select(first, &self.first, &self.second), Vec2::new(x, u.y))
     }
     /// The direction for `u` and the distance to the parallelogram along it.
-    #[inline]
+    #[inline(always)]
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
         let (triangle, u) = self.branch(u);
         triangle.sight(u)
@@ -72,18 +72,18 @@ impl<R: Real> SphericalParallelogram<R> {
 
 impl<R: Real> Warp<R> for SphericalParallelogram<R> {
     type Point = Vec3<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let (triangle, u) = self.branch(u);
         triangle.sample(u)
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         let (first, second) = (&self.first, &self.second);
         let inside = first.within_v0_v1(w) & first.within_v2_v0(w) & second.within_v2_v0(w) & second.within_v1_v2(w);
         self.density().keep(inside & first.ahead(w))
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
         let first = self.second.beyond_v0_v1(w);

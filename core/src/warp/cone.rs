@@ -14,7 +14,7 @@ const SLACK: f64 = 4.0 / 16_777_216.0;
 /// - Domain: u in [0, 1)²; h in [0, 2].
 /// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
 /// - Degenerate: h = 0 gives +z and pdf 0.
-/// - Greatest error: pdf 2e−7 relative at every size.
+/// - Greatest error: pdf 1.2e−7 relative, direction 1.8e−7 of the cone's width, at every size.
 /// - Source: the inverse of the cap's distribution function, in terms of 1−cosθ.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cone<R> {
@@ -24,17 +24,17 @@ pub struct Cone<R> {
 
 impl<R: Real> Cone<R> {
     /// One cone in every lane.
-    #[inline]
+    #[inline(always)]
     pub fn splat(c: Cone<R::Scalar>) -> Self {
         Self { one_minus_cos: R::splat(c.one_minus_cos) }
     }
     /// Solid angle 2πh in steradians.
-    #[inline]
+    #[inline(always)]
     pub fn solid_angle(&self) -> R {
         R::lit(2.0 * core::f64::consts::PI) * self.one_minus_cos
     }
     /// The density inside: 1/(2πh), or 0 for an empty cone.
-    #[inline]
+    #[inline(always)]
     pub fn density(&self) -> R {
         let h = self.one_minus_cos;
         // a subnormal h has no finite reciprocal
@@ -42,7 +42,7 @@ impl<R: Real> Cone<R> {
         (R::lit(INV_TWO_PI) / R::select(some, h, R::lit(1.0))).keep(some)
     }
     /// Is a direction at `one_minus_cos` from the axis inside, give or take the rounding of the direction?
-    #[inline]
+    #[inline(always)]
     pub fn contains(&self, one_minus_cos: R) -> R::Mask {
         let h = self.one_minus_cos;
         // (σ + ε)²/2 = σ²/2 + σε + ε²/2
@@ -52,7 +52,7 @@ impl<R: Real> Cone<R> {
 }
 
 /// 1−cosθ of a unit vector's angle to +z: from its distance to the axis in front, from z behind.
-#[inline]
+#[inline(always)]
 fn one_minus_z<R: Real>(w: Vec3<R>) -> R {
     let one = R::lit(1.0);
     let front = w.x.mul_add(w.x, w.y * w.y) / (one + w.z.abs());
@@ -61,7 +61,7 @@ fn one_minus_z<R: Real>(w: Vec3<R>) -> R {
 
 impl<R: Real> Warp<R> for Cone<R> {
     type Point = Vec3<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let h = self.one_minus_cos;
         let k = u.x * h;
@@ -71,11 +71,11 @@ impl<R: Real> Warp<R> for Cone<R> {
         let (s, c) = u.y.sin_cos_turns();
         Vec3::new(sin * c, sin * s, R::lit(1.0) - k)
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.density().keep(self.contains(one_minus_z(w)))
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let h = self.one_minus_cos;
         let u = one_minus_z(w) / R::select(h.gt(R::lit(0.0)), h, R::lit(1.0));
@@ -90,17 +90,17 @@ macro_rules! whole_cone {
         pub struct $name;
         impl<R: Real> Warp<R> for $name {
             type Point = Vec3<R>;
-            #[inline]
+            #[inline(always)]
             fn sample(&self, u: Vec2<R>) -> Vec3<R> {
                 Cone { one_minus_cos: R::lit($h) }.sample(u)
             }
-            #[inline]
+            #[inline(always)]
             fn pdf(&self, w: Vec3<R>) -> R {
                 // the whole sphere holds every direction; the hemisphere ends at the horizon, exactly
                 let inside = w.z.ge(R::lit(0.0)) | R::Mask::splat($h > 1.5);
                 R::lit(INV_TWO_PI / $h).keep(inside)
             }
-            #[inline]
+            #[inline(always)]
             fn invert(&self, w: Vec3<R>) -> Vec2<R> {
                 Cone { one_minus_cos: R::lit($h) }.invert(w)
             }

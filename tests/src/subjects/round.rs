@@ -255,9 +255,21 @@ impl Subject for Cap {
     }
 }
 
-/// The point of the sphere that `sight` reports lies on it: returns the distance from the surface in units of the radius.
-#[must_use]
-pub fn off_the_sphere<R: Real>(cap: &Cap, sighting: &Sighting<R>, lane: usize) -> f64 {
-    let point = sighting.direction.at(lane).map(|x| x * sighting.distance.lane_f64(lane));
-    length(oracle::sub(point, wide(cap.center))) / f64::from(cap.radius) - 1.0
+/// **Seen**: the point that `sight` reports lies on the sphere, and from outside on its near side: no farther than the tangent,
+/// √(d²−R²). Both roots lie on the sphere; only this tells them apart.
+pub fn nearest_hit(cap: &Cap, u: [f32; 2]) {
+    let sighting = Cap::prepare::<f64>(&[*cap]).sight(Coordinates::gather(&[[f64::from(u[0]), f64::from(u[1]), 0.0]]));
+    let (center, radius) = (wide(cap.center), f64::from(cap.radius));
+    let d = length(center);
+    let point = sighting.direction.at(0).map(|x| x * sighting.distance);
+    let off = length(oracle::sub(point, center)) - radius;
+    // a dozen roundings of coordinates as large as d + R
+    let allowed = 12.0 * tolerances::ULP_F64 * (d + radius);
+    assert!(off.abs() <= allowed, "off the sphere by {off:e}, allowed {allowed:e}: {cap:?} at {u:?}");
+    if d > radius {
+        let tangent = ((d - radius) * (d + radius)).sqrt();
+        // next to the limb the two roots meet: they differ by the root of a rounding
+        let allowed = tangent + 1e-7 * radius;
+        assert!(sighting.distance <= allowed, "far side: {} beyond {tangent}: {cap:?} at {u:?}", sighting.distance);
+    }
 }
