@@ -1,6 +1,6 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
-use crate::subjects::{Cap, Cone, Parallelogram, ProjectedCap, Triangle};
+use crate::subjects::{Cap, Cone, Hexagon, Parallelogram, ProjectedCap, Triangle};
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -231,6 +231,32 @@ pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
         }
         let size = random.magnitude(1e-9, 1e-2);
         all.push(("on the axis", Cap::new([0.0, 0.0, 1.0], size as f32)));
+    }
+    all
+}
+
+/// Convex hexagons: by the semi-axes of the ellipse about them, and where its centre lies.
+#[must_use]
+pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, size, center) in [
+            ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0]),
+            ("tiny 1e-3", [1e-3, 1e-3], [0.2, 0.3, 1.0]),
+            ("close", [3.0, 2.0], [0.5, -0.3, 0.7]),
+            ("near-hemisphere", [30.0, 20.0], [1.0, 2.0, 1.0]),
+            ("grazing 1e-2", [1.0, 1.0], [3.0, 0.0, 1e-2]),
+            ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0]),
+        ] {
+            let axes = frame(&mut random);
+            let corner = |i: usize, random: &mut Random| {
+                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
+                let [x, y, z] = center;
+                narrow(combine(&axes, x + size[0] * angle.cos(), y + size[1] * angle.sin(), z))
+            };
+            all.push((name, Hexagon::new(core::array::from_fn(|i| corner(i, &mut random)))));
+        }
     }
     all
 }

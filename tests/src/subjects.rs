@@ -4,7 +4,7 @@ mod flat;
 mod projected;
 mod round;
 
-pub use flat::{AreaTriangle, Parallelogram, Triangle};
+pub use flat::{AreaTriangle, Hexagon, Parallelogram, Triangle};
 pub use projected::ProjectedCap;
 pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,

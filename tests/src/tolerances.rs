@@ -52,6 +52,9 @@ pub const TRIANGLE: Tolerance = Tolerance { point: 9.0, steps: 0.0, distance: 9.
 /// As the triangle, of which it has two.
 pub const PARALLELOGRAM: Tolerance =
     Tolerance { point: 9.0, steps: 0.0, distance: 9.0, density: 2.0, round_trip: 10.0 };
+/// As the triangle, of which it has four. u₀Ω less the sum of those before is known as two sums of solid angles are: in steps of u, twice
+/// the density's units.
+pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.0, density: 2.5, round_trip: 10.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

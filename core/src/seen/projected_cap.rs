@@ -57,13 +57,13 @@ lanewise! {
 }
 
 /// Is this double precision? There, series are longer and steps more.
-#[inline]
+#[inline(always)]
 fn double<R: Real>() -> bool {
     size_of::<R::Scalar>() > 4
 }
 
 /// Inner product as if computed in twice the working precision.
-#[inline]
+#[inline(always)]
 fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
     let product = |a: R, b: R| {
         let p = a * b;
@@ -76,14 +76,14 @@ fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
 }
 
 /// a/b, or 0 where b is not positive.
-#[inline]
+#[inline(always)]
 fn ratio<R: Real>(a: R, b: R) -> R {
     let some = b.gt(R::lit(0.0));
     (a / R::select(some, b, R::lit(1.0))).keep(some)
 }
 
 /// S(φ) = φ − sinφ cosφ for φ in [0, π/2]: ½(Φ − sinΦ) with Φ = 2φ, by its series.
-#[inline]
+#[inline(always)]
 fn segment<R: Real>(phi: R) -> R {
     const fn coefficients<const N: usize>() -> [f64; N] {
         let mut c = [2.0 / 3.0; N];
@@ -105,7 +105,7 @@ fn segment<R: Real>(phi: R) -> R {
 }
 
 /// x^⅓ for x in [2⁻⁴⁸, 20], to 1e−5: x^(5/16) and two steps of Halley's method. 0 for 0.
-#[inline]
+#[inline(always)]
 fn cube_root<R: Real>(x: R) -> R {
     let quarter = x.sqrt().sqrt();
     let mut root = quarter * quarter.sqrt().sqrt() * R::lit(0.87);
@@ -117,7 +117,7 @@ fn cube_root<R: Real>(x: R) -> R {
 }
 
 /// φ in [0, π/2] with S(φ) = `area`, and its sine and cosine.
-#[inline]
+#[inline(always)]
 fn invert_segment<R: Real>(area: R) -> (R, R) {
     // the inverse series of Φ − sinΦ, fitted to 2e−5
     let w = cube_root(area * R::lit(12.0));
@@ -207,7 +207,7 @@ struct Slice<R> {
 
 impl<R: Real> ProjectedCap<R> {
     /// For a sphere whose centre lies at `center` relative to the point, on a surface with the normal `normal`.
-    #[inline]
+    #[inline(always)]
     pub fn new(center: Vec3<R>, radius: R, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let scale = center.max_abs().max(radius.abs()).exponent_reciprocal();
@@ -285,43 +285,43 @@ impl<R: Real> ProjectedCap<R> {
     }
 
     /// Projected solid angle in [0, π]: irradiance per unit of radiance.
-    #[inline]
+    #[inline(always)]
     pub fn projected_solid_angle(&self) -> R {
         self.projected
     }
 
     /// True where the point lies strictly inside the sphere, so that it sees the inner side.
-    #[inline]
+    #[inline(always)]
     pub fn inside(&self) -> R::Mask {
         self.power.lt(R::lit(0.0))
     }
 
     /// The density of a direction that is known to hit the sphere, at a cosine to the normal: cosθ/Ω⊥.
-    #[inline]
+    #[inline(always)]
     pub fn density(&self, cos: R) -> R {
         // a subnormal Ω⊥ has no finite reciprocal
         let some = self.projected.gt(R::lit(1e-37));
         (cos.max(R::lit(0.0)) / R::select(some, self.projected, R::lit(1.0))).keep(some)
     }
 
-    #[inline]
+    #[inline(always)]
     fn whole(&self) -> R::Mask {
         self.cos_omega.ge(self.sin_sigma)
     }
 
     /// 1 − the centre of the ellipse: 1 − sinω cosσ.
-    #[inline]
+    #[inline(always)]
     fn one_minus_centre(&self) -> R {
         let one = R::lit(1.0);
         self.cos_omega * self.cos_omega / (one + self.sin_omega) + self.sin_omega * self.one_minus_cos_sigma()
     }
-    #[inline]
+    #[inline(always)]
     fn one_minus_cos_sigma(&self) -> R {
         self.sin_sigma * self.sin_sigma / (R::lit(1.0) + self.cos_sigma)
     }
 
     /// The direction for `u` in the local frame; and (cosine to the axis) − cosσ, for what is seen from outside.
-    #[inline]
+    #[inline(always)]
     fn local(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let whole = self.whole();
         let below = self.cos_omega.lt(R::lit(0.0));
@@ -342,7 +342,7 @@ impl<R: Real> ProjectedCap<R> {
     }
 
     /// Wholly above the horizon: the disk.
-    #[inline]
+    #[inline(always)]
     fn ellipse(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (r, turned) = concentric(u);
@@ -353,7 +353,7 @@ impl<R: Real> ProjectedCap<R> {
     /// At x on the ellipse's disk and height y on its rim or, by `inward` = the square of the rim's y − y², inside it.
     ///
     /// At the same x, the rim is at z = cosω cosσ − sinω sinσ x; inside, z² exceeds its square by `inward`.
-    #[inline]
+    #[inline(always)]
     fn over_the_ellipse(&self, x: R, y: R, inward: R) -> (Vec3<R>, R) {
         let zero = R::lit(0.0);
         let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * x).max(zero);
@@ -405,7 +405,7 @@ impl<R: Real> ProjectedCap<R> {
         (Vec3::new(x, y, z), beyond)
     }
     /// Width of the lune at ±t, on the unit disk.
-    #[inline]
+    #[inline(always)]
     fn width(&self, t: R) -> R {
         self.sin_theta * self.tan_theta * self.sin_omega * self.sin_omega * self.slice(t, false).width
     }
@@ -451,7 +451,7 @@ impl<R: Real> ProjectedCap<R> {
         sum * rest
     }
     /// Where single precision would leave an area beyond t of few digits: that is less than a share of 1/8 of the half.
-    #[inline]
+    #[inline(always)]
     fn ends(share: R) -> R::Mask {
         share.lt(R::lit(if double::<R>() { -1.0 } else { 0.125 }))
     }
@@ -468,7 +468,7 @@ impl<R: Real> ProjectedCap<R> {
         let root = left.max(zero).sqrt().sqrt();
         let far = one - root * root.sqrt().sqrt();
         let mut t = R::select(v.lt(R::lit(0.5)), near, near.max(far)).clamp(zero, one);
-        let steps = if double::<R>() { 7 } else { 5 };
+        let steps = if double::<R>() { 7 } else { 4 };
         for _ in 0..steps {
             let slice = self.slice(t, true);
             let mut off = slice.area - target;
@@ -485,7 +485,7 @@ impl<R: Real> ProjectedCap<R> {
     }
 
     /// The direction for `u` and the distance to the sphere along it.
-    #[inline]
+    #[inline(always)]
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
         let zero = R::lit(0.0);
         let (w, beyond) = self.local(u);
@@ -504,16 +504,16 @@ impl<R: Real> ProjectedCap<R> {
 
 impl<R: Real> Warp<R> for ProjectedCap<R> {
     type Point = Vec3<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         self.frame.to_world(self.local(u).0)
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         let moved = (w - self.axis).length_squared() * R::lit(0.5);
         self.density(w.dot(self.frame.n)).keep(self.cone.contains(moved) | self.inside())
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         let w = self.frame.to_local(w);
