@@ -45,8 +45,7 @@ pub const CAP: Tolerance = Tolerance { point: 5.0, steps: 0.0, distance: 6.0, de
 /// As the cap, in a frame about the normal. An area that is inverted is a sum of a dozen rounded terms; near the horizon, where z is a
 /// square root, that is worth 4 steps of u. For a lune times 1/sin²ω: the segments of circle and ellipse of which it is the
 /// difference are alike when the axis is far below.
-pub const PROJECTED_CAP: Tolerance =
-    Tolerance { point: 10.0, steps: 4.0, distance: 8.0, density: 8.0, round_trip: 14.0 };
+pub const PROJECTED_CAP: Tolerance = Tolerance { point: 7.0, steps: 4.0, distance: 8.0, density: 5.0, round_trip: 8.0 };
 /// A tangent and an arc of a dozen roundings each; times 1/sin of vertices that lie nearly opposite, and for inverses the aspect.
 pub const TRIANGLE: Tolerance = Tolerance { point: 9.0, steps: 0.0, distance: 9.0, density: 2.0, round_trip: 10.0 };
 /// As the triangle, of which it has two.

@@ -27,7 +27,7 @@ lanewise! {
     /// - Density: cosθ/Ω⊥ per steradian within the cone (and within 4 ulp beyond) and above the horizon, 0 elsewhere. From inside the
     ///   sphere: the whole hemisphere, cosθ/π.
     /// - Degenerate: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` gives some unit vector.
-    /// - Greatest error: see `tests/src/tolerances.rs`.
+    /// - Greatest error: Ω⊥ 3e−7 relative (a thin lune: times 3 cosω/(sinσ−|cosω|)); direction 4e−7, besides 4 steps of 2⁻²⁴ in u.
     /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two maps of
     ///   the cut cap and the forms without cancellation are derived here.
     ProjectedCap {
