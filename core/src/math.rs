@@ -60,7 +60,7 @@ pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
 
 /// Horner's rule with `mul_add`, coefficients from the constant term up.
 #[inline(always)]
-fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
+pub(crate) fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
     let mut sum = R::lit(coefficients[N - 1]);
     for &c in coefficients[..N - 1].iter().rev() {
         sum = sum.mul_add(x, R::lit(c));

@@ -17,6 +17,7 @@ mod triangle;
 
 pub use cone::{Cone, UniformHemisphere, UniformSphere};
 pub use disk::{ConcentricDisk, PolarDisk};
+pub(crate) use disk::{concentric, invert_concentric};
 pub use hemisphere::CosineHemisphere;
 pub use triangle::AreaTriangle;
 

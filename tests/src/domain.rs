@@ -1,6 +1,6 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
-use crate::subjects::{Cap, Cone, Parallelogram, Rectangle, Triangle};
+use crate::subjects::{Cap, Cone, Hexagon, Parallelogram, ProjectedCap, Rectangle, Triangle};
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -310,6 +310,77 @@ pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
         }
         let size = random.magnitude(1e-9, 1e-2);
         all.push(("on the axis", Cap::new([0.0, 0.0, 1.0], size as f32)));
+    }
+    all
+}
+
+/// Convex hexagons: by the semi-axes of the ellipse about them, and where its centre lies.
+#[must_use]
+pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, size, center) in [
+            ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0]),
+            ("tiny 1e-3", [1e-3, 1e-3], [0.2, 0.3, 1.0]),
+            ("close", [3.0, 2.0], [0.5, -0.3, 0.7]),
+            ("near-hemisphere", [30.0, 20.0], [1.0, 2.0, 1.0]),
+            ("grazing 1e-2", [1.0, 1.0], [3.0, 0.0, 1e-2]),
+            ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0]),
+        ] {
+            let axes = frame(&mut random);
+            let corner = |i: usize, random: &mut Random| {
+                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
+                let [x, y, z] = center;
+                narrow(combine(&axes, x + size[0] * angle.cos(), y + size[1] * angle.sin(), z))
+            };
+            all.push((name, Hexagon::new(core::array::from_fn(|i| corner(i, &mut random)))));
+        }
+    }
+    all
+}
+
+/// Spheres over a horizon, of every regime: by ratio of radius to distance, and cosine from normal to axis (in units of that ratio if small).
+#[must_use]
+pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, ratio, cos) in [
+            ("ordinary", 0.3, 0.8),
+            ("tiny 1e-6", 1e-6, 0.8),
+            ("large, whole", 0.9, 0.95),
+            ("nearly tangent to the horizon", 0.3, 0.3001),
+            ("nearly tangent from below", 0.3, 0.2999),
+            ("tiny, over the horizon", 1e-6, 3e-6),
+            ("cut", 0.5, 0.3),
+            ("cut, large", 0.95, 0.6),
+            ("cut, nearly touching", 0.99999, 0.5),
+            ("cut, tiny 1e-3", 1e-3, 4e-4),
+            ("cut, tiny 1e-6", 1e-6, 4e-7),
+            ("axis near the horizon", 0.4, 1e-5),
+            ("axis below", 0.5, -0.2),
+            ("axis below, large", 0.9, -0.5),
+            ("axis below, tiny 1e-3", 1e-3, -4e-4),
+            ("axis below, tiny 1e-6", 1e-6, -4e-7),
+            ("sliver of a lune", 0.5, -0.45),
+            ("axis far below, large", 0.95, -0.8),
+        ] {
+            let a = frame(&mut random);
+            let center = narrow(combine(&a, f64::sqrt(1.0 - cos * cos), 0.0, cos));
+            all.push((name, ProjectedCap::new(center, ratio as f32, narrow(a[2]))));
+        }
+        let normal = narrow(random.direction());
+        // exactly: beside the normal by rounding alone, the azimuth is that of the rounding
+        all.push((
+            "along the normal",
+            ProjectedCap::new([0.0, 0.0, 3.0], random.range(0.1, 3.0) as f32, [0.0, 0.0, 1.0]),
+        ));
+        let beside = [1e-4, 3e-4, 1.0].map(|x: f32| x * random.range(0.5, 1.0) as f32);
+        all.push(("nearly along the normal", ProjectedCap::new(beside, 0.3, [0.0, 0.0, 1.0])));
+        all.push(("inside", ProjectedCap::new(narrow(random.direction()), 1.5, normal)));
+        let about = [0.3, 0.1, 1e-7].map(|x: f32| x * random.range(-1.0, 1.0) as f32);
+        all.push(("horizon of coordinates", ProjectedCap::new(about, 1e-3, [0.0, 0.0, 1.0])));
     }
     all
 }

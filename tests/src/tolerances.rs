@@ -42,6 +42,10 @@ pub const CONE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, d
 pub const COSINE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
 /// A cone in a frame that is orthonormal to 4 units.
 pub const CAP: Tolerance = Tolerance { point: 5.0, steps: 0.0, distance: 6.0, density: 3.0, round_trip: 7.0 };
+/// As the cap, in a frame about the normal. An area that is inverted is a sum of a dozen rounded terms; near the horizon, where z is a
+/// square root, that is worth 4 steps of u. For a lune times 1/sin²ω: the segments of circle and ellipse of which it is the
+/// difference are alike when the axis is far below.
+pub const PROJECTED_CAP: Tolerance = Tolerance { point: 7.0, steps: 4.0, distance: 8.0, density: 5.0, round_trip: 8.0 };
 /// A tangent and an arc of a dozen roundings each; times 1/sin of vertices that lie nearly opposite, and for inverses the aspect: 9 units
 /// at the most in the tests' regimes; near a hemisphere fuzzing has seen a distance off by 14. The density has three reciprocal lengths of
 /// three roundings each, four products, an arc tangent and a quotient: √17 of them.
@@ -51,6 +55,9 @@ pub const PARALLELOGRAM: Tolerance = TRIANGLE;
 /// As the triangle, but that x follows from u₀Ω, where both Ω and the product are rounded: everywhere, by so many steps. Ω has lengths for
 /// edges, which are roots.
 pub const RECTANGLE: Tolerance = Tolerance { point: 9.0, steps: 8.0, distance: 9.0, density: 3.0, round_trip: 10.0 };
+/// As the triangle, of which it has four. u₀Ω less the sum of those before is known as two sums of solid angles are: in steps of u, twice
+/// the density's units.
+pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.0, density: 2.5, round_trip: 10.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

@@ -3,8 +3,8 @@
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
-    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, Rectangle, Triangle,
-    UniformHemisphere, UniformSphere, nearest_hit,
+    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Hexagon, Parallelogram, PolarDisk, ProjectedCap,
+    Rectangle, Triangle, UniformHemisphere, UniformSphere, nearest_hit,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -130,6 +130,14 @@ fn sphere_cap() {
     all(&domain::caps(3, 11), 200);
 }
 #[test]
+fn spherical_polygon() {
+    all(&domain::hexagons(3, 15), 60);
+}
+#[test]
+fn projected_cap() {
+    all(&domain::projected_caps(3, 14), 100);
+}
+#[test]
 fn spherical_triangle() {
     all(&domain::triangles(4, 12), 60);
 }
@@ -159,6 +167,8 @@ fn any_parameters_are_survived() {
         laws::any_bits(&Triangle::by_edges(a, b, c), u);
         laws::any_bits(&Parallelogram::new(a, b, c), u);
         laws::any_bits(&Cap::new(a, b[0]), u);
+        laws::any_bits(&ProjectedCap::new(a, b[0], c), u);
+        laws::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
         laws::any_bits(&Cone { one_minus_cos: b[0].clamp(0.0, 2.0) }, u);
     }
 }

@@ -9,7 +9,7 @@ const INV_PI: f64 = core::f64::consts::FRAC_1_PI;
 ///
 /// With a = 2u₀−1, b = 2u₁−1 (both exact): r is the one of larger magnitude, φ = π/4·b/a or π/2 − π/4·a/b.
 #[inline]
-pub(super) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
+pub(crate) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
     let (one, two) = (R::lit(1.0), R::lit(2.0));
     let (a, b) = (two.mul_add(u.x, -one), two.mul_add(u.y, -one));
     let first = a.abs().gt(b.abs());
@@ -22,7 +22,7 @@ pub(super) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
 
 /// Inverse of the concentric map for the point (x, y) at radius r ≥ 0.
 #[inline]
-pub(super) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
+pub(crate) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
     let first = p.x.abs().gt(p.y.abs());
     let (major, minor) = (R::select(first, p.x, p.y), R::select(first, p.y, p.x));
     let signed = r.copysign(major);
