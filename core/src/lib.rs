@@ -49,5 +49,5 @@ pub mod warp;
 pub use light::{LightSample, Parallelogram, Sphere, Triangle};
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};
-pub use warp::Warp;
+pub use warp::{Warp, Warp1};
 pub use wide::{f32x4, f32x8, f64x4, u32x4, u32x8};

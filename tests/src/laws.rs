@@ -81,6 +81,14 @@ pub trait Subject: Copy + Debug {
     }
     /// Greatest and least diameter: distances between points.
     fn extent(&self) -> [f64; 2];
+    /// Greatest distance of a point from the origin.
+    fn radius(&self) -> f64 {
+        1.0
+    }
+    /// Does some `u` of the grid map near the point? Not in tails of less than 2⁻²⁴.
+    fn reachable(&self, _point: V3) -> bool {
+        true
+    }
     /// Coordinates of a point are rounded in units of `ULP` × this: 1 in general, the extent where the shape lies about an axis.
     fn granularity(&self) -> f64 {
         1.0
@@ -158,7 +166,7 @@ fn sample_at<S: Subject>(s: &S, u: [f64; 2]) -> V3 {
     S::prepare::<f64>(&[*s]).sample(Vec2::new(u[0], u[1])).at(0)
 }
 
-/// **Total**: finite for any parameters; pdf ≥ 0; points within the unit ball; the inverse in [0, 1)², of any finite direction.
+/// **Total**: finite for any parameters; pdf ≥ 0; points no further than the radius; the inverse in [0, 1)², of any finite direction.
 pub fn total<S: Subject>(s: &S, u: [f32; 2]) {
     total_at::<S, f32>(s, u);
     total_at::<S, f64>(s, u);
@@ -169,7 +177,10 @@ fn total_at<S: Subject, R: Real>(s: &S, u: [f32; 2]) {
     let finite = seen.figures().iter().all(|x| x.is_finite());
     let closed = |u: [f64; 2]| u.iter().all(|x| (0.0..1.0).contains(x));
     assert!(finite && seen.pdf >= 0.0 && closed(seen.inverse), "not total: {s:?} at {u:?}: {seen:?}");
-    assert!(length(seen.point) <= 1.0 + 8.0 * ULP, "not a unit vector: {s:?} at {u:?}: {seen:?}");
+    assert!(
+        length(seen.point) <= s.radius() * (1.0 + 8.0 * ULP),
+        "not a unit vector, or too far: {s:?} at {u:?}: {seen:?}"
+    );
     for w in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-0.6, 0.8, -0.0], [1e-30, -1e-42, 1.0]] {
         let point = S::Point::<R>::gather(&[w]);
         let (pdf, inverse) = (warp.pdf(point).lane_f64(0), warp.invert(point).at(0));
@@ -293,6 +304,9 @@ pub fn onto<S: Subject>(s: &S, st: [f64; 2]) -> f64 {
     let warp = S::prepare::<f32>(&[*s]);
     let point = S::Point::<f32>::gather(&[w]);
     let inverse = warp.invert(point).at(0);
+    if !s.reachable(point.at(0)) {
+        return 0.0;
+    }
     points_agree(s, point.at(0), [inverse[0], inverse[1]], s.tolerance().round_trip * rounding(s, ULP))
         / rounding(s, ULP)
 }

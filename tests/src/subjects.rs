@@ -1,9 +1,11 @@
 //! The warps under test, with what is known about each from elsewhere.
 
 mod flat;
+mod line;
 mod round;
 
-pub use flat::{AreaTriangle, Parallelogram, Triangle};
+pub use flat::{AreaTriangle, LowDistortionTriangle, Parallelogram, Triangle};
+pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
 pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };
