@@ -36,6 +36,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod discrete;
 pub mod estimate;
 mod interop;
 pub mod light;
