@@ -10,6 +10,7 @@
 //! | [`CosineHemisphere`] | directions, z ≥ 0 | z/π | concentric |
 //! | [`AreaTriangle`] | barycentrics of a triangle | 2 | per unit of barycentric area |
 //! | [`LowDistortionTriangle`] | the same | 2 | keeps strata compact; cheaper |
+//! | [`GgxVisibleNormals`] | normals of a microsurface | D_v | anisotropic; reflected density too |
 //! | [`Bilinear`] | unit square | bilinear in the point | for textured or tilted emitters |
 //!
 //! On a line, as [`Warp1`]:
@@ -33,6 +34,7 @@ mod hemisphere;
 mod linear;
 mod normal;
 mod triangle;
+mod visible_normals;
 
 pub use bilinear::Bilinear;
 pub use cone::{Cone, UniformHemisphere, UniformSphere};
@@ -42,6 +44,7 @@ pub use hemisphere::CosineHemisphere;
 pub use linear::{Linear, Tent};
 pub use normal::Normal;
 pub use triangle::{AreaTriangle, LowDistortionTriangle};
+pub use visible_normals::GgxVisibleNormals;
 
 use crate::real::Real;
 use crate::vector::Vec2;

@@ -1,6 +1,8 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
-use crate::subjects::{Bilinear, Cap, Cone, Exponential, Linear, Normal, Parallelogram, Tent, Triangle};
+use crate::subjects::{
+    Bilinear, Cap, Cone, Exponential, GgxVisibleNormals, Linear, Normal, Parallelogram, Tent, Triangle,
+};
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -186,6 +188,28 @@ pub fn bilinears() -> Vec<Case<Bilinear>> {
         ("huge units", [1e31, 2e31, 3e31, 1e30]),
     ]
     .map(|(name, corners)| (name, Bilinear { corners }))
+    .to_vec()
+}
+
+/// Microsurfaces: rough, smooth and anisotropic, from above, grazing and below.
+#[must_use]
+pub fn microsurfaces() -> Vec<Case<GgxVisibleNormals>> {
+    [
+        ("ordinary", [0.3, 0.3], [0.5, 0.2, 0.8]),
+        ("rough 1", [1.0, 1.0], [-0.3, 0.6, 0.4]),
+        ("from the normal", [0.2, 0.4], [0.0, 0.0, 1.0]),
+        ("anisotropic", [0.5, 0.1], [0.6, 0.3, 0.5]),
+        ("smooth 1e-3", [1e-3, 1e-3], [0.5, 0.2, 0.8]),
+        ("smooth 1e-6", [1e-6, 2e-6], [0.5, 0.2, 0.8]),
+        ("sliver 1e3", [1.0, 1e-3], [0.3, 0.6, 0.5]),
+        ("grazing 1e-2", [0.4, 0.4], [0.8, 0.6, 1e-2]),
+        ("grazing 1e-5", [0.4, 0.2], [0.8, -0.6, 1e-5]),
+        ("on the horizon", [0.5, 0.5], [0.0, 1.0, 0.0]),
+        ("below", [0.5, 0.4], [0.8, 0.3, -0.3]),
+        ("far below", [0.5, 0.5], [0.3, 0.0, -1.0]),
+        ("rough 10", [10.0, 5.0], [0.3, 0.2, 0.6]),
+    ]
+    .map(|(name, alpha, wi)| (name, GgxVisibleNormals { alpha, wi }))
     .to_vec()
 }
 

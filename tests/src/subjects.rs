@@ -2,10 +2,12 @@
 
 mod flat;
 mod line;
+mod normals;
 mod round;
 
 pub use flat::{AreaTriangle, LowDistortionTriangle, Parallelogram, Triangle};
 pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
+pub use normals::GgxVisibleNormals;
 pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };

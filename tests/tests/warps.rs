@@ -3,8 +3,9 @@
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
-    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Exponential, Linear, LowDistortionTriangle,
-    Normal, Parallelogram, PolarDisk, Tent, Triangle, UniformHemisphere, UniformSphere, nearest_hit,
+    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
+    LowDistortionTriangle, Normal, Parallelogram, PolarDisk, Tent, Triangle, UniformHemisphere, UniformSphere,
+    nearest_hit,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -134,6 +135,10 @@ fn bilinear() {
     all(&domain::bilinears(), 1000);
 }
 #[test]
+fn ggx_visible_normals() {
+    all(&domain::microsurfaces(), 500);
+}
+#[test]
 fn cosine_hemisphere() {
     all(&[("whole", CosineHemisphere)], 4000);
 }
@@ -183,6 +188,8 @@ fn any_parameters_are_survived() {
         laws::any_bits(&Triangle::by_edges(a, b, c), u);
         laws::any_bits(&Parallelogram::new(a, b, c), u);
         laws::any_bits(&Cap::new(a, b[0]), u);
+        laws::any_bits(&GgxVisibleNormals { alpha: [a[0], b[0]], wi: c }, u);
+        laws::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
         laws::any_bits(&Linear { a: a[0], b: b[1] }, u);
         laws::any_bits(&Tent { radius: a[0] }, u);
         laws::any_bits(&Exponential { rate: a[0] }, u);
