@@ -3,7 +3,8 @@
 use etendue::seen::{ProjectedCap, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::warp::{
-    AreaTriangle, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, Warp,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
+    LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{Parallelogram, Real, Sphere, Triangle, Uint, Vec2, Vec3};
 use std::hint::black_box;
@@ -75,6 +76,14 @@ impl<R: Real + 'static> List<R> {
             s.pair::<R>(i, R::Uint::splat(7), 1)
         });
     }
+    /// The three methods of a warp of the line.
+    fn line<W: Warp1<R> + Copy + 'static>(&mut self, name: &str, warp: W) {
+        let us: Vec<_> = self.squares.iter().map(|u| u.x).collect();
+        let points: Vec<_> = us.iter().map(|&u| warp.sample(u)).collect();
+        self.push(&format!("{name} sample"), warp, us, |w, u| w.sample(u));
+        self.push(&format!("{name} pdf"), warp, points.clone(), |w, x| w.pdf(x));
+        self.push(&format!("{name} invert"), warp, points, |w, x| w.invert(x));
+    }
     /// Something that is prepared for every sample.
     fn prepared<T>(&mut self, name: &str, compute: impl Fn(Vec3<R>, Vec2<R>) -> T + 'static) {
         let arguments: Vec<_> = self.viewpoints.iter().copied().zip(self.squares.iter().copied()).collect();
@@ -95,6 +104,13 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.warp("cosine hemisphere", CosineHemisphere);
     list.warp("cone", Cone { one_minus_cos: R::lit(0.1) });
     list.warp("area triangle", AreaTriangle);
+    list.warp("low-distortion triangle", LowDistortionTriangle);
+    list.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 4.0].map(R::lit) });
+    list.warp("GGX visible normals", GgxVisibleNormals::new(R::lit(0.4), R::lit(0.2), vector([0.6, 0.0, 0.8])));
+    list.line("linear", Linear { a: R::lit(1.0), b: R::lit(3.0) });
+    list.line("tent", Tent { radius: R::lit(2.0) });
+    list.line("exponential", Exponential { rate: R::lit(0.7) });
+    list.line("normal", Normal { mean: R::lit(0.5), sigma: R::lit(2.0) });
 
     let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
     list.warp("sphere cap", SphereCap::new(a, R::lit(0.7)));

@@ -1,6 +1,9 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
-use crate::subjects::{Cap, Cone, Hexagon, Parallelogram, ProjectedCap, Rectangle, Triangle};
+use crate::subjects::{
+    Bilinear, Cap, Cone, Exponential, GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, ProjectedCap,
+    Rectangle, Tent, Triangle,
+};
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -118,6 +121,97 @@ pub fn cones() -> Vec<Case<Cone>> {
     all.push(("sphere", Cone { one_minus_cos: 2.0 }));
     all.push(("sphere, all but a point", Cone { one_minus_cos: 2.0 - 2.0 * EPSILON }));
     all
+}
+
+/// Linear densities: flat, rising, falling, nearly flat, from and to nothing; tiny and huge units.
+#[must_use]
+pub fn linears() -> Vec<Case<Linear>> {
+    [
+        ("flat", 1.0, 1.0),
+        ("ordinary", 1.0, 3.0),
+        ("falling", 5.0, 0.5),
+        ("nearly flat", 1.0, 1.0 + 2.0 * EPSILON),
+        ("from 0", 0.0, 2.0),
+        ("to 0", 2.0, 0.0),
+        ("from almost 0", 1e-7, 1.0),
+        ("to almost 0", 1.0, 1e-7),
+        ("tiny units", 1e-30, 3e-30),
+        ("huge units", 2e31, 1e31),
+    ]
+    .map(|(name, a, b)| (name, Linear { a, b }))
+    .to_vec()
+}
+
+/// Sizes of things on the line.
+const SIZES: [(&str, f32); 7] = [
+    ("1", 1.0),
+    ("ordinary", 0.37),
+    ("tiny 1e-6", 1e-6),
+    ("tiny 1e-20", 1.3e-20),
+    ("huge 1e6", 1.7e6),
+    ("huge 1e20", 1e20),
+    ("tiny 1e-30", 1e-30),
+];
+
+/// Tents of every size.
+#[must_use]
+pub fn tents() -> Vec<Case<Tent>> {
+    SIZES.map(|(name, radius)| (name, Tent { radius })).to_vec()
+}
+
+/// Exponentials of every rate.
+#[must_use]
+pub fn exponentials() -> Vec<Case<Exponential>> {
+    SIZES.map(|(name, size)| (name, Exponential { rate: 1.0 / size })).to_vec()
+}
+
+/// Normal distributions of every size, about 0 and about means that are large and small beside σ.
+#[must_use]
+pub fn normals() -> Vec<Case<Normal>> {
+    let mut all = SIZES.map(|(name, sigma)| (name, Normal { mean: 0.0, sigma })).to_vec();
+    all.push(("mean of 3σ", Normal { mean: 0.3, sigma: 0.1 }));
+    all.push(("mean of -100σ", Normal { mean: -100.0, sigma: 1.0 }));
+    all.push(("mean of 1e-3σ", Normal { mean: 1.0, sigma: 1e3 }));
+    all
+}
+
+/// Bilinear densities: flat, ordinary, with zero corners and sides, steep, in tiny and huge units.
+#[must_use]
+pub fn bilinears() -> Vec<Case<Bilinear>> {
+    [
+        ("flat", [1.0; 4]),
+        ("ordinary", [1.0, 2.0, 0.5, 4.0]),
+        ("one corner", [0.0, 0.0, 3.0, 0.0]),
+        ("opposite corners", [1.0, 0.0, 0.0, 1.0]),
+        ("one side", [1.0, 0.0, 2.0, 0.0]),
+        ("steep", [1e-3, 1.0, 0.03, 0.01]),
+        ("tiny units", [1e-30, 2e-30, 3e-30, 4e-30]),
+        ("huge units", [1e31, 2e31, 3e31, 1e30]),
+    ]
+    .map(|(name, corners)| (name, Bilinear { corners }))
+    .to_vec()
+}
+
+/// Microsurfaces: rough, smooth and anisotropic, from above, grazing and below.
+#[must_use]
+pub fn microsurfaces() -> Vec<Case<GgxVisibleNormals>> {
+    [
+        ("ordinary", [0.3, 0.3], [0.5, 0.2, 0.8]),
+        ("rough 1", [1.0, 1.0], [-0.3, 0.6, 0.4]),
+        ("from the normal", [0.2, 0.4], [0.0, 0.0, 1.0]),
+        ("anisotropic", [0.5, 0.1], [0.6, 0.3, 0.5]),
+        ("smooth 1e-3", [1e-3, 1e-3], [0.5, 0.2, 0.8]),
+        ("smooth 1e-6", [1e-6, 2e-6], [0.5, 0.2, 0.8]),
+        ("sliver 1e3", [1.0, 1e-3], [0.3, 0.6, 0.5]),
+        ("grazing 1e-2", [0.4, 0.4], [0.8, 0.6, 1e-2]),
+        ("grazing 1e-5", [0.4, 0.2], [0.8, -0.6, 1e-5]),
+        ("on the horizon", [0.5, 0.5], [0.0, 1.0, 0.0]),
+        ("below", [0.5, 0.4], [0.8, 0.3, -0.3]),
+        ("far below", [0.5, 0.5], [0.3, 0.0, -1.0]),
+        ("rough 10", [10.0, 5.0], [0.3, 0.2, 0.6]),
+    ]
+    .map(|(name, alpha, wi)| (name, GgxVisibleNormals { alpha, wi }))
+    .to_vec()
 }
 
 /// A corner and two edges, about the given axes.

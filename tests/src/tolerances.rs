@@ -38,6 +38,20 @@ pub const DISK: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, d
 pub const AREA_TRIANGLE: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 1.0 };
 /// As the disk, with a third coordinate.
 pub const CONE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
+/// A root of a sum of products, a sum and a quotient.
+pub const LINEAR: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 3.0 };
+/// A root, a sum and a quotient; the density has two quotients.
+pub const TENT: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 3.0 };
+/// A logarithm good to 1.3e−7 of up to 16.7 means; the exponential of the density takes back the rounding of its argument.
+pub const EXPONENTIAL: Tolerance = Tolerance { point: 40.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 40.0 };
+/// A quantile good to 3.3e−7 of up to 5.42σ, and a sum.
+pub const NORMAL: Tolerance = Tolerance { point: 30.0, steps: 0.0, distance: 0.0, density: 8.0, round_trip: 30.0 };
+/// Two linear densities; x is drawn from the one at the rounded y, so that it moves as if u had moved by so many steps.
+pub const BILINEAR: Tolerance = Tolerance { point: 6.0, steps: 4.0, distance: 0.0, density: 8.0, round_trip: 6.0 };
+/// A cone, a sum that is short where a grazing view sees normals turned away from it (there a step of u turns the normal as much as
+/// rounding does), and a stretch.
+pub const VISIBLE_NORMALS: Tolerance =
+    Tolerance { point: 8.0, steps: 4.0, distance: 0.0, density: 8.0, round_trip: 8.0 };
 /// As the cone.
 pub const COSINE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
 /// A cone in a frame that is orthonormal to 4 units.

@@ -10,43 +10,54 @@ use core::fmt::{self, Debug, Formatter};
 use etendue::seen::{Sighting, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalTriangle};
 use etendue::{Real, Vec2, Vec3, warp};
 
-/// `warp::AreaTriangle`.
-#[derive(Clone, Copy, Debug)]
-pub struct AreaTriangle;
-impl Subject for AreaTriangle {
-    type Warp<R: Real> = warp::AreaTriangle;
-    type Point<R: Real> = Vec2<R>;
-    fn prepare<R: Real>(_: &[Self]) -> Self::Warp<R> {
-        warp::AreaTriangle
-    }
-    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
-        warp
-    }
-    fn tolerance(&self) -> Tolerance {
-        tolerances::AREA_TRIANGLE
-    }
-    fn density(&self, _: V3) -> f64 {
-        2.0
-    }
-    fn chart(&self, s: f64, t: f64) -> (V3, f64) {
-        ([(1.0 - s) * t, (1.0 - s) * (1.0 - t), 0.0], 1.0 - s)
-    }
-    fn locate(&self, b: V3) -> [f64; 2] {
-        let sum = b[0] + b[1];
-        [1.0 - sum, if sum > 0.0 { b[0] / sum } else { 0.0 }]
-    }
-    fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
-        let t = random.unit_f64();
-        Some(match random.word() % 3 {
-            0 => [-margin, t, 0.0],
-            1 => [t, -margin, 0.0],
-            _ => [t + margin, 1.0 - t, 0.0],
-        })
-    }
-    fn extent(&self) -> [f64; 2] {
-        [1.0, 0.7]
-    }
+macro_rules! by_area {
+    ($name:ident, $smooth:expr) => {
+        #[doc = concat!("`warp::", stringify!($name), "`.")]
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
+        impl Subject for $name {
+            type Warp<R: Real> = warp::$name;
+            type Point<R: Real> = Vec2<R>;
+            fn prepare<R: Real>(_: &[Self]) -> Self::Warp<R> {
+                warp::$name
+            }
+            fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
+                warp
+            }
+            fn tolerance(&self) -> Tolerance {
+                tolerances::AREA_TRIANGLE
+            }
+            fn density(&self, _: V3) -> f64 {
+                2.0
+            }
+            fn chart(&self, s: f64, t: f64) -> (V3, f64) {
+                ([(1.0 - s) * t, (1.0 - s) * (1.0 - t), 0.0], 1.0 - s)
+            }
+            fn locate(&self, b: V3) -> [f64; 2] {
+                let sum = b[0] + b[1];
+                [1.0 - sum, if sum > 0.0 { b[0] / sum } else { 0.0 }]
+            }
+            fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
+                let t = random.unit_f64();
+                Some(match random.word() % 3 {
+                    0 => [-margin, t, 0.0],
+                    1 => [t, -margin, 0.0],
+                    _ => [t + margin, 1.0 - t, 0.0],
+                })
+            }
+            fn extent(&self) -> [f64; 2] {
+                [1.0, 0.7]
+            }
+            fn smooth(&self, u: [f64; 2]) -> bool {
+                let smooth: fn([f64; 2]) -> bool = $smooth;
+                smooth(u)
+            }
+        }
+    };
 }
+by_area!(AreaTriangle, |_| true);
+// folded over the diagonal
+by_area!(LowDistortionTriangle, |u| (u[0] - u[1]).abs() > 0.01);
 
 /// A triangle in f64, and its vertices without rounding.
 #[derive(Clone, Copy, Debug)]
