@@ -7,13 +7,13 @@
 //!
 //! | sequence | variance: smooth, edge | gain at 16 | gain at 64 | ns: f32, f32x4, f32x8 | when |
 //! |---|---|---|---|---|---|
-//! | [`Independent`] | N⁻¹ | 1 | 1 | 3.0, 1.6, 0.8 | the yardstick; the spread of samples tells the variance |
-//! | [`LatinHypercube`] | N⁻¹, less what is a function of x or of y alone | 22, 3.5 | 25, 3.7 | 53, 28, 16 | any count, nearly additive integrands |
-//! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 37, 21, 11 | any count |
-//! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 4.4, 1.2, 0.6 | a count not known beforehand, and cheap |
-//! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 4.4, 1.2, 0.6 | a Fibonacci count; edges |
-//! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 8.3, 3.1, 1.4 | the choice wherever the count is a power of two |
-//! | [`ZOrder`] | in a pixel as [`OwenSobol`] | | | 17, 8.5, 4.3 | few samples a pixel, an image for the eye: blue noise |
+//! | [`Independent`] | N⁻¹ | 1 | 1 | 2.9, 1.6, 0.8 | the yardstick; the spread of samples tells the variance |
+//! | [`LatinHypercube`] | N⁻¹, less what is a function of x or of y alone | 22, 3.5 | 25, 3.7 | 52.3, 26.5, 13.4 | any count, nearly additive integrands |
+//! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 45.7, 20.7, 10.5 | any count |
+//! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 3.9, 1.0, 0.5 | a count not known beforehand, and cheap |
+//! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 3.9, 1.0, 0.5 | a Fibonacci count; edges |
+//! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 9.3, 3.0, 1.4 | the choice wherever the count is a power of two |
+//! | [`ZOrder`] | in a pixel as [`OwenSobol`] | | | 26.7, 8.6, 6.3 | few samples a pixel, an image for the eye: blue noise |
 //!
 //! Pairs of samples in one dimension are what these figures are of. Pairs of different dimensions are associated at random.
 //!

@@ -19,7 +19,7 @@ lanewise! {
     /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l and cosines d between the V:
     ///   tan(Ω/2) = |V₀·(E₁×E₂)| / (l₀l₁l₂ + (V₀·V₁)l₂ + (V₀·V₂)l₁ + (V₁·V₂)l₀).
     ///   With c the side v0 v1, α the angle at v0, η = u₀Ω/2 and k = tan(c/2), the point P of the far edge lies, in stereographic projection
-    ///   from opposite v1, at X = k − σ k cos(α−η)/sinα, Y = σ k sin(α−η)/sinα, σ = 2 sinη/(1−cos c). With M = X² + Y² = tan²(∠(V₁,P)/2)
+    ///   from opposite v1, at X = k − σ cos(α−η)/sinα, Y = σ sin(α−η)/sinα, σ = 2 sinη/sin c. With M = X² + Y² = tan²(∠(V₁,P)/2)
     ///   and g = 2u₁/(1+M) the direction is zV₁/l₁ + √(g(1+z)) (X, Y), z = 1 − gM, with X along the tangent towards v0. Where c is
     ///   long, M comes from P = ((a−b)(a+b) V₀/l₀ + 2b(a+bd₀₂) V₂/l₂)/|·|, a = cosη − (d₀₂+d₁₂) sinη/G₀, b = (1+d₀₁) sinη/G₀,
     ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), if that is the better conditioned; so does the distance.
@@ -44,12 +44,10 @@ lanewise! {
         apex: Vec3<R>,
         along: Vec3<R>,
         across: Vec3<R>,
-        /// sine and cosine of the angle at `v0`; 2/(1−d₀₁); tangent of half the side v0 v1, and that over tanα
-        sin_alpha: R,
-        cos_alpha: R,
+        /// cotangent of the angle at `v0`; 2/sin(side v0 v1); tangent of half that side
+        cot_alpha: R,
         stretch: R,
         tan_half: R,
-        tan_half_cot: R,
         /// sine of the side v0 v1
         sin_side: R,
         inv_l0: R,
@@ -128,8 +126,10 @@ impl<R: Real> SphericalTriangle<R> {
             let squared = n.length_squared();
             rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
         };
-        let (i01, i02) = (inverse(n01), inverse(n02));
+        let i01 = inverse(n01);
+        let (l0, l1) = (squared[0] * i0, squared[1] * i1);
         let sin_side = n01.length_squared() * i01 * i0 * i1;
+        let inv_sin_side = i01 * l0 * l1;
         // 1−d₀₁ and 1+d₀₁, the small one from the sine
         let small = sin_side * sin_side / (one + d01.abs());
         let obtuse = d01.lt(zero);
@@ -144,11 +144,10 @@ impl<R: Real> SphericalTriangle<R> {
         let towards = volume.lt(zero);
         let pole = n01 * i01;
         let across = Vec3::select(towards, -pole, pole);
-        let sin_alpha = volume.abs() * (squared[0] * i0) * i01 * i02;
-        let cos_alpha = n01.dot(n02) * i01 * i02;
-        let tan_half = (minus / g2.max(R::lit(1e-30))).sqrt();
-        let angle = sin_alpha.gt(R::lit(1e-30));
-        let tan_half_cot = (tan_half * cos_alpha / R::select(angle, sin_alpha, one)).keep(angle);
+        // sinα : cosα = |volume| l₀ : n₀₁·n₀₂
+        let opposite = volume.abs() * l0;
+        let angle = opposite.gt(R::lit(1e-37));
+        let cot_alpha = (n01.dot(n02) / R::select(angle, opposite, one)).keep(angle);
         // at a vertex all of them are 0, and so is the angle
         let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
         let solid_angle = (R::lit(2.0) * g0.atan2(g1 + g2)).keep(somewhere);
@@ -160,16 +159,13 @@ impl<R: Real> SphericalTriangle<R> {
             e1,
             e2,
             normal,
-            l1: squared[1] * i1,
+            l1,
             apex,
             along: apex.cross(pole),
             across,
-            sin_alpha,
-            cos_alpha,
-            // a side of 1e−18 and less has no finite reciprocal
-            stretch: R::lit(2.0) / R::select(minus.gt(R::lit(1e-37)), minus, one),
-            tan_half,
-            tan_half_cot,
+            cot_alpha,
+            stretch: R::lit(2.0) * inv_sin_side,
+            tan_half: minus * inv_sin_side,
             sin_side,
             inv_l0: i0,
             inv_l2: i2,
@@ -180,7 +176,7 @@ impl<R: Real> SphericalTriangle<R> {
             d12: apex.dot(v2) * i2,
             volume,
             solid_angle,
-            unit: one / scale,
+            unit: scale.exponent_reciprocal(),
         }
     }
 
@@ -200,11 +196,9 @@ impl<R: Real> SphericalTriangle<R> {
             apex: vector(yes.apex, no.apex),
             along: vector(yes.along, no.along),
             across: vector(yes.across, no.across),
-            sin_alpha: real(yes.sin_alpha, no.sin_alpha),
-            cos_alpha: real(yes.cos_alpha, no.cos_alpha),
+            cot_alpha: real(yes.cot_alpha, no.cot_alpha),
             stretch: real(yes.stretch, no.stretch),
             tan_half: real(yes.tan_half, no.tan_half),
-            tan_half_cot: real(yes.tan_half_cot, no.tan_half_cot),
             sin_side: real(yes.sin_side, no.sin_side),
             inv_l0: real(yes.inv_l0, no.inv_l0),
             inv_l2: real(yes.inv_l2, no.inv_l2),
@@ -243,13 +237,13 @@ impl<R: Real> SphericalTriangle<R> {
     fn arc(&self, u: R) -> Arc<R> {
         let zero = R::lit(0.0);
         let (s, c) = (u * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
-        // cos(α−η) and sin(α−η), times tan(side/2)/sinα
-        let (k, q) = (self.tan_half, self.tan_half_cot);
-        let (turn_cos, turn_sin) = (q.mul_add(c, k * s), k.mul_add(c, -(q * s)));
+        // cos(α−η) and sin(α−η), over sinα
+        let turn_cos = self.cot_alpha.mul_add(c, s);
+        let turn_sin = (-self.cot_alpha).mul_add(s, c);
         let stretched = s * self.stretch;
         // P opposite v1 would be at infinity; its square must fit
         let most = R::lit(1e15);
-        let x = (-stretched).mul_add(turn_cos, k).clamp(-most, most);
+        let x = (-stretched).mul_add(turn_cos, self.tan_half).clamp(-most, most);
         let y = (stretched * turn_sin).clamp(zero, most);
         let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, c] };
         // a side of more than 120° is rare: the work is done where there is one
@@ -264,7 +258,7 @@ impl<R: Real> SphericalTriangle<R> {
         let [w0, w2] = self.weights(arc.swept);
         let cos = w0.mul_add(self.g2 - one, w2 * self.d12).clamp(-one, one);
         // errors of θ: ε/sinθ from P, ε sinθ/(sinα sin(side)) from the angle
-        let better = long & ((one - cos) * (one + cos)).gt(self.sin_alpha * self.sin_side) & arc.m.gt(zero);
+        let better = long & ((one - cos) * (one + cos)).gt(self.alpha().0 * self.sin_side) & arc.m.gt(zero);
         let m = R::select(better, (one - cos) / R::select(better, one + cos, one), arc.m);
         let scale = R::select(better, (m / R::select(better, arc.m, one)).sqrt(), one);
         Arc { x: arc.x * scale, y: arc.y * scale, m, swept: arc.swept }
@@ -283,13 +277,23 @@ impl<R: Real> SphericalTriangle<R> {
         [w0 * inverse, w2 * inverse]
     }
 
+    /// Sine and cosine of the angle at v0.
+    #[inline(always)]
+    fn alpha(&self) -> (R, R) {
+        // past 1e18 the cotangent's square would not fit, and the sine is 0 to all intents
+        let cot = self.cot_alpha.clamp(R::lit(-1e18), R::lit(1e18));
+        let sin = rsqrt(cot.mul_add(cot, R::lit(1.0)));
+        (sin, cot * sin)
+    }
+
     /// The side from v1 to the far edge under the angle whose cosine and sine, in a unit of the given square, are `x` and `y`:
     /// its sine over that unit, 1−|cos| and cos, by cotθ = (cosφ cos(side) + sinφ cotα)/sin(side).
     #[inline(always)]
     fn side(&self, x: R, y: R, unit_squared: R) -> (R, R, R) {
         let one = R::lit(1.0);
-        let opposite = self.sin_alpha * self.sin_side;
-        let adjacent = (self.g2 - one).mul_add(x * self.sin_alpha, y * self.cos_alpha);
+        let (sin_alpha, cos_alpha) = self.alpha();
+        let opposite = sin_alpha * self.sin_side;
+        let adjacent = (self.g2 - one).mul_add(x * sin_alpha, y * cos_alpha);
         let squared = (opposite * opposite).mul_add(unit_squared, adjacent * adjacent);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
         let (sin, cos) = (opposite * inverse, adjacent * inverse);

@@ -276,7 +276,7 @@ impl Default for Stack {
 /// A child that is still to be visited.
 #[derive(Clone, Copy, Debug, Default)]
 struct Pending {
-    /// Index of the parent, and which of its children.
+    /// Index of the parent, and which of its children. (For occlusion: index of the node itself.)
     parent: u32,
     slot: u32,
     /// No ray enters it before this distance.
@@ -450,28 +450,28 @@ impl<P: Primitives> Tree<P> {
         let reach = limit.iter().zip(&*active).fold(X8::lit(0.0), |m, (&l, &a)| max(m, l.keep(a)));
         let reach = reach.to_array().into_iter().fold(0.0, f32::max);
         let mut height = 0;
-        let mut place = 0_usize;
+        let mut place = 0_u32;
         loop {
-            let node = &self.nodes[place];
-            let (bits, _) = traversal.enter::<false>(node, limit[0], active[0], reach);
-            each_bit(bits, |slot| {
-                stack[height] = Pending { parent: place as u32, slot: slot as u32, near: 0.0 };
-                height += 1;
-            });
-            place = loop {
-                if height == 0 {
-                    return;
-                }
-                height -= 1;
-                let Pending { parent, slot, .. } = stack[height];
-                let (node, slot) = (&self.nodes[parent as usize], slot as usize);
-                let (first, count) = (node.first[slot] as usize, usize::from(node.count[slot]));
+            let node = &self.nodes[place as usize];
+            let (mut bits, _) = traversal.enter::<false>(node, limit[0], active[0], reach);
+            let mut closed = false;
+            while bits != 0 {
+                let slot = bits.trailing_zeros() as usize & 7;
+                bits &= bits - 1;
+                let (first, count) = (node.first[slot], usize::from(node.count[slot]));
                 if count == 0 {
-                    break first;
+                    stack[height].parent = first;
+                    height += 1;
+                    continue;
                 }
-                let mut closed = false;
-                each_bit(traversal.packets(node, slot, |p| limit[p], active), |p| {
-                    let range = first..first + count;
+                let range = first as usize..first as usize + count;
+                // a single packet has just entered this very box
+                let entered = match traversal.shaft {
+                    None => 1,
+                    Some(_) => traversal.packets(node, slot, |p| limit[p], active),
+                };
+                each_bit(entered, |p| {
+                    let range = range.clone();
                     let hidden = self.primitives.occluded(range, &traversal.rays[p], active[p], limit[p], skip[p]);
                     active[p] = active[p] & !hidden;
                     closed |= !active[p].any();
@@ -479,7 +479,12 @@ impl<P: Primitives> Tree<P> {
                 if closed && !active.iter().any(|a| a.any()) {
                     return;
                 }
-            };
+            }
+            if height == 0 {
+                return;
+            }
+            height -= 1;
+            place = stack[height].parent;
         }
     }
 }
