@@ -1,9 +1,10 @@
 //! Samples, densities and inverses.
 
-use etendue::seen::{SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
+use etendue::seen::{ProjectedCap, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::warp::{
-    AreaTriangle, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, Warp,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
+    LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{Parallelogram, Real, Sphere, Triangle, Uint, Vec2, Vec3};
 use std::hint::black_box;
@@ -75,6 +76,14 @@ impl<R: Real + 'static> List<R> {
             s.pair::<R>(i, R::Uint::splat(7), 1)
         });
     }
+    /// The three methods of a warp of the line.
+    fn line<W: Warp1<R> + Copy + 'static>(&mut self, name: &str, warp: W) {
+        let us: Vec<_> = self.squares.iter().map(|u| u.x).collect();
+        let points: Vec<_> = us.iter().map(|&u| warp.sample(u)).collect();
+        self.push(&format!("{name} sample"), warp, us, |w, u| w.sample(u));
+        self.push(&format!("{name} pdf"), warp, points.clone(), |w, x| w.pdf(x));
+        self.push(&format!("{name} invert"), warp, points, |w, x| w.invert(x));
+    }
     /// Something that is prepared for every sample.
     fn prepared<T>(&mut self, name: &str, compute: impl Fn(Vec3<R>, Vec2<R>) -> T + 'static) {
         let arguments: Vec<_> = self.viewpoints.iter().copied().zip(self.squares.iter().copied()).collect();
@@ -95,9 +104,19 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.warp("cosine hemisphere", CosineHemisphere);
     list.warp("cone", Cone { one_minus_cos: R::lit(0.1) });
     list.warp("area triangle", AreaTriangle);
+    list.warp("low-distortion triangle", LowDistortionTriangle);
+    list.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 4.0].map(R::lit) });
+    list.warp("GGX visible normals", GgxVisibleNormals::new(R::lit(0.4), R::lit(0.2), vector([0.6, 0.0, 0.8])));
+    list.line("linear", Linear { a: R::lit(1.0), b: R::lit(3.0) });
+    list.line("tent", Tent { radius: R::lit(2.0) });
+    list.line("exponential", Exponential { rate: R::lit(0.7) });
+    list.line("normal", Normal { mean: R::lit(0.5), sigma: R::lit(2.0) });
 
     let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
     list.warp("sphere cap", SphereCap::new(a, R::lit(0.7)));
+    list.warp("projected cap, whole", ProjectedCap::new(a, R::lit(0.7), vector([0.0, 1.0, 0.0])));
+    list.warp("projected cap, cut", ProjectedCap::new(a, R::lit(0.7), vector([0.8, 0.6, 0.0])));
+    list.warp("projected cap, lune", ProjectedCap::new(a, R::lit(0.7), vector([0.96, 0.28, 0.0])));
     list.warp("spherical triangle", SphericalTriangle::new(a, b, c));
     list.warp("spherical parallelogram", SphericalParallelogram::new(a, b - a, c - a));
     let [corner, du, dv] = [[-1.0, 2.0, -0.5], [2.0, 0.5, 0.0], [-0.25, 1.0, 1.5]].map(vector);
@@ -105,6 +124,9 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     // a loaded value each time, so that nothing of the preparation is moved out of the loop
     let (radius, corners) = (black_box(R::lit(0.7)), black_box([a, b, c]));
     list.prepared("sphere cap new + sample", move |p, u| SphereCap::new(corners[0] - p, radius).sample(u));
+    list.prepared("projected cap new + sample", move |p, u| {
+        ProjectedCap::new(corners[0] - p, radius, Vec3::new(R::lit(0.0), R::lit(1.0), R::lit(0.0))).sample(u)
+    });
     list.prepared("spherical triangle new + sample", move |p, u| {
         SphericalTriangle::new(corners[0] - p, corners[1] - p, corners[2] - p).sample(u)
     });
@@ -120,6 +142,8 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let sphere = Sphere { center: a, radius };
     list.prepared("light sphere by area", move |p, u| sphere.by_area(p, u));
     list.prepared("light sphere by solid angle", move |p, u| sphere.by_solid_angle(p, u));
+    let up = vector([0.0, 1.0, 0.0]);
+    list.prepared("light sphere by projected solid angle", move |p, u| sphere.by_projected_solid_angle(p, up, u));
     let triangle = Triangle { v0: a, e1, e2 };
     list.prepared("light triangle by area", move |p, u| triangle.by_area(p, u));
     list.prepared("light triangle by solid angle", move |p, u| triangle.by_solid_angle(p, u));

@@ -36,6 +36,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod discrete;
 pub mod estimate;
 mod interop;
 pub mod light;
@@ -53,5 +54,5 @@ pub use light::{
 };
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};
-pub use warp::Warp;
+pub use warp::{Warp, Warp1};
 pub use wide::{f32x4, f32x8, f64x4, u32x4, u32x8};

@@ -4,17 +4,17 @@
 //! `p` different shading points. Each method is one technique. The estimator of reflected radiance is
 //! `f · L · cosθ / pdf` where `emits` holds, else 0; with a shadow ray of length `distance` along `direction`.
 //!
-//! | shape | by area | by solid angle |
-//! |---|---|---|
-//! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better |
-//! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others |
-//! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) |
-//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) |
-//! | [`Disk`] | [`by_area`](Disk::by_area) | |
-//! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | |
-//! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) |
-//! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle), or by the cosine |
-//! | [`Point`], [`Spot`], [`Directional`] | one direction: `delta` holds | |
+//! | shape | by area | by solid angle | by projected solid angle |
+//! |---|---|---|---|
+//! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better | [`by_projected_solid_angle`](Sphere::by_projected_solid_angle): for diffuse surfaces |
+//! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others | |
+//! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | |
+//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | |
+//! | [`Disk`] | [`by_area`](Disk::by_area) | | |
+//! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | | |
+//! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
+//! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle), or by the cosine | |
+//! | [`Point`], [`Spot`], [`Directional`] | one direction: `delta` holds | | |
 
 mod delta;
 mod distant;
@@ -26,7 +26,9 @@ pub use round::{Cylinder, Disk};
 
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
-use crate::seen::{Sighting, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle, lanewise};
+use crate::seen::{
+    ProjectedCap, Sighting, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle, lanewise,
+};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, UniformSphere, Warp};
 
@@ -99,6 +101,23 @@ impl<R: Real> Sphere<R> {
         let cap = SphereCap::new(self.center - p, self.radius);
         let Sighting { direction, distance } = cap.sight(u);
         LightSample { direction, distance, pdf: cap.density(), emits: !cap.inside(), delta: R::Mask::splat(false) }
+    }
+}
+
+impl<R: Real> Sphere<R> {
+    /// Uniform over the projected solid angle above the horizon of `normal`, [`ProjectedCap`]: on an unoccluded diffuse surface every
+    /// sample is worth the same. pdf 0 where nothing of the sphere is above the horizon.
+    #[inline]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let cap = ProjectedCap::new(self.center - p, self.radius, normal);
+        let Sighting { direction, distance } = cap.sight(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: cap.density(direction.dot(normal)),
+            emits: !cap.inside(),
+            delta: R::Mask::splat(false),
+        }
     }
 }
 

@@ -149,6 +149,10 @@ pub trait Real:
     /// 2⁻ᵉ where e is the exponent of `self`: a power of two that brings a finite number to [1, 4) (a subnormal one below
     /// that) and has a finite reciprocal.
     fn exponent_reciprocal(self) -> Self;
+    /// floor(log₂ self) of a positive normal number.
+    fn exponent(self) -> Self;
+    /// 2ⁿ where `self` is the integer n, from −126 (−1022 in double precision) to 127 (1023).
+    fn power_of_two(self) -> Self;
     /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
     #[inline(always)]
     fn below_one() -> Self {
@@ -167,6 +171,16 @@ pub trait Real:
     fn acos(self) -> Self;
     /// Angle of (x, y) = (`other`, `self`) in radians, in [−π, π]; 0 at the origin.
     fn atan2(self, other: Self) -> Self;
+    /// eˣ; 0 below −87.3, where it would be subnormal, and no more than e^88.3 (−708 and 709 in double precision).
+    fn exp(self) -> Self;
+    /// eˣ − 1, free of cancellation; the same limits.
+    fn exp_m1(self) -> Self;
+    /// ln(1 + x), free of cancellation; −∞ for −1 and NaN below are not promised: callers guard.
+    fn ln_1p(self) -> Self;
+    /// Φ: the probability that a standard normal variable is below `self`. The lower tail keeps its relative accuracy.
+    fn normal_cdf(self) -> Self;
+    /// Φ⁻¹ of the argument moved into [2⁻²⁵, 1 − 2⁻²⁵], so that the result is within ±5.42.
+    fn normal_quantile(self) -> Self;
 }
 
 impl Sealed for bool {}
@@ -415,6 +429,26 @@ macro_rules! polynomials {
         fn atan2(self, other: Self) -> Self {
             crate::math::atan2_f32(self, other)
         }
+        #[inline(always)]
+        fn exp(self) -> Self {
+            crate::math::exp_f32(self)
+        }
+        #[inline(always)]
+        fn exp_m1(self) -> Self {
+            crate::math::exp_m1_f32(self)
+        }
+        #[inline(always)]
+        fn ln_1p(self) -> Self {
+            crate::math::ln_1p_f32(self)
+        }
+        #[inline(always)]
+        fn normal_cdf(self) -> Self {
+            crate::math::normal_cdf_f32(self)
+        }
+        #[inline(always)]
+        fn normal_quantile(self) -> Self {
+            crate::math::normal_quantile_f32(self)
+        }
     };
 }
 
@@ -445,11 +479,45 @@ macro_rules! lane_by_lane {
         fn atan2(self, other: Self) -> Self {
             Self::from_fn(|i| libm::atan2(self.lane(i), other.lane(i)))
         }
+        #[inline(always)]
+        fn exp(self) -> Self {
+            Self::from_fn(|i| libm::exp(self.lane(i).clamp(-745.0, 709.0)))
+        }
+        #[inline(always)]
+        fn exp_m1(self) -> Self {
+            Self::from_fn(|i| libm::expm1(self.lane(i).clamp(-745.0, 709.0)))
+        }
+        #[inline(always)]
+        fn ln_1p(self) -> Self {
+            Self::from_fn(|i| libm::log1p(self.lane(i)))
+        }
+        #[inline(always)]
+        fn normal_cdf(self) -> Self {
+            Self::from_fn(|i| 0.5 * libm::erfc(-core::f64::consts::FRAC_1_SQRT_2 * self.lane(i)))
+        }
+        #[inline(always)]
+        fn normal_quantile(self) -> Self {
+            // the polynomial of single precision, and one step of Halley, which cubes its error; below the median, where
+            // Φ keeps its digits
+            let half = Self::lit(0.5);
+            let above = self.gt(half);
+            let lower = <Self as Real>::select(above, Self::lit(1.0) - self, self);
+            let lower = Real::clamp(lower, Self::lit(crate::math::LEAST_TAIL), half);
+            let z = crate::math::normal_quantile_f32(lower);
+            let refined = Self::from_fn(|i| {
+                let z = z.lane(i);
+                let excess = 0.5 * libm::erfc(-core::f64::consts::FRAC_1_SQRT_2 * z) - lower.lane(i);
+                let newton = excess * libm::sqrt(2.0 * core::f64::consts::PI) * libm::exp(0.5 * z * z);
+                z - newton / (1.0 + 0.5 * z * newton)
+            });
+            refined.negate_where(above)
+        }
     };
 }
 
 macro_rules! scalar_real {
-    ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal, $splitter:literal, $functions:ident) => {
+    ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal, $mantissa:literal, $bias:literal,
+     $splitter:literal, $functions:ident) => {
         impl Sealed for $scalar {}
         impl Real for $scalar {
             type Scalar = $scalar;
@@ -535,6 +603,16 @@ macro_rules! scalar_real {
                     .max($scalar::MIN_POSITIVE * 0.5)
             }
             #[inline(always)]
+            fn exponent(self) -> Self {
+                let integer = (1_u64 << $mantissa) as $scalar;
+                $scalar::from_bits(self.to_bits() >> $mantissa | integer.to_bits()) - (integer + $bias)
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                let integer = 1.5 * (1_u64 << $mantissa) as $scalar + $bias;
+                $scalar::from_bits((self + integer).to_bits() << $mantissa)
+            }
+            #[inline(always)]
             fn unit(bits: u32) -> Self {
                 (bits >> 8) as $scalar * (1.0 / 16_777_216.0)
             }
@@ -551,12 +629,13 @@ macro_rules! scalar_real {
         }
     };
 }
-scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, 4097.0, polynomials);
-scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 134_217_729.0, lane_by_lane);
+scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, 23, 127.0, 4097.0, polynomials);
+scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 52, 1023.0, 134_217_729.0, lane_by_lane);
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
-     $reflected:literal, $splitter:literal, $from_int:ident, $functions:ident, $to_uint:expr, $mask_uint:expr) => {
+     $reflected:literal, $mantissa:literal, $bias:literal, $splitter:literal, $from_int:ident, $functions:ident, $to_uint:expr,
+     $mask_uint:expr) => {
         impl Sealed for $packet {}
         impl Real for $packet {
             type Scalar = $scalar;
@@ -651,6 +730,17 @@ macro_rules! packet_real {
                     .fast_max($packet::splat($scalar::MIN_POSITIVE * 0.5))
             }
             #[inline(always)]
+            fn exponent(self) -> Self {
+                let integer = $packet::splat((1_u64 << $mantissa) as $scalar);
+                $packet::from_bits((self.to_bits() >> ($mantissa as u32)) | integer.to_bits())
+                    - (integer + $packet::splat($bias))
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                let integer = 1.5 * (1_u64 << $mantissa) as $scalar + $bias;
+                $packet::from_bits((self + $packet::splat(integer)).to_bits() << ($mantissa as u32))
+            }
+            #[inline(always)]
             fn unit(bits: $uint) -> Self {
                 $packet::$from_int((bits >> 8u32).cast_signed()) * $packet::splat(1.0 / 16_777_216.0)
             }
@@ -677,6 +767,8 @@ packet_real!(
     4,
     0x7f80_0000,
     0x7f00_0000,
+    23,
+    127.0,
     4097.0,
     from_i32x4,
     polynomials,
@@ -692,6 +784,8 @@ packet_real!(
     8,
     0x7f80_0000,
     0x7f00_0000,
+    23,
+    127.0,
     4097.0,
     from_i32x8,
     polynomials,
@@ -708,6 +802,8 @@ packet_real!(
     4,
     0x7ff0_0000_0000_0000,
     0x7fe0_0000_0000_0000,
+    52,
+    1023.0,
     134_217_729.0,
     from_i32x4,
     lane_by_lane,

@@ -8,18 +8,24 @@
 //! | shape | type | density | degenerate input |
 //! |---|---|---|---|
 //! | sphere | [`SphereCap`] | 1/Ω, Ω = 2π(1−cosσ) | radius ≤ 0: pdf 0; inside: all directions |
+//! | sphere | [`ProjectedCap`] | cosθ/Ω⊥ | radius ≤ 0, below the horizon: pdf 0; inside: the hemisphere |
 //! | triangle | [`SphericalTriangle`] | 1/Ω | point in the plane or on a vertex, zero area: pdf 0 |
 //! | parallelogram | [`SphericalParallelogram`] | 1/Ω | as the triangle |
 //! | rectangle | [`SphericalRectangle`] | 1/Ω | as the triangle |
+//! | convex polygon, 3 to 8 corners | [`SphericalPolygon`] | 1/Ω | as the triangle |
 //!
-//! Solid angles Ω in steradians.
+//! Solid angles Ω in steradians; Ω⊥ projected on the surface at the viewpoint, above its horizon, at most π.
 
 mod parallelogram;
+mod polygon;
+mod projected_cap;
 mod rectangle;
 mod sphere;
 mod triangle;
 
 pub use parallelogram::SphericalParallelogram;
+pub use polygon::SphericalPolygon;
+pub use projected_cap::ProjectedCap;
 pub use rectangle::SphericalRectangle;
 pub use sphere::SphereCap;
 pub use triangle::SphericalTriangle;

@@ -9,16 +9,43 @@
 //! | [`UniformSphere`] | directions | 1/(4π) | a cone |
 //! | [`CosineHemisphere`] | directions, z ≥ 0 | z/π | concentric |
 //! | [`AreaTriangle`] | barycentrics of a triangle | 2 | per unit of barycentric area |
+//! | [`LowDistortionTriangle`] | the same | 2 | keeps strata compact; cheaper |
+//! | [`GgxVisibleNormals`] | normals of a microsurface | D_v | anisotropic; reflected density too |
+//! | [`Bilinear`] | unit square | bilinear in the point | for textured or tilted emitters |
+//!
+//! On a line, as [`Warp1`]:
+//!
+//! | warp | point | density | notes |
+//! |---|---|---|---|
+//! | [`Linear`] | [0, 1) | linear between two end values | a = b too |
+//! | [`Tent`] | [−r, r] | (r − \|x\|)/r² | pixel filters |
+//! | [`Exponential`] | [0, ∞) | λ exp(−λx) | distances in a medium |
+//! | [`Normal`] | the line | Gaussian | by inverse erf: keeps strata, has an inverse |
+//!
+//! # A sphere by area
+//! A point of a sphere of radius r, uniform by area, is the centre plus r times a direction of [`UniformSphere`]; its density per unit
+//! area is that of the direction over r²: 1/(4πr²). There is no other routine for it.
 
+mod bilinear;
 mod cone;
 mod disk;
+mod exponential;
 mod hemisphere;
+mod linear;
+mod normal;
 mod triangle;
+mod visible_normals;
 
+pub use bilinear::Bilinear;
 pub use cone::{Cone, UniformHemisphere, UniformSphere};
 pub use disk::{ConcentricDisk, PolarDisk};
+pub(crate) use disk::{concentric, invert_concentric};
+pub use exponential::Exponential;
 pub use hemisphere::CosineHemisphere;
-pub use triangle::AreaTriangle;
+pub use linear::{Linear, Tent};
+pub use normal::Normal;
+pub use triangle::{AreaTriangle, LowDistortionTriangle};
+pub use visible_normals::GgxVisibleNormals;
 
 use crate::real::Real;
 use crate::vector::Vec2;
@@ -38,6 +65,20 @@ pub trait Warp<R: Real> {
     /// The `u` in [0, 1)² that `sample` maps to the point; any value in [0, 1)² for a point outside the shape.
     fn invert(&self, point: Self::Point) -> Vec2<R>;
 }
+
+/// A monotone bijection between the unit interval and a part of the line, together with its density: [`Warp`] in one dimension,
+/// under the same laws.
+pub trait Warp1<R: Real> {
+    /// The point for `u` in [0, 1); `u` up to and including 1 is tolerated.
+    fn sample(&self, u: R) -> R;
+    /// Density at a point, per unit length; 0 outside.
+    fn pdf(&self, x: R) -> R;
+    /// The `u` in [0, 1) that `sample` maps to the point; any value in [0, 1) for a point outside.
+    fn invert(&self, x: R) -> R;
+}
+
+/// The greatest finite number of single precision: magnitudes are held below it at every precision.
+pub(crate) const GREATEST: f64 = f32::MAX as f64;
 
 /// Into [0, 1 − 2⁻²⁴], the range of `u`; NaN becomes 0.
 #[inline]

@@ -1,6 +1,9 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
-use crate::subjects::{Cap, Cone, Parallelogram, Rectangle, Triangle};
+use crate::subjects::{
+    Bilinear, Cap, Cone, Exponential, GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, ProjectedCap,
+    Rectangle, Tent, Triangle,
+};
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -118,6 +121,97 @@ pub fn cones() -> Vec<Case<Cone>> {
     all.push(("sphere", Cone { one_minus_cos: 2.0 }));
     all.push(("sphere, all but a point", Cone { one_minus_cos: 2.0 - 2.0 * EPSILON }));
     all
+}
+
+/// Linear densities: flat, rising, falling, nearly flat, from and to nothing; tiny and huge units.
+#[must_use]
+pub fn linears() -> Vec<Case<Linear>> {
+    [
+        ("flat", 1.0, 1.0),
+        ("ordinary", 1.0, 3.0),
+        ("falling", 5.0, 0.5),
+        ("nearly flat", 1.0, 1.0 + 2.0 * EPSILON),
+        ("from 0", 0.0, 2.0),
+        ("to 0", 2.0, 0.0),
+        ("from almost 0", 1e-7, 1.0),
+        ("to almost 0", 1.0, 1e-7),
+        ("tiny units", 1e-30, 3e-30),
+        ("huge units", 2e31, 1e31),
+    ]
+    .map(|(name, a, b)| (name, Linear { a, b }))
+    .to_vec()
+}
+
+/// Sizes of things on the line.
+const SIZES: [(&str, f32); 7] = [
+    ("1", 1.0),
+    ("ordinary", 0.37),
+    ("tiny 1e-6", 1e-6),
+    ("tiny 1e-20", 1.3e-20),
+    ("huge 1e6", 1.7e6),
+    ("huge 1e20", 1e20),
+    ("tiny 1e-30", 1e-30),
+];
+
+/// Tents of every size.
+#[must_use]
+pub fn tents() -> Vec<Case<Tent>> {
+    SIZES.map(|(name, radius)| (name, Tent { radius })).to_vec()
+}
+
+/// Exponentials of every rate.
+#[must_use]
+pub fn exponentials() -> Vec<Case<Exponential>> {
+    SIZES.map(|(name, size)| (name, Exponential { rate: 1.0 / size })).to_vec()
+}
+
+/// Normal distributions of every size, about 0 and about means that are large and small beside σ.
+#[must_use]
+pub fn normals() -> Vec<Case<Normal>> {
+    let mut all = SIZES.map(|(name, sigma)| (name, Normal { mean: 0.0, sigma })).to_vec();
+    all.push(("mean of 3σ", Normal { mean: 0.3, sigma: 0.1 }));
+    all.push(("mean of -100σ", Normal { mean: -100.0, sigma: 1.0 }));
+    all.push(("mean of 1e-3σ", Normal { mean: 1.0, sigma: 1e3 }));
+    all
+}
+
+/// Bilinear densities: flat, ordinary, with zero corners and sides, steep, in tiny and huge units.
+#[must_use]
+pub fn bilinears() -> Vec<Case<Bilinear>> {
+    [
+        ("flat", [1.0; 4]),
+        ("ordinary", [1.0, 2.0, 0.5, 4.0]),
+        ("one corner", [0.0, 0.0, 3.0, 0.0]),
+        ("opposite corners", [1.0, 0.0, 0.0, 1.0]),
+        ("one side", [1.0, 0.0, 2.0, 0.0]),
+        ("steep", [1e-3, 1.0, 0.03, 0.01]),
+        ("tiny units", [1e-30, 2e-30, 3e-30, 4e-30]),
+        ("huge units", [1e31, 2e31, 3e31, 1e30]),
+    ]
+    .map(|(name, corners)| (name, Bilinear { corners }))
+    .to_vec()
+}
+
+/// Microsurfaces: rough, smooth and anisotropic, from above, grazing and below.
+#[must_use]
+pub fn microsurfaces() -> Vec<Case<GgxVisibleNormals>> {
+    [
+        ("ordinary", [0.3, 0.3], [0.5, 0.2, 0.8]),
+        ("rough 1", [1.0, 1.0], [-0.3, 0.6, 0.4]),
+        ("from the normal", [0.2, 0.4], [0.0, 0.0, 1.0]),
+        ("anisotropic", [0.5, 0.1], [0.6, 0.3, 0.5]),
+        ("smooth 1e-3", [1e-3, 1e-3], [0.5, 0.2, 0.8]),
+        ("smooth 1e-6", [1e-6, 2e-6], [0.5, 0.2, 0.8]),
+        ("sliver 1e3", [1.0, 1e-3], [0.3, 0.6, 0.5]),
+        ("grazing 1e-2", [0.4, 0.4], [0.8, 0.6, 1e-2]),
+        ("grazing 1e-5", [0.4, 0.2], [0.8, -0.6, 1e-5]),
+        ("on the horizon", [0.5, 0.5], [0.0, 1.0, 0.0]),
+        ("below", [0.5, 0.4], [0.8, 0.3, -0.3]),
+        ("far below", [0.5, 0.5], [0.3, 0.0, -1.0]),
+        ("rough 10", [10.0, 5.0], [0.3, 0.2, 0.6]),
+    ]
+    .map(|(name, alpha, wi)| (name, GgxVisibleNormals { alpha, wi }))
+    .to_vec()
 }
 
 /// A corner and two edges, about the given axes.
@@ -310,6 +404,77 @@ pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
         }
         let size = random.magnitude(1e-9, 1e-2);
         all.push(("on the axis", Cap::new([0.0, 0.0, 1.0], size as f32)));
+    }
+    all
+}
+
+/// Convex hexagons: by the semi-axes of the ellipse about them, and where its centre lies.
+#[must_use]
+pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, size, center) in [
+            ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0]),
+            ("tiny 1e-3", [1e-3, 1e-3], [0.2, 0.3, 1.0]),
+            ("close", [3.0, 2.0], [0.5, -0.3, 0.7]),
+            ("near-hemisphere", [30.0, 20.0], [1.0, 2.0, 1.0]),
+            ("grazing 1e-2", [1.0, 1.0], [3.0, 0.0, 1e-2]),
+            ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0]),
+        ] {
+            let axes = frame(&mut random);
+            let corner = |i: usize, random: &mut Random| {
+                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
+                let [x, y, z] = center;
+                narrow(combine(&axes, x + size[0] * angle.cos(), y + size[1] * angle.sin(), z))
+            };
+            all.push((name, Hexagon::new(core::array::from_fn(|i| corner(i, &mut random)))));
+        }
+    }
+    all
+}
+
+/// Spheres over a horizon, of every regime: by ratio of radius to distance, and cosine from normal to axis (in units of that ratio if small).
+#[must_use]
+pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, ratio, cos) in [
+            ("ordinary", 0.3, 0.8),
+            ("tiny 1e-6", 1e-6, 0.8),
+            ("large, whole", 0.9, 0.95),
+            ("nearly tangent to the horizon", 0.3, 0.3001),
+            ("nearly tangent from below", 0.3, 0.2999),
+            ("tiny, over the horizon", 1e-6, 3e-6),
+            ("cut", 0.5, 0.3),
+            ("cut, large", 0.95, 0.6),
+            ("cut, nearly touching", 0.99999, 0.5),
+            ("cut, tiny 1e-3", 1e-3, 4e-4),
+            ("cut, tiny 1e-6", 1e-6, 4e-7),
+            ("axis near the horizon", 0.4, 1e-5),
+            ("axis below", 0.5, -0.2),
+            ("axis below, large", 0.9, -0.5),
+            ("axis below, tiny 1e-3", 1e-3, -4e-4),
+            ("axis below, tiny 1e-6", 1e-6, -4e-7),
+            ("sliver of a lune", 0.5, -0.45),
+            ("axis far below, large", 0.95, -0.8),
+        ] {
+            let a = frame(&mut random);
+            let center = narrow(combine(&a, f64::sqrt(1.0 - cos * cos), 0.0, cos));
+            all.push((name, ProjectedCap::new(center, ratio as f32, narrow(a[2]))));
+        }
+        let normal = narrow(random.direction());
+        // exactly: beside the normal by rounding alone, the azimuth is that of the rounding
+        all.push((
+            "along the normal",
+            ProjectedCap::new([0.0, 0.0, 3.0], random.range(0.1, 3.0) as f32, [0.0, 0.0, 1.0]),
+        ));
+        let beside = [1e-4, 3e-4, 1.0].map(|x: f32| x * random.range(0.5, 1.0) as f32);
+        all.push(("nearly along the normal", ProjectedCap::new(beside, 0.3, [0.0, 0.0, 1.0])));
+        all.push(("inside", ProjectedCap::new(narrow(random.direction()), 1.5, normal)));
+        let about = [0.3, 0.1, 1e-7].map(|x: f32| x * random.range(-1.0, 1.0) as f32);
+        all.push(("horizon of coordinates", ProjectedCap::new(about, 1e-3, [0.0, 0.0, 1.0])));
     }
     all
 }

@@ -91,6 +91,37 @@ pub fn projected_cap(sigma: f64, omega: f64) -> f64 {
     y.atan2(c) + s * s * cos * y.atan2(-c * cos) - y * c
 }
 
+/// The same by rings about the axis, for caps so small that the closed form cancels; from sinσ, σ and cosω.
+#[must_use]
+pub fn projected_cap_by_rings(sigma: f64, cos: f64) -> f64 {
+    let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
+    if cos >= sigma.sin() {
+        return PI * sigma.sin().powi(2) * cos;
+    }
+    if -cos >= sigma.sin() {
+        return 0.0;
+    }
+    // the least ring that the horizon touches; a ring beyond it is cut by a square root of the excess
+    let first = cos.abs().asin();
+    let inner = if cos > 0.0 { PI * first.sin().powi(2) * cos } else { 0.0 };
+    let panels = 8;
+    let nodes = gauss_legendre::<16>();
+    let mut sum = 0.0;
+    for panel in 0..panels {
+        for (x, weight) in nodes {
+            let v = (f64::from(panel) + x) / f64::from(panels);
+            let theta = first + (sigma - first) * v * v;
+            let measure = theta.sin() * (sigma - first) * 2.0 * v / f64::from(panels);
+            // the ring is above the horizon where cosω cosθ + sinω sinθ cosφ ≥ 0
+            let (a, b) = (cos * theta.cos(), sin * theta.sin());
+            let root = ((theta - first).sin() * (theta + first).sin()).max(0.0).sqrt();
+            let phi = root.atan2(-a);
+            sum += weight * measure * 2.0 * (phi * a + b * phi.sin());
+        }
+    }
+    inner + sum
+}
+
 /// Projected solid angle of a polygon: clipped to the horizon of `n`, then Lambert's sum over edges.
 #[must_use]
 pub fn projected_polygon(vertices: &[V3], n: V3) -> f64 {

@@ -1,9 +1,15 @@
 //! The warps under test, with what is known about each from elsewhere.
 
 mod flat;
+mod line;
+mod normals;
+mod projected;
 mod round;
 
-pub use flat::{AreaTriangle, Parallelogram, Rectangle, Triangle};
+pub use flat::{AreaTriangle, Hexagon, LowDistortionTriangle, Parallelogram, Rectangle, Triangle};
+pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
+pub use normals::GgxVisibleNormals;
+pub use projected::ProjectedCap;
 pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };

@@ -38,10 +38,28 @@ pub const DISK: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, d
 pub const AREA_TRIANGLE: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 1.0 };
 /// As the disk, with a third coordinate.
 pub const CONE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
+/// A root of a sum of products, a sum and a quotient.
+pub const LINEAR: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 3.0 };
+/// A root, a sum and a quotient; the density has two quotients.
+pub const TENT: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 3.0 };
+/// A logarithm good to 1.3e−7 of up to 16.7 means; the exponential of the density takes back the rounding of its argument.
+pub const EXPONENTIAL: Tolerance = Tolerance { point: 40.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 40.0 };
+/// A quantile good to 3.3e−7 of up to 5.42σ, and a sum.
+pub const NORMAL: Tolerance = Tolerance { point: 30.0, steps: 0.0, distance: 0.0, density: 8.0, round_trip: 30.0 };
+/// Two linear densities; x is drawn from the one at the rounded y, so that it moves as if u had moved by so many steps.
+pub const BILINEAR: Tolerance = Tolerance { point: 6.0, steps: 4.0, distance: 0.0, density: 8.0, round_trip: 6.0 };
+/// A cone, a sum that is short where a grazing view sees normals turned away from it (there a step of u turns the normal as much as
+/// rounding does), and a stretch.
+pub const VISIBLE_NORMALS: Tolerance =
+    Tolerance { point: 8.0, steps: 4.0, distance: 0.0, density: 8.0, round_trip: 8.0 };
 /// As the cone.
 pub const COSINE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
 /// A cone in a frame that is orthonormal to 4 units.
 pub const CAP: Tolerance = Tolerance { point: 5.0, steps: 0.0, distance: 6.0, density: 3.0, round_trip: 7.0 };
+/// As the cap, in a frame about the normal. An area that is inverted is a sum of a dozen rounded terms; near the horizon, where z is a
+/// square root, that is worth 4 steps of u. For a lune times 1/sin²ω: the segments of circle and ellipse of which it is the
+/// difference are alike when the axis is far below.
+pub const PROJECTED_CAP: Tolerance = Tolerance { point: 7.0, steps: 4.0, distance: 8.0, density: 5.0, round_trip: 8.0 };
 /// A tangent and an arc of a dozen roundings each; times 1/sin of vertices that lie nearly opposite, and for inverses the aspect. The tests'
 /// regimes stay below 9 units; fuzzing has seen 12 at the far corner of a thin triangle and a distance off by 14 near a hemisphere: twice
 /// that, and a seventh of the 1e−5 of its size that a direction may be off by. The density has three reciprocal lengths of three roundings
@@ -52,6 +70,9 @@ pub const PARALLELOGRAM: Tolerance = TRIANGLE;
 /// As the triangle, but that x follows from u₀Ω, where both Ω and the product are rounded: everywhere, by so many steps. Ω has lengths for
 /// edges, which are roots.
 pub const RECTANGLE: Tolerance = Tolerance { point: 9.0, steps: 8.0, distance: 9.0, density: 3.0, round_trip: 10.0 };
+/// As the triangle, of which it has four. u₀Ω less the sum of those before is known as two sums of solid angles are: in steps of u, twice
+/// the density's units.
+pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.0, density: 2.5, round_trip: 10.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

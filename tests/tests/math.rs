@@ -153,3 +153,73 @@ fn roots_and_differences() {
     difference.assert_below(1.5);
     assert_eq!((one_minus_cos(0.0_f32), one_minus_cos(1.0_f32)), (0.0, 1.0));
 }
+
+/// Relative errors, but for arguments where the result is 0 or 1.
+#[test]
+fn exponentials_and_logarithms() {
+    let mut random = Random::new(4);
+    let [mut exp, mut exp_m1, mut ln_1p] = ["exp", "exp_m1", "ln_1p"].map(Greatest::of);
+    for i in 0..1 << 22 {
+        let magnitude = random.magnitude(1e-30, 87.0) as f32;
+        let x = if i % 2 == 0 { -magnitude } else { magnitude };
+        let wide = f64::from(x);
+        exp.take((f64::from(Real::exp(x)) / wide.exp() - 1.0).abs(), [x, 0.0]);
+        exp_m1.take((f64::from(Real::exp_m1(x)) / wide.exp_m1() - 1.0).abs(), [x, 0.0]);
+        let x = match i % 4 {
+            0 => -random.unit(),
+            1 => -(random.magnitude(1e-30, 1.0) as f32),
+            2 => random.magnitude(1e-30, 1e30) as f32,
+            _ => random.unit_f64() as f32,
+        };
+        if x > -1.0 {
+            let truth = f64::from(x).ln_1p();
+            ln_1p.take(if x == 0.0 { 0.0 } else { (f64::from(Real::ln_1p(x)) / truth - 1.0).abs() }, [x, 0.0]);
+        }
+    }
+    exp.assert_below(8.2e-8);
+    exp_m1.assert_below(1.2e-7);
+    ln_1p.assert_below(1.3e-7);
+    assert_eq!([-1e30_f32, -100.0, -0.0, 0.0].map(Real::exp), [0.0, 0.0, 1.0, 1.0]);
+    assert_eq!([-1e30_f32, -0.0, 0.0].map(Real::exp_m1), [-1.0, 0.0, 0.0]);
+    assert!(Real::exp(1e30_f32).is_finite() && Real::exp_m1(1e30_f32).is_finite());
+    assert_eq!(Real::ln_1p(0.0_f32), 0.0);
+}
+
+#[test]
+fn normal_distribution() {
+    use core::f64::consts::FRAC_1_SQRT_2;
+    let phi = |z: f64| 0.5 * statrs::function::erf::erfc(-z * FRAC_1_SQRT_2);
+    let mut random = Random::new(5);
+    let mut cdf = Greatest::of("normal_cdf, relative, to 1e-37");
+    for i in 0..1 << 20 {
+        let z = (if i % 2 == 0 { random.range(-12.8, 6.0) } else { -random.magnitude(1e-30, 12.8) }) as f32;
+        cdf.take((f64::from(Real::normal_cdf(z)) / phi(f64::from(z)) - 1.0).abs(), [z, 0.0]);
+    }
+    cdf.assert_below(3.9e-7);
+    assert_eq!([-1e30_f32, -30.0, 0.0, 30.0, 1e30].map(Real::normal_cdf), [0.0, 0.0, 0.5, 1.0, 1.0]);
+    // every u there is, in single precision against double, and double against its own integral
+    let mut quantile = Greatest::of("normal_quantile, relative");
+    let mut statrs = Greatest::of("the same by statrs");
+    let mut double = Greatest::of("normal_quantile in double precision, Φ(z)/u − 1");
+    for i in (0..1 << 24).step_by(8) {
+        let u = f32x8::from_fn(|k| (i + k) as f32 / 16_777_216.0);
+        let z = u.normal_quantile();
+        for k in 0..8 {
+            let (u, z) = (u.lane(k), z.lane_f64(k));
+            let truth = Real::normal_quantile(f64::from(u));
+            quantile.take(if truth == 0.0 { z.abs() } else { (z / truth - 1.0).abs() }, [u, z as f32]);
+            if u > 0.0 && (i + k) % 16 == 0 {
+                let (tail, z) = if u > 0.5 { (1.0 - f64::from(u), -truth) } else { (f64::from(u), truth) };
+                // `libm`'s integral; that of `statrs` is good to 1e-10
+                double.take((Real::normal_cdf(z) / tail - 1.0).abs(), [u, z as f32]);
+                statrs.take((phi(z) / tail - 1.0).abs(), [u, z as f32]);
+            }
+        }
+    }
+    quantile.assert_below(3.3e-7);
+    for (g, allowed) in [(double, 1e-14), (statrs, 2e-10)] {
+        assert!(g.error < allowed, "{}: {:e} at {:?}", g.name, g.error, g.at);
+    }
+    let ends = [0.0, 1.0].map(|u: f32| Real::normal_quantile(u));
+    assert!(ends[0] == -ends[1] && (ends[1] - 5.42).abs() < 0.01, "{ends:?}");
+}

@@ -3,7 +3,8 @@
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
-    AreaTriangle, Cap, ConcentricDisk, Cone, CosineHemisphere, Parallelogram, PolarDisk, Rectangle, Triangle,
+    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Hexagon,
+    Linear, LowDistortionTriangle, Normal, Parallelogram, PolarDisk, ProjectedCap, Rectangle, Tent, Triangle,
     UniformHemisphere, UniformSphere, nearest_hit,
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -110,6 +111,34 @@ fn area_triangle() {
     all(&[("whole", AreaTriangle)], 4000);
 }
 #[test]
+fn low_distortion_triangle() {
+    all(&[("whole", LowDistortionTriangle)], 4000);
+}
+#[test]
+fn linear() {
+    all(&domain::linears(), 1000);
+}
+#[test]
+fn tent() {
+    all(&domain::tents(), 1000);
+}
+#[test]
+fn exponential() {
+    all(&domain::exponentials(), 1000);
+}
+#[test]
+fn normal() {
+    all(&domain::normals(), 1000);
+}
+#[test]
+fn bilinear() {
+    all(&domain::bilinears(), 1000);
+}
+#[test]
+fn ggx_visible_normals() {
+    all(&domain::microsurfaces(), 500);
+}
+#[test]
 fn cosine_hemisphere() {
     all(&[("whole", CosineHemisphere)], 4000);
 }
@@ -128,6 +157,14 @@ fn cone() {
 #[test]
 fn sphere_cap() {
     all(&domain::caps(3, 11), 200);
+}
+#[test]
+fn spherical_polygon() {
+    all(&domain::hexagons(3, 15), 60);
+}
+#[test]
+fn projected_cap() {
+    all(&domain::projected_caps(3, 14), 100);
 }
 #[test]
 fn spherical_triangle() {
@@ -159,6 +196,15 @@ fn any_parameters_are_survived() {
         laws::any_bits(&Triangle::by_edges(a, b, c), u);
         laws::any_bits(&Parallelogram::new(a, b, c), u);
         laws::any_bits(&Cap::new(a, b[0]), u);
+        laws::any_bits(&ProjectedCap::new(a, b[0], c), u);
+        laws::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
+        laws::any_bits(&GgxVisibleNormals { alpha: [a[0], b[0]], wi: c }, u);
+        laws::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
+        laws::any_bits(&Linear { a: a[0], b: b[1] }, u);
+        laws::any_bits(&Tent { radius: a[0] }, u);
+        laws::any_bits(&Exponential { rate: a[0] }, u);
+        laws::any_bits(&Normal { mean: b[1], sigma: a[0] }, u);
+        laws::any_bits(&Bilinear { corners: [a[0], a[1], b[0], c[2]] }, u);
         laws::any_bits(&Cone { one_minus_cos: b[0].clamp(0.0, 2.0) }, u);
     }
 }

@@ -8,8 +8,8 @@ const INV_PI: f64 = core::f64::consts::FRAC_1_PI;
 /// The concentric map's radius (signed) and its angle as a unit vector, shared by disk and hemisphere.
 ///
 /// With a = 2u₀−1, b = 2u₁−1 (both exact): r is the one of larger magnitude, φ = π/4·b/a or π/2 − π/4·a/b.
-#[inline]
-pub(super) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
+#[inline(always)]
+pub(crate) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
     let (one, two) = (R::lit(1.0), R::lit(2.0));
     let (a, b) = (two.mul_add(u.x, -one), two.mul_add(u.y, -one));
     let first = a.abs().gt(b.abs());
@@ -21,8 +21,8 @@ pub(super) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
 }
 
 /// Inverse of the concentric map for the point (x, y) at radius r ≥ 0.
-#[inline]
-pub(super) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
+#[inline(always)]
+pub(crate) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
     let first = p.x.abs().gt(p.y.abs());
     let (major, minor) = (R::select(first, p.x, p.y), R::select(first, p.y, p.x));
     let signed = r.copysign(major);
@@ -34,7 +34,7 @@ pub(super) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
     Vec2 { x: unit_interval(a.mul_add(half, half)), y: unit_interval(b.mul_add(half, half)) }
 }
 
-#[inline]
+#[inline(always)]
 fn disk_pdf<R: Real>(p: Vec2<R>) -> R {
     // a sample on the rim may round to 1 + 2ε
     R::lit(INV_PI).keep(p.length_squared().le(R::lit(1.0 + 4e-7)))
@@ -60,16 +60,16 @@ pub struct ConcentricDisk;
 
 impl<R: Real> Warp<R> for ConcentricDisk {
     type Point = Vec2<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
         let (r, direction) = concentric(u);
         direction * r
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
         disk_pdf(p)
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, p: Vec2<R>) -> Vec2<R> {
         invert_concentric(p, p.length())
     }
@@ -87,16 +87,16 @@ pub struct PolarDisk;
 
 impl<R: Real> Warp<R> for PolarDisk {
     type Point = Vec2<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
         let (s, c) = u.y.sin_cos_turns();
         Vec2 { x: c, y: s } * u.x.max(R::lit(0.0)).sqrt()
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
         disk_pdf(p)
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, p: Vec2<R>) -> Vec2<R> {
         Vec2 { x: unit_interval(p.length_squared()), y: atan2_turns(p.y, p.x) }
     }

@@ -17,7 +17,7 @@ pub struct CosineHemisphere;
 
 impl<R: Real> Warp<R> for CosineHemisphere {
     type Point = Vec3<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let (r, direction) = concentric(u);
         let one = R::lit(1.0);
@@ -26,11 +26,11 @@ impl<R: Real> Warp<R> for CosineHemisphere {
         let z = (m * (R::lit(2.0) - m)).max(R::lit(0.0)).sqrt();
         Vec3::new(direction.x * r, direction.y * r, z)
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         w.z.max(R::lit(0.0)) * R::lit(core::f64::consts::FRAC_1_PI)
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let p = Vec2::new(w.x, w.y);
         invert_concentric(p, p.length())

@@ -2,6 +2,13 @@ use super::{Warp, unit_interval};
 use crate::real::Real;
 use crate::vector::Vec2;
 
+#[inline(always)]
+fn triangle_pdf<R: Real>(b: Vec2<R>) -> R {
+    let zero = R::lit(0.0);
+    let inside = b.x.ge(zero) & b.y.ge(zero) & (b.x + b.y).le(R::lit(1.0));
+    R::lit(2.0).keep(inside)
+}
+
 /// Uniform over a triangle, as the barycentric coordinates (b₁, b₂) of its second and third vertex.
 ///
 /// - Formula: b₀ = 1 − √u₀, b₁ = √u₀(1−u₁), b₂ = √u₀u₁.
@@ -14,22 +21,61 @@ pub struct AreaTriangle;
 
 impl<R: Real> Warp<R> for AreaTriangle {
     type Point = Vec2<R>;
-    #[inline]
+    #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
         let root = u.x.max(R::lit(0.0)).sqrt();
         let b2 = root * u.y;
         Vec2::new(root - b2, b2)
     }
-    #[inline]
+    #[inline(always)]
     fn pdf(&self, b: Vec2<R>) -> R {
-        let zero = R::lit(0.0);
-        let inside = b.x.ge(zero) & b.y.ge(zero) & (b.x + b.y).le(R::lit(1.0));
-        R::lit(2.0).keep(inside)
+        triangle_pdf(b)
     }
-    #[inline]
+    #[inline(always)]
     fn invert(&self, b: Vec2<R>) -> Vec2<R> {
         let root = b.x + b.y;
         let some = root.gt(R::lit(0.0));
         Vec2 { x: unit_interval(root * root), y: unit_interval(b.y / R::select(some, root, R::lit(1.0))) }
+    }
+}
+
+/// Uniform over a triangle, as the barycentric coordinates (b₁, b₂) of its second and third vertex, folding the square over its diagonal:
+/// no square root, and cells of the square stay compact.
+///
+/// - Formula: (b₁, b₂) = (u₀/2, u₁ − u₀/2) where u₁ > u₀, else (u₀ − u₁/2, u₁/2). Inverse: (2b₁, b₁ + b₂) or (b₁ + b₂, 2b₂).
+/// - Domain: u in [0, 1)²; continuous, with a kink on the diagonal.
+/// - Density: 2 per unit of barycentric area; divide by twice the triangle's area for 1/area.
+/// - Greatest error: 6e−8.
+/// - Source: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
+///
+/// ```
+/// use etendue::{Vec2, Warp, warp::LowDistortionTriangle};
+/// let u = Vec2::new(0.25_f32, 0.75);
+/// let b = LowDistortionTriangle.sample(u);
+/// assert_eq!((b.x, b.y), (0.125, 0.625));
+/// assert_eq!(LowDistortionTriangle.invert(b), u);
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LowDistortionTriangle;
+
+impl<R: Real> Warp<R> for LowDistortionTriangle {
+    type Point = Vec2<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec2<R> {
+        // the smaller coordinate is halved, and the half taken from the other
+        let half = R::lit(0.5) * u.x.min(u.y);
+        let upper = u.y.gt(u.x);
+        Vec2::new(R::select(upper, half, u.x - half), R::select(upper, u.y - half, half))
+    }
+    #[inline(always)]
+    fn pdf(&self, b: Vec2<R>) -> R {
+        triangle_pdf(b)
+    }
+    #[inline(always)]
+    fn invert(&self, b: Vec2<R>) -> Vec2<R> {
+        let small = b.x.min(b.y);
+        let (double, sum) = (unit_interval(small + small), unit_interval(b.x + b.y));
+        let upper = b.y.gt(b.x);
+        Vec2 { x: R::select(upper, double, sum), y: R::select(upper, sum, double) }
     }
 }

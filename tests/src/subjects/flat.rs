@@ -7,46 +7,57 @@ use crate::oracle::{V3, along, cross, dot, exact_sum, length, sub, triangle_soli
 use crate::tolerances::{self, Tolerance};
 use core::f64::consts::PI;
 use core::fmt::{self, Debug, Formatter};
-use etendue::seen::{Sighting, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
+use etendue::seen::{Sighting, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalTriangle};
 use etendue::{Real, Vec2, Vec3, warp};
 
-/// `warp::AreaTriangle`.
-#[derive(Clone, Copy, Debug)]
-pub struct AreaTriangle;
-impl Subject for AreaTriangle {
-    type Warp<R: Real> = warp::AreaTriangle;
-    type Point<R: Real> = Vec2<R>;
-    fn prepare<R: Real>(_: &[Self]) -> Self::Warp<R> {
-        warp::AreaTriangle
-    }
-    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
-        warp
-    }
-    fn tolerance(&self) -> Tolerance {
-        tolerances::AREA_TRIANGLE
-    }
-    fn density(&self, _: V3) -> f64 {
-        2.0
-    }
-    fn chart(&self, s: f64, t: f64) -> (V3, f64) {
-        ([(1.0 - s) * t, (1.0 - s) * (1.0 - t), 0.0], 1.0 - s)
-    }
-    fn locate(&self, b: V3) -> [f64; 2] {
-        let sum = b[0] + b[1];
-        [1.0 - sum, if sum > 0.0 { b[0] / sum } else { 0.0 }]
-    }
-    fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
-        let t = random.unit_f64();
-        Some(match random.word() % 3 {
-            0 => [-margin, t, 0.0],
-            1 => [t, -margin, 0.0],
-            _ => [t + margin, 1.0 - t, 0.0],
-        })
-    }
-    fn extent(&self) -> [f64; 2] {
-        [1.0, 0.7]
-    }
+macro_rules! by_area {
+    ($name:ident, $smooth:expr) => {
+        #[doc = concat!("`warp::", stringify!($name), "`.")]
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name;
+        impl Subject for $name {
+            type Warp<R: Real> = warp::$name;
+            type Point<R: Real> = Vec2<R>;
+            fn prepare<R: Real>(_: &[Self]) -> Self::Warp<R> {
+                warp::$name
+            }
+            fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
+                warp
+            }
+            fn tolerance(&self) -> Tolerance {
+                tolerances::AREA_TRIANGLE
+            }
+            fn density(&self, _: V3) -> f64 {
+                2.0
+            }
+            fn chart(&self, s: f64, t: f64) -> (V3, f64) {
+                ([(1.0 - s) * t, (1.0 - s) * (1.0 - t), 0.0], 1.0 - s)
+            }
+            fn locate(&self, b: V3) -> [f64; 2] {
+                let sum = b[0] + b[1];
+                [1.0 - sum, if sum > 0.0 { b[0] / sum } else { 0.0 }]
+            }
+            fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
+                let t = random.unit_f64();
+                Some(match random.word() % 3 {
+                    0 => [-margin, t, 0.0],
+                    1 => [t, -margin, 0.0],
+                    _ => [t + margin, 1.0 - t, 0.0],
+                })
+            }
+            fn extent(&self) -> [f64; 2] {
+                [1.0, 0.7]
+            }
+            fn smooth(&self, u: [f64; 2]) -> bool {
+                let smooth: fn([f64; 2]) -> bool = $smooth;
+                smooth(u)
+            }
+        }
+    };
 }
+by_area!(AreaTriangle, |_| true);
+// folded over the diagonal
+by_area!(LowDistortionTriangle, |u| (u[0] - u[1]).abs() > 0.01);
 
 /// A triangle in f64, and its vertices without rounding.
 #[derive(Clone, Copy, Debug)]
@@ -397,6 +408,117 @@ impl Subject for Rectangle {
     }
     fn slant(&self, w: V3) -> f64 {
         self.0.slant(w)
+    }
+    fn sight<R: Real>(warp: &Self::Warp<R>, u: Vec2<R>) -> Option<Sighting<R>> {
+        Some(warp.sight(u))
+    }
+}
+
+/// `seen::SphericalPolygon` of six corners.
+#[derive(Clone, Copy)]
+pub struct Hexagon {
+    corners: [[f32; 3]; 6],
+    fan: [Flat; 4],
+    known: Known,
+    /// Shares of the triangles, cumulative.
+    shares: [f64; 4],
+}
+impl Debug for Hexagon {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "Hexagon::new({:?})", self.corners)
+    }
+}
+impl Hexagon {
+    /// Corners, relative to the viewpoint.
+    #[must_use]
+    pub fn new(corners: [[f32; 3]; 6]) -> Self {
+        let fan = core::array::from_fn(|i| {
+            let [a, p, b] = [corners[i + 1], corners[0], corners[i + 2]].map(wide);
+            Flat { v0: a, e1: sub(p, a), e2: sub(b, a), exact: [a, p, b].map(|v| exact_sum(v, &[])) }
+        });
+        let all = fan.map(|flat: Flat| flat.known());
+        let solid_angle = all.iter().map(|k| k.solid_angle).sum::<f64>();
+        let fold = |f: fn(&Known) -> f64, pick: fn(f64, f64) -> f64| all.iter().map(f).reduce(pick).unwrap_or(1.0);
+        let known = Known {
+            solid_angle,
+            condition: fold(|k| k.condition, f64::max),
+            opposite: fold(|k| k.opposite, f64::max),
+            extent: [fold(|k| k.extent[0], f64::max), fold(|k| k.extent[1], f64::min)],
+        };
+        let mut sum = 0.0;
+        let shares = all.map(|k| {
+            sum += k.solid_angle / solid_angle;
+            sum
+        });
+        Self { corners, fan, known, shares }
+    }
+    fn corners(&self) -> [V3; 6] {
+        self.corners.map(wide)
+    }
+}
+impl Subject for Hexagon {
+    type Warp<R: Real> = SphericalPolygon<R, 6>;
+    type Point<R: Real> = Vec3<R>;
+    fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R> {
+        SphericalPolygon::new(core::array::from_fn(|k| vectors_of(|i| lanes[i % lanes.len()].corners[k])))
+    }
+    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
+        SphericalPolygon::splat(warp)
+    }
+    fn tolerance(&self) -> Tolerance {
+        let widened = self.known.widened(tolerances::POLYGON);
+        // where one triangle ends and the next begins is known as well as their solid angles are
+        let steps = widened.steps.max(2.0 * widened.density * self.known.condition);
+        Tolerance { steps, ..widened }
+    }
+    fn scaled(&self, factor: f32) -> Self {
+        Self { corners: self.corners.map(|v| v.map(|x| x * factor)), ..*self }
+    }
+    fn density(&self, _: V3) -> f64 {
+        1.0 / self.known.solid_angle
+    }
+    /// Quarters of the square are the triangles.
+    fn chart(&self, s: f64, t: f64) -> (V3, f64) {
+        let i = ((t * 4.0) as usize).min(3);
+        let part = t * 4.0 - i as f64;
+        // from the first corner (b1) outwards, between the two others
+        let (w, measure) = self.fan[i].at(1.0 - s, s * part);
+        (w, measure * s * 4.0)
+    }
+    fn locate(&self, w: V3) -> [f64; 2] {
+        let mut best = (f64::NEG_INFINITY, [0.0; 2]);
+        for (i, flat) in self.fan.iter().enumerate() {
+            let b = flat.barycentrics(w);
+            let least = b.into_iter().fold(f64::INFINITY, f64::min);
+            if least > best.0 {
+                let part = (b[2] / (b[0] + b[2])).clamp(0.0, 1.0 - 1e-9);
+                best = (least, [(1.0 - b[1]).clamp(0.0, 1.0), (i as f64 + part) / 4.0]);
+            }
+        }
+        best.1
+    }
+    fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
+        let v = self.corners();
+        let i = (random.word() % 6) as usize;
+        Some(beyond(v[i], v[(i + 1) % 6], v[(i + 2) % 6], margin * self.known.opposite, random.unit_f64()))
+    }
+    fn extent(&self) -> [f64; 2] {
+        self.known.extent
+    }
+    fn granularity(&self) -> f64 {
+        about_the_axis(&self.corners())
+    }
+    fn condition(&self) -> f64 {
+        self.known.condition
+    }
+    fn smooth(&self, u: [f64; 2]) -> bool {
+        self.shares.iter().all(|share| (u[0] - share).abs() > 0.01)
+    }
+    fn reach(&self) -> f64 {
+        self.corners().into_iter().map(length).fold(0.0, f64::max)
+    }
+    fn slant(&self, w: V3) -> f64 {
+        1.0 / dot(w, unit(cross(self.fan[0].e1, self.fan[0].e2))).abs()
     }
     fn sight<R: Real>(warp: &Self::Warp<R>, u: Vec2<R>) -> Option<Sighting<R>> {
         Some(warp.sight(u))

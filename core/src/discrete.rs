@@ -1,0 +1,478 @@
+//! Discrete and piecewise constant distributions over slices that the caller owns: no allocation.
+//!
+//! | table | draws | cost | inverse |
+//! |---|---|---|---|
+//! | [`PiecewiseConstant1d`] | a cell of n, and a position in it | log₂ n steps | yes |
+//! | [`PiecewiseConstant2d`] | a cell of an image, and a position in it | log₂ w + log₂ h steps | yes |
+//! | [`AliasTable`] | one of n, and a left-over number | two look-ups | none: it maps many to one |
+//!
+//! The distribution functions hold multiples of 2⁻²⁴, the grid of `u`: the probability that is reported is the one with which a
+//! cell is drawn, exactly, with a million cells too. It differs from weight/total by up to 2⁻²⁴ for that; an estimator that divides by it
+//! is unbiased, since a cell with a weight keeps at least 2⁻²⁴, and one without is never drawn.
+//!
+//! Every routine takes a scalar or a packet; look-ups go lane by lane, with the same bits.
+//!
+//! ```
+//! use etendue::discrete::PiecewiseConstant1d;
+//! let mut cdf = [0.0; 4];
+//! let table = PiecewiseConstant1d::build(&[1.0, 0.0, 2.0, 1.0], &mut cdf).unwrap();
+//! let cell = table.cell(0.5_f32);
+//! assert_eq!((cell.index, cell.offset, cell.probability), (2, 0.5, 0.5));
+//! assert_eq!(table.invert_cell(2, 0.5_f32), 0.5);
+//! ```
+
+use crate::real::{Real, Uint};
+use crate::vector::Vec2;
+use crate::warp::{Warp, Warp1, unit_interval};
+use core::fmt::{self, Display, Formatter};
+
+/// Steps of `u` in the unit interval, and the most cells that a table may have.
+const STEPS: f64 = 16_777_216.0;
+
+/// Why a table cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TableError {
+    /// The slices do not have the lengths that belong together, or there are no cells, or more than 2²⁴.
+    Length,
+    /// A weight is negative, infinite or not a number.
+    Weight,
+    /// All weights are 0: there is nothing to draw.
+    Empty,
+}
+impl Display for TableError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Length => "slices of a table differ in length, or have no cells, or more than 2^24",
+            Self::Weight => "a weight is negative, infinite or not a number",
+            Self::Empty => "all weights are 0",
+        })
+    }
+}
+impl core::error::Error for TableError {}
+
+/// A cell that was drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell<R: Real> {
+    /// Its index.
+    pub index: R::Uint,
+    /// Position in the cell, in [0, 1): what is left of `u`, uniform.
+    pub offset: R,
+    /// Probability of the cell; times the number of cells, the density on [0, 1).
+    pub probability: R,
+}
+
+/// A cell of an image that was drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell2d<R: Real> {
+    /// Column.
+    pub x: R::Uint,
+    /// Row.
+    pub y: R::Uint,
+    /// Position in the cell, in [0, 1)².
+    pub offset: Vec2<R>,
+    /// Probability of the cell; times the number of cells, the density per unit area of the unit square.
+    pub probability: R,
+}
+
+/// Rounding of one operation, doubled.
+#[inline(always)]
+fn epsilon<R: Real>() -> R {
+    R::lit(if size_of::<R::Scalar>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON })
+}
+
+/// The number of [0, 1) for a position in cell `index` of n: (index + offset)/n, moved by an ulp where rounding left the cell.
+#[inline(always)]
+fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
+    let i = R::from_uint(index);
+    let x = (i + offset) / n;
+    // xn − i, exactly but for the last rounding, whose sign and whose excess over 1 are true
+    let scaled = x * n;
+    let position = (scaled - i) + R::product_error(x, n, scaled);
+    let x = R::select(position.lt(R::lit(0.0)), x + x * epsilon(), x);
+    R::select(position.ge(R::lit(1.0)), x - x * (epsilon::<R>() * R::lit(0.5)), x)
+}
+
+/// The inverse: cell and position, of x in [0, 1). The product is not rounded before its integer part is taken.
+#[inline(always)]
+fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let scaled = x * n;
+    let i = R::from_uint(scaled.to_uint());
+    let position = (scaled - i) + R::product_error(x, n, scaled);
+    let (below, above) = (position.lt(zero), position.ge(one));
+    let i = R::select(below, i - one, R::select(above, i + one, i));
+    let position = R::select(below, position + one, R::select(above, position - one, position));
+    (i.clamp(zero, n - one).to_uint(), unit_interval(position))
+}
+
+/// Total of valid weights and number of those above 0.
+fn total(n: usize, weight: impl Fn(usize) -> f64) -> Result<(f64, usize), TableError> {
+    let (mut sum, mut some) = (0.0, 0);
+    for i in 0..n {
+        let w = weight(i);
+        if !(0.0..=f64::MAX).contains(&w) {
+            return Err(TableError::Weight);
+        }
+        sum += w;
+        some += usize::from(w > 0.0);
+    }
+    Ok((sum, some))
+}
+
+/// Fills `cdf[i]` with the sum of the weights up to and including i, over the total, on the grid of 2⁻²⁴; each weight above 0 has one step
+/// or more. Sums are in double precision: 1e6 cells are off by less than 1e−10.
+fn accumulate(cdf: &mut [f32], weight: impl Fn(usize) -> f64) -> Result<(), TableError> {
+    if cdf.is_empty() || cdf.len() > STEPS as usize {
+        return Err(TableError::Length);
+    }
+    let (sum, mut some) = total(cdf.len(), &weight)?;
+    if some == 0 {
+        return Err(TableError::Empty);
+    }
+    let (mut running, mut steps) = (0.0, 0.0);
+    for (i, entry) in cdf.iter_mut().enumerate() {
+        let w = weight(i);
+        if w > 0.0 {
+            running += w;
+            some -= 1;
+            // nearest step, but one at least for this cell and for each that follows
+            let nearest = (running / sum * STEPS + 0.5) as u32;
+            steps = f64::from(nearest).max(steps + 1.0).min(STEPS - some as f64);
+            if some == 0 {
+                steps = STEPS;
+            }
+        }
+        *entry = (steps / STEPS) as f32;
+    }
+    Ok(())
+}
+
+/// Cell, position and probability of `u` in the distribution function that `row` picks for each lane.
+#[inline(always)]
+fn draw<'a, R: Real>(u: R, row: impl Fn(usize) -> &'a [f32]) -> Cell<R> {
+    let u = unit_interval(u);
+    // the first cell that ends above u: it has a width, since the one before it ends at or below u
+    let index = R::Uint::from_fn(|lane| {
+        let (cdf, u) = (row(lane), u.lane_f64(lane));
+        cdf.partition_point(|&end| f64::from(end) <= u).min(cdf.len() - 1) as u32
+    });
+    let (start, probability) = bounds::<R>(index, row);
+    let some = probability.gt(R::lit(0.0));
+    let offset = unit_interval((u - start) / R::select(some, probability, R::lit(1.0)));
+    Cell { index, offset, probability }
+}
+
+/// Start and width of a cell; 0 and 0 past the last one.
+#[inline(always)]
+fn bounds<'a, R: Real>(index: R::Uint, row: impl Fn(usize) -> &'a [f32]) -> (R, R) {
+    let at = |lane: usize, back: usize| {
+        let i = index.lane(lane) as usize;
+        let cdf = row(lane);
+        let value = if i < cdf.len() && i >= back { cdf[i - back] } else { 0.0 };
+        R::Scalar::lit(f64::from(value))
+    };
+    let start =
+        R::from_fn(|lane| if (index.lane(lane) as usize) < row(lane).len() { at(lane, 1) } else { at(lane, 0) });
+    let end = R::from_fn(|lane| at(lane, 0));
+    (start, end - start)
+}
+
+/// A density on [0, 1) that is constant in each of n cells.
+///
+/// - Formula: the first cell whose cumulated weight exceeds u, by bisection; the rest of u over the cell's width is the position in it.
+/// - Domain: u in [0, 1); 1 to 2²⁴ cells with finite weights ≥ 0, of any unit.
+/// - Density: n × probability per unit length of [0, 1), 0 elsewhere. Cells without weight are never drawn.
+/// - Degenerate: no weight at all is an error when the table is built, [`TableError::Empty`].
+/// - Greatest error: probabilities are within n·2⁻²⁴ of weight/total (within 2⁻²⁴ where no weight is below 2⁻²⁴ of the
+///   total), and exact as to what is drawn; position × probability is off by 2⁻²⁴.
+/// - Source: the inverse of the distribution function.
+#[derive(Clone, Copy, Debug)]
+pub struct PiecewiseConstant1d<'a> {
+    cdf: &'a [f32],
+}
+
+impl<'a> PiecewiseConstant1d<'a> {
+    /// Builds the distribution function in the caller's buffer, which is as long as the weights.
+    ///
+    /// # Errors
+    /// If the lengths differ, a weight is invalid, or all are 0.
+    pub fn build(weights: &[f32], cdf: &'a mut [f32]) -> Result<Self, TableError> {
+        if weights.len() != cdf.len() {
+            return Err(TableError::Length);
+        }
+        accumulate(cdf, |i| f64::from(weights[i]))?;
+        Ok(Self { cdf })
+    }
+    /// Number of cells.
+    #[inline(always)]
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.cdf.len()
+    }
+    /// The cell for `u`.
+    #[inline(always)]
+    pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
+        draw(u, |_| self.cdf)
+    }
+    /// Probability of a cell; 0 past the last one.
+    #[inline(always)]
+    pub fn probability<R: Real>(&self, index: R::Uint) -> R {
+        bounds::<R>(index, |_| self.cdf).1
+    }
+    /// The `u` of a position in a cell.
+    #[inline(always)]
+    pub fn invert_cell<R: Real>(&self, index: R::Uint, offset: R) -> R {
+        let (start, width) = bounds::<R>(index, |_| self.cdf);
+        unit_interval(offset.mul_add(width, start))
+    }
+    #[inline(always)]
+    fn count<R: Real>(&self) -> R {
+        R::lit(self.cdf.len() as f64)
+    }
+}
+
+impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
+    #[inline(always)]
+    fn sample(&self, u: R) -> R {
+        let cell = self.cell(u);
+        place(cell.index, cell.offset, self.count())
+    }
+    #[inline(always)]
+    fn pdf(&self, x: R) -> R {
+        let inside = x.ge(R::lit(0.0)) & x.lt(R::lit(1.0));
+        let (index, _) = locate(unit_interval(x), self.count::<R>());
+        (self.probability::<R>(index) * self.count()).keep(inside)
+    }
+    #[inline(always)]
+    fn invert(&self, x: R) -> R {
+        let (index, offset) = locate(unit_interval(x), self.count::<R>());
+        self.invert_cell(index, offset)
+    }
+}
+
+/// A density on the unit square that is constant in each cell of an image: the row by its sum, then the column within the row.
+///
+/// - Formula: u₁ draws the row, u₀ the column, each as [`PiecewiseConstant1d`].
+/// - Domain: u in [0, 1)²; w, h from 1 to 2²⁴; finite weights ≥ 0, of any unit, row by row.
+/// - Density: wh × probability per unit area of the unit square, 0 elsewhere. Cells without weight are never drawn.
+/// - Degenerate: no weight at all is an error when the table is built, [`TableError::Empty`].
+/// - Greatest error: both probabilities as in one dimension.
+/// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.4.
+///
+/// ```
+/// use etendue::{Vec2, Warp, discrete::PiecewiseConstant2d};
+/// let mut buffer = [0.0; PiecewiseConstant2d::buffer(2, 2)];
+/// let image = PiecewiseConstant2d::build(&[0.0, 1.0, 3.0, 0.0], 2, &mut buffer).unwrap();
+/// let p = image.sample(Vec2::new(0.5_f32, 0.125));
+/// assert_eq!((p.x, p.y), (0.75, 0.25));
+/// assert_eq!(image.pdf(p), 1.0);
+/// assert_eq!(image.pdf(Vec2::new(0.25_f32, 0.75)), 3.0);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct PiecewiseConstant2d<'a> {
+    marginal: PiecewiseConstant1d<'a>,
+    rows: &'a [f32],
+    width: usize,
+}
+
+impl<'a> PiecewiseConstant2d<'a> {
+    /// Length of the buffer for w × h cells: wh + h.
+    #[inline(always)]
+    #[must_use]
+    pub const fn buffer(width: usize, height: usize) -> usize {
+        width * height + height
+    }
+    /// Builds the distribution functions of the rows and of their sums in the caller's buffer, of [`buffer`](Self::buffer) entries.
+    ///
+    /// # Errors
+    /// If the lengths do not belong together, a weight is invalid, or all are 0.
+    pub fn build(weights: &[f32], width: usize, buffer: &'a mut [f32]) -> Result<Self, TableError> {
+        let height = weights.len().checked_div(width).unwrap_or(0);
+        if height == 0 || weights.len() != width * height || buffer.len() != Self::buffer(width, height) {
+            return Err(TableError::Length);
+        }
+        let (rows, marginal) = buffer.split_at_mut(width * height);
+        let row = |y: usize| &weights[y * width..(y + 1) * width];
+        for (y, cdf) in rows.chunks_exact_mut(width).enumerate() {
+            match accumulate(cdf, |x| f64::from(row(y)[x])) {
+                // never drawn
+                Err(TableError::Empty) => cdf.fill(0.0),
+                other => other?,
+            }
+        }
+        accumulate(marginal, |y| row(y).iter().map(|&w| f64::from(w)).sum())?;
+        Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
+    }
+    /// Columns and rows.
+    #[inline(always)]
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.marginal.cells()]
+    }
+    #[inline(always)]
+    fn row(&self, y: u32) -> &'a [f32] {
+        let y = (y as usize).min(self.marginal.cells() - 1);
+        &self.rows[y * self.width..(y + 1) * self.width]
+    }
+    /// The cell for `u`.
+    #[inline(always)]
+    pub fn cell<R: Real>(&self, u: Vec2<R>) -> Cell2d<R> {
+        let row = self.marginal.cell(u.y);
+        let column = draw(u.x, |lane| self.row(row.index.lane(lane)));
+        Cell2d {
+            x: column.index,
+            y: row.index,
+            offset: Vec2::new(column.offset, row.offset),
+            probability: row.probability * column.probability,
+        }
+    }
+    /// Probability of a cell; 0 off the image.
+    #[inline(always)]
+    pub fn probability<R: Real>(&self, x: R::Uint, y: R::Uint) -> R {
+        self.marginal.probability::<R>(y) * bounds::<R>(x, |lane| self.row(y.lane(lane))).1
+    }
+    /// The `u` of a position in a cell.
+    #[inline(always)]
+    pub fn invert_cell<R: Real>(&self, x: R::Uint, y: R::Uint, offset: Vec2<R>) -> Vec2<R> {
+        let (start, width) = bounds::<R>(x, |lane| self.row(y.lane(lane)));
+        Vec2 { x: unit_interval(offset.x.mul_add(width, start)), y: self.marginal.invert_cell(y, offset.y) }
+    }
+}
+
+impl<R: Real> Warp<R> for PiecewiseConstant2d<'_> {
+    type Point = Vec2<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec2<R> {
+        let cell = self.cell(u);
+        let [w, h] = self.size().map(|n| R::lit(n as f64));
+        Vec2::new(place(cell.x, cell.offset.x, w), place(cell.y, cell.offset.y, h))
+    }
+    #[inline(always)]
+    fn pdf(&self, p: Vec2<R>) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let inside = p.x.ge(zero) & p.x.lt(one) & p.y.ge(zero) & p.y.lt(one);
+        let [w, h] = self.size().map(|n| R::lit(n as f64));
+        let (x, y) = (locate(unit_interval(p.x), w).0, locate(unit_interval(p.y), h).0);
+        (self.probability::<R>(x, y) * (w * h)).keep(inside)
+    }
+    #[inline(always)]
+    fn invert(&self, p: Vec2<R>) -> Vec2<R> {
+        let [w, h] = self.size().map(|n| R::lit(n as f64));
+        let ((x, column), (y, row)) = (locate(unit_interval(p.x), w), locate(unit_interval(p.y), h));
+        self.invert_cell(x, y, Vec2::new(column, row))
+    }
+}
+
+/// One of n by weight, in constant time: each of n equal buckets holds its own item up to a threshold and one other above it.
+///
+/// - Formula: bucket ⌊un⌋; the fraction of un, against the threshold, picks the item, and its rest over its range is a fresh number.
+/// - Domain: u in [0, 1); 1 to 2²⁴ items with finite weights ≥ 0, of any unit.
+/// - Probability: weight/total. Items without weight are never drawn.
+/// - Degenerate: no weight at all is an error when the table is built, [`TableError::Empty`].
+/// - Greatest error: u has 2²⁴ values, each bucket gets 2²⁴/n of them or one more: an item of average weight is drawn with a
+///   probability that is off by up to n·2⁻²⁴, relative (6e−5 for a thousand). With many items prefer [`PiecewiseConstant1d`], which
+///   reports what it draws.
+/// - Inverse: none, since an item may lie in many buckets.
+/// - Source: Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", IEEE TSE 17(9), 1991; built by one
+///   sweep over light and heavy items, as by Hübschle-Schneider and Sanders, "Parallel Weighted Random Sampling", 2019, section 4:
+///   no stacks.
+///
+/// ```
+/// use etendue::discrete::AliasTable;
+/// let (mut thresholds, mut aliases) = ([0.0; 4], [0; 4]);
+/// let table = AliasTable::build(&[1.0, 0.0, 2.0, 1.0], &mut thresholds, &mut aliases).unwrap();
+/// let drawn = table.cell(0.375_f32);
+/// // the second bucket is all alias
+/// assert_eq!((drawn.index, drawn.offset, drawn.probability), (2, 0.5, 0.5));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct AliasTable<'a> {
+    weights: &'a [f32],
+    thresholds: &'a [f32],
+    aliases: &'a [u32],
+    inverse_total: f64,
+}
+
+impl<'a> AliasTable<'a> {
+    /// Builds the table in the caller's buffers, which are as long as the weights.
+    ///
+    /// # Errors
+    /// If the lengths differ, a weight is invalid, or all are 0.
+    pub fn build(weights: &'a [f32], thresholds: &'a mut [f32], aliases: &'a mut [u32]) -> Result<Self, TableError> {
+        let n = weights.len();
+        if n == 0 || n > STEPS as usize || thresholds.len() != n || aliases.len() != n {
+            return Err(TableError::Length);
+        }
+        let (sum, some) = total(n, |i| f64::from(weights[i]))?;
+        if some == 0 {
+            return Err(TableError::Empty);
+        }
+        let share = |i: usize| f64::from(weights[i]) * (n as f64 / sum);
+        let find = |from: usize, heavy: bool| (from..n).find(|&i| (share(i) > 1.0) == heavy).unwrap_or(n);
+        for (i, (threshold, alias)) in thresholds.iter_mut().zip(aliases.iter_mut()).enumerate() {
+            (*threshold, *alias) = (1.0, i as u32);
+        }
+        let (mut light, mut heavy) = (find(0, false), find(0, true));
+        let mut rest = if heavy < n { share(heavy) } else { 0.0 };
+        // the heavy item fills the light buckets up, until it is light itself and the next heavy one fills its own
+        while heavy < n {
+            if rest > 1.0 {
+                if light == n {
+                    break;
+                }
+                thresholds[light] = share(light) as f32;
+                aliases[light] = heavy as u32;
+                rest -= 1.0 - share(light);
+                light = find(light + 1, false);
+            } else {
+                let next = find(heavy + 1, true);
+                if next == n {
+                    break;
+                }
+                thresholds[heavy] = rest as f32;
+                aliases[heavy] = next as u32;
+                rest += share(next) - 1.0;
+                heavy = next;
+            }
+        }
+        // what rounding left over keeps its own bucket, unless it must not be drawn
+        while light < n {
+            if weights[light] <= 0.0 {
+                let heaviest = (0..n).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
+                (thresholds[light], aliases[light]) = (0.0, heaviest as u32);
+            }
+            light = find(light + 1, false);
+        }
+        Ok(Self { weights, thresholds, aliases, inverse_total: 1.0 / sum })
+    }
+    /// Number of items.
+    #[inline(always)]
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.weights.len()
+    }
+    /// The item for `u`, and a fresh number in [0, 1).
+    #[inline(always)]
+    pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
+        let (bucket, fraction) = locate(unit_interval(u), R::lit(self.weights.len() as f64));
+        let threshold = R::from_fn(|lane| R::Scalar::lit(self.thresholds[bucket.lane(lane) as usize].into()));
+        let own = fraction.lt(threshold);
+        let index = R::Uint::from_fn(|lane| {
+            let bucket = bucket.lane(lane);
+            let own = fraction.lane_f64(lane) < threshold.lane_f64(lane);
+            if own { bucket } else { self.aliases[bucket as usize] }
+        });
+        let one = R::lit(1.0);
+        let range = R::select(own, threshold, one - threshold);
+        let offset = unit_interval(R::select(own, fraction, fraction - threshold) / range.max(R::lit(1e-30)));
+        Cell { index, offset, probability: self.probability(index) }
+    }
+    /// Probability of an item; 0 past the last one.
+    #[inline(always)]
+    pub fn probability<R: Real>(&self, index: R::Uint) -> R {
+        R::from_fn(|lane| {
+            let weight = self.weights.get(index.lane(lane) as usize).copied().unwrap_or(0.0);
+            R::Scalar::lit(f64::from(weight) * self.inverse_total)
+        })
+    }
+}

@@ -1,0 +1,578 @@
+use super::{Sighting, lanewise};
+use crate::math::{polynomial, rsqrt, two_sum};
+use crate::real::{Mask, Real};
+use crate::vector::{Frame, Vec2, Vec3};
+use crate::warp::{Cone, Warp, concentric, invert_concentric, unit_interval};
+use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+
+lanewise! {
+    /// The directions from a point to a sphere above the horizon of a surface normal, by projected solid angle: with density
+    /// proportional to the cosine to the normal.
+    ///
+    /// On the disk below the hemisphere the cap is an ellipse, which the horizon may cut. There the density is constant, in each of
+    /// three cases:
+    /// - wholly above the horizon, cosω ≥ sinσ: the concentric disk, scaled to the ellipse;
+    /// - cut, with the axis above: slices across, from the far end. Beyond the two points where the cap meets the horizon they end on the
+    ///   unit circle, before these on the ellipse; either is a segment of a disk, after scaling, and u₀ solves φ − sinφ cosφ = its area;
+    /// - cut, with the axis below: the lune between circle and ellipse, in slices along the azimuth plane of the axis.
+    ///
+    /// - Formula: σ the cap's half-angle, ω from the normal to its axis; centre sinω cosσ, semi-axes sinσ cosω and sinσ;
+    ///   y = √((sinσ−cosω)(sinσ+cosω)) from the sphere and the normal in twice the working precision, sinθ = y/sinω, tanθ = y/cosσ,
+    ///   tanψ = y/(cosσ cosω), S(φ) = φ − sinφ cosφ. Ω⊥ is π sin²σ cosω if whole; S(θ) + sin²σ cosω (π − S(ψ)) if cut with the axis
+    ///   above, where no term is negative; below, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds = ((1+x²) atan x − x)/x³, k = |cosω| and
+    ///   b = tanθ/k, Ω⊥ = sin²ω sin²θ tanθ (C(tanθ) − C(b))/(1−k²): a difference that is itself an integral of positive terms where b ≤ 1.
+    ///   At sinθ·t across, the lune is as wide as sinθ tanθ sin²ω b² m²/((1+P)(1+Q)(P+Q)), m = 1−t², P = √(1+m tan²θ), Q = √(1+mb²);
+    ///   its area up to t has the like form, and is inverted by a fixed number of steps of Halley's method.
+    /// - Domain: u in [0, 1)²; any centre and radius > 0, from outside or inside; a normal of any length.
+    /// - Density: cosθ/Ω⊥ per steradian within the cone (and within 4 ulp beyond) and above the horizon, 0 elsewhere. From inside the
+    ///   sphere: the whole hemisphere, cosθ/π.
+    /// - Degenerate: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` gives some unit vector.
+    /// - Greatest error: Ω⊥ 3e−7 relative (a thin lune: times 3 cosω/(sinσ−|cosω|)); direction 4e−7, besides 4 steps of 2⁻²⁴ in u.
+    /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two maps of
+    ///   the cut cap and the forms without cancellation are derived here.
+    ProjectedCap {
+        /// x: horizontal, towards the axis; z: the normal.
+        frame: Frame<R>,
+        axis: Vec3<R>,
+        cone: Cone<R>,
+        sin_sigma: R,
+        cos_sigma: R,
+        sin_omega: R,
+        cos_omega: R,
+        /// sin and tan of θ, half the angle of the horizon that the cap covers; θ − sinθ cosθ; |cosω|/tanθ
+        sin_theta: R,
+        tan_theta: R,
+        segment: R,
+        beta: R,
+        /// of the lune: the area up to t = 1, in units of `width`'s
+        half: R,
+        projected: R,
+        /// of the centre: along x and z of the frame; its distance; d²−R²; all in units of `unit`
+        along_x: R,
+        along_z: R,
+        distance: R,
+        power: R,
+        unit: R,
+    }
+}
+
+/// Is this double precision? There, series are longer and steps more.
+#[inline(always)]
+fn double<R: Real>() -> bool {
+    size_of::<R::Scalar>() > 4
+}
+
+/// Inner product as if computed in twice the working precision.
+#[inline(always)]
+fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
+    let product = |a: R, b: R| {
+        let p = a * b;
+        (p, R::product_error(a, b, p))
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
+    let (s, e1) = two_sum(x, y);
+    let (s, e2) = two_sum(s, z);
+    s + ((e1 + e2) + (ex + (ey + ez)))
+}
+
+/// a/b, or 0 where b is not positive.
+#[inline(always)]
+fn ratio<R: Real>(a: R, b: R) -> R {
+    let some = b.gt(R::lit(0.0));
+    (a / R::select(some, b, R::lit(1.0))).keep(some)
+}
+
+/// S(φ) = φ − sinφ cosφ for φ in [0, π/2]: ½(Φ − sinΦ) with Φ = 2φ, by its series.
+#[inline(always)]
+fn segment<R: Real>(phi: R) -> R {
+    const fn coefficients<const N: usize>() -> [f64; N] {
+        let mut c = [2.0 / 3.0; N];
+        let mut i = 1;
+        while i < N {
+            let k = 2.0 * i as f64;
+            c[i] = c[i - 1] * -4.0 / ((k + 2.0) * (k + 3.0));
+            i += 1;
+        }
+        c
+    }
+    let square = phi * phi;
+    let series = if double::<R>() {
+        polynomial(square, const { coefficients::<16>() })
+    } else {
+        polynomial(square, const { coefficients::<9>() })
+    };
+    phi * square * series
+}
+
+/// x^⅓ for x in [2⁻⁴⁸, 20], to 1e−5: x^(5/16) and two steps of Halley's method. 0 for 0.
+#[inline(always)]
+fn cube_root<R: Real>(x: R) -> R {
+    let quarter = x.sqrt().sqrt();
+    let mut root = quarter * quarter.sqrt().sqrt() * R::lit(0.87);
+    for _ in 0..2 {
+        let cube = root * root * root;
+        root *= ratio(cube + (x + x), cube + cube + x);
+    }
+    root
+}
+
+/// φ in [0, π/2] with S(φ) = `area`, and its sine and cosine.
+#[inline(always)]
+fn invert_segment<R: Real>(area: R) -> (R, R) {
+    // the inverse series of Φ − sinΦ, fitted to 2e−5
+    let w = cube_root(area * R::lit(12.0));
+    let fit = polynomial(
+        w * w,
+        [0.999_994_607, 0.016_720_764_2, 6.283_052_68e-4, 8.786_605_22e-5, -8.907_869_77e-6, 1.216_508_5e-6],
+    );
+    let mut phi = (w * fit * R::lit(0.5)).min(R::lit(FRAC_PI_2));
+    let turns = R::lit(0.5 * FRAC_1_PI);
+    let steps = if double::<R>() { 2 } else { 1 };
+    for _ in 0..steps {
+        let (s, c) = (phi * turns).sin_cos_turns();
+        let off = segment(phi) - area;
+        let slope = (s * s) * (s + s) - off * c;
+        phi = (phi - off * ratio(s, slope)).clamp(R::lit(0.0), R::lit(FRAC_PI_2));
+    }
+    (phi * turns).sin_cos_turns()
+}
+
+/// (C(x), C(x) − C(y) over 1 − x²/y²) for 0 ≤ x ≤ y, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds.
+///
+/// Up to 1 (2.5 in single precision) by Gauss and Legendre, where (C(x)−C(y))/(y²−x²) = ∫ s²(1−s²)/((1+x²s²)(1+y²s²)) ds; beyond in closed form.
+#[inline]
+fn arcs<R: Real>(x: R, y: R) -> (R, R) {
+    // s² and weight · (1−s²)
+    const NARROW: [(f64, f64); 5] = [
+        (0.022_163_568_807_217_638, 0.288_974_353_226_087_8),
+        (0.187_831_567_652_445_52, 0.218_689_929_305_368_82),
+        (0.461_597_361_496_266_73, 0.117_956_675_638_790_13),
+        (0.748_334_627_387_280_5, 0.037_611_729_322_003_11),
+        (0.948_493_926_288_368_7, 0.003_433_979_174_416_841),
+    ];
+    const WIDE: [(f64, f64); 10] = [
+        (0.005_856_308_436_795_614_6, 0.151_858_816_180_923_5),
+        (0.051_886_393_980_323_686, 0.141_432_938_125_265_2),
+        (0.139_656_240_742_977, 0.122_251_500_866_774),
+        (0.260_985_093_682_225_4, 0.097_319_866_806_633_61),
+        (0.404_564_284_765_747_5, 0.070_377_245_675_284_54),
+        (0.557_011_314_600_443_3, 0.045_153_889_780_458_76),
+        (0.704_117_292_400_090_4, 0.024_640_147_777_813_36),
+        (0.832_171_652_087_023_6, 0.010_518_146_332_235_684),
+        (0.929_241_876_579_895_5, 0.002_872_880_980_848_451),
+        (0.986_304_414_519_349_03, 0.000_241_234_140_431_037_57),
+    ];
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let quadrature = |nodes: &[(f64, f64)], reach: R| {
+        let (x, y) = (x.min(reach), y.min(reach));
+        let (x2, y2) = (x * x, y * y);
+        let (mut first, mut both) = (zero, zero);
+        for &(s2, weight) in nodes {
+            let s2 = R::lit(s2);
+            let (dx, dy) = (x2.mul_add(s2, one), y2.mul_add(s2, one));
+            let term = R::lit(weight) / (dx * dy);
+            first = term.mul_add(dy, first);
+            both = term.mul_add(s2, both);
+        }
+        (first, both * y2)
+    };
+    let far = y.gt(one);
+    let (first, difference) = quadrature(if double::<R>() { &WIDE } else { &NARROW }, one);
+    if !far.any() {
+        return (first, difference);
+    }
+    // in single precision the difference has too few digits up to 2.5, and twice as many nodes still do
+    let reach = R::lit(if double::<R>() { 1.0 } else { 2.5 });
+    let wide = if double::<R>() { (first, difference) } else { quadrature(&WIDE, reach) };
+    let closed = |x: R| {
+        // ((1+x²) atan x − x)/x³, in terms of 1/x
+        let inverse = one / x.max(one);
+        let square = inverse * inverse;
+        (one + square) * inverse * one.atan2(inverse) - square
+    };
+    let far_first = R::select(x.gt(reach), closed(x), wide.0);
+    let q = x / y.max(one);
+    let beyond = ratio(far_first - closed(y), (one - q) * (one + q));
+    let far_difference = R::select(y.gt(reach), beyond, wide.1);
+    (R::select(far, far_first, first), R::select(far, far_difference, difference))
+}
+
+/// A slice of the lune at ±t: its half-area up to t and its width, in common units.
+struct Slice<R> {
+    area: R,
+    width: R,
+    /// d width/dt over width
+    slope: R,
+}
+
+impl<R: Real> ProjectedCap<R> {
+    /// For a sphere whose centre lies at `center` relative to the point, on a surface with the normal `normal`.
+    #[inline(always)]
+    pub fn new(center: Vec3<R>, radius: R, normal: Vec3<R>) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let scale = center.max_abs().max(radius.abs()).exponent_reciprocal();
+        let (c, r) = (center * scale, radius * scale);
+        let power = c.length_squared_minus_square(r);
+        let squared = c.length_squared();
+        let some = squared.gt(zero);
+        let inverse = rsqrt(R::select(some, squared, one)).keep(some);
+        let outside = power.ge(zero) & some;
+
+        // the normal to length 1, whatever it was
+        let normal = normal * normal.max_abs().exponent_reciprocal();
+        let length_squared = normal.length_squared();
+        let flat = length_squared.le(zero);
+        let shrink = rsqrt(R::select(flat, one, length_squared));
+        let along_z = exact_dot(c, normal) * shrink;
+        let normal = normal * shrink;
+        let normal = Vec3::new(normal.x, normal.y, R::select(flat, one, normal.z));
+        // y: horizontal, across the plane of normal and axis
+        let across = normal.cross(c);
+        let width_squared = across.length_squared();
+        let oblique = width_squared.gt(R::lit(1e-36));
+        let inverse_width = rsqrt(R::select(oblique, width_squared, one));
+        let t = Vec3::select(oblique, across * inverse_width, Frame::new(normal).t);
+        let frame = Frame { s: t.cross(normal), t, n: normal };
+        let along_x = (width_squared * inverse_width).keep(oblique);
+
+        // seen from inside, the hemisphere is a cap about the normal
+        let pick = |yes: R, no: f64| R::select(outside, yes, R::lit(no));
+        let reciprocal = |square: R| rsqrt(R::select(square.gt(zero), square, one));
+        let by_radius = reciprocal(r.mul_add(r, power.max(zero)));
+        let sin_sigma = pick((r.max(zero) * by_radius).min(one), 1.0);
+        let cos_sigma = pick((power.max(zero).sqrt() * by_radius).min(one), 0.0);
+        let by_height = reciprocal(along_x.mul_add(along_x, along_z * along_z));
+        let sin_omega = pick((along_x * by_height).min(one), 0.0);
+        let cos_omega = pick((along_z * by_height).clamp(-one, one), 1.0);
+        let height_squared = ((r - along_z) * (r + along_z)).max(zero) * inverse * inverse;
+        let height = height_squared.sqrt().keep(outside);
+        let whole = cos_omega.ge(sin_sigma);
+        let sin_theta = ratio(height, sin_omega).min(one);
+        let floor = R::lit(1e-9);
+        let tan_theta = height / cos_sigma.max(floor);
+        let beta = ratio(cos_omega.abs(), tan_theta).max(floor);
+
+        let area = sin_sigma * sin_sigma * cos_omega;
+        let theta = height.atan2(cos_sigma);
+        let psi = height.atan2(cos_sigma * cos_omega);
+        let theta_segment = segment(theta.min(R::lit(FRAC_PI_2)));
+        let above = theta_segment + area * (R::lit(PI) - segment(psi.min(R::lit(FRAC_PI_2))));
+        let (_, lune) = arcs(tan_theta.min(one / beta), one / beta);
+        let below = height * height * tan_theta * lune;
+        let projected = R::select(cos_omega.ge(zero), R::select(whole, R::lit(PI) * area, above), below);
+        let visible = cos_omega.gt(-sin_sigma) & (r.gt(zero));
+        let axis = c * inverse;
+        Self {
+            frame,
+            axis: Vec3::new(axis.x, axis.y, R::select(some, axis.z, one)),
+            cone: Cone { one_minus_cos: pick(sin_sigma * sin_sigma / (one + cos_sigma), 2.0).keep(r.gt(zero)) },
+            sin_sigma,
+            cos_sigma,
+            sin_omega,
+            cos_omega,
+            sin_theta,
+            tan_theta,
+            segment: theta_segment,
+            beta,
+            half: R::lit(0.5) * lune,
+            projected: projected.keep(visible),
+            along_x,
+            along_z,
+            distance: squared * inverse,
+            power,
+            unit: one / scale,
+        }
+    }
+
+    /// Projected solid angle in [0, π]: irradiance per unit of radiance.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+
+    /// True where the point lies strictly inside the sphere, so that it sees the inner side.
+    #[inline(always)]
+    pub fn inside(&self) -> R::Mask {
+        self.power.lt(R::lit(0.0))
+    }
+
+    /// The density of a direction that is known to hit the sphere, at a cosine to the normal: cosθ/Ω⊥.
+    #[inline(always)]
+    pub fn density(&self, cos: R) -> R {
+        // a subnormal Ω⊥ has no finite reciprocal
+        let some = self.projected.gt(R::lit(1e-37));
+        (cos.max(R::lit(0.0)) / R::select(some, self.projected, R::lit(1.0))).keep(some)
+    }
+
+    #[inline(always)]
+    fn whole(&self) -> R::Mask {
+        self.cos_omega.ge(self.sin_sigma)
+    }
+
+    /// 1 − the centre of the ellipse: 1 − sinω cosσ.
+    #[inline(always)]
+    fn one_minus_centre(&self) -> R {
+        let one = R::lit(1.0);
+        self.cos_omega * self.cos_omega / (one + self.sin_omega) + self.sin_omega * self.one_minus_cos_sigma()
+    }
+    #[inline(always)]
+    fn one_minus_cos_sigma(&self) -> R {
+        self.sin_sigma * self.sin_sigma / (R::lit(1.0) + self.cos_sigma)
+    }
+
+    /// The direction for `u` in the local frame; and (cosine to the axis) − cosσ, for what is seen from outside.
+    #[inline(always)]
+    fn local(&self, u: Vec2<R>) -> (Vec3<R>, R) {
+        let whole = self.whole();
+        let below = self.cos_omega.lt(R::lit(0.0));
+        let (mut w, mut beyond) = (Vec3::default(), R::lit(0.0));
+        if whole.any() {
+            (w, beyond) = self.ellipse(u);
+        }
+        let cut = !whole & !below;
+        if cut.any() {
+            let (v, d) = self.slices(u);
+            (w, beyond) = (Vec3::select(cut, v, w), R::select(cut, d, beyond));
+        }
+        if below.any() {
+            let (v, d) = self.lune(u);
+            (w, beyond) = (Vec3::select(below, v, w), R::select(below, d, beyond));
+        }
+        (w, beyond)
+    }
+
+    /// Wholly above the horizon: the disk.
+    #[inline(always)]
+    fn ellipse(&self, u: Vec2<R>) -> (Vec3<R>, R) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (r, turned) = concentric(u);
+        let disk = turned * r;
+        let rest = (one - r.abs()) * (one + r.abs());
+        self.over_the_ellipse(disk.x, self.sin_sigma * disk.y, (self.sin_sigma * self.sin_sigma * rest).max(zero))
+    }
+    /// At x on the ellipse's disk and height y on its rim or, by `inward` = the square of the rim's y − y², inside it.
+    ///
+    /// At the same x, the rim is at z = cosω cosσ − sinω sinσ x; inside, z² exceeds its square by `inward`.
+    #[inline(always)]
+    fn over_the_ellipse(&self, x: R, y: R, inward: R) -> (Vec3<R>, R) {
+        let zero = R::lit(0.0);
+        let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * x).max(zero);
+        let z = rim.mul_add(rim, inward).sqrt();
+        let point = (self.sin_sigma * self.cos_omega).mul_add(x, self.sin_omega * self.cos_sigma);
+        (Vec3::new(point, y, z), self.cos_omega * ratio(inward, z + rim))
+    }
+
+    /// Cut, with the axis above the horizon: two segments of disks.
+    #[inline]
+    fn slices(&self, u: Vec2<R>) -> (Vec3<R>, R) {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
+        let from_right = u.x * self.projected;
+        let on_circle = from_right.lt(self.segment);
+        let share = R::select(on_circle, from_right, ratio((one - u.x) * self.projected, area)).min(R::lit(PI));
+        let late = share.gt(R::lit(FRAC_PI_2));
+        let (s, c) = invert_segment(R::select(late, R::lit(PI) - share, share));
+        let c = c.negate_where(late);
+        let v = two.mul_add(u.y, -one);
+        let inward = (R::lit(4.0) * u.y * (one - u.y)).max(zero);
+        // on the circle: x = cosφ, |y| ≤ sinφ
+        let circle = Vec3::new(c, s * v, s * inward.sqrt());
+        let versine = s * s / (one + c.max(zero));
+        let lift = self.cos_omega * self.cos_omega / (one + self.sin_omega);
+        let (dx, dz) = (lift - versine, circle.z - self.cos_omega);
+        let moved = R::lit(0.5) * dx.mul_add(dx, circle.y.mul_add(circle.y, dz * dz));
+        let near = (self.one_minus_cos_sigma() - moved).max(zero);
+        let high = self.sin_sigma * s;
+        let (ellipse, far) = self.over_the_ellipse(-c, high * v, high * high * inward);
+        (Vec3::select(on_circle, circle, ellipse), R::select(on_circle, near, far))
+    }
+
+    /// Cut, with the axis below the horizon: the lune.
+    #[inline]
+    fn lune(&self, u: Vec2<R>) -> (Vec3<R>, R) {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let side = two.mul_add(u.x, -one);
+        let t = self.invert_lune(two * u.x.min(one - u.x));
+        let width = self.width(t);
+        let y = (self.sin_theta * t).copysign(side);
+        let arc = ((one - y) * (one + y)).max(zero).sqrt();
+        let inward = width * u.y;
+        let x = arc - inward;
+        let z = (inward * (arc + x)).max(zero).sqrt();
+        // from the rim, at the same y
+        let (rim_x, rim_z) = (arc - width, (width * (arc + arc - width)).max(zero).sqrt());
+        let beyond = width * (one - u.y) * (self.sin_omega - self.cos_omega * ratio(x + rim_x, z + rim_z));
+        (Vec3::new(x, y, z), beyond)
+    }
+    /// Width of the lune at ±t, on the unit disk.
+    #[inline(always)]
+    fn width(&self, t: R) -> R {
+        self.sin_theta * self.tan_theta * self.sin_omega * self.sin_omega * self.slice(t, false).width
+    }
+    /// The slice at t; without its area, `area` is 0.
+    #[inline]
+    fn slice(&self, t: R, with_area: bool) -> Slice<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (a, beta) = (self.tan_theta, self.beta);
+        let m = ((one - t) * (one + t)).max(zero);
+        let p = (a * a).mul_add(m, one).sqrt();
+        let q = beta.mul_add(beta, m).sqrt();
+        let (p1, q1, pq) = (one + p, beta + q, beta.mul_add(p, q));
+        let width = m * m / (p1 * q1 * pq);
+        let mut area = zero;
+        if with_area {
+            let (x, y) = (t * a / p, t / q);
+            let (c, difference) = arcs(x.min(y), y);
+            let tail = R::lit(0.5) * t * t * t / (p * q);
+            area = t.mul_add(width, tail * (c * m / pq + beta * difference / p));
+        }
+        // of log m² − log(1+P) − log(β+Q) − log(βP+Q), by m, times dm/dt = −2t
+        let (dp, dq) = (R::lit(0.5) * a * a / p, R::lit(0.5) / q);
+        let by_m = ratio(R::lit(2.0), m) - dp / p1 - dq / q1 - beta.mul_add(dp, dq) / pq;
+        Slice { area, width, slope: -(t + t) * by_m }
+    }
+    /// The half-lune's area beyond t, in the units of a slice: what is left after a difference would have few digits.
+    #[inline]
+    fn tail(&self, t: R) -> R {
+        let rest = R::lit(1.0) - t;
+        let mut sum = R::lit(0.0);
+        for (x, weight) in [
+            (0.0198550717512319, 0.0506142681451885),
+            (0.1016667612931866, 0.1111905172266872),
+            (0.2372337950418355, 0.1568533229389434),
+            (0.4082826787521751, 0.1813418916891808),
+            (0.5917173212478248, 0.1813418916891808),
+            (0.7627662049581645, 0.1568533229389434),
+            (0.8983332387068134, 0.1111905172266872),
+            (0.9801449282487681, 0.0506142681451885),
+        ] {
+            sum = R::lit(weight).mul_add(self.slice(rest.mul_add(R::lit(x), t), false).width, sum);
+        }
+        sum * rest
+    }
+    /// Where single precision would leave an area beyond t of few digits: that is less than a share of 1/8 of the half.
+    #[inline(always)]
+    fn ends(share: R) -> R::Mask {
+        share.lt(R::lit(if double::<R>() { -1.0 } else { 0.125 }))
+    }
+    /// t in [0, 1] beyond which lies the share `left` of the half-lune.
+    #[inline]
+    fn invert_lune(&self, left: R) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let v = one - left;
+        let target = v * self.half;
+        let ends = Self::ends(left);
+        let start = self.slice(zero, false);
+        // from the two ends: area ≈ width · t, and the rest of it like (1−t)^p
+        let near = v * ratio(self.half, start.width);
+        let root = left.max(zero).sqrt().sqrt();
+        let far = one - root * root.sqrt().sqrt();
+        let mut t = R::select(v.lt(R::lit(0.5)), near, near.max(far)).clamp(zero, one);
+        let steps = if double::<R>() { 7 } else { 4 };
+        for _ in 0..steps {
+            let slice = self.slice(t, true);
+            let mut off = slice.area - target;
+            if ends.any() {
+                off = R::select(ends, left * self.half - self.tail(t), off);
+            }
+            let newton = ratio(off, slice.width);
+            // Halley: off/(1 − ½ off f′/f)
+            let halley = one - R::lit(0.5) * newton * slice.slope;
+            let step = newton / halley.max(R::lit(0.5));
+            t = (t - step).clamp(zero, one);
+        }
+        t
+    }
+
+    /// The direction for `u` and the distance to the sphere along it.
+    #[inline(always)]
+    pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
+        let zero = R::lit(0.0);
+        let (w, beyond) = self.local(u);
+        // from outside: with δ = cos∠(w, axis) − cosσ, R² − d² sin² = d² δ (2cosσ + δ)
+        let cos = self.cos_sigma + beyond;
+        let across = (beyond * (self.cos_sigma + cos)).max(zero).sqrt();
+        let near = self.distance * self.cos_sigma * ratio(self.cos_sigma, cos + across);
+        let along = w.x.mul_add(self.along_x, w.z * self.along_z);
+        let root = (along * along - self.power).max(zero).sqrt();
+        let far = R::select(along.lt(zero), ratio(-self.power, root - along), root + along);
+        let most = R::lit(if double::<R>() { f64::MAX } else { f64::from(f32::MAX) });
+        let distance = (R::select(self.inside(), far, near) * self.unit).min(most);
+        Sighting { direction: self.frame.to_world(w), distance }
+    }
+}
+
+impl<R: Real> Warp<R> for ProjectedCap<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.frame.to_world(self.local(u).0)
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let moved = (w - self.axis).length_squared() * R::lit(0.5);
+        self.density(w.dot(self.frame.n)).keep(self.cone.contains(moved) | self.inside())
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
+        let w = self.frame.to_local(w);
+        let z = w.z.max(zero);
+        let whole = self.whole();
+        let below = self.cos_omega.lt(zero);
+        let mut u = Vec2::default();
+        // near the horizon z tells better than x how far in a direction is
+        let round = w.y.mul_add(w.y, z * z);
+        let off_centre = R::select(
+            w.x.gt(half),
+            self.one_minus_centre() - round / (one + w.x.abs()),
+            w.x - self.sin_omega * self.cos_sigma,
+        );
+        let across = ratio(off_centre, self.sin_sigma * self.cos_omega);
+        if whole.any() {
+            let p = Vec2::new(across, ratio(w.y, self.sin_sigma));
+            // near the limb of a large cap z tells better than x and y how far out a direction is
+            let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * across).max(zero);
+            let rest = (z - rim) * (z + rim) / (self.sin_sigma * self.sin_sigma).max(R::lit(1e-37));
+            let r = R::select(z.le(self.sin_sigma) & rest.lt(half), (one - rest).max(zero).sqrt(), p.length());
+            u = invert_concentric(p, r.min(one));
+        }
+        let cut = !whole & !below;
+        if cut.any() {
+            let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
+            let span = round.sqrt();
+            let phi = span.atan2(w.x);
+            let in_segment = segment(phi.clamp(zero, R::lit(FRAC_PI_2)));
+            let on_circle = span.le(self.sin_theta) & w.x.gt(zero);
+            let c = (-across).clamp(-one, one);
+            // sinφ from how far z is above the rim at the same x, and y
+            let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).max(zero);
+            let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).max(zero)).sqrt() / self.sin_sigma).min(one);
+            let phi = s.atan2(c.abs());
+            let from_left = segment(phi);
+            let from_left = R::select(c.lt(zero), R::lit(PI) - from_left, from_left) * area;
+            let from_right = R::select(on_circle, in_segment, self.projected - from_left);
+            let high = R::select(on_circle, span, self.sin_sigma * s);
+            let found = Vec2 {
+                x: unit_interval(ratio(from_right, self.projected)),
+                y: unit_interval(half.mul_add(ratio(w.y, high), half)),
+            };
+            u = Vec2 { x: R::select(cut, found.x, u.x), y: R::select(cut, found.y, u.y) };
+        }
+        if below.any() {
+            let t = ratio(w.y.abs(), self.sin_theta).min(one);
+            let slice = self.slice(t, true);
+            let mut left = half - half * ratio(slice.area, self.half);
+            let ends = Self::ends(left + left);
+            if ends.any() {
+                left = R::select(ends, half * ratio(self.tail(t), self.half), left);
+            }
+            let arc = ((one - w.y) * (one + w.y)).max(zero).sqrt();
+            let inward = ratio(z * z, arc + w.x.max(zero));
+            let x = unit_interval(R::select(w.y.lt(zero), left, one - left));
+            let y = unit_interval(ratio(inward, self.width(t)));
+            u = Vec2 { x: R::select(below, x, u.x), y: R::select(below, y, u.y) };
+        }
+        u
+    }
+}

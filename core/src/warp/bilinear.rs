@@ -1,0 +1,61 @@
+use super::{Linear, Warp, Warp1};
+use crate::real::Real;
+use crate::vector::Vec2;
+
+/// Density bilinear between four corner values of the unit square.
+///
+/// - Formula: y is [`Linear`] between the sums of the lower and the upper corners, then x is linear between the values of both sides at y.
+/// - Domain: u in [0, 1)²; corners ≥ 0 in any unit (negative ones count as 0).
+/// - Density: 4 × the interpolated value / the sum of the corners, per unit area of [0, 1]²; 0 elsewhere.
+/// - Degenerate: all corners 0: pdf 0, and the point is u.
+/// - Greatest error: 2e−7 in the point, 4e−7 relative in the pdf.
+/// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.5.5 (bilinear), with the marginal and the conditional by [`Linear`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bilinear<R> {
+    /// Relative densities at (0, 0), (1, 0), (0, 1) and (1, 1).
+    pub corners: [R; 4],
+}
+
+impl<R: Real> Bilinear<R> {
+    /// One density in every lane.
+    #[inline(always)]
+    pub fn splat(b: Bilinear<R::Scalar>) -> Self {
+        Self { corners: b.corners.map(R::splat) }
+    }
+    /// Density of y, from corners times a power of two, so that no sum overflows.
+    #[inline(always)]
+    fn marginal(&self) -> (Linear<R>, [R; 4]) {
+        let zero = R::lit(0.0);
+        let [a, b, c, d] = self.corners.map(|w| w.max(zero));
+        let scale = a.max(b).max(c.max(d)).exponent_reciprocal();
+        let [a, b, c, d] = [a, b, c, d].map(|w| w * scale);
+        (Linear { a: a + b, b: c + d }, [a, b, c, d])
+    }
+    /// Density of x at y.
+    #[inline(always)]
+    fn conditional([a, b, c, d]: [R; 4], y: R) -> Linear<R> {
+        let y = y.clamp(R::lit(0.0), R::lit(1.0));
+        let rest = R::lit(1.0) - y;
+        Linear { a: a.mul_add(rest, c * y), b: b.mul_add(rest, d * y) }
+    }
+}
+
+impl<R: Real> Warp<R> for Bilinear<R> {
+    type Point = Vec2<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec2<R> {
+        let (marginal, corners) = self.marginal();
+        let y = marginal.sample(u.y);
+        Vec2 { x: Self::conditional(corners, y).sample(u.x), y }
+    }
+    #[inline(always)]
+    fn pdf(&self, p: Vec2<R>) -> R {
+        let (marginal, corners) = self.marginal();
+        marginal.pdf(p.y) * Self::conditional(corners, p.y).pdf(p.x)
+    }
+    #[inline(always)]
+    fn invert(&self, p: Vec2<R>) -> Vec2<R> {
+        let (marginal, corners) = self.marginal();
+        Vec2 { x: Self::conditional(corners, p.y).invert(p.x), y: marginal.invert(p.y) }
+    }
+}

@@ -1,0 +1,220 @@
+//! Tables over slices: what is drawn is what is reported, counted over every `u` there is.
+
+use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
+use etendue::{Uint, Vec2, Warp, Warp1, f32x4, f32x8, u32x4, u32x8};
+use etendue_tests::domain::Random;
+
+const STEPS: u32 = 1 << 24;
+fn step(i: u32) -> f32 {
+    i as f32 / STEPS as f32
+}
+
+/// Weights of n cells by regime.
+fn regimes(n: usize) -> Vec<(&'static str, Vec<f32>)> {
+    let mut random = Random::new(n as u64);
+    let mut of = |f: &mut dyn FnMut(usize, &mut Random) -> f64| (0..n).map(|i| f(i, &mut random) as f32).collect();
+    vec![
+        ("flat", of(&mut |_, _| 1.0)),
+        ("ordinary", of(&mut |_, r| r.range(0.1, 1.0))),
+        (
+            "many zeros, first and last too",
+            of(&mut |i, r| if i % 3 == 1 && i + 1 < n { r.unit_f64() + 0.1 } else { 0.0 }),
+        ),
+        ("twelve decades", of(&mut |_, r| r.magnitude(1e-6, 1e6))),
+        ("one cell", of(&mut |i, _| if i == n / 2 { 7.0 } else { 0.0 })),
+        ("a peak", of(&mut |i, _| if i == n / 3 { 1e9 } else { 1.0 })),
+        ("tiny units", of(&mut |_, r| 1e-38 * r.unit_f64())),
+        ("huge units", of(&mut |_, r| 1e38 * r.unit_f64())),
+    ]
+}
+
+/// Over all 2²⁴ values of u each cell is drawn exactly as often as it says, never without weight, and within 2⁻²⁴ (or the one step
+/// that a weight is owed) of its share.
+#[test]
+fn piecewise_constant_1d_counts() {
+    for n in [1, 2, 3, 7, 1000, 1_000_000] {
+        for (name, weights) in regimes(n) {
+            if weights.iter().all(|w| *w == 0.0) {
+                continue;
+            }
+            let mut cdf = vec![0.0; n];
+            let table = PiecewiseConstant1d::build(&weights, &mut cdf).unwrap();
+            // the counts follow from the first and last u of each cell, if cells come in order
+            let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
+            let least = weights.iter().filter(|w| **w > 0.0).fold(f64::MAX, |m, &w| m.min(w.into())) / total;
+            let mut start = 0;
+            let mut sum = 0.0;
+            for (i, &w) in weights.iter().enumerate() {
+                let p: f32 = table.probability(i as u32);
+                assert_eq!(p > 0.0, w > 0.0, "{name} {n}: cell {i}");
+                let share = f64::from(w) / total;
+                if least > 2.0 / f64::from(STEPS) {
+                    assert!((f64::from(p) - share).abs() <= 1.0 / f64::from(STEPS), "{name} {n}: {p} for {share}");
+                }
+                let count = (p * STEPS as f32) as u32;
+                if count > 0 {
+                    for u in [start, start + count / 2, start + count - 1] {
+                        let cell = table.cell(step(u));
+                        assert_eq!((cell.index, cell.probability), (i as u32, p), "{name} {n} at {u}");
+                        assert!((0.0..1.0).contains(&cell.offset));
+                        let back: f32 = table.invert_cell(cell.index, cell.offset);
+                        assert!((back - step(u)).abs() <= 1.0 / STEPS as f32, "{name} {n}: {} to {back}", step(u));
+                        // the point of the line stays in its cell, and so has its density
+                        let x = table.sample(step(u));
+                        let pdf: f32 = table.pdf(x);
+                        assert_eq!(pdf, p * n as f32, "{name} {n}: {x} at {u}");
+                    }
+                }
+                start += count;
+                sum += f64::from(p);
+            }
+            assert_eq!((start, sum), (STEPS, 1.0), "{name} {n}");
+            assert_eq!(table.pdf(-1e-9_f32) + table.pdf(1.0_f32), 0.0);
+            assert!(table.cell(1.0_f32).probability > 0.0 && table.cell(f32::NAN).probability > 0.0);
+        }
+    }
+}
+
+#[test]
+fn piecewise_constant_2d_counts() {
+    for [w, h] in [[1, 1], [1, 5], [6, 1], [16, 8], [13, 11], [1000, 500]] {
+        for (name, weights) in regimes(w * h) {
+            if weights.iter().all(|w| *w == 0.0) {
+                continue;
+            }
+            let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(w, h)];
+            let table = PiecewiseConstant2d::build(&weights, w, &mut buffer).unwrap();
+            let mut sum = 0.0;
+            for y in 0..h {
+                for x in 0..w {
+                    let p: f32 = table.probability(x as u32, y as u32);
+                    assert_eq!(p > 0.0, weights[x + y * w] > 0.0, "{name} {w}×{h}: {x} {y}");
+                    sum += f64::from(p);
+                }
+            }
+            assert!((sum - 1.0).abs() < 1e-6, "{name} {w}×{h}: {sum}");
+            let mut random = Random::new(3);
+            for i in 0..20_000 {
+                let mut axis = || match random.word() % 8 {
+                    0 => 0.0,
+                    1 => 1.0 - step(1),
+                    _ => random.unit(),
+                };
+                let u = Vec2::new(axis(), axis());
+                let (cell, p) = (table.cell(u), table.sample(u));
+                let weight = weights[cell.x as usize + cell.y as usize * w];
+                assert!(weight > 0.0 && cell.probability > 0.0, "{name} {w}×{h}: {u:?} gives {cell:?}");
+                // the same product, in the same order or not
+                let pdf = table.pdf(p);
+                assert!((pdf / (cell.probability * (w * h) as f32) - 1.0).abs() < 3e-7, "{name}: {u:?} {pdf} {cell:?}");
+                let back = table.invert_cell(cell.x, cell.y, cell.offset);
+                assert!((back.x - u.x).abs().max((back.y - u.y).abs()) <= step(1), "{name} {w}×{h}: {u:?} {back:?}");
+                // through a point, whose rounding is one part in 2²⁴ of the whole and so n of the cell
+                let back = table.invert(p);
+                let allowed = [(w as f32, cell.x), (h as f32, cell.y)].map(|(n, _)| step(2) * (1.0 + n));
+                assert!(
+                    (back.x - u.x).abs() <= allowed[0] && (back.y - u.y).abs() <= allowed[1],
+                    "{name}: {u:?} {back:?}"
+                );
+                // lanes
+                if i % 16 == 0 {
+                    let us: [Vec2<f32>; 8] = core::array::from_fn(|_| Vec2::new(random.unit(), random.unit()));
+                    let u8: Vec2<f32x8> = Vec2::new(us.map(|u| u.x).into(), us.map(|u| u.y).into());
+                    let (cells, points) = (table.cell(u8), table.sample(u8));
+                    let (pdfs, backs) = (table.pdf(points), table.invert(points));
+                    for (k, &u) in us.iter().enumerate() {
+                        let (one, p) = (table.cell(u), table.sample(u));
+                        assert_eq!((cells.x.lane(k), cells.y.lane(k)), (one.x, one.y));
+                        assert_eq!((cells.offset.lane(k), points.lane(k)), (one.offset, p));
+                        assert_eq!((pdfs.as_array()[k], backs.lane(k)), (table.pdf(p), table.invert(p)));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Over all 2²⁴ values of u: counts within what the grid allows, the left-over uniform.
+#[test]
+fn alias_table_counts() {
+    for n in [1_usize, 2, 3, 7, 64, 1000] {
+        for (name, weights) in regimes(n) {
+            if weights.iter().all(|w| *w == 0.0) {
+                continue;
+            }
+            let (mut thresholds, mut aliases) = (vec![0.0; n], vec![0; n]);
+            let table = AliasTable::build(&weights, &mut thresholds, &mut aliases).unwrap();
+            let (mut counts, mut offsets) = (vec![0_u32; n], vec![0.0; n]);
+            for packet in (0..STEPS).step_by(8) {
+                let cell = table.cell(f32x8::from(core::array::from_fn(|k| step(packet + k as u32))));
+                for k in 0..8 {
+                    let (i, offset) = (cell.index.lane(k) as usize, cell.offset.as_array()[k]);
+                    assert!((0.0..1.0).contains(&offset));
+                    counts[i] += 1;
+                    offsets[i] += f64::from(offset);
+                }
+            }
+            let probabilities: Vec<f32> = (0..n).map(|i| table.probability(i as u32)).collect();
+            for i in 0..n {
+                let count = f64::from(counts[i]);
+                let expected = f64::from(probabilities[i]) * f64::from(STEPS);
+                assert!(weights[i] > 0.0 || counts[i] == 0, "{name} {n}: item {i} has no weight");
+                // each bucket in which the item lies may be off by a step at either end
+                let buckets = 2.0 + aliases.iter().filter(|a| **a as usize == i).count() as f64;
+                assert!((count - expected).abs() <= 2.0 * buckets, "{name} {n}: item {i}: {count} for {expected}");
+                if count > 1e4 {
+                    let mean = offsets[i] / count;
+                    assert!((mean - 0.5).abs() < 2.0 * buckets / count + 1e-6, "{name} {n}: item {i}: mean {mean}");
+                }
+            }
+        }
+    }
+}
+
+/// The tables in one dimension give the same bits at every width.
+#[test]
+fn lanes() {
+    let (_, weights) = regimes(1000).swap_remove(3);
+    let (mut cdf, mut thresholds, mut aliases) = (vec![0.0; 1000], vec![0.0; 1000], vec![0; 1000]);
+    let line = PiecewiseConstant1d::build(&weights, &mut cdf).unwrap();
+    let alias = AliasTable::build(&weights, &mut thresholds, &mut aliases).unwrap();
+    let mut random = Random::new(8);
+    for _ in 0..10_000 {
+        let us: [f32; 4] = core::array::from_fn(|_| random.unit());
+        let (a, b) = (line.cell(f32x4::from(us)), alias.cell(f32x4::from(us)));
+        let x = line.sample(f32x4::from(us));
+        let (pdf, back) = (line.pdf(x), line.invert(x));
+        for (k, &u) in us.iter().enumerate() {
+            for (cells, one) in [(a, line.cell(u)), (b, alias.cell(u))] {
+                assert_eq!((cells.index.lane(k), cells.offset.as_array()[k]), (one.index, one.offset));
+                assert_eq!(cells.probability.as_array()[k], one.probability);
+            }
+            let one = line.sample(u);
+            let figures = [x, pdf, back].map(|f| f.as_array()[k]);
+            assert_eq!(figures, [one, line.pdf(one), line.invert(one)]);
+        }
+    }
+    // past the last cell there is nothing
+    assert_eq!(line.probability::<f32x4>(u32x4::splat(1000)), f32x4::splat(0.0));
+    assert_eq!(alias.probability::<f32x8>(u32x8::splat(u32::MAX)), f32x8::splat(0.0));
+}
+
+#[test]
+fn tables_that_cannot_be() {
+    let built = |weights: &[f32], n: usize| PiecewiseConstant1d::build(weights, &mut vec![0.0; n]).err();
+    let alias = |weights: &[f32], n: usize| AliasTable::build(weights, &mut vec![0.0; n], &mut vec![0; n]).err();
+    let image = |weights: &[f32], n: usize| PiecewiseConstant2d::build(weights, n, &mut vec![0.0; n * n + n]).err();
+    for (weights, n, error) in [
+        (&[][..], 0, TableError::Length),
+        (&[1.0, 1.0], 3, TableError::Length),
+        (&[0.0; 4], 4, TableError::Empty),
+        (&[1.0, -1.0, 1.0, 1.0], 4, TableError::Weight),
+        (&[1.0, f32::NAN, 1.0, 1.0], 4, TableError::Weight),
+        (&[1.0, f32::INFINITY, 1.0, 1.0], 4, TableError::Weight),
+    ] {
+        assert_eq!(built(weights, n), Some(error));
+        assert_eq!(alias(weights, n), Some(error));
+        let side = if n == 4 { 2 } else { n };
+        assert_eq!(image(weights, side), Some(error), "{weights:?}");
+    }
+}
