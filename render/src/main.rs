@@ -43,7 +43,7 @@ struct Render {
     #[arg(long, value_enum, default_value = "solid-angle")]
     technique: Technique,
     /// Where random numbers come from
-    #[arg(long, value_enum, default_value = "stratified")]
+    #[arg(long, value_enum, default_value = "independent")]
     sampler: Sampler,
     /// Image size in pixels; else what the scene says
     #[arg(long, value_name = "WxH", value_parser = size)]
