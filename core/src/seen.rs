@@ -41,6 +41,13 @@ pub struct Sighting<R> {
     pub distance: R,
 }
 
+/// 1/Ω, or 0 where Ω is 0 or so small (1e−37) that its reciprocal would not be finite.
+#[inline(always)]
+pub(crate) fn uniform_density<R: crate::real::Real>(solid_angle: R) -> R {
+    let some = solid_angle.gt(R::lit(1e-37));
+    (R::lit(1.0) / R::select(some, solid_angle, R::lit(1.0))).keep(some)
+}
+
 /// A struct whose fields are lanes, with the operations that go field by field.
 macro_rules! lanewise {
     ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $vis:vis $field:ident: $kind:ty),+ $(,)? }) => {

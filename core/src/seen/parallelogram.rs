@@ -40,9 +40,7 @@ impl<R: Real> SphericalParallelogram<R> {
     /// The density of every direction that hits the parallelogram, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn density(&self) -> R {
-        let solid_angle = self.solid_angle();
-        let some = solid_angle.gt(R::lit(1e-37));
-        (R::lit(1.0) / R::select(some, solid_angle, R::lit(1.0))).keep(some)
+        super::uniform_density(self.solid_angle())
     }
     /// True where the point is on the side to which the normal u×v points.
     #[inline(always)]

@@ -63,8 +63,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     /// The density of every direction that hits the polygon, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn density(&self) -> R {
-        let some = self.solid_angle.gt(R::lit(1e-37));
-        (R::lit(1.0) / R::select(some, self.solid_angle, R::lit(1.0))).keep(some)
+        super::uniform_density(self.solid_angle)
     }
     /// True where the point is on the side from which the corners run counterclockwise.
     #[inline(always)]

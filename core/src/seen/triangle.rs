@@ -222,8 +222,7 @@ impl<R: Real> SphericalTriangle<R> {
     /// The density of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn density(&self) -> R {
-        let some = self.solid_angle.gt(R::lit(1e-37));
-        (R::lit(1.0) / R::select(some, self.solid_angle, R::lit(1.0))).keep(some)
+        super::uniform_density(self.solid_angle)
     }
 
     /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.

@@ -1,0 +1,123 @@
+//! Packets against one triangle at a time in double precision, and meshes that builders stumble over.
+
+use etendue::sequence::{Independent, Sequence};
+use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
+use etendue_render::accel::{Accel, Hits, NOTHING, ShapeSet, Stack};
+
+type V = [f64; 3];
+
+fn sub(a: V, b: V) -> V {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+fn dot(a: V, b: V) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+fn cross(a: V, b: V) -> V {
+    std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+
+/// Distance and least barycentric coordinate (Möller and Trumbore), if the line meets the plane ahead.
+fn meet(t: &[[f32; 3]; 3], o: V, d: V) -> Option<(f64, f64)> {
+    let [a, b, c] = t.map(|v| v.map(f64::from));
+    let (e1, e2, s) = (sub(b, a), sub(c, a), sub(o, a));
+    let p = cross(d, e2);
+    let det = dot(e1, p);
+    let q = cross(s, e1);
+    let (u, v, t) = (dot(s, p) / det, dot(d, q) / det, dot(e2, q) / det);
+    (t > 0.0).then_some((t, u.min(v).min(1.0 - u - v)))
+}
+
+fn random(i: u32, dimension: u32) -> [f32; 2] {
+    let u: Vec2<f32> = Independent::new(5).pair(i, 0, dimension);
+    [u.x * 2.0 - 1.0, u.y * 2.0 - 1.0]
+}
+
+/// Checks a group of eight packets; returns how many rays hit.
+/// Distances are good to 1e−6 of the scene's `scale`: 8 roundings of its coordinates.
+fn check(triangles: &[[[f32; 3]; 3]], accel: &Accel, rays: &[([f32; 3], [f32; 3])], scale: f32) -> usize {
+    let lanes = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
+        let axis = |k: usize| f32x8::from_fn(|i| f(8 * p + i)[k]);
+        Vec3::new(axis(0), axis(1), axis(2))
+    };
+    let packets: Vec<_> = (0..8).map(|p| accel.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
+    let all = [<f32x8 as Real>::Mask::splat(true); 8];
+    let (far, mut stack) = (f32x8::splat(f32::INFINITY), Stack::default());
+    let mut hits = [Hits::none(far); 8];
+    accel.closest(&packets, &all, &mut hits, &mut stack);
+    let mut open = all;
+    accel.occluded(&packets, &mut open, &[far; 8], &[u32x8::splat(NOTHING); 8], &mut stack);
+    let mut count = 0;
+    for (i, (o, d)) in rays.iter().enumerate() {
+        let (o, d) = (o.map(f64::from), d.map(f64::from));
+        let met: Vec<_> = triangles.iter().filter_map(|t| meet(t, o, d)).collect();
+        // within 1e−5 of an edge single precision may decide either way
+        let surely = met.iter().filter(|m| m.1 > 1e-5).map(|m| m.0).fold(f64::INFINITY, f64::min);
+        let perhaps = met.iter().filter(|m| m.1 > -1e-5).map(|m| m.0).fold(f64::INFINITY, f64::min);
+        let found = f64::from(hits[i / 8].distance.lane(i % 8));
+        assert_eq!(found < f64::INFINITY, !open[i / 8].lane(i % 8), "closest and occluded differ on ray {i}");
+        let slack = 1e-6 * f64::from(scale);
+        assert!(found <= surely * (1.0 + 1e-5) + slack, "ray {i} {o:?} {d:?}: {found}, but {surely} is hit");
+        assert!(
+            found >= perhaps * (1.0 - 1e-5) - slack || found == perhaps,
+            "ray {i} {o:?} {d:?}: {found} before {perhaps}"
+        );
+        count += usize::from(found < f64::INFINITY);
+    }
+    count
+}
+
+fn accel(triangles: &[[[f32; 3]; 3]]) -> Accel {
+    Accel::new(triangles, ShapeSet::new(&[]).unwrap()).unwrap()
+}
+
+#[test]
+fn packets_find_what_is_there() {
+    let point = |i: u32, k: u32| {
+        let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
+        [x, y, z]
+    };
+    for scale in [1e-6_f32, 1.0, 1e6] {
+        let triangles: Vec<[[f32; 3]; 3]> = (0..600)
+            .map(|i| {
+                let center = point(i, 0);
+                [1, 2, 3].map(|k| std::array::from_fn(|a| (center[a] + 0.2 * point(i, k)[a]) * scale))
+            })
+            .collect();
+        let accel = accel(&triangles);
+        let mut hits = 0;
+        for group in 0..40_u32 {
+            let tilt = [1.0, -1.0, 0.0][group as usize / 4 % 3];
+            let rays: Vec<_> = (0..64)
+                .map(|i| {
+                    let (o, d) = (point(group * 64 + i, 5), point(group * 64 + i, 6));
+                    // one origin and a narrow beam, tilted or not, along an axis (with −0), or every which way
+                    let (o, d) = match group % 4 {
+                        0 => {
+                            ([1.5 * tilt, -0.9 * tilt, 3.0], [0.01 * d[0] - 0.5 * tilt, 0.01 * d[1] + 0.3 * tilt, -1.0])
+                        }
+                        1 => ([o[0], o[1], 3.0], [-0.0, 0.0, -1.0]),
+                        2 => ([o[0], -3.0, o[2]], [0.0, 1.0, -0.0]),
+                        _ => (o, d),
+                    };
+                    let length = d.iter().map(|x| x * x).sum::<f32>().sqrt();
+                    (o.map(|x| x * scale), d.map(|x| x / length))
+                })
+                .collect();
+            hits += check(&triangles, &accel, &rays, scale);
+        }
+        assert!((400..2500).contains(&hits), "{hits} of 2560 rays hit at scale {scale}");
+    }
+}
+
+#[test]
+fn identical_triangles_build() {
+    let one = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0_f32]];
+    let accel = accel(&vec![one; 100_000]);
+    let rays = vec![([0.0, 0.0, 2.0], [0.0, 0.0, -1.0]); 64];
+    assert_eq!(check(&[one], &accel, &rays, 1.0), 64);
+    // ties go to the triangle of lower index
+    let mut hits = [Hits::none(f32x8::splat(f32::INFINITY))];
+    let ray = accel.rays([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into());
+    accel.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Stack::default());
+    assert_eq!(accel.order()[hits[0].place.to_array()[0] as usize], 0);
+}
