@@ -1,4 +1,4 @@
-//! Every law for every warp in every regime. `--nocapture` prints the greatest figure of each (warp, regime, law).
+//! Every law for every warp in every regime, and how many there were. `-- --nocapture` prints the greatest figure of each (warp, regime, law).
 
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
@@ -7,10 +7,23 @@ use etendue_tests::subjects::{
     Linear, LowDistortionTriangle, Normal, Parallelogram, PolarDisk, ProjectedCap, Rectangle, Tent, Triangle,
     UniformHemisphere, UniformSphere, nearest_hit,
 };
+use libtest_mimic::{Arguments, Failed, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
 
-/// Runs one law over the cases; reports every regime that breaks it, with the first message.
-fn each<S: Subject>(law: &str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> Option<String> {
+/// What has been checked.
+#[derive(Debug)]
+struct Checked {
+    warp: &'static str,
+    regimes: usize,
+    cases: usize,
+    /// Greatest error of a sample and of a density, in units of 2⁻²⁴.
+    greatest: [f64; 2],
+}
+static CHECKED: Mutex<Vec<Checked>> = Mutex::new(Vec::new());
+
+/// Runs one law over the cases; returns its greatest figure, and reports every regime that breaks it with the first message.
+fn each<S: Subject>(law: &str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> (f64, Option<String>) {
     let mut regimes: Vec<(&str, f64, usize, String)> = Vec::new();
     for (i, (regime, subject)) in cases.iter().enumerate() {
         let at = regimes.iter().position(|r| r.0 == *regime).unwrap_or_else(|| {
@@ -28,17 +41,18 @@ fn each<S: Subject>(law: &str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64
             }
         }
     }
-    for (regime, figure, broken, _) in &regimes {
-        println!("{law:10} {regime:28} {figure:9.3e} {}", if *broken > 0 { "BROKEN" } else { "" });
+    if std::env::args().any(|a| a == "--nocapture") {
+        for (regime, figure, broken, _) in &regimes {
+            println!("{law:10} {regime:28} {figure:9.3e} {}", if *broken > 0 { "BROKEN" } else { "" });
+        }
     }
     let failures: Vec<_> = regimes.iter().filter(|r| r.2 > 0).map(|r| format!("[{}] ×{}: {}", r.0, r.2, r.3)).collect();
-    (!failures.is_empty()).then(|| format!("{law}:\n{}", failures.join("\n")))
+    let greatest = regimes.iter().fold(0.0, |most, r| f64::max(most, r.1));
+    (greatest, (!failures.is_empty()).then(|| format!("{law}:\n{}", failures.join("\n"))))
 }
 
 /// All laws over the cases, at the edges of the square and `random` points more.
-fn all<S: Subject>(cases: &[Case<S>], random: usize) {
-    // broken laws are reported together, at the end
-    std::panic::set_hook(Box::new(|_| {}));
+fn all<S: Subject>(warp: &'static str, cases: &[Case<S>], random: usize) -> Result<(), Failed> {
     let square = domain::square(random, 1);
     let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
         let square = &square;
@@ -47,7 +61,7 @@ fn all<S: Subject>(cases: &[Case<S>], random: usize) {
             square.iter().map(|&u| run(s, u, &mut random)).fold(0.0, f64::max)
         }
     };
-    let failures: Vec<_> = [
+    let laws = [
         each(
             "total",
             cases,
@@ -88,95 +102,82 @@ fn all<S: Subject>(cases: &[Case<S>], random: usize) {
             }
             0.0
         }),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    if !failures.is_empty() {
-        println!("broken laws:\n{}", failures.join("\n"));
-        panic!("broken laws: see above");
-    }
+    ];
+    let mut regimes: Vec<_> = cases.iter().map(|c| c.0).collect();
+    regimes.sort_unstable();
+    regimes.dedup();
+    // of the laws "accurate" and "density"
+    let greatest = [laws[2].0, laws[4].0];
+    CHECKED.lock().unwrap().push(Checked { warp, regimes: regimes.len(), cases: cases.len(), greatest });
+    let broken: Vec<_> = laws.into_iter().filter_map(|law| law.1).collect();
+    if broken.is_empty() { Ok(()) } else { Err(format!("broken laws:\n{}", broken.join("\n")).into()) }
 }
 
-#[test]
-fn concentric_disk() {
-    all(&[("whole", ConcentricDisk)], 4000);
+fn warp<S: Subject>(name: &'static str, cases: impl FnOnce() -> Vec<Case<S>> + Send + 'static, random: usize) -> Trial {
+    Trial::test(name, move || all(name, &cases(), random))
 }
-#[test]
-fn polar_disk() {
-    all(&[("whole", PolarDisk)], 4000);
+fn other(name: &'static str, run: fn()) -> Trial {
+    Trial::test(name, move || {
+        run();
+        Ok(())
+    })
 }
-#[test]
-fn area_triangle() {
-    all(&[("whole", AreaTriangle)], 4000);
-}
-#[test]
-fn low_distortion_triangle() {
-    all(&[("whole", LowDistortionTriangle)], 4000);
-}
-#[test]
-fn linear() {
-    all(&domain::linears(), 1000);
-}
-#[test]
-fn tent() {
-    all(&domain::tents(), 1000);
-}
-#[test]
-fn exponential() {
-    all(&domain::exponentials(), 1000);
-}
-#[test]
-fn normal() {
-    all(&domain::normals(), 1000);
-}
-#[test]
-fn bilinear() {
-    all(&domain::bilinears(), 1000);
-}
-#[test]
-fn ggx_visible_normals() {
-    all(&domain::microsurfaces(), 500);
-}
-#[test]
-fn cosine_hemisphere() {
-    all(&[("whole", CosineHemisphere)], 4000);
-}
-#[test]
-fn uniform_hemisphere() {
-    all(&[("whole", UniformHemisphere)], 4000);
-}
-#[test]
-fn uniform_sphere() {
-    all(&[("whole", UniformSphere)], 4000);
-}
-#[test]
-fn cone() {
-    all(&domain::cones(), 1000);
-}
-#[test]
-fn sphere_cap() {
-    all(&domain::caps(3, 11), 200);
-}
-#[test]
-fn spherical_polygon() {
-    all(&domain::hexagons(3, 15), 60);
-}
-#[test]
-fn projected_cap() {
-    all(&domain::projected_caps(3, 14), 100);
-}
-#[test]
-fn spherical_triangle() {
-    all(&domain::triangles(4, 12), 60);
-}
-#[test]
-fn spherical_parallelogram() {
-    all(&domain::parallelograms(4, 13), 200);
+
+fn main() {
+    // broken laws are reported together, with the warp that breaks them
+    std::panic::set_hook(Box::new(|_| {}));
+    let mut arguments = Arguments::from_args();
+    arguments.test_threads =
+        arguments.test_threads.or_else(|| std::thread::available_parallelism().ok().map(Into::into));
+    let conclusion = libtest_mimic::run(
+        &arguments,
+        vec![
+            warp("concentric_disk", || vec![("whole", ConcentricDisk)], 4000),
+            warp("polar_disk", || vec![("whole", PolarDisk)], 4000),
+            warp("area_triangle", || vec![("whole", AreaTriangle)], 4000),
+            warp("low_distortion_triangle", || vec![("whole", LowDistortionTriangle)], 4000),
+            warp("linear", || domain::linears(), 1000),
+            warp("tent", || domain::tents(), 1000),
+            warp("exponential", || domain::exponentials(), 1000),
+            warp("normal", || domain::normals(), 1000),
+            warp("bilinear", || domain::bilinears(), 1000),
+            warp("ggx_visible_normals", || domain::microsurfaces(), 500),
+            warp("cosine_hemisphere", || vec![("whole", CosineHemisphere)], 4000),
+            warp("uniform_hemisphere", || vec![("whole", UniformHemisphere)], 4000),
+            warp("uniform_sphere", || vec![("whole", UniformSphere)], 4000),
+            warp("cone", || domain::cones(), 1000),
+            warp("sphere_cap", || domain::caps(3, 11), 200),
+            warp("spherical_polygon", || domain::hexagons(3, 15), 60),
+            warp("projected_cap", || domain::projected_caps(3, 14), 100),
+            warp("spherical_triangle", || domain::triangles(4, 12), 60),
+            warp("spherical_parallelogram", || domain::parallelograms(4, 13), 200),
+            warp("spherical_rectangle", || domain::rectangles(8, 14), 200),
+            other("any_parameters_are_survived", any_parameters_are_survived),
+            other("contact", contact),
+            other("spheres_are_hit_in_front", spheres_are_hit_in_front),
+            other("nasty_rectangles", nasty_rectangles),
+        ],
+    );
+    let mut checked = CHECKED.lock().unwrap();
+    if !checked.is_empty() && !arguments.list {
+        checked.sort_by_key(|c| c.warp);
+        println!(
+            "greatest error in units of 2^-24 (of a sample, against the same body in f64; of a density, against the truth)"
+        );
+        for c in checked.iter() {
+            let [sample, density] = c.greatest;
+            println!(
+                "{:28} {:3} regimes {:4} cases  sample {sample:5.1}  density {density:5.1}",
+                c.warp, c.regimes, c.cases
+            );
+        }
+        let pairs: usize = checked.iter().map(|c| c.regimes).sum();
+        println!("laws: {} warps, {pairs} (warp, regime) pairs, 11 laws each", checked.len());
+    }
+    conclusion.exit();
 }
 
 /// Any parameters at all: nasty numbers and random bits.
-#[test]
 fn any_parameters_are_survived() {
     let mut random = Random::new(99);
     let square = domain::square(40, 5);
@@ -210,7 +211,6 @@ fn any_parameters_are_survived() {
 }
 
 /// Points on a vertex, an edge and the plane; on and in spheres; nothing seen means pdf 0.
-#[test]
 fn contact() {
     let (o, x, y) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     for u in domain::square(20, 6) {
@@ -239,18 +239,12 @@ fn contact() {
 }
 
 /// The distance to a sphere is that of its near side.
-#[test]
 fn spheres_are_hit_in_front() {
     let square = domain::square(200, 7);
     for (_, cap) in domain::caps(3, 17) {
         square.iter().for_each(|&u| nearest_hit(&cap, u));
     }
 }
-#[test]
-fn spherical_rectangle() {
-    all(&domain::rectangles(8, 14), 200);
-}
-#[test]
 fn nasty_rectangles() {
     let mut random = Random::new(15);
     for _ in 0..20_000 {
