@@ -1,10 +1,25 @@
-//! Irradiance under a sphere and under a panel, without std, alloc or libc (Linux, x86-64): the exit code is the result.
+//! Every public sampler, without std, alloc or libc (Linux, x86-64): the exit code is the number of those that keep their contract.
 #![no_std]
 #![no_main]
 
 use core::arch::{asm, global_asm};
-use etendue::sequence::{Sequence, Stratified};
-use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Vec2, Vec3, f32x8, u32x8};
+use core::f32::consts::PI;
+use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
+use etendue::estimate::{Heuristic, Reservoir, Welford};
+use etendue::light::{ConstantEnvironment, Cylinder, Directional, Disk, Point, Spot, Sun};
+use etendue::seen::{
+    ProjectedCap, SphereCap, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalTriangle,
+};
+use etendue::select::{LightBound, PowerLights, SpatialLights, UniformLights};
+use etendue::sequence::{CounterRng, Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
+use etendue::warp::{
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
+    LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere,
+};
+use etendue::{
+    LightSample, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, Warp1, f32x8, u32x8,
+};
+use rand_core::SeedableRng;
 
 // the kernel enters here with an aligned stack; a function expects that of its caller before the call
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
@@ -14,34 +29,245 @@ fn exit(code: u32) -> ! {
     unsafe { asm!("syscall", in("rax") 60, in("rdi") code, options(noreturn)) }
 }
 
+// the compiler calls these two on any target; without libc it is for the program to bring them
+global_asm!(
+    ".globl memcpy",
+    "memcpy:",
+    "mov rax, rdi",
+    "mov rcx, rdx",
+    "rep movsb",
+    "ret",
+    ".globl memset",
+    "memset:",
+    "mov r8, rdi",
+    "mov eax, esi",
+    "mov rcx, rdx",
+    "rep stosb",
+    "mov rax, r8",
+    "ret",
+);
+
 #[panic_handler]
 fn panic(_: &core::panic::PanicInfo) -> ! {
-    exit(101)
+    exit(255)
 }
 
-const SAMPLES: u32 = 1 << 14;
+type X = f32x8;
+const SAMPLES: u32 = 1 << 12;
+const ORIGIN: [f32; 3] = [0.0; 3];
+const UP: [f32; 3] = [0.0, 1.0, 0.0];
 
-/// Mean of cosθ/pdf over samples of a light with radiance 1, on a receiver that faces up.
-fn irradiance(sample: impl Fn(Vec2<f32x8>) -> LightSample<f32x8>) -> f32 {
+fn lit(x: f32) -> X {
+    X::splat(x)
+}
+fn sum(x: X) -> f32 {
+    (0..8).map(|i| x.lane(i)).sum()
+}
+fn squares() -> impl Iterator<Item = Vec2<X>> {
     let strata = Stratified::new(1, SAMPLES);
-    let mut sum = f32x8::splat(0.0);
-    for start in (0..SAMPLES).step_by(8) {
+    (0..SAMPLES).step_by(8).map(move |start| {
         let index = u32x8::from(core::array::from_fn(|lane| start + lane as u32));
-        let light = sample(strata.pair(u32x8::splat(0), index, 0));
-        sum += (light.direction.y / light.pdf).keep(light.emits & light.pdf.gt(f32x8::splat(0.0)));
+        strata.pair(u32x8::splat(0), index, 0)
+    })
+}
+fn near(a: f32, b: f32, relative: f32) -> bool {
+    (a - b).abs() <= relative * b
+}
+
+/// How many samplers were called, or 200 where one has not kept its contract.
+struct Count(u32);
+
+impl Count {
+    fn check(&mut self, kept: bool) {
+        if !kept {
+            // which one it was
+            exit(100 + self.0);
+        }
+        self.0 += 1;
     }
-    (0..8).map(|i| sum.lane(i)).sum::<f32>() / SAMPLES as f32
+    /// Map, density and inverse: closed, and the mean of 1/pdf is the `measure` of the whole.
+    fn warp<W: Warp<X, Point: Copy>>(&mut self, warp: W, measure: f32) {
+        let (mut far, mut inverse) = (0.0_f32, lit(0.0));
+        for u in squares() {
+            let p = warp.sample(u);
+            let v = warp.invert(p);
+            let d = Vec2::new(u.x - v.x, u.y - v.y);
+            // an azimuth may come back a turn later
+            let off = |d: X| (0..8).map(|i| d.lane(i).abs()).fold(0.0_f32, |m, d| m.max(d.min(1.0 - d)));
+            far = far.max(off(d.x)).max(off(d.y));
+            inverse += lit(1.0) / warp.pdf(p);
+        }
+        self.check(far < 1e-3 && near(sum(inverse) / SAMPLES as f32, measure, 2e-2));
+    }
+    fn line<W: Warp1<X>>(&mut self, warp: W) {
+        let kept = squares().all(|u| {
+            let x = warp.sample(u.x);
+            let back = warp.invert(x) - u.x;
+            (0..8).all(|i| back.lane(i).abs() < 1e-4) && warp.pdf(x).gt(lit(0.0)).all()
+        });
+        self.check(kept);
+    }
+    /// Irradiance of radiance 1 on a receiver that faces up.
+    fn light(&mut self, truth: f32, sample: impl Fn(Vec2<X>) -> LightSample<X>) {
+        let mut total = lit(0.0);
+        for u in squares() {
+            let s = sample(u);
+            let counts = s.emits & s.pdf.gt(lit(0.0)) & s.direction.y.gt(lit(0.0));
+            total += (s.direction.y / s.pdf).keep(counts);
+        }
+        self.check(near(sum(total) / SAMPLES as f32, truth, 1e-2));
+    }
+    /// The mean of x·y over a sequence is 1/4.
+    fn sequence(&mut self, sequence: impl Sequence) {
+        let mut total = lit(0.0);
+        for start in (0..SAMPLES).step_by(8) {
+            let index = u32x8::from(core::array::from_fn(|lane| start + lane as u32));
+            let u = sequence.pair::<X>(u32x8::splat(3), index, 1);
+            total += u.x * u.y;
+        }
+        self.check(near(sum(total) / SAMPLES as f32, 0.25, 5e-2));
+    }
+}
+
+fn warps(count: &mut Count) {
+    count.warp(ConcentricDisk, PI);
+    count.warp(PolarDisk, PI);
+    count.warp(UniformHemisphere, 2.0 * PI);
+    count.warp(UniformSphere, 4.0 * PI);
+    count.warp(CosineHemisphere, 2.0 * PI);
+    count.warp(Cone { one_minus_cos: lit(0.25) }, 0.5 * PI);
+    count.warp(AreaTriangle, 0.5);
+    count.warp(LowDistortionTriangle, 0.5);
+    count.warp(Bilinear { corners: [1.0, 2.0, 3.0, 4.0].map(lit) }, 1.0);
+    // half a sphere less what faces away from the view
+    count.warp(GgxVisibleNormals::new(lit(1.0), lit(1.0), [0.0, 0.6, 0.8].into()), 2.0 * (PI - 0.643_501_1));
+    count.line(Linear { a: lit(1.0), b: lit(3.0) });
+    count.line(Tent { radius: lit(2.0) });
+    count.line(Exponential { rate: lit(0.5) });
+    count.line(Normal { mean: lit(1.0), sigma: lit(2.0) });
+}
+
+fn seen(count: &mut Count) {
+    let [a, b, c] = [[-0.5, 1.0, -0.5], [0.5, 1.0, -0.5], [-0.5, 1.0, 0.5]].map(Vec3::<X>::from);
+    let d = Vec3::from([0.5, 1.0, 0.5]);
+    // of a face of a cube of side 2 half as far: 4 asin(1/5), and half of it
+    let square = 4.0 * 0.201_357_92;
+    count.warp(SphereCap::new([0.0, 2.0, 0.0].into(), lit(1.0)), 2.0 * PI * 0.133_974_6);
+    count.warp(SphericalTriangle::new(a, b, c), 0.5 * square);
+    count.warp(SphericalParallelogram::new(a, b - a, c - a), square);
+    count.warp(SphericalRectangle::new(a, b - a, c - a), square);
+    count.warp(SphericalPolygon::new([a, b, d, c]), square);
+    count.warp(ProjectedCap::new([0.0, 2.0, 0.0].into(), lit(1.0), UP.into()), 2.0 * PI * 0.133_974_6);
+}
+
+fn tables(count: &mut Count) {
+    let weights = [1.0, 2.0, 0.5, 4.0, 1.0, 1.5];
+    let (mut cdf, mut thresholds, mut aliases, mut buffer) = ([0.0; 6], [0.0; 6], [0; 6], [0.0; 8]);
+    match PiecewiseConstant1d::build(&weights, &mut cdf) {
+        Ok(table) => count.line(table),
+        Err(_) => exit(251),
+    }
+    match PiecewiseConstant2d::build(&weights, 3, &mut buffer) {
+        Ok(table) => count.warp(table, 1.0),
+        Err(_) => exit(252),
+    }
+    match AliasTable::build(&weights, &mut thresholds, &mut aliases) {
+        Ok(table) => {
+            let mut mean = lit(0.0);
+            squares().for_each(|u| mean += lit(1.0) / table.cell(u.x).probability);
+            count.check(near(sum(mean) / SAMPLES as f32, 6.0, 1e-2));
+        }
+        Err(_) => exit(253),
+    }
+    let lights = [1.0, 2.0].map(|x| LightBound { center: [x, 1.0, 0.0], radius: 0.5, power: x });
+    let mut sums = [0.0; 6];
+    let (power, spatial) = (PowerLights::new(&weights, &mut sums), SpatialLights { lights: &lights });
+    let mut means = [lit(0.0); 3];
+    for u in squares() {
+        means[0] += lit(1.0) / UniformLights { count: 6 }.choose(u.x).probability;
+        means[1] += lit(1.0) / power.choose(u.x).probability;
+        means[2] += lit(1.0) / spatial.choose(ORIGIN.into(), u.x).probability;
+    }
+    for (mean, truth) in means.into_iter().zip([6.0, 6.0, 2.0]) {
+        count.check(near(sum(mean) / SAMPLES as f32, truth, 1e-2));
+    }
+}
+
+fn lights(count: &mut Count) {
+    let o = ORIGIN.into();
+    // E = π R²/d²
+    let sphere = Sphere { center: [0.0, 2.0, 0.0].into(), radius: lit(1.0) };
+    count.light(0.25 * PI, |u| sphere.by_area(o, u));
+    count.light(0.25 * PI, |u| sphere.by_solid_angle(o, u));
+    count.light(0.25 * PI, |u| sphere.by_projected_solid_angle(o, UP.into(), u));
+    // E = π r²/(h² + r²); one-sided, so that its normal points down
+    let disk = Disk { center: [0.0, 1.0, 0.0].into(), normal: [0.0, -1.0, 0.0].into(), radius: lit(1.0) };
+    count.light(0.5 * PI, |u| disk.by_area(o, u));
+    // Lambert: a square of side 1 at the distance 1, and its half
+    let (p, u, v) = ([-0.5, 1.0, -0.5].into(), [1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
+    let square = 0.752_274_7;
+    let panel = Parallelogram { p, u, v };
+    count.light(square, |u| panel.by_area(o, u));
+    count.light(square, |u| panel.by_solid_angle(o, u));
+    let rectangle = Rectangle { p, u, v };
+    count.light(square, |u| rectangle.by_area(o, u));
+    count.light(square, |u| rectangle.by_solid_angle(o, u));
+    let half = Triangle { v0: p, e1: u, e2: v };
+    count.light(0.5 * square, |u| half.by_area(o, u));
+    count.light(0.5 * square, |u| half.by_solid_angle(o, u));
+    let cylinder = Cylinder { p: [-1.0, 2.0, 0.0].into(), axis: [2.0, 0.0, 0.0].into(), radius: lit(0.5) };
+    count.light(0.507_279, |u| cylinder.by_area(o, u));
+    // the lights without a density: radiant intensity, or irradiance, of 1
+    let position = [0.0, 2.0, 0.0].into();
+    count.light(0.25, |_| Point { position }.sample(o));
+    let spot = Spot { position, axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
+    count.light(0.25, |_| spot.sample(o));
+    count.light(1.0, |_| Directional { direction: UP.into() }.sample());
+    let sun = Sun { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
+    count.light(0.25 * PI, |u| sun.by_solid_angle(u));
+    count.light(PI, |u| ConstantEnvironment.by_solid_angle(u));
+    count.light(PI, |u| ConstantEnvironment.by_projected_solid_angle(UP.into(), u));
+}
+
+fn sequences(count: &mut Count) {
+    count.sequence(Independent::new(1));
+    count.sequence(Stratified::new(1, SAMPLES));
+    count.sequence(LatinHypercube::new(1, SAMPLES));
+    count.sequence(OwenSobol::new(1));
+    count.sequence(ZOrder::new(1, SAMPLES));
+    count.sequence(Lattice::r2(1));
+    count.sequence(Lattice::fibonacci(1, SAMPLES));
+    let mut rng = CounterRng::seed_from_u64(7);
+    let mut total = lit(0.0);
+    for _ in 0..SAMPLES / 8 {
+        let u: Vec2<X> = CounterRng::unit_square(&mut rng);
+        total += u.x * u.y;
+    }
+    count.check(near(sum(total) / SAMPLES as f32, 0.25, 5e-2));
+}
+
+fn estimators(count: &mut Count) {
+    let [a, b] = Heuristic::Balance.weights([lit(1.0), lit(3.0)]);
+    count.check(sum(a) == 2.0 && sum(b) == 6.0);
+    let (mut welford, mut reservoir, mut n) = (Welford::default(), Reservoir::<X>::default(), 0.0);
+    for u in squares() {
+        n += 1.0;
+        welford.push(u.x, lit(1.0 / n));
+        reservoir.push(u32x8::splat(n as u32), lit(n), u.y);
+    }
+    // a lane has seen a column of the strata: their mean is 1/2, their variance 1/12
+    count
+        .check(near(sum(welford.mean) / 8.0, 0.5, 1e-2) && near(sum(welford.variance(lit(n))) / 8.0, 1.0 / 12.0, 5e-2));
+    count.check(reservoir.probability().gt(lit(0.0)).all());
 }
 
 extern "C" fn main() -> ! {
-    let origin = Vec3::from([0.0; 3]);
-    // E = π R²/d², here π/4
-    let sphere = Sphere { center: [0.0, 2.0, 0.0].into(), radius: f32x8::splat(1.0) };
-    let by_solid_angle = irradiance(|u| sphere.by_solid_angle(origin, u));
-    let panel = Parallelogram { p: [-1.0, 1.5, -1.0].into(), u: [2.0, 0.0, 0.0].into(), v: [0.0, 0.0, 2.0].into() };
-    let (one, other) = (irradiance(|u| panel.by_area(origin, u)), irradiance(|u| panel.by_solid_angle(origin, u)));
-    let same = (one - other).abs() < 1e-3 * one;
-    let all = f32x8::splat(one).gt(f32x8::splat(0.0)).all();
-    // 50 where everything is right
-    exit(if same && all { (by_solid_angle * 200.0 * core::f32::consts::FRAC_1_PI).round_ties_even() as u32 } else { 1 })
+    let mut count = Count(0);
+    warps(&mut count);
+    seen(&mut count);
+    tables(&mut count);
+    lights(&mut count);
+    sequences(&mut count);
+    estimators(&mut count);
+    exit(count.0)
 }
