@@ -11,6 +11,7 @@
 //! | [`Real::exp`] | [−87.3, 88.3] | 8.2e−8 relative |
 //! | [`Real::exp_m1`] | the same | 1.2e−7 relative |
 //! | [`Real::ln_1p`] | (−1, 1e30] | 1.3e−7 relative |
+//! | [`Real::cbrt`] | 0, and [2⁻¹⁰⁰, 2¹²⁸) | 7.9e−8 relative |
 //! | [`Real::normal_cdf`] | [−12.8, ∞) | 3.9e−7 relative, in the lower tail too |
 //! | [`Real::normal_quantile`] | [0, 1), all 2²⁴ multiples of 2⁻²⁴ | 3.3e−7 relative |
 //! | [`rsqrt`] | [2⁻¹⁰⁰, 2¹⁰⁰] | 9.0e−8 relative (1.5 ulp) |
@@ -202,6 +203,22 @@ fn ln_sum<R: Real>(y: R, lost: R) -> R {
     );
     let low = k.mul_add(R::lit(-2.121_944_400_546_905_8e-4), f * f * p);
     k.mul_add(R::lit(0.693_359_375), low + f)
+}
+
+/// x^⅓ from x^(−⅓) within 3.5 %: a step that takes the error to its fourth power, one that squares it, and one on the root itself,
+/// whose residue is exact but for one rounding.
+#[inline(always)]
+pub(crate) fn cbrt_f32<R: Real>(x: R, guess: R) -> R {
+    let one = R::lit(1.0);
+    let residue = |y: R| one - x * y * y * y;
+    let h = residue(guess);
+    let series = h.mul_add(R::lit(14.0 / 81.0), R::lit(2.0 / 9.0)).mul_add(h, R::lit(1.0 / 3.0));
+    let y = (guess * h).mul_add(series, guess);
+    let y = (y * residue(y)).mul_add(R::lit(1.0 / 3.0), y);
+    let root = x * y * y;
+    let left = (-(root * root)).mul_add(root, x);
+    let root = (left * R::lit(1.0 / 3.0)).mul_add(y * y, root);
+    root.keep(x.ge(R::lit(f64::from(f32::MIN_POSITIVE))))
 }
 
 /// exp(−(z² + `less`)/2) with z² to twice the working precision: at 5σ its rounding alone would be 25 ulp.

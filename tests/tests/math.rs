@@ -154,6 +154,24 @@ fn roots_and_differences() {
     assert_eq!((one_minus_cos(0.0_f32), one_minus_cos(1.0_f32)), (0.0, 1.0));
 }
 
+/// Every mantissa at three exponents, which is all that matters, and some at any.
+#[test]
+fn cube_root() {
+    let mut cube = Greatest::of("cbrt, relative");
+    let mut random = Random::new(6);
+    for i in 0..3 << 23 {
+        let x = f32::from_bits(0x3f80_0000 + i);
+        cube.take((f64::from(Real::cbrt(x)) / f64::from(x).cbrt() - 1.0).abs(), [x, 0.0]);
+        if i % 8 == 0 {
+            let x = random.magnitude(1e-30, 3.4e38) as f32;
+            cube.take((f64::from(Real::cbrt(x)) / f64::from(x).cbrt() - 1.0).abs(), [x, 0.0]);
+        }
+    }
+    cube.assert_below(7.9e-8);
+    assert_eq!([0.0, -0.0, 1e-40, 1.0, 8.0].map(|x: f32| Real::cbrt(x)), [0.0, 0.0, 0.0, 1.0, 2.0]);
+    assert!(Real::cbrt(f32::MAX).is_finite() && Real::cbrt(f32::MIN_POSITIVE) > 0.0);
+}
+
 /// Relative errors, but for arguments where the result is 0 or 1.
 #[test]
 fn exponentials_and_logarithms() {
