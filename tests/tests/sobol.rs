@@ -107,6 +107,77 @@ fn z_order_permutes_digits_in_every_way() {
     }
 }
 
+/// Power of the errors of an image of 64 × 64 pixels at frequencies below an eighth of the sampling rate, over that at all
+/// frequencies: 1 if errors of neighbours are independent.
+fn low_frequencies(sequence: impl Fn(u64) -> Box<dyn Fn([u32; 2], u32) -> [f64; 2]>, f: fn([f64; 2]) -> f64) -> f64 {
+    const SIDE: usize = 64;
+    const SAMPLES: u32 = 4;
+    let (mut low, mut count, mut all) = (0.0, 0, 0.0);
+    for seed in 0..32 {
+        let point = sequence(seed);
+        let mut errors = vec![[0.0; SIDE]; SIDE];
+        for (y, row) in errors.iter_mut().enumerate() {
+            for (x, error) in row.iter_mut().enumerate() {
+                *error = (0..SAMPLES).map(|i| f(point([x as u32, y as u32], i))).sum::<f64>() / f64::from(SAMPLES);
+            }
+        }
+        let mean = errors.as_flattened().iter().sum::<f64>() / (SIDE * SIDE) as f64;
+        let wave = |k: usize, i: usize| (core::f64::consts::TAU * (k * i % SIDE) as f64 / SIDE as f64).sin_cos();
+        // a transform along the rows, then along the columns
+        for kx in 0..SIDE {
+            let rows: Vec<[f64; 2]> = errors
+                .iter()
+                .map(|row| {
+                    row.iter().enumerate().fold([0.0; 2], |[re, im], (x, e)| {
+                        let (s, c) = wave(kx, x);
+                        [re + (e - mean) * c, im - (e - mean) * s]
+                    })
+                })
+                .collect();
+            for ky in 0..SIDE {
+                let [re, im] = rows.iter().enumerate().fold([0.0; 2], |[re, im], (y, [a, b])| {
+                    let (s, c) = wave(ky, y);
+                    [re + a * c + b * s, im + b * c - a * s]
+                });
+                let power = re * re + im * im;
+                all += power / (SIDE * SIDE) as f64;
+                let frequency = |k: usize| k.min(SIDE - k) as f64;
+                if (1.0..=8.0).contains(&frequency(kx).hypot(frequency(ky))) {
+                    low += power;
+                    count += 1;
+                }
+            }
+        }
+    }
+    low / (all * f64::from(count) / 32.0)
+}
+
+/// Errors of neighbours cancel: what is left is blue. The same points given to pixels independently leave white noise.
+#[test]
+fn z_order_leaves_blue_noise() {
+    let smooth = |[x, y]: [f64; 2]| (-3.0 * (x * x + y)).exp();
+    let edge = |[x, y]: [f64; 2]| f64::from(u8::from(0.6 * x + 0.8 * y < 0.6));
+    for (name, f, most) in [("smooth", smooth as fn(_) -> _, 0.15), ("edge", edge, 0.45)] {
+        let blue = low_frequencies(
+            |seed| {
+                let z = ZOrder::new(seed, 4);
+                Box::new(move |[x, y], i| point(&z, ZOrder::pixel(x, y), i, 0))
+            },
+            f,
+        );
+        let white = low_frequencies(
+            |seed| {
+                let sobol = OwenSobol::new(seed);
+                Box::new(move |[x, y], i| point(&sobol, x + 64 * y, i, 0))
+            },
+            f,
+        );
+        println!("power at low frequencies, {name}: Z-order {blue:.4}, independent pixels {white:.4}");
+        // 32 images of 196 frequencies: a standard error of 1.3 %
+        assert!((white - 1.0).abs() < 0.06 && blue < most, "{name}: {blue} {white}");
+    }
+}
+
 #[test]
 fn latin_hypercube_is_latin() {
     for count in [1, 2, 3, 7, 16, 60, 1000, 4096] {

@@ -101,6 +101,8 @@ impl Sequence for OwenSobol {
 /// - Formula: index = (pixel·2ᵏ + sample), its digits permuted from the top, each by a hash of those above it and of the
 ///   dimension, in base 4 for the pixel and in base 2 for the sample; then Owen-scrambled Sobol with keys that are the same in all pixels.
 /// - Property: the samples of one pixel are a net of 2ᵏ, and so are aligned blocks of 2ᵐ of them, and so are those of any aligned square of 2ⁿ × 2ⁿ pixels together.
+/// - Spectrum: of 4 samples, errors have below an eighth of the sampling rate 0.13 of the power of white noise where the integrand is
+///   smooth, 0.42 where it has an edge (`cargo test -p etendue-tests --test sobol blue -- --nocapture`).
 /// - Domain: any 32-bit counters. `pixel` is a place along the curve, [`ZOrder::pixel`]. Pixels are of one net
 ///   as long as pixel·2ᵏ < 2³²; then come further, independent nets.
 /// - Samples past 2ᵏ take further nets, independent of the first.
