@@ -439,17 +439,20 @@ impl<R: Real> ProjectedCap<R> {
         let p = (a * a).mul_add(m, one).sqrt();
         let q = beta.mul_add(beta, m).sqrt();
         let (p1, q1, pq) = (one + p, beta + q, beta.mul_add(p, q));
-        let width = m * m / (p1 * q1 * pq);
+        // two divisions for all the quotients below: P ≥ 1, and Q ≥ β ≥ 1e−9
+        let (a_pair, a_triple) = (one / (p * q), one / (p1 * q1 * pq));
+        let (by_p, by_q, by_pq) = (q * a_pair, p * a_pair, p1 * q1 * a_triple);
+        let width = m * m * a_triple;
         let mut area = zero;
         if with_area {
-            let (x, y) = (t * a / p, t / q);
+            let (x, y) = (t * a * by_p, t * by_q);
             let (c, difference) = arcs(x.min(y), y);
-            let tail = R::lit(0.5) * t * t * t / (p * q);
-            area = t.mul_add(width, tail * (c * m / pq + beta * difference / p));
+            let tail = R::lit(0.5) * t * t * t * a_pair;
+            area = t.mul_add(width, tail * (c * m * by_pq + beta * difference * by_p));
         }
         // of log m² − log(1+P) − log(β+Q) − log(βP+Q), by m, times dm/dt = −2t
-        let (dp, dq) = (R::lit(0.5) * a * a / p, R::lit(0.5) / q);
-        let by_m = ratio(R::lit(2.0), m) - dp / p1 - dq / q1 - beta.mul_add(dp, dq) / pq;
+        let (dp, dq) = (R::lit(0.5) * a * a * by_p, R::lit(0.5) * by_q);
+        let by_m = ratio(R::lit(2.0), m) - (dp * q1 + dq * p1) * pq * a_triple - beta.mul_add(dp, dq) * by_pq;
         Slice { area, width, slope: -(t + t) * by_m }
     }
     /// The half-lune's area beyond t, in the units of a slice: what is left after a difference would have few digits.
@@ -484,10 +487,16 @@ impl<R: Real> ProjectedCap<R> {
         let target = v * self.half;
         let ends = Self::ends(left);
         let start = self.slice(zero, false);
-        // from the two ends: area ≈ width · t, and the rest of it like (1−t)^p
+        // from the two ends: area ≈ width · t; and at P = 1 and t ≈ 1, with r = Q − β, the rest of it is r⁴/8 + βr³/6
         let near = v * ratio(self.half, start.width);
-        let root = left.max(zero).sqrt().sqrt();
-        let far = one - root * root.sqrt().sqrt();
+        let rest = left.max(zero) * self.half;
+        let mut r = (R::lit(8.0) * rest).sqrt().sqrt().min((R::lit(6.0) * ratio(rest, self.beta)).cbrt());
+        for _ in 0..2 {
+            let (cube, sum) = (r * r * r, R::lit(0.5) * (r + self.beta));
+            let off = cube.mul_add(R::lit(0.125).mul_add(r, R::lit(1.0 / 6.0) * self.beta), -rest);
+            r -= ratio(off, r * r * sum);
+        }
+        let far = (one - r * (r + self.beta + self.beta)).max(zero).sqrt();
         let mut t = R::select(v.lt(R::lit(0.5)), near, near.max(far)).clamp(zero, one);
         // a step takes the error to its third power: after one of so many parts of what is left there is nothing more to do
         let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 256.0) };
