@@ -82,7 +82,7 @@ fn epsilon<R: Real>() -> R {
 
 /// The number of [0, 1) for a position in cell `index` of n: (index + offset)/n, moved by an ulp where rounding left the cell.
 #[inline(always)]
-fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
+pub(crate) fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
     let i = R::from_uint(index);
     let x = (i + offset) / n;
     // xn − i, exactly but for the last rounding, whose sign and whose excess over 1 are true
@@ -94,7 +94,7 @@ fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
 
 /// The inverse: cell and position, of x in [0, 1). The product is not rounded before its integer part is taken.
 #[inline(always)]
-fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
+pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
     let scaled = x * n;
     let i = R::from_uint(scaled.to_uint());
@@ -287,6 +287,18 @@ impl<'a> PiecewiseConstant2d<'a> {
     /// # Errors
     /// If the lengths do not belong together, a weight is invalid, or all are 0.
     pub fn build(weights: &[f32], width: usize, buffer: &'a mut [f32]) -> Result<Self, TableError> {
+        Self::build_by_rows(weights, width, |_| 1.0, buffer)
+    }
+    /// As [`build`](Self::build), with the weights of row y times `factor(y)`, which is finite and over 0.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    pub fn build_by_rows(
+        weights: &[f32],
+        width: usize,
+        factor: impl Fn(usize) -> f64,
+        buffer: &'a mut [f32],
+    ) -> Result<Self, TableError> {
         let height = weights.len().checked_div(width).unwrap_or(0);
         if height == 0 || weights.len() != width * height || buffer.len() != Self::buffer(width, height) {
             return Err(TableError::Length);
@@ -300,7 +312,19 @@ impl<'a> PiecewiseConstant2d<'a> {
                 other => other?,
             }
         }
-        accumulate(marginal, |y| row(y).iter().map(|&w| f64::from(w)).sum())?;
+        accumulate(marginal, |y| row(y).iter().map(|&w| f64::from(w)).sum::<f64>() * factor(y))?;
+        Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
+    }
+    /// The table that [`build`](Self::build) has left in a buffer. (What did not come from there draws nonsense, but does no harm.)
+    ///
+    /// # Errors
+    /// If no table of so many columns has a buffer of this length.
+    pub fn built(buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
+        let height = buffer.len() / width.saturating_add(1);
+        if width == 0 || height == 0 || buffer.len() != Self::buffer(width, height) {
+            return Err(TableError::Length);
+        }
+        let (rows, marginal) = buffer.split_at(width * height);
         Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
     }
     /// Columns and rows.

@@ -14,14 +14,17 @@
 //! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | | |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle), or by the cosine | |
+//! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
 //! | [`Point`], [`Spot`], [`Directional`] | one direction: `delta` holds | | |
 
 mod delta;
 mod distant;
+mod environment;
 mod round;
 
 pub use delta::{Directional, Point, Spot};
 pub use distant::{ConstantEnvironment, Sun};
+pub use environment::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Texel};
 pub use round::{Cylinder, Disk};
 
 use crate::math::rsqrt;

@@ -7,6 +7,7 @@
 //! | [`Cone`] | directions within σ of +z | 1/(2π(1−cosσ)) | any σ from 1e−19 to π |
 //! | [`UniformHemisphere`] | directions, z ≥ 0 | 1/(2π) | a cone |
 //! | [`UniformSphere`] | directions | 1/(4π) | a cone |
+//! | [`Octahedral`] | directions | 1/(4π) | nearly continuous: for images of the sphere |
 //! | [`CosineHemisphere`] | directions, z ≥ 0 | z/π | concentric |
 //! | [`AreaTriangle`] | barycentrics of a triangle | 2 | per unit of barycentric area |
 //! | [`LowDistortionTriangle`] | the same | 2 | keeps strata compact; cheaper |
@@ -33,6 +34,7 @@ mod exponential;
 mod hemisphere;
 mod linear;
 mod normal;
+mod octahedral;
 mod triangle;
 mod visible_normals;
 
@@ -44,6 +46,7 @@ pub use exponential::Exponential;
 pub use hemisphere::CosineHemisphere;
 pub use linear::{Linear, Tent};
 pub use normal::Normal;
+pub use octahedral::Octahedral;
 pub use triangle::{AreaTriangle, LowDistortionTriangle};
 pub use visible_normals::GgxVisibleNormals;
 

@@ -11,5 +11,5 @@ pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
 pub use normals::GgxVisibleNormals;
 pub use projected::ProjectedCap;
 pub use round::{
-    Cap, ConcentricDisk, Cone, CosineHemisphere, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
+    Cap, ConcentricDisk, Cone, CosineHemisphere, Octahedral, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };

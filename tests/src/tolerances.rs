@@ -36,6 +36,8 @@ pub struct Tolerance {
 pub const DISK: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 1.0 };
 /// Two products; the inverse has a sum and a quotient.
 pub const AREA_TRIANGLE: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 1.0 };
+/// Two products with a root and a sum of sine and cosine each; the inverse has two roots and an arc tangent.
+pub const OCTAHEDRAL: Tolerance = Tolerance { point: 4.0, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 4.0 };
 /// As the disk, with a third coordinate.
 pub const CONE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
 /// A root of a sum of products, a sum and a quotient.

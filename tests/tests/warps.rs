@@ -4,8 +4,8 @@ use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Hexagon,
-    Linear, LowDistortionTriangle, Normal, Parallelogram, PolarDisk, ProjectedCap, Rectangle, Tent, Triangle,
-    UniformHemisphere, UniformSphere, nearest_hit,
+    Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PolarDisk, ProjectedCap, Rectangle, Tent,
+    Triangle, UniformHemisphere, UniformSphere, nearest_hit,
 };
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -145,6 +145,7 @@ fn main() {
             warp("cosine_hemisphere", || vec![("whole", CosineHemisphere)], 4000),
             warp("uniform_hemisphere", || vec![("whole", UniformHemisphere)], 4000),
             warp("uniform_sphere", || vec![("whole", UniformSphere)], 4000),
+            warp("octahedral", || vec![("whole", Octahedral)], 4000),
             warp("cone", || domain::cones(), 1000),
             warp("sphere_cap", || domain::caps(3, 11), 200),
             warp("spherical_polygon", || domain::hexagons(3, 15), 60),

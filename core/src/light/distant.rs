@@ -6,7 +6,7 @@ use crate::warp::{Cone, CosineHemisphere, UniformSphere, Warp};
 
 /// A sample of what lies beyond the scene.
 #[inline(always)]
-fn distant<R: Real>(direction: Vec3<R>, pdf: R) -> LightSample<R> {
+pub(super) fn distant<R: Real>(direction: Vec3<R>, pdf: R) -> LightSample<R> {
     LightSample { direction, distance: R::lit(FAR), pdf, emits: R::Mask::splat(true), delta: R::Mask::splat(false) }
 }
 

@@ -144,6 +144,41 @@ macro_rules! whole {
 whole!(UniformHemisphere, FRAC_PI_2);
 whole!(UniformSphere, PI);
 
+/// `warp::Octahedral`.
+#[derive(Clone, Copy, Debug)]
+pub struct Octahedral;
+impl Subject for Octahedral {
+    type Warp<R: Real> = warp::Octahedral;
+    type Point<R: Real> = Vec3<R>;
+    fn prepare<R: Real>(_: &[Self]) -> Self::Warp<R> {
+        warp::Octahedral
+    }
+    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
+        warp
+    }
+    fn tolerance(&self) -> Tolerance {
+        tolerances::OCTAHEDRAL
+    }
+    fn density(&self, _: V3) -> f64 {
+        0.25 * FRAC_1_PI
+    }
+    fn chart(&self, s: f64, t: f64) -> (V3, f64) {
+        let theta = s * PI;
+        (polar(UPRIGHT, theta, TAU * t), theta.sin() * PI * TAU)
+    }
+    fn locate(&self, w: V3) -> [f64; 2] {
+        [w[0].hypot(w[1]).atan2(w[2]) / PI, turns(w[1], w[0])]
+    }
+    fn extent(&self) -> [f64; 2] {
+        [2.0; 2]
+    }
+    /// Kinks above the axes and at the horizon; all derivatives grow towards the poles.
+    fn smooth(&self, u: [f64; 2]) -> bool {
+        let (a, b) = ((2.0 * u[0] - 1.0).abs(), (2.0 * u[1] - 1.0).abs());
+        a.min(b) > 0.01 && (a + b - 1.0).abs() > 0.01 && (a + b).min(2.0 - a - b) > 0.1
+    }
+}
+
 /// `warp::Cone`.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {

@@ -1,0 +1,157 @@
+//! What rays meet: the point, its normal, what it gives off and reflects.
+
+use super::World;
+use crate::accel::{Hits, M8, Rays, SHAPE, V8, X8};
+use crate::scene::{Geometry, Shape};
+use etendue::{Mask, Real, Vec3, u32x8};
+
+/// The points that eight rays meet.
+#[derive(Clone, Copy)]
+pub(super) struct Surface {
+    pub(super) point: V8,
+    pub(super) normal: V8,
+    pub(super) albedo: V8,
+    pub(super) emission: V8,
+    /// Lanes that reflect.
+    pub(super) reflects: M8,
+}
+
+impl Default for Surface {
+    fn default() -> Self {
+        let zero = V8::default();
+        Self { point: zero, normal: zero, albedo: zero, emission: zero, reflects: M8::splat(false) }
+    }
+}
+
+impl World {
+    /// Geometry and material where eight rays from the camera meet the scene.
+    #[inline]
+    pub(super) fn surface(&self, hits: &Hits, rays: &Rays) -> Surface {
+        let shapes = hits.shapes();
+        let meshes = hits.any() & !shapes;
+        let mut surface = Surface::default();
+        if meshes.any() {
+            self.mesh(hits, meshes, rays.direction, &mut surface);
+        }
+        if shapes.any() {
+            self.shapes(hits, shapes, rays, &mut surface);
+        }
+        surface
+    }
+
+    #[inline]
+    fn mesh(&self, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) {
+        let places = hits.place.as_array();
+        let first = places[lanes.bits().trailing_zeros() as usize & 7];
+        let uniform = (crate::accel::equal(hits.place, u32x8::splat(first)) | !lanes).all();
+        let (v0, v1, v2, albedo);
+        if uniform {
+            let c = self.accel.corners(first);
+            let corner = |k: usize| V8::from([c[k], c[k + 1], c[k + 2]]);
+            (v0, v1, v2) = (corner(0), corner(3), corner(6));
+            albedo = V8::from(self.albedo(first));
+        } else {
+            let nowhere = [0.0; 9];
+            let rows: [&[f32; 9]; 8] =
+                std::array::from_fn(|i| if lanes.lane(i) { self.accel.corners(places[i]) } else { &nowhere });
+            let c = X8::transpose(rows.map(|r| X8::from(&r[..8])));
+            let last = X8::from(rows.map(|r| r[8]));
+            (v0, v1, v2) = (V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last));
+            albedo = if self.place_materials.is_empty() {
+                V8::from(self.albedo(0))
+            } else {
+                let each: [[f32; 3]; 8] =
+                    std::array::from_fn(|i| if lanes.lane(i) { self.albedo(places[i]) } else { [0.0; 3] });
+                let channel = |k: usize| X8::from(each.map(|a| a[k]));
+                V8::new(channel(0), channel(1), channel(2))
+            };
+        }
+        let (e1, e2) = (v1 - v0, v2 - v0);
+        let normal = e1.cross(e2).normalize();
+        let normal = facing(normal, direction);
+        let point = e1.mul_add(hits.b1, e2.mul_add(hits.b2, v0));
+        let reach = v0.max_abs().max(v1.max_abs()).max(v2.max_abs());
+        surface.point = lift(point, normal, reach);
+        surface.normal = normal;
+        surface.albedo = albedo;
+        surface.reflects = lanes;
+    }
+
+    #[inline]
+    fn albedo(&self, place: u32) -> [f32; 3] {
+        let material = self.place_materials.get(place as usize).copied().unwrap_or(0);
+        self.materials[material as usize]
+    }
+
+    /// Calls `f` for each of the shapes that lanes have met: the lanes, the shape, and its outward normal there.
+    #[inline]
+    pub(super) fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(M8, &Shape, V8)) {
+        while lanes.any() {
+            let lane = lanes.bits().trailing_zeros() as usize & 7;
+            let place = hits.place.as_array()[lane];
+            let here = lanes & crate::accel::equal(hits.place, u32x8::splat(place));
+            let index = (place & !SHAPE) as usize;
+            let shape = &self.shapes[index];
+            let outward = match shape.geometry {
+                Geometry::Sphere { center, .. } => {
+                    rays.direction.mul_add(hits.distance, rays.origin - V8::from(center)).normalize()
+                }
+                Geometry::Triangle(_) | Geometry::Parallelogram { .. } => V8::from(self.normals[index]),
+            };
+            f(here, shape, outward);
+            lanes = lanes & !here;
+        }
+    }
+
+    /// Spheres and emitters that eight rays meet.
+    fn shapes(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
+        self.each_shape(hits, lanes, rays, |here, shape, outward| {
+            if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
+                surface.emission = V8::select(lit, radiance, surface.emission);
+            }
+            let albedo = self.materials[shape.material as usize];
+            if albedo != [0.0; 3] {
+                let normal = facing(outward, rays.direction);
+                let point = rays.direction.mul_add(hits.distance, rays.origin);
+                let point = lift(point, normal, X8::splat(self.accel.shapes.reach()));
+                surface.point = V8::select(here, point, surface.point);
+                surface.normal = V8::select(here, normal, surface.normal);
+                surface.albedo = V8::select(here, albedo.into(), surface.albedo);
+                surface.reflects = surface.reflects | here;
+            }
+        });
+    }
+}
+
+/// What a shape sends back along the rays, and in which of the lanes.
+#[inline]
+pub(super) fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(V8, M8)> {
+    let emission = shape.emission?;
+    let front = outward.dot(direction).lt(X8::lit(0.0));
+    Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
+}
+
+/// The unit normal of a flat shape.
+pub(super) fn normal_of(geometry: &Geometry) -> [f32; 3] {
+    let [a, b] = match *geometry {
+        Geometry::Sphere { .. } => return [0.0; 3],
+        Geometry::Triangle([a, b, c]) => [b, c].map(|p| std::array::from_fn(|k| f64::from(p[k]) - f64::from(a[k]))),
+        Geometry::Parallelogram { u, v, .. } => [u, v].map(|e| e.map(f64::from)),
+    };
+    let normal = Vec3::<f64>::from(a).cross(b.into()).normalize();
+    [normal.x as f32, normal.y as f32, normal.z as f32]
+}
+
+/// The normal on the side from which the ray comes.
+#[inline]
+fn facing(normal: V8, direction: V8) -> V8 {
+    let away = normal.dot(direction).gt(X8::lit(0.0));
+    V8::new(normal.x.negate_where(away), normal.y.negate_where(away), normal.z.negate_where(away))
+}
+
+/// Moves a point off its surface by 8 ulps of the largest coordinate of the primitive it lies on: more than the error of the
+/// point and of the triangle test, whatever the unit of length.
+#[inline]
+fn lift(point: V8, normal: V8, reach: X8) -> V8 {
+    normal.mul_add(reach * X8::lit(1.0 / 1_048_576.0), point)
+}

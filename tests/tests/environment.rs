@@ -1,0 +1,343 @@
+//! Environments from images against brute-force tables: density, texels, inverses, counts, lanes.
+
+use core::f64::consts::{PI, TAU};
+use etendue::discrete::TableError;
+use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8};
+use etendue_tests::domain::{self, Random};
+use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
+use etendue_tests::oracle::{V3, length, sub};
+use etendue_tests::stats;
+use etendue_tests::tolerances::{SIGNIFICANCE, ULP};
+
+use EnvironmentMap::{EqualArea, Equirectangular};
+const MAPS: [EnvironmentMap; 2] = [EqualArea, Equirectangular];
+
+struct Image {
+    name: &'static str,
+    weights: Vec<f32>,
+    width: usize,
+    height: usize,
+}
+
+fn images(map: EnvironmentMap) -> Vec<Image> {
+    let sizes: &[[usize; 2]] = match map {
+        EqualArea => &[[1, 1], [2, 2], [7, 7], [64, 64]],
+        // odd heights have a row that holds the horizon
+        Equirectangular => &[[1, 1], [2, 1], [4, 2], [6, 3], [13, 7], [128, 64], [16, 301]],
+    };
+    let mut random = Random::new(11);
+    let mut all = Vec::new();
+    for &[width, height] in sizes {
+        let mut push = |name, f: &mut dyn FnMut(usize, &mut Random) -> f64| {
+            let weights: Vec<_> = (0..width * height).map(|i| f(i, &mut random) as f32).collect();
+            if weights.iter().any(|w| *w > 0.0) {
+                all.push(Image { name, weights, width, height });
+            }
+        };
+        push("flat", &mut |_, _| 1.0);
+        push("ordinary", &mut |_, r| r.range(0.1, 1.0));
+        push("half of it black", &mut |_, r| (r.unit_f64() - 0.5).max(0.0));
+        push("six decades", &mut |_, r| r.magnitude(1e-3, 1e3));
+        push("a sun", &mut |i, _| if i == width * height / 3 { 1e6 } else { 1.0 });
+        push("one texel", &mut |i, _| if i == width * height / 2 { 7.0 } else { 0.0 });
+    }
+    all
+}
+
+impl Image {
+    fn solid_angle(&self, map: EnvironmentMap, y: usize) -> f64 {
+        let (w, h) = (self.width as f64, self.height as f64);
+        match map {
+            EqualArea => 4.0 * PI / (w * h),
+            Equirectangular => TAU / w * ((PI * y as f64 / h).cos() - (PI * (y + 1) as f64 / h).cos()),
+        }
+    }
+    /// Column and row, as real numbers, of a direction: from the definition of the map.
+    fn place(&self, map: EnvironmentMap, d: V3) -> [f64; 2] {
+        let (w, h) = (self.width as f64, self.height as f64);
+        match map {
+            Equirectangular => [(d[1].atan2(d[0]) / TAU).rem_euclid(1.0) * w, d[0].hypot(d[1]).atan2(d[2]) / PI * h],
+            EqualArea => {
+                // upper half: the disk of radius √(1−|z|) as a diamond; lower half: folded out over its sides
+                let r = ((d[0] * d[0] + d[1] * d[1]) / (1.0 + d[2].abs())).sqrt();
+                let b = r * d[1].abs().atan2(d[0].abs()) / (PI / 2.0);
+                let (a, b) = if d[2] < 0.0 { (1.0 - b, 1.0 - (r - b)) } else { (r - b, b) };
+                [(a.copysign(d[0]) + 1.0) / 2.0 * w, (b.copysign(d[1]) + 1.0) / 2.0 * h]
+            }
+        }
+    }
+    /// The densities that are right for a direction: of its texel, and of those that lie within the rounding of the direction.
+    fn densities(&self, map: EnvironmentMap, d: V3, rounding: f64) -> Vec<f64> {
+        let total: f64 =
+            (0..self.weights.len()).map(|i| f64::from(self.weights[i]) * self.solid_angle(map, i / self.width)).sum();
+        let (w, h) = (self.width as f64, self.height as f64);
+        let [x, y] = self.place(map, d);
+        // a turn of the azimuth is larger near a pole
+        let across = d[0].hypot(d[1]).max(1e-300);
+        let (slack_x, slack_y) = match map {
+            EqualArea => (rounding * w, rounding * h),
+            Equirectangular => (rounding * w / across, rounding * h),
+        };
+        let range = |x: f64, slack: f64, n: usize| {
+            let low = (x - slack).floor().max(0.0) as usize;
+            let high = ((x + slack).floor().max(0.0) as usize).min(n - 1);
+            low.min(n - 1)..=high
+        };
+        let mut columns: Vec<_> = range(x, slack_x, self.width).collect();
+        if x < slack_x || x > w - slack_x {
+            columns.extend([0, self.width - 1]);
+        }
+        let mut found = Vec::new();
+        for row in range(y, slack_y, self.height) {
+            for &column in &columns {
+                found.push(f64::from(self.weights[row * self.width + column]) / total);
+            }
+        }
+        found
+    }
+}
+
+fn near(pdf: f64, truths: &[f64], texels: usize) -> bool {
+    // probabilities of rows and columns are multiples of 2⁻²⁴, and a texel with a weight keeps one
+    truths.iter().any(|t| (pdf - t).abs() <= 2e-6 * t + (texels as f64).max(8.0) * ULP)
+}
+
+/// At directions anywhere, poles and seams among them, and at samples: density, texel and inverse.
+#[test]
+fn density_is_that_of_the_table() {
+    let mut random = Random::new(1);
+    for map in MAPS {
+        for image in images(map) {
+            let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
+            let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
+            let texels = image.width * image.height;
+            let name = format!("{map:?} {}x{} {}", image.width, image.height, image.name);
+            let mut at = |i: usize| -> V3 {
+                match i {
+                    0 => [0.0, 0.0, 1.0],
+                    1 => [0.0, 0.0, -1.0],
+                    2 => [1.0, 0.0, 0.0],
+                    3 => [1.0, -0.0, 0.0],
+                    4 => [0.0, -1.0, -0.0],
+                    5 => [1e-6, -1e-7, -1.0],
+                    6 => [-1e-20, 1e-30, 1.0],
+                    _ => random.direction().map(|x| f64::from(x as f32)),
+                }
+            };
+            for i in 0..300 {
+                let d = at(i);
+                let w: Vec3<f32> = Coordinates::gather(&[d]);
+                let truths = image.densities(map, d, 5e-7);
+                let pdf = f64::from(sky.pdf(w));
+                assert!(near(pdf, &truths, texels), "{name}: {pdf} at {d:?}, not {truths:?}");
+                let double = Vec3::<f64>::new(d[0], d[1], d[2]);
+                let (truths, pdf) = (image.densities(map, d, 1e-14), sky.pdf(double));
+                assert!(near(pdf, &truths, texels), "{name}: {pdf} at {d:?}, not {truths:?}");
+                // and back: an inverse samples its own direction, where there is light
+                if pdf > 1e-3 {
+                    let back = sky.sample(sky.invert(w)).at(0);
+                    let off = length(sub(back, d));
+                    // the inverse is a multiple of 2⁻²⁴ or so: of a dark texel few remain
+                    let (w, h) = (image.width as f64, image.height as f64);
+                    let steps = 2.0 * ULP * (TAU / (pdf * image.solid_angle(map, 0)).min(1.0)).max(w.max(h));
+                    // a step of a cosine is a root of it in the angle to the pole
+                    let angle = if d[0].hypot(d[1]) < 1e-2 { (2.0 * steps).sqrt() } else { 0.0 };
+                    assert!(off < 1e-6 + 8.0 * steps + angle, "{name}: {d:?} comes back as {back:?}, off by {off:e}");
+                }
+            }
+            for i in 0..300 {
+                let u = [random.unit(), random.unit()];
+                let u = if i == 0 { [0.0; 2] } else { u };
+                let s = sky.draw(Vec2::new(u[0], u[1]));
+                let d = s.light.direction.at(0);
+                assert!((length(d) - 1.0).abs() < 4e-7 && s.light.emits && !s.light.delta && s.light.distance > 1e38);
+                let weight = image.weights[s.y as usize * image.width + s.x as usize];
+                assert!(weight > 0.0 && s.light.pdf > 0.0, "{name}: a black texel at {u:?}");
+                let truths = image.densities(map, d, 5e-7);
+                assert!(near(s.light.pdf.into(), &truths, texels), "{name}: {s:?} not {truths:?}");
+                // the pdf that comes with it is the pdf evaluated, but at the edge of a texel
+                let texel = sky.texel(s.light.direction);
+                if (texel.x, texel.y) == (s.x, s.y) {
+                    assert_eq!(sky.pdf(s.light.direction), s.light.pdf);
+                    let again = sky.invert(s.light.direction).at(0);
+                    let [x, y] = [0, 1].map(|k| (again[k] - f64::from(u[k])).abs());
+                    let (w, h) = (image.width as f64, image.height as f64);
+                    let across = if map == EqualArea { 1.0 } else { d[0].hypot(d[1]) };
+                    assert!(
+                        x * across < 4e-7 * w.max(2.0) && y * across < 4e-7 * h.max(2.0),
+                        "{name}: {again:?} for {u:?}"
+                    );
+                } else {
+                    assert!(truths.len() > 1, "{name}: {texel:?} for {s:?}");
+                }
+            }
+        }
+    }
+}
+
+/// ∫pdf = 1 by a sum over directions that knows nothing of texels, and counts of samples in bins that do not either.
+#[test]
+fn samples_have_the_density() {
+    for map in MAPS {
+        for image in images(map).iter().filter(|i| [49, 18, 91].contains(&i.weights.len())) {
+            let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
+            let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
+            let name = format!("{map:?} {}x{} {}", image.width, image.height, image.name);
+            // bins of equal solid angle: 8 heights, 16 azimuths; edges of texels are missed by half a step
+            let n = 720;
+            let mut expected = vec![0.0; 128];
+            for i in 0..n {
+                let z = 1.0 - 2.0 * (i as f64 + 0.5) / n as f64;
+                for j in 0..2 * n {
+                    let (s, c) = (TAU * (j as f64 + 0.5) / (2 * n) as f64).sin_cos();
+                    let r = (1.0 - z * z).sqrt();
+                    let w = Vec3::<f64>::new(r * c, r * s, z);
+                    expected[i * 8 / n * 16 + j * 16 / (2 * n)] += sky.pdf(w) * 4.0 * PI / (2 * n * n) as f64;
+                }
+            }
+            let sum: f64 = expected.iter().sum();
+            assert!((sum - 1.0).abs() < 1e-2, "{name}: the density integrates to {sum}");
+            let mut observed = vec![0_u64; 128];
+            let mut random = Random::new(3);
+            // few enough that the quadrature's own error does not show
+            let count = 20_000;
+            for _ in 0..count {
+                let d = sky.sample(Vec2::new(random.unit(), random.unit())).at(0);
+                let row = (((1.0 - d[2]) * 4.0) as usize).min(7);
+                let column = ((d[1].atan2(d[0]) / TAU).rem_euclid(1.0) * 16.0) as usize;
+                observed[row * 16 + column.min(15)] += 1;
+            }
+            // an empty bin may be touched at its edge
+            let expected: Vec<_> = expected.iter().map(|e| (e / sum).max(1e-9) * f64::from(count)).collect();
+            let p = stats::chi_square(&observed, &expected);
+            assert!(p > SIGNIFICANCE, "{name}: {p}");
+        }
+    }
+}
+
+/// The mean of radiance over density is the integral of the radiance, with no variance if the weights are the radiance.
+#[test]
+fn every_sample_is_worth_the_same() {
+    for map in MAPS {
+        for image in images(map).iter().filter(|i| i.name != "six decades" && i.weights.len() < 5000) {
+            let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
+            let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
+            let total: f64 = (0..image.weights.len())
+                .map(|i| f64::from(image.weights[i]) * image.solid_angle(map, i / image.width))
+                .sum();
+            let mut random = Random::new(4);
+            for _ in 0..200 {
+                let s = sky.draw(Vec2::new(random.unit(), random.unit()));
+                let worth =
+                    f64::from(image.weights[s.y as usize * image.width + s.x as usize]) / f64::from(s.light.pdf);
+                // a texel's probability is a product of multiples of 2⁻²⁴
+                let share = f64::from(s.light.pdf) * image.solid_angle(map, s.y as usize);
+                let grid = image.weights.len() as f64 * 2.0 * ULP / share.min(1.0);
+                assert!((worth / total - 1.0).abs() < 2e-6 + grid, "{map:?} {}: {worth} for {total}", image.name);
+            }
+        }
+    }
+}
+
+/// Single against double precision of the same body, at the same texel: the bounds that the documentation states.
+#[test]
+fn accuracy() {
+    let mut random = Random::new(6);
+    for map in MAPS {
+        let mut worst = [0.0_f64; 2];
+        for image in images(map) {
+            let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
+            let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
+            for _ in 0..3000 {
+                let u = [random.unit(), random.unit()];
+                let (s, t) = (sky.draw(squares_of::<f32>(&[u])), sky.draw(squares_of::<f64>(&[u])));
+                assert_eq!((s.x, s.y), (t.x, t.y));
+                let off = length(sub(s.light.direction.at(0), t.light.direction.at(0)));
+                let density = (f64::from(s.light.pdf) / t.light.pdf - 1.0).abs();
+                worst = [worst[0].max(off), worst[1].max(density)];
+            }
+        }
+        println!("{map:?}: direction {:.2e}, pdf {:.2e}", worst[0], worst[1]);
+        assert!(worst[0] < 6e-7 && worst[1] < 5e-7, "{map:?}: {worst:?}");
+    }
+}
+
+fn bits<R: Real>(sky: &ImageEnvironment<'_>, u: Vec2<R>, w: Vec3<R>, i: usize) -> [u64; 11] {
+    let s = sky.draw(u);
+    let ([x, y, z], texel, back) = (s.light.direction.at(i), sky.texel(w), sky.invert(w).at(i));
+    let float = [x, y, z, s.light.pdf.lane_f64(i), sky.pdf(w).lane_f64(i), back[0], back[1]].map(f64::to_bits);
+    let whole = [s.x.lane(i), s.y.lane(i), texel.x.lane(i), texel.y.lane(i)].map(u64::from);
+    assert!(s.light.emits.lane(i));
+    std::array::from_fn(|k| if k < 7 { float[k] } else { whole[k - 7] })
+}
+
+/// Any finite direction gives a texel, a finite density and an inverse in the square; all widths give the same bits.
+#[test]
+fn any_bits_in_every_lane() {
+    let mut random = Random::new(5);
+    for map in MAPS {
+        for image in images(map) {
+            let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
+            ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
+            let sky = ImageEnvironment::built(&buffer, image.width, map).unwrap();
+            assert_eq!(sky.size(), [image.width, image.height]);
+            for round in 0..60 {
+                let w: [[f32; 3]; 8] = std::array::from_fn(|_| {
+                    if round % 2 == 0 { domain::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+                });
+                let u: [[f32; 2]; 8] = std::array::from_fn(|_| [random.unit(), random.unit()]);
+                for i in 0..8 {
+                    let one = bits::<f32>(&sky, squares_of(&u[i..=i]), vectors_of(|_| w[i]), 0);
+                    assert_eq!(one, bits::<f32x8>(&sky, squares_of(&u), vectors_of(|i| w[i]), i));
+                    let four = &u[i / 4 * 4..][..4];
+                    assert_eq!(one, bits::<f32x4>(&sky, squares_of(four), vectors_of(|k| w[i / 4 * 4 + k]), i % 4));
+                    let float = |k: usize| f64::from_bits(one[k]);
+                    assert!((0..7).all(|k| float(k).is_finite()) && float(4) >= 0.0, "{map:?} {:?} {one:?}", w[i]);
+                    assert!((5..7).all(|k| (0.0..1.0).contains(&float(k))), "{map:?} {:?} {one:?}", w[i]);
+                    let inside = |x: u64, n: usize| (x as usize) < n;
+                    assert!(inside(one[9], image.width) && inside(one[10], image.height), "{map:?} {:?}", w[i]);
+                }
+            }
+        }
+    }
+}
+
+/// A texel at a pole of a very large image: nothing divides by its sine.
+#[test]
+fn poles_of_large_images() {
+    let (width, height) = (4, 1 << 16);
+    for row in [0, 1, height / 2, height - 2, height - 1] {
+        let mut weights = vec![0.0; width * height];
+        weights[row * width + 1] = 1.0;
+        let mut buffer = vec![0.0; ImageEnvironment::buffer(width, height)];
+        let sky = ImageEnvironment::build(&weights, width, Equirectangular, &mut buffer).unwrap();
+        let image = Image { name: "", weights, width, height };
+        let truth = 1.0 / image.solid_angle(Equirectangular, row);
+        for u in [[0.1_f32, 0.2], [0.9, 0.01], [0.5, 0.99]] {
+            let s = sky.draw(Vec2::new(u[0], u[1]));
+            // the oracle's own difference of cosines cancels: 1e−16 of 1e−10
+            assert!((f64::from(s.light.pdf) / truth - 1.0).abs() < 2e-6, "{row}: {} for {truth}", s.light.pdf);
+            let d = s.light.direction.at(0);
+            let rows = d[0].hypot(d[1]).atan2(d[2]) / PI * height as f64;
+            let inside = if row + 2 < height && row > 1 { 1e-2 } else { 1e-4 };
+            assert!(rows > row as f64 - inside && rows < (row + 1) as f64 + inside, "{row}: {rows}");
+            assert!(d[0] <= 1e-7 && d[1] >= -1e-7, "the second quarter turn: {d:?}");
+        }
+    }
+}
+
+#[test]
+fn faulty_images_are_refused() {
+    let mut buffer = [0.0; 6];
+    let mut build = |weights: &[f32], width| {
+        ImageEnvironment::build(weights, width, EqualArea, &mut buffer[..]).map(|_| ()).unwrap_err()
+    };
+    assert_eq!(build(&[1.0; 5], 2), TableError::Length);
+    assert_eq!(build(&[1.0; 4], 0), TableError::Length);
+    assert_eq!(build(&[0.0; 4], 2), TableError::Empty);
+    assert_eq!(build(&[1.0, f32::NAN, 0.0, 0.0], 2), TableError::Weight);
+    for (length, width) in [(5, 2), (6, 0), (0, 3), (6, usize::MAX)] {
+        assert!(ImageEnvironment::built(&[0.0; 6][..length], width, EqualArea).is_err(), "{length} {width}");
+    }
+}
