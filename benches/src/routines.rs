@@ -1,7 +1,9 @@
 //! Samples, densities and inverses.
 
 use etendue::seen::{ProjectedCap, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
-use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
+use etendue::sequence::{
+    Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
+};
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
     LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
@@ -155,6 +157,8 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.sequence("stratified", Stratified::new(1, 64));
     list.sequence("latin hypercube", LatinHypercube::new(1, 64));
     list.sequence("owen sobol", OwenSobol::new(1));
+    list.sequence("joint sobol", JointSobol::new(1));
+    list.sequence("joint strata", JointStratified::new(1, 4, 2));
     list.sequence("z-order", ZOrder::new(1, 64));
     list.sequence("lattice", Lattice::r2(1));
     list.routines

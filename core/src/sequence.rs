@@ -13,6 +13,8 @@
 //! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 3.9, 1.0, 0.5 | a count not known beforehand, and cheap |
 //! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 3.9, 1.0, 0.5 | a Fibonacci count; edges |
 //! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 9.3, 3.0, 1.4 | the choice wherever the count is a power of two |
+//! | [`JointSobol`] | pair 0 as [`OwenSobol`] | | | 7.0, 3.0, 1.5 | what depends on two pairs or more together |
+//! | [`JointStratified`] | as many strata as the square root of N in a pair | | | 40.0, 16.9, 8.6 | the same, at n⁴ samples |
 //! | [`ZOrder`] | in a pixel as [`OwenSobol`] | | | 26.7, 8.6, 6.3 | few samples a pixel, an image for the eye: blue noise |
 //!
 //! Pairs of samples in one dimension are what these figures are of. Pairs of different dimensions are associated at random.
@@ -20,12 +22,14 @@
 //! A dimension is a pair: dimension 0 might be the pixel, 1 the light, 2 the lens.
 
 mod independent;
+mod joint;
 mod latin;
 mod lattice;
 mod owen_sobol;
 mod stratified;
 
 pub use independent::{CounterRng, Independent};
+pub use joint::{JointSobol, JointStratified};
 pub use latin::LatinHypercube;
 pub use lattice::Lattice;
 pub use owen_sobol::{OwenSobol, ZOrder};

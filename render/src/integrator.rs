@@ -7,20 +7,11 @@ use crate::accel::{Accel, BuildError, GROUP, Hits, M8, Rays, ShapeSet, Stack, V8
 use crate::camera::Pinhole;
 use crate::film::{Film, Pixel, PixelSum};
 use crate::lights::{Lights, Technique};
+use crate::sampler::{CHOICE, Packet, Sampler, Source};
 use crate::scene::{Camera, Scene, Shape};
-use etendue::sequence::{Independent, Sequence, Stratified};
 use etendue::{Mask, Real, Vec2, u32x8};
 use rayon::prelude::*;
 use surface::{Surface, normal_of};
-
-/// How random numbers are spread over the samples of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Sampler {
-    /// Independent random numbers
-    Independent,
-    /// Jittered strata in the pixel and on the light, associated at random
-    Stratified,
-}
 
 /// All that an image depends on, beside the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,44 +55,6 @@ pub struct World {
 
 /// A side of a square of pixels that one thread renders at a time.
 const TILE: u32 = 16;
-
-/// Random numbers for a pixel's samples.
-enum Source {
-    Independent(Independent),
-    Stratified(Stratified),
-}
-
-impl Source {
-    /// The pair for the position in the pixel and the pair for the light.
-    #[inline]
-    fn pairs(&self, pixel: u32x8, sample: u32x8) -> [Vec2<X8>; 2] {
-        match self {
-            Self::Independent(s) => s.two_pairs(pixel, sample, 0),
-            Self::Stratified(s) => [s.pair(pixel, sample, 0), s.pair(pixel, sample, 1)],
-        }
-    }
-    /// A number with which to choose among many lights.
-    #[inline]
-    fn choice(&self, pixel: u32x8, sample: u32x8) -> X8 {
-        let pair: Vec2<X8> = match self {
-            Self::Independent(s) => s.pair(pixel, sample, 2),
-            Self::Stratified(s) => s.pair(pixel, sample, 2),
-        };
-        pair.x
-    }
-}
-
-/// How many independent replicates a stratified pixel of `spp` samples is made of: as few as can tell their variance, four where
-/// that leaves eight strata or more to each.
-fn replicates(spp: u32) -> u32 {
-    if spp.is_multiple_of(4) && spp >= 32 {
-        4
-    } else if spp.is_multiple_of(2) {
-        2
-    } else {
-        1
-    }
-}
 
 impl World {
     /// Builds trees and tables.
@@ -172,21 +125,10 @@ struct Work<'a> {
     settings: &'a Settings,
     camera: Pinhole,
     source: Source,
-    /// Samples in a replicate; 0 where each sample is one.
-    replicate: u32,
     count: RayCount,
     stack: Stack,
     /// Camera rays of a group, and their shadow rays.
     rays: Box<[[Rays; GROUP]; 2]>,
-}
-
-/// Eight samples to be taken.
-#[derive(Clone, Copy)]
-struct Packet {
-    x: u32x8,
-    y: u32x8,
-    sample: u32x8,
-    active: M8,
 }
 
 /// The pixels of an area [x0, y0, x1, y1) along a Z-order curve: neighbours in the list are neighbours in the image.
@@ -198,21 +140,13 @@ fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
 
 impl<'a> Work<'a> {
     fn new(world: &'a World, settings: &'a Settings) -> Self {
-        let spp = settings.spp;
-        let (source, replicate) = match settings.sampler {
-            Sampler::Independent => (Source::Independent(Independent::new(settings.seed)), 0),
-            Sampler::Stratified => {
-                let replicate = spp / replicates(spp);
-                (Source::Stratified(Stratified::new(settings.seed, replicate)), replicate)
-            }
-        };
+        let source = Source::new(settings.sampler, settings.seed, settings.spp, false, settings.width);
         let camera = Pinhole::new(&world.camera, settings.width, settings.height);
         Self {
             world,
             settings,
             camera,
             source,
-            replicate,
             count: RayCount::default(),
             stack: Stack::default(),
             rays: Box::default(),
@@ -226,16 +160,19 @@ impl<'a> Work<'a> {
         let pixels = z_order(area);
         let mut sums = vec![PixelSum::default(); pixels.len()];
         let total = pixels.len() as u64 * u64::from(spp);
-        let span = if self.replicate == 0 { spp } else { self.replicate };
+        let replicate = self.source.span();
+        let span = if replicate == 0 { spp } else { replicate };
         // packets that hold samples of one pixel and replicate are summed in lanes, else sample by sample
         let whole = span.is_multiple_of(8);
+        let replicate_of = |sample: u32| sample.checked_div(replicate).unwrap_or(0);
         let place = |item: u64| ((item / u64::from(spp)) as usize, (item % u64::from(spp)) as u32);
         let packet = |start: u64| {
             if whole {
                 let (pixel, sample) = place(start);
                 let [x, y] = pixels[pixel].map(u32x8::splat);
+                let replicate = u32x8::splat(replicate_of(sample));
                 let sample = u32x8::splat(sample) + u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
-                return Packet { x, y, sample, active: M8::splat(true) };
+                return Packet { x, y, sample, replicate, active: M8::splat(true) };
             }
             let lanes: [_; 8] = std::array::from_fn(|k| place((start + k as u64).min(total - 1)));
             let count = (total - start).min(8) as u32;
@@ -243,6 +180,7 @@ impl<'a> Work<'a> {
                 x: u32x8::new(lanes.map(|(pixel, _)| pixels[pixel][0])),
                 y: u32x8::new(lanes.map(|(pixel, _)| pixels[pixel][1])),
                 sample: u32x8::new(lanes.map(|(_, sample)| sample)),
+                replicate: u32x8::new(lanes.map(|(_, sample)| replicate_of(sample))),
                 active: M8::from_bits((1 << count) - 1),
             }
         };
@@ -256,7 +194,7 @@ impl<'a> Work<'a> {
                 if whole {
                     let (pixel, sample) = place(start);
                     sums[pixel].push_packet(radiance);
-                    if self.replicate != 0 && (sample + 8).is_multiple_of(self.replicate) {
+                    if replicate != 0 && (sample + 8).is_multiple_of(replicate) {
                         sums[pixel].end_replicate();
                     }
                     continue;
@@ -264,7 +202,7 @@ impl<'a> Work<'a> {
                 for k in (0..8).filter(|&k| packet.active.lane(k)) {
                     let (pixel, sample) = place(start + k as u64);
                     sums[pixel].push(radiance.lane(k).into());
-                    if self.replicate != 0 && (sample + 1).is_multiple_of(self.replicate) {
+                    if replicate != 0 && (sample + 1).is_multiple_of(replicate) {
                         sums[pixel].end_replicate();
                     }
                 }
@@ -281,14 +219,12 @@ impl<'a> Work<'a> {
     fn group(&mut self, packets: &[Packet]) -> [V8; GROUP] {
         let world = self.world;
         let count = packets.len();
-        let width = u32x8::splat(self.settings.width);
-        let pixel = |p: usize| packets[p].y * width + packets[p].x;
         let mut light = [Vec2::default(); GROUP];
         let rays = &mut self.rays[0];
         let mut active = [M8::splat(false); GROUP];
         let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
         for (p, packet) in packets.iter().enumerate() {
-            let [film, second] = self.source.pairs(pixel(p), packet.sample);
+            let [film, second] = self.source.film_and_light(packet);
             let position = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
             let (origin, direction) = self.camera.ray(position[0], position[1]);
             light[p] = second;
@@ -313,7 +249,7 @@ impl<'a> Work<'a> {
                 let choice = world.lights.many().then(|| {
                     let mut choice = [X8::lit(0.0); GROUP];
                     for (p, packet) in packets.iter().enumerate() {
-                        choice[p] = self.source.choice(pixel(p), packet.sample);
+                        choice[p] = self.source.pair(packet, CHOICE).x;
                     }
                     choice
                 });

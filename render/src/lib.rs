@@ -7,7 +7,9 @@ pub mod film;
 pub mod image;
 pub mod integrator;
 pub mod lights;
+pub mod sampler;
 pub mod scene;
 
-pub use integrator::{RayCount, Sampler, Settings, World};
+pub use integrator::{RayCount, Settings, World};
 pub use lights::Technique;
+pub use sampler::Sampler;

@@ -257,6 +257,10 @@ fn bad_arguments_are_told() {
             &[option, value],
         );
     }
+    for (spp, near) in [("100", "81 and 162 are"), ("3", "2 and 4 are"), ("4194303", "4170272 and 4194304 are")] {
+        let arguments = ["render", "quads", "-o", "kept.exr", "--sampler", "stratified-4d", "--spp", spp];
+        fails_untouched(&folder, &arguments, &["--sampler", spp, "n⁴", near]);
+    }
     fails_untouched(&folder, &["render", "quads", "-o", "none/kept.exr"], &["none", "does not exist"]);
     fails_untouched(&folder, &["render", "quads", "-o", "."], &["folder"]);
     fails_untouched(&folder, &["render"], &["SCENE"]);
@@ -347,6 +351,11 @@ fn list_names_everything() {
         "samplers",
         "independent",
         "stratified",
+        "stratified-4d",
+        "latin",
+        "sobol",
+        "sobol-4d",
+        "z-order",
     ];
     assert_eq!(names, expected);
 }

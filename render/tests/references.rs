@@ -1,7 +1,8 @@
 //! Images against the references of an independent renderer (256×256, 32,768 samples per pixel).
 //!
-//! Significance: three scenes × four techniques × two samplers give 24 images with four figures each (z of the mean in three
-//! channels, z of the mean squared error). A correct renderer passes all 96 bounds of 4.5 with probability 1 − 96 · 6.8e−6 = 0.9993;
+//! Significance: three scenes × four techniques × two samplers, and × two techniques × the five other samplers, give 54 images with four
+//! figures each (z of the mean in three channels, z of the mean squared error). A correct renderer passes all 216 bounds of 4.5 with
+//! probability 1 − 216 · 6.8e−6 = 0.9985;
 //! seeds are fixed, so that a test that passes once passes always. Both signs count: a variance layer that claims too much
 //! is as wrong as one that claims too little. The last checks of [`scene`] show what the bounds would reject.
 
@@ -14,7 +15,16 @@ use std::path::Path;
 const LIMIT: f64 = 4.5;
 const TECHNIQUES: [Technique; 4] =
     [Technique::Area, Technique::SolidAngle, Technique::CosineHemisphere, Technique::UniformHemisphere];
-const SAMPLERS: [Sampler; 2] = [Sampler::Independent, Sampler::Stratified];
+/// The last five differ from the first two in the numbers alone, and are tried with one technique of each kind.
+const SAMPLERS: [Sampler; 7] = [
+    Sampler::Independent,
+    Sampler::Stratified,
+    Sampler::Stratified4d,
+    Sampler::Latin,
+    Sampler::Sobol,
+    Sampler::Sobol4d,
+    Sampler::ZOrder,
+];
 
 fn picture(film: &Film) -> Picture {
     Picture {
@@ -58,7 +68,10 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
     for technique in TECHNIQUES {
         let towards_lights = matches!(technique, Technique::Area | Technique::SolidAngle);
         let (spp, scale) = if towards_lights { (64, 1.01) } else { (hemisphere_spp, hemisphere_scale) };
-        for sampler in SAMPLERS {
+        let both = [Technique::SolidAngle, Technique::CosineHemisphere].contains(&technique);
+        for sampler in SAMPLERS.into_iter().take(if both { SAMPLERS.len() } else { 2 }) {
+            // four replicates of 2⁴ or 3⁴ strata
+            let spp = if sampler == Sampler::Stratified4d && !towards_lights { 324 } else { spp };
             let settings = Settings { width: 256, height: 256, spp, technique, sampler, seed: 1 };
             let image = picture(&world.render(&settings, |_| ()).0);
             let p = prediction(&reference, &image, reference_error);
@@ -106,6 +119,11 @@ fn threads_do_not_matter_and_seeds_do() {
         (Technique::Area, Sampler::Independent, 5),
         (Technique::CosineHemisphere, Sampler::Independent, 8),
         (Technique::UniformHemisphere, Sampler::Stratified, 6),
+        (Technique::SolidAngle, Sampler::Sobol, 16),
+        (Technique::SolidAngle, Sampler::Sobol4d, 12),
+        (Technique::SolidAngle, Sampler::Stratified4d, 32),
+        (Technique::Area, Sampler::Latin, 20),
+        (Technique::Area, Sampler::ZOrder, 6),
     ] {
         // 16 divides neither side: some tiles are smaller
         let settings = Settings { width: 100, height: 75, spp, technique, sampler, seed: 7 };
@@ -147,7 +165,9 @@ fn any_number_of_samples_and_any_size() {
                     let mut image = of(spp, technique, sampler, 2);
                     let known = match sampler {
                         Sampler::Independent => spp > 1,
-                        Sampler::Stratified => spp.is_multiple_of(2),
+                        // 16 = 2⁴ is one replicate
+                        Sampler::Stratified4d => spp.is_multiple_of(2) && spp != 16,
+                        _ => spp.is_multiple_of(2),
                     };
                     let variance = image.variance.as_ref().unwrap();
                     let at = |i: usize| variance[i].iter().all(|x| x.is_finite() && *x >= 0.0);

@@ -11,7 +11,10 @@ use etendue::seen::{
     ProjectedCap, SphereCap, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalTriangle,
 };
 use etendue::select::{LightBound, PowerLights, SpatialLights, UniformLights};
-use etendue::sequence::{CounterRng, Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
+use etendue::sequence::{
+    CounterRng, Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified,
+    ZOrder,
+};
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
     LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere,
@@ -234,6 +237,8 @@ fn sequences(count: &mut Count) {
     count.sequence(Stratified::new(1, SAMPLES));
     count.sequence(LatinHypercube::new(1, SAMPLES));
     count.sequence(OwenSobol::new(1));
+    count.sequence(JointSobol::new(1));
+    count.sequence(JointStratified::new(1, 2, 2));
     count.sequence(ZOrder::new(1, SAMPLES));
     count.sequence(Lattice::r2(1));
     count.sequence(Lattice::fibonacci(1, SAMPLES));

@@ -32,19 +32,26 @@ pub(super) fn scramble_base_4<U: Uint>(v: U, keys: [U; 2], low: u32) -> U {
     scramble(v, keys[0] ^ keys[1].shl(13) ^ keys[1].shr(19))
 }
 
-/// Scrambled point of index `index`, from the first two dimensions of Sobol's sequence.
+/// The second dimension of Sobol's sequence, bits in reverse order; the first is the index itself.
 ///
-/// Both dimensions are made in reverse order of their bits, as the scrambling wants them. The first one's is then the index
-/// itself. The second one's matrix is Pascal's triangle modulo 2: bits of the index are coefficients of a polynomial p
-/// over GF(2), and the result has those of p(x + 1). Halves of p are shifted by (x+1)^(2ᵏ) = x^(2ᵏ) + 1: the upper half of
-/// each block of 2ᵏ⁺¹ bits is added to the lower half. Source: Ahmed, "An Implementation Algorithm of 2D Sobol Sequence
-/// Fast, Elegant, and Compact", EGSR 2024, derives the same five steps.
+/// Its matrix is Pascal's triangle modulo 2: bits of the index are coefficients of a polynomial p over GF(2), and the
+/// result has those of p(x + 1). Halves of p are shifted by (x+1)^(2ᵏ) = x^(2ᵏ) + 1: the upper half of each block of 2ᵏ⁺¹ bits is
+/// added to the lower half. Source: Ahmed, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact",
+/// EGSR 2024, derives the same five steps.
 #[inline]
-pub(super) fn net<R: Real>(index: R::Uint, keys: [R::Uint; 2]) -> Vec2<R> {
+pub(super) fn pascal<U: Uint>(index: U) -> U {
     let mut second = index;
     for (half, lower) in [(16, 0x0000_ffff), (8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555)] {
-        second = second ^ (second.shr(half) & R::Uint::splat(lower));
+        second = second ^ (second.shr(half) & U::splat(lower));
     }
+    second
+}
+
+/// Scrambled point of index `index`, from the first two dimensions of Sobol's sequence, both made in reverse order of their bits, as
+/// the scrambling wants them.
+#[inline]
+pub(super) fn net<R: Real>(index: R::Uint, keys: [R::Uint; 2]) -> Vec2<R> {
+    let second = pascal(index);
     Vec2::new(R::unit(scramble(index, keys[0]).reverse_bits()), R::unit(scramble(second, keys[1]).reverse_bits()))
 }
 
@@ -75,7 +82,7 @@ pub(super) fn net<R: Real>(index: R::Uint, keys: [R::Uint; 2]) -> Vec2<R> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OwenSobol {
-    random: Independent,
+    pub(super) random: Independent,
 }
 
 impl OwenSobol {

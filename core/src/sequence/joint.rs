@@ -1,0 +1,193 @@
+use super::owen_sobol::{pascal, scramble};
+use super::stratified::divide;
+use super::{Independent, OwenSobol, Sequence};
+use crate::real::{Real, Uint};
+use crate::vector::Vec2;
+use crate::warp::unit_interval;
+
+/// Pairs that [`JointSobol`] joins to one point.
+const PAIRS: u32 = 4;
+
+/// What bit b of the index adds to dimensions 3 and 4, 5 and 6, 7 and 8, bits in reverse order.
+const COLUMNS: [[[u32; 2]; 32]; 3] = [
+    zip(columns(2, 1, [1, 3, 0, 0, 0]), columns(3, 1, [1, 3, 1, 0, 0])),
+    zip(columns(3, 2, [1, 1, 1, 0, 0]), columns(4, 1, [1, 1, 3, 3, 0])),
+    zip(columns(4, 4, [1, 3, 5, 13, 0]), columns(5, 2, [1, 1, 5, 5, 17])),
+];
+
+/// Sobol's recurrence for a primitive polynomial of `degree`, whose inner coefficients are the bits of `inner`, from its
+/// `first` odd numbers m₁, m₂, …
+const fn columns(degree: usize, inner: u32, first: [u32; 5]) -> [u32; 32] {
+    let mut v = [0; 32];
+    let mut i = 0;
+    while i < 32 {
+        if i < degree {
+            v[i] = first[i] << (31 - i);
+        } else {
+            v[i] = v[i - degree] ^ (v[i - degree] >> degree);
+            let mut k = 1;
+            while k < degree {
+                v[i] ^= (inner >> (degree - 1 - k) & 1) * v[i - k];
+                k += 1;
+            }
+        }
+        i += 1;
+    }
+    v
+}
+
+const fn zip(a: [u32; 32], b: [u32; 32]) -> [[u32; 2]; 32] {
+    let mut both = [[0; 2]; 32];
+    let mut i = 0;
+    while i < 32 {
+        both[i] = [a[i].reverse_bits(), b[i].reverse_bits()];
+        i += 1;
+    }
+    both
+}
+
+/// Low bits of the hash's words are not quite independent over dimensions, and in a key they decide on the first digits, with no
+/// shuffle of the index to hide it: high bits into low ones, and back.
+#[inline]
+fn mixed<U: Uint>(word: U) -> U {
+    let word = (word ^ word.shr(16)).wrapping_mul(U::splat(0x7feb_352d));
+    word ^ word.shr(15)
+}
+
+/// Owen-scrambled Sobol points of eight dimensions: pairs 0 to 3 of a sample are one point of one net.
+///
+/// - Formula: Sobol's sequence at the sample's index, each of its dimensions scrambled with a key of its own.
+/// - Property: samples [k·2ᵐ, (k+1)·2ᵐ) of a pixel, in the first s dimensions, are a (t, m, s)-net in base 2: each box of 2ᵗ⁻ᵐ has 2ᵗ of
+///   them, t = 0, 0, 1, 3, 5, 8, 11, 15 for s = 1 … 8. Pair 0 alone is a (0, 2)-sequence. In any one dimension t = 0.
+/// - Domain: any 32-bit counters; time grows with the bits of the sample's index, for pairs 1 to 3. Pairs from 4 on are those of [`OwenSobol`].
+/// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴]; each point alone is uniform.
+/// - Replicates: samples are correlated; pixels and seeds are independent.
+/// - When: an integrand that depends on two pairs together (an edge whose place in the pixel moves with the point on the lens),
+///   and enough samples: with 2ᵐ of them, nothing is known of boxes that are finer than 2ᵗ⁻ᵐ. In one pair alone, [`OwenSobol`]
+///   is at least as good.
+/// - Source: Sobol 1967; Joe and Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections", SIAM J. Sci.
+///   Comput. 30, 2008 (first numbers); for the scrambling see [`OwenSobol`].
+///
+/// ```
+/// use etendue::{Vec2, sequence::{JointSobol, Sequence}};
+/// // 32 samples: in three dimensions t = 1, so each box of 2⁻⁴ has two of them
+/// let sobol = JointSobol::new(7);
+/// let mut boxes = [0; 16];
+/// for sample in 0..32 {
+///     let [a, b]: [Vec2<f32>; 2] = [0, 1].map(|dimension| sobol.pair(41, sample, dimension));
+///     boxes[(a.x * 2.0) as usize * 8 + (a.y * 4.0) as usize * 2 + (b.x * 2.0) as usize] += 1;
+/// }
+/// assert_eq!(boxes, [2; 16]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointSobol {
+    random: Independent,
+}
+
+impl JointSobol {
+    /// Scrambles of different seeds are independent. All 64 bits count.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self { random: Independent::new(seed) }
+    }
+}
+
+impl Sequence for JointSobol {
+    #[inline]
+    fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
+        if dimension >= PAIRS {
+            return OwenSobol { random: self.random }.pair(pixel, sample, dimension);
+        }
+        let words = self.random.words(pixel, R::Uint::splat(0x4a4f_494e), dimension);
+        let [first, second, ..] = words.map(mixed);
+        let [x, y] = if dimension == 0 {
+            [sample, pascal(sample)]
+        } else {
+            let mut point = [R::Uint::splat(0); 2];
+            let mut rest = sample;
+            for column in &COLUMNS[dimension as usize - 1] {
+                if !rest.any() {
+                    break;
+                }
+                let set = R::Uint::splat(0).wrapping_sub(rest & R::Uint::splat(1));
+                point = [0, 1].map(|k| point[k] ^ (set & R::Uint::splat(column[k])));
+                rest = rest.shr(1);
+            }
+            point
+        };
+        Vec2::new(R::unit(scramble(x, first).reverse_bits()), R::unit(scramble(y, second).reverse_bits()))
+    }
+}
+
+/// Jittered strata in all dimensions of two to four pairs at once: side⁴, side⁶ or side⁸ cells, one sample in each.
+///
+/// - Formula: the digits of the sample's index in base `side`, each turned by a random number of its own, are the cell; u = (cell + jitter)/side.
+/// - Property: samples [k·count, (k+1)·count) of a pixel have exactly one point in each cell. Any part of them is unbiased.
+/// - Domain: a side of 1 to what leaves no more than 2²² cells; any sample below 2³¹. Pairs beyond those joined are
+///   [`Independent`].
+/// - Replicates: indices [k·count, (k+1)·count) are independent copies; see [`Stratified`](super::Stratified).
+/// - When: what couples the pairs, at high counts. One pair alone has side² strata for its side⁴ samples: there
+///   [`Stratified`](super::Stratified) has side⁴ strata.
+/// - Source: Cook, Porter and Carpenter 1984; Mitchell, "Consequences of Stratified Sampling in Graphics", SIGGRAPH 1996.
+///
+/// ```
+/// use etendue::{Vec2, sequence::{JointStratified, Sequence}};
+/// let strata = JointStratified::new(7, 2, 2);
+/// let mut cells = [0; 16];
+/// for sample in 0..strata.count() {
+///     let [a, b]: [Vec2<f32>; 2] = [0, 1].map(|dimension| strata.pair(41, sample, dimension));
+///     cells[[a.x, a.y, b.x, b.y].iter().fold(0, |cell, u| 2 * cell + (u * 2.0) as usize)] += 1;
+/// }
+/// assert_eq!(cells, [1; 16]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointStratified {
+    random: Independent,
+    side: u32,
+    pairs: u32,
+    count: u32,
+}
+
+impl JointStratified {
+    /// Cells to a side, and pairs that are joined; clamped to their domain.
+    #[must_use]
+    pub fn new(seed: u64, side: u32, pairs: u32) -> Self {
+        let pairs = pairs.clamp(2, PAIRS);
+        // the greatest whose powers 4, 6, 8 are at most 2²²
+        let side = side.clamp(1, [45, 12, 6][pairs as usize - 2]);
+        Self { random: Independent::new(seed), side, pairs, count: side.pow(2 * pairs) }
+    }
+    /// Samples in each replicate: side to the power of 2·pairs.
+    #[must_use]
+    pub const fn count(&self) -> u32 {
+        self.count
+    }
+}
+
+impl Sequence for JointStratified {
+    #[inline]
+    fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
+        let jitter: Vec2<R> = self.random.pair(pixel, sample, dimension);
+        if dimension >= self.pairs {
+            return jitter;
+        }
+        let side = R::Uint::splat(self.side);
+        let split = |v, by| {
+            let quotient = divide::<R>(v, by);
+            (quotient, v.wrapping_sub(quotient.wrapping_mul(R::Uint::splat(by))))
+        };
+        let (set, index) = split(sample, self.count);
+        let (quotient, first) = split(divide::<R>(index, self.side.pow(2 * dimension)), self.side);
+        let (_, second) = split(quotient, self.side);
+        let turns = self.random.words(pixel, set, !dimension);
+        let place = |digit: R::Uint, turn: R::Uint, jitter: R| {
+            // below `side`, which has six bits at the most
+            let turn = turn.shr(6).wrapping_mul(side).shr(26);
+            let cell = digit.wrapping_add(turn);
+            let below = cell.lt(side);
+            let cell = cell.wrapping_sub(side ^ (side & below));
+            unit_interval((R::from_uint(cell) + jitter) * R::lit(1.0 / f64::from(self.side)))
+        };
+        Vec2::new(place(first, turns[0], jitter.x), place(second, turns[1], jitter.y))
+    }
+}

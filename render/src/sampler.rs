@@ -1,0 +1,211 @@
+//! Where the random numbers of a pixel's samples come from.
+//!
+//! A sample has a pair of numbers for each use: [`FILM`], [`LIGHT`], [`CHOICE`], [`LENS`], then 4 and up for whatever else.
+//! *Padding* makes each pair a good point set of its own and associates the pairs at random; a *joint* set is good in all of
+//! its dimensions together.
+//!
+//! Samples of a good set are not independent, and their spread says nothing of the error. So a pixel is made of a few
+//! *replicates*, sets that are independent of one another, and its variance is that of the mean of their means.
+
+use crate::accel::{M8, X8};
+use etendue::sequence::{
+    Independent, JointSobol, JointStratified, LatinHypercube, OwenSobol, Sequence, Stratified, ZOrder,
+};
+use etendue::{Vec2, u32x8};
+
+/// How random numbers are spread over the samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Sampler {
+    /// Independent random numbers
+    Independent,
+    /// Jittered strata in the pixel and on the light, associated at random
+    Stratified,
+    /// Jittered strata of pixel × light (× lens): n⁴ (n⁶) samples, or 2 or 4 times as many
+    #[value(name = "stratified-4d")]
+    Stratified4d,
+    /// Latin hypercube: each coordinate in strata, associated at random
+    Latin,
+    /// Owen-scrambled Sobol pairs in the pixel and on the light, associated at random
+    Sobol,
+    /// Owen-scrambled Sobol points of pixel × light (× lens)
+    #[value(name = "sobol-4d")]
+    Sobol4d,
+    /// Owen-scrambled Sobol pairs dealt out along a Z-order curve of pixels: blue noise
+    ZOrder,
+}
+
+/// The pair for the position in the pixel.
+pub const FILM: u32 = 0;
+/// The pair for the point on the light, or the direction.
+pub const LIGHT: u32 = 1;
+/// The number with which to choose among many lights.
+pub const CHOICE: u32 = 2;
+/// The pair for the point on the lens.
+pub const LENS: u32 = 3;
+
+/// Eight samples to be taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Packet {
+    /// Columns of their pixels.
+    pub x: u32x8,
+    /// Rows of their pixels.
+    pub y: u32x8,
+    /// Which of a pixel's samples they are.
+    pub sample: u32x8,
+    /// Which replicates of their pixels they belong to: ⌊sample/span⌋, or 0 where each sample is one; see [`Source::span`].
+    pub replicate: u32x8,
+    /// Lanes that hold a sample.
+    pub active: M8,
+}
+
+/// How many replicates a pixel of `spp` samples is made of: as few as can tell their variance, four where that leaves eight
+/// samples or more to each.
+const fn replicates(spp: u32) -> u32 {
+    if spp.is_multiple_of(4) && spp >= 32 {
+        4
+    } else if spp.is_multiple_of(2) {
+        2
+    } else {
+        1
+    }
+}
+
+/// The side of the greatest grid of `dimensions` with at most `count` cells.
+fn side(count: u32, dimensions: u32) -> u32 {
+    (1..).take_while(|&n: &u32| n.checked_pow(dimensions).is_some_and(|cells| cells <= count)).last().unwrap_or(1)
+}
+
+/// Dimensions that are sampled together.
+const fn dimensions(lens: bool) -> u32 {
+    if lens { 6 } else { 4 }
+}
+
+/// Replicates of a pixel of `spp` jittered samples of 4 or 6 dimensions: 4, 2 or 1, whichever leaves a power n⁴ or n⁶.
+fn joint_replicates(spp: u32, dimensions: u32) -> Option<u32> {
+    [4, 2, 1].into_iter().find(|r| spp.is_multiple_of(*r) && side(spp / r, dimensions).pow(dimensions) * r == spp)
+}
+
+impl Sampler {
+    /// Whether this sampler can take `spp` samples of each pixel as it should; for [`Sampler::Stratified4d`], whether that is
+    /// n⁴, 2n⁴ or 4n⁴ (n⁶ with a lens).
+    ///
+    /// # Errors
+    /// It is not, and what is.
+    pub fn check(self, spp: u32, lens: bool) -> Result<(), String> {
+        let d = dimensions(lens);
+        if self != Self::Stratified4d || joint_replicates(spp, d).is_some() {
+            return Ok(());
+        }
+        let power = if lens { "n⁶" } else { "n⁴" };
+        let fits = |n: &u32| joint_replicates(*n, d).is_some();
+        let below = (1..spp).rev().find(fits).unwrap_or(1);
+        let above = (spp + 1..).find(fits).unwrap_or(u32::MAX);
+        Err(format!(
+            "stratified-4d takes {power}, 2{power} or 4{power} samples per pixel: {spp} is none of these; {below} and {above} are"
+        ))
+    }
+}
+
+#[derive(Debug)]
+enum Set {
+    Independent(Independent),
+    Stratified(Stratified),
+    Stratified4d(JointStratified),
+    Latin(LatinHypercube),
+    Sobol(OwenSobol),
+    Sobol4d(JointSobol),
+    ZOrder(ZOrder),
+}
+
+/// Random numbers for the samples of an image.
+#[derive(Debug)]
+pub struct Source {
+    set: Set,
+    /// Samples in a replicate; 0 where each sample is one.
+    span: u32,
+    /// By how much further apart the indices of two replicates are than `span`.
+    gap: u32x8,
+    width: u32x8,
+}
+
+/// A pair's place in a joint point: the lens comes before the choice of a light, which few scenes need.
+const fn joint(dimension: u32) -> u32 {
+    match dimension {
+        LENS => 2,
+        CHOICE => 3,
+        other => other,
+    }
+}
+
+impl Source {
+    /// For `spp` samples in each pixel of an image of this width; `lens` says whether they have a point on a lens.
+    ///
+    /// Any count will do. [`Sampler::Stratified4d`] fills the greatest grid that a replicate holds as often as it can, see
+    /// [`Sampler::check`]; Sobol's points are best where `spp` is a power of two.
+    #[must_use]
+    pub fn new(sampler: Sampler, seed: u64, spp: u32, lens: bool, width: u32) -> Self {
+        let d = dimensions(lens);
+        let count = match sampler {
+            Sampler::Stratified4d => joint_replicates(spp, d).unwrap_or(replicates(spp)),
+            _ => replicates(spp),
+        };
+        let span = spp / count;
+        // a replicate begins with a set of its own
+        let (set, stride) = match sampler {
+            Sampler::Independent => (Set::Independent(Independent::new(seed)), span),
+            Sampler::Stratified => (Set::Stratified(Stratified::new(seed, span)), span),
+            Sampler::Stratified4d => {
+                let set = JointStratified::new(seed, side(span, d), d / 2);
+                (Set::Stratified4d(set), span.next_multiple_of(set.count()))
+            }
+            Sampler::Latin => (Set::Latin(LatinHypercube::new(seed, span)), span),
+            Sampler::Sobol => (Set::Sobol(OwenSobol::new(seed)), span),
+            Sampler::Sobol4d => (Set::Sobol4d(JointSobol::new(seed)), span),
+            Sampler::ZOrder => {
+                let set = ZOrder::new(seed, span);
+                (Set::ZOrder(set), set.samples())
+            }
+        };
+        let span = if sampler == Sampler::Independent { 0 } else { span };
+        Self { set, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width) }
+    }
+    /// Samples in a replicate; 0 where each sample is one.
+    #[must_use]
+    pub const fn span(&self) -> u32 {
+        self.span
+    }
+    /// The pairs [`FILM`] and [`LIGHT`].
+    #[inline]
+    pub fn film_and_light(&self, packet: &Packet) -> [Vec2<X8>; 2] {
+        match &self.set {
+            Set::Independent(set) => set.two_pairs(packet.y * self.width + packet.x, packet.sample, 0),
+            _ => [self.pair(packet, FILM), self.pair(packet, LIGHT)],
+        }
+    }
+    /// A pair of numbers for each of eight samples.
+    #[inline]
+    pub fn pair(&self, packet: &Packet, dimension: u32) -> Vec2<X8> {
+        let pixel = packet.y * self.width + packet.x;
+        // Sobol's points have no end: the replicate is part of the key
+        let sobol = || {
+            let first = packet.replicate * u32x8::splat(self.span);
+            (pixel * u32x8::splat(4) + packet.replicate, packet.sample - first)
+        };
+        let sample = || packet.sample + packet.replicate * self.gap;
+        match &self.set {
+            Set::Independent(set) => set.pair(pixel, packet.sample, dimension),
+            Set::Stratified(set) => set.pair(pixel, packet.sample, dimension),
+            Set::Stratified4d(set) => set.pair(pixel, sample(), joint(dimension)),
+            Set::Latin(set) => set.pair(pixel, packet.sample, dimension),
+            Set::Sobol(set) => {
+                let (key, index) = sobol();
+                set.pair(key, index, dimension)
+            }
+            Set::Sobol4d(set) => {
+                let (key, index) = sobol();
+                set.pair(key, index, joint(dimension))
+            }
+            Set::ZOrder(set) => set.pair(ZOrder::pixel(packet.x, packet.y), sample(), dimension),
+        }
+    }
+}

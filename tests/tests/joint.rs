@@ -1,0 +1,171 @@
+//! Point sets of several pairs at once: that they are the nets and the strata that they claim to be.
+
+use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence};
+use etendue::{Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
+use etendue_tests::stats;
+use etendue_tests::tolerances::SIGNIFICANCE;
+
+fn point(sequence: &impl Sequence, pixel: u32, sample: u32) -> [f64; 8] {
+    let mut all = [0.0; 8];
+    for (dimension, u) in all.chunks_mut(2).enumerate() {
+        let pair: Vec2<f64> = sequence.pair(pixel, sample, dimension as u32);
+        (u[0], u[1]) = (pair.x, pair.y);
+    }
+    all
+}
+
+/// Every way to write `sum` as as many natural numbers as there are in `split`.
+fn splits(sum: u32, split: &mut [u32], visit: &mut impl FnMut(&[u32]) -> bool) -> bool {
+    fn rest(sum: u32, split: &mut [u32], at: usize, visit: &mut impl FnMut(&[u32]) -> bool) -> bool {
+        if at + 1 == split.len() {
+            split[at] = sum;
+            return visit(split);
+        }
+        (0..=sum).all(|first| {
+            split[at] = first;
+            rest(sum - first, split, at + 1, visit)
+        })
+    }
+    rest(sum, split, 0, visit)
+}
+
+/// The least t for which the 2ᵐ points are a (t, m, s)-net in the dimensions named: each box of volume 2ᵗ⁻ᵐ has 2ᵗ of them.
+fn quality(points: &[[f64; 8]], dimensions: &[usize]) -> u32 {
+    let m = points.len().ilog2();
+    assert_eq!(points.len(), 1 << m);
+    let even = |t: u32| {
+        splits(m - t, &mut vec![0; dimensions.len()], &mut |split| {
+            let mut count = vec![0_u32; 1 << (m - t)];
+            for p in points {
+                let cell = dimensions
+                    .iter()
+                    .zip(split)
+                    .fold(0, |cell, (&d, &bits)| cell << bits | (p[d] * f64::from(1_u32 << bits)) as usize);
+                count[cell] += 1;
+            }
+            count.iter().all(|&n| n == 1 << t)
+        })
+    };
+    (0..=m).find(|&t| even(t)).unwrap()
+}
+
+/// Sum of the degrees of the polynomials, each less one: Sobol's own bound.
+const BOUND: [u32; 9] = [0, 0, 0, 1, 3, 5, 8, 11, 15];
+
+#[test]
+fn joint_sobol_is_a_net() {
+    for m in [0, 1, 3, 4, 6, 8, 10] {
+        for (seed, pixel) in [(1, 0), (2, 12_345), (3, u32::MAX)] {
+            let sobol = JointSobol::new(seed);
+            for first in [0, 5 << m, 65_536 + (3 << m), u32::MAX - ((1 << m) - 1)] {
+                let points: Vec<_> = (0..1 << m).map(|i| point(&sobol, pixel, first + i)).collect();
+                for (s, &bound) in BOUND.iter().enumerate().take(if m > 8 { 7 } else { 9 }).skip(1) {
+                    let dimensions: Vec<usize> = (0..s).collect();
+                    let t = quality(&points, &dimensions);
+                    assert!(t <= bound, "2^{m} points from {first} in {s} dimensions: t = {t}");
+                }
+                for d in 0..8 {
+                    assert_eq!(quality(&points, &[d]), 0, "2^{m} points from {first}, dimension {d}");
+                }
+            }
+        }
+    }
+    let points: Vec<_> = (0..1 << 10).map(|i| point(&JointSobol::new(1), 0, i)).collect();
+    // as good as a sequence in three dimensions can be; in four this many points are better than the bound
+    assert_eq!([3, 4].map(|s| quality(&points, &(0..s).collect::<Vec<_>>())), [1, 2]);
+    // pairs by themselves: what is lost to the padded sequence, which has t = 0 in each
+    let pairs = [[0, 1], [2, 3], [4, 5], [6, 7]].map(|pair| quality(&points, &pair));
+    println!("1024 points, t of the pairs: {pairs:?}");
+    assert_eq!(pairs[0], 0);
+    assert!(pairs.iter().all(|&t| t <= 5), "{pairs:?}");
+}
+
+#[test]
+fn the_check_of_nets_can_fail() {
+    let worst = |f: &dyn Fn(u32) -> [f64; 8]| quality(&(0..1024).map(f).collect::<Vec<_>>(), &[0, 1, 2, 3]);
+    assert!(worst(&|i| point(&Independent::new(1), 0, i)) > 3);
+    assert!(worst(&|i| point(&OwenSobol::new(1), 0, i)) > 3, "padded pairs are no net together");
+    assert!(worst(&|i| point(&JointStratified::new(1, 5, 2), 0, i)) > 3);
+    assert!(worst(&|i| point(&JointSobol::new(1), 0, i + 512)) > 3, "not aligned");
+    assert!(worst(&|i| point(&JointSobol::new(1), i / 512, i % 512)) > 3, "of two pixels");
+    assert!(worst(&|i| point(&JointSobol::new(1), 0, i)) <= 3);
+}
+
+#[test]
+fn every_cell_once() {
+    for (side, pairs) in [(1, 2), (2, 2), (3, 2), (4, 2), (7, 2), (2, 3), (3, 3), (5, 3), (2, 4), (3, 4)] {
+        let strata = JointStratified::new(5, side, pairs);
+        let axes = 2 * pairs as usize;
+        assert_eq!(strata.count(), side.pow(2 * pairs));
+        for (pixel, replicate) in [(0, 0), (7, 0), (7, 1000), (u32::MAX, 3)] {
+            let mut seen = vec![0_u32; strata.count() as usize];
+            for i in 0..strata.count() {
+                // the jitter of one sample in f64 does not round across a boundary
+                let p = point(&strata, pixel, replicate * strata.count() + i);
+                seen[p[..axes].iter().fold(0, |cell, u| cell * side as usize + (u * f64::from(side)) as usize)] += 1;
+            }
+            assert!(seen.iter().all(|&n| n == 1), "{side} to a side, {pairs} pairs: {seen:?}");
+        }
+    }
+    // out of range is brought into it: no more than 2²² cells
+    let counts = [(0, 0), (46, 2), (13, 3), (7, 4), (u32::MAX, u32::MAX)].map(|(s, p)| JointStratified::new(1, s, p));
+    assert_eq!(counts.map(|s| s.count()), [1, 45_u32.pow(4), 12_u32.pow(6), 6_u32.pow(8), 6_u32.pow(8)]);
+}
+
+/// Any one sample of many pixels, or of many sets, is uniform in all pairs of coordinates.
+#[test]
+fn each_point_is_uniform() {
+    fn check(name: &str, point: impl Fn(u32) -> [f64; 8]) {
+        let points: Vec<_> = (0..100_000).map(point).collect();
+        for a in 0..8 {
+            for b in 0..a {
+                let mut cells = vec![0_u64; 24 * 24];
+                points.iter().for_each(|p| cells[(p[a] * 24.0) as usize * 24 + (p[b] * 24.0) as usize] += 1);
+                let p = stats::uniform(&cells);
+                assert!(p > SIGNIFICANCE, "{name}: coordinates {a} and {b}: p = {p:e}");
+            }
+        }
+    }
+    for sample in [0, 1, 77] {
+        check("sobol, pixels", |i| point(&JointSobol::new(1), i, sample));
+        check("sobol, seeds", |i| point(&JointSobol::new(u64::from(i)), 9, sample));
+        for (side, pairs) in [(3, 2), (7, 2), (2, 3), (2, 4)] {
+            let strata = JointStratified::new(1, side, pairs);
+            check("strata, pixels", |i| point(&strata, i, sample));
+            check("strata, sets", |i| point(&strata, 9, i * strata.count() + sample % strata.count()));
+        }
+    }
+}
+
+#[test]
+fn packets_are_scalars() {
+    fn check(name: &str, sequence: &impl Sequence) {
+        for start in [0, 1, 65_535, 1 << 24, 0x7fff_fff0, u32::MAX - 8] {
+            for dimension in [0, 1, 2, 3, 4, 9, u32::MAX] {
+                let pixels = |k: usize| start.wrapping_add(k as u32 * 977);
+                let samples = |k: usize| (start / 2).wrapping_add(k as u32 * 3);
+                let eight: Vec2<f32x8> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
+                let four: Vec2<f32x4> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
+                let double: Vec2<f64x4> = sequence.pair(u32x4::from_fn(pixels), u32x4::from_fn(samples), dimension);
+                for k in 0..8 {
+                    let one: Vec2<f32> = sequence.pair(pixels(k), samples(k), dimension);
+                    assert!((0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y), "{name}: {one:?}");
+                    assert_eq!(eight.lane(k), one, "{name}, lane {k}");
+                    let wide: Vec2<f64> = sequence.pair(pixels(k), samples(k), dimension);
+                    assert!((wide.x - f64::from(one.x)).abs() < 2.4e-7, "{name}: {one:?} {wide:?}");
+                    if k < 4 {
+                        assert_eq!(four.lane(k), one, "{name}, lane {k} of 4");
+                        assert_eq!(double.lane(k), wide, "{name}, lane {k} in f64");
+                    }
+                }
+            }
+        }
+    }
+    check("sobol", &JointSobol::new(3));
+    for (side, pairs) in [(1, 2), (2, 3), (45, 2), (6, 4)] {
+        check("strata", &JointStratified::new(3, side, pairs));
+    }
+    // beyond the joint pairs come padded ones
+    let padded: Vec2<f32> = OwenSobol::new(3).pair(5, 6, 4);
+    assert_eq!(JointSobol::new(3).pair::<f32>(5, 6, 4), padded);
+}
