@@ -1,5 +1,5 @@
 //! Two tables: time per sample of every routine in f32, f32x4 and f32x8, and how much faster eight lanes are than one; rays per
-//! second on one thread. `cargo bench -p etendue-benches --bench summary -- cone` for some.
+//! second on one thread. `cargo bench -p etendue-benches --bench summary -- cone` for some, `-- --markdown` as the README has it.
 //!
 //! The median of repetitions that take turns, so that a change of the processor's clock meets all widths alike.
 
@@ -30,7 +30,12 @@ fn median(mut values: Vec<f64>) -> f64 {
 fn main() {
     // cargo itself passes --bench
     let filter = std::env::args().skip(1).find(|a| !a.starts_with('-')).unwrap_or_default();
-    println!("{:38} {:>8} {:>8} {:>8} {:>7}", "ns/sample, median", "f32", "f32x4", "f32x8", "x1/x8");
+    let markdown = std::env::args().any(|a| a == "--markdown");
+    if markdown {
+        println!("| ns/sample, median | f32 | x4 | x8 | x1/x8 |\n|---|---|---|---|---|");
+    } else {
+        println!("{:38} {:>8} {:>8} {:>8} {:>7}", "ns/sample, median", "f32", "f32x4", "f32x8", "x1/x8");
+    }
     let widths = routines::<f32>().into_iter().zip(routines::<f32x4>()).zip(routines::<f32x8>());
     for ((one, four), eight) in widths.filter(|((one, _), _)| one.name.contains(&filter)) {
         let mut each = [one, four, eight];
@@ -39,7 +44,12 @@ fn main() {
         }
         let rounds: Vec<_> = (0..REPETITIONS).map(|_| each.each_mut().map(nanoseconds)).collect();
         let [one, four, eight] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
-        println!("{:38} {one:8.2} {four:8.2} {eight:8.2} {:7.1}", each[0].name, one / eight);
+        let (name, gain) = (&each[0].name, one / eight);
+        if markdown {
+            println!("| {name} | {one:.2} | {four:.2} | {eight:.2} | {gain:.1} |");
+        } else {
+            println!("{name:38} {one:8.2} {four:8.2} {eight:8.2} {gain:7.1}");
+        }
     }
     if "rays".contains(&filter) {
         rays();
