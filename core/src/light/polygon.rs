@@ -1,0 +1,74 @@
+use super::{LightSample, flat_by_area};
+use crate::real::{Mask, Real};
+use crate::seen::{Sighting, SphericalPolygon};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{AreaTriangle, Warp, unit_interval};
+
+/// A convex polygon of N corners, 3 ≤ N ≤ 8, that emits on the side from which they run counterclockwise.
+///
+/// ```
+/// use etendue::{Vec2, light::Polygon};
+/// // a panel overhead that emits downwards
+/// let corners = [[-1.0, 2.0, -1.0], [1.0, 2.0, -1.0], [1.0, 2.0, 1.0], [-1.0, 2.0, 1.0]];
+/// let panel = Polygon { corners: corners.map(Into::into) };
+/// let s = panel.by_solid_angle([0.0, 0.0, 0.0_f32].into(), Vec2::new(0.3, 0.6));
+/// assert!(s.emits && s.pdf > 0.0 && (s.direction.y * s.distance - 2.0).abs() < 1e-6);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Polygon<R, const N: usize> {
+    /// In order, in one plane.
+    pub corners: [Vec3<R>; N],
+}
+
+impl<R: Real, const N: usize> Polygon<R, N> {
+    /// The same in every lane.
+    #[inline]
+    pub fn splat(s: Polygon<R::Scalar, N>) -> Self {
+        Self { corners: s.corners.map(Vec3::splat) }
+    }
+    /// Uniform over the surface, by a fan of triangles about the first corner. pdf = distance²/(|cosθ'| A).
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let origin = self.corners[0];
+        let edge = |i: usize| self.corners[i] - origin;
+        let scale = (1..N).fold(zero, |most, i| most.max(edge(i).max_abs())).exponent_reciprocal();
+        // twice the area of a triangle, in units that neither over- nor underflow
+        let size = |i: usize| (edge(i) * scale).cross(edge(i + 1) * scale).length();
+        let mut whole = Vec3::default();
+        let mut total = zero;
+        for i in 1..N - 1 {
+            whole += edge(i).cross(edge(i + 1));
+            total += size(i);
+        }
+        let place = u.x * total;
+        let (mut before, mut sum) = (zero, zero);
+        let (mut first, mut second, mut width) = (edge(1), edge(2), zero);
+        for i in 1..N - 1 {
+            let size = size(i);
+            // the first that has an area, and each that begins before the place
+            let here = size.gt(zero) & (place.ge(sum) | width.le(zero));
+            first = Vec3::select(here, edge(i), first);
+            second = Vec3::select(here, edge(i + 1), second);
+            before = R::select(here, sum, before);
+            width = R::select(here, size, width);
+            sum += size;
+        }
+        let x = unit_interval((place - before) / R::select(width.gt(zero), width, one));
+        let b: Vec2<R> = AreaTriangle.sample(Vec2::new(x, u.y));
+        let point = first.mul_add(b.x, second.mul_add(b.y, origin - p));
+        // sums that overflowed: nothing to see
+        let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
+        let finite = [point, whole].map(|v| below(v.x) & below(v.y) & below(v.z));
+        let finite = finite[0] & finite[1];
+        let kept = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite));
+        flat_by_area(kept(point), kept(whole) * R::lit(0.5))
+    }
+    /// Uniform over the solid angle, [`SphericalPolygon`].
+    #[inline(always)]
+    pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let seen = SphericalPolygon::new(self.corners.map(|c| c - p));
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+    }
+}

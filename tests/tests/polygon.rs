@@ -1,0 +1,123 @@
+//! Polygons as lights: irradiance against Lambert's form, corners that coincide, lanes, arguments of any bits.
+
+use etendue::{LightSample, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8};
+use etendue_tests::domain::{self, Random};
+use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
+use etendue_tests::oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
+
+fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
+    let at = |i: usize| (i as f64 + 0.5) / n as f64;
+    (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
+}
+fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
+    let cos = dot(s.direction.at(0), n).max(0.0);
+    if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
+}
+
+/// N corners on an ellipse, `skip` of them twice, at a height over the origin; and the normal of their plane towards the origin.
+fn polygon<const N: usize>(size: f64, height: f64, skip: usize, random: &mut Random) -> ([V3; N], V3) {
+    let (s, t) = basis(random.direction());
+    let n = unit(cross(s, t));
+    let start = random.unit_f64();
+    let corners = core::array::from_fn(|i| {
+        let turn = (i.max(skip) as f64 + start) / N as f64 * core::f64::consts::TAU;
+        // counterclockwise as seen from the origin, which is at −n
+        let (y, x) = (-turn.sin(), turn.cos());
+        along(along(n.map(|n| n * height), s, size * (x + 0.3)), t, size * 0.6 * y)
+    });
+    (corners, n)
+}
+
+fn agrees<const N: usize>(random: &mut Random) {
+    for (size, height, skip) in [(1.0, 1.0, 0), (1e-3, 1.0, 0), (3.0, 1.0, 1), (1.0, 1.0, 1), (1.0, 0.3, 0)] {
+        let (corners, n) = polygon::<N>(size, height, if N > 3 { skip } else { 0 }, random);
+        let light = Polygon { corners: corners.map(Vec3::<f64>::from) };
+        // the receiver faces the polygon, or cuts it with its horizon
+        for receiver in [n, unit(along(n, basis(n).0, 2.0))] {
+            let truth = projected_polygon(&corners, receiver);
+            let o = Vec3::default();
+            let by_solid_angle = mean(256, |u| irradiance(&light.by_solid_angle(o, u), receiver));
+            let by_area = mean(400, |u| irradiance(&light.by_area(o, u), receiver));
+            // a column of the grid in which one triangle ends and the next begins: up to 1/800 for each of the N − 3
+            let (one, other) = ((by_solid_angle / truth - 1.0).abs(), (by_area / truth - 1.0).abs());
+            assert!(one < 3e-4 && other < 3e-3, "{N} {size} {height}: {by_solid_angle}, {by_area} for {truth}");
+            let mut corners = light.corners;
+            corners.reverse();
+            let behind = Polygon { corners };
+            assert_eq!(mean(20, |u| irradiance(&behind.by_area(o, u), receiver)), 0.0);
+            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(o, u), receiver)), 0.0);
+        }
+    }
+}
+
+#[test]
+fn irradiance_is_lamberts() {
+    let mut random = Random::new(1);
+    agrees::<3>(&mut random);
+    agrees::<4>(&mut random);
+    agrees::<5>(&mut random);
+    agrees::<8>(&mut random);
+}
+
+/// Every point is on the polygon, and as many on each part as it has area: the parallelogram says the same.
+#[test]
+fn a_parallelogram_is_a_polygon() {
+    let (p, u, v) = (Vec3::new(0.3, 1.0, -0.2), Vec3::new(1.0, 0.2, 0.1), Vec3::new(-0.1, 0.3, 1.5_f64));
+    let one = Parallelogram { p, u, v };
+    // from the side to which u×v points they run counterclockwise
+    let other = Polygon { corners: [p, p + u, p + u + v, p + v] };
+    let o = Vec3::default();
+    let moment = |f: &dyn Fn(Vec2<f64>) -> LightSample<f64>| {
+        let at = |k: usize, power: i32| {
+            mean(400, |u| {
+                let s = f(u);
+                (s.direction.at(0)[k] * s.distance).powi(power)
+            })
+        };
+        [at(0, 1), at(1, 1), at(2, 1), at(0, 2), at(2, 2)]
+    };
+    let (a, b) = (moment(&|u| one.by_area(o, u)), moment(&|u| other.by_area(o, u)));
+    for (a, b) in a.into_iter().zip(b) {
+        // the root in the triangle's map leaves a grid of n² points with n^-1.5 = 1.3e-4
+        assert!((a - b).abs() < 2e-4 * a.abs().max(0.1), "{a} {b}");
+    }
+    let s = (one.by_area(o, Vec2::new(0.5, 0.5)).emits, other.by_area(o, Vec2::new(0.5, 0.5)).emits);
+    assert_eq!(s.0, s.1);
+}
+
+#[test]
+fn any_bits_in_every_lane() {
+    let mut random = Random::new(3);
+    for round in 0..5000 {
+        let corners: [[[f32; 3]; 8]; 5] = core::array::from_fn(|_| {
+            core::array::from_fn(|_| {
+                if round % 3 == 0 { domain::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+            })
+        });
+        let p: [[f32; 3]; 8] = core::array::from_fn(|_| random.direction().map(|x| x as f32));
+        let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
+        let eight = Polygon::<f32x8, 5> { corners: core::array::from_fn(|k| vectors_of(|i| corners[k][i])) };
+        let eight = [
+            eight.by_area(vectors_of(|i| p[i]), squares_of(&us)),
+            eight.by_solid_angle(vectors_of(|i| p[i]), squares_of(&us)),
+        ];
+        let four = Polygon::<f32x4, 5> { corners: core::array::from_fn(|k| vectors_of(|i| corners[k][i])) };
+        let four = four.by_area(vectors_of(|i| p[i]), squares_of(&us[..4]));
+        for i in 0..8 {
+            let one = Polygon::<f32, 5> { corners: core::array::from_fn(|k| Vec3::from(corners[k][i])) };
+            let u = squares_of(&us[i..=i]);
+            let one = [one.by_area(p[i].into(), u), one.by_solid_angle(p[i].into(), u)];
+            for (s, packet) in one.iter().zip(&eight) {
+                assert_eq!(
+                    (s.direction.at(0), s.distance, s.pdf, s.emits),
+                    (packet.direction.at(i), packet.distance.lane(i), packet.pdf.lane(i), packet.emits.lane(i))
+                );
+                let finite = s.direction.at(0).iter().all(|x| x.is_finite());
+                assert!(finite && s.distance.is_finite() && s.pdf.is_finite() && s.pdf >= 0.0, "{s:?}");
+            }
+            if i < 4 {
+                assert_eq!((one[0].direction.at(0), one[0].pdf), (four.direction.at(i), four.pdf.lane(i)));
+            }
+        }
+    }
+}
