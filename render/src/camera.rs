@@ -29,7 +29,13 @@ impl Pinhole {
     /// Origin and unit direction through a position in pixels from the top left.
     #[inline]
     pub fn ray(&self, x: X8, y: X8) -> (V8, V8) {
+        let (origin, direction) = self.through(x, y);
+        (origin, direction.normalize())
+    }
+    /// Origin and direction, of length 1 along the camera's axis.
+    #[inline]
+    pub fn through(&self, x: X8, y: X8) -> (V8, V8) {
         let direction = V8::from(self.down).mul_add(y, V8::from(self.across).mul_add(x, V8::from(self.corner)));
-        (V8::from(self.origin), direction.normalize())
+        (V8::from(self.origin), direction)
     }
 }

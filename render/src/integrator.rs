@@ -4,8 +4,8 @@ mod direct;
 mod surface;
 
 use crate::accel::{Accel, BuildError, GROUP, Hits, M8, Rays, ShapeSet, Stack, V8, X8};
-use crate::camera::Pinhole;
 use crate::film::{Film, Pixel, PixelSum};
+use crate::lens::Eye;
 use crate::lights::{Lights, Technique};
 use crate::sampler::{CHOICE, Packet, Sampler, Source};
 use crate::scene::{Camera, Scene, Shape};
@@ -123,7 +123,7 @@ impl World {
 struct Work<'a> {
     world: &'a World,
     settings: &'a Settings,
-    camera: Pinhole,
+    eye: Eye,
     source: Source,
     count: RayCount,
     stack: Stack,
@@ -140,12 +140,12 @@ fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
 
 impl<'a> Work<'a> {
     fn new(world: &'a World, settings: &'a Settings) -> Self {
-        let source = Source::new(settings.sampler, settings.seed, settings.spp, false, settings.width);
-        let camera = Pinhole::new(&world.camera, settings.width, settings.height);
+        let lens = world.camera.lens.is_some();
+        let source = Source::new(settings.sampler, settings.seed, settings.spp, lens, settings.width);
         Self {
             world,
             settings,
-            camera,
+            eye: Eye::new(&world.camera, settings.width, settings.height),
             source,
             count: RayCount::default(),
             stack: Stack::default(),
@@ -224,9 +224,7 @@ impl<'a> Work<'a> {
         let mut active = [M8::splat(false); GROUP];
         let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
         for (p, packet) in packets.iter().enumerate() {
-            let [film, second] = self.source.film_and_light(packet);
-            let position = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
-            let (origin, direction) = self.camera.ray(position[0], position[1]);
+            let (origin, direction, second) = self.eye.rays(&self.source, packet);
             light[p] = second;
             rays[p] = world.accel.rays(origin, direction);
             active[p] = packet.active;

@@ -6,6 +6,7 @@ pub mod compare;
 pub mod film;
 pub mod image;
 pub mod integrator;
+pub mod lens;
 pub mod lights;
 pub mod sampler;
 pub mod scene;

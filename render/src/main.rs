@@ -172,7 +172,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
         sampler: options.sampler,
         seed: options.seed,
     };
-    settings.sampler.check(settings.spp, false).map_err(|what| format!("--sampler: {what}"))?;
+    settings.sampler.check(settings.spp, scene.camera.lens.is_some()).map_err(|what| format!("--sampler: {what}"))?;
     let output = options.output.clone().unwrap_or_else(|| match &scene.film.filename {
         Some(file) => Path::new(file).with_extension("exr"),
         None => PathBuf::from(format!("{}.exr", scene.name)),

@@ -175,7 +175,7 @@ impl Source {
         self.span
     }
     /// The pairs [`FILM`] and [`LIGHT`].
-    #[inline]
+    #[inline(always)]
     pub fn film_and_light(&self, packet: &Packet) -> [Vec2<X8>; 2] {
         match &self.set {
             Set::Independent(set) => set.two_pairs(packet.y * self.width + packet.x, packet.sample, 0),

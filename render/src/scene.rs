@@ -51,14 +51,14 @@ pub struct Film {
     pub filename: Option<String>,
 }
 
-/// A pinhole camera.
+/// A perspective camera, by a pinhole or a thin lens.
 ///
 /// With `t = tan_half(width, height)`, the ray through image position (x, y) in \[0,1\]² from the top left has the
 /// direction `forward + (2x−1) t[0] right + (1−2y) t[1] up`. The three axes are orthonormal unless the file's
 /// camera transform is not a similarity; `forward` always has length 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
-    /// The pinhole.
+    /// The pinhole, or the centre of the lens.
     pub origin: [f64; 3],
     /// Towards the middle of the image.
     pub forward: [f64; 3],
@@ -68,6 +68,19 @@ pub struct Camera {
     pub up: [f64; 3],
     /// Full angle across the shorter side of the image in degrees, in (0, 180).
     pub fov: f64,
+    /// The lens, unless its radius is 0.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens across the camera's axis: it takes each point of the film to one point of the plane of focus, on the line through its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Its radius in camera space, over 0.
+    pub radius: f64,
+    /// Distance of the plane of focus in camera space, over 0.
+    pub focus: f64,
+    /// Length of a unit of camera space in the scene.
+    pub unit: f64,
 }
 
 impl Camera {
@@ -197,18 +210,20 @@ impl Place {
     }
 }
 
-const DESCRIBED: [(&str, &str); 4] = [
+const DESCRIBED: [(&str, &str); 5] = [
     ("sphere-light", "two boxes under a sphere light out of view"),
     ("triangle-light", "a box before a large triangle light in view"),
     ("quads", "three boxes under five quadrilateral lights of very different size and power"),
     ("terrain", "a height field and 25 bumpy spheres, a million triangles, under one square light"),
+    ("defocus", "a row of spheres through a lens that is focused on the third"),
 ];
 
-const BUILTIN: [(&str, &str); 4] = [
+const BUILTIN: [(&str, &str); 5] = [
     (DESCRIBED[0].0, include_str!("../scenes/sphere-light.pbrt")),
     (DESCRIBED[1].0, include_str!("../scenes/triangle-light.pbrt")),
     (DESCRIBED[2].0, include_str!("../scenes/quads.pbrt")),
     (DESCRIBED[3].0, include_str!("../scenes/terrain.pbrt")),
+    (DESCRIBED[4].0, include_str!("../scenes/defocus.pbrt")),
 ];
 
 /// Name and description of each built-in scene.

@@ -343,6 +343,7 @@ fn list_names_everything() {
         "triangle-light",
         "quads",
         "terrain",
+        "defocus",
         "techniques",
         "uniform-hemisphere",
         "cosine-hemisphere",

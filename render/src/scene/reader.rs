@@ -4,7 +4,7 @@ use super::lexer::{Lexer, Token, shortened};
 use super::params::Params;
 use super::shapes::{self, Output, Surface};
 use super::transform::{Transform, length, scaled};
-use super::{Camera, Emission, Film, Message, Place, Scene, read_file, utf8};
+use super::{Camera, Emission, Film, Lens, Message, Place, Scene, read_file, utf8};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -321,8 +321,13 @@ impl Reader<'_> {
             return Err(params.error("a second camera"));
         }
         params.reject(&["screenwindow", "frameaspectratio"])?;
-        if let Some(lens) = params.float("lensradius")?.filter(|&radius| radius != 0.0) {
-            return Err(params.error(format!("\"lensradius\": {lens} is not supported: the camera is a pinhole")));
+        let radius = params.float("lensradius")?.unwrap_or(0.0);
+        if radius < 0.0 {
+            return Err(params.error(format!("\"lensradius\": {radius} is negative")));
+        }
+        let focus = params.float("focaldistance")?.unwrap_or(1e6);
+        if focus <= 0.0 {
+            return Err(params.error(format!("\"focaldistance\": {focus} is not over 0")));
         }
         let fov = params.float("fov")?.unwrap_or(90.0);
         if !(fov > 0.0 && fov < 180.0) {
@@ -332,13 +337,24 @@ impl Reader<'_> {
         let world = self.state.ctm.inverse().ok_or_else(singular)?;
         self.systems.insert("camera".into(), world);
         let forward = world.vector([0.0, 0.0, 1.0]);
-        let axis = |v: [f64; 3]| scaled(world.vector(v), 1.0 / length(forward));
+        let unit = length(forward);
+        let axis = |v: [f64; 3]| scaled(world.vector(v), 1.0 / unit);
+        let lens = (radius > 0.0).then_some(Lens { radius, focus, unit });
+        if let Some(lens) =
+            lens.filter(|l| !((l.radius * unit) as f32).is_normal() || !((l.radius / l.focus) as f32).is_normal())
+        {
+            let Lens { radius, focus, .. } = lens;
+            return Err(
+                params.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32"))
+            );
+        }
         let camera = Camera {
             origin: world.shift,
             forward: axis([0.0, 0.0, 1.0]),
             right: axis([1.0, 0.0, 0.0]),
             up: axis([0.0, 1.0, 0.0]),
             fov,
+            lens,
         };
         let mut numbers = camera.forward.iter().chain(&camera.right).chain(&camera.up);
         if !numbers.all(|x| x.is_finite()) {

@@ -42,7 +42,11 @@ fn normal(geometry: &Geometry) -> [f32; 3] {
 #[test]
 fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
     let expected = [("sphere-light", 26, 1), ("triangle-light", 14, 1), ("quads", 38, 5), ("terrain", 1_036_288, 1)];
-    assert_eq!(builtin().len(), expected.len());
+    for (name, _) in builtin() {
+        let scene = load(name).unwrap();
+        assert_eq!(scene.name, *name);
+        assert_eq!(warnings(&scene), [""; 0], "{name}");
+    }
     for ((name, _), (wanted, triangles, lights)) in builtin().iter().zip(expected) {
         let scene = load(name).unwrap();
         assert_eq!((scene.name.as_str(), *name), (wanted, wanted));
@@ -53,7 +57,6 @@ fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
         assert!(scene.shapes.iter().all(|shape| scene.materials[shape.material as usize] == [0.0; 3]), "{name}");
         assert_eq!(scene.pixel_samples, 64, "{name}");
         assert_eq!(scene.film, Film { width: 256, height: 256, filename: Some(format!("{name}.exr")) });
-        assert_eq!(warnings(&scene), [""; 0], "{name}");
         assert!(scene.triangle_materials.iter().all(|&m| (m as usize) < scene.materials.len()));
     }
 }
@@ -140,6 +143,7 @@ fn builtin_cameras_are_right_handed() {
         ("triangle-light", [0.0, 4.0, 6.0], [0.0, 0.2, 0.3], 35.0),
         ("quads", [0.0, 6.0, 7.0], [0.0, 0.0, 0.0], 40.0),
         ("terrain", [0.0, 6.0, 7.5], [0.0, 0.0, -0.2], 40.0),
+        ("defocus", [0.0, 0.12, 0.5], [0.02, 0.03, 0.0], 28.0),
     ];
     for (name, origin, target, fov) in views {
         let camera = load(name).unwrap().camera;
@@ -229,6 +233,22 @@ fn orientation_flips_once_for_each_cause() {
     // A two-sided sphere light, or one that does not emit, has no wrong side.
     read(&world("ReverseOrientation AreaLightSource \"diffuse\" \"bool twosided\" true Shape \"sphere\""));
     read(&world("Scale 1 1 -1 Shape \"sphere\""));
+}
+
+#[test]
+fn a_lens_is_measured_in_camera_space() {
+    let lens = |text: &str| read(&format!("{text} WorldBegin")).camera.lens;
+    assert_eq!(lens("Camera \"perspective\" \"float focaldistance\" 3"), None);
+    assert_eq!(lens("Camera \"perspective\" \"float lensradius\" 0"), None);
+    let plain = lens("Camera \"perspective\" \"float lensradius\" .5 \"float focaldistance\" 3");
+    assert_eq!(plain, Some(Lens { radius: 0.5, focus: 3.0, unit: 1.0 }));
+    // pbrt's default; 4 units of the scene are one of the camera
+    let scaled = lens("Scale .25 .25 .25 Camera \"perspective\" \"float lensradius\" .5");
+    assert_eq!(scaled, Some(Lens { radius: 0.5, focus: 1e6, unit: 4.0 }));
+    assert!(
+        read("Camera \"perspective\" \"float lensradius\" 1 WorldBegin").warnings.len() == 1,
+        "no light, else nothing"
+    );
 }
 
 #[test]

@@ -1,0 +1,209 @@
+//! The thin lens: where its rays go, and images of edges out of focus against their closed form.
+
+use etendue::sequence::{Independent, Sequence};
+use etendue::{Real, Vec2, f32x8, u32x8};
+use etendue_render::compare::Comparison;
+use etendue_render::image::Picture;
+use etendue_render::lens::Eye;
+use etendue_render::{Sampler, Settings, Technique, World, scene};
+use std::f64::consts::PI;
+use std::path::Path;
+
+const LIMIT: f64 = 4.5;
+const SAMPLERS: [Sampler; 7] = [
+    Sampler::Independent,
+    Sampler::Stratified,
+    Sampler::Stratified4d,
+    Sampler::Latin,
+    Sampler::Sobol,
+    Sampler::Sobol4d,
+    Sampler::ZOrder,
+];
+
+fn read(text: &str) -> scene::Scene {
+    scene::parse(text, "test.pbrt", Path::new("")).unwrap()
+}
+
+fn render(scene: &scene::Scene, settings: &Settings) -> Picture {
+    let film = World::new(scene).unwrap().render(settings, |_| ()).0;
+    Picture {
+        width: film.width as usize,
+        height: film.height as usize,
+        radiance: film.pixels.iter().map(|p| p.mean).collect(),
+        variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
+    }
+}
+
+fn agrees(reference: &Picture, image: &Picture) -> bool {
+    let p = Comparison::new(reference, image, 0.0).unwrap().predicted.unwrap();
+    println!("{p:?}");
+    p.z.iter().all(|z| z.abs() < LIMIT) && p.z_mse.abs() < LIMIT
+}
+
+/// Rays through one place of the film meet in one point of the plane of focus, that of the ray through the centre; they leave
+/// from a disk, uniformly.
+#[test]
+fn rays_meet_in_the_plane_of_focus() {
+    for (radius, focus, scale) in
+        [(0.1, 3.0, 1.0), (5.0, 0.5, 1.0), (1e-3, 1e6, 1.0), (0.02, 0.4, 1e-4), (0.3, 2.0, 512.0)]
+    {
+        let scene = read(&format!(
+            "Scale {s} {s} {s} LookAt 1 2 3 0.5 0.25 -1 0 1 0\n\
+             Camera \"perspective\" \"float fov\" 50 \"float lensradius\" {radius} \"float focaldistance\" {focus} WorldBegin",
+            s = 1.0 / scale
+        ));
+        let camera = &scene.camera;
+        let (width, height) = (64, 48);
+        let Eye::ThinLens(lens) = Eye::new(camera, width, height) else { panic!("no lens") };
+        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
+        let [tx, ty] = camera.tan_half(width, height);
+        let mut moments = [0.0; 5];
+        let packets = 2000;
+        for i in 0..packets {
+            let u = |d| -> Vec2<f32x8> {
+                Independent::new(3).pair(u32x8::splat(i), u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]), d)
+            };
+            let (film, u) = (u(0), u(1));
+            let place = [film.x * f32x8::splat(width as f32), film.y * f32x8::splat(height as f32)];
+            let (origin, direction) = lens.ray(place[0], place[1], u);
+            for k in 0..8 {
+                let lane = |v: etendue::Vec3<f32x8>| <[f32; 3]>::from(v.lane(k)).map(f64::from);
+                let (o, d) = (lane(origin), lane(direction));
+                assert!((dot(d, d) - 1.0).abs() < 1e-6);
+                let off: [f64; 3] = std::array::from_fn(|k| o[k] - camera.origin[k]);
+                let [x, y, z] = [camera.right, camera.up, camera.forward].map(|axis| dot(off, axis) / scale / radius);
+                // a point is rounded where it is, far from the origin of the scene
+                let rounding = 1e-6 * (1.0 + 4.0 / (scale * radius));
+                assert!(x.hypot(y) < 1.0 + rounding && z.abs() < rounding, "{x} {y} {z}");
+                for (sum, m) in moments.iter_mut().zip([x, y, x * x, y * y, x * y]) {
+                    *sum += m / f64::from(8 * packets);
+                }
+                // where it meets the plane of focus, in units of its distance
+                let along = dot(d, camera.forward);
+                let film = [film.x, film.y].map(|f| f64::from(f.lane(k)));
+                let wanted = [(2.0 * film[0] - 1.0) * tx, (1.0 - 2.0 * film[1]) * ty];
+                for (axis, (lens, wanted)) in [camera.right, camera.up].into_iter().zip([x, y].into_iter().zip(wanted))
+                {
+                    let met = lens * radius / focus + dot(d, axis) / along;
+                    // a direction's error is 1e−7 over the square of its cosine
+                    let error = 3e-7 / (along * along) + rounding * radius / focus;
+                    assert!((met - wanted).abs() < error, "{met} {wanted}, not within {error:e}");
+                }
+            }
+        }
+        // of the unit disk: 0, 0, ¼, ¼, 0; variances at most ¼, of 16,000 points
+        for (m, truth) in moments.into_iter().zip([0.0, 0.0, 0.25, 0.25, 0.0]) {
+            assert!((m - truth).abs() < 5.0 * 0.5 / 126.0, "{moments:?}");
+        }
+    }
+}
+
+/// What part of the lens sees the far side of a straight edge, at the middle of whose blur s = 0.
+fn fraction(s: f64) -> f64 {
+    let s = s.clamp(-1.0, 1.0);
+    0.5 + (s.asin() + s * (1.0 - s * s).sqrt()) / PI
+}
+
+const SIZE: [u32; 2] = [64, 16];
+
+/// A vertical edge at depth 2, of a light, or of a black mesh before a light.
+fn edge(radius: f64, focus: f64, mesh: bool) -> scene::Scene {
+    let light = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true";
+    let world = if mesh {
+        format!(
+            "Shape \"trianglemesh\" \"point3 P\" [0 -9 2 0 9 2 -20 0 2 -5 0 2.01] \"integer indices\" [0 1 2 0 2 3]\n\
+             {light} Shape \"bilinearmesh\" \"point3 P\" [-90 -90 8 90 -90 8 -90 90 8 90 90 8]"
+        )
+    } else {
+        format!("{light} Shape \"bilinearmesh\" \"point3 P\" [0 -9 2 20 -9 2 0 9 2 20 9 2]")
+    };
+    read(&format!(
+        "Camera \"perspective\" \"float fov\" 10 \"float lensradius\" {radius} \"float focaldistance\" {focus} WorldBegin\n\
+         Material \"diffuse\" \"rgb reflectance\" [0 0 0] {world}"
+    ))
+}
+
+fn blurred(radius: f64, focus: f64) -> Picture {
+    let [width, height] = SIZE.map(|n| n as usize);
+    let half = 5.0_f64.to_radians().tan() * width as f64 / height as f64;
+    let blur = radius * (1.0 - 2.0 / focus).abs();
+    let value = |x: usize| {
+        let points = 256;
+        let at = |i: usize| {
+            let place = (x as f64 + (i as f64 + 0.5) / points as f64) / width as f64;
+            fraction(2.0 * half * (2.0 * place - 1.0) / blur.max(1e-12))
+        };
+        ((0..points).map(at).sum::<f64>() / points as f64) as f32
+    };
+    let row: Vec<_> = (0..width).map(|x| [value(x); 3]).collect();
+    Picture { width, height, radiance: row.repeat(height), variance: None }
+}
+
+/// Nearer than the plane of focus, farther, and in it; by every sampler.
+#[test]
+fn edges_out_of_focus_have_their_closed_form() {
+    for (radius, focus) in [(0.5, 1.0), (0.5, 4.0), (0.2, 1.5), (1.0, 2.0)] {
+        let reference = blurred(radius, focus);
+        for mesh in [false, true] {
+            for sampler in SAMPLERS {
+                // four replicates of 2⁶, of 3⁶ or of 64 samples
+                let spp = 256;
+                let [width, height] = SIZE;
+                let technique = Technique::SolidAngle;
+                let settings = Settings { width, height, spp, technique, sampler, seed: 5 };
+                let image = render(&edge(radius, focus, mesh), &settings);
+                assert!(agrees(&reference, &image), "{sampler:?}, radius {radius}, focus {focus}, mesh {mesh}");
+                if sampler == Sampler::Sobol && focus != 2.0 {
+                    for (radius, focus) in [(radius * 1.1, focus), (radius, focus * 1.1)] {
+                        let wrong = render(&edge(radius, focus, mesh), &settings);
+                        assert!(!agrees(&reference, &wrong), "radius {radius}, focus {focus} pass");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Lights by area, by solid angle and by chance, through the lens.
+#[test]
+fn techniques_and_samplers_agree_through_a_lens() {
+    let scene = scene::load("defocus").unwrap();
+    let of = |technique, sampler, spp, seed| {
+        render(&scene, &Settings { width: 96, height: 64, spp, technique, sampler, seed })
+    };
+    let reference = of(Technique::SolidAngle, Sampler::Independent, 1024, 0);
+    for sampler in SAMPLERS {
+        assert!(agrees(&reference, &of(Technique::SolidAngle, sampler, 256, 1)), "{sampler:?}");
+    }
+    for (technique, spp) in
+        [(Technique::Area, 256), (Technique::CosineHemisphere, 1024), (Technique::UniformHemisphere, 1024)]
+    {
+        assert!(agrees(&reference, &of(technique, Sampler::Independent, spp, 2)), "{technique:?}");
+    }
+}
+
+/// The unit of length does not matter: all lengths times a power of two, the lens's too, give the same image.
+#[test]
+fn the_unit_of_length_does_not_matter() {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/defocus.pbrt")).unwrap();
+    let settings = Settings {
+        width: 48,
+        height: 32,
+        spp: 16,
+        technique: Technique::SolidAngle,
+        sampler: Sampler::Sobol4d,
+        seed: 3,
+    };
+    let image = render(&read(&text), &settings);
+    for scale in [1024.0, 1.0 / 4096.0] {
+        // a unit of camera space is then `scale` units of the scene, all of which is in these units
+        let scaled = text
+            .replace("LookAt", &format!("Scale {0} {0} {0} LookAt", 1.0 / scale))
+            .replace(
+                "LookAt 0 0.12 0.5   0.02 0.03 0 ",
+                &format!("LookAt 0 {} {}   {} {} 0 ", 0.12 * scale, 0.5 * scale, 0.02 * scale, 0.03 * scale),
+            )
+            .replace("WorldBegin", &format!("WorldBegin Scale {scale} {scale} {scale}"));
+        assert_eq!(image, render(&read(&scaled), &settings), "{scale}");
+    }
+}
