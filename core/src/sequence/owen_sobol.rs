@@ -66,7 +66,8 @@ pub(super) fn net<R: Real>(index: R::Uint, keys: [R::Uint; 2]) -> Vec2<R> {
 /// - Replicates: samples are correlated. The variance of an estimate comes from the spread of the means of independent
 ///   pixels, dimensions or seeds.
 /// - Padding: each pair is a net, and pairs are associated by a nested shuffle: of four samples all 24 associations of two
-///   pairs occur, 8 of them twice as often as the other 16.
+///   pairs occur, 8 of them twice as often as the other 16. What is a product of two pairs is sampled worse than by independent
+///   numbers: 49/31 = 1.58 times the variance where it is linear in a coordinate of each. See [`JointSobol`](super::JointSobol).
 /// - Source: Owen 1995, "Randomly Permuted (t,m,s)-Nets"; Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
 ///
 /// ```

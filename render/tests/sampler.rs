@@ -1,0 +1,145 @@
+//! The numbers that a renderer's samplers give to the pixel, the light and the lens.
+
+use etendue::{Mask, Real, u32x8};
+use etendue_render::Sampler;
+use etendue_render::accel::X8;
+use etendue_render::sampler::{CHOICE, FILM, LENS, LIGHT, Packet, Source};
+
+type M8 = <X8 as Real>::Mask;
+
+/// Film, light and lens of every sample of one pixel, in the order in which they are taken.
+fn points(sampler: Sampler, spp: u32, lens: bool, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
+    let source = Source::new(sampler, seed, spp, lens, 256);
+    let replicate = |i: u32| i.checked_div(source.span()).unwrap_or(0);
+    let mut all = Vec::new();
+    for start in (0..spp).step_by(8) {
+        let sample = |k: u32| (start + k).min(spp - 1);
+        let lanes = [0, 1, 2, 3, 4, 5, 6, 7].map(sample);
+        let packet = Packet {
+            x: u32x8::splat(pixel[0]),
+            y: u32x8::splat(pixel[1]),
+            sample: u32x8::from(lanes),
+            replicate: u32x8::from(lanes.map(replicate)),
+            active: M8::splat(true),
+        };
+        let pairs = [FILM, LIGHT, LENS].map(|dimension| source.pair(&packet, dimension));
+        let [film, light] = source.film_and_light(&packet);
+        assert_eq!([film, light], [pairs[0], pairs[1]], "{sampler:?}");
+        for k in 0..(spp - start).min(8) as usize {
+            all.push(std::array::from_fn(|c| {
+                let pair = pairs[c / 2].lane(k);
+                f64::from(if c % 2 == 0 { pair.x } else { pair.y })
+            }));
+        }
+    }
+    (all, source.span())
+}
+
+/// Does each of `side`ᵈ cells hold equally many of the points, in their first d coordinates?
+fn even(points: &[[f64; 6]], side: usize, d: usize) -> bool {
+    let mut cells = vec![0; side.pow(d as u32)];
+    for p in points {
+        cells[p[..d].iter().fold(0, |cell, u| cell * side + (u * side as f64) as usize)] += 1;
+    }
+    cells.iter().all(|&n| n * cells.len() == points.len())
+}
+
+#[test]
+fn joint_samplers_are_joint() {
+    for pixel in [[0, 0], [255, 255], [17, 3]] {
+        // (samples, side): one, two and four replicates
+        for (spp, side) in [(16, 2), (32, 2), (64, 2), (81, 3), (162, 3), (1024, 4)] {
+            let (points, span) = points(Sampler::Stratified4d, spp, false, pixel, 1);
+            assert_eq!(span as usize, side * side * side * side);
+            assert!(points.chunks(span as usize).all(|set| even(set, side, 4)), "{spp}");
+        }
+        for (spp, side) in [(64, 2), (128, 2), (256, 2), (729, 3), (2916, 3)] {
+            let (points, span) = points(Sampler::Stratified4d, spp, true, pixel, 1);
+            assert_eq!(span as usize, side * side * side * side * side * side);
+            assert!(points.chunks(span as usize).all(|set| even(set, side, 6)), "{spp}");
+        }
+        // t = 3 in four dimensions and 8 in six: 2⁴⁺³ and 2⁶⁺⁸ points fill halves evenly
+        for (spp, lens, d) in [(512, false, 4), (512, true, 4), (1 << 16, true, 6)] {
+            let (points, span) = points(Sampler::Sobol4d, spp, lens, pixel, 1);
+            assert_eq!(span, spp / 4);
+            assert!(points.chunks(span as usize).all(|set| even(set, 2, d)), "{spp}");
+        }
+        // and padding is not
+        for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Latin, Sampler::Sobol, Sampler::ZOrder] {
+            let (points, _) = points(sampler, 512, false, pixel, 1);
+            assert!(!points.chunks(128).all(|set| even(set, 2, 4)), "{sampler:?}");
+        }
+    }
+}
+
+#[test]
+fn every_pair_of_a_replicate_is_even() {
+    for sampler in [Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
+        for spp in [64, 256] {
+            let (points, span) = points(sampler, spp, true, [9, 200], 2);
+            assert_eq!(span, spp / 4);
+            let side = span.isqrt() as usize;
+            for set in points.chunks(span as usize) {
+                for pair in 0..3 {
+                    // joint Sobol is a net in the first pair, and in the others together with it
+                    if sampler != Sampler::Sobol4d || pair == 0 {
+                        let pair: Vec<_> = set.iter().map(|p| [p[2 * pair], p[2 * pair + 1], 0., 0., 0., 0.]).collect();
+                        assert!(even(&pair, side, 2), "{sampler:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Means of replicates, of pixels and of seeds are not correlated; for Z-order, pixels are.
+#[test]
+fn replicates_are_independent() {
+    for sampler in
+        [Sampler::Stratified, Sampler::Stratified4d, Sampler::Latin, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder]
+    {
+        // 100 and 24 are no powers: a replicate ends amid a set, and the next begins with one of its own
+        for spp in [32, 256, 100, 24] {
+            let means = |pixel: [u32; 2], seed| -> Vec<f64> {
+                let (points, span) = points(sampler, spp, true, pixel, seed);
+                let f = |p: &[f64; 6]| (p[0] + 0.3) * (p[2] + 0.1) + p[3] * p[4] + (p[1] - p[5]).powi(2);
+                points.chunks(span as usize).map(|set| set.iter().map(f).sum::<f64>() / f64::from(span)).collect()
+            };
+            let n = 2000;
+            let (mut replicates, mut pixels, mut seeds) = (Vec::new(), Vec::new(), Vec::new());
+            for i in 0..n {
+                let pixel = [i % 256, i / 256];
+                let a = means(pixel, 5);
+                replicates.push((a[0], a[1]));
+                pixels.push((a[0], means([pixel[0] ^ 1, pixel[1]], 5)[0]));
+                seeds.push((a[0], means(pixel, 6)[0]));
+            }
+            for (what, pairs) in [("replicates", &replicates), ("pixels", &pixels), ("seeds", &seeds)] {
+                if what == "pixels" && sampler == Sampler::ZOrder {
+                    continue;
+                }
+                let mean = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / f64::from(n);
+                let (a, b) = (mean(&|p| p.0), mean(&|p| p.1));
+                let covariance = mean(&|p| (p.0 - a) * (p.1 - b));
+                let spread = mean(&|p| (p.0 - a).powi(2)) * mean(&|p| (p.1 - b).powi(2));
+                // pixels are seen twice, in either order
+                let z = covariance / spread.sqrt() * f64::from(if what == "pixels" { n / 2 } else { n }).sqrt();
+                assert!(z.abs() < 4.5, "{sampler:?}, {spp} samples: {what} are correlated, z = {z:.2}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_choice_of_a_light_has_numbers_of_its_own() {
+    for sampler in [Sampler::Independent, Sampler::Stratified4d, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
+        let source = Source::new(sampler, 1, 64, true, 8);
+        let zero = u32x8::splat(0);
+        let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
+        let packet = Packet { x: zero, y: zero, sample, replicate: zero, active: M8::splat(true) };
+        let all = [FILM, LIGHT, CHOICE, LENS, 4, 5, 9].map(|dimension| source.pair(&packet, dimension));
+        for (i, a) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|b| a != b), "{sampler:?}");
+        }
+    }
+}
