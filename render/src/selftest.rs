@@ -47,8 +47,8 @@ pub fn applies(technique: Technique, scene: &Scene) -> bool {
 pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
     let mut rows = Vec::new();
     for &technique in Technique::value_variants().iter().filter(|&&t| applies(t, scene)) {
-        for &sampler in Sampler::value_variants() {
-            let Effort { side, spp, seed, depth } = *effort;
+        let Effort { side, spp, seed, depth } = *effort;
+        for &sampler in Sampler::value_variants().iter().filter(|s| s.check(spp, false).is_ok()) {
             // images that share a seed share noise
             let seed = seed.wrapping_mul(0x1_0000).wrapping_add(rows.len() as u64);
             let settings = Settings { width: side, height: side, spp, technique, depth, sampler, seed };

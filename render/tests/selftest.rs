@@ -32,7 +32,7 @@ fn plates_from_near() {
         text.replace("LookAt 0 3.2 12.5   0 -0.75 0", "LookAt 0 3.2 12.5   0 -1.9 2.3").replace("fov\" 34", "fov\" 17");
     assert_ne!(text, near);
     let scene = scene::parse(&near, "near.pbrt", std::path::Path::new("")).unwrap();
-    let rows = selftest::rows(&scene, &World::new(&scene).unwrap(), &Effort { side: 32, spp: 512, seed: 2, depth: 8 });
+    let rows = selftest::rows(&scene, &World::new(&scene).unwrap(), &Effort { side: 32, spp: 256, seed: 2, depth: 8 });
     for row in &rows {
         println!("{row:?}");
     }
