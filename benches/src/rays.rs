@@ -4,7 +4,10 @@ use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, u32x8};
 use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, Rays, ShapeSet, Stack, V8, X8};
 use etendue_render::camera::Pinhole;
-use etendue_render::{lights::Lights, scene};
+use etendue_render::{
+    lights::{Lights, Measure},
+    scene,
+};
 
 /// Pixels across the image whose pixels are drawn from.
 const SIDE: u32 = 256;
@@ -78,7 +81,7 @@ impl Workload {
             })
             .collect();
 
-        let lights = Lights::new(&scene);
+        let lights = Lights::new(&scene, None);
         let mut stack = Stack::default();
         let shadow = camera
             .iter()
@@ -139,8 +142,8 @@ fn towards_light(accel: &Accel, lights: &Lights, packet: &Packet, hits: &Hits, u
     let away = normal.dot(packet.direction).gt(zero);
     let normal = V8::new(normal.x.negate_where(away), normal.y.negate_where(away), normal.z.negate_where(away));
     let origin = packet.direction.mul_add(hits.distance.keep(met), packet.origin) + normal * X8::lit(1e-4);
-    let (chosen, rest) = lights.choose(u.x);
-    let sample = lights.sample(&chosen, false, origin, etendue::Vec2::new(rest, u.y));
+    let (mut chosen, rest) = lights.choose(u.x);
+    let sample = lights.sample(&mut chosen, Measure::SolidAngle, origin, normal, etendue::Vec2::new(rest, u.y));
     let active = met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(normal).gt(zero);
     Packet {
         origin,

@@ -1,9 +1,10 @@
-//! Image files: EXR with the estimate's variance, a PNG to look at, and the comparison of two images. The one file that names exr.
+//! Image files: EXR with the estimate's variance, a PNG to look at, and the comparison of two images. The one file that names exr
+//! and the image crate.
 
 use crate::film::{Film, Pixel};
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
-    ReadChannels, ReadLayers, WritableImage, read,
+    ReadChannels, ReadLayers, WritableImage,
 };
 use std::fmt;
 use std::io::{BufWriter, Cursor, Write};
@@ -131,13 +132,46 @@ pub struct Picture {
     pub variance: Option<Vec<[f32; 3]>>,
 }
 
+/// Reads a picture of radiance: OpenEXR or Radiance HDR, or a PNG whose values are decoded from sRGB.
+///
+/// # Errors
+/// The file is missing or damaged, or of another kind.
+pub fn read(path: &Path) -> Result<Picture, ImageError> {
+    let bytes = crate::scene::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
+    decode(path, &bytes)
+}
+
+/// As [`read`], from the bytes of the file; messages name `path`.
+///
+/// # Errors
+/// The bytes are damaged, or of another kind.
+pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
+    // OpenEXR's magic number
+    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        return decode_exr(path, bytes);
+    }
+    let not_one =
+        |error: &dyn fmt::Display| failed(path, format!("not an EXR, HDR or PNG image that can be read: {error}"));
+    let format = image_files::guess_format(bytes).map_err(|error| not_one(&error))?;
+    let image = image_files::load_from_memory_with_format(bytes, format).map_err(|error| not_one(&error))?;
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let encoded = format == image_files::ImageFormat::Png;
+    let decode = |x: f32| if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) };
+    let radiance = image.into_rgb32f().pixels().map(|p| if encoded { p.0.map(decode) } else { p.0 }).collect();
+    Ok(Picture { width, height, radiance, variance: None })
+}
+
 /// Reads R, G, B and, where they are, variance.R, variance.G, variance.B.
 ///
 /// # Errors
 /// The file is missing, damaged, or has no R, G, B.
 pub fn read_exr(path: &Path) -> Result<Picture, ImageError> {
     let bytes = std::fs::read(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
-    let image = read()
+    decode_exr(path, &bytes)
+}
+
+fn decode_exr(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
+    let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
         .all_channels()

@@ -1,6 +1,8 @@
 //! Direct light, in packets: camera rays, light samples, shadow rays.
 
+mod bsdf;
 mod direct;
+mod paths;
 mod surface;
 
 use crate::accel::{Accel, BuildError, GROUP, Hits, M8, Rays, ShapeSet, Stack, V8, X8};
@@ -8,9 +10,12 @@ use crate::film::{Film, Pixel, PixelSum};
 use crate::lens::Eye;
 use crate::lights::{Lights, Technique};
 use crate::sampler::{CHOICE, Packet, Sampler, Source};
-use crate::scene::{Camera, Scene, Shape};
+use crate::scene::{Camera, Material, Scene, Shape};
+use crate::sky::Sky;
+use bsdf::Finish;
 use etendue::{Mask, Real, Vec2, u32x8};
 use rayon::prelude::*;
+use std::sync::Arc;
 use surface::{Surface, normal_of};
 
 /// All that an image depends on, beside the scene.
@@ -24,6 +29,8 @@ pub struct Settings {
     pub spp: u32,
     /// How lights are sampled.
     pub technique: Technique,
+    /// Mirrors that a ray from the camera is followed through, at the most.
+    pub depth: u32,
     /// Where the random numbers come from.
     pub sampler: Sampler,
     /// Images of different seeds are independent.
@@ -35,6 +42,8 @@ pub struct Settings {
 pub struct RayCount {
     /// From the camera.
     pub camera: u64,
+    /// From mirrors.
+    pub mirror: u64,
     /// Towards a light, or into the hemisphere to find one.
     pub shadow: u64,
 }
@@ -46,10 +55,19 @@ pub struct World {
     shapes: Vec<Shape>,
     /// Of the flat ones among the shapes.
     normals: Vec<[f32; 3]>,
-    materials: Vec<[f32; 3]>,
+    /// Of each material; white where it is no diffuse one.
+    albedos: Vec<[f32; 3]>,
+    finishes: Vec<Finish>,
     /// Material of each place of the tree; empty where there is but one.
     place_materials: Vec<u32>,
+    /// That one.
+    one_material: u32,
     lights: Lights,
+    /// The delta lights among them.
+    deltas: Lights,
+    sky: Option<Arc<Sky>>,
+    /// Is there no mirror and no rough metal?
+    only_diffuse: bool,
     camera: Camera,
 }
 
@@ -64,25 +82,37 @@ impl World {
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
         let accel = Accel::new(&scene.triangles, ShapeSet::new(&scene.shapes)?)?;
         let one = scene.triangle_materials.windows(2).all(|w| w[0] == w[1]);
-        let mut materials = scene.materials.clone();
         let place_materials = if one {
-            // place 0 of the table serves all
-            if let Some(&only) = scene.triangle_materials.first() {
-                materials.swap(0, only as usize);
-            }
             Vec::new()
         } else {
             accel.order().iter().map(|&id| scene.triangle_materials[id as usize]).collect()
         };
+        let albedo = |material: &Material| match *material {
+            Material::Diffuse(albedo) => albedo,
+            _ if material.is_black() => [0.0; 3],
+            Material::Mirror(_) | Material::Conductor { .. } => [1.0; 3],
+        };
+        let sky = scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)));
         Ok(Self {
-            lights: Lights::new(scene),
+            lights: Lights::new(scene, sky.clone()),
+            deltas: Lights::deltas(scene),
+            sky,
+            only_diffuse: scene.materials.iter().all(|m| matches!(m, Material::Diffuse(_))),
             normals: scene.shapes.iter().map(|s| normal_of(&s.geometry)).collect(),
             shapes: scene.shapes.clone(),
             camera: scene.camera.clone(),
             accel,
-            materials,
+            albedos: scene.materials.iter().map(albedo).collect(),
+            finishes: scene.materials.iter().map(bsdf::finish).collect(),
             place_materials,
+            one_material: scene.triangle_materials.first().copied().unwrap_or(0),
         })
+    }
+
+    /// Does the plain path do: diffuse surfaces and emitters, sampled by one technique?
+    fn plain(&self, technique: Technique) -> bool {
+        let one = !matches!(technique, Technique::MisBalance | Technique::MisPower);
+        one && self.only_diffuse && self.deltas.is_empty() && self.sky.is_none()
     }
 
     /// Renders an image; `progress` is told of pixels as they are finished.
@@ -113,6 +143,7 @@ impl World {
                 pixels[start..start + across].copy_from_slice(row);
             }
             rays.camera += count.camera;
+            rays.mirror += count.mirror;
             rays.shadow += count.shadow;
         }
         (Film { width, height, samples: settings.spp, pixels }, rays)
@@ -184,12 +215,13 @@ impl<'a> Work<'a> {
                 active: M8::from_bits((1 << count) - 1),
             }
         };
+        let plain = self.world.plain(self.settings.technique);
         let mut packets = Vec::with_capacity(GROUP);
         for start in (0..total).step_by(8 * GROUP) {
             let starts = (start..total).step_by(8).take(GROUP);
             packets.clear();
             packets.extend(starts.clone().map(packet));
-            let radiance = self.group(&packets);
+            let radiance = if plain { self.group(&packets) } else { self.paths(&packets) };
             for ((start, packet), radiance) in starts.zip(&packets).zip(radiance) {
                 if whole {
                     let (pixel, sample) = place(start);
@@ -243,7 +275,7 @@ impl<'a> Work<'a> {
         }
         let surfaces = &surfaces[..count];
         let reflected = match self.settings.technique {
-            Technique::Area | Technique::SolidAngle => {
+            Technique::Area | Technique::SolidAngle | Technique::ProjectedSolidAngle => {
                 let choice = world.lights.many().then(|| {
                     let mut choice = [X8::lit(0.0); GROUP];
                     for (p, packet) in packets.iter().enumerate() {
@@ -254,7 +286,8 @@ impl<'a> Work<'a> {
                 self.light(surfaces, light, choice)
             }
             Technique::UniformHemisphere => self.hemisphere(surfaces, light, false),
-            Technique::CosineHemisphere => self.hemisphere(surfaces, light, true),
+            Technique::CosineHemisphere | Technique::Brdf => self.hemisphere(surfaces, light, true),
+            Technique::MisBalance | Technique::MisPower => unreachable!("these are not for the plain path"),
         };
         for p in 0..count {
             radiance[p] += reflected[p];

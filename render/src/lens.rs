@@ -60,11 +60,16 @@ impl Eye {
     #[inline(always)]
     pub fn rays(&self, source: &Source, packet: &Packet) -> (V8, V8, Vec2<X8>) {
         let [film, light] = source.film_and_light(packet);
+        let (origin, direction) = self.through(source, packet, film);
+        (origin, direction, light)
+    }
+    /// Origins and unit directions of eight samples, at positions in their pixels that are given.
+    #[inline(always)]
+    pub fn through(&self, source: &Source, packet: &Packet, film: Vec2<X8>) -> (V8, V8) {
         let [x, y] = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
-        let (origin, direction) = match self {
+        match self {
             Self::Pinhole(pinhole) => pinhole.ray(x, y),
             Self::ThinLens(lens) => lens.ray(x, y, source.pair(packet, LENS)),
-        };
-        (origin, direction, light)
+        }
     }
 }

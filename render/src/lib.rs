@@ -10,6 +10,8 @@ pub mod lens;
 pub mod lights;
 pub mod sampler;
 pub mod scene;
+pub mod selftest;
+pub mod sky;
 
 pub use integrator::{RayCount, Settings, World};
 pub use lights::Technique;

@@ -1,8 +1,11 @@
 //! The emitters of a scene as a table from which packets draw: which light, and where on it.
 
-use crate::accel::{M8, V8, X8, select};
-use crate::scene::{Geometry, Scene};
-use etendue::{LightSample, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, u32x8};
+use crate::accel::{M8, NOTHING, V8, X8, select};
+use crate::scene::{DeltaLight, Geometry, Scene};
+use crate::sky::Sky;
+use etendue::seen::{SphereCap, SphericalParallelogram, SphericalTriangle};
+use etendue::{Directional, LightSample, Parallelogram, Point, Real, Sphere, Spot, Triangle, Vec2, Vec3, Warp, u32x8};
+use std::sync::Arc;
 
 /// How a light is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -15,12 +18,47 @@ pub enum Technique {
     Area,
     /// Directions uniform over the solid angle of a light
     SolidAngle,
+    /// Directions of a sphere light uniform over its projected solid angle; of other shapes as solid-angle
+    ProjectedSolidAngle,
+    /// Directions by what the surface reflects: the cosine, or the visible normals of a rough metal
+    Brdf,
+    /// Solid-angle and brdf, by the balance heuristic
+    MisBalance,
+    /// Solid-angle and brdf, by the power heuristic
+    MisPower,
+}
+
+impl Technique {
+    /// How it samples lights, where it does.
+    pub fn measure(self) -> Measure {
+        match self {
+            Self::Area => Measure::Area,
+            Self::ProjectedSolidAngle => Measure::Projected,
+            _ => Measure::SolidAngle,
+        }
+    }
+}
+
+/// The measure by which points of a light are uniform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Area of the light.
+    Area,
+    /// Solid angle at the shading point.
+    SolidAngle,
+    /// Solid angle projected on the surface there, where that can be done, else solid angle.
+    Projected,
 }
 
 const SPHERE: u32 = 0;
 const TRIANGLE: u32 = 1;
 const PARALLELOGRAM: u32 = 2;
-const TWO_SIDED: u32 = 4;
+const POINT: u32 = 3;
+const SPOT: u32 = 4;
+const DISTANT: u32 = 5;
+const SKY: u32 = 6;
+const KINDS: u32 = 7;
+const TWO_SIDED: u32 = 8;
 /// Up to here a light is found by comparing with all; and choosing one leaves enough digits of `u` to choose a point with.
 const FEW: usize = 32;
 
@@ -28,24 +66,29 @@ const FEW: usize = 32;
 /// its interval of u, kind and sides (bits), index of its shape (bits).
 type Record = [f32; 16];
 
-/// All emitters, chosen in proportion to their power.
+/// Emitters, chosen in proportion to their power.
 #[derive(Debug)]
 pub struct Lights {
     records: Vec<Record>,
     /// Upper ends of the intervals of `u`; the last is 1.
     ends: Vec<f32>,
-    kinds: [bool; 3],
+    /// Bit k is set if there is a light of kind k.
+    kinds: u32,
+    sky: Option<Arc<Sky>>,
+    /// Probability of each shape of the scene; 0 of those that are no lights.
+    shape_probabilities: Vec<f32>,
+    sky_probability: f32,
 }
 
 /// One light in each lane.
 pub struct Chosen {
     geometry: [X8; 9],
-    /// Radiance.
+    /// Radiance; of a delta light intensity or irradiance.
     pub radiance: V8,
     /// Probability with which it was chosen.
     pub probability: X8,
     kind: u32x8,
-    /// Index of its shape.
+    /// Index of its shape; [`NOTHING`] if it is none.
     pub shape: u32x8,
 }
 
@@ -61,56 +104,77 @@ fn area(geometry: &Geometry) -> f64 {
     }
 }
 
+/// Square of the radius of a sphere around all that reflects or emits.
+fn squared_radius(scene: &Scene) -> f64 {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    let mut add = |p: [f32; 3], pad: f32| {
+        for k in 0..3 {
+            low[k] = low[k].min(f64::from(p[k] - pad));
+            high[k] = high[k].max(f64::from(p[k] + pad));
+        }
+    };
+    scene.triangles.iter().flatten().for_each(|&p| add(p, 0.0));
+    for shape in &scene.shapes {
+        match shape.geometry {
+            Geometry::Sphere { center, radius } => add(center, radius),
+            Geometry::Triangle(corners) => corners.into_iter().for_each(|p| add(p, 0.0)),
+            Geometry::Parallelogram { p, u, v } => {
+                for (s, t) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+                    add(std::array::from_fn(|k| p[k] + s * u[k] + t * v[k]), 0.0);
+                }
+            }
+        }
+    }
+    let squared: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>() / 4.0;
+    if squared.is_finite() { squared } else { 1.0 }
+}
+
+fn sum(rgb: [f32; 3]) -> f64 {
+    rgb.iter().map(|&x| f64::from(x)).sum()
+}
+
 impl Lights {
-    /// The emitting shapes of a scene.
-    pub fn new(scene: &Scene) -> Self {
-        let mut records = Vec::new();
-        let mut powers = Vec::new();
-        let mut kinds = [false; 3];
+    /// All lights of a scene: emitting shapes, delta lights, the sky.
+    pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Self {
+        let mut table = Table::default();
         for (index, shape) in scene.shapes.iter().enumerate() {
             let Some(emission) = shape.emission else { continue };
-            let mut record = [0.0; 16];
+            let mut geometry = [0.0; 9];
             let kind = match shape.geometry {
                 Geometry::Sphere { center, radius } => {
-                    record[..3].copy_from_slice(&center);
-                    record[3] = radius;
+                    geometry[..3].copy_from_slice(&center);
+                    geometry[3] = radius;
                     SPHERE
                 }
                 Geometry::Triangle([a, b, c]) => {
-                    record[..3].copy_from_slice(&a);
+                    geometry[..3].copy_from_slice(&a);
                     for k in 0..3 {
-                        (record[3 + k], record[6 + k]) = (b[k] - a[k], c[k] - a[k]);
+                        (geometry[3 + k], geometry[6 + k]) = (b[k] - a[k], c[k] - a[k]);
                     }
                     TRIANGLE
                 }
                 Geometry::Parallelogram { p, u, v } => {
-                    record[..9].copy_from_slice([p, u, v].as_flattened());
+                    geometry.copy_from_slice([p, u, v].as_flattened());
                     PARALLELOGRAM
                 }
             };
-            kinds[kind as usize] = true;
-            record[9..12].copy_from_slice(&emission.radiance);
-            record[14] = f32::from_bits(kind | if emission.two_sided { TWO_SIDED } else { 0 });
-            record[15] = f32::from_bits(index as u32);
-            records.push(record);
             let sides = if emission.two_sided { 2.0 } else { 1.0 };
-            powers.push(emission.radiance.iter().map(|&x| f64::from(x)).sum::<f64>() * area(&shape.geometry) * sides);
+            let power = sum(emission.radiance) * area(&shape.geometry) * sides;
+            let kind = kind | if emission.two_sided { TWO_SIDED } else { 0 };
+            table.push(geometry, emission.radiance, kind, index as u32, power);
         }
-        let total: f64 = powers.iter().sum();
-        let mut sum = 0.0;
-        let mut ends = Vec::with_capacity(records.len());
-        for (record, power) in records.iter_mut().zip(&powers) {
-            let start = (sum / total) as f32;
-            sum += power;
-            let end = (sum / total) as f32;
-            (record[12], record[13]) = (end - start, start);
-            ends.push(end);
+        table.deltas(scene);
+        if let Some(sky) = &sky {
+            // what enters the sphere around the scene
+            table.push([0.0; 9], [0.0; 3], SKY, NOTHING, sky.flux() * squared_radius(scene));
         }
-        if let (Some(last), Some(end)) = (records.last_mut(), ends.last_mut()) {
-            *end = 1.0;
-            last[12] = 1.0 - last[13];
-        }
-        Self { records, ends, kinds }
+        table.finish(scene.shapes.len(), sky)
+    }
+    /// The delta lights of a scene alone.
+    pub fn deltas(scene: &Scene) -> Self {
+        let mut table = Table::default();
+        table.deltas(scene);
+        table.finish(scene.shapes.len(), None)
     }
     /// Number of lights.
     pub fn len(&self) -> usize {
@@ -124,8 +188,20 @@ impl Lights {
     pub fn many(&self) -> bool {
         self.len() > FEW
     }
+    /// Are all of them delta lights? Then a pair for a point on the light is of no use.
+    pub fn only_deltas(&self) -> bool {
+        self.kinds & !(1 << POINT | 1 << SPOT | 1 << DISTANT) == 0
+    }
+    /// The number of delta lights that are all sampled, with no random number: if there are no others and they are few.
+    pub fn each(&self) -> Option<usize> {
+        (self.only_deltas() && !self.many()).then(|| self.len())
+    }
+    /// One light in every lane, not chosen by chance.
+    pub fn one(&self, index: usize) -> Chosen {
+        Chosen { probability: X8::lit(1.0), ..Chosen::new(self.records[index].map(X8::splat)) }
+    }
     /// A light per lane for `u`, and `u` stretched over what its interval leaves.
-    #[inline]
+    #[inline(always)]
     pub fn choose(&self, u: X8) -> (Chosen, X8) {
         if let [record] = &self.records[..] {
             return (Chosen::new(record.map(X8::splat)), u);
@@ -146,45 +222,153 @@ impl Lights {
         let rest = Real::clamp((u - b[5]) / chosen.probability, X8::lit(0.0), X8::below_one());
         (chosen, rest)
     }
-    /// A sample of the chosen lights from points `p`; `emits` already takes account of lights with two sides.
-    #[inline]
-    pub fn sample(&self, chosen: &Chosen, by_area: bool, p: V8, u: Vec2<X8>) -> LightSample<X8> {
-        let [a, b, c] = [0, 3, 6].map(|k| V8::new(chosen.geometry[k], chosen.geometry[k + 1], chosen.geometry[k + 2]));
-        let sphere = || {
-            let light = Sphere { center: a, radius: b.x };
-            if by_area { light.by_area(p, u) } else { light.by_solid_angle(p, u) }
-        };
-        let triangle = || {
-            let light = Triangle { v0: a, e1: b, e2: c };
-            if by_area { light.by_area(p, u) } else { light.by_solid_angle(p, u) }
-        };
-        let parallelogram = || {
-            let light = Parallelogram { p: a, u: b, v: c };
-            if by_area { light.by_area(p, u) } else { light.by_solid_angle(p, u) }
-        };
+    /// A sample of the chosen lights from points `p` on surfaces with this normal; `emits` already takes account of lights with two
+    /// sides, and `radiance` of `chosen` of where in the sky the sample lies.
+    #[inline(always)]
+    pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
+        const ONLY_SPHERES: u32 = 1 << SPHERE;
+        const ONLY_TRIANGLES: u32 = 1 << TRIANGLE;
+        const ONLY_PARALLELOGRAMS: u32 = 1 << PARALLELOGRAM;
         let mut sample = match self.kinds {
-            [true, false, false] => sphere(),
-            [false, true, false] => triangle(),
-            [false, false, true] => parallelogram(),
-            _ => {
-                let mut sample = sphere();
-                for (kind, other) in [(TRIANGLE, triangle()), (PARALLELOGRAM, parallelogram())] {
-                    let here = crate::accel::equal(chosen.kind & u32x8::splat(3), u32x8::splat(kind));
-                    sample.direction = V8::select(here, other.direction, sample.direction);
-                    sample.distance = select(here, other.distance, sample.distance);
-                    sample.pdf = select(here, other.pdf, sample.pdf);
-                    sample.emits = sample.emits & !here | other.emits & here;
-                }
-                sample
-            }
+            ONLY_SPHERES => chosen.sphere(measure, p, normal, u),
+            ONLY_TRIANGLES => chosen.triangle(measure, p, u),
+            ONLY_PARALLELOGRAMS => chosen.parallelogram(measure, p, u),
+            _ => self.mixed(chosen, measure, p, normal, u),
         };
         sample.emits = sample.emits | chosen.two_sided();
         sample
     }
+    /// Every kind that there is, each in its lanes.
+    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
+        let mut mixed: Option<LightSample<X8>> = None;
+        for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
+            let here = crate::accel::equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
+            let [a, b, c] = chosen.vectors();
+            let sample = match kind {
+                SPHERE => chosen.sphere(measure, p, normal, u),
+                TRIANGLE => chosen.triangle(measure, p, u),
+                PARALLELOGRAM => chosen.parallelogram(measure, p, u),
+                POINT => Point { position: a }.sample(p),
+                SPOT => Spot { position: a, axis: b, cos_inner: c.x, cos_outer: c.y }.sample(p),
+                DISTANT => Directional { direction: a }.sample(),
+                _ => {
+                    let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
+                    let (sample, radiance) = sky.sample(measure, normal, u);
+                    chosen.radiance = V8::select(here, radiance, chosen.radiance);
+                    sample
+                }
+            };
+            mixed = Some(match mixed {
+                None => sample,
+                Some(other) => LightSample {
+                    direction: V8::select(here, sample.direction, other.direction),
+                    distance: select(here, sample.distance, other.distance),
+                    pdf: select(here, sample.pdf, other.pdf),
+                    emits: sample.emits & here | other.emits & !here,
+                    delta: sample.delta & here | other.delta & !here,
+                },
+            });
+        }
+        mixed.unwrap_or_else(|| unreachable!("there is a light"))
+    }
+    /// Density per steradian, with the probability of the choice, with which [`sample`](Self::sample) by solid angle draws the
+    /// direction `w` of a shape from `p`.
+    #[inline]
+    pub fn shape_pdf(&self, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
+        let pdf = match *geometry {
+            Geometry::Sphere { center, radius } => SphereCap::new(V8::from(center) - p, X8::splat(radius)).pdf(w),
+            Geometry::Triangle([a, b, c]) => {
+                let edge = |to: [f32; 3]| V8::from(std::array::from_fn(|k| to[k] - a[k]));
+                let (v0, e1, e2) = (V8::from(a) - p, edge(b), edge(c));
+                SphericalTriangle::with_edges(v0, v0 + e1, v0 + e2, e1, e2).pdf(w)
+            }
+            Geometry::Parallelogram { p: corner, u, v } => {
+                SphericalParallelogram::new(V8::from(corner) - p, V8::from(u), V8::from(v)).pdf(w)
+            }
+        };
+        pdf * X8::splat(self.shape_probabilities[shape])
+    }
+    /// The same for a direction of the sky.
+    #[inline]
+    pub fn sky_pdf(&self, normal: V8, w: V8) -> X8 {
+        match &self.sky {
+            Some(sky) => sky.pdf(Measure::SolidAngle, normal, w) * X8::splat(self.sky_probability),
+            None => X8::lit(0.0),
+        }
+    }
+}
+
+/// Records and powers on their way to [`Lights`].
+#[derive(Default)]
+struct Table {
+    records: Vec<Record>,
+    powers: Vec<f64>,
+    kinds: u32,
+}
+
+impl Table {
+    /// Adds a light; powers are all in units of π.
+    fn push(&mut self, geometry: [f32; 9], radiance: [f32; 3], kind: u32, shape: u32, power: f64) {
+        let mut record = [0.0; 16];
+        record[..9].copy_from_slice(&geometry);
+        record[9..12].copy_from_slice(&radiance);
+        (record[14], record[15]) = (f32::from_bits(kind), f32::from_bits(shape));
+        self.kinds |= 1 << (kind & KINDS);
+        self.records.push(record);
+        self.powers.push(power);
+    }
+    fn deltas(&mut self, scene: &Scene) {
+        for light in &scene.delta_lights {
+            let mut geometry = [0.0; 9];
+            match *light {
+                DeltaLight::Point { position, intensity } => {
+                    geometry[..3].copy_from_slice(&position);
+                    self.push(geometry, intensity, POINT, NOTHING, 4.0 * sum(intensity));
+                }
+                DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity } => {
+                    geometry[..6].copy_from_slice([position, axis].as_flattened());
+                    (geometry[6], geometry[7]) = (cos_inner, cos_outer);
+                    let cone = 2.0 - f64::from(cos_inner) - f64::from(cos_outer);
+                    // a cone too narrow for its cosine to differ from 1 still has a chance
+                    self.push(geometry, intensity, SPOT, NOTHING, cone.max(1e-7) * sum(intensity));
+                }
+                DeltaLight::Distant { direction, irradiance } => {
+                    geometry[..3].copy_from_slice(&direction);
+                    self.push(geometry, irradiance, DISTANT, NOTHING, sum(irradiance) * squared_radius(scene));
+                }
+            }
+        }
+    }
+    fn finish(mut self, shapes: usize, sky: Option<Arc<Sky>>) -> Lights {
+        let total: f64 = self.powers.iter().sum();
+        let mut sum = 0.0;
+        let mut ends = Vec::with_capacity(self.records.len());
+        for (record, power) in self.records.iter_mut().zip(&self.powers) {
+            let start = (sum / total) as f32;
+            sum += power;
+            let end = (sum / total) as f32;
+            (record[12], record[13]) = (end - start, start);
+            ends.push(end);
+        }
+        if let (Some(last), Some(end)) = (self.records.last_mut(), ends.last_mut()) {
+            *end = 1.0;
+            last[12] = 1.0 - last[13];
+        }
+        let mut shape_probabilities = vec![0.0; shapes];
+        let mut sky_probability = 0.0;
+        for record in &self.records {
+            match (record[14].to_bits() & KINDS, record[15].to_bits()) {
+                (SKY, _) => sky_probability = record[12],
+                (_, NOTHING) => {}
+                (_, shape) => shape_probabilities[shape as usize] = record[12],
+            }
+        }
+        Lights { records: self.records, ends, kinds: self.kinds, sky, shape_probabilities, sky_probability }
+    }
 }
 
 impl Chosen {
-    #[inline]
+    #[inline(always)]
     fn new(r: [X8; 16]) -> Self {
         Self {
             geometry: std::array::from_fn(|k| r[k]),
@@ -193,6 +377,33 @@ impl Chosen {
             kind: r[14].to_bits(),
             shape: r[15].to_bits(),
         }
+    }
+    #[inline(always)]
+    fn vectors(&self) -> [V8; 3] {
+        let [a, b, c, d, e, f, g, h, i] = self.geometry;
+        [V8::new(a, b, c), V8::new(d, e, f), V8::new(g, h, i)]
+    }
+    #[inline]
+    fn sphere(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
+        let [center, b, _] = self.vectors();
+        let light = Sphere { center, radius: b.x };
+        match measure {
+            Measure::Area => light.by_area(p, u),
+            Measure::SolidAngle => light.by_solid_angle(p, u),
+            Measure::Projected => light.by_projected_solid_angle(p, normal, u),
+        }
+    }
+    #[inline]
+    fn triangle(&self, measure: Measure, p: V8, u: Vec2<X8>) -> LightSample<X8> {
+        let [v0, e1, e2] = self.vectors();
+        let light = Triangle { v0, e1, e2 };
+        if measure == Measure::Area { light.by_area(p, u) } else { light.by_solid_angle(p, u) }
+    }
+    #[inline]
+    fn parallelogram(&self, measure: Measure, p: V8, u: Vec2<X8>) -> LightSample<X8> {
+        let [corner, u_edge, v_edge] = self.vectors();
+        let light = Parallelogram { p: corner, u: u_edge, v: v_edge };
+        if measure == Measure::Area { light.by_area(p, u) } else { light.by_solid_angle(p, u) }
     }
     #[inline]
     fn two_sided(&self) -> M8 {

@@ -2,7 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_render::compare::Comparison;
-use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene};
+use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene, selftest};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::error::Error;
@@ -25,6 +25,8 @@ enum Command {
     Render(Render),
     /// Compare an image with a reference
     Compare(Compare),
+    /// Render scenes by every technique and sampler that applies, and see whether they agree
+    Selftest(Selftest),
     /// List built-in scenes, techniques and samplers
     List,
 }
@@ -42,6 +44,9 @@ struct Render {
     /// How lights are sampled
     #[arg(long, value_enum, default_value = "solid-angle")]
     technique: Technique,
+    /// Perfect mirrors that a ray is followed through, at the most
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    depth: u32,
     /// Where random numbers come from
     #[arg(long, value_enum, default_value = "independent")]
     sampler: Sampler,
@@ -74,6 +79,27 @@ struct Compare {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Args)]
+struct Selftest {
+    /// Built-in scenes' names, or pbrt-v4 files; all built-in scenes if there are none
+    scenes: Vec<String>,
+    /// Samples per pixel
+    #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(2..=1 << 22))]
+    spp: u32,
+    /// Pixels on a side
+    #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    side: u32,
+    /// Images of different seeds are independent
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Perfect mirrors that a ray is followed through, at the most
+    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    depth: u32,
+    /// Threads; 0 is one per core
+    #[arg(long, default_value_t = 0)]
+    threads: usize,
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
@@ -117,6 +143,11 @@ fn main() -> ExitCode {
         return ExitCode::from(3);
     }
     let result = match Cli::parse().command {
+        Command::Selftest(options) => match run_selftest(&options) {
+            Ok(true) => Ok(()),
+            Ok(false) => return ExitCode::FAILURE,
+            Err(error) => Err(error),
+        },
         Command::Render(options) => render(&options),
         Command::Compare(options) => compare(&options),
         Command::List => list().map_err(Into::into),
@@ -169,6 +200,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
         height,
         spp: options.spp.unwrap_or(scene.pixel_samples),
         technique: options.technique,
+        depth: options.depth,
         sampler: options.sampler,
         seed: options.seed,
     };
@@ -213,7 +245,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
             "seed": settings.seed,
             "threads": pool.current_num_threads(),
             "seconds": { "load": load, "build": build, "render": seconds },
-            "rays": { "camera": rays.camera, "shadow": rays.shadow },
+            "rays": { "camera": rays.camera, "mirror": rays.mirror, "shadow": rays.shadow },
             "mean": mean,
             "output": output,
         });
@@ -223,6 +255,54 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
         report(&settings, &scene.name, [&output, &picture], mean, rays, seconds)?;
     }
     Ok(())
+}
+
+/// Prints the table; tells whether all agree.
+fn run_selftest(options: &Selftest) -> Result<bool, Box<dyn Error>> {
+    let mut names = options.scenes.clone();
+    if names.is_empty() {
+        names.extend(scene::builtin().iter().map(|(name, _)| (*name).to_owned()));
+    }
+    let effort = selftest::Effort { side: options.side, spp: options.spp, seed: options.seed, depth: options.depth };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let scenes = names.iter().map(|name| scene::load(name)).collect::<Result<Vec<_>, _>>()?;
+    let start = Instant::now();
+    let (mut worst, mut images) = (0.0_f64, 0);
+    writeln!(
+        io::stdout(),
+        "{side}x{side} pixels, {spp} samples per pixel, seed {seed}; z of each image against all others of its scene",
+        side = options.side,
+        spp = options.spp,
+        seed = options.seed
+    )?;
+    for scene in &scenes {
+        let world = pool.install(|| World::new(scene))?;
+        let rows = pool.install(|| selftest::rows(scene, &world, &effort));
+        let mut out = io::stdout().lock();
+        writeln!(out, "{}", scene.name)?;
+        for row in &rows {
+            let [r, g, b] = row.mean;
+            let [x, y, z] = row.z;
+            let technique = name(row.technique);
+            let sampler = name(row.sampler);
+            let mark = if selftest::worst(std::slice::from_ref(row)) < selftest::LIMIT { "" } else { "  disagrees" };
+            writeln!(
+                out,
+                "  {technique:21} {sampler:12} {r:.6} {g:.6} {b:.6}   ± {:.1e}   z {x:+.2} {y:+.2} {z:+.2}{mark}",
+                row.error.iter().fold(0.0_f64, |m, &e| m.max(e))
+            )?;
+        }
+        worst = worst.max(selftest::worst(&rows));
+        images += rows.len();
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    let verdict = if worst < selftest::LIMIT { "all agree" } else { "NOT all agree" };
+    writeln!(
+        io::stdout(),
+        "{} scenes, {images} images, {seconds:.1} s: greatest |z| {worst:.2}, {verdict}",
+        scenes.len()
+    )?;
+    Ok(worst < selftest::LIMIT)
 }
 
 fn median(values: &mut [f64]) -> f64 {

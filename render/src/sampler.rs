@@ -1,6 +1,6 @@
 //! Where the random numbers of a pixel's samples come from.
 //!
-//! A sample has a pair of numbers for each use: [`FILM`], [`LIGHT`], [`CHOICE`], [`LENS`], then 4 and up for whatever else.
+//! A sample has a pair of numbers for each use: [`FILM`], [`LIGHT`], [`CHOICE`], [`LENS`], [`SURFACE`], then 5 and up for whatever else.
 //! *Padding* makes each pair a good point set of its own and associates the pairs at random; a *joint* set is good in all of
 //! its dimensions together.
 //!
@@ -42,6 +42,8 @@ pub const LIGHT: u32 = 1;
 pub const CHOICE: u32 = 2;
 /// The pair for the point on the lens.
 pub const LENS: u32 = 3;
+/// The pair for a direction in which the surface reflects, beside a point on the light.
+pub const SURFACE: u32 = 4;
 
 /// Eight samples to be taken.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,8 @@
 //! the image much, or only its noise, is a warning. Coordinates are transformed in f64 and rounded once to f32.
 
 mod lexer;
+mod lights;
+mod materials;
 mod params;
 mod ply;
 mod reader;
@@ -13,6 +15,8 @@ mod terrain;
 mod tests;
 mod transform;
 
+pub use lights::{DeltaLight, Environment, Sky};
+pub use materials::Material;
 use std::path::Path;
 use std::sync::Arc;
 use std::{fmt, fs, io};
@@ -28,14 +32,18 @@ pub struct Scene {
     pub film: Film,
     /// Samples per pixel; 16 if the file does not say.
     pub pixel_samples: u32,
-    /// Lambertian albedo per material, linear RGB; no two are equal.
-    pub materials: Vec<[f32; 3]>,
+    /// No two are equal.
+    pub materials: Vec<Material>,
     /// Triangles that do not emit. Their normal is (v1 − v0) × (v2 − v0); none has zero area.
     pub triangles: Vec<[[f32; 3]; 3]>,
     /// One index into `materials` per triangle.
     pub triangle_materials: Vec<u32>,
     /// Every sphere, and every triangle and parallelogram that emits.
     pub shapes: Vec<Shape>,
+    /// Point, spot and distant lights.
+    pub delta_lights: Vec<DeltaLight>,
+    /// What lies beyond all surfaces; black if there is none.
+    pub environment: Option<Environment>,
     /// What was read but not honoured, in the order of the file.
     pub warnings: Vec<Message>,
 }
@@ -210,21 +218,34 @@ impl Place {
     }
 }
 
-const DESCRIBED: [(&str, &str); 5] = [
+const DESCRIBED: [(&str, &str); 10] = [
     ("sphere-light", "two boxes under a sphere light out of view"),
     ("triangle-light", "a box before a large triangle light in view"),
     ("quads", "three boxes under five quadrilateral lights of very different size and power"),
     ("terrain", "a height field and 25 bumpy spheres, a million triangles, under one square light"),
+    ("cornell-box", "the Cornell box from its published data"),
+    ("mirror-room", "a room between two mirrors, with a mirror and a gold sphere"),
+    ("plates", "four plates from smooth to rough under four spheres from small to large"),
+    ("delta-lights", "boxes and a ball under a point, a spot and a distant light"),
+    ("sky", "a diffuse, a mirror and a rough ball under an image of a sky"),
     ("defocus", "a row of spheres through a lens that is focused on the third"),
 ];
 
-const BUILTIN: [(&str, &str); 5] = [
+const BUILTIN: [(&str, &str); 10] = [
     (DESCRIBED[0].0, include_str!("../scenes/sphere-light.pbrt")),
     (DESCRIBED[1].0, include_str!("../scenes/triangle-light.pbrt")),
     (DESCRIBED[2].0, include_str!("../scenes/quads.pbrt")),
     (DESCRIBED[3].0, include_str!("../scenes/terrain.pbrt")),
-    (DESCRIBED[4].0, include_str!("../scenes/defocus.pbrt")),
+    (DESCRIBED[4].0, include_str!("../scenes/cornell-box.pbrt")),
+    (DESCRIBED[5].0, include_str!("../scenes/mirror-room.pbrt")),
+    (DESCRIBED[6].0, include_str!("../scenes/plates.pbrt")),
+    (DESCRIBED[7].0, include_str!("../scenes/delta-lights.pbrt")),
+    (DESCRIBED[8].0, include_str!("../scenes/sky.pbrt")),
+    (DESCRIBED[9].0, include_str!("../scenes/defocus.pbrt")),
 ];
+
+/// Images that built-in scenes name.
+const BUILTIN_IMAGES: [(&str, &[u8]); 1] = [("sky.exr", include_bytes!("../scenes/sky.exr"))];
 
 /// Name and description of each built-in scene.
 pub fn builtin() -> &'static [(&'static str, &'static str)] {
@@ -250,8 +271,14 @@ pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
     Ok(reader::read(text, file, dir, false)?)
 }
 
+/// A colour in f32; `None` if a channel overflows.
+fn rounded(rgb: [f64; 3]) -> Option<[f32; 3]> {
+    let rgb = rgb.map(|x| x as f32);
+    rgb.iter().all(|x| x.is_finite()).then_some(rgb)
+}
+
 /// The bytes of a regular file; never waits on a pipe or reads a device without end.
-fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
     }

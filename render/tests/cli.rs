@@ -124,7 +124,7 @@ fn json_has_the_fields_that_it_should() {
     ];
     assert_eq!(keys(&report), expected);
     assert_eq!(keys(&report["seconds"]), ["build", "load", "render"]);
-    assert_eq!(keys(&report["rays"]), ["camera", "shadow"]);
+    assert_eq!(keys(&report["rays"]), ["camera", "mirror", "shadow"]);
     assert_eq!((&report["scene"], &report["output"]), (&Value::from("quads"), &Value::from("a.exr")));
     assert_eq!((&report["technique"], &report["sampler"]), (&Value::from("area"), &Value::from("independent")));
     let number = |key: &str| report[key].as_u64().unwrap();
@@ -216,7 +216,7 @@ fn bad_scenes_are_told_with_file_and_line() {
         ("Include \"none.pbrt\"", "5: ", "none.pbrt"),
         ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]", "5: ", "3"),
         ("AttributeBegin", "5: ", "AttributeBegin"),
-        ("LightSource \"point\"", "5: ", "not supported"),
+        ("LightSource \"goniometric\"", "5: ", "not supported"),
     ];
     for (last, line, what) in cases {
         faulty(&folder, "bad.pbrt", scene(last), &[&format!("etendue: bad.pbrt:{line}"), what]);
@@ -334,6 +334,23 @@ fn damaged_images_never_crash() {
 }
 
 #[test]
+fn selftest_prints_a_table() {
+    let folder = Folder::new();
+    let text =
+        folder.succeed(&["selftest", "sphere-light", "delta-lights", "--side", "12", "--spp", "32", "--threads", "2"]);
+    let lines: Vec<_> = text.lines().collect();
+    let images = lines.iter().filter(|line| line.contains("   z ")).count();
+    assert_eq!(images, lines.len() - 4, "a heading, two scenes and a verdict: {text}");
+    assert!(lines[1] == "sphere-light" && lines[2].starts_with("  uniform-hemisphere"), "{text}");
+    assert!(
+        lines[lines.len() - 1].starts_with("2 scenes, ") && lines[lines.len() - 1].ends_with(", all agree"),
+        "{text}"
+    );
+    assert!(folder.fail(&["selftest", "none.pbrt"]).contains("none.pbrt"));
+    assert!(folder.names().is_empty());
+}
+
+#[test]
 fn list_names_everything() {
     let text = Folder::new().succeed(&["list"]);
     let names: Vec<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
@@ -343,12 +360,21 @@ fn list_names_everything() {
         "triangle-light",
         "quads",
         "terrain",
+        "cornell-box",
+        "mirror-room",
+        "plates",
+        "delta-lights",
+        "sky",
         "defocus",
         "techniques",
         "uniform-hemisphere",
         "cosine-hemisphere",
         "area",
         "solid-angle",
+        "projected-solid-angle",
+        "brdf",
+        "mis-balance",
+        "mis-power",
         "samplers",
         "independent",
         "stratified",

@@ -72,7 +72,7 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
         for sampler in SAMPLERS.into_iter().take(if both { SAMPLERS.len() } else { 2 }) {
             // four replicates of 2⁴ or 3⁴ strata
             let spp = if sampler == Sampler::Stratified4d && !towards_lights { 324 } else { spp };
-            let settings = Settings { width: 256, height: 256, spp, technique, sampler, seed: 1 };
+            let settings = Settings { width: 256, height: 256, spp, technique, depth: 8, sampler, seed: 1 };
             let image = picture(&world.render(&settings, |_| ()).0);
             let p = prediction(&reference, &image, reference_error);
             println!("{name} {technique:?} {sampler:?} {spp} spp: {p:?}");
@@ -126,7 +126,7 @@ fn threads_do_not_matter_and_seeds_do() {
         (Technique::Area, Sampler::ZOrder, 6),
     ] {
         // 16 divides neither side: some tiles are smaller
-        let settings = Settings { width: 100, height: 75, spp, technique, sampler, seed: 7 };
+        let settings = Settings { width: 100, height: 75, spp, technique, depth: 8, sampler, seed: 7 };
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| world.render(&settings, |_| ()))
@@ -150,7 +150,7 @@ fn any_number_of_samples_and_any_size() {
     let world = World::new(&scene::load("triangle-light").unwrap()).unwrap();
     for (width, height) in [(1, 1), (17, 5), (64, 33)] {
         let of = |spp, technique, sampler, seed| {
-            let settings = Settings { width, height, spp, technique, sampler, seed };
+            let settings = Settings { width, height, spp, technique, depth: 8, sampler, seed };
             let (film, rays) = world.render(&settings, |_| ());
             assert_eq!((film.width, film.height, film.samples), (width, height, spp));
             assert_eq!(film.pixels.len(), (width * height) as usize);
@@ -203,7 +203,8 @@ fn terrain_agrees_with_itself() {
     // techniques that share a seed share their noise in part
     let of = |spp, technique| {
         let seed = technique as u64;
-        let settings = Settings { width: 64, height: 64, spp, technique, sampler: Sampler::Independent, seed };
+        let settings =
+            Settings { width: 64, height: 64, spp, technique, depth: 8, sampler: Sampler::Independent, seed };
         picture(&world.render(&settings, |_| ()).0)
     };
     let lights = of(64, Technique::SolidAngle);

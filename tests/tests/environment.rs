@@ -113,6 +113,10 @@ fn density_is_that_of_the_table() {
             let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
             let texels = image.width * image.height;
             let name = format!("{map:?} {}x{} {}", image.width, image.height, image.name);
+            for y in 0..image.height {
+                let stated = map.texel_solid_angle(image.width, image.height, y);
+                assert!((stated - image.solid_angle(map, y)).abs() < 1e-13, "{name}: {stated} in row {y}");
+            }
             let mut at = |i: usize| -> V3 {
                 match i {
                     0 => [0.0, 0.0, 1.0],

@@ -6,7 +6,9 @@ use core::arch::{asm, global_asm};
 use core::f32::consts::PI;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Reservoir, Welford};
-use etendue::light::{ConstantEnvironment, Cylinder, Directional, Disk, Point, Spot, Sun};
+use etendue::light::{
+    ConstantEnvironment, Cylinder, Directional, Disk, EnvironmentMap, ImageEnvironment, Point, Spot, Sun,
+};
 use etendue::seen::{
     ProjectedCap, SphereCap, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalTriangle,
 };
@@ -17,7 +19,7 @@ use etendue::sequence::{
 };
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
-    LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere,
+    LowDistortionTriangle, Normal, Octahedral, PolarDisk, Tent, UniformHemisphere, UniformSphere,
 };
 use etendue::{
     LightSample, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, Warp1, f32x8, u32x8,
@@ -137,6 +139,7 @@ fn warps(count: &mut Count) {
     count.warp(PolarDisk, PI);
     count.warp(UniformHemisphere, 2.0 * PI);
     count.warp(UniformSphere, 4.0 * PI);
+    count.warp(Octahedral, 4.0 * PI);
     count.warp(CosineHemisphere, 2.0 * PI);
     count.warp(Cone { one_minus_cos: lit(0.25) }, 0.5 * PI);
     count.warp(AreaTriangle, 0.5);
@@ -230,6 +233,12 @@ fn lights(count: &mut Count) {
     count.light(0.25 * PI, |u| sun.by_solid_angle(u));
     count.light(PI, |u| ConstantEnvironment.by_solid_angle(u));
     count.light(PI, |u| ConstantEnvironment.by_projected_solid_angle(UP.into(), u));
+    let mut buffer = [0.0; ImageEnvironment::buffer(4, 2)];
+    let weights = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
+    match ImageEnvironment::build(&weights, 4, EnvironmentMap::Equirectangular, &mut buffer) {
+        Ok(sky) => count.warp(sky, 4.0 * PI),
+        Err(_) => exit(254),
+    }
 }
 
 fn sequences(count: &mut Count) {

@@ -18,6 +18,22 @@ pub enum EnvironmentMap {
     Equirectangular,
 }
 
+impl EnvironmentMap {
+    /// Solid angle of a texel in row `y` of a w × h image, in steradians.
+    #[must_use]
+    pub fn texel_solid_angle(self, width: usize, height: usize, y: usize) -> f64 {
+        match self {
+            Self::EqualArea => 4.0 * PI / (width as f64 * height as f64),
+            Self::Equirectangular => {
+                // the difference of the cosines of its edges, as a product
+                let middle = ((2 * y + 1) as f64 / (4 * height) as f64).sin_cos_turns().0;
+                let half = (1.0 / (4 * height) as f64).sin_cos_turns().0;
+                4.0 * PI / width as f64 * middle * half
+            }
+        }
+    }
+}
+
 /// A texel of an environment, and a position in it.
 #[derive(Clone, Copy, Debug)]
 pub struct Texel<R: Real> {
@@ -99,11 +115,7 @@ impl<'a> ImageEnvironment<'a> {
         buffer: &'a mut [f32],
     ) -> Result<Self, TableError> {
         let height = weights.len().checked_div(width).unwrap_or(0);
-        // in proportion to the solid angle of the row's texels
-        let solid_angle = |y: usize| match map {
-            EnvironmentMap::EqualArea => 1.0,
-            EnvironmentMap::Equirectangular => ((2 * y + 1) as f64 / (4 * height) as f64).sin_cos_turns().0,
-        };
+        let solid_angle = |y: usize| map.texel_solid_angle(width, height, y);
         Ok(Self { table: PiecewiseConstant2d::build_by_rows(weights, width, solid_angle, buffer)?, map })
     }
     /// The environment whose table [`build`](Self::build) has left in the buffer.

@@ -1,13 +1,13 @@
 //! Light that a surface reflects, by sampling a light or the hemisphere.
 
+use super::Work;
 use super::surface::{Surface, emitted};
-use super::{Technique, Work};
 use crate::accel::{GROUP, Hits, M8, NOTHING, SHAPE, V8, X8, pick, select};
 use etendue::warp::{CosineHemisphere, UniformHemisphere};
 use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 
 /// What touches a light does not hide it: a shadow ray ends 2⁻¹⁷ of its length before it.
-const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
+pub(super) const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
 impl Work<'_> {
@@ -20,7 +20,7 @@ impl Work<'_> {
         choice: Option<[X8; GROUP]>,
     ) -> [V8; GROUP] {
         let world = self.world;
-        let by_area = self.settings.technique == Technique::Area;
+        let measure = self.settings.technique.measure();
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
         let count = surfaces.len();
         let rays = &mut self.rays[1];
@@ -30,11 +30,11 @@ impl Work<'_> {
         let mut reflected = [V8::default(); GROUP];
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, s)| s.reflects.any()) {
             let mut u = light[p];
-            let (chosen, rest) = world.lights.choose(choice.map_or(u.x, |choice| choice[p]));
+            let (mut chosen, rest) = world.lights.choose(choice.map_or(u.x, |choice| choice[p]));
             if choice.is_none() {
                 u.x = rest;
             }
-            let sample = world.lights.sample(&chosen, by_area, surface.point, u);
+            let sample = world.lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
             lit[p] = surface.reflects & sample.emits & sample.pdf.gt(zero) & cos.gt(zero);
             self.count.shadow += u64::from(lit[p].bits().count_ones());
@@ -79,7 +79,7 @@ impl Work<'_> {
             let met = lit[p] & hits[p].any();
             lit[p] = M8::splat(false);
             let mut found = V8::default();
-            world.each_shape(&hits[p], met, &rays[p], |here, shape, outward| {
+            world.each_shape(&hits[p], met, &rays[p], |_, here, shape, outward| {
                 if let Some((radiance, here)) = emitted(here, shape, outward, rays[p].direction) {
                     found = V8::select(here, radiance, found);
                     lit[p] = lit[p] | here;
@@ -98,11 +98,11 @@ impl Work<'_> {
 }
 
 #[inline]
-fn keep(v: V8, mask: M8) -> V8 {
+pub(super) fn keep(v: V8, mask: M8) -> V8 {
     V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
 }
 
 #[inline]
-fn product(a: V8, b: V8) -> V8 {
+pub(super) fn product(a: V8, b: V8) -> V8 {
     V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
 }

@@ -25,7 +25,8 @@ impl Default for Surface {
 
 impl World {
     /// Geometry and material where eight rays from the camera meet the scene.
-    #[inline]
+    // always: it has two callers, and a call would copy what it returns
+    #[inline(always)]
     pub(super) fn surface(&self, hits: &Hits, rays: &Rays) -> Surface {
         let shapes = hits.shapes();
         let meshes = hits.any() & !shapes;
@@ -39,7 +40,7 @@ impl World {
         surface
     }
 
-    #[inline]
+    #[inline(always)]
     fn mesh(&self, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) {
         let places = hits.place.as_array();
         let first = places[lanes.bits().trailing_zeros() as usize & 7];
@@ -79,13 +80,18 @@ impl World {
 
     #[inline]
     fn albedo(&self, place: u32) -> [f32; 3] {
-        let material = self.place_materials.get(place as usize).copied().unwrap_or(0);
-        self.materials[material as usize]
+        self.albedos[self.mesh_material(place) as usize]
     }
 
-    /// Calls `f` for each of the shapes that lanes have met: the lanes, the shape, and its outward normal there.
+    /// The material of a place of the tree.
     #[inline]
-    pub(super) fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(M8, &Shape, V8)) {
+    pub(super) fn mesh_material(&self, place: u32) -> u32 {
+        self.place_materials.get(place as usize).copied().unwrap_or(self.one_material)
+    }
+
+    /// Calls `f` for each of the shapes that lanes have met: its index, the lanes, the shape, and its outward normal there.
+    #[inline]
+    pub(super) fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(usize, M8, &Shape, V8)) {
         while lanes.any() {
             let lane = lanes.bits().trailing_zeros() as usize & 7;
             let place = hits.place.as_array()[lane];
@@ -98,21 +104,25 @@ impl World {
                 }
                 Geometry::Triangle(_) | Geometry::Parallelogram { .. } => V8::from(self.normals[index]),
             };
-            f(here, shape, outward);
+            f(index, here, shape, outward);
             lanes = lanes & !here;
         }
     }
 
     /// Spheres and emitters that eight rays meet.
     fn shapes(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
-        self.each_shape(hits, lanes, rays, |here, shape, outward| {
+        self.each_shape(hits, lanes, rays, |_, here, shape, outward| {
             if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
                 surface.emission = V8::select(lit, radiance, surface.emission);
             }
-            let albedo = self.materials[shape.material as usize];
+            let albedo = self.albedos[shape.material as usize];
             if albedo != [0.0; 3] {
                 let normal = facing(outward, rays.direction);
-                let point = rays.direction.mul_add(hits.distance, rays.origin);
+                let point = match shape.geometry {
+                    // however far the camera is, the point is on the sphere
+                    Geometry::Sphere { center, radius } => outward.mul_add(X8::splat(radius), center.into()),
+                    _ => rays.direction.mul_add(hits.distance, rays.origin),
+                };
                 let point = lift(point, normal, X8::splat(self.accel.shapes.reach()));
                 surface.point = V8::select(here, point, surface.point);
                 surface.normal = V8::select(here, normal, surface.normal);

@@ -4,7 +4,11 @@ use super::lexer::{Lexer, Token, shortened};
 use super::params::Params;
 use super::shapes::{self, Output, Surface};
 use super::transform::{Transform, length, scaled};
-use super::{Camera, Emission, Film, Lens, Message, Place, Scene, read_file, utf8};
+use super::{
+    BUILTIN_IMAGES, Camera, DeltaLight, Emission, Environment, Film, Lens, Material, Message, Place, Scene, lights,
+    materials, read_file, rounded, utf8,
+};
+use crate::image;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,7 +26,7 @@ const MOST_SAMPLES: i64 = 1 << 24;
 struct State {
     ctm: Transform,
     reverse: bool,
-    albedo: [f32; 3],
+    material: Material,
     emission: Option<Emission>,
 }
 
@@ -32,11 +36,13 @@ struct Reader<'a> {
     camera: Option<Camera>,
     film: Option<Film>,
     pixel_samples: Option<u32>,
+    delta_lights: Vec<DeltaLight>,
+    environment: Option<Environment>,
     out: Output,
     state: State,
     saved: Vec<(State, Place)>,
     systems: HashMap<String, Transform>,
-    named: HashMap<String, [f32; 3]>,
+    named: HashMap<String, Material>,
     in_world: bool,
     open_files: Vec<PathBuf>,
     included: usize,
@@ -44,13 +50,16 @@ struct Reader<'a> {
 
 /// Reads a whole scene; only a built-in one may name `builtin:` meshes.
 pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Result<Scene, Message> {
-    let state = State { ctm: Transform::IDENTITY, reverse: false, albedo: [0.5; 3], emission: None };
+    let material = Material::Diffuse([0.5; 3]);
+    let state = State { ctm: Transform::IDENTITY, reverse: false, material, emission: None };
     let mut reader = Reader {
         main_dir: dir,
         is_builtin,
         camera: None,
         film: None,
         pixel_samples: None,
+        delta_lights: Vec::new(),
+        environment: None,
         out: Output::default(),
         state,
         saved: Vec::new(),
@@ -75,7 +84,8 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
         return Err(end.message("the scene has no WorldBegin"));
     }
     let mut out = reader.out;
-    if !out.shapes.iter().any(|shape| shape.emission.is_some()) {
+    let emits = out.shapes.iter().any(|shape| shape.emission.is_some());
+    if !emits && reader.delta_lights.is_empty() && reader.environment.is_none() {
         out.warnings.push(end.message("nothing emits light: the image will be black"));
     }
     let name = Path::new(&*file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -88,6 +98,8 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
         triangles: out.triangles,
         triangle_materials: out.triangle_materials,
         shapes: out.shapes,
+        delta_lights: reader.delta_lights,
+        environment: reader.environment,
         warnings: out.warnings,
     })
 }
@@ -107,13 +119,14 @@ impl Reader<'_> {
 
     fn directive(&mut self, word: &str, place: Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
         const OPTIONS: [&str; 7] = ["Camera", "Film", "Sampler", "PixelFilter", "Integrator", "Accelerator", "Option"];
-        const WORLD: [&str; 10] = [
+        const WORLD: [&str; 11] = [
             "AttributeBegin",
             "AttributeEnd",
             "TransformBegin",
             "TransformEnd",
             "ReverseOrientation",
             "AreaLightSource",
+            "LightSource",
             "Material",
             "MakeNamedMaterial",
             "NamedMaterial",
@@ -180,16 +193,16 @@ impl Reader<'_> {
             "NamedMaterial" => {
                 let name = lexer.text("a name")?;
                 let unknown = || place.message(format!("no MakeNamedMaterial {:?} before this", shortened(&name)));
-                self.state.albedo = *self.named.get(&name).ok_or_else(unknown)?;
+                self.state.material = *self.named.get(&name).ok_or_else(unknown)?;
             }
             "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
-            | "Material" | "MakeNamedMaterial" | "Shape" => {
+            | "LightSource" | "Material" | "MakeNamedMaterial" | "Shape" => {
                 let kind = lexer.text("a type")?;
                 let params = Params::read(lexer, format!("{word} {:?}", shortened(&kind)), place)?;
                 self.with_params(word, &kind, params, dir)?;
             }
-            "LightSource" | "Texture" | "ObjectBegin" | "ObjectEnd" | "ObjectInstance" | "MediumInterface"
-            | "MakeNamedMedium" | "Attribute" | "Import" | "TransformTimes" => {
+            "Texture" | "ObjectBegin" | "ObjectEnd" | "ObjectInstance" | "MediumInterface" | "MakeNamedMedium"
+            | "Attribute" | "Import" | "TransformTimes" => {
                 return Err(place.message(format!("{word} is not supported")));
             }
             _ => return Err(place.message(format!("unknown directive {}", shortened(word)))),
@@ -220,15 +233,16 @@ impl Reader<'_> {
                 self.warn(&params.place, params.error("ignored").text);
                 return Ok(());
             }
-            "Material" => self.state.albedo = self.material(kind, &mut params)?,
+            "Material" => self.state.material = materials::read(kind, &mut params, &mut self.out.warnings)?,
             "MakeNamedMaterial" => {
                 let Some(of) = params.text("type")? else {
                     return Err(params.error("\"string type\" is missing"));
                 };
-                let albedo = self.material(&of, &mut params)?;
-                self.named.insert(kind.into(), albedo);
+                let material = materials::read(&of, &mut params, &mut self.out.warnings)?;
+                self.named.insert(kind.into(), material);
             }
             "AreaLightSource" => self.area_light(kind, &mut params)?,
+            "LightSource" => self.light(kind, &mut params, dir)?,
             _ => self.shape(kind, &mut params, dir)?,
         }
         self.out.warnings.extend(params.finish());
@@ -397,16 +411,23 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn material(&mut self, kind: &str, params: &mut Params) -> Result<[f32; 3], Message> {
-        if kind != "diffuse" {
-            return Err(params.error(format!("material type {:?} is not supported, only \"diffuse\"", shortened(kind))));
+    fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
+        let mut warnings = Vec::new();
+        let open = |name: &str| match BUILTIN_IMAGES.iter().find(|(known, _)| self.is_builtin && *known == name) {
+            Some((_, bytes)) => image::decode(Path::new(name), bytes),
+            None => image::read(&self.resolve(name, dir)),
+        };
+        let source = lights::read(kind, params, &self.state.ctm, &open, &mut warnings)?;
+        self.out.warnings.append(&mut warnings);
+        match source {
+            lights::Source::Delta(light) => self.delta_lights.push(light),
+            lights::Source::Environment(_) if self.environment.is_some() => {
+                return Err(params.error("a second one: only one infinite light is supported"));
+            }
+            lights::Source::Environment(environment) => self.environment = Some(environment),
+            lights::Source::Dark => {}
         }
-        let albedo = params.rgb("reflectance")?.unwrap_or([0.5; 3]);
-        if let Some(x) = albedo.iter().find(|&&x| x > 1.0) {
-            let text = params.error(format!("\"reflectance\": {x} is over 1: more light leaves than arrives")).text;
-            self.warn(&params.place, text);
-        }
-        rounded(albedo).ok_or_else(|| params.error(format!("\"reflectance\": {albedo:?} is too large for f32")))
+        Ok(())
     }
 
     fn area_light(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
@@ -439,7 +460,7 @@ impl Reader<'_> {
         let surface = Surface {
             ctm: self.state.ctm,
             flip: self.state.reverse != (det < 0.0),
-            material: self.out.material(self.state.albedo),
+            material: self.out.material(self.state.material),
             emission: self.state.emission,
         };
         params.reject(&["alpha", "displacement", "emissionfilename"])?;
@@ -460,10 +481,4 @@ impl Reader<'_> {
             _ => Err(params.error("shape not supported, only sphere, trianglemesh, bilinearmesh and plymesh")),
         }
     }
-}
-
-/// A colour in f32; `None` if a channel overflows.
-fn rounded(rgb: [f64; 3]) -> Option<[f32; 3]> {
-    let rgb = rgb.map(|x| x as f32);
-    rgb.iter().all(|x| x.is_finite()).then_some(rgb)
 }

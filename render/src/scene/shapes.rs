@@ -2,7 +2,7 @@
 
 use super::params::Params;
 use super::transform::{Transform, add, cross, dot, length, sub};
-use super::{Emission, Geometry, Message, Shape, ply, read_file, terrain as generated};
+use super::{Emission, Geometry, Material, Message, Shape, ply, read_file, terrain as generated};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -13,12 +13,12 @@ const FLATNESS: f64 = 1e-5;
 /// What the shapes of a scene become.
 #[derive(Debug, Default)]
 pub(super) struct Output {
-    pub(super) materials: Vec<[f32; 3]>,
+    pub(super) materials: Vec<Material>,
     pub(super) triangles: Vec<[[f32; 3]; 3]>,
     pub(super) triangle_materials: Vec<u32>,
     pub(super) shapes: Vec<Shape>,
     pub(super) warnings: Vec<Message>,
-    material_index: HashMap<[u32; 3], u32>,
+    material_index: HashMap<[u32; 8], u32>,
     warned: HashSet<&'static str>,
 }
 
@@ -33,10 +33,10 @@ pub(super) struct Surface {
 }
 
 impl Output {
-    /// The index of the material with this albedo.
-    pub(super) fn material(&mut self, albedo: [f32; 3]) -> u32 {
-        *self.material_index.entry(albedo.map(f32::to_bits)).or_insert_with(|| {
-            self.materials.push(albedo);
+    /// The index of the material.
+    pub(super) fn material(&mut self, material: Material) -> u32 {
+        *self.material_index.entry(material.words()).or_insert_with(|| {
+            self.materials.push(material);
             (self.materials.len() - 1) as u32
         })
     }

@@ -1,6 +1,7 @@
 //! The built-in scenes, transforms and orientation. Faulty input is in `faulty`, mesh files are in `meshes`.
 
 mod faulty;
+mod lights;
 mod meshes;
 
 use super::*;
@@ -54,7 +55,7 @@ fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
         assert_eq!(scene.triangle_materials.len(), triangles, "{name}");
         assert_eq!(scene.shapes.len(), lights, "{name}");
         assert!(scene.shapes.iter().all(|shape| shape.emission.is_some_and(|e| !e.two_sided)), "{name}");
-        assert!(scene.shapes.iter().all(|shape| scene.materials[shape.material as usize] == [0.0; 3]), "{name}");
+        assert!(scene.shapes.iter().all(|shape| scene.materials[shape.material as usize].is_black()), "{name}");
         assert_eq!(scene.pixel_samples, 64, "{name}");
         assert_eq!(scene.film, Film { width: 256, height: 256, filename: Some(format!("{name}.exr")) });
         assert!(scene.triangle_materials.iter().all(|&m| (m as usize) < scene.materials.len()));
@@ -85,7 +86,7 @@ fn builtin_lights_are_where_they_should_be() {
         assert_eq!(shape.geometry, Geometry::Parallelogram { p, u, v });
         assert_eq!(shape.emission.unwrap().radiance, radiance);
     }
-    assert_eq!(scene.materials, [[0.5; 3], [0.7; 3], [0.6, 0.3, 0.3], [0.0; 3]]);
+    assert_eq!(scene.materials, [[0.5; 3], [0.7; 3], [0.6, 0.3, 0.3], [0.0; 3]].map(Material::Diffuse));
     assert_eq!(scene.triangle_materials[..2], [0; 2]);
     assert_eq!(scene.triangle_materials[14..26], [1; 12]);
 
@@ -274,7 +275,7 @@ fn materials_and_lights_follow_the_graphics_state() {
          AttributeBegin NamedMaterial \"red\" AreaLightSource \"diffuse\" \"rgb L\" [1 2 3] \"float scale\" [2] \"bool twosided\" \"true\"\n\
          {TRIANGLE} AttributeEnd\n{TRIANGLE} Material \"diffuse\" {TRIANGLE}"
     )));
-    assert_eq!(scene.materials, [[0.25; 3], [1.0, 0.0, 0.0], [0.5; 3]]);
+    assert_eq!(scene.materials, [[0.25; 3], [1.0, 0.0, 0.0], [0.5; 3]].map(Material::Diffuse));
     assert_eq!(scene.triangle_materials, [0, 0, 2]);
     assert_eq!(scene.shapes[0].material, 1);
     assert_eq!(scene.shapes[0].emission, Some(Emission { radiance: [2.0, 4.0, 6.0], two_sided: true }));

@@ -54,7 +54,6 @@ fn errors_name_line_and_value() {
         ("Scale 1e300 1 1 Scale 1e300 1 1", 2, "no longer finite"),
         ("Scale 1 0 1\nShape \"sphere\"", 3, "its transform is singular"),
         // not supported
-        ("LightSource \"point\"", 2, "LightSource is not supported"),
         ("Texture \"a\" \"float\" \"constant\"", 2, "Texture is not supported"),
         ("ObjectBegin \"a\"", 2, "ObjectBegin is not supported"),
         ("ActiveTransform EndTime", 2, "ActiveTransform EndTime: not supported"),
@@ -63,7 +62,7 @@ fn errors_name_line_and_value() {
         ("Shape \"disk\"", 2, "Shape \"disk\": shape not supported"),
         ("Shape \"sphere\" \"float alpha\" 1", 2, "\"alpha\": not supported"),
         ("Material \"\"", 2, "material type \"\" is not supported"),
-        ("Material \"conductor\"", 2, "material type \"conductor\" is not supported"),
+        ("Material \"dielectric\"", 2, "material type \"dielectric\" is not supported"),
         ("Material \"diffuse\" \"texture reflectance\" \"t\"", 2, "type texture is not supported, only rgb"),
         ("MakeNamedMaterial \"m\"", 2, "\"string type\" is missing"),
         ("AreaLightSource \"spot\"", 2, "AreaLightSource \"spot\": not supported"),

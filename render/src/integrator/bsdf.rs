@@ -1,0 +1,276 @@
+//! What surfaces reflect: diffuse, perfect mirrors and rough metals, in packets.
+
+use crate::accel::{M8, V8, X8, equal, max, min, select};
+use crate::scene::Material;
+use etendue::warp::{CosineHemisphere, GgxVisibleNormals, UniformHemisphere};
+use etendue::{Frame, Real, Vec2, Warp, u32x8};
+
+const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
+
+/// Eight numbers a material, so that eight lanes are gathered by one transposition: roughness, η and k (or a mirror's reflectance, and
+/// 0), kind (bits).
+pub(super) type Finish = [f32; 8];
+
+// a diffuse one has kind 0
+const MIRROR: u32 = 1;
+const METAL: u32 = 2;
+const ROUGH: u32 = 3;
+
+/// Of a diffuse surface: the roughness is any that is sound.
+pub(super) const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+
+/// The record of a material.
+pub(super) fn finish(material: &Material) -> Finish {
+    let kind = |kind| f32::from_bits(kind);
+    match *material {
+        Material::Diffuse(_) => PLAIN,
+        Material::Mirror([r, g, b]) => [1.0, r, g, b, 0.0, 0.0, 0.0, kind(MIRROR)],
+        Material::Conductor { eta: [a, b, c], k: [x, y, z], alpha } if alpha > 0.0 => {
+            [alpha, a, b, c, x, y, z, kind(ROUGH)]
+        }
+        Material::Conductor { eta: [a, b, c], k: [x, y, z], .. } => [1.0, a, b, c, x, y, z, kind(METAL)],
+    }
+}
+
+/// What metals are made of, in each lane.
+#[derive(Clone, Copy)]
+pub(super) struct Metal {
+    alpha: X8,
+    eta: V8,
+    k: V8,
+    kind: u32x8,
+}
+
+impl Metal {
+    /// A record in each lane.
+    #[inline]
+    pub(super) fn new(rows: [&Finish; 8]) -> Self {
+        let r = X8::transpose(rows.map(|r| X8::from(&r[..])));
+        Self { alpha: r[0], eta: V8::new(r[1], r[2], r[3]), k: V8::new(r[4], r[5], r[6]), kind: r[7].to_bits() }
+    }
+    /// `yes` where the mask is true, `no` elsewhere.
+    #[inline]
+    pub(super) fn select(mask: M8, yes: &Self, no: &Self) -> Self {
+        Self {
+            alpha: select(mask, yes.alpha, no.alpha),
+            eta: V8::select(mask, yes.eta, no.eta),
+            k: V8::select(mask, yes.k, no.k),
+            kind: crate::accel::pick(mask, yes.kind, no.kind),
+        }
+    }
+    /// Lanes of perfect mirrors.
+    #[inline]
+    pub(super) fn mirrors(&self) -> M8 {
+        equal(self.kind, u32x8::splat(MIRROR)) | equal(self.kind, u32x8::splat(METAL))
+    }
+    /// Lanes of rough metals.
+    #[inline]
+    pub(super) fn rough(&self) -> M8 {
+        equal(self.kind, u32x8::splat(ROUGH))
+    }
+    /// Share of the light that a perfect mirror reflects at the cosine.
+    #[inline]
+    pub(super) fn reflectance(&self, cos: X8) -> V8 {
+        V8::select(equal(self.kind, u32x8::splat(MIRROR)), self.eta, self.fresnel(cos))
+    }
+    /// Reflectance of a smooth conductor for unpolarised light, per channel.
+    #[inline]
+    pub(super) fn fresnel(&self, cos: X8) -> V8 {
+        let of = |eta, k| fresnel(cos, eta, k);
+        V8::new(of(self.eta.x, self.k.x), of(self.eta.y, self.k.y), of(self.eta.z, self.k.z))
+    }
+}
+
+/// Reflectance of a smooth conductor with the index η + ik for unpolarised light.
+///
+/// With t₀ = η² − k² − sin²θ and a² + b² = √(t₀² + 4η²k²), 2a² = a² + b² + t₀: r⊥ and r∥ of PBR 4th ed., 9.3.6, in real numbers (Born and
+/// Wolf, 14.2). Of the two forms of 2a² it takes the one that does not cancel.
+#[inline]
+fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
+    let (zero, one, two) = (X8::lit(0.0), X8::lit(1.0), X8::lit(2.0));
+    let cos = min(max(cos, zero), one);
+    let square = cos * cos;
+    let sin = one - square;
+    let (eta_squared, k_squared) = (eta * eta, k * k);
+    let t0 = eta_squared - k_squared - sin;
+    let product = X8::lit(4.0) * eta_squared * k_squared;
+    let sum = t0.mul_add(t0, product).sqrt();
+    let opposite = sum - t0;
+    let some = opposite.gt(zero);
+    let twice = select(t0.lt(zero), product / select(some, opposite, one), sum + t0);
+    let t2 = two * cos * (twice * X8::lit(0.5)).sqrt();
+    let t1 = sum + square;
+    let ratio = |low: X8, high: X8| {
+        let some = high.gt(zero);
+        select(some, low / select(some, high, one), one)
+    };
+    let across = ratio(t1 - t2, t1 + t2);
+    let (t3, t4) = (square.mul_add(sum, sin * sin), t2 * sin);
+    let along = across * ratio(t3 - t4, t3 + t4);
+    X8::lit(0.5) * (across + along)
+}
+
+/// What eight surfaces reflect, seen from given directions.
+#[derive(Clone, Copy)]
+pub(super) struct Bsdf {
+    frame: Frame<X8>,
+    albedo: V8,
+    /// Where lanes are rough: the metal, and where it is seen from, in the frame.
+    rough: Option<(M8, Metal, V8)>,
+}
+
+impl Bsdf {
+    /// Of surfaces with this normal and albedo, seen against `direction`.
+    #[inline]
+    pub(super) fn new(normal: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
+        let frame = Frame::new(normal);
+        let rough = metal.map(|m| (m.rough(), m, frame.to_local(-direction)));
+        Self { frame, albedo, rough: rough.filter(|(lanes, ..)| etendue::Mask::any(*lanes)) }
+    }
+    /// f·cosθ towards the unit vector `w`, and the density of [`sample`](Self::sample) there; both 0 below the horizon.
+    #[inline]
+    pub(super) fn evaluate(&self, w: V8) -> (V8, X8) {
+        let local = self.frame.to_local(w);
+        let above = local.z.gt(X8::lit(0.0));
+        let mut pdf: X8 = CosineHemisphere.pdf(local).keep(above);
+        let mut value = self.albedo * (local.z * X8::lit(INV_PI)).keep(above);
+        if let Some((lanes, metal, view)) = &self.rough {
+            let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
+            let m = (local + *view).normalize();
+            let density = normals.reflected_pdf(m).keep(above);
+            // f cosθ = F D G₂/(4 cosθᵢ) and the density is D G₁/(4 cosθᵢ): what remains is F G₂/G₁
+            let share = density * shadowing(metal.alpha, view.z, local.z);
+            value = V8::select(*lanes, metal.fresnel(view.dot(m)) * share, value);
+            pdf = select(*lanes, density, pdf);
+        }
+        (value, pdf)
+    }
+    /// A direction: by the cosine, or about a visible normal.
+    #[inline]
+    pub(super) fn sample(&self, u: Vec2<X8>) -> V8 {
+        let mut local: V8 = CosineHemisphere.sample(u);
+        if let Some((lanes, metal, view)) = &self.rough {
+            let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
+            local = V8::select(*lanes, normals.reflect(normals.sample(u)), local);
+        }
+        self.frame.to_world(local)
+    }
+    /// A direction by the cosine, whatever the surface is.
+    #[inline]
+    pub(super) fn by_cosine(&self, u: Vec2<X8>) -> V8 {
+        self.frame.to_world(CosineHemisphere.sample(u))
+    }
+    /// Its density.
+    #[inline]
+    pub(super) fn cosine_pdf(&self, w: V8) -> X8 {
+        CosineHemisphere.pdf(self.frame.to_local(w))
+    }
+    /// A uniform direction, whatever the surface is.
+    #[inline]
+    pub(super) fn uniform(&self, u: Vec2<X8>) -> V8 {
+        self.frame.to_world(UniformHemisphere.sample(u))
+    }
+    /// Its density.
+    #[inline]
+    pub(super) fn uniform_pdf(&self, w: V8) -> X8 {
+        UniformHemisphere.pdf(self.frame.to_local(w))
+    }
+}
+
+/// G₂/G₁ of Smith's masking and shadowing, with heights correlated (Heitz 2014, equation 99): (1 + Λᵢ)/(1 + Λᵢ + Λₒ), where
+/// 1 + 2Λ = √(1 + α²tan²θ), without quotients by a cosine.
+#[inline]
+fn shadowing(alpha: X8, cos_i: X8, cos_o: X8) -> X8 {
+    let one = X8::lit(1.0);
+    let root = |cos: X8| {
+        let square = cos * cos;
+        (alpha * alpha).mul_add(one - square, square).sqrt()
+    };
+    let (i, o) = (root(cos_i), root(cos_o));
+    let denominator = i.mul_add(cos_o, o * cos_i);
+    let some = denominator.gt(X8::lit(0.0));
+    (cos_o * (i + cos_i) / select(some, denominator, one)).keep(some)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn complex(cos: f64, eta: f64, k: f64) -> f64 {
+        // r⊥ = (cosθ − m cosθₜ)/(cosθ + m cosθₜ), r∥ = (m cosθ − cosθₜ)/(m cosθ + cosθₜ), m cosθₜ = √(m² − sin²θ)
+        let (re, im) = (eta * eta - k * k - (1.0 - cos * cos), 2.0 * eta * k);
+        let modulus = re.hypot(im);
+        let (a, b) = (((modulus + re) / 2.0).sqrt(), ((modulus - re) / 2.0).sqrt());
+        let ratio = |(p, q): (f64, f64), (r, s): (f64, f64)| (p * p + q * q) / (r * r + s * s);
+        let across = ratio((cos - a, -b), (cos + a, b));
+        // times m: m² cosθ ∓ m cosθₜ
+        let (x, y) = ((eta * eta - k * k) * cos, 2.0 * eta * k * cos);
+        let along = ratio((x - a, y - b), (x + a, y + b));
+        0.5 * (across + along)
+    }
+
+    #[test]
+    fn fresnel_is_that_of_complex_numbers() {
+        let mut greatest = 0.0_f64;
+        for (eta, k) in [(0.2, 3.9), (1.44, 1.6), (1.0, 2.0), (1.0, 199.98), (1.5, 0.0), (0.04, 4.8), (9.0, 3.0)] {
+            for i in 0..=1000 {
+                let cos = f64::from(i) / 1000.0;
+                let [c, e, x] = [cos, eta, k].map(|x| x as f32);
+                let truth = complex(c.into(), e.into(), x.into());
+                let value = f64::from(fresnel(X8::splat(c), X8::splat(e), X8::splat(x)).lane(3));
+                assert!((value - truth).abs() < 2e-6, "{eta} {k} at {cos}: {value} for {truth}");
+                greatest = greatest.max((value - truth).abs());
+            }
+        }
+        assert!(greatest > 0.0);
+        // at right angles, with η = 1: k²/(k² + 4)
+        assert!((fresnel(X8::lit(1.0), X8::lit(1.0), X8::lit(2.0)).lane(0) - 0.5).abs() < 1e-7);
+        // nothing at all, and a vacuum
+        for (cos, eta, k) in [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, 1.0, 0.0)] {
+            let f = fresnel(X8::lit(cos), X8::lit(eta), X8::lit(k)).lane(0);
+            assert!((0.0..=1.0).contains(&f), "{cos} {eta} {k}: {f}");
+        }
+    }
+
+    /// The white furnace's share that single scattering keeps: ∫f cosθ dω by sampling the surface and by a grid over the hemisphere; the
+    /// density integrates to what of it lies above the horizon.
+    #[test]
+    fn rough_metal_integrates() {
+        for alpha in [0.1_f32, 0.4, 1.0] {
+            let metal = Metal::new([&[alpha, 0.2, 1.0, 1.1, 3.9, 2.4, 2.1, f32::from_bits(ROUGH)]; 8]);
+            for sin in [0.0_f32, 0.6, 0.95] {
+                let cos = (1.0 - sin * sin).sqrt();
+                let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
+                let toward = V8::from([-sin, 0.0, -cos]);
+                let bsdf = Bsdf::new(normal, V8::default(), toward, Some(metal));
+                let n = 1024_u16;
+                let (mut sampled, mut weight, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
+                for i in 0..n {
+                    for j in (0..n).step_by(8) {
+                        let u = Vec2::new(
+                            X8::splat((f32::from(i) + 0.5) / f32::from(n)),
+                            X8::from_fn(|lane| (f32::from(j) + lane as f32 + 0.5) / f32::from(n)),
+                        );
+                        let w = bsdf.sample(u);
+                        let (value, pdf) = bsdf.evaluate(w);
+                        let uniform: V8 = UniformHemisphere.sample(u);
+                        let (at, d) = bsdf.evaluate(uniform);
+                        for lane in 0..8 {
+                            if pdf.lane(lane) > 0.0 {
+                                sampled += f64::from(value.x.lane(lane) / pdf.lane(lane));
+                                weight += 1.0;
+                            }
+                            grid += f64::from(at.x.lane(lane)) * std::f64::consts::TAU;
+                            density += f64::from(d.lane(lane)) * std::f64::consts::TAU;
+                        }
+                    }
+                }
+                let count = f64::from(n) * f64::from(n);
+                let [sampled, weight, grid, density] = [sampled, weight, grid, density].map(|x| x / count);
+                assert!((sampled - grid).abs() < 3e-3, "α {alpha}, sin {sin}: {sampled} sampled, {grid} on a grid");
+                assert!((weight - density).abs() < 3e-3, "α {alpha}, sin {sin}: {weight} above, {density} integrated");
+                assert!(sampled > 0.2 && sampled < 1.0, "α {alpha}, sin {sin}: {sampled}");
+            }
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! `LightSource`: lights that are no shapes.
+
+use super::lexer::shortened;
+use super::params::Params;
+use super::transform::{Transform, sub, unit};
+use super::{Message, rounded};
+use crate::image::{ImageError, Picture};
+use etendue::light::EnvironmentMap;
+
+/// A light in one direction from every point; nothing can hit it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DeltaLight {
+    /// The same intensity in all directions.
+    Point {
+        /// Where.
+        position: [f32; 3],
+        /// Linear RGB.
+        intensity: [f32; 3],
+    },
+    /// Intensity in a cone, which falls off smoothly between two angles.
+    Spot {
+        /// Where.
+        position: [f32; 3],
+        /// Unit vector along which the light travels.
+        axis: [f32; 3],
+        /// Cosine of the angle up to which the intensity is full.
+        cos_inner: f32,
+        /// Cosine of the angle from which it is 0.
+        cos_outer: f32,
+        /// On the axis, linear RGB.
+        intensity: [f32; 3],
+    },
+    /// Parallel light.
+    Distant {
+        /// Unit vector towards the light.
+        direction: [f32; 3],
+        /// Irradiance of what faces it, linear RGB.
+        irradiance: [f32; 3],
+    },
+}
+
+/// Light from infinitely far, all around.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    /// Rows of the orthogonal matrix that takes a direction of the world to one of the light.
+    pub to_light: [[f32; 3]; 3],
+    /// Radiance.
+    pub sky: Sky,
+}
+
+/// Radiance of an [`Environment`], linear RGB.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Sky {
+    /// The same from everywhere.
+    Constant([f32; 3]),
+    /// Constant in each texel.
+    Image {
+        /// Columns.
+        width: usize,
+        /// How the image covers the directions.
+        map: EnvironmentMap,
+        /// Row by row; at least one channel is over 0.
+        texels: Vec<[f32; 3]>,
+    },
+}
+
+/// What a `LightSource` makes.
+pub(super) enum Source {
+    Delta(DeltaLight),
+    Environment(Environment),
+    /// It emits nothing.
+    Dark,
+}
+
+/// Texels of an environment, at the most.
+const MOST_TEXELS: usize = 1 << 26;
+
+/// Reads a `LightSource`; `open` reads the file of an image.
+pub(super) fn read(
+    kind: &str,
+    params: &mut Params,
+    ctm: &Transform,
+    open: &dyn Fn(&str) -> Result<Picture, ImageError>,
+    warnings: &mut Vec<Message>,
+) -> Result<Source, Message> {
+    if !["point", "spot", "distant", "infinite"].contains(&kind) {
+        return Err(params.error("not supported, only \"point\", \"spot\", \"distant\" and \"infinite\""));
+    }
+    params.reject(&["power", "illuminance", "portal"])?;
+    let scale = params.float("scale")?.unwrap_or(1.0);
+    if scale < 0.0 {
+        return Err(params.error(format!("\"scale\": {scale} is negative")));
+    }
+    let file = if kind == "infinite" { params.text("filename")? } else { None };
+    let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
+    let colour = params.rgb(name)?;
+    let source = match file {
+        Some(_) if colour.is_some() => return Err(params.error("\"filename\" excludes \"L\"")),
+        Some(file) => {
+            let to_light = turned(params, ctm)?;
+            match picture(params, &file, open, scale, warnings)? {
+                Some(sky) => Source::Environment(Environment { to_light, sky }),
+                None => Source::Dark,
+            }
+        }
+        None => {
+            let colour = colour.unwrap_or([1.0; 3]).map(|x| x * scale);
+            let too_large = || params.error(format!("{name:?} times \"scale\" is {colour:?}: too large for f32"));
+            let colour = rounded(colour).ok_or_else(too_large)?;
+            let source = constant(kind, params, ctm, colour)?;
+            if colour == [0.0; 3] { Source::Dark } else { source }
+        }
+    };
+    if matches!(source, Source::Dark) {
+        warnings.push(params.error("emits nothing"));
+    }
+    Ok(source)
+}
+
+fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) -> Result<Source, Message> {
+    let mut point = |name: &str, default: [f64; 3]| -> Result<[f64; 3], Message> {
+        let Some(p) = params.numbers(name, "point3", 3)? else { return Ok(default) };
+        <[f64; 3]>::try_from(&p[..])
+            .map_err(|_| params.error(format!("{name:?}: expected three numbers, found {}", p.len())))
+    };
+    if kind == "infinite" {
+        return Ok(Source::Environment(Environment { to_light: turned(params, ctm)?, sky: Sky::Constant(colour) }));
+    }
+    let from = point("from", [0.0; 3])?;
+    let position = ctm.point(from).map(|x| x as f32);
+    if !position.iter().all(|x| x.is_finite()) {
+        return Err(params.error(format!("it is at {:?}, which is not finite in f32", ctm.point(from))));
+    }
+    if kind == "point" {
+        return Ok(Source::Delta(DeltaLight::Point { position, intensity: colour }));
+    }
+    let to = point("to", [0.0, 0.0, 1.0])?;
+    let axis = unit(ctm.vector(sub(to, from)));
+    let axis = axis.ok_or_else(|| params.error(format!("\"from\" {from:?} and \"to\" {to:?} define no direction")))?;
+    if kind == "distant" {
+        let direction = axis.map(|x| -x as f32);
+        return Ok(Source::Delta(DeltaLight::Distant { direction, irradiance: colour }));
+    }
+    if ctm.similarity().is_none() {
+        return Err(params.error("its transform stretches its cone, which is not supported"));
+    }
+    let outer = params.float("coneangle")?.unwrap_or(30.0);
+    let delta = params.float("conedeltaangle")?.unwrap_or(5.0);
+    if !(outer > 0.0 && outer <= 180.0) {
+        return Err(params.error(format!("\"coneangle\": {outer} is not over 0 and up to 180")));
+    }
+    if !(0.0..=outer).contains(&delta) {
+        return Err(params.error(format!("\"conedeltaangle\": {delta} is not within 0 and the cone's {outer}")));
+    }
+    let cosine = |degrees: f64| degrees.to_radians().cos() as f32;
+    let [cos_inner, cos_outer] = [outer - delta, outer].map(cosine);
+    let axis = axis.map(|x| x as f32);
+    Ok(Source::Delta(DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity: colour }))
+}
+
+/// World to light, without the scale.
+fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
+    let stretched = || params.error("its transform is not a rotation, reflection and uniform scale");
+    let factor = ctm.similarity().ok_or_else(stretched)?;
+    // an orthogonal matrix is inverted by its transpose
+    Ok(std::array::from_fn(|i| std::array::from_fn(|j| (ctm.linear[j][i] / factor) as f32)))
+}
+
+/// The image of an environment; nothing if it is black.
+fn picture(
+    params: &Params,
+    name: &str,
+    open: &dyn Fn(&str) -> Result<Picture, ImageError>,
+    scale: f64,
+    warnings: &mut Vec<Message>,
+) -> Result<Option<Sky>, Message> {
+    let image = open(name).map_err(|error| params.error(error.to_string()))?;
+    let (width, height) = (image.width, image.height);
+    let wrong = |what: String| params.error(format!("{}: {what}", shortened(name)));
+    let map = match (width, height) {
+        _ if width == height => EnvironmentMap::EqualArea,
+        _ if width == 2 * height => EnvironmentMap::Equirectangular,
+        _ => {
+            return Err(wrong(format!(
+                "{width}×{height} texels: want a square (equal-area octahedral) or 2:1 (equirectangular)"
+            )));
+        }
+    };
+    if width * height > MOST_TEXELS {
+        return Err(wrong(format!("{width}×{height} texels are over 2^26")));
+    }
+    let mut negative = 0;
+    let mut texels = Vec::with_capacity(image.radiance.len());
+    for (i, texel) in image.radiance.iter().enumerate() {
+        let rgb = texel.map(|x| (f64::from(x) * scale) as f32);
+        // the sum of the channels is what is sampled by
+        if !rgb.iter().sum::<f32>().is_finite() {
+            return Err(wrong(format!("texel ({}, {}) is {texel:?}, times {scale}", i % width, i / width)));
+        }
+        negative += usize::from(rgb.iter().any(|&x| x < 0.0));
+        texels.push(rgb.map(|x| x.max(0.0)));
+    }
+    if negative > 0 {
+        warnings.push(wrong(format!("{negative} texels have negative values, taken as 0")));
+    }
+    let black = texels.iter().all(|t| *t == [0.0; 3]);
+    Ok((!black).then_some(Sky::Image { width, map, texels }))
+}

@@ -1,0 +1,256 @@
+//! Lights and mirrors against closed forms: points, spots and parallel light over a plane, the image in a mirror, a sky.
+
+use clap::ValueEnum;
+use etendue_render::compare::Comparison;
+use etendue_render::film::Film;
+use etendue_render::image::Picture;
+use etendue_render::{Sampler, Settings, Technique, World, scene};
+use std::f64::consts::PI;
+use std::path::Path;
+
+const LIMIT: f64 = 4.5;
+
+fn world(text: &str) -> World {
+    let scene =
+        scene::parse(text, "test.pbrt", Path::new("no such directory")).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    World::new(&scene).unwrap()
+}
+
+/// A camera of so narrow a view that a pixel is a point: the origin seen from `eye`.
+fn narrow(eye: &str, scene: &str) -> World {
+    world(&format!("LookAt {eye} 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{scene}"))
+}
+
+const PLANE: &str = "Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n\
+    Shape \"bilinearmesh\" \"point3 P\" [-9 0 9  9 0 9  -9 0 -9  9 0 -9]\n";
+
+fn settings(technique: Technique, sampler: Sampler, spp: u32, side: u32) -> Settings {
+    Settings { width: side, height: side, spp, technique, depth: 8, sampler, seed: 3 }
+}
+
+/// Mean and standard error of a pixel.
+fn pixel(world: &World, technique: Technique, spp: u32) -> ([f64; 3], [f64; 3]) {
+    let (film, _) = world.render(&settings(technique, Sampler::Independent, spp, 1), |_| ());
+    let pixel = film.pixels[0];
+    (pixel.mean.map(f64::from), pixel.variance.map(|v| f64::from(v).sqrt()))
+}
+
+/// Every technique gives this irradiance times albedo/π: exactly, and with no noise, if the light has one direction only.
+fn exactly(world: &World, irradiance: [f64; 3]) {
+    for &technique in Technique::value_variants() {
+        let (mean, error) = pixel(world, technique, 24);
+        for (k, albedo) in [0.8, 0.5, 0.2].into_iter().enumerate() {
+            let truth = irradiance[k] * albedo / PI;
+            assert!((mean[k] - truth).abs() <= 3e-5 * truth, "{technique:?}: {mean:?}, {truth} in channel {k}");
+            assert!(error[k] <= 1e-4 * truth, "{technique:?}: {error:?} of {truth}");
+        }
+    }
+}
+
+#[test]
+fn point_over_a_plane() {
+    let scene = format!("{PLANE}LightSource \"point\" \"point3 from\" [.3 2 -.5] \"rgb I\" [1 2 3]");
+    let squared: f64 = 0.09 + 4.0 + 0.25;
+    let each = 2.0 / squared.sqrt() / squared;
+    exactly(&narrow("1 5 2", &scene), [each, 2.0 * each, 3.0 * each]);
+    // from below no light reaches it, nor through a ball
+    exactly(&narrow("1 -5 2", &scene), [0.0; 3]);
+    let hidden = format!("{scene} Translate .15 1 -.25 Shape \"sphere\" \"float radius\" .2");
+    exactly(&narrow("1 5 2", &hidden), [0.0; 3]);
+}
+
+#[test]
+fn spot_over_a_plane() {
+    // the axis points a little past the origin, which is seen between the two angles
+    let scene = format!(
+        "{PLANE}LightSource \"spot\" \"point3 from\" [0 2 0] \"point3 to\" [.5 0 0] \"float coneangle\" 20 \"float conedeltaangle\" 10"
+    );
+    let cos = |degrees: f64| degrees.to_radians().cos();
+    let t = ((2.0 / 4.25_f64.sqrt()) - cos(20.0)) / (cos(10.0) - cos(20.0));
+    assert!(t > 0.1 && t < 0.9);
+    exactly(&narrow("1 5 2", &scene), [t * t * (3.0 - 2.0 * t) / 4.0; 3]);
+    exactly(&narrow("1 5 2", &scene.replace("[.5 0 0]", "[2 0 0]")), [0.0; 3]);
+}
+
+#[test]
+fn parallel_light_over_a_plane() {
+    let scene =
+        format!("{PLANE}LightSource \"distant\" \"point3 from\" [3 4 0] \"rgb L\" [1 .5 2] \"point3 to\" [0 0 0]");
+    exactly(&narrow("1 5 2", &scene), [0.8, 0.4, 1.6]);
+    // three at once: all of them, still without noise
+    let more = format!(
+        "{scene} LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] LightSource \"point\" \"point3 from\" [0 1 0]"
+    );
+    exactly(&narrow("1 5 2", &more), [2.8, 2.4, 3.6]);
+}
+
+/// Over 32 delta lights, and delta lights beside others, are chosen among by chance.
+#[test]
+fn many_delta_lights_and_mixed_ones() {
+    let mut scene = PLANE.to_owned();
+    let mut irradiance = 0.0;
+    for i in 0..50 {
+        let intensity = 0.1 + f64::from(i % 7);
+        let height = 1.0 + 0.1 * f64::from(i);
+        scene += &format!("LightSource \"point\" \"point3 from\" [0 {height} 0] \"float scale\" {intensity}\n");
+        irradiance += intensity / (height * height);
+    }
+    let sphere = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \
+                  Translate 2 2 0 Shape \"sphere\" \"float radius\" .5 AttributeEnd";
+    // facing it, a sphere gives π sin²σ
+    let ball = 5.0 * PI * 0.25 / 8.0 / 2.0_f64.sqrt();
+    for (scene, irradiance) in [(scene.clone(), irradiance), (format!("{scene}{sphere}"), irradiance + ball)] {
+        let world = narrow("1 5 2", &scene);
+        for &technique in Technique::value_variants() {
+            let (mean, error) = pixel(&world, technique, 4096);
+            let z = (mean[0] - irradiance * 0.8 / PI) / error[0];
+            assert!(z.abs() < LIMIT && error[0] < 0.1 * mean[0], "{technique:?}: {mean:?} ± {error:?}, {irradiance}");
+        }
+    }
+}
+
+#[test]
+fn uniform_sky() {
+    let scene = format!("{PLANE}LightSource \"infinite\" \"rgb L\" [1 2 4]");
+    let world = narrow("1 5 2", &scene);
+    for &technique in Technique::value_variants() {
+        let (mean, error) = pixel(&world, technique, 4096);
+        for (k, truth) in [0.8, 1.0, 0.8].into_iter().enumerate() {
+            let off = (mean[k] - truth).abs();
+            assert!(off < LIMIT * error[k] + 1e-5, "{technique:?}: {mean:?} ± {error:?}");
+            assert!(error[k] < 0.03, "{technique:?}: {error:?}");
+            // in proportion to the cosine each sample is worth the same
+            if matches!(technique, Technique::CosineHemisphere | Technique::Brdf | Technique::ProjectedSolidAngle) {
+                assert!(off < 1e-5 && error[k] < 1e-5, "{technique:?}: {mean:?} ± {error:?}");
+            }
+        }
+    }
+    // and it is seen
+    let (mean, _) = pixel(&narrow("1 5 2", "LightSource \"infinite\" \"rgb L\" [1 2 4]"), Technique::MisPower, 8);
+    assert_eq!(mean, [1.0, 2.0, 4.0]);
+}
+
+/// Half of the sky is white, by an image of two texels: what a plane gets of it, and where it is seen.
+#[test]
+fn half_a_sky() {
+    let folder = std::env::temp_dir().join(format!("etendue-half-sky-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    // azimuth from +x to −x by +y, about z
+    exr::prelude::write_rgb_file(folder.join("half.exr"), 2, 1, |x, _| {
+        if x == 0 { (1.0_f32, 1.0_f32, 1.0_f32) } else { (0.0, 0.0, 0.0) }
+    })
+    .unwrap();
+    let load = |eye: &str, transform: &str, rest: &str| {
+        let text = format!(
+            "LookAt {eye} 0 0 0  0.1 0.2 1\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n\
+             AttributeBegin {transform} LightSource \"infinite\" \"string filename\" \"half.exr\" AttributeEnd\n{rest}"
+        );
+        World::new(&scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|e| panic!("{e}"))).unwrap()
+    };
+    let plane = "Material \"diffuse\" \"rgb reflectance\" [.8 .8 .8] Rotate 30 1 0 0\n\
+                 Shape \"trianglemesh\" \"point3 P\" [-9 -9 0  9 -9 0  0 9 0]";
+    // of the hemisphere about the plane's normal (0, −½, √¾) the white half holds a lune of 60 degrees: π(1 + cos120°)/2
+    let world = load("0 -1 4", "", plane);
+    for &technique in Technique::value_variants() {
+        let (mean, error) = pixel(&world, technique, 4096);
+        let truth = 0.8 * (1.0 - 0.5) / 2.0;
+        assert!((mean[0] - truth).abs() < LIMIT * error[0] && error[0] < 0.02, "{technique:?}: {mean:?} ± {error:?}");
+    }
+    let seen = |eye: &str, transform: &str| pixel(&load(eye, transform, ""), Technique::MisPower, 8).0[0];
+    assert_eq!([seen("0 -5 1", ""), seen("0 5 1", "")], [1.0, 0.0]);
+    // turned by a quarter about z: +y becomes −x
+    assert_eq!([seen("5 0 1", "Rotate 90 0 0 1"), seen("-5 0 1", "Rotate 90 0 0 1")], [1.0, 0.0]);
+    assert_eq!([seen("0 -5 1", "Scale 1 -1 1"), seen("0 5 1", "Scale 1 -1 1")], [0.0, 1.0]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+fn picture(film: &Film) -> Picture {
+    Picture {
+        width: film.width as usize,
+        height: film.height as usize,
+        radiance: film.pixels.iter().map(|p| p.mean).collect(),
+        variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
+    }
+}
+
+/// What a camera sees in a floor of mirror is what its mirror image sees of the scene, upside down.
+#[test]
+fn a_mirror_shows_the_mirror_image() {
+    let objects = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [5 4 3] \
+        Shape \"bilinearmesh\" \"point3 P\" [-1 3 -1  1 3 -1  -1 3 1  1 3 1] AttributeEnd\n\
+        AttributeBegin Translate .5 1 0 Material \"diffuse\" \"rgb reflectance\" [.7 .2 .7] Shape \"sphere\" \"float radius\" .6 AttributeEnd\n\
+        LightSource \"point\" \"point3 from\" [-2 1 2] \"rgb I\" [3 3 9]\n\
+        Shape \"trianglemesh\" \"point3 P\" [-1.5 .5 -.5  -.2 .5 -.5  -.8 2 .3]\n";
+    let view = |eye: &str, up: &str| format!("LookAt {eye} {up} Camera \"perspective\" \"float fov\" 40 WorldBegin\n");
+    let floor = "Material \"mirror\" \"rgb Kr\" [1 1 1] Shape \"bilinearmesh\" \"point3 P\" [-90 0 90  90 0 90  -90 0 -90  90 0 -90]\n";
+    let above = world(&format!("{}{objects}{floor}", view("0 2 5  0 -1.5 0", "0 1 0")));
+    let below = world(&format!("{}{objects}", view("0 -2 5  0 1.5 0", "0 1 0")));
+    for technique in [Technique::SolidAngle, Technique::Area, Technique::MisPower, Technique::Brdf] {
+        let [a, b] = [(&above, 3), (&below, 4)].map(|(world, seed)| {
+            let settings = Settings { seed, ..settings(technique, Sampler::Independent, 128, 48) };
+            picture(&world.render(&settings, |_| ()).0)
+        });
+        let flip = |rows: &[[f32; 3]]| rows.chunks(48).rev().flatten().copied().collect::<Vec<_>>();
+        let b = Picture { radiance: flip(&b.radiance), variance: b.variance.as_deref().map(flip), ..b };
+        let p = Comparison::new(&b, &a, 0.0).unwrap().predicted.unwrap();
+        assert!(p.z.iter().all(|z| z.abs() < LIMIT) && p.z_mse.abs() < LIMIT, "{technique:?}: {p:?}");
+        assert!(a.radiance.iter().flatten().any(|&x| x > 4.5), "the light is not in view");
+        // the check sees an image that is upside down
+        let p = Comparison::new(&Picture { radiance: flip(&b.radiance), ..b.clone() }, &a, 0.0).unwrap();
+        assert!(p.predicted.unwrap().z_mse > 20.0);
+    }
+}
+
+/// Two mirrors face each other: a light beside the camera is seen after exactly so many of them, each time by Kr less.
+#[test]
+fn chains_of_mirrors_end_at_their_depth() {
+    let mirrors = "Material \"mirror\" \"rgb Kr\" [.5 .5 .5]\n\
+        Shape \"bilinearmesh\" \"point3 P\" [-50 -2 9  50 -2 9  -50 -2 -9  50 -2 -9]\n\
+        Shape \"bilinearmesh\" \"point3 P\" [-50 2 9  50 2 9  -50 2 -9  50 2 -9]\n";
+    // the ray from (−18, 0) to (0, 0) in the plane z = 0 climbs by none; towards (−16, −2) it runs at 45 degrees and is reflected every 4
+    for (depth, x) in [(1, -14.0), (2, -10.0), (3, -6.0), (5, 2.0)] {
+        // between two reflections the ray is at y = 0
+        let light = format!(
+            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [8 8 8] \
+             Translate {x} 0 0 Shape \"sphere\" \"float radius\" .2 AttributeEnd\n"
+        );
+        let text = format!(
+            "LookAt -18 0 0 -17 -1 0 0 0 1 Camera \"perspective\" \"float fov\" 1e-3 WorldBegin\n{mirrors}{light}"
+        );
+        let world = world(&text);
+        for allowed in 0..8 {
+            let settings = Settings { depth: allowed, ..settings(Technique::SolidAngle, Sampler::Stratified, 11, 2) };
+            let (film, rays) = world.render(&settings, |_| ());
+            let expected = if allowed >= depth { 8.0 * 0.5_f32.powi(depth as i32) } else { 0.0 };
+            let seen = film.pixels[3].mean;
+            assert!((seen[1] - expected).abs() < 1e-5, "{depth} mirrors, {allowed} allowed: {seen:?}");
+            assert_eq!(rays.mirror, 44 * u64::from(allowed.min(depth)));
+        }
+    }
+}
+
+/// A mirror hit by a shadow ray blocks, as by any technique; so does a rough metal.
+#[test]
+fn mirrors_block() {
+    for material in ["Material \"mirror\"", "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" .3"]
+    {
+        let scene = format!(
+            "{PLANE}LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n\
+             AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"sphere\" \"float radius\" .2 AttributeEnd\n\
+             {material} Shape \"bilinearmesh\" \"point3 P\" [-9 1 9  9 1 9  -9 1 -9  9 1 -9]"
+        );
+        exactly(&narrow("1 .5 .2", &scene), [0.0; 3]);
+    }
+}
+
+/// Spheres keep their own colour where all triangles share one that comes later in the file.
+#[test]
+fn materials_are_not_mixed_up() {
+    let scene = "Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2] Shape \"sphere\" \"float radius\" 1e-3\n\
+        Material \"diffuse\" \"rgb reflectance\" [0 1 0] Shape \"trianglemesh\" \"point3 P\" [-9 -1 9  9 -1 9  0 -1 -9]\n\
+        LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]";
+    let (mean, _) = pixel(&narrow("0 5 1e-9", scene), Technique::SolidAngle, 64);
+    for (k, albedo) in [0.8, 0.5, 0.2].into_iter().enumerate() {
+        assert!((mean[k] - albedo / PI).abs() < 0.02 * albedo, "{mean:?}");
+    }
+}
