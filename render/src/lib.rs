@@ -2,6 +2,7 @@
 
 pub mod accel;
 pub mod camera;
+pub mod chart;
 pub mod compare;
 pub mod film;
 pub mod image;

@@ -1,6 +1,7 @@
 //! The command line of the renderer.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use etendue_render::chart::{self, name, size};
 use etendue_render::compare::Comparison;
 use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -25,6 +26,8 @@ enum Command {
     Render(Render),
     /// Compare an image with a reference
     Compare(Compare),
+    /// Measure error and time of techniques and samplers, and draw them
+    Chart(chart::Options),
     /// List built-in scenes, techniques and samplers
     List,
 }
@@ -76,19 +79,6 @@ struct Compare {
     json: bool,
 }
 
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once(['x', 'X']).ok_or("want WIDTHxHEIGHT, such as 640x480")?;
-    let side = |s: &str| match s.parse::<u32>() {
-        Ok(n) if (1..=65_536).contains(&n) => Ok(n),
-        _ => Err(format!("a side of {s:?} is not within 1 and 65536")),
-    };
-    let (width, height) = (side(sides.0)?, side(sides.1)?);
-    if u64::from(width) * u64::from(height) > 1 << 28 {
-        return Err(format!("{width}x{height} is more than 2^28 pixels"));
-    }
-    Ok((width, height))
-}
-
 /// The instructions that this program was built with and this machine does not have.
 fn missing_features() -> Vec<&'static str> {
     let mut missing = Vec::new();
@@ -119,6 +109,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Render(options) => render(&options),
         Command::Compare(options) => compare(&options),
+        Command::Chart(options) => chart::run(&options, &command_line()),
         Command::List => list().map_err(Into::into),
     };
     match result {
@@ -134,8 +125,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn name(value: impl ValueEnum) -> String {
-    value.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+/// The command as it was given, for the record.
+fn command_line() -> String {
+    let arguments = std::env::args().skip(1).map(|a| if a.contains(' ') { format!("{a:?}") } else { a });
+    std::iter::once("etendue".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }
 
 fn list() -> io::Result<()> {
