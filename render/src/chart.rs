@@ -41,7 +41,7 @@ pub struct Options {
     /// Samples per pixel [default: 1,2,4,…,1024; with --quick 1,4,16,64]
     #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
     pub spp: Vec<u32>,
-    /// Images of each, of different seeds [default: 5; with --quick 4]
+    /// Images of each, of different seeds [default: 5]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub replicates: Option<u32>,
     /// The image to compare with; else that of the built-in scene, else one that is rendered
@@ -100,7 +100,7 @@ pub fn name(value: impl ValueEnum) -> String {
 }
 
 /// FNV-1a, which will be the same tomorrow.
-fn hash(bytes: &[u8]) -> u64 {
+pub(crate) fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
 
@@ -255,7 +255,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     if keys.is_empty() {
         return Err(format!("nothing to measure: {}", notes.join("; ")).into());
     }
-    let replicates = options.replicates.unwrap_or(if options.quick { 4 } else { 5 });
+    let replicates = options.replicates.unwrap_or(5);
     let plan = Plan { subjects, keys, replicates, seed: options.seed };
 
     std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;

@@ -3,6 +3,7 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_render::chart::{self, name, size};
 use etendue_render::compare::Comparison;
+use etendue_render::figure;
 use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
@@ -28,6 +29,8 @@ enum Command {
     Compare(Compare),
     /// Measure error and time of techniques and samplers, and draw them
     Chart(chart::Options),
+    /// Draw a figure of a lecture on sampling lights
+    Figure(figure::Options),
     /// List built-in scenes, techniques and samplers
     List,
 }
@@ -110,6 +113,7 @@ fn main() -> ExitCode {
         Command::Render(options) => render(&options),
         Command::Compare(options) => compare(&options),
         Command::Chart(options) => chart::run(&options, &command_line()),
+        Command::Figure(options) => figure::run(&options),
         Command::List => list().map_err(Into::into),
     };
     match result {

@@ -34,6 +34,7 @@ fn lines(summary: &Summary, name: impl Fn(&Series) -> String, x: impl Fn(&super:
         color: series.way.technique as usize,
         dash: series.way.sampler as usize,
         joined: true,
+        mark: 1.0,
         dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: p.mse.is_sure() }).collect(),
     };
     summary.series.iter().map(line).collect()
@@ -49,6 +50,7 @@ pub fn error_over_time(summary: &Summary) -> Figure {
         scales: [Scale::Log, Scale::Log],
         lines: lines(summary, |s| s.way.title(), |p| p.seconds.into()),
         guides: vec![-1.0, -1.5],
+        equal: false,
     };
     let caption = "Lower and further left is better. Each point is one number of samples per pixel; bars are 95 % intervals over \
                    replicates; a hollow point has an interval too wide to support a claim."
@@ -70,6 +72,7 @@ pub fn error_over_samples(summary: &Summary) -> Figure {
         scales: [Scale::Binary, Scale::Log],
         lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp))),
         guides: vec![-1.0, -1.5],
+        equal: false,
     };
     let caption =
         "The slopes are of log error over log samples, fitted to each replicate: mean and 95 % interval.".to_owned();

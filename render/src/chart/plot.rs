@@ -5,7 +5,6 @@
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
-use std::fmt::Write;
 
 /// Units of the drawing per unit of the chart: plotters draws at whole units.
 const UNIT: i32 = 8;
@@ -97,6 +96,8 @@ pub struct Line {
     pub dash: usize,
     /// Whether its points are joined.
     pub joined: bool,
+    /// Size of its markers, 1 as a rule and 0 for none.
+    pub mark: f64,
     /// In order.
     pub dots: Vec<Dot>,
 }
@@ -127,6 +128,8 @@ pub struct Chart {
     pub lines: Vec<Line>,
     /// Slopes to compare with, in a chart of two logarithms.
     pub guides: Vec<f64>,
+    /// Whether a unit is as long across as upwards.
+    pub equal: bool,
 }
 
 /// A drawing: the chart, and below it the legend.
@@ -151,6 +154,11 @@ impl Drawing {
             escape(&self.about),
             parts.concat()
         )
+    }
+    /// Width and height with the legend.
+    #[must_use]
+    pub const fn size(&self) -> [i32; 2] {
+        [self.width, self.chart + self.legend]
     }
     /// A file of its own, with the legend.
     #[must_use]
@@ -310,17 +318,14 @@ fn stroke(color: RGBColor, tenths: i32) -> ShapeStyle {
 }
 
 /// A marker at a place of a canvas: filled, or hollow where it is not sure.
-fn marker(at: (i32, i32), n: usize, color: RGBColor, sure: bool) -> Polygon<(i32, i32)> {
-    marker_of(at, n, if sure { color.filled() } else { WHITE.filled() })
-}
-
-fn marker_of((x, y): (i32, i32), n: usize, style: ShapeStyle) -> Polygon<(i32, i32)> {
-    Polygon::new(outline(n).into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>(), style)
+fn marker((x, y): (i32, i32), (n, size): (usize, f64), color: RGBColor, sure: bool) -> Polygon<(i32, i32)> {
+    let style = if sure { color.filled() } else { WHITE.filled() };
+    Polygon::new(outline(n, size).into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>(), style)
 }
 
 /// Corners of the n-th marker around its middle.
-fn outline(n: usize) -> Vec<(i32, i32)> {
-    let r = 3.4 * f64::from(UNIT);
+fn outline(n: usize, size: f64) -> Vec<(i32, i32)> {
+    let r = 3.4 * size * f64::from(UNIT);
     let regular = |count: usize, turn: f64, size: f64| {
         (0..count)
             .map(|i| {
@@ -347,7 +352,13 @@ impl Chart {
         // the intervals of what is not sure do not stretch the axes
         let across = dots().map(|d| d.x.value).chain(dots().filter(sure).flat_map(|d| [d.x.low, d.x.high]));
         let upwards = dots().map(|d| d.y.value).chain(dots().filter(sure).flat_map(|d| [d.y.low, d.y.high]));
-        let axes = [Axis::new(self.scales[0], across), Axis::new(self.scales[1], upwards)];
+        let mut axes = [Axis::new(self.scales[0], across), Axis::new(self.scales[1], upwards)];
+        if self.equal {
+            // what the labels leave is about 400 by 270
+            let [x, y] = &mut axes;
+            let (middle, half) = ((x.low + x.high) / 2.0, (y.high - y.low) * 400.0 / 270.0 / 2.0);
+            (x.low, x.high) = (middle - half, middle + half);
+        }
 
         let mut body = layer(WIDTH, HEIGHT, |area| self.frame(area, &axes));
         body += &group("class=\"guides\"", &self.plane(&axes, |plane| self.draw_guides(plane, &axes)));
@@ -465,11 +476,14 @@ fn draw_line<'a>(
                 plane.draw(&(EmptyElement::at(end(v)) + PathElement::new(cap, thin)))?;
             }
         }
+        if line.mark == 0.0 {
+            continue;
+        }
         if line.joined || dot.sure {
-            plane.draw(&(EmptyElement::at(at) + marker((0, 0), line.dash, color, dot.sure)))?;
+            plane.draw(&(EmptyElement::at(at) + marker((0, 0), (line.dash, line.mark), color, dot.sure)))?;
         }
         if !dot.sure {
-            let mut edge = outline(line.dash);
+            let mut edge = outline(line.dash, line.mark);
             edge.push(edge[0]);
             plane.draw(&(EmptyElement::at(at) + PathElement::new(edge, stroke(color, 10))))?;
         }
@@ -503,7 +517,9 @@ fn legend(lines: &[Line], top: i32) -> (String, i32) {
                     }
                 }
             }
-            area.draw(&marker((x + 13 * UNIT, y), line.dash, color, true))?;
+            if line.mark > 0.0 {
+                area.draw(&marker((x + 13 * UNIT, y), (line.dash, line.mark), color, true))?;
+            }
             area.draw(&Text::new(line.name.clone(), (x + 32 * UNIT, y - (TEXT - 2) * UNIT / 2), font(TEXT - 2)))?;
         }
         Ok(())
@@ -599,26 +615,4 @@ impl Bars {
         }
         Drawing { width: WIDTH, chart: height, legend: 0, about: self.title.clone(), body, key: String::new() }
     }
-}
-
-/// Several drawings in one file, `columns` to a row.
-#[must_use]
-pub fn sheet(drawings: &[Drawing], columns: usize) -> String {
-    let rows: Vec<&[Drawing]> = drawings.chunks(columns.max(1)).collect();
-    let height_of = |row: &[Drawing]| row.iter().map(|d| d.chart + d.legend).max().unwrap_or(0);
-    let width = WIDTH * columns.min(drawings.len()) as i32;
-    let height: i32 = rows.iter().map(|row| height_of(row)).sum();
-    let mut text = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
-         font-family=\"sans-serif\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>\n"
-    );
-    let mut y = 0;
-    for row in rows {
-        for (i, d) in row.iter().enumerate() {
-            let inner = d.file().replacen("<svg ", &format!("<svg x=\"{}\" y=\"{y}\" ", WIDTH * i as i32), 1);
-            let _ = writeln!(text, "{inner}");
-        }
-        y += height_of(row);
-    }
-    text + "</svg>\n"
 }

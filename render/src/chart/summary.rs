@@ -74,11 +74,15 @@ pub struct Series {
 
 impl Series {
     fn new(way: Way, points: Vec<Point>) -> Self {
-        let sure: Vec<&Point> = points.iter().filter(|p| p.is_sure()).collect();
-        let replicates = sure.iter().map(|p| p.costs.len()).min().unwrap_or(0);
-        let errors: Vec<Vec<f64>> = (0..replicates).map(|r| sure.iter().map(|p| p.costs[r].mse).collect()).collect();
-        let of = |x: fn(&Point) -> f64| stats::slope(&sure.iter().map(|p| x(p)).collect::<Vec<_>>(), &errors);
-        let (slope, slope_in_time) = (of(|p| f64::from(p.spp)), of(|p| p.seconds.value));
+        let of = |sure: fn(&Point) -> bool, x: fn(&Point) -> f64| {
+            let sure: Vec<&Point> = points.iter().filter(|p| sure(p)).collect();
+            let replicates = sure.iter().map(|p| p.costs.len()).min().unwrap_or(0);
+            let errors = |r: usize| sure.iter().map(|p| p.costs[r].mse).collect();
+            let errors: Vec<Vec<f64>> = (0..replicates).map(errors).collect();
+            stats::slope(&sure.iter().map(|p| x(p)).collect::<Vec<_>>(), &errors)
+        };
+        let slope = of(|p| p.mse.is_sure(), |p| f64::from(p.spp));
+        let slope_in_time = of(Point::is_sure, |p| p.seconds.value);
         Self { way, points, slope, slope_in_time }
     }
     /// Seconds to reach a squared error; the flag says whether that lies beyond what was measured.
