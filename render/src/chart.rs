@@ -116,9 +116,9 @@ fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
     list
 }
 
-/// Why a sampler or a technique cannot take so many samples, if so.
-fn inapplicable(_technique: Technique, _sampler: Sampler, _spp: u32) -> Option<String> {
-    None
+/// Why a sampler cannot take so many samples, if so.
+fn inapplicable(sampler: Sampler, spp: u32) -> Option<String> {
+    sampler.check(spp, false).err()
 }
 
 /// A scene, ready to be measured.
@@ -243,7 +243,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
         for &spp in &spps {
             for &sampler in &chosen(&options.samplers) {
                 for &technique in &chosen(&options.techniques) {
-                    match inapplicable(technique, sampler, spp) {
+                    match inapplicable(sampler, spp) {
                         Some(reason) if !notes.contains(&reason) => notes.push(reason),
                         Some(_) => (),
                         None => keys.push(Key { scene, technique, sampler, spp }),

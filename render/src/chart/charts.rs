@@ -127,7 +127,7 @@ pub fn time_to_error(summary: &Summary) -> Option<Figure> {
         unit: " s".to_owned(),
     };
     let caption =
-        "Shorter is better. A hollow bar lies beyond what was measured, by the slope of the nearest two points."
+        "Shorter is better. A hollow bar lies beyond what was measured, by the slope of the nearest two points, or rests on times that are not sure."
             .to_owned();
     Some(Figure { file: "time-to-error", drawing: bars.draw(), caption })
 }

@@ -120,7 +120,7 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         .series
         .iter()
         .filter(|s| Some(s.way.sampler) == baseline || Some(s.way.technique) == best)
-        .filter(|s| super::inapplicable(s.way.technique, s.way.sampler, spp).is_none())
+        .filter(|s| super::inapplicable(s.way.sampler, spp).is_none())
         .map(|s| (s.way, spread(plan, scene, s.way, spp)))
         .collect();
     // one scale for all: that of the best in the middle, of the worst at the end

@@ -2,7 +2,12 @@
 //!
 //! Each series is a group of its own (`<g data-series="…">`), so that a page can switch it off.
 
-use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
+mod axis;
+mod bars;
+
+use axis::Axis;
+pub use axis::Scale;
+pub use bars::Bars;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
@@ -14,6 +19,7 @@ const ROW: i32 = 19;
 const TEXT: i32 = 13;
 const INK: RGBColor = RGBColor(51, 51, 51);
 const GRID: RGBColor = RGBColor(225, 225, 225);
+const PALE: RGBColor = RGBColor(243, 243, 243);
 const GUIDE: RGBColor = RGBColor(130, 130, 130);
 
 /// Colours that most eyes tell apart, after Okabe and Ito; then more.
@@ -102,17 +108,6 @@ pub struct Line {
     pub dots: Vec<Dot>,
 }
 
-/// A scale of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
-    /// Even steps.
-    Linear,
-    /// Even factors.
-    Log,
-    /// Even factors, ticks at powers of two.
-    Binary,
-}
-
 /// A chart of lines and points.
 #[derive(Clone, Debug)]
 pub struct Chart {
@@ -178,19 +173,6 @@ pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// 10 to a whole power, in small raised digits.
-fn power_of_ten(exponent: i32) -> String {
-    let digit = |c: char| match c {
-        '-' => '⁻',
-        c => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][c as usize & 15],
-    };
-    match exponent {
-        0 => "1".to_owned(),
-        1 => "10".to_owned(),
-        _ => format!("10{}", exponent.to_string().chars().map(digit).collect::<String>()),
-    }
-}
-
 /// A number with three digits.
 #[must_use]
 pub fn short(x: f64) -> String {
@@ -203,89 +185,6 @@ pub fn short(x: f64) -> String {
         let places = (2 - size.log10().floor() as i32).max(0) as usize;
         let text = format!("{x:.places$}");
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-    }
-}
-
-/// An axis of any scale.
-#[derive(Clone, Debug)]
-struct Axis {
-    scale: Scale,
-    low: f64,
-    high: f64,
-    bold: Vec<f64>,
-    light: Vec<f64>,
-}
-
-impl Axis {
-    /// Around all of the values, with a margin.
-    fn new(scale: Scale, values: impl Iterator<Item = f64>) -> Self {
-        let usable = |x: &f64| x.is_finite() && (scale == Scale::Linear || *x > 0.0);
-        let (low, high) =
-            values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
-        let (low, high) = if low > high { (0.5, 2.0) } else { (low, high) };
-        match scale {
-            Scale::Linear => {
-                let span = if high > low { high - low } else { high.abs().max(1.0) };
-                let (low, high) = (low - 0.05 * span, high + 0.05 * span);
-                let rough = (high - low) / 6.0;
-                let decade = 10_f64.powf(rough.log10().floor());
-                let step = [1.0, 2.0, 5.0, 10.0].map(|k| k * decade).into_iter().find(|s| *s >= rough);
-                let step = step.unwrap_or(decade);
-                let ticks = ((low / step).ceil() as i64..=(high / step).floor() as i64).map(|k| k as f64 * step);
-                Self { scale, low, high, bold: ticks.collect(), light: Vec::new() }
-            }
-            Scale::Log | Scale::Binary => {
-                let margin = (high / low).powf(0.04).max(1.3);
-                let (low, high) = (low / margin, high * margin);
-                let base: f64 = if scale == Scale::Log { 10.0 } else { 2.0 };
-                let (first, last) = (low.log(base).ceil() as i32, high.log(base).floor() as i32);
-                let every = ((last - first) / 7 + 1).max(1) as usize;
-                let mut bold: Vec<f64> = (first..=last).step_by(every).map(|e| base.powi(e)).collect();
-                let mut light: Vec<f64> = (first..=last).map(|e| base.powi(e)).collect();
-                if scale == Scale::Log && last - first < 9 {
-                    let steps = (first - 1..=last).flat_map(|e| (2..10).map(move |k| f64::from(k) * 10_f64.powi(e)));
-                    light.extend(steps.filter(|x| (low..=high).contains(x)));
-                }
-                if scale == Scale::Log && bold.len() < 2 {
-                    // less than two powers of ten in view: 2 and 5 of each as well
-                    let more = (first - 1..=last).flat_map(|e| [2.0, 5.0].map(|k| k * 10_f64.powi(e)));
-                    bold.extend(more.filter(|x| (low..=high).contains(x)));
-                    bold.sort_by(f64::total_cmp);
-                }
-                Self { scale, low, high, bold, light }
-            }
-        }
-    }
-    fn label(&self, x: f64) -> String {
-        let exponent = x.log10().round();
-        let whole = (x.log10() - exponent).abs() < 1e-9;
-        match self.scale {
-            Scale::Log if whole && !(-2.5..3.5).contains(&exponent) => power_of_ten(exponent as i32),
-            _ => short(x),
-        }
-    }
-    /// Into the chart, so that an interval that includes 0 ends at its edge.
-    fn inside(&self, x: f64) -> f64 {
-        if x.is_nan() { self.low } else { x.clamp(self.low, self.high) }
-    }
-}
-
-impl Ranged for Axis {
-    type FormatOption = DefaultFormatting;
-    type ValueType = f64;
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        let (low, high, x) = match self.scale {
-            Scale::Linear => (self.low, self.high, *value),
-            _ => (self.low.ln(), self.high.ln(), value.ln()),
-        };
-        let share = (x - low) / (high - low);
-        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
-    }
-    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
-        if hint.weight().allow_light_points() { self.light.clone() } else { self.bold.clone() }
-    }
-    fn range(&self) -> std::ops::Range<f64> {
-        self.low..self.high
     }
 }
 
@@ -383,7 +282,7 @@ impl Chart {
             .x_label_formatter(&move |v| x.label(*v))
             .y_label_formatter(&move |v| y.label(*v))
             .bold_line_style(stroke(GRID, 10))
-            .light_line_style(stroke(RGBColor(243, 243, 243), 6))
+            .light_line_style(stroke(PALE, 6))
             .axis_style(stroke(INK, 10))
             .set_all_tick_mark_size(4 * UNIT)
             .draw()
@@ -525,94 +424,4 @@ fn legend(lines: &[Line], top: i32) -> (String, i32) {
         Ok(())
     });
     (body, height)
-}
-
-/// Bars to the right, from 1, on a logarithmic scale.
-#[derive(Clone, Debug)]
-pub struct Bars {
-    /// Above it.
-    pub title: String,
-    /// Below it.
-    pub label: String,
-    /// From top to bottom: id, name, colour, value, and whether it is sure.
-    pub rows: Vec<(String, String, usize, Bar, bool)>,
-    /// Where bars begin.
-    pub origin: f64,
-    /// How a value is written behind its bar.
-    pub unit: String,
-}
-
-impl Bars {
-    /// Draws it.
-    #[must_use]
-    pub fn draw(&self) -> Drawing {
-        let drawable = |b: &Bar| b.value.is_finite() && b.value > 0.0;
-        let values = self.rows.iter().filter(|r| drawable(&r.3)).flat_map(|r| {
-            let ends = if r.4 { [r.3.low, r.3.high] } else { [r.3.value; 2] };
-            [r.3.value, ends[0], ends[1]]
-        });
-        let mut axis = Axis::new(Scale::Log, values.chain([self.origin]));
-        // room for the numbers behind the bars
-        axis.high *= (axis.high / axis.low).powf(0.22);
-        axis = Axis { scale: Scale::Log, ..Axis::new(Scale::Log, [axis.low * 1.3, axis.high / 1.3].into_iter()) };
-        let (top, left, bottom) = (34, 186, 44);
-        let height = top + self.rows.len() as i32 * ROW + bottom;
-        let width = WIDTH - left - 12;
-        let at = |v: f64| left * UNIT + axis.map(&axis.inside(v), (0, width * UNIT));
-        let base = height - bottom;
-        let mut body = layer(WIDTH, height, |area| {
-            area.draw(&Text::new(self.title.clone(), (12 * UNIT, 8 * UNIT), font(TEXT + 1)))?;
-            for v in &axis.light {
-                area.draw(&PathElement::new(
-                    [(at(*v), top * UNIT), (at(*v), base * UNIT)],
-                    stroke(RGBColor(243, 243, 243), 6),
-                ))?;
-            }
-            for v in &axis.bold {
-                area.draw(&PathElement::new([(at(*v), top * UNIT), (at(*v), base * UNIT)], stroke(GRID, 10)))?;
-                let style = font(TEXT - 1).pos(plotters::style::text_anchor::Pos::new(
-                    plotters::style::text_anchor::HPos::Center,
-                    plotters::style::text_anchor::VPos::Top,
-                ));
-                area.draw(&Text::new(axis.label(*v), (at(*v), (base + 5) * UNIT), style))?;
-            }
-            let style = font(TEXT).pos(plotters::style::text_anchor::Pos::new(
-                plotters::style::text_anchor::HPos::Center,
-                plotters::style::text_anchor::VPos::Top,
-            ));
-            area.draw(&Text::new(self.label.clone(), ((left + width / 2) * UNIT, (base + 22) * UNIT), style))
-        });
-        for (i, (id, name, color, bar, sure)) in self.rows.iter().enumerate() {
-            let y = (top + i as i32 * ROW) * UNIT;
-            let drawn = layer(WIDTH, height, |area| {
-                let style = font(TEXT - 2).pos(plotters::style::text_anchor::Pos::new(
-                    plotters::style::text_anchor::HPos::Right,
-                    plotters::style::text_anchor::VPos::Center,
-                ));
-                let middle = y + ROW * UNIT / 2;
-                area.draw(&Text::new(name.clone(), ((left - 6) * UNIT, middle), style))?;
-                let value = font(TEXT - 2).pos(plotters::style::text_anchor::Pos::new(
-                    plotters::style::text_anchor::HPos::Left,
-                    plotters::style::text_anchor::VPos::Center,
-                ));
-                if !drawable(bar) {
-                    return area.draw(&Text::new("not known", (at(self.origin) + 6 * UNIT, middle), value));
-                }
-                let (a, b) = (at(self.origin), at(bar.value));
-                let rectangle = [(a.min(b), y + 3 * UNIT), (a.max(b), y + (ROW - 3) * UNIT)];
-                if *sure {
-                    area.draw(&Rectangle::new(rectangle, rgb(*color).mix(0.75).filled()))?;
-                } else {
-                    area.draw(&Rectangle::new(rectangle, stroke(rgb(*color), 10)))?;
-                }
-                let ends = [(at(bar.low), middle), (at(bar.high), middle)];
-                area.draw(&PathElement::new(ends, stroke(INK, 10)))?;
-                let right = b.max(a).max(ends[1].0) + 5 * UNIT;
-                let known = if *sure { "" } else { " ?" };
-                area.draw(&Text::new(format!("{}{}{known}", short(bar.value), self.unit), (right, middle), value))
-            });
-            body += &group(&format!("data-series=\"{}\"", escape(id)), &drawn);
-        }
-        Drawing { width: WIDTH, chart: height, legend: 0, about: self.title.clone(), body, key: String::new() }
-    }
 }

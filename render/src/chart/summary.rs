@@ -85,12 +85,13 @@ impl Series {
         let slope_in_time = of(Point::is_sure, |p| p.seconds.value);
         Self { way, points, slope, slope_in_time }
     }
-    /// Seconds to reach a squared error; the flag says whether that lies beyond what was measured.
+    /// Seconds to reach a squared error; the flag says whether that lies beyond what was measured, or a time is not sure.
     #[must_use]
     pub fn seconds_to(&self, mse: f64) -> Option<(f64, bool)> {
-        let points: Vec<_> =
-            self.points.iter().filter(|p| p.is_sure()).map(|p| (p.seconds.value, p.mse.value)).collect();
-        stats::reach(&points, mse)
+        let known = || self.points.iter().filter(|p| p.mse.is_sure());
+        let points: Vec<_> = known().map(|p| (p.seconds.value, p.mse.value)).collect();
+        let (seconds, beyond) = stats::reach(&points, mse)?;
+        Some((seconds, beyond || known().any(|p| !p.seconds.is_sure())))
     }
     /// The point at so many samples per pixel.
     #[must_use]

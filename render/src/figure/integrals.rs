@@ -54,7 +54,7 @@ fn curve(name: &str, n: usize, f: impl Fn(f64) -> f64) -> Line {
 
 pub(super) fn importance(seed: u64) -> Finding {
     const BATCHES: usize = 64;
-    const SAMPLES: u32 = 131_072;
+    const SAMPLES: u32 = 65_536;
     let [good, bad] = [(0.1, 4.6), (1.2, 0.2)].map(|(outside, inside)| Steps { outside, inside });
     let sigma = 1.0 / 2000.0_f64.sqrt();
     let perfect = Normal::<f64> { mean: 0.25, sigma };
