@@ -9,6 +9,7 @@ pub mod reference;
 pub mod report;
 pub mod stats;
 pub mod summary;
+pub mod warps;
 
 use crate::{Sampler, Technique, World, image, scene};
 use clap::{Args, ValueEnum};
@@ -71,6 +72,9 @@ pub struct Options {
     /// Stop measuring after this long, and report what there is [default with --quick: 150]
     #[arg(long, value_name = "SECONDS")]
     pub time_limit: Option<u64>,
+    /// Also time each warp of the library, and look for its greatest error
+    #[arg(long)]
+    pub warps: bool,
     /// Few samples of small images: within three minutes
     #[arg(long)]
     pub quick: bool,
@@ -297,6 +301,20 @@ fn stem(summaries: &[Summary], scene: &str) -> String {
     if before == 0 { of(scene) } else { format!("{}-{}", of(scene), before + 1) }
 }
 
+/// Times the warps and looks for their errors; writes what it finds.
+fn measure_warps(folder: &Path, stop: &AtomicBool) -> Result<(charts::Figure, String), Box<dyn Error>> {
+    let bar = bar(0, "warps")?;
+    let measured = warps::measure(stop, |done, all| {
+        bar.set_length(all);
+        bar.set_position(done);
+    });
+    bar.finish_and_clear();
+    let figure = warps::figure(&measured);
+    image::replace(&folder.join("warps.svg"), figure.drawing.file().as_bytes())?;
+    image::replace(&folder.join("warps.csv"), warps::csv(&measured).as_bytes())?;
+    Ok((figure, warps::table(&measured)))
+}
+
 /// Measures, writes the report, and says where and what.
 ///
 /// # Errors
@@ -324,8 +342,9 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
             image::replace(&options.output.join(file), &picture.png)?;
         }
     }
+    let warps = if options.warps { Some(measure_warps(&options.output, &stop)?) } else { None };
     let page = options.output.join("report.html");
-    image::replace(&page, report::page(&outcome, &figures, &pictures, command).as_bytes())?;
+    image::replace(&page, report::page(&outcome, &figures, &pictures, warps.as_ref(), command).as_bytes())?;
 
     let mut out = std::io::stdout().lock();
     for summary in &outcome.summaries {

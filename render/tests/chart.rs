@@ -199,6 +199,7 @@ fn options(output: &Path, scene: &str) -> Options {
         baseline: Technique::Area,
         target: None,
         time_limit: None,
+        warps: false,
         quick: false,
     }
 }
@@ -271,6 +272,24 @@ fn the_references_own_error_is_taken_off() {
     // the rough one's error is a good part of what is measured, and hardly any is left of it
     assert!(some > 0.05 * rough.value && none < 1e-3 * precise.value, "{some:e} {none:e} {precise:?}");
     assert!((rough.value / precise.value - 1.0).abs() < 0.05, "{rough:?} {precise:?}");
+}
+
+/// Every warp has a time at each width, more of it for one lane than for eight, and an error that is rounding.
+#[test]
+fn warps_are_fast_and_good() {
+    let measured = chart::warps::measure(&AtomicBool::new(false), |_, _| ());
+    assert!(measured.len() > 20);
+    for m in &measured {
+        let [one, _, eight] = m.nanoseconds.each_ref().map(|t| t.value);
+        println!("{:50} {one:8.2} {eight:8.2} ns, {:.1e} {:.1e}", m.name, m.point, m.density);
+        assert!(eight > 0.0 && one > eight, "{}: {one} {eight}", m.name);
+        // the map of visible normals is infinitely steep where normals lie on the horizon
+        let limit = if m.name.starts_with("GGX") { 1e-2 } else { 4e-6 };
+        assert!((1e-9..limit).contains(&m.point) && (0.0..1e-5).contains(&m.density), "{m:?}");
+    }
+    let csv = chart::warps::csv(&measured);
+    assert_eq!(csv.lines().count(), measured.len() + 1);
+    assert!(!chart::warps::figure(&measured).drawing.file().contains("NaN"));
 }
 
 /// The numbers in a line of a figure's headline.

@@ -67,9 +67,15 @@ fn viewer(index: usize, panel: &Panel) -> String {
     )
 }
 
-/// The whole page.
+/// The whole page; `warps` is a figure and a table.
 #[must_use]
-pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel], command: &str) -> String {
+pub fn page(
+    outcome: &Outcome,
+    figures: &[Vec<Figure>],
+    panels: &[Panel],
+    warps: Option<&(Figure, String)>,
+    command: &str,
+) -> String {
     let mut scenes = String::new();
     for (index, summary) in outcome.summaries.iter().enumerate() {
         let _ = writeln!(scenes, "<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
@@ -82,6 +88,13 @@ pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], panels: &[Panel], comman
         if let Some(panel) = panels.iter().find(|p| p.scene == summary.scene) {
             scenes += &viewer(index, panel);
         }
+    }
+    if let Some((figure, table)) = warps {
+        let (drawing, caption) = (figure.drawing.file(), escape(&figure.caption));
+        let _ = writeln!(
+            scenes,
+            "<h2>Warps</h2>\n<div class=\"grid\"><figure>{drawing}<figcaption>{caption}</figcaption></figure></div>\n{table}"
+        );
     }
     let used = |f: &dyn Fn(&super::measure::Key) -> usize| {
         let mut list: Vec<usize> = outcome.plan.keys.iter().map(f).collect();

@@ -43,6 +43,7 @@ impl Studio<'_> {
             baseline: Technique::Area,
             target: None,
             time_limit: None,
+            warps: false,
             quick: false,
         };
         chart::measure(&options, self.stop)
