@@ -30,7 +30,7 @@ fn failed(path: &Path, what: impl fmt::Display) -> ImageError {
 }
 
 /// Writes all of the bytes or leaves the file as it was: beside it first, then in its place.
-fn replace(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
     let mut name = path.file_name().ok_or_else(|| failed(path, "not a file name"))?.to_owned();
     name.push(format!(".{}.part", std::process::id()));
     let part = path.with_file_name(name);
@@ -93,22 +93,29 @@ pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
 /// # Errors
 /// The file cannot be written; what was there before stays.
 pub fn write_png(path: &Path, film: &Film) -> Result<(), ImageError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(BufWriter::new(&mut bytes), film.width, film.height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
-    let data: Vec<u8> = film.pixels.iter().flat_map(|p| tone_map(p.mean)).collect();
-    let write = || -> Result<(), png::EncodingError> {
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&data)?;
-        writer.finish()
-    };
-    write().map_err(|error| failed(path, error))?;
+    let data: Vec<[u8; 3]> = film.pixels.iter().map(|p| tone_map(p.mean)).collect();
+    let bytes = encode_png([film.width, film.height], &data).map_err(|error| failed(path, error))?;
     replace(path, &bytes)
 }
 
-fn tone_map(radiance: [f32; 3]) -> [u8; 3] {
+/// A PNG file of sRGB pixels, row by row.
+///
+/// # Errors
+/// There are not as many pixels as the size says.
+pub fn encode_png([width, height]: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(BufWriter::new(&mut bytes), width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels.as_flattened())?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+/// What a pixel of this radiance looks like in a PNG.
+pub fn tone_map(radiance: [f32; 3]) -> [u8; 3] {
     let [r, g, b] = radiance;
     let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let scale = (1.0 + luminance / 16.0) / (1.0 + luminance);
@@ -148,7 +155,7 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
     // OpenEXR's magic number
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        return decode_exr(path, bytes);
+        return decode_exr(bytes, path);
     }
     let not_one =
         |error: &dyn fmt::Display| failed(path, format!("not an EXR, HDR or PNG image that can be read: {error}"));
@@ -161,16 +168,31 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
     Ok(Picture { width, height, radiance, variance: None })
 }
 
+impl From<&Film> for Picture {
+    fn from(film: &Film) -> Self {
+        Self {
+            width: film.width as usize,
+            height: film.height as usize,
+            radiance: film.pixels.iter().map(|p| p.mean).collect(),
+            variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
+        }
+    }
+}
+
 /// Reads R, G, B and, where they are, variance.R, variance.G, variance.B.
 ///
 /// # Errors
 /// The file is missing, damaged, or has no R, G, B.
 pub fn read_exr(path: &Path) -> Result<Picture, ImageError> {
     let bytes = std::fs::read(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
-    decode_exr(path, &bytes)
+    decode_exr(&bytes, path)
 }
 
-fn decode_exr(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
+/// As [`read_exr`], from a file's bytes; messages call it `path`.
+///
+/// # Errors
+/// It is damaged, or has no R, G, B.
+pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()

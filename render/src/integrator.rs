@@ -37,6 +37,11 @@ pub struct Settings {
     pub seed: u64,
 }
 
+impl Settings {
+    /// The depth unless another is asked for.
+    pub const DEPTH: u32 = 8;
+}
+
 /// Rays traced for an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCount {

@@ -2,7 +2,9 @@
 
 pub mod accel;
 pub mod camera;
+pub mod chart;
 pub mod compare;
+pub mod figure;
 pub mod film;
 pub mod image;
 pub mod integrator;

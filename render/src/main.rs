@@ -1,7 +1,9 @@
 //! The command line of the renderer.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use etendue_render::chart::{self, name, size};
 use etendue_render::compare::Comparison;
+use etendue_render::figure;
 use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene, selftest};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
@@ -27,6 +29,10 @@ enum Command {
     Compare(Compare),
     /// Render scenes by every technique and sampler that applies, and see whether they agree
     Selftest(Selftest),
+    /// Measure error and time of techniques and samplers, and draw them
+    Chart(chart::Options),
+    /// Draw a figure of a lecture on sampling lights
+    Figure(figure::Options),
     /// List built-in scenes, techniques and samplers
     List,
 }
@@ -45,7 +51,7 @@ struct Render {
     #[arg(long, value_enum, default_value = "solid-angle")]
     technique: Technique,
     /// Perfect mirrors that a ray is followed through, at the most
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    #[arg(long, default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
     depth: u32,
     /// Where random numbers come from
     #[arg(long, value_enum, default_value = "independent")]
@@ -95,24 +101,11 @@ struct Selftest {
     #[arg(long, default_value_t = 0)]
     seed: u64,
     /// Perfect mirrors that a ray is followed through, at the most
-    #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    #[arg(long, default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
     depth: u32,
     /// Threads; 0 is one per core
     #[arg(long, default_value_t = 0)]
     threads: usize,
-}
-
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once(['x', 'X']).ok_or("want WIDTHxHEIGHT, such as 640x480")?;
-    let side = |s: &str| match s.parse::<u32>() {
-        Ok(n) if (1..=65_536).contains(&n) => Ok(n),
-        _ => Err(format!("a side of {s:?} is not within 1 and 65536")),
-    };
-    let (width, height) = (side(sides.0)?, side(sides.1)?);
-    if u64::from(width) * u64::from(height) > 1 << 28 {
-        return Err(format!("{width}x{height} is more than 2^28 pixels"));
-    }
-    Ok((width, height))
 }
 
 /// The instructions that this program was built with and this machine does not have.
@@ -150,6 +143,8 @@ fn main() -> ExitCode {
         },
         Command::Render(options) => render(&options),
         Command::Compare(options) => compare(&options),
+        Command::Chart(options) => chart::run(&options, &command_line()),
+        Command::Figure(options) => figure::run(&options),
         Command::List => list().map_err(Into::into),
     };
     match result {
@@ -165,8 +160,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn name(value: impl ValueEnum) -> String {
-    value.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+/// The command as it was given, for the record.
+fn command_line() -> String {
+    let arguments = std::env::args().skip(1).map(|a| if a.contains(' ') { format!("{a:?}") } else { a });
+    std::iter::once("etendue".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }
 
 fn list() -> io::Result<()> {

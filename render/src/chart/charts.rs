@@ -1,0 +1,133 @@
+//! The charts of a scene.
+
+use super::plot::{Bar, Bars, Chart, Dot, Drawing, Line, Scale, short};
+use super::stats::Estimate;
+use super::summary::{Series, Summary};
+
+/// A chart and the name of its file.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// Which chart, for the name of its file.
+    pub file: &'static str,
+    /// The drawing.
+    pub drawing: Drawing,
+    /// What it shows, for a page.
+    pub caption: String,
+}
+
+/// A value ± half of its interval.
+#[must_use]
+pub fn with_interval(e: &Estimate) -> String {
+    if e.half.is_finite() { format!("{:.3} ± {:.3}", e.value, e.half) } else { format!("{:.3} ± ?", e.value) }
+}
+
+/// A series' name for a page: technique and sampler apart.
+#[must_use]
+pub fn id(series: &Series) -> String {
+    format!("{}/{}", super::name(series.way.technique), super::name(series.way.sampler))
+}
+
+fn lines(summary: &Summary, name: impl Fn(&Series) -> String, x: impl Fn(&super::summary::Point) -> Bar) -> Vec<Line> {
+    let line = |series: &Series| Line {
+        id: id(series),
+        name: name(series),
+        color: series.way.technique as usize,
+        dash: series.way.sampler as usize,
+        joined: true,
+        mark: 1.0,
+        dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: p.mse.is_sure() }).collect(),
+    };
+    summary.series.iter().map(line).collect()
+}
+
+/// Error against time.
+#[must_use]
+pub fn error_over_time(summary: &Summary) -> Figure {
+    let chart = Chart {
+        title: format!("{}: error against time", summary.scene),
+        x_label: "seconds for an image".to_owned(),
+        y_label: "mean squared error".to_owned(),
+        scales: [Scale::Log, Scale::Log],
+        lines: lines(summary, |s| s.way.title(), |p| p.seconds.into()),
+        guides: vec![-1.0, -1.5],
+        equal: false,
+    };
+    let caption = "Lower and further left is better. Each point is one number of samples per pixel; bars are 95 % intervals over \
+                   replicates; a hollow point has an interval too wide to support a claim."
+        .to_owned();
+    Figure { file: "error-time", drawing: chart.draw(), caption }
+}
+
+/// Error against samples per pixel, with slopes.
+#[must_use]
+pub fn error_over_samples(summary: &Summary) -> Figure {
+    let name = |s: &Series| match &s.slope {
+        Some(slope) => format!("{} {}", s.way.title(), with_interval(slope).replace('-', "−")),
+        None => format!("{} slope ?", s.way.title()),
+    };
+    let chart = Chart {
+        title: format!("{}: error against samples", summary.scene),
+        x_label: "samples per pixel".to_owned(),
+        y_label: "mean squared error".to_owned(),
+        scales: [Scale::Binary, Scale::Log],
+        lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp))),
+        guides: vec![-1.0, -1.5],
+        equal: false,
+    };
+    let caption =
+        "The slopes are of log error over log samples, fitted to each replicate: mean and 95 % interval.".to_owned();
+    Figure { file: "error-samples", drawing: chart.draw(), caption }
+}
+
+/// Efficiency over the baseline's.
+#[must_use]
+pub fn efficiency(summary: &Summary) -> Option<Figure> {
+    let baseline = &summary.series[summary.baseline?];
+    let rows = summary.gains.iter().map(|g| {
+        let series = &summary.series[g.series];
+        // the interval is of a logarithm
+        let factor = 1.0 + g.gain.half / g.gain.value;
+        let bar = Bar { value: g.gain.value, low: g.gain.value / factor, high: g.gain.value * factor };
+        let sure = g.gain.is_sure() || g.series == summary.baseline.unwrap_or(usize::MAX);
+        (id(series), series.way.title(), series.way.technique as usize, bar, sure)
+    });
+    let bars = Bars {
+        title: format!("{}: efficiency at {} samples per pixel", summary.scene, summary.spp),
+        label: format!("1/(error × time), as a multiple of {}", baseline.way.title()),
+        rows: rows.collect(),
+        origin: 1.0,
+        unit: "×".to_owned(),
+    };
+    let caption = "How many times less time for the same error, if error falls as one over time; further right is better. Ratios \
+                   are of replicates that were rendered side by side."
+        .to_owned();
+    Some(Figure { file: "efficiency", drawing: bars.draw(), caption })
+}
+
+/// Seconds to reach an error.
+#[must_use]
+pub fn time_to_error(summary: &Summary) -> Option<Figure> {
+    let rows: Vec<_> = summary
+        .series
+        .iter()
+        .filter_map(|s| {
+            let (seconds, beyond) = s.seconds_to(summary.target)?;
+            Some((id(s), s.way.title(), s.way.technique as usize, Bar::exact(seconds), !beyond))
+        })
+        .collect();
+    let least = rows.iter().map(|r| r.3.value).fold(f64::INFINITY, f64::min);
+    if !least.is_finite() || summary.target <= 0.0 {
+        return None;
+    }
+    let bars = Bars {
+        title: format!("{}: time to a mean squared error of {}", summary.scene, short(summary.target)),
+        label: "seconds".to_owned(),
+        rows,
+        origin: least * 0.7,
+        unit: " s".to_owned(),
+    };
+    let caption =
+        "Shorter is better. A hollow bar lies beyond what was measured, by the slope of the nearest two points, or rests on times that are not sure."
+            .to_owned();
+    Some(Figure { file: "time-to-error", drawing: bars.draw(), caption })
+}

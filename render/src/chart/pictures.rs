@@ -1,0 +1,164 @@
+//! Images side by side: what each technique makes of a few samples, where it errs, and what its pixels vary by.
+
+use super::measure::Plan;
+use super::plot::short;
+use super::summary::{Summary, Way};
+use super::{Outcome, name};
+use crate::{Settings, image};
+
+/// A PNG with its name.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// For its file.
+    pub file: String,
+    /// Which kind: `image`, `difference` or `variance`.
+    pub kind: &'static str,
+    /// For the reader.
+    pub title: String,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// The file's bytes.
+    pub png: Vec<u8>,
+}
+
+/// The images of a scene.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// The scene's name.
+    pub scene: String,
+    /// Samples per pixel of the images.
+    pub spp: u32,
+    /// The reference first.
+    pub pictures: Vec<Picture>,
+    /// What the colours mean.
+    pub caption: String,
+}
+
+/// Images of which variances are made.
+const REPLICATES: u32 = 4;
+/// Samples per pixel, at most.
+const SAMPLES: u32 = 16;
+
+/// Dark to light through the colours of fire, for t in [0, 1].
+#[must_use]
+pub fn heat(t: f64) -> [u8; 3] {
+    const STOPS: [[f64; 3]; 6] = [
+        [0.0, 0.0, 4.0],
+        [66.0, 10.0, 104.0],
+        [147.0, 38.0, 103.0],
+        [221.0, 81.0, 58.0],
+        [252.0, 165.0, 10.0],
+        [252.0, 255.0, 164.0],
+    ];
+    let x = t.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    let i = (x as usize).min(STOPS.len() - 2);
+    let s = x - i as f64;
+    std::array::from_fn(|k| (STOPS[i][k] * (1.0 - s) + STOPS[i + 1][k] * s).round() as u8)
+}
+
+/// Blue through white to red, for t in [−1, 1].
+#[must_use]
+pub fn signed(t: f64) -> [u8; 3] {
+    let t = t.clamp(-1.0, 1.0);
+    let end = if t < 0.0 { [33.0, 102.0, 172.0] } else { [178.0, 24.0, 43.0] };
+    let s = t.abs().sqrt();
+    end.map(|e| (255.0 + (e - 255.0) * s).round() as u8)
+}
+
+fn png(size: [u32; 2], pixels: impl Iterator<Item = [u8; 3]>) -> Vec<u8> {
+    let pixels: Vec<_> = pixels.collect();
+    image::encode_png(size, &pixels).unwrap_or_default()
+}
+
+/// Means and variances over replicates of an image, pixel by pixel, channels taken together.
+struct Spread {
+    first: Vec<[f32; 3]>,
+    variance: Vec<f64>,
+}
+
+fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
+    let subject = &plan.subjects[scene];
+    let [width, height] = subject.size;
+    let images: Vec<Vec<[f32; 3]>> = (0..u64::from(REPLICATES))
+        .map(|k| {
+            let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, name(way.technique), name(way.sampler));
+            let seed = plan.seed.wrapping_add(super::hash(text.as_bytes()));
+            let (technique, sampler) = (way.technique, way.sampler);
+            let settings = Settings { width, height, spp, technique, sampler, seed, depth: Settings::DEPTH };
+            subject.world.render(&settings, |_| ()).0.pixels.iter().map(|p| p.mean).collect()
+        })
+        .collect();
+    let n = f64::from(REPLICATES);
+    let variance = (0..images[0].len())
+        .map(|i| {
+            let channel = |c: usize| {
+                let mean = images.iter().map(|m| f64::from(m[i][c])).sum::<f64>() / n;
+                images.iter().map(|m| (f64::from(m[i][c]) - mean).powi(2)).sum::<f64>() / (n - 1.0)
+            };
+            (channel(0) + channel(1) + channel(2)) / 3.0
+        })
+        .collect();
+    Spread { first: images.into_iter().next().unwrap_or_default(), variance }
+}
+
+/// Renders the images of a scene again: a few replicates of few samples.
+#[must_use]
+pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
+    let plan = &outcome.plan;
+    let scene = plan.subjects.iter().position(|s| s.name == summary.scene).unwrap_or(0);
+    let subject = &plan.subjects[scene];
+    let size = subject.size;
+    let truth = &subject.reference.picture.radiance;
+    let of_series = summary.series.iter().flat_map(|s| s.points.iter().map(|p| p.spp));
+    let spp = of_series.filter(|n| *n <= SAMPLES).max().unwrap_or(SAMPLES);
+    // every technique with the baseline's sampler, every sampler with the best technique
+    let baseline = summary.baseline.map(|b| summary.series[b].way.sampler);
+    let same = summary.gains.iter().filter(|g| Some(summary.series[g.series].way.sampler) == baseline);
+    let best =
+        same.max_by(|a, b| a.gain.value.total_cmp(&b.gain.value)).map(|g| summary.series[g.series].way.technique);
+    let spreads: Vec<(Way, Spread)> = summary
+        .series
+        .iter()
+        .filter(|s| Some(s.way.sampler) == baseline || Some(s.way.technique) == best)
+        .filter(|s| super::inapplicable(s.way.sampler, spp).is_none())
+        .map(|s| (s.way, spread(plan, scene, s.way, spp)))
+        .collect();
+    // one scale for all: that of the best in the middle, of the worst at the end
+    let mut all: Vec<f64> = spreads.iter().flat_map(|(_, s)| &s.variance).copied().filter(|v| *v > 0.0).collect();
+    all.sort_by(f64::total_cmp);
+    let quantile = |q: f64| all.get(((all.len() as f64 - 1.0) * q) as usize).copied().unwrap_or(1.0);
+    let (low, high) = (quantile(0.05), quantile(0.995).max(quantile(0.05) * 10.0));
+    let range = high.sqrt() / 2.0;
+
+    let mut pictures = vec![Picture {
+        file: "reference".to_owned(),
+        kind: "image",
+        title: "reference".to_owned(),
+        size,
+        png: png(size, truth.iter().map(|p| image::tone_map(*p))),
+    }];
+    for (way, spread) in &spreads {
+        let stem = format!("{}-{}", name(way.technique), name(way.sampler));
+        let mut push = |kind: &'static str, png: Vec<u8>| {
+            let (file, title) = (format!("{stem}-{kind}"), way.title());
+            pictures.push(Picture { file, kind, title, size, png });
+        };
+        push("image", png(size, spread.first.iter().map(|p| image::tone_map(*p))));
+        let differences = spread.first.iter().zip(truth).map(|(a, b)| {
+            let mean: f64 = (0..3).map(|k| f64::from(a[k]) - f64::from(b[k])).sum::<f64>() / 3.0;
+            signed(mean / range)
+        });
+        push("difference", png(size, differences));
+        let scaled = spread.variance.iter().map(|v| heat((v.max(low) / low).ln() / (high / low).ln()));
+        push("variance", png(size, scaled));
+    }
+    let caption = format!(
+        "{spp} samples in every pixel: a map of their number would be one colour. Difference from the reference: blue is too dark, red too bright, \
+         full colour at ±{}. Variance of a pixel over {REPLICATES} replicates: black is {} and less, pale yellow {} and more, \
+         logarithmic between.",
+        short(range),
+        short(low),
+        short(high),
+    );
+    Panel { scene: summary.scene.clone(), spp, pictures, caption }
+}

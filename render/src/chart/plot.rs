@@ -1,0 +1,427 @@
+//! Charts as SVG, by plotters: the one file that names it.
+//!
+//! Each series is a group of its own (`<g data-series="…">`), so that a page can switch it off.
+
+mod axis;
+mod bars;
+
+use axis::Axis;
+pub use axis::Scale;
+pub use bars::Bars;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+
+/// Units of the drawing per unit of the chart: plotters draws at whole units.
+const UNIT: i32 = 8;
+const WIDTH: i32 = 480;
+const HEIGHT: i32 = 350;
+const ROW: i32 = 19;
+const TEXT: i32 = 13;
+const INK: RGBColor = RGBColor(51, 51, 51);
+const GRID: RGBColor = RGBColor(225, 225, 225);
+const PALE: RGBColor = RGBColor(243, 243, 243);
+const GUIDE: RGBColor = RGBColor(130, 130, 130);
+
+/// Colours that most eyes tell apart, after Okabe and Ito; then more.
+pub const PALETTE: [[u8; 3]; 10] = [
+    [0, 114, 178],
+    [213, 94, 0],
+    [0, 158, 115],
+    [204, 121, 167],
+    [230, 159, 0],
+    [86, 180, 233],
+    [110, 80, 30],
+    [90, 60, 150],
+    [0, 0, 0],
+    [150, 150, 0],
+];
+
+/// The colour of the n-th.
+#[must_use]
+pub fn color(n: usize) -> [u8; 3] {
+    PALETTE[n % PALETTE.len()]
+}
+
+fn rgb(n: usize) -> RGBColor {
+    let [r, g, b] = color(n);
+    RGBColor(r, g, b)
+}
+
+/// Lengths of dash and gap of the n-th style; the first is a whole line.
+#[must_use]
+pub fn dash(n: usize) -> Option<(i32, i32)> {
+    [None, Some((7, 4)), Some((2, 3)), Some((12, 3)), Some((4, 2)), Some((1, 2)), Some((9, 6))][n % 7]
+}
+
+/// A value with the ends of its interval.
+#[derive(Clone, Copy, Debug)]
+pub struct Bar {
+    /// The value.
+    pub value: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+impl Bar {
+    /// Without an interval.
+    #[must_use]
+    pub const fn exact(value: f64) -> Self {
+        Self { value, low: value, high: value }
+    }
+}
+
+impl From<super::stats::Estimate> for Bar {
+    fn from(e: super::stats::Estimate) -> Self {
+        Self { value: e.value, low: e.low(), high: e.high() }
+    }
+}
+
+/// A point with its error bars; hollow where it is not sure.
+#[derive(Clone, Copy, Debug)]
+pub struct Dot {
+    /// Across.
+    pub x: Bar,
+    /// Upwards.
+    pub y: Bar,
+    /// Whether its interval is narrow enough to support a claim.
+    pub sure: bool,
+}
+
+/// One series.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// What a page calls it.
+    pub id: String,
+    /// In the legend.
+    pub name: String,
+    /// Which of the colours.
+    pub color: usize,
+    /// Which of the dashes.
+    pub dash: usize,
+    /// Whether its points are joined.
+    pub joined: bool,
+    /// Size of its markers, 1 as a rule and 0 for none.
+    pub mark: f64,
+    /// In order.
+    pub dots: Vec<Dot>,
+}
+
+/// A chart of lines and points.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    /// Above it.
+    pub title: String,
+    /// Below it.
+    pub x_label: String,
+    /// Beside it.
+    pub y_label: String,
+    /// Of x and y.
+    pub scales: [Scale; 2],
+    /// The series.
+    pub lines: Vec<Line>,
+    /// Slopes to compare with, in a chart of two logarithms.
+    pub guides: Vec<f64>,
+    /// Whether a unit is as long across as upwards.
+    pub equal: bool,
+}
+
+/// A drawing: the chart, and below it the legend.
+#[derive(Clone, Debug)]
+pub struct Drawing {
+    width: i32,
+    chart: i32,
+    legend: i32,
+    /// What a reader who cannot see it is told.
+    about: String,
+    body: String,
+    key: String,
+}
+
+impl Drawing {
+    fn svg(&self, height: i32, parts: &[&str]) -> String {
+        let (w, h) = (self.width * UNIT, height * UNIT);
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{}\" height=\"{height}\" role=\"img\" \
+             aria-label=\"{}\" font-family=\"sans-serif\">\n<rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n{}</svg>\n",
+            self.width,
+            escape(&self.about),
+            parts.concat()
+        )
+    }
+    /// Width and height with the legend.
+    #[must_use]
+    pub const fn size(&self) -> [i32; 2] {
+        [self.width, self.chart + self.legend]
+    }
+    /// A file of its own, with the legend.
+    #[must_use]
+    pub fn file(&self) -> String {
+        self.svg(self.chart + self.legend, &[&self.body, &self.key])
+    }
+    /// For a page that has a legend of its own.
+    #[must_use]
+    pub fn inline(&self) -> String {
+        self.svg(self.chart, &[&self.body])
+    }
+}
+
+/// Text that is safe in HTML, and in values of attributes.
+#[must_use]
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A number with three digits.
+#[must_use]
+pub fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() {
+        format!("{x}")
+    } else if !(1e-3..1e5).contains(&size) {
+        format!("{x:.2e}")
+    } else {
+        let places = (2 - size.log10().floor() as i32).max(0) as usize;
+        let text = format!("{x:.places$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    }
+}
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+/// Writing to a string does not fail; what plotters cannot draw it leaves out.
+type Drawn<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
+
+/// What `draw` draws on a canvas of this size, without the outermost element.
+fn layer(width: i32, height: i32, draw: impl for<'a> FnOnce(&Area<'a>) -> Drawn<'a>) -> String {
+    let mut text = String::new();
+    {
+        let size = ((width * UNIT) as u32, (height * UNIT) as u32);
+        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        if let Err(error) = draw(&area) {
+            debug_assert!(false, "{error}");
+        }
+        let _ = area.present();
+    }
+    let start = text.find('>').map_or(0, |i| i + 1);
+    let end = text.rfind("</svg>").unwrap_or(text.len());
+    text[start..end].trim_start().to_owned()
+}
+
+fn font<'a>(size: i32) -> TextStyle<'a> {
+    TextStyle::from(("sans-serif", size * UNIT).into_font()).color(&INK)
+}
+
+fn stroke(color: RGBColor, tenths: i32) -> ShapeStyle {
+    color.stroke_width((tenths * UNIT / 10).max(1) as u32)
+}
+
+/// A marker at a place of a canvas: filled, or hollow where it is not sure.
+fn marker((x, y): (i32, i32), (n, size): (usize, f64), color: RGBColor, sure: bool) -> Polygon<(i32, i32)> {
+    let style = if sure { color.filled() } else { WHITE.filled() };
+    Polygon::new(outline(n, size).into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>(), style)
+}
+
+/// Corners of the n-th marker around its middle.
+fn outline(n: usize, size: f64) -> Vec<(i32, i32)> {
+    let r = 3.4 * size * f64::from(UNIT);
+    let regular = |count: usize, turn: f64, size: f64| {
+        (0..count)
+            .map(|i| {
+                let angle = (i as f64 / count as f64 + turn) * std::f64::consts::TAU;
+                ((size * r * angle.cos()).round() as i32, (size * r * angle.sin()).round() as i32)
+            })
+            .collect()
+    };
+    match n % 5 {
+        0 => regular(24, 0.0, 1.0),
+        1 => regular(4, 0.125, 1.2),
+        2 => regular(3, -0.25, 1.35),
+        3 => regular(4, 0.0, 1.3),
+        _ => regular(3, 0.25, 1.35),
+    }
+}
+
+impl Chart {
+    /// Draws it.
+    #[must_use]
+    pub fn draw(&self) -> Drawing {
+        let sure = |d: &&Dot| d.sure;
+        let dots = || self.lines.iter().flat_map(|l| &l.dots);
+        // the intervals of what is not sure do not stretch the axes
+        let across = dots().map(|d| d.x.value).chain(dots().filter(sure).flat_map(|d| [d.x.low, d.x.high]));
+        let upwards = dots().map(|d| d.y.value).chain(dots().filter(sure).flat_map(|d| [d.y.low, d.y.high]));
+        let mut axes = [Axis::new(self.scales[0], across), Axis::new(self.scales[1], upwards)];
+        if self.equal {
+            // what the labels leave is about 400 by 270
+            let [x, y] = &mut axes;
+            let (middle, half) = ((x.low + x.high) / 2.0, (y.high - y.low) * 400.0 / 270.0 / 2.0);
+            (x.low, x.high) = (middle - half, middle + half);
+        }
+
+        let mut body = layer(WIDTH, HEIGHT, |area| self.frame(area, &axes));
+        body += &group("class=\"guides\"", &self.plane(&axes, |plane| self.draw_guides(plane, &axes)));
+        for line in &self.lines {
+            let drawn = self.plane(&axes, |plane| draw_line(plane, line, &axes));
+            body += &group(&format!("data-series=\"{}\"", escape(&line.id)), &drawn);
+        }
+        let (key, legend) = legend(&self.lines, HEIGHT);
+        Drawing { width: WIDTH, chart: HEIGHT, legend, about: self.title.clone(), body, key }
+    }
+
+    /// Axes and labels.
+    fn frame<'a>(&self, area: &Area<'a>, axes: &[Axis; 2]) -> Drawn<'a> {
+        let mut chart = self.builder(area, true).build_cartesian_2d(axes[0].clone(), axes[1].clone())?;
+        let (x, y) = (axes[0].clone(), axes[1].clone());
+        chart
+            .configure_mesh()
+            .x_desc(&self.x_label)
+            .y_desc(&self.y_label)
+            .axis_desc_style(font(TEXT))
+            .label_style(font(TEXT - 1))
+            .x_label_formatter(&move |v| x.label(*v))
+            .y_label_formatter(&move |v| y.label(*v))
+            .bold_line_style(stroke(GRID, 10))
+            .light_line_style(stroke(PALE, 6))
+            .axis_style(stroke(INK, 10))
+            .set_all_tick_mark_size(4 * UNIT)
+            .draw()
+    }
+
+    fn builder<'a, 'b, 'c>(&'b self, area: &'a Area<'c>, titled: bool) -> ChartBuilder<'a, 'b, SVGBackend<'c>> {
+        let mut builder = ChartBuilder::on(area);
+        // the same margins whether or not the title is drawn
+        let title = TextStyle {
+            color: if titled { INK.to_backend_color() } else { TRANSPARENT.to_backend_color() },
+            ..font(TEXT + 1)
+        };
+        builder
+            .caption(&self.title, title)
+            .margin(8 * UNIT)
+            .margin_right(14 * UNIT)
+            .x_label_area_size(40 * UNIT)
+            .y_label_area_size(58 * UNIT);
+        builder
+    }
+
+    /// A layer between the axes.
+    fn plane(
+        &self,
+        axes: &[Axis; 2],
+        draw: impl for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Cartesian2d<Axis, Axis>>) -> Drawn<'a>,
+    ) -> String {
+        layer(WIDTH, HEIGHT, |area| {
+            let chart = self.builder(area, false).build_cartesian_2d(axes[0].clone(), axes[1].clone())?;
+            draw(chart.plotting_area())
+        })
+    }
+
+    /// Lines of the given slopes, from the middle of the upper edge.
+    fn draw_guides<'a>(
+        &self,
+        plane: &DrawingArea<SVGBackend<'a>, Cartesian2d<Axis, Axis>>,
+        [x, y]: &[Axis; 2],
+    ) -> Drawn<'a> {
+        for slope in &self.guides {
+            let start = (x.low * (x.high / x.low).powf(0.04), y.high / (y.high / y.low).powf(0.03));
+            // as far as the chart goes
+            let reach = (x.high / start.0).min((y.low / start.1).powf(1.0 / slope));
+            let reach = reach.powf(0.97);
+            let end = (start.0 * reach, start.1 * reach.powf(*slope));
+            let style = stroke(GUIDE, 8);
+            plane.draw(&DashedPathElement::new([start, end], 3 * UNIT, 3 * UNIT, style))?;
+            let share = 0.72;
+            let at = (start.0 * reach.powf(share), start.1 * reach.powf(slope * share));
+            let text = TextStyle { color: GUIDE.to_backend_color(), ..font(TEXT - 2) };
+            let label = format!("slope {}", short(*slope).replace('-', "−"));
+            plane.draw(&(EmptyElement::at(at) + Text::new(label, (4 * UNIT, -12 * UNIT), text)))?;
+        }
+        Ok(())
+    }
+}
+
+fn draw_line<'a>(
+    plane: &DrawingArea<SVGBackend<'a>, Cartesian2d<Axis, Axis>>,
+    line: &Line,
+    [x, y]: &[Axis; 2],
+) -> Drawn<'a> {
+    let color = rgb(line.color);
+    let drawable = |d: &&Dot| {
+        let positive = |v: f64, scale| v.is_finite() && (scale == Scale::Linear || v > 0.0);
+        positive(d.x.value, x.scale) && positive(d.y.value, y.scale)
+    };
+    let dots: Vec<&Dot> = line.dots.iter().filter(drawable).collect();
+    if line.joined && dots.len() > 1 {
+        let path: Vec<_> = dots.iter().map(|d| (d.x.value, d.y.value)).collect();
+        let style = stroke(color, 16);
+        match dash(line.dash) {
+            None => plane.draw(&PathElement::new(path, style))?,
+            Some((on, off)) => {
+                plane.draw(&DashedPathElement::new(path, on * UNIT, off * UNIT, style))?;
+            }
+        }
+    }
+    for dot in dots {
+        let (at, width) = ((dot.x.value, dot.y.value), 3 * UNIT);
+        let thin = stroke(color, 9);
+        for (low, high, vertical) in [(dot.y.low, dot.y.high, true), (dot.x.low, dot.x.high, false)] {
+            if low >= high {
+                continue;
+            }
+            let end = |v: f64| if vertical { (at.0, y.inside(v)) } else { (x.inside(v), at.1) };
+            plane.draw(&PathElement::new([end(low), end(high)], thin))?;
+            for v in [low, high] {
+                let cap = if vertical { [(-width, 0), (width, 0)] } else { [(0, -width), (0, width)] };
+                plane.draw(&(EmptyElement::at(end(v)) + PathElement::new(cap, thin)))?;
+            }
+        }
+        if line.mark == 0.0 {
+            continue;
+        }
+        if line.joined || dot.sure {
+            plane.draw(&(EmptyElement::at(at) + marker((0, 0), (line.dash, line.mark), color, dot.sure)))?;
+        }
+        if !dot.sure {
+            let mut edge = outline(line.dash, line.mark);
+            edge.push(edge[0]);
+            plane.draw(&(EmptyElement::at(at) + PathElement::new(edge, stroke(color, 10))))?;
+        }
+    }
+    Ok(())
+}
+
+fn group(attributes: &str, body: &str) -> String {
+    format!("<g {attributes}>\n{body}</g>\n")
+}
+
+/// Samples of the lines with their names, two to a row, from `top` on; and its height.
+fn legend(lines: &[Line], top: i32) -> (String, i32) {
+    if lines.is_empty() {
+        return (String::new(), 0);
+    }
+    let rows = (lines.len() as i32 + 1) / 2;
+    let height = rows * ROW + 8;
+    let body = layer(WIDTH, top + height, |area| {
+        for (i, line) in lines.iter().enumerate() {
+            let i = i as i32;
+            let (x, y) = ((12 + (i / rows) * 234) * UNIT, (top + (i % rows) * ROW + ROW / 2) * UNIT);
+            let color = rgb(line.color);
+            if line.joined {
+                let ends = [(x, y), (x + 26 * UNIT, y)];
+                match dash(line.dash) {
+                    None => area.draw(&PathElement::new(ends, stroke(color, 16)))?,
+                    Some((on, off)) => {
+                        let path = DashedPathElement::new(ends, on * UNIT, off * UNIT, stroke(color, 16));
+                        area.draw(&path)?;
+                    }
+                }
+            }
+            if line.mark > 0.0 {
+                area.draw(&marker((x + 13 * UNIT, y), (line.dash, line.mark), color, true))?;
+            }
+            area.draw(&Text::new(line.name.clone(), (x + 32 * UNIT, y - (TEXT - 2) * UNIT / 2), font(TEXT - 2)))?;
+        }
+        Ok(())
+    });
+    (body, height)
+}

@@ -1,0 +1,314 @@
+//! Warps one by one: time for a sample at each width against the greatest error that single precision makes.
+
+use super::charts::Figure;
+use super::plot::{Bar, Chart, Dot, Line, Scale, escape, short};
+use super::stats::Estimate;
+use etendue::seen::{ProjectedCap, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
+use etendue::sequence::{Independent, Sequence};
+use etendue::warp::{
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
+    PolarDisk, UniformHemisphere, UniformSphere, Warp,
+};
+use etendue::{Real, Uint, Vec2, Vec3, f32x4, f32x8};
+use std::fmt::Write;
+use std::hint::black_box;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Samples in a batch: their `u` and points fit the first-level cache.
+const SAMPLES: usize = 1024;
+/// Batches of each, which take turns.
+const ROUNDS: usize = 41;
+/// Batches that are timed as one.
+const BATCHES: u32 = 4;
+/// Random places at which errors are looked for.
+const PLACES: u32 = 1 << 18;
+
+/// One warp with its parameters.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// As in `spherical triangle, 1e-3 across`.
+    pub name: String,
+    /// Nanoseconds for a sample at f32, f32x4, f32x8: medians of groups of rounds.
+    pub nanoseconds: [Estimate; 3],
+    /// Greatest distance of a point or unit direction in f32 from that of the f64 instance.
+    pub point: f64,
+    /// Greatest relative error of a density, likewise.
+    pub density: f64,
+}
+
+/// Points as numbers.
+trait Coordinates<R: Real> {
+    fn numbers(&self, lane: usize) -> [f64; 3];
+    fn of(numbers: [f64; 3]) -> Self;
+}
+
+impl<R: Real> Coordinates<R> for Vec2<R> {
+    fn numbers(&self, lane: usize) -> [f64; 3] {
+        [self.x.lane_f64(lane), self.y.lane_f64(lane), 0.0]
+    }
+    fn of([x, y, _]: [f64; 3]) -> Self {
+        Self::new(R::lit(x), R::lit(y))
+    }
+}
+
+impl<R: Real> Coordinates<R> for Vec3<R> {
+    fn numbers(&self, lane: usize) -> [f64; 3] {
+        [self.x, self.y, self.z].map(|v| v.lane_f64(lane))
+    }
+    fn of([x, y, z]: [f64; 3]) -> Self {
+        Self::new(R::lit(x), R::lit(y), R::lit(z))
+    }
+}
+
+/// Eight random places.
+fn square<R: Real>(first: u32) -> Vec2<R> {
+    Independent::new(3).pair(R::Uint::splat(0), R::Uint::from_fn(|lane| first + lane as u32), 0)
+}
+
+/// Greatest errors of a point and of a density.
+fn errors<W, V>(single: &W, double: &V) -> [f64; 2]
+where
+    W: Warp<f32x8>,
+    V: Warp<f64>,
+    W::Point: Coordinates<f32x8> + Copy,
+    V::Point: Coordinates<f64> + Copy,
+{
+    let [mut point, mut density] = [0.0_f64; 2];
+    for first in (0..PLACES).step_by(8) {
+        let u = square::<f32x8>(first);
+        let found = single.sample(u);
+        let pdf = single.pdf(found);
+        for lane in 0..8 {
+            let truth = double.sample(Vec2::new(u.x.lane_f64(lane), u.y.lane_f64(lane))).numbers(0);
+            let at = found.numbers(lane);
+            let off = (0..3).map(|k| (at[k] - truth[k]).powi(2)).sum::<f64>().sqrt();
+            point = point.max(off);
+            // at the place itself, unless rounding has left the shape
+            let known = double.pdf(V::Point::of(at));
+            if known > 0.0 {
+                density = density.max((pdf.lane_f64(lane) / known - 1.0).abs());
+            }
+        }
+    }
+    [point, density]
+}
+
+/// What a batch of samples costs: nanoseconds for one.
+type Routine = Box<dyn FnMut() -> f64>;
+
+fn routine<R: Real + 'static, T>(sample: impl Fn(Vec2<R>) -> T + 'static) -> Routine {
+    let squares: Vec<Vec2<R>> = (0..SAMPLES / R::LANES)
+        .map(|k| Independent::new(1).pair(R::Uint::splat(0), R::Uint::from_fn(|lane| (k * R::LANES + lane) as u32), 0))
+        .collect();
+    Box::new(move || {
+        let start = Instant::now();
+        for _ in 0..BATCHES {
+            for &u in &squares {
+                black_box(sample(u));
+            }
+        }
+        start.elapsed().as_secs_f64() * 1e9 / (f64::from(BATCHES) * SAMPLES as f64)
+    })
+}
+
+struct Entry {
+    name: String,
+    routines: [Routine; 3],
+    errors: [f64; 2],
+}
+
+/// A warp that is prepared once: its expression is evaluated at each width, with `R` for the width.
+macro_rules! warp {
+    ($list:ident, $name:expr, $R:ident => $make:expr) => {{
+        macro_rules! at {
+            ($width:ty) => {{
+                // what takes no parameters does not mention its width
+                #[allow(dead_code)]
+                type $R = $width;
+                $make
+            }};
+        }
+        macro_rules! timed {
+            ($width:ty) => {{
+                let warp = at!($width);
+                routine::<$width, _>(move |u| warp.sample(u))
+            }};
+        }
+        $list.push(Entry {
+            name: $name.to_owned(),
+            routines: [timed!(f32), timed!(f32x4), timed!(f32x8)],
+            errors: errors(&at!(f32x8), &at!(f64)),
+        });
+    }};
+}
+
+/// Besides, one that is prepared for every sample, as a renderer does for every point that it shades: the numbers that it is made of
+/// come out of a `black_box` each time.
+macro_rules! prepared {
+    ($list:ident, $name:expr, $R:ident => $make:expr) => {{
+        warp!($list, $name, $R => $make);
+        let errors = $list.last().map_or([f64::NAN; 2], |e| e.errors);
+        macro_rules! timed {
+            ($width:ty) => {
+                routine::<$width, _>(move |u| {
+                    type $R = $width;
+                    $make.sample(u)
+                })
+            };
+        }
+        $list.push(Entry {
+            name: format!("{}, prepared for each", $name),
+            routines: [timed!(f32), timed!(f32x4), timed!(f32x8)],
+            errors,
+        });
+    }};
+}
+
+fn vector<R: Real>(v: [f64; 3]) -> Vec3<R> {
+    // every number of single precision is one of double: both widths are given the same shape
+    let [x, y, z] = v.map(|x| R::lit(f64::from(x as f32)));
+    black_box(Vec3::new(x, y, z))
+}
+
+fn number<R: Real>(x: f64) -> R {
+    black_box(R::lit(f64::from(x as f32)))
+}
+
+fn entries() -> Vec<Entry> {
+    let mut list = Vec::new();
+    warp!(list, "concentric disk", R => ConcentricDisk);
+    warp!(list, "polar disk", R => PolarDisk);
+    warp!(list, "uniform hemisphere", R => UniformHemisphere);
+    warp!(list, "uniform sphere", R => UniformSphere);
+    warp!(list, "cosine hemisphere", R => CosineHemisphere);
+    warp!(list, "cone, 1−cos 0.1", R => Cone { one_minus_cos: number::<R>(0.1) });
+    warp!(list, "cone, 1−cos 1e-8", R => Cone { one_minus_cos: number::<R>(1e-8) });
+    warp!(list, "area triangle", R => AreaTriangle);
+    warp!(list, "low-distortion triangle", R => LowDistortionTriangle);
+    warp!(list, "bilinear", R => Bilinear { corners: [1.0, 2.0, 0.5, 4.0].map(number::<R>) });
+    warp!(list, "GGX visible normals", R => GgxVisibleNormals::new(number::<R>(0.4), number(0.2), vector([0.6, 0.0, 0.8])));
+    for (name, scale) in [("", 1.0), (", a thousandth", 1e-3)] {
+        // a radius of 0.2 of the distance, and one of 2e-4
+        let radius = 0.2 * scale;
+        prepared!(list, format!("sphere cap{name}"), R => SphereCap::new(vector([0.6, 0.0, 0.8]), number::<R>(radius)));
+        let edges = [[1.0, 0.2, -0.3], [0.1, 0.9, 0.4]].map(|v| v.map(|x| x * scale));
+        prepared!(list, format!("spherical triangle{name}"), R => {
+            let (v0, e1, e2) = (vector::<R>([-0.3, -0.4, 2.0]), vector::<R>(edges[0]), vector::<R>(edges[1]));
+            SphericalTriangle::with_edges(v0, v0 + e1, v0 + e2, e1, e2)
+        });
+        prepared!(list, format!("spherical parallelogram{name}"), R => {
+            SphericalParallelogram::new(vector::<R>([-0.3, -0.4, 2.0]), vector(edges[0]), vector(edges[1]))
+        });
+        let sides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|v| v.map(|x| x * scale));
+        prepared!(list, format!("spherical rectangle{name}"), R => {
+            SphericalRectangle::new(vector::<R>([-0.3, -0.4, 2.0]), vector(sides[0]), vector(sides[1]))
+        });
+    }
+    let up = [0.0, 0.0, 1.0];
+    prepared!(list, "projected cap, whole", R => ProjectedCap::new(vector::<R>([0.6, 0.0, 0.8]), number(0.2), vector(up)));
+    prepared!(list, "projected cap, cut", R => ProjectedCap::new(vector::<R>([0.995, 0.0, 0.1]), number(0.2), vector(up)));
+    list
+}
+
+/// Measures all, in turns; fewer rounds if `stop` says so.
+#[must_use]
+pub fn measure(stop: &AtomicBool, progress: impl Fn(u64, u64)) -> Vec<Measured> {
+    let mut list = entries();
+    let mut times = vec![[const { Vec::new() }; 3]; list.len()];
+    for round in 0..ROUNDS {
+        for (entry, times) in list.iter_mut().zip(&mut times) {
+            for (routine, times) in entry.routines.iter_mut().zip(times) {
+                times.push(routine());
+            }
+        }
+        progress(round as u64 + 1, ROUNDS as u64);
+        if round >= 8 && stop.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    // medians of groups: one that was interrupted does not count
+    let estimate = |times: &Vec<f64>| {
+        let groups = times.chunks_exact((times.len() / 5).max(1)).map(|group| {
+            let mut group = group.to_vec();
+            group.sort_by(f64::total_cmp);
+            group[group.len() / 2]
+        });
+        Estimate::of(&groups.collect::<Vec<_>>())
+    };
+    let one = |(entry, times): (Entry, [Vec<f64>; 3])| Measured {
+        name: entry.name,
+        nanoseconds: times.each_ref().map(estimate),
+        point: entry.errors[0],
+        density: entry.errors[1],
+    };
+    list.into_iter().zip(times).map(one).collect()
+}
+
+/// Time for a sample against greatest error.
+#[must_use]
+pub fn figure(measured: &[Measured]) -> Figure {
+    let line = |(i, m): (usize, &Measured)| Line {
+        id: format!("warp/{i}"),
+        name: m.name.clone(),
+        color: i,
+        dash: i / super::plot::PALETTE.len(),
+        joined: true,
+        mark: 0.8,
+        dots: m.nanoseconds.iter().map(|t| Dot { x: (*t).into(), y: Bar::exact(m.point), sure: t.is_sure() }).collect(),
+    };
+    let chart = Chart {
+        title: "warps: greatest error against time".to_owned(),
+        x_label: "nanoseconds for a sample: x8, x4, f32 from left to right".to_owned(),
+        y_label: "greatest error of a point or direction".to_owned(),
+        scales: [Scale::Log, Scale::Log],
+        lines: measured.iter().enumerate().map(line).collect(),
+        guides: Vec::new(),
+        equal: false,
+    };
+    let caption = "Each line is one warp at its three widths, which give the same bits: hence the same error. Errors are against the \
+                   f64 instance of the same body, at the same numbers, over 262,144 random places; a direction has length 1."
+        .to_owned();
+    Figure { file: "warps", drawing: chart.draw(), caption }
+}
+
+/// The figures as a table of HTML.
+#[must_use]
+pub fn table(measured: &[Measured]) -> String {
+    let mut text =
+        "<div class=\"scroll\"><table><tr><th>warp</th><th>f32</th><th>x4</th><th>x8</th><th>x8 over f32</th>\
+                    <th>point off by</th><th>density off by</th></tr>\n"
+            .to_owned();
+    for m in measured {
+        let [a, b, c] = m.nanoseconds.each_ref().map(|t| short(t.value));
+        let _ = writeln!(
+            text,
+            "<tr><td>{}</td><td>{a} ns</td><td>{b} ns</td><td>{c} ns</td><td>{}×</td><td>{:.1e}</td><td>{:.1e}</td></tr>",
+            escape(&m.name),
+            short(m.nanoseconds[0].value / m.nanoseconds[2].value),
+            m.point,
+            m.density
+        );
+    }
+    text + "</table></div>\n"
+}
+
+/// The same as CSV.
+#[must_use]
+pub fn csv(measured: &[Measured]) -> String {
+    let mut text =
+        "warp,ns_f32,ns_f32x4,ns_f32x8,half_f32,half_f32x4,half_f32x8,greatest_point_error,greatest_density_error\n"
+            .to_owned();
+    for m in measured {
+        let [a, b, c] = &m.nanoseconds;
+        let (name, values, halves) = (m.name.replace('"', ""), [a.value, b.value, c.value], [a.half, b.half, c.half]);
+        let numbers: Vec<String> = values
+            .iter()
+            .chain(&halves)
+            .map(|x| format!("{x:.4}"))
+            .chain([m.point, m.density].map(|x| format!("{x:e}")))
+            .collect();
+        let _ = writeln!(text, "\"{name}\",{}", numbers.join(","));
+    }
+    text
+}
