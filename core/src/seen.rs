@@ -13,12 +13,15 @@
 //! | parallelogram | [`SphericalParallelogram`] | 1/Ω | as the triangle |
 //! | rectangle | [`SphericalRectangle`] | 1/Ω | as the triangle |
 //! | convex polygon, 3 to 8 corners | [`SphericalPolygon`] | 1/Ω | as the triangle |
+//! | triangle | [`ProjectedTriangle`] | cosθ/Ω⊥ | as the triangle; below the horizon: pdf 0 |
+//! | convex polygon, 3 to 8 corners | [`ProjectedPolygon`] | cosθ/Ω⊥ | as the triangle; below the horizon: pdf 0 |
 //!
 //! Solid angles Ω in steradians; Ω⊥ projected on the surface at the viewpoint, above its horizon, at most π.
 
 mod parallelogram;
 mod polygon;
 mod projected_cap;
+mod projected_polygon;
 mod rectangle;
 mod sphere;
 mod triangle;
@@ -26,6 +29,7 @@ mod triangle;
 pub use parallelogram::SphericalParallelogram;
 pub use polygon::SphericalPolygon;
 pub use projected_cap::ProjectedCap;
+pub use projected_polygon::{ProjectedPolygon, ProjectedTriangle};
 pub use rectangle::SphericalRectangle;
 pub use sphere::SphereCap;
 pub use triangle::SphericalTriangle;

@@ -5,7 +5,7 @@ use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
 
 /// Angle by which a sample may leave the triangle through the error of its direction: 8 ulp of a component near 1.
-const SLACK: f64 = 8.0 / 16_777_216.0;
+pub(super) const SLACK: f64 = 8.0 / 16_777_216.0;
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 
 lanewise! {
@@ -67,7 +67,7 @@ lanewise! {
 
 /// a×b = a×(b−a), from the shorter of the two: each is good to parts in 2²⁴ of itself.
 #[inline(always)]
-fn plane<R: Real>(a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> Vec3<R> {
+pub(super) fn plane<R: Real>(a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> Vec3<R> {
     a.cross(Vec3::select(edge.length_squared().lt(b.length_squared()), edge, b))
 }
 

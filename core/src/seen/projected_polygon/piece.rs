@@ -1,0 +1,190 @@
+//! A triangle wholly above the horizon, in two sectors or, about the zenith, in three.
+#![expect(unreachable_pub, reason = "of the macro")]
+
+use super::super::lanewise;
+use super::super::projected_cap::ratio;
+use super::super::triangle::plane;
+use super::sector::{Corner, Sector};
+use crate::math::rsqrt;
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::unit_interval;
+
+lanewise! {
+    /// By azimuth: from the first vertex to the middle one, from there to the last; about the zenith on to the first.
+    Piece {
+        first: Sector<R>,
+        /// told from its far end, the last vertex
+        second: Sector<R>,
+        third: Sector<R>,
+        /// horizontal, across the azimuth of the middle vertex: positive beyond it
+        middle: Vec3<R>,
+        /// ±1: does the azimuth go round anticlockwise?
+        turn: R,
+        pub(super) area: R,
+    }
+}
+
+/// Vertices relative to the point, edges from each to the next, unit normals of their planes, heights over the horizon, and
+/// det(v₀, v₁, v₂).
+pub(super) struct Corners<R> {
+    pub(super) vertices: [Vec3<R>; 3],
+    pub(super) edges: [Vec3<R>; 3],
+    pub(super) poles: [Vec3<R>; 3],
+    pub(super) heights: [R; 3],
+    pub(super) volume: R,
+}
+
+impl<R: Real> Piece<R> {
+    #[inline(never)]
+    pub(super) fn new(corners: &Corners<R>, normal: Vec3<R>) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Corners { vertices: v, edges: e, poles: pole, heights: z, volume } = *corners;
+        let inverse = |squared: R| rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
+        let squared = v.map(Vec3::length_squared);
+        let shrink = squared.map(inverse);
+        let next = [1, 2, 0];
+        let m: [Vec3<R>; 3] = core::array::from_fn(|i| plane(v[i], v[next[i]], e[i]));
+        let m_squared = m.map(Vec3::length_squared);
+        let m_inverse = m_squared.map(inverse);
+        let length: [R; 3] = core::array::from_fn(|i| m_squared[i] * m_inverse[i]);
+        let cosine: [R; 3] = core::array::from_fn(|i| {
+            let cos = pole[i].dot(normal);
+            // near the zenith, of the products the one with the smaller factor; from the first vertex, so that the edges alone
+            // tell where the others are
+            let low = |k: usize| (squared[k] - z[k] * z[k]) * e[i].length_squared();
+            let (overhead, from_first) = (low(i).lt(m_squared[i]), low(0).lt(m_squared[i]));
+            if !(overhead | from_first).any() {
+                return cos;
+            }
+            let own = normal.cross(v[i]).dot(e[i]);
+            let mut first = normal.cross(v[0]).dot(e[i]);
+            if i == 1 {
+                first += normal.dot(e[0].cross(e[1]));
+            }
+            R::select(overhead | from_first, R::select(from_first, first, own) * m_inverse[i], cos)
+        });
+        let reversed = volume.lt(zero);
+        let cosine = cosine.map(|c| c.negate_where(reversed));
+        // one edge on the far side of the other two: inner if its plane lies over the triangle. None about the zenith
+        let inner = cosine.map(|c| c.lt(zero));
+        let two = (inner[0] & inner[1]) | (inner[1] & inner[2]) | (inner[2] & inner[0]);
+        let central = !(inner[0] | inner[1] | inner[2]);
+        let (long0, long1) = (inner[0] ^ two, inner[1] ^ two);
+        let cosine = cosine.map(R::abs);
+        let pick = |x: [R; 3], i: usize| R::select(long0, x[next[i]], R::select(long1, x[next[next[i]]], x[i]));
+        let turned =
+            |x: [Vec3<R>; 3], i: usize| Vec3::select(long0, x[next[i]], Vec3::select(long1, x[next[next[i]]], x[i]));
+        let dot: [R; 3] = core::array::from_fn(|i| v[i].dot(v[next[i]]));
+        let unit: [Vec3<R>; 3] = core::array::from_fn(|i| v[i] * shrink[i]);
+        let height: [R; 3] = core::array::from_fn(|i| z[i] * shrink[i]);
+        let sizes: [R; 3] = core::array::from_fn(|i| squared[i] * shrink[i]);
+        let poles: [Vec3<R>; 3] = core::array::from_fn(|i| turned(pole, i));
+        let cosines: [R; 3] = core::array::from_fn(|i| pick(cosine, i));
+        let lengths: [R; 3] = core::array::from_fn(|i| pick(length, i));
+        let inverses: [R; 3] = core::array::from_fn(|i| pick(m_inverse, i));
+        let dots: [R; 3] = core::array::from_fn(|i| pick(dot, i));
+        let (a, c) = (turned(unit, 0), turned(unit, 2));
+        let (size_a, size_c) = (pick(sizes, 0), pick(sizes, 2));
+        let (height_a, height_c) = (pick(height, 0), pick(height, 2));
+        // twice the horizontal areas to either side of the middle vertex
+        let (before, after) = (cosines[0] * lengths[0], cosines[1] * lengths[1]);
+        let volume_abs = volume.abs();
+        let some = volume_abs.gt(zero);
+
+        let sector = |own: usize, away: R::Mask, apex: Vec3<R>, size: R, height: R, mine: R, other: R| {
+            // away: the own edge runs towards the apex; the long one from the last vertex to the first
+            let over = Vec3::select(two, poles[2], poles[own]);
+            let over = Vec3::select(away ^ two, -over, over);
+            let tangent = over.cross(apex);
+            let far = [mine * lengths[2], (mine * dots[2]).mul_add(one, other * size * size)];
+            let corner = Corner {
+                apex,
+                tangent,
+                height,
+                slope: tangent.dot(normal),
+                outer: R::select(two, cosines[2], cosines[own]),
+                inner: R::select(two, cosines[own], cosines[2]).keep(!central),
+                fold: [
+                    R::select(central, one, (volume_abs * size * inverses[own] * inverses[2]).min(one)),
+                    (-poles[own].dot(poles[2])).keep(!central),
+                ],
+                end: [R::select(two, far[0], lengths[own]), R::select(two, far[1], dots[own])],
+            };
+            let mut sector = Sector::new(corner);
+            sector.area = sector.area.keep(some);
+            sector
+        };
+        let (no, yes) = (R::Mask::splat(false), R::Mask::splat(true));
+        let first = sector(0, no, a, size_a, height_a, before, after);
+        let second = sector(1, yes, c, size_c, height_c, after, before);
+        let mut third = Sector::default();
+        if central.any() {
+            let tangent = poles[2].cross(c);
+            third = Sector::new(Corner {
+                apex: c,
+                tangent,
+                height: height_c,
+                slope: tangent.dot(normal),
+                outer: cosines[2],
+                inner: zero,
+                fold: [one, zero],
+                end: [lengths[2], dots[2]],
+            });
+            third.area = third.area.keep(central & some);
+        }
+        // with the long edge outside, they run the other way round
+        let turn = one.negate_where(reversed ^ two);
+        Self {
+            first,
+            second,
+            third,
+            middle: normal.cross(turned(unit, 1)) * turn,
+            turn,
+            area: first.area + second.area + third.area,
+        }
+    }
+
+    /// The sector that has the area `swept` before it, and the share of its own area that is before the azimuth, from its apex.
+    #[inline(always)]
+    pub(super) fn choose(&self, swept: R) -> (Sector<R>, R) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let later = swept.ge(self.first.area) & self.second.area.gt(zero);
+        let mut sector = Sector::select(later, &self.second, &self.first);
+        let mut rest = R::select(later, swept - self.first.area, swept);
+        let mut back = later;
+        if self.third.area.gt(zero).any() {
+            let before = self.first.area + self.second.area;
+            let last = swept.ge(before) & self.third.area.gt(zero);
+            sector = Sector::select(last, &self.third, &sector);
+            rest = R::select(last, swept - before, rest);
+            back = back & !last;
+        }
+        let share = ratio(rest, sector.area).clamp(zero, one);
+        (sector, R::select(back, one - share, share))
+    }
+
+    /// The area before a direction, and `u` across.
+    #[inline(always)]
+    pub(super) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let beyond = self.middle.dot(w).ge(zero);
+        let some = |s: &Sector<R>| s.area.gt(zero);
+        let mut later = (beyond | !some(&self.first)) & some(&self.second);
+        let mut last = R::Mask::splat(false);
+        let about = some(&self.third);
+        if about.any() {
+            let past = |apex: Vec3<R>| (normal.cross(apex).dot(w) * self.turn).ge(zero);
+            let (past_a, past_c) = (past(self.first.apex), past(self.second.apex));
+            last = about & past_c & !past_a;
+            later = (about & !last & !(past_a & !beyond)) | (!about & later);
+        }
+        let sector = Sector::select(later, &self.second, &self.first);
+        let sector = if last.any() { Sector::select(last, &self.third, &sector) } else { sector };
+        let found = sector.locate(normal, w);
+        let share = R::select(later, one - found.x, found.x);
+        let before = R::select(later, self.first.area, zero);
+        let before = R::select(last, self.first.area + self.second.area, before);
+        Vec2 { x: share.mul_add(sector.area, before), y: unit_interval(found.y) }
+    }
+}

@@ -1,0 +1,368 @@
+//! A part of a polygon between two half-planes of constant azimuth and two great circles that meet in a vertex.
+#![expect(unreachable_pub, reason = "of the macro")]
+
+use super::super::lanewise;
+use super::super::projected_cap::{double, ratio};
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::unit_interval;
+
+/// Up to this tangent of either arc an area is the form that keeps its digits at any size, beyond it the difference of arcs.
+const NEAR: f64 = 0.7;
+/// How far the inner arc may rise over the outer one, relative to its own plane's cosine, there.
+const STEEP: f64 = 4.0;
+const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
+
+lanewise! {
+    /// Between an outer arc, which is lower, and an inner one, from the vertex in which they meet to an azimuth.
+    ///
+    /// At the angle θ along the outer arc, its height over the horizon is z = ζ cosθ + τ sinθ, and the plane of the inner one lies
+    /// D = sinδ sinθ away (δ: angle between the arcs). With c, k the cosines of the two planes to the horizon, squared distances to the
+    /// zenith's axis are in the ratio k²/(k² + y), y = D(2kz + D), so that the area is ½c ∫ y/(k² + y) dθ: an integral of positive terms.
+    Sector {
+        pub(super) apex: Vec3<R>,
+        /// along the outer arc
+        tangent: Vec3<R>,
+        /// ζ and τ
+        height: R,
+        slope: R,
+        /// c, k, c−k and sinδ; k = 0 stands for the zenith itself as the inner arc
+        outer: R,
+        inner: R,
+        gap: R,
+        fold: R,
+        /// tanθ at the far end, if both arcs are short; else 0
+        near: R,
+        /// θ at the far end, if not; else 0
+        wide: R,
+        /// d log area / d log θ at the far end
+        power: R,
+        pub(super) area: R,
+    }
+}
+
+/// What a sector is made from.
+pub(super) struct Corner<R> {
+    pub(super) apex: Vec3<R>,
+    pub(super) tangent: Vec3<R>,
+    pub(super) height: R,
+    pub(super) slope: R,
+    pub(super) outer: R,
+    pub(super) inner: R,
+    /// sine and cosine of the angle between the arcs
+    pub(super) fold: [R; 2],
+    /// proportional to the sine and the cosine of the outer arc
+    pub(super) end: [R; 2],
+}
+
+/// Half the width of the step in which `R` counts as converged: the next error is its square.
+fn enough<R: Real>() -> R {
+    R::lit(if double::<R>() { 1e-9 } else { 3e-4 })
+}
+
+/// ∫₀¹ t²/((1+at²)(1+bt²)) dt for a, b in [0, ½], by `1 + (a+b)t² + abt⁴`: Gauss's rule for the weight t².
+#[inline(always)]
+fn mean_fall<R: Real>(sum: R, product: R) -> R {
+    const FEW: [(f64, f64); 4] = [
+        (0.937_334_249_363_463_9, 0.076_181_267_807_371),
+        (0.698_948_012_417_800_8, 0.126_263_672_864_602_07),
+        (0.376_224_514_453_174_9, 0.098_048_132_715_498_17),
+        (0.105_140_282_589_087_79, 0.032_840_259_945_862_1),
+    ];
+    const MANY: [(f64, f64); 8] = [
+        (0.981_239_772_294_383_8, 0.023_695_275_208_029_79),
+        (0.903_783_947_690_318_8, 0.050_123_432_394_669_35),
+        (0.774_820_967_754_000_3, 0.065_887_790_733_189_48),
+        (0.610_764_138_286_809_7, 0.068_334_641_519_292_47),
+        (0.432_531_353_665_425_8, 0.058_450_716_383_121_09),
+        (0.262_851_586_818_020_2, 0.040_491_172_741_629_2),
+        (0.123_363_751_658_919_72, 0.020_725_616_336_108_083),
+        (0.031_856_603_044_242_76, 0.005_624_688_017_293_875),
+    ];
+    // pairs of quotients over one denominator, and pairs of those
+    let pair = |&[(x, v), (y, w)]: &[(f64, f64); 2]| {
+        let below = |t: f64| product.mul_add(R::lit(t * t), sum.mul_add(R::lit(t), R::lit(1.0)));
+        let (p, q) = (below(x), below(y));
+        (R::lit(v).mul_add(q, R::lit(w) * p), p * q)
+    };
+    let four = |nodes: &[(f64, f64)]| {
+        let ((a, p), (b, q)) = (pair(&[nodes[0], nodes[1]]), pair(&[nodes[2], nodes[3]]));
+        a.mul_add(q, b * p) / (p * q)
+    };
+    if double::<R>() { four(&MANY[..4]) + four(&MANY[4..]) } else { four(&FEW) }
+}
+
+/// An area, and its derivative.
+struct Swept<R> {
+    area: R,
+    density: R,
+}
+
+impl<R: Real> Sector<R> {
+    #[inline]
+    pub(super) fn new(corner: Corner<R>) -> Self {
+        let Corner { apex, tangent, height, slope, outer, inner, fold: [sin, cos], end: [y, x] } = corner;
+        let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
+        // c − k = c(1−cosδ) + τ sinδ; near the zenith both are small, and their difference is better
+        let versine = R::select(cos.gt(zero), sin * sin / (one + cos.max(zero)), one - cos);
+        let gap = R::select((outer + inner).lt(sin), outer - inner, outer.mul_add(versine, slope * sin));
+        let (near, steep) = (R::lit(NEAR), R::lit(STEEP));
+        let rise = height * sin * y;
+        let tangent_inner = near * inner.mul_add(x, rise);
+        let limit = steep * inner * x;
+        let small = y.le(near * x) & (outer * y).le(tangent_inner) & rise.lt(limit) & (sin * y).lt(limit);
+        let mut sector = Self {
+            apex,
+            tangent,
+            height,
+            slope,
+            outer,
+            inner,
+            gap,
+            fold: sin,
+            near: zero,
+            wide: zero,
+            power: R::lit(2.0),
+            area: zero,
+        };
+        let (mut swept, mut end) = (Swept { area: zero, density: zero }, zero);
+        if small.any() {
+            sector.near = (y / R::select(small, x, one)).keep(small);
+            swept = sector.by_tangent(&sector.narrow(), sector.near);
+            end = sector.near;
+        }
+        if !small.all() {
+            sector.wide = y.atan2(x).keep(!small);
+            let (s, c) = (sector.wide * R::lit(INV_TWO_PI)).sin_cos_turns();
+            let other = sector.by_angle(sector.wide, s, c);
+            swept.area = R::select(small, swept.area, other.area);
+            swept.density = R::select(small, swept.density, other.density);
+            end = R::select(small, end, sector.wide);
+        }
+        let area = swept.area.max(zero);
+        sector.area = half * outer * area;
+        let power = ratio(end * swept.density, area);
+        sector.power = power.clamp(R::lit(0.25), R::lit(4.0));
+        sector
+    }
+
+    #[inline(always)]
+    pub(super) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
+        let pick = |field: fn(&Self) -> R| R::select(mask, field(yes), field(no));
+        Self {
+            apex: Vec3::select(mask, yes.apex, no.apex),
+            tangent: Vec3::select(mask, yes.tangent, no.tangent),
+            height: pick(|s| s.height),
+            slope: pick(|s| s.slope),
+            outer: pick(|s| s.outer),
+            inner: pick(|s| s.inner),
+            gap: pick(|s| s.gap),
+            fold: pick(|s| s.fold),
+            near: pick(|s| s.near),
+            wide: pick(|s| s.wide),
+            power: pick(|s| s.power),
+            area: pick(|s| s.area),
+        }
+    }
+
+    /// Over k: c, c − k, ζ sinδ and sinδ.
+    #[inline(always)]
+    fn narrow(&self) -> [R; 4] {
+        let inverse = ratio(R::lit(1.0), self.inner.keep(self.near.gt(R::lit(0.0))));
+        let fold = self.fold * inverse;
+        [self.outer * inverse, self.gap * inverse, self.height * fold, fold]
+    }
+
+    /// The area up to x = tanθ and its derivative by x, over ½c, both good to parts of themselves.
+    ///
+    /// With B = k + ζ sinδ x the inner arc's tangent is v = cx/B, and c atan x − k atan v, with atan x/x = 1 − x²Ψ.
+    #[inline(always)]
+    fn by_tangent(&self, &[outer, gap, lift, fold]: &[R; 4], x: R) -> Swept<R> {
+        let one = R::lit(1.0);
+        let b = lift.mul_add(x, one);
+        let inverse = one / b;
+        let v = outer * x * inverse;
+        let (x2, v2) = (x * x, v * v);
+        let fall = mean_fall(x2 + v2, x2 * v2);
+        let theta = x.atan2(one);
+        let second = x2 * (gap - lift * x) * (outer + b) * inverse * fall;
+        let area = inverse * lift.mul_add(x * theta, x * second * inverse);
+        let bend = fold * (self.slope + self.slope + fold);
+        let above = (x * bend.mul_add(x, lift + lift)).max(R::lit(0.0));
+        let square = one + x2;
+        Swept { area, density: above / (square * (square + above)) }
+    }
+
+    /// y at θ, by its sine and cosine.
+    #[inline(always)]
+    fn rise(&self, s: R, z: R) -> R {
+        let away = self.fold * s;
+        // of the zenith: 1, also where the outer arc begins
+        (away * (self.inner + self.inner).mul_add(z, away)).max(R::lit(1e-37))
+    }
+    #[inline(always)]
+    fn height(&self, s: R, c: R) -> R {
+        self.height.mul_add(c, self.slope * s).max(R::lit(0.0))
+    }
+
+    /// The area up to θ and its derivative by θ, over ½c: to parts of θ.
+    #[inline(always)]
+    fn by_angle(&self, theta: R, s: R, c: R) -> Swept<R> {
+        let lift = self.height * self.fold;
+        // the inner arc beyond the outer one
+        let y = s * lift.mul_add(s, -self.gap * c);
+        let x = s.mul_add(lift.mul_add(c, self.gap * s), self.inner);
+        let both = self.gap.mul_add(theta, self.inner * y.atan2(x));
+        let rise = self.rise(s, self.height(s, c));
+        Swept { area: ratio(both, self.outer), density: rise / self.inner.mul_add(self.inner, rise) }
+    }
+
+    /// Share of the far end's θ or tanθ for a share v of the area: exact at both ends to first order.
+    #[inline(always)]
+    fn start(&self, v: R) -> R {
+        let root = v.sqrt();
+        let two = R::lit(2.0);
+        self.power * root / (self.power - two).mul_add(root, two)
+    }
+
+    /// Sine and cosine of the θ up to which lies the share `v` of the area.
+    #[inline(never)]
+    pub(super) fn sweep(&self, v: R) -> [R; 2] {
+        let one = R::lit(1.0);
+        let zero = R::lit(0.0);
+        let small = self.near.gt(zero);
+        let (mut s, mut c) = (zero, one);
+        if small.any() {
+            let x = self.invert_tangent(v);
+            c = one / x.mul_add(x, one).sqrt();
+            s = x * c;
+        }
+        if !small.all() {
+            let theta = self.invert_angle(v);
+            let (sin, cos) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
+            (s, c) = (R::select(small, s, sin), R::select(small, c, cos));
+        }
+        [s, c]
+    }
+
+    /// Newton's method in x², of which the area is nearly a multiple.
+    #[inline(always)]
+    fn invert_tangent(&self, v: R) -> R {
+        let two = R::lit(2.0);
+        let target = v * ratio(two * self.area, self.outer);
+        let narrow = self.narrow();
+        let most = self.near * self.near;
+        let mut x = self.near * self.start(v);
+        let mut going = x.gt(R::lit(0.0));
+        for _ in 0..16 {
+            let swept = self.by_tangent(&narrow, x);
+            let square = x * x;
+            let step = two * x * ratio(target - swept.area, swept.density);
+            let moved = (square + step).clamp(square * R::lit(0.0625), most).sqrt();
+            x = R::select(going, moved, x);
+            going = going & step.abs().gt(enough::<R>() * square);
+            if !going.any() {
+                break;
+            }
+        }
+        x
+    }
+
+    /// Newton's method in θ² or in θ, whichever the area is more nearly a multiple of, within a bracket.
+    #[inline(always)]
+    fn invert_angle(&self, v: R) -> R {
+        let (zero, two, half) = (R::lit(0.0), R::lit(2.0), R::lit(0.5));
+        let target = v * ratio(two * self.area, self.outer);
+        // about the zenith, the area is a multiple of θ
+        let mut theta = self.wide * R::select(self.inner.gt(zero), self.start(v), v);
+        let mut going = theta.gt(zero) & self.inner.gt(zero);
+        let (mut low, mut high) = (zero, self.wide);
+        for _ in 0..24 {
+            if !going.any() {
+                break;
+            }
+            let (s, c) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
+            let swept = self.by_angle(theta, s, c);
+            let short = swept.area.lt(target);
+            low = R::select(short, theta, low);
+            high = R::select(short, high, theta);
+            let step = ratio(target - swept.area, swept.density);
+            let quadratic = (theta * swept.density).gt(R::lit(1.5) * swept.area);
+            let square = theta * (theta + two * step);
+            let moved = R::select(quadratic, square.max(zero).sqrt(), theta + step);
+            let inside = moved.ge(low) & moved.le(high);
+            let moved = R::select(inside, moved, half * (low + high));
+            let far = (moved - theta).abs().gt(enough::<R>() * theta);
+            theta = R::select(going, moved, theta);
+            going = going & far;
+        }
+        theta
+    }
+
+    /// The direction at θ of the outer arc, and `u` of the way there from the inner one.
+    #[inline(always)]
+    pub(super) fn direction(&self, normal: Vec3<R>, [s, c]: [R; 2], u: R) -> Vec3<R> {
+        let one = R::lit(1.0);
+        let z = self.height(s, c);
+        let rise = self.rise(s, z);
+        let whole = self.inner.mul_add(self.inner, rise);
+        // squared distance to the axis: 1 − ν of the outer arc's
+        let nu = (one - u) * rise / whole;
+        let keep = (self.inner.mul_add(self.inner, u * rise) / whole).sqrt();
+        let arc = self.apex.mul_add(c, self.tangent * s);
+        let flat = arc - normal * z;
+        let squared = flat.length_squared();
+        let up = squared.mul_add(nu, z * z).sqrt();
+        // as a displacement, so that it is as good as it is small
+        let moved = normal * (ratio(squared, up + z) * nu) - flat * (nu / (one + keep));
+        let w = arc + moved;
+        // a unit vector but for rounding: one step of Newton's to 1/√
+        w * w.length_squared().mul_add(R::lit(-0.5), R::lit(1.5))
+    }
+
+    /// The share of the area before the azimuth of a direction, and `u` across.
+    #[inline(never)]
+    pub(super) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // q_A × q_w and q_w × q_T, of horizontal parts
+        let (start, far) = (normal.cross(self.apex), normal.cross(self.tangent));
+        let clockwise = start.dot(self.tangent).lt(zero);
+        let y = start.dot(w - self.apex).negate_where(clockwise).max(zero);
+        let x = (-far.dot(w)).negate_where(clockwise);
+        let small = self.near.gt(zero);
+        let (mut s, mut c, mut area) = (zero, one, zero);
+        if small.any() {
+            let tan = ratio(y, x).min(self.near);
+            area = self.by_tangent(&self.narrow(), tan).area;
+            c = one / tan.mul_add(tan, one).sqrt();
+            s = tan * c;
+        }
+        if !small.all() {
+            let theta = y.atan2(x).min(self.wide);
+            let (sin, cos) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
+            let other = self.by_angle(theta, sin, cos).area;
+            area = R::select(small, area, other);
+            (s, c) = (R::select(small, s, sin), R::select(small, c, cos));
+        }
+        let z = self.height(s, c);
+        let rise = self.rise(s, z);
+        let whole = self.inner.mul_add(self.inner, rise);
+        let arc = self.apex.mul_add(c, self.tangent * s);
+        // r₀² − r² = sin(the angle between) sin(the sum of the angles to the axis)
+        let (out, inward) = (arc.cross(normal), w.cross(normal));
+        let (out2, in2) = (out.length_squared(), inward.length_squared());
+        let (r0, r) = (out2.sqrt(), in2.sqrt());
+        let between = (w - arc).dot(out.cross(arc));
+        let sum = r0.mul_add(w.dot(normal).max(zero), z * r);
+        let nu = ratio(between, out2) * ratio(sum, r0);
+        Vec2 {
+            x: unit_interval(ratio(area * self.outer * R::lit(0.5), self.area)),
+            // from the nearer of the two arcs
+            y: unit_interval(R::select(
+                nu.lt(R::lit(0.5)),
+                one - nu * whole / rise,
+                (ratio(in2, out2) * whole - self.inner * self.inner) / rise,
+            )),
+        }
+    }
+}
