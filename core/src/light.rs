@@ -7,8 +7,8 @@
 //! | shape | by area | by solid angle | by projected solid angle |
 //! |---|---|---|---|
 //! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better | [`by_projected_solid_angle`](Sphere::by_projected_solid_angle): for diffuse surfaces |
-//! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others | |
-//! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | |
+//! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others | [`by_projected_solid_angle`](Triangle::by_projected_solid_angle): for diffuse surfaces |
+//! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | [`by_projected_solid_angle`](Parallelogram::by_projected_solid_angle) |
 //! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | | |
@@ -33,7 +33,8 @@ pub use round::{Cylinder, Disk};
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::seen::{
-    ProjectedCap, Sighting, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle, lanewise,
+    ProjectedCap, ProjectedPolygon, ProjectedTriangle, Sighting, SphereCap, SphericalParallelogram, SphericalRectangle,
+    SphericalTriangle, lanewise,
 };
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, UniformSphere, Warp};
@@ -155,6 +156,21 @@ impl<R: Real> Triangle<R> {
         let Sighting { direction, distance } = seen.sight(u);
         LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
+    /// Uniform over the projected solid angle above the horizon of `normal`, [`ProjectedTriangle`]: on an unoccluded diffuse surface
+    /// every sample is worth the same. pdf 0 where nothing of the triangle is above the horizon.
+    #[inline]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let v0 = self.v0 - p;
+        let seen = ProjectedTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2, normal);
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: seen.density(direction.dot(normal)),
+            emits: seen.in_front(),
+            delta: R::Mask::splat(false),
+        }
+    }
 }
 
 lanewise! {
@@ -182,6 +198,20 @@ impl<R: Real> Parallelogram<R> {
         let seen = SphericalParallelogram::new(self.p - p, self.u, self.v);
         let Sighting { direction, distance } = seen.sight(u);
         LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+    }
+    /// Uniform over the projected solid angle above the horizon of `normal`, [`ProjectedPolygon`]: on an unoccluded diffuse surface
+    /// every sample is worth the same. pdf 0 where nothing of the parallelogram is above the horizon.
+    #[inline]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let seen = ProjectedPolygon::parallelogram(self.p - p, self.u, self.v, normal);
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: seen.density(direction.dot(normal)),
+            emits: seen.in_front(),
+            delta: R::Mask::splat(false),
+        }
     }
 }
 
