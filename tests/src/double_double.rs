@@ -28,6 +28,28 @@ impl Dd {
         let rest = self - Self(x, 0.0) * Self(x, 0.0);
         Self(x, 0.0) + Self(rest.to_f64() / (2.0 * x), 0.0)
     }
+    /// Angle of (x, y) = (`other`, `self`): the f64 arc tangent, and the rest of it from its sine and cosine by their series.
+    #[must_use]
+    pub fn atan2(self, other: Self) -> Self {
+        let angle = self.to_f64().atan2(other.to_f64());
+        // of a sixteenth, then doubled
+        let part = Self(angle / 16.0, 0.0);
+        let square = part * part;
+        let (mut s, mut versine, mut term) = (part, Self::default(), part);
+        for k in 1..14 {
+            let term_even = term * part / Self(f64::from(2 * k), 0.0);
+            versine = if k % 2 == 1 { versine + term_even } else { versine - term_even };
+            term = term * square / Self(f64::from(2 * k * (2 * k + 1)), 0.0);
+            s = if k % 2 == 1 { s - term } else { s + term };
+        }
+        for _ in 0..4 {
+            let c = Self(1.0, 0.0) - versine;
+            (s, versine) = (s * c + s * c, s * s + s * s);
+        }
+        let c = Self(1.0, 0.0) - versine;
+        let length = (self * self + other * other).sqrt();
+        if length.to_f64() > 0.0 { Self(angle, 0.0) + (self * c - other * s) / length } else { Self(angle, 0.0) }
+    }
     /// Absolute value.
     #[must_use]
     pub fn abs(self) -> Self {
@@ -86,11 +108,16 @@ pub fn dot(a: Dd3, b: Dd3) -> Dd {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// a×b.
+#[must_use]
+pub fn cross(a: Dd3, b: Dd3) -> Dd3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
 /// a·(b×c).
 #[must_use]
 pub fn determinant(a: Dd3, b: Dd3, c: Dd3) -> Dd {
-    let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
-    dot(a, cross)
+    dot(a, cross(b, c))
 }
 
 #[cfg(test)]
@@ -102,6 +129,10 @@ mod tests {
         assert!((third * Dd::from(3.0) - Dd::from(1.0)).to_f64().abs() < 1e-31);
         let root = Dd::from(2.0).sqrt();
         assert!((root * root - Dd::from(2.0)).to_f64().abs() < 1e-31);
+        let eighth = Dd::from(1.0).atan2(Dd::from(1.0));
+        // π/4 to 106 bits
+        let rest = (eighth - Dd::from(core::f64::consts::FRAC_PI_4)).to_f64();
+        assert!((rest / 3.061_616_997_868_383e-17 - 1.0).abs() < 1e-12, "{rest:e}");
         let tiny = (Dd::from(1.0) + Dd::from(1e-25)) - Dd::from(1.0);
         assert!((tiny.to_f64() / 1e-25 - 1.0).abs() < 1e-6);
     }

@@ -101,6 +101,10 @@ pub trait Subject: Copy + Debug {
     fn reachable(&self, _point: V3) -> bool {
         true
     }
+    /// Does the map jump between `u` less and more by `step` of the first coordinate? What is one side is known to rounding only.
+    fn torn(&self, _u: [f64; 2], _step: f64) -> bool {
+        false
+    }
     /// Coordinates of a point are rounded in units of `ULP` × this: 1 in general, the extent where the shape lies about an axis.
     fn granularity(&self) -> f64 {
         1.0
@@ -285,11 +289,11 @@ fn closed_at<S: Subject, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     let known = s.tolerance().round_trip * rounding(s, ulp);
     let mut greatest = points_agree(s, seen.point, seen.inverse, known);
     let u = [f64::from(u[0]), f64::from(u[1])];
-    if u.iter().any(|u| !(1e-3..=0.999).contains(u)) {
+    let h = 1.0 / 4096.0;
+    if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || s.torn(u, h) {
         // at the ends of the square derivatives vanish or grow without bound
         return greatest / rounding(s, ulp);
     }
-    let h = 1.0 / 4096.0;
     let slope = |axis: usize| {
         let (mut low, mut high) = (u, u);
         low[axis] = (u[axis] - h).max(0.0);
@@ -328,7 +332,7 @@ pub fn onto<S: Subject>(s: &S, st: [f64; 2]) -> f64 {
         / rounding(s, ULP)
 }
 fn points_agree<S: Subject>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> f64 {
-    if !s.reachable(point) {
+    if !s.reachable(point) || s.torn(inverse, 16.0 * ULP) {
         return 0.0;
     }
     let again = sample_at(s, inverse);

@@ -75,6 +75,11 @@ pub const RECTANGLE: Tolerance = Tolerance { point: 9.0, steps: 8.0, distance: 9
 /// As the triangle, of which it has four. u₀Ω less the sum of those before is known as two sums of solid angles are: in steps of u, twice
 /// the density's units.
 pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.0, density: 2.5, round_trip: 10.0 };
+/// As the triangle; the azimuth is found by Newton's method to 1e−7 of itself, from areas that are known to a few units times their
+/// condition: everywhere, by so many steps of u. Beside the triangle's roundings an area has two arc tangents and a quadrature. The tests'
+/// regimes stay below 7 units but for two at 10 (a sliver, and a light 30 times its distance across).
+pub const PROJECTED_POLYGON: Tolerance =
+    Tolerance { point: 12.0, steps: 8.0, distance: 28.0, density: 12.0, round_trip: 24.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

@@ -1,9 +1,13 @@
 //! Techniques by projected solid angle, on an unoccluded diffuse surface under constant light: no variance, and the mean is the closed form.
 
 use core::f64::consts::PI;
-use etendue::{LightSample, Mask, Real, Sphere, Vec2, Vec3, f32x8};
-use etendue_tests::domain::Random;
-use etendue_tests::oracle::{V3, along, basis, length, projected_cap_by_rings, unit, wide};
+use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
+use etendue_tests::domain::{self, Random};
+use etendue_tests::laws::Subject;
+use etendue_tests::oracle::{
+    V3, above_horizon, along, basis, cross, exact_sum, lambert, length, projected_cap_by_rings, unit, wide,
+};
+use etendue_tests::tolerances::{PROJECTED_POLYGON, ULP};
 
 /// Greatest relative variance: that of a rounded quotient is 1e−14.
 const VARIANCE: f64 = 1e-10;
@@ -82,4 +86,128 @@ fn spheres() {
         }
     }
     println!("{cases} spheres: relative variance ≤ {greatest:.1e}, mean within {off:.1e} of the closed form");
+}
+
+/// Triangles and parallelograms of every size, distance and tilt, from overhead to two thirds below the horizon.
+#[test]
+fn flats() {
+    let mut random = Random::new(22);
+    let (mut greatest, mut off, mut cases, mut low) = (0.0_f64, 0.0_f64, 0, 0);
+    for size in [1e-6, 1e-3, 0.1, 1.0, 4.0, 30.0] {
+        for distance in [1e-3, 1.0, 1e3] {
+            for tilt in 0..=12 {
+                // of the normal from the direction of the middle; at the last the middle is below, by up to a sixth of the size
+                let below = f64::atan(size / 6.0);
+                let omega = f64::from(tilt) / 12.0 * (PI / 2.0 + below);
+                let axes = [random.direction(), random.direction()];
+                let middle = random.direction();
+                let [u, v] = axes.map(|a| a.map(|x| (x * size * distance) as f32));
+                let p = narrow(core::array::from_fn(|i| middle[i] * distance - f64::from(u[i] + v[i]) / 3.0));
+                let facing = unit(cross(wide(u), wide(v)));
+                if etendue_tests::oracle::dot(facing, middle).abs() < 0.2 || length(cross(axes[0], axes[1])) < 0.3 {
+                    continue;
+                }
+                // light one-sided: towards the point
+                let (u, v) = if etendue_tests::oracle::dot(facing, middle) < 0.0 { (u, v) } else { (v, u) };
+                let (s, _) = basis(middle);
+                let normal = narrow(along(middle.map(|x| x * omega.cos()), s, omega.sin()));
+                let n = exact_sum(wide(normal), &[]);
+                let corner = |edges: &[V3]| exact_sum(wide(p), edges);
+                let (origin, up) = (packet([0.0; 3]), packet(normal));
+                let (pu, pv) = (packet(u), packet(v));
+                let triangle = Triangle { v0: packet(p), e1: pu, e2: pv };
+                let quad = Parallelogram { p: packet(p), u: pu, v: pv };
+                let corners = [corner(&[]), corner(&[wide(u)]), corner(&[wide(u), wide(v)]), corner(&[wide(v)])];
+                for (name, truth, (mean, variance, lost)) in [
+                    (
+                        "triangle",
+                        lambert(&above_horizon(&[corners[0], corners[1], corners[3]], n), n),
+                        estimate(up, cases, |u| triangle.by_projected_solid_angle(origin, up, u)),
+                    ),
+                    (
+                        "parallelogram",
+                        lambert(&above_horizon(&corners, n), n),
+                        estimate(up, cases + 1, |u| quad.by_projected_solid_angle(origin, up, u)),
+                    ),
+                ] {
+                    let name = format!(
+                        "{name} of size {size} at {distance}, {omega} off the normal: {p:?} {u:?} {v:?} {normal:?}"
+                    );
+                    if truth < 1e-7 * size * size {
+                        continue;
+                    }
+                    cases += 1;
+                    low += u64::from(omega > PI / 2.0);
+                    // the cosine has the length of the normal, a unit's rounding
+                    let relative = (mean / truth - 1.0).abs();
+                    greatest = greatest.max(variance);
+                    off = off.max(relative);
+                    assert!(variance < VARIANCE && lost == 0, "{name}: relative variance {variance:e}, {lost} lost");
+                    assert!(relative < 5e-6, "{name}: mean {mean} for {truth}");
+                }
+            }
+        }
+    }
+    assert!(cases > 200 && low > 10);
+    println!(
+        "{cases} flats, {low} with the middle below: relative variance ≤ {greatest:.1e}, mean within {off:.1e} of Lambert's"
+    );
+}
+
+/// Ω⊥ of the domain against Lambert's form in 106 bits, after clipping: units in the last place over the condition.
+#[test]
+fn projected_solid_angles() {
+    let mut worst: Vec<(&str, f64)> = Vec::new();
+    for (name, triangle) in domain::projected_triangles(40, 23) {
+        let found = f64::from(Subject::prepare::<f32>(&[triangle]).projected_solid_angle());
+        let truth = triangle.projected_solid_angle();
+        let units = (found / truth - 1.0).abs() / (ULP * triangle.conditioned());
+        assert!(units < PROJECTED_POLYGON.density, "{name}: {triangle:?}: {found} for {truth}, {units} units");
+        let double: f64 = Subject::prepare::<f64>(&[triangle]).projected_solid_angle();
+        let relative = (double / truth - 1.0).abs() / triangle.conditioned();
+        assert!(relative < 1e-14, "{name}: {triangle:?}: {double} for {truth}, {relative:e}");
+        match worst.iter_mut().find(|w| w.0 == name) {
+            Some(w) => w.1 = w.1.max(units),
+            None => worst.push((name, units)),
+        }
+    }
+    for (name, units) in worst {
+        println!("{name:36} {units:.1} units");
+    }
+}
+
+/// Wholly below the horizon, in the plane, without area: pdf 0.
+#[test]
+fn nothing_to_be_seen() {
+    let splat = |v: [f32; 3]| Vec3::new(v[0], v[1], v[2]);
+    let up = [0.0, 0.0, 1.0];
+    for (p, u, v) in [
+        ([1.0, 0.0, -1.0], [0.0, 1.0, 0.3], [0.3, 0.0, -1.0]),
+        ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.0, -1.0]),
+        ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.4, 0.0]),
+        ([-1.0, -1.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]),
+        ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]),
+        ([0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]),
+    ] {
+        let light = Triangle { v0: splat(p), e1: splat(u), e2: splat(v) };
+        let quad = Parallelogram { p: splat(p), u: splat(u), v: splat(v) };
+        for square in domain::square(20, 24) {
+            let at = Vec2::new(square[0], square[1]);
+            for sample in [
+                light.by_projected_solid_angle(splat([0.0; 3]), splat(up), at),
+                quad.by_projected_solid_angle(splat([0.0; 3]), splat(up), at),
+            ] {
+                assert!(sample.pdf == 0.0 && sample.distance.is_finite() && sample.direction.max_abs() <= 1.001);
+            }
+            let seen = etendue::seen::ProjectedTriangle::with_edges(
+                splat(p),
+                splat(p) + splat(u),
+                splat(p) + splat(v),
+                splat(u),
+                splat(v),
+                splat(up),
+            );
+            assert!(seen.projected_solid_angle() == 0.0 && seen.pdf(seen.sample(at)) == 0.0);
+        }
+    }
 }

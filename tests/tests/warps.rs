@@ -4,8 +4,8 @@ use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Hexagon,
-    Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PolarDisk, ProjectedCap, Rectangle, Tent,
-    Triangle, UniformHemisphere, UniformSphere, nearest_hit,
+    Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PolarDisk, ProjectedCap, ProjectedParallelogram,
+    ProjectedPentagon, ProjectedTriangle, Rectangle, Tent, Triangle, UniformHemisphere, UniformSphere, nearest_hit,
 };
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -150,6 +150,9 @@ fn main() {
             warp("sphere_cap", || domain::caps(3, 11), 200),
             warp("spherical_polygon", || domain::hexagons(3, 15), 60),
             warp("projected_cap", || domain::projected_caps(3, 14), 100),
+            warp("projected_triangle", || domain::projected_triangles(3, 16), 60),
+            warp("projected_parallelogram", || domain::projected_parallelograms(1, 17), 40),
+            warp("projected_polygon", || domain::projected_pentagons(2, 18), 40),
             warp("spherical_triangle", || domain::triangles(4, 12), 60),
             warp("spherical_parallelogram", || domain::parallelograms(4, 13), 200),
             warp("spherical_rectangle", || domain::rectangles(8, 14), 200),
@@ -186,7 +189,7 @@ fn any_parameters_are_survived() {
         let mut vector = || {
             if i % 2 == 0 { domain::nasty(&mut random) } else { core::array::from_fn(|_| random.any_f32()) }
         };
-        let [a, b, c] = [vector(), vector(), vector()];
+        let [a, b, c, d] = [vector(), vector(), vector(), vector()];
         let (b, c) = match i % 7 {
             0 => (a, c),
             1 => (a, a),
@@ -200,6 +203,10 @@ fn any_parameters_are_survived() {
         laws::any_bits(&Cap::new(a, b[0]), u);
         laws::any_bits(&ProjectedCap::new(a, b[0], c), u);
         laws::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
+        laws::any_bits(&ProjectedTriangle::by_vertices(a, b, c, d), u);
+        laws::any_bits(&ProjectedTriangle::by_edges(a, b, c, d), u);
+        laws::any_bits(&ProjectedParallelogram::new(a, b, c, d), u);
+        laws::any_bits(&ProjectedPentagon::new([a, b, c, d, a], d), u);
         laws::any_bits(&GgxVisibleNormals { alpha: [a[0], b[0]], wi: c }, u);
         laws::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
         laws::any_bits(&Linear { a: a[0], b: b[1] }, u);

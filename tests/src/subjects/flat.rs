@@ -61,35 +61,35 @@ by_area!(LowDistortionTriangle, |u| (u[0] - u[1]).abs() > 0.01);
 
 /// A triangle in f64, and its vertices without rounding.
 #[derive(Clone, Copy, Debug)]
-struct Flat {
-    v0: V3,
-    e1: V3,
-    e2: V3,
-    exact: [Dd3; 3],
+pub(super) struct Flat {
+    pub(super) v0: V3,
+    pub(super) e1: V3,
+    pub(super) e2: V3,
+    pub(super) exact: [Dd3; 3],
 }
 impl Flat {
-    fn vertices(&self) -> [V3; 3] {
+    pub(super) fn vertices(&self) -> [V3; 3] {
         [self.v0, along(self.v0, self.e1, 1.0), along(self.v0, self.e2, 1.0)]
     }
     /// Point of the plane at (b1, b2) as a direction, and steradians per unit of (b1, b2).
-    fn at(&self, b1: f64, b2: f64) -> (V3, f64) {
+    pub(super) fn at(&self, b1: f64, b2: f64) -> (V3, f64) {
         let point = along(along(self.v0, self.e1, b1), self.e2, b2);
         let d = length(point);
         let w = point.map(|x| x / d);
         (w, dot(w, cross(self.e1, self.e2)).abs() / (d * d))
     }
     /// Barycentric coordinates of a direction.
-    fn barycentrics(&self, w: V3) -> [f64; 3] {
+    pub(super) fn barycentrics(&self, w: V3) -> [f64; 3] {
         let [_, v1, _] = self.vertices();
         let edge = sub(self.e2, self.e1);
         let b = [dot(w, cross(v1, edge)), dot(w, cross(self.e2, self.v0)), dot(w, cross(self.v0, self.e1))];
         let sum = b[0] + b[1] + b[2];
         b.map(|b| b / sum)
     }
-    fn reach(&self) -> f64 {
+    pub(super) fn reach(&self) -> f64 {
         self.vertices().into_iter().map(length).fold(0.0, f64::max)
     }
-    fn known(&self) -> Known {
+    pub(super) fn known(&self) -> Known {
         let v = self.vertices();
         let [v0, v1, v2] = v;
         let mut extent = [0.0_f64, 2.0_f64];
@@ -119,14 +119,14 @@ impl Flat {
 
 /// What is known of a flat shape.
 #[derive(Clone, Copy, Debug)]
-struct Known {
-    solid_angle: f64,
+pub(super) struct Known {
+    pub(super) solid_angle: f64,
     /// The condition of Ω: of the height over the plane, through the derivative of the arc tangent, and of the sum below the line.
-    condition: f64,
+    pub(super) condition: f64,
     /// Longest side; least distance of a vertex from the opposite side's plane.
-    extent: [f64; 2],
+    pub(super) extent: [f64; 2],
     /// Greatest 1/sin of an obtuse angle between two vertices.
-    opposite: f64,
+    pub(super) opposite: f64,
 }
 impl Known {
     /// The tolerance of this shape. A great circle through nearly opposite vertices is known no better than 1/sin of their angle;
@@ -179,7 +179,7 @@ impl Triangle {
 }
 
 /// A direction beyond the side a → b by a margin, on the other side than `inner`.
-fn beyond(a: V3, b: V3, inner: V3, margin: f64, t: f64) -> V3 {
+pub(super) fn beyond(a: V3, b: V3, inner: V3, margin: f64, t: f64) -> V3 {
     let edge = sub(b, a);
     let n = unit(cross(a, edge));
     let sign = if dot(n, sub(inner, a)) > 0.0 { -1.0 } else { 1.0 };
