@@ -1,6 +1,9 @@
 //! Samples, densities and inverses.
 
-use etendue::seen::{ProjectedCap, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
+use etendue::seen::{
+    ProjectedCap, ProjectedPolygon, ProjectedTriangle, SphereCap, SphericalParallelogram, SphericalRectangle,
+    SphericalTriangle,
+};
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
 };
@@ -123,6 +126,12 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.warp("spherical parallelogram", SphericalParallelogram::new(a, b - a, c - a));
     let [corner, du, dv] = [[-1.0, 2.0, -0.5], [2.0, 0.5, 0.0], [-0.25, 1.0, 1.5]].map(vector);
     list.warp("spherical rectangle", SphericalRectangle::new(corner, du, dv));
+    for (name, normal) in [("", [0.3, 0.8, 0.5]), (", overhead", [0.0, 1.0, 0.0]), (", cut", [0.9, -0.2, 0.4])] {
+        let normal = vector(normal);
+        list.warp(&format!("projected triangle{name}"), ProjectedTriangle::new(a, b, c, normal));
+        let quad = ProjectedPolygon::parallelogram(a, b - a, c - a, normal);
+        list.warp(&format!("projected parallelogram{name}"), quad);
+    }
     // a loaded value each time, so that nothing of the preparation is moved out of the loop
     let (radius, corners) = (black_box(R::lit(0.7)), black_box([a, b, c]));
     list.prepared("sphere cap new + sample", move |p, u| SphereCap::new(corners[0] - p, radius).sample(u));
@@ -132,6 +141,16 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("spherical triangle new + sample", move |p, u| {
         SphericalTriangle::new(corners[0] - p, corners[1] - p, corners[2] - p).sample(u)
     });
+    for (name, normal) in [("", [0.3, 0.8, 0.5]), (", overhead", [0.0, 1.0, 0.0]), (", cut", [0.9, -0.2, 0.4])] {
+        let normal = black_box(vector(normal));
+        list.prepared(&format!("projected triangle{name} new + sample"), move |p, u| {
+            ProjectedTriangle::new(corners[0] - p, corners[1] - p, corners[2] - p, normal).sample(u)
+        });
+        list.prepared(&format!("projected parallelogram{name} new + sample"), move |p, u| {
+            let (side, other) = (corners[1] - corners[0], corners[2] - corners[0]);
+            ProjectedPolygon::parallelogram(corners[0] - p, side, other, normal).sample(u)
+        });
+    }
     let (e1, e2) = (b - a, c - a);
     list.prepared("spherical parallelogram new + sample", move |p, u| {
         SphericalParallelogram::new(corners[0] - p, e1, e2).sample(u)
@@ -149,9 +168,12 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let triangle = Triangle { v0: a, e1, e2 };
     list.prepared("light triangle by area", move |p, u| triangle.by_area(p, u));
     list.prepared("light triangle by solid angle", move |p, u| triangle.by_solid_angle(p, u));
+    list.prepared("light triangle by projected solid angle", move |p, u| triangle.by_projected_solid_angle(p, up, u));
     let quad = Parallelogram { p: a, u: e1, v: e2 };
     list.prepared("light parallelogram by area", move |p, u| quad.by_area(p, u));
     list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p, u));
+
+    list.prepared("light parallelogram by projected solid angle", move |p, u| quad.by_projected_solid_angle(p, up, u));
 
     list.sequence("independent", Independent::new(1));
     list.sequence("stratified", Stratified::new(1, 64));
