@@ -10,7 +10,7 @@
 //! | [`Triangle`] | [`by_area`](Triangle::by_area): cheap; fine for a light that is small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): for all others | [`by_projected_solid_angle`](Triangle::by_projected_solid_angle): for diffuse surfaces |
 //! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | [`by_projected_solid_angle`](Parallelogram::by_projected_solid_angle) |
 //! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | |
-//! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | |
+//! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | | |
 //! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | | |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |

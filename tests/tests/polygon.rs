@@ -41,6 +41,14 @@ fn agrees<const N: usize>(random: &mut Random) {
             // a column of the grid in which one triangle ends and the next begins: up to 1/800 for each of the N − 3
             let (one, other) = ((by_solid_angle / truth - 1.0).abs(), (by_area / truth - 1.0).abs());
             assert!(one < 3e-4 && other < 3e-3, "{N} {size} {height}: {by_solid_angle}, {by_area} for {truth}");
+            // every sample is worth the same
+            for u in [[0.1, 0.3], [0.5, 0.9], [0.97, 0.02]] {
+                let s = light.by_projected_solid_angle(o, receiver.into(), u.into());
+                assert!(
+                    (irradiance(&s, receiver) / truth - 1.0).abs() < 1e-9,
+                    "{N} {size} {height}: {s:?} for {truth}"
+                );
+            }
             let mut corners = light.corners;
             corners.reverse();
             let behind = Polygon { corners };
@@ -100,13 +108,18 @@ fn any_bits_in_every_lane() {
         let eight = [
             eight.by_area(vectors_of(|i| p[i]), squares_of(&us)),
             eight.by_solid_angle(vectors_of(|i| p[i]), squares_of(&us)),
+            eight.by_projected_solid_angle(vectors_of(|i| p[i]), vectors_of(|i| p[7 - i]), squares_of(&us)),
         ];
         let four = Polygon::<f32x4, 5> { corners: core::array::from_fn(|k| vectors_of(|i| corners[k][i])) };
         let four = four.by_area(vectors_of(|i| p[i]), squares_of(&us[..4]));
         for i in 0..8 {
             let one = Polygon::<f32, 5> { corners: core::array::from_fn(|k| Vec3::from(corners[k][i])) };
             let u = squares_of(&us[i..=i]);
-            let one = [one.by_area(p[i].into(), u), one.by_solid_angle(p[i].into(), u)];
+            let one = [
+                one.by_area(p[i].into(), u),
+                one.by_solid_angle(p[i].into(), u),
+                one.by_projected_solid_angle(p[i].into(), p[7 - i].into(), u),
+            ];
             for (s, packet) in one.iter().zip(&eight) {
                 assert_eq!(
                     (s.direction.at(0), s.distance, s.pdf, s.emits),

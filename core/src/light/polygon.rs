@@ -1,6 +1,6 @@
 use super::{LightSample, flat_by_area};
 use crate::real::{Mask, Real};
-use crate::seen::{Sighting, SphericalPolygon};
+use crate::seen::{ProjectedPolygon, Sighting, SphericalPolygon};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, Warp, unit_interval};
 
@@ -70,5 +70,14 @@ impl<R: Real, const N: usize> Polygon<R, N> {
         let seen = SphericalPolygon::new(self.corners.map(|c| c - p));
         let Sighting { direction, distance } = seen.sight(u);
         LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+    }
+    /// Uniform over the projected solid angle on a surface with the unit normal `normal`, [`ProjectedPolygon`]: f·L·cosθ/pdf is then the
+    /// same for every sample of a diffuse surface. pdf = cosθ/Ω⊥.
+    #[inline(always)]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let seen = ProjectedPolygon::new(self.corners.map(|c| c - p), normal);
+        let Sighting { direction, distance } = seen.sight(u);
+        let pdf = seen.density(direction.dot(normal));
+        LightSample { direction, distance, pdf, emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }
