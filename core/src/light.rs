@@ -11,8 +11,9 @@
 //! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | |
 //! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | |
-//! | [`Disk`] | [`by_area`](Disk::by_area) | | |
+//! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
 //! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | | |
+//! | [`Line`] | by [length](Line::by_length) | by [angle](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle), or by the cosine | |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
@@ -21,12 +22,14 @@
 mod delta;
 mod distant;
 mod environment;
+mod line;
 mod polygon;
 mod round;
 
 pub use delta::{Directional, Point, Spot};
 pub use distant::{ConstantEnvironment, Sun};
 pub use environment::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Texel};
+pub use line::Line;
 pub use polygon::Polygon;
 pub use round::{Cylinder, Disk};
 
@@ -49,8 +52,8 @@ pub struct LightSample<R: Real> {
     pub pdf: R,
     /// True where the point sees the side of the light that emits if the light is one-sided: the side of the normal.
     pub emits: R::Mask,
-    /// True where the light has one direction only ([`Point`], [`Spot`], [`Directional`]). Then `pdf` is no density: it is what the
-    /// estimator divides by, and multiple importance sampling must give the sample the weight 1.
+    /// True where no direction drawn otherwise can hit the light ([`Point`], [`Spot`], [`Directional`], [`Line`]). Then `pdf` is no density per
+    /// steradian: it is what the estimator divides by, and multiple importance sampling must give the sample the weight 1.
     pub delta: R::Mask,
 }
 

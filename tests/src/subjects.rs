@@ -1,11 +1,14 @@
 //! The warps under test, with what is known about each from elsewhere.
 
+mod disk;
 mod flat;
 mod line;
 mod normals;
 mod projected;
 mod round;
+mod segment;
 
+pub use disk::Disk;
 pub use flat::{AreaTriangle, Hexagon, LowDistortionTriangle, Parallelogram, Rectangle, Triangle};
 pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
 pub use normals::GgxVisibleNormals;
@@ -13,3 +16,4 @@ pub use projected::ProjectedCap;
 pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, Octahedral, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };
+pub use segment::{ProjectedSegment, Segment};

@@ -58,13 +58,13 @@ lanewise! {
 
 /// Is this double precision? There, series are longer and steps more.
 #[inline(always)]
-fn double<R: Real>() -> bool {
+pub(super) fn double<R: Real>() -> bool {
     size_of::<R::Scalar>() > 4
 }
 
 /// Inner product as if computed in twice the working precision.
 #[inline(always)]
-fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
+pub(super) fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
     let product = |a: R, b: R| {
         let p = a * b;
         (p, R::product_error(a, b, p))
@@ -77,14 +77,14 @@ fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
 
 /// a/b, or 0 where b is not positive.
 #[inline(always)]
-fn ratio<R: Real>(a: R, b: R) -> R {
+pub(super) fn ratio<R: Real>(a: R, b: R) -> R {
     let some = b.gt(R::lit(0.0));
     (a / R::select(some, b, R::lit(1.0))).keep(some)
 }
 
 /// S(φ) = φ − sinφ cosφ for φ in [0, π/2]: ½(Φ − sinΦ) with Φ = 2φ, by its series.
 #[inline(always)]
-fn segment<R: Real>(phi: R) -> R {
+pub(super) fn segment<R: Real>(phi: R) -> R {
     const fn coefficients<const N: usize>() -> [f64; N] {
         let mut c = [2.0 / 3.0; N];
         let mut i = 1;
