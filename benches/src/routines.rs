@@ -1,7 +1,7 @@
 //! Samples, densities and inverses.
 
 use etendue::seen::{
-    ProjectedCap, ProjectedSegment, SphereCap, SphericalDisk, SphericalParallelogram, SphericalRectangle,
+    CosineWarped, ProjectedCap, ProjectedSegment, SphereCap, SphericalDisk, SphericalParallelogram, SphericalRectangle,
     SphericalSegment, SphericalTriangle,
 };
 use etendue::sequence::{
@@ -155,6 +155,8 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let quad = Parallelogram { p: a, u: e1, v: e2 };
     list.prepared("light parallelogram by area", move |p, u| quad.by_area(p, u));
     list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p, u));
+    list.warp("cosine-warped triangle", CosineWarped::new(SphericalTriangle::new(a, b, c), up));
+    list.prepared("light triangle by cosine warp", move |p, u| triangle.by_cosine_warp(p, up, u));
     list.warp("spherical disk", SphericalDisk::new(a, up, radius));
     let disk = Disk { center: a, normal: up, radius };
     list.prepared("light disk by area", move |p, u| disk.by_area(p, u));

@@ -14,11 +14,13 @@
 //! | rectangle | [`SphericalRectangle`] | 1/Ω | as the triangle |
 //! | convex polygon, 3 to 8 corners | [`SphericalPolygon`] | 1/Ω | as the triangle |
 //! | disk | [`SphericalDisk`] | 1/Ω | point in the plane, radius ≤ 0: pdf 0 |
+//! | triangle, rectangle | [`CosineWarped`] | about ∝ cosθ | as the shape |
 //! | line segment | [`SphericalSegment`] | 1/α per radian | point on its line: pdf 0 |
 //! | line segment | [`ProjectedSegment`] | ∝ sinγ cosθ per radian | as that; below the horizon: pdf 0 |
 //!
 //! Solid angles Ω in steradians; Ω⊥ projected on the surface at the viewpoint, above its horizon, at most π.
 
+mod cosine_warped;
 mod disk;
 mod line;
 mod parallelogram;
@@ -28,6 +30,7 @@ mod rectangle;
 mod sphere;
 mod triangle;
 
+pub use cosine_warped::CosineWarped;
 pub use disk::SphericalDisk;
 pub use line::{ProjectedSegment, SphericalSegment};
 pub use parallelogram::SphericalParallelogram;

@@ -1,8 +1,9 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
 use crate::subjects::{
-    Bilinear, Cap, Cone, Disk, Exponential, GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, ProjectedCap,
-    ProjectedSegment, Rectangle, Segment, Tent, Triangle,
+    Bilinear, Cap, Cone, CosineRectangle, CosineTriangle, CylinderSide, Disk, DiskSurface, Exponential,
+    GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, ProjectedCap, ProjectedSegment, Rectangle, Segment,
+    SphereSurface, Tent, Triangle,
 };
 
 /// SplitMix64: nothing of the generators under test.
@@ -477,6 +478,57 @@ pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
         all.push(("horizon of coordinates", ProjectedCap::new(about, 1e-3, [0.0, 0.0, 1.0])));
     }
     all
+}
+
+/// Distances and sizes of surfaces in space.
+const PLACES: [(&str, f32, f32); 5] = [
+    ("ordinary", 1.0, 0.7),
+    ("small 1e-3", 1.0, 1e-3),
+    ("large 1e3", 1.0, 1e3),
+    ("small units", 1e-9, 2e-10),
+    ("huge units", 1e9, 4e8),
+];
+const PLACE: [f32; 3] = [0.48, -0.64, 0.6];
+const AXIS: [f32; 3] = [0.36, 0.48, -0.8];
+fn times(v: [f32; 3], s: f32) -> [f32; 3] {
+    v.map(|x| x * s)
+}
+/// Disks in space.
+#[must_use]
+pub fn disk_surfaces() -> [Case<DiskSurface>; 5] {
+    PLACES.map(|(name, d, radius)| (name, DiskSurface { center: times(PLACE, d), normal: AXIS, radius }))
+}
+/// Spheres in space.
+#[must_use]
+pub fn sphere_surfaces() -> [Case<SphereSurface>; 5] {
+    PLACES.map(|(name, d, radius)| (name, SphereSurface { center: times(PLACE, d), radius }))
+}
+/// Sides of cylinders in space: of their own width, long and short.
+#[must_use]
+pub fn cylinder_sides() -> Vec<Case<CylinderSide>> {
+    let of = |(name, d, radius)| (name, CylinderSide { p: times(PLACE, d), axis: times(AXIS, 2.0 * radius), radius });
+    let mut all = PLACES.map(of).to_vec();
+    all.push(("long", CylinderSide { p: PLACE, axis: times(AXIS, 10.0), radius: 0.1 }));
+    all.push(("short", CylinderSide { p: PLACE, axis: times(AXIS, 0.1), radius: 1.0 }));
+    all
+}
+
+/// Regimes of flat shapes over which a cosine varies, or is at a far end of them.
+fn with_normals<S, W>(shapes: Vec<Case<S>>, seed: u64, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
+    const KEPT: [&str; 7] = ["ordinary", "ordinary, aside", "small 1e-2", "tiny 1e-5", "far 1e9", "large 6", "oblique"];
+    let mut random = Random::new(seed);
+    let kept = shapes.into_iter().filter(|case| KEPT.contains(&case.0));
+    kept.map(|(name, shape)| (name, of(shape, narrow(random.direction())))).collect()
+}
+/// Triangles on surfaces of any orientation.
+#[must_use]
+pub fn cosine_triangles(each: usize, seed: u64) -> Vec<Case<CosineTriangle>> {
+    with_normals(triangles(each, seed), seed, |shape, normal| CosineTriangle { shape, normal })
+}
+/// Rectangles on surfaces of any orientation.
+#[must_use]
+pub fn cosine_rectangles(each: usize, seed: u64) -> Vec<Case<CosineRectangle>> {
+    with_normals(rectangles(each, seed), seed, |shape, normal| CosineRectangle { shape, normal })
 }
 
 /// Disks of every regime: radius, height of the point over the plane, and offset from the axis.

@@ -1,5 +1,6 @@
 //! The warps under test, with what is known about each from elsewhere.
 
+mod cosine;
 mod disk;
 mod flat;
 mod line;
@@ -7,7 +8,9 @@ mod normals;
 mod projected;
 mod round;
 mod segment;
+mod surface;
 
+pub use cosine::{CosineRectangle, CosineTriangle};
 pub use disk::Disk;
 pub use flat::{AreaTriangle, Hexagon, LowDistortionTriangle, Parallelogram, Rectangle, Triangle};
 pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
@@ -17,3 +20,4 @@ pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, Octahedral, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };
 pub use segment::{ProjectedSegment, Segment};
+pub use surface::{CylinderSide, DiskSurface, SphereSurface};

@@ -66,6 +66,13 @@ fn rectangle_has_its_projected_solid_angle() {
             let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin(), u), receiver));
             let truth = projected_polygon(&corners, receiver);
             assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
+            let warped = mean(512, |u| irradiance(&light.by_cosine_warp(origin(), receiver.into(), u), receiver));
+            assert!((warped / truth - 1.0).abs() < 1e-4, "{size} {height} warped: {warped} for {truth}");
+            let (a, b, c) = (p, along(p, u, 1.0), along(p, v, 1.0));
+            let half = Triangle { v0: a.into(), e1: u.into(), e2: v.into() };
+            let warped = mean(512, |u| irradiance(&half.by_cosine_warp(origin(), receiver.into(), u), receiver));
+            let half = projected_polygon(&[a, b, c], receiver);
+            assert!((warped - half).abs() < 1e-4 * truth, "{size} {height} triangle, warped: {warped} for {half}");
             let by_area = mean(1024, |u| irradiance(&light.by_area(origin(), u), receiver));
             assert!((by_area / truth - 1.0).abs() < 1e-3 || height < size, "{size} {height}: {by_area} for {truth}");
             let behind = Rectangle { u: light.v, v: light.u, ..light };

@@ -130,7 +130,9 @@ impl<R: Real> SphericalDisk<R> {
         let axis = towards * z + offset * cos_major_squared;
         let axis = (axis * axis.max_abs().exponent_reciprocal()).normalize();
         let somewhere = axis.max_abs().gt(zero);
-        let axis = Vec3::new(axis.x, axis.y, R::select(somewhere, axis.z, one));
+        // in the disk's plane: its normal, and any direction where it has none
+        let axis = Vec3::select(somewhere, axis, towards);
+        let axis = Vec3::new(axis.x, axis.y, R::select(axis.max_abs().gt(zero), axis.z, one));
         let across = (across * across.max_abs().exponent_reciprocal()).normalize();
         let any = Frame::new(axis);
         let y = Vec3::select(across.max_abs().gt(zero), across, any.t);
