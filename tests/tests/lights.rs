@@ -2,8 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::{
-    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Line, Mask, Point, Real, Rectangle, Spot, Sun, Vec2,
-    Vec3, f32x4, f32x8,
+    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Line, Mask, Point, Real, Rectangle, Spot, Sun,
+    Triangle, Vec2, Vec3, f32x4, f32x8,
 };
 use etendue_tests::domain::{self, Random};
 use etendue_tests::laws::{Coordinates, squares_of, vectors_of};

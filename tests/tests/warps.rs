@@ -3,10 +3,9 @@
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
-    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, CosineRectangle, CosineTriangle, CylinderSide,
-    Disk, DiskSurface, Exponential, GgxVisibleNormals, Hexagon, Linear, LowDistortionTriangle, Normal, Octahedral,
-    Parallelogram, PolarDisk, ProjectedCap, ProjectedSegment, Rectangle, Segment, SphereSurface, Tent, Triangle,
-    UniformHemisphere, UniformSphere, nearest_hit,
+    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, Exponential, GgxVisibleNormals, Hexagon,
+    Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PolarDisk, ProjectedCap, ProjectedSegment,
+    Rectangle, Segment, Tent, Triangle, UniformHemisphere, UniformSphere, nearest_hit,
 };
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
