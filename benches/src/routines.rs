@@ -1,8 +1,8 @@
 //! Samples, densities and inverses.
 
 use etendue::seen::{
-    ProjectedCap, ProjectedPolygon, ProjectedTriangle, SphereCap, SphericalParallelogram, SphericalRectangle,
-    SphericalTriangle,
+    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphereCap, SphericalDisk,
+    SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
@@ -11,7 +11,7 @@ use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
     LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
 };
-use etendue::{Parallelogram, Real, Sphere, Triangle, Uint, Vec2, Vec3};
+use etendue::{Disk, Line, Parallelogram, Real, Sphere, Triangle, Uint, Vec2, Vec3};
 use std::hint::black_box;
 
 /// Samples per call of [`Routine::run`].
@@ -172,6 +172,22 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let quad = Parallelogram { p: a, u: e1, v: e2 };
     list.prepared("light parallelogram by area", move |p, u| quad.by_area(p, u));
     list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p, u));
+    list.warp("cosine-warped triangle", CosineWarped::new(SphericalTriangle::new(a, b, c), up));
+    list.prepared("light triangle by cosine warp", move |p, u| triangle.by_cosine_warp(p, up, u));
+    list.warp("spherical disk", SphericalDisk::new(a, up, radius));
+    let disk = Disk { center: a, normal: up, radius };
+    list.prepared("light disk by area", move |p, u| disk.by_area(p, u));
+    list.prepared("light disk by solid angle", move |p, u| disk.by_solid_angle(p, u));
+    let line = Line { p: a, edge: e1 };
+    list.prepared("light line by length", move |p, u| line.by_length(p, u.x));
+    list.prepared("light line by angle", move |p, u| line.by_angle(p, u.x));
+    list.prepared("light line by projected solid angle", move |p, u| line.by_projected_solid_angle(p, up, u.x));
+    let arc = SphericalSegment::new(a, e1);
+    list.prepared("spherical segment sample", move |_, u| arc.sample(u.x));
+    list.prepared("spherical segment invert", move |p, _| arc.invert(p));
+    let arc = ProjectedSegment::new(a, e1, up);
+    list.prepared("projected segment sample", move |_, u| arc.sample(u.x));
+    list.prepared("projected segment invert", move |p, _| arc.invert(p));
 
     list.prepared("light parallelogram by projected solid angle", move |p, u| quad.by_projected_solid_angle(p, up, u));
 

@@ -11,8 +11,10 @@
 //! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | [`by_projected_solid_angle`](Parallelogram::by_projected_solid_angle) |
 //! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
-//! | [`Disk`] | [`by_area`](Disk::by_area) | | |
+//! | [`Triangle`], [`Rectangle`] | | [`by_cosine_warp`](Rectangle::by_cosine_warp), times about the cosine | |
+//! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
 //! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | | |
+//! | [`Line`] | by [length](Line::by_length) | by [angle](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle), or by the cosine | |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
@@ -21,20 +23,22 @@
 mod delta;
 mod distant;
 mod environment;
+mod line;
 mod polygon;
 mod round;
 
 pub use delta::{Directional, Point, Spot};
 pub use distant::{ConstantEnvironment, Sun};
 pub use environment::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Texel};
+pub use line::Line;
 pub use polygon::Polygon;
 pub use round::{Cylinder, Disk};
 
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::seen::{
-    ProjectedCap, ProjectedPolygon, ProjectedTriangle, Sighting, SphereCap, SphericalParallelogram, SphericalRectangle,
-    SphericalTriangle, lanewise,
+    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedTriangle, Sighting, SphereCap, SphericalParallelogram,
+    SphericalRectangle, SphericalTriangle, lanewise,
 };
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, UniformSphere, Warp};
@@ -50,8 +54,8 @@ pub struct LightSample<R: Real> {
     pub pdf: R,
     /// True where the point sees the side of the light that emits if the light is one-sided: the side of the normal.
     pub emits: R::Mask,
-    /// True where the light has one direction only ([`Point`], [`Spot`], [`Directional`]). Then `pdf` is no density: it is what the
-    /// estimator divides by, and multiple importance sampling must give the sample the weight 1.
+    /// True where no direction drawn otherwise can hit the light ([`Point`], [`Spot`], [`Directional`], [`Line`]). Then `pdf` is no density per
+    /// steradian: it is what the estimator divides by, and multiple importance sampling must give the sample the weight 1.
     pub delta: R::Mask,
 }
 
@@ -173,6 +177,24 @@ impl<R: Real> Triangle<R> {
     }
 }
 
+impl<R: Real> Triangle<R> {
+    /// By solid angle times a bilinear approximation of the cosine to the unit normal of the surface, [`CosineWarped`]: for diffuse surfaces,
+    /// where the projected solid angle is too dear.
+    #[inline(always)]
+    pub fn by_cosine_warp(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let v0 = self.v0 - p;
+        let (v1, v2) = (v0 + self.e1, v0 + self.e2);
+        let seen = SphericalTriangle::with_edges(v0, v1, v2, self.e1, self.e2);
+        let [a, b, c] = [v0, v1, v2].map(|v| sighting(v).direction.dot(normal));
+        // the map sweeps about v1, from v0 to v2
+        let warped = CosineWarped::with_cosines(seen, [b, b, a, c]);
+        let v = warped.weights.sample(u);
+        let Sighting { direction, distance } = seen.sight(v);
+        let pdf = seen.density() * warped.weights.pdf(v);
+        LightSample { direction, distance, pdf, emits: seen.in_front(), delta: R::Mask::splat(false) }
+    }
+}
+
 lanewise! {
     /// A parallelogram p + su + tv, s and t in [0, 1], that emits on the side of u×v.
     Parallelogram {
@@ -239,6 +261,21 @@ impl<R: Real> Rectangle<R> {
         let seen = SphericalRectangle::new(self.p - p, self.u, self.v);
         let Sighting { direction, distance } = seen.sight(u);
         LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+    }
+}
+
+impl<R: Real> Rectangle<R> {
+    /// By solid angle times a bilinear approximation of the cosine to the unit normal of the surface, [`CosineWarped`]: for diffuse surfaces.
+    #[inline(always)]
+    pub fn by_cosine_warp(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let corner = self.p - p;
+        let seen = SphericalRectangle::new(corner, self.u, self.v);
+        let corners = [corner, corner + self.u, corner + self.v, corner + self.u + self.v];
+        let warped = CosineWarped::with_cosines(seen, corners.map(|v| sighting(v).direction.dot(normal)));
+        let v = warped.weights.sample(u);
+        let Sighting { direction, distance } = seen.sight(v);
+        let pdf = seen.density() * warped.weights.pdf(v);
+        LightSample { direction, distance, pdf, emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }
 

@@ -15,9 +15,16 @@
 //! | convex polygon, 3 to 8 corners | [`SphericalPolygon`] | 1/Ω | as the triangle |
 //! | triangle | [`ProjectedTriangle`] | cosθ/Ω⊥ | as the triangle; below the horizon: pdf 0 |
 //! | convex polygon, 3 to 8 corners | [`ProjectedPolygon`] | cosθ/Ω⊥ | as the triangle; below the horizon: pdf 0 |
+//! | disk | [`SphericalDisk`] | 1/Ω | point in the plane, radius ≤ 0: pdf 0 |
+//! | triangle, rectangle | [`CosineWarped`] | about ∝ cosθ | as the shape |
+//! | line segment | [`SphericalSegment`] | 1/α per radian | point on its line: pdf 0 |
+//! | line segment | [`ProjectedSegment`] | ∝ sinγ cosθ per radian | as that; below the horizon: pdf 0 |
 //!
 //! Solid angles Ω in steradians; Ω⊥ projected on the surface at the viewpoint, above its horizon, at most π.
 
+mod cosine_warped;
+mod disk;
+mod line;
 mod parallelogram;
 mod polygon;
 mod projected_cap;
@@ -26,6 +33,9 @@ mod rectangle;
 mod sphere;
 mod triangle;
 
+pub use cosine_warped::CosineWarped;
+pub use disk::SphericalDisk;
+pub use line::{ProjectedSegment, SphericalSegment};
 pub use parallelogram::SphericalParallelogram;
 pub use polygon::SphericalPolygon;
 pub use projected_cap::ProjectedCap;

@@ -13,6 +13,9 @@
 //! | [`LowDistortionTriangle`] | the same | 2 | keeps strata compact; cheaper |
 //! | [`GgxVisibleNormals`] | normals of a microsurface | D_v | anisotropic; reflected density too |
 //! | [`Bilinear`] | unit square | bilinear in the point | for textured or tilted emitters |
+//! | [`DiskSurface`] | points of a disk in space | 1/(πR²) | [`per_steradian`] converts |
+//! | [`CylinderSide`] | points of a cylinder's side | 1/(2πRL) | as that |
+//! | [`SphereSurface`] | points of a sphere | 1/(4πR²) | as that |
 //!
 //! On a line, as [`Warp1`]:
 //!
@@ -22,10 +25,6 @@
 //! | [`Tent`] | [−r, r] | (r − \|x\|)/r² | pixel filters |
 //! | [`Exponential`] | [0, ∞) | λ exp(−λx) | distances in a medium |
 //! | [`Normal`] | the line | Gaussian | by inverse erf: keeps strata, has an inverse |
-//!
-//! # A sphere by area
-//! A point of a sphere of radius r, uniform by area, is the centre plus r times a direction of [`UniformSphere`]; its density per unit
-//! area is that of the direction over r²: 1/(4πr²). There is no other routine for it.
 
 mod bilinear;
 mod cone;
@@ -35,6 +34,7 @@ mod hemisphere;
 mod linear;
 mod normal;
 mod octahedral;
+mod surface;
 mod triangle;
 mod visible_normals;
 
@@ -47,6 +47,7 @@ pub use hemisphere::CosineHemisphere;
 pub use linear::{Linear, Tent};
 pub use normal::Normal;
 pub use octahedral::Octahedral;
+pub use surface::{CylinderSide, DiskSurface, SphereSurface, per_steradian};
 pub use triangle::{AreaTriangle, LowDistortionTriangle};
 pub use visible_normals::GgxVisibleNormals;
 

@@ -1,8 +1,9 @@
 //! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
 
 use crate::subjects::{
-    Bilinear, Cap, Cone, Exponential, GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, ProjectedCap,
-    ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle, Rectangle, Tent, Triangle,
+    Bilinear, Cap, Cone, CosineRectangle, CosineTriangle, CylinderSide, Disk, DiskSurface, Exponential,
+    GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, ProjectedCap, ProjectedParallelogram, ProjectedPentagon,
+    ProjectedSegment, ProjectedTriangle, Rectangle, Segment, SphereSurface, Tent, Triangle,
 };
 
 /// SplitMix64: nothing of the generators under test.
@@ -477,6 +478,152 @@ pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
         all.push(("horizon of coordinates", ProjectedCap::new(about, 1e-3, [0.0, 0.0, 1.0])));
     }
     all
+}
+
+/// Distances and sizes of surfaces in space.
+const PLACES: [(&str, f32, f32); 5] = [
+    ("ordinary", 1.0, 0.7),
+    ("small 1e-3", 1.0, 1e-3),
+    ("large 1e3", 1.0, 1e3),
+    ("small units", 1e-9, 2e-10),
+    ("huge units", 1e9, 4e8),
+];
+const PLACE: [f32; 3] = [0.48, -0.64, 0.6];
+const AXIS: [f32; 3] = [0.36, 0.48, -0.8];
+fn times(v: [f32; 3], s: f32) -> [f32; 3] {
+    v.map(|x| x * s)
+}
+/// Disks in space.
+#[must_use]
+pub fn disk_surfaces() -> [Case<DiskSurface>; 5] {
+    PLACES.map(|(name, d, radius)| (name, DiskSurface { center: times(PLACE, d), normal: AXIS, radius }))
+}
+/// Spheres in space.
+#[must_use]
+pub fn sphere_surfaces() -> [Case<SphereSurface>; 5] {
+    PLACES.map(|(name, d, radius)| (name, SphereSurface { center: times(PLACE, d), radius }))
+}
+/// Sides of cylinders in space: of their own width, long and short.
+#[must_use]
+pub fn cylinder_sides() -> Vec<Case<CylinderSide>> {
+    let of = |(name, d, radius)| (name, CylinderSide { p: times(PLACE, d), axis: times(AXIS, 2.0 * radius), radius });
+    let mut all = PLACES.map(of).to_vec();
+    all.push(("long", CylinderSide { p: PLACE, axis: times(AXIS, 10.0), radius: 0.1 }));
+    all.push(("short", CylinderSide { p: PLACE, axis: times(AXIS, 0.1), radius: 1.0 }));
+    all
+}
+
+/// Regimes of flat shapes over which a cosine varies, or is at a far end of them.
+fn with_normals<S, W>(shapes: Vec<Case<S>>, seed: u64, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
+    const KEPT: [&str; 7] = ["ordinary", "ordinary, aside", "small 1e-2", "tiny 1e-5", "far 1e9", "large 6", "oblique"];
+    let mut random = Random::new(seed);
+    let kept = shapes.into_iter().filter(|case| KEPT.contains(&case.0));
+    kept.map(|(name, shape)| (name, of(shape, narrow(random.direction())))).collect()
+}
+/// Triangles on surfaces of any orientation.
+#[must_use]
+pub fn cosine_triangles(each: usize, seed: u64) -> Vec<Case<CosineTriangle>> {
+    with_normals(triangles(each, seed), seed, |shape, normal| CosineTriangle { shape, normal })
+}
+/// Rectangles on surfaces of any orientation.
+#[must_use]
+pub fn cosine_rectangles(each: usize, seed: u64) -> Vec<Case<CosineRectangle>> {
+    with_normals(rectangles(each, seed), seed, |shape, normal| CosineRectangle { shape, normal })
+}
+
+/// Disks of every regime: radius, height of the point over the plane, and offset from the axis.
+#[must_use]
+pub fn disks(each: usize, seed: u64) -> Vec<Case<Disk>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, radius, height, offset) in [
+            ("ordinary", 0.6, 1.0, 0.4),
+            ("oblique", 1.0, 1.0, 2.0),
+            ("small 1e-3", 1e-3, 1.0, 0.7),
+            ("tiny 1e-7", 1e-7, 1.0, 0.7),
+            ("tiny 1e-9", 1e-9, 1.0, 0.7),
+            ("far 1e9", 1e3, 1e12, 7e11),
+            ("on the axis", 0.8, 1.0, 0.0),
+            ("nearly on the axis", 0.8, 1.0, 1e-4),
+            ("grazing 1e-2", 1.0, 1e-2, 2.5),
+            ("grazing 1e-4", 1.0, 1e-4, 2.5),
+            ("grazing and far", 1.0, 1e-3, 1e3),
+            ("close over it", 1.0, 1e-2, 0.6),
+            ("close 1e-4", 1.0, 1e-4, 0.6),
+            ("near-hemisphere 1e3", 1e3, 1.0, 30.0),
+            ("near-hemisphere 1e5", 1e5, 1.0, 3e4),
+            ("over the rim 1e-2", 1.0, 1e-2, 1.0),
+            ("over the rim 1e-4", 1.0, 1e-4, 1.0),
+            ("beside the rim 1e-2", 1.0, 1e-3, 1.01),
+            ("beside the rim 1e-4", 1.0, 1e-3, 1.0001),
+            ("within the rim 1e-3", 1.0, 1e-4, 0.999),
+        ] {
+            let axes = frame(&mut random);
+            let center = narrow(combine(&axes, offset, 0.0, height));
+            all.push((name, Disk::new(center, narrow(axes[2]), radius as f32)));
+        }
+        all.push(("exactly on the axis", Disk::new([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], random.range(0.1, 4.0) as f32)));
+    }
+    all
+}
+
+/// Line segments of every regime: from one end, in the plane of point and segment (along the direction to it, and across), the edge; and the
+/// height over the horizon of either end.
+#[must_use]
+pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
+    let mut random = Random::new(seed);
+    let (mut plain, mut projected) = (Vec::new(), Vec::new());
+    for _ in 0..each {
+        for (name, a, edge) in [
+            ("ordinary", [1.0, -0.3], [0.2, 0.9]),
+            ("oblique", [1.0, 0.2], [1.5, 0.4]),
+            ("small 1e-3", [1.0, 0.3], [4e-4, 1e-3]),
+            ("tiny 1e-5", [1.0, 0.3], [4e-6, 1e-5]),
+            ("tiny 1e-9", [1.0, 0.3], [4e-10, 1e-9]),
+            ("far 1e9", [1e12, 3e11], [400.0, 1e3]),
+            ("end-on 1e-2", [1.0, 0.0], [1.0, 1e-2]),
+            ("end-on 1e-4", [1.0, 0.0], [1.0, 1e-4]),
+            ("long 1e2", [1.0, -40.0], [3.0, 100.0]),
+            ("long 1e5", [1.0, -4e4], [1e3, 1e5]),
+            ("long 1e5, from its end", [1.0, -0.1], [1e3, 1e5]),
+            ("close 1e-3", [1e-3, -0.5], [1e-3, 1.0]),
+            ("close 1e-6", [1e-6, -0.5], [0.0, 1.0]),
+            ("touching an end 1e-3", [1e-3, 0.0], [3e-4, 1.0]),
+        ] {
+            let axes = frame(&mut random);
+            let [p, e] = [a, edge].map(|v| narrow(combine(&axes, v[0], v[1], 0.0)));
+            plain.push((name, Segment::new(p, e)));
+            // in units of the distance, so that small segments cross the horizon too
+            let size = f64::hypot(edge[0], edge[1]).min(1.0) / f64::hypot(a[0], a[1]).max(1.0);
+            for (place, tilt, lift) in [
+                ("overhead", 0.7, 0.7),
+                ("turned", -0.5, 0.6),
+                ("cut", 0.6, -0.1 * size),
+                ("cut at the other end", -0.6, 0.2 * size),
+                ("low 1e-2", 0.3, 1e-2),
+            ] {
+                // the height of a is its direction's part of the normal along it
+                let unit = crate::oracle::unit([a[0], a[1], 0.0]);
+                let side = [-unit[1], unit[0], 0.0];
+                let towards = side[0] * edge[0] + side[1] * edge[1] > 0.0;
+                let tilt = if towards { tilt } else { -tilt };
+                let rest = f64::sqrt((1.0 - lift * lift - tilt * tilt).max(0.01));
+                let mix = |k: usize| unit[k] * lift + side[k] * tilt;
+                let normal = combine(&axes, mix(0), mix(1), rest);
+                let case = ProjectedSegment::new(p, e, narrow(normal));
+                if case.seen() {
+                    let label: &'static str = Box::leak(format!("{name}, {place}").into_boxed_str());
+                    projected.push((label, case));
+                }
+            }
+        }
+    }
+    let level = [0.0, 0.0, 1.0];
+    projected.push(("an end on the horizon", ProjectedSegment::new([1.0, 0.5, 0.0], [0.5, 1.0, 2.0], level)));
+    projected.push(("half the sky", ProjectedSegment::new([-1e4, 0.0, 1.0], [2e4, 0.0, 0.0], level)));
+    projected.push(("a sliver of sky", ProjectedSegment::new([1.0, 0.0, -1.0], [1e3, 0.0, 3.0], level)));
+    (plain, projected)
 }
 
 /// Where a flat shape lies over a horizon.

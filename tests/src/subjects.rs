@@ -1,12 +1,18 @@
 //! The warps under test, with what is known about each from elsewhere.
 
+mod cosine;
+mod disk;
 mod flat;
 mod line;
 mod normals;
 mod projected;
 mod projected_flat;
 mod round;
+mod segment;
+mod surface;
 
+pub use cosine::{CosineRectangle, CosineTriangle};
+pub use disk::Disk;
 pub use flat::{AreaTriangle, Hexagon, LowDistortionTriangle, Parallelogram, Rectangle, Triangle};
 pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
 pub use normals::GgxVisibleNormals;
@@ -15,3 +21,5 @@ pub use projected_flat::{ProjectedParallelogram, ProjectedPentagon, ProjectedTri
 pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, Octahedral, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };
+pub use segment::{ProjectedSegment, Segment};
+pub use surface::{CylinderSide, DiskSurface, SphereSurface};

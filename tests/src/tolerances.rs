@@ -80,6 +80,16 @@ pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.
 /// regimes stay below 7 units but for two at 10 (a sliver, and a light 30 times its distance across).
 pub const PROJECTED_POLYGON: Tolerance =
     Tolerance { point: 12.0, steps: 8.0, distance: 28.0, density: 12.0, round_trip: 24.0 };
+/// A cross product, an arc tangent, a sine and a frame; the point is the direction times up to 2.
+pub const SEGMENT: Tolerance = Tolerance { point: 8.0, steps: 0.0, distance: 8.0, density: 4.0, round_trip: 8.0 };
+/// As that. An irradiance that is inverted is a sum of three terms: as for the projected cap, 4 steps.
+pub const PROJECTED_SEGMENT: Tolerance = Tolerance { steps: 4.0, ..SEGMENT };
+/// The half-angles are roots of a dozen roundings, the solid angle a product with a sum of 20 terms. The integral that is inverted is such a
+/// sum: 4 steps.
+pub const SPHERICAL_DISK: Tolerance =
+    Tolerance { point: 4.0, steps: 4.0, distance: 4.0, density: 5.0, round_trip: 8.0 };
+/// A frame and a sum; coordinates are rounded to their size.
+pub const SURFACE: Tolerance = Tolerance { point: 4.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 8.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

@@ -2,13 +2,13 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::{
-    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Mask, Point, Real, Rectangle, Spot, Sun, Vec2, Vec3,
-    f32x4, f32x8,
+    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Line, Mask, Point, Real, Rectangle, Spot, Sun,
+    Triangle, Vec2, Vec3, f32x4, f32x8,
 };
 use etendue_tests::domain::{self, Random};
 use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
 use etendue_tests::oracle::{
-    V3, along, basis, dot, facing_disk, length, perpendicular_disk, projected_polygon, sub, unit,
+    V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, perpendicular_disk, projected_polygon, sub, unit,
 };
 
 /// Mean of f over an n × n grid of `u`.
@@ -37,6 +37,13 @@ fn disk_has_its_form_factor() {
             let truth = perpendicular_disk(r, h, a);
             assert!((upright / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {upright} for {truth}");
         }
+        let by_solid_angle = |n: V3| mean(500, |u| irradiance(&disk.by_solid_angle(origin(), u), n));
+        let (facing, upright) = (by_solid_angle([0.0, 0.0, 1.0]) / PI, by_solid_angle([1.0, 0.0, 0.0]) / PI);
+        assert!((facing / truth - 1.0).abs() < 1e-5, "{r} {h} {a} by solid angle: {facing} for {truth}");
+        if r <= a {
+            let truth = perpendicular_disk(r, h, a);
+            assert!((upright / truth - 1.0).abs() < 1e-5, "{r} {h} {a} by solid angle: {upright} for {truth}");
+        }
         // from behind it is dark
         let behind = Disk { normal: -disk.normal, ..disk };
         assert!(mean(50, |u| irradiance(&behind.by_area(origin(), u), [0.0, 0.0, 1.0])) == 0.0);
@@ -48,7 +55,7 @@ fn rectangle_has_its_projected_solid_angle() {
     let mut random = Random::new(5);
     for (size, height) in [(1.0, 1.0), (1e-3, 1.0), (4.0, 0.5), (1.0, 1e-2), (30.0, 1.0)] {
         let (s, t) = basis(random.direction());
-        let n = unit(etendue_tests::oracle::cross(s, t));
+        let n = unit(cross(s, t));
         let (u, v) = (s.map(|x| x * size), t.map(|x| x * 0.7 * size));
         let shift = random.range(0.0, 1.0);
         let p: V3 = core::array::from_fn(|k| -height * n[k] - shift * u[k] - 0.3 * v[k]);
@@ -59,11 +66,34 @@ fn rectangle_has_its_projected_solid_angle() {
             let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin(), u), receiver));
             let truth = projected_polygon(&corners, receiver);
             assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
+            let warped = mean(512, |u| irradiance(&light.by_cosine_warp(origin(), receiver.into(), u), receiver));
+            assert!((warped / truth - 1.0).abs() < 1e-4, "{size} {height} warped: {warped} for {truth}");
+            let (a, b, c) = (p, along(p, u, 1.0), along(p, v, 1.0));
+            let half = Triangle { v0: a.into(), e1: u.into(), e2: v.into() };
+            let warped = mean(512, |u| irradiance(&half.by_cosine_warp(origin(), receiver.into(), u), receiver));
+            let half = projected_polygon(&[a, b, c], receiver);
+            assert!((warped - half).abs() < 1e-4 * truth, "{size} {height} triangle, warped: {warped} for {half}");
             let by_area = mean(1024, |u| irradiance(&light.by_area(origin(), u), receiver));
             assert!((by_area / truth - 1.0).abs() < 1e-3 || height < size, "{size} {height}: {by_area} for {truth}");
             let behind = Rectangle { u: light.v, v: light.u, ..light };
             assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin(), u), receiver)), 0.0);
         }
+    }
+}
+
+/// Facing, on the axis: by area the second moment is (π²k²/3)(1 − (1+k²)⁻³), by solid angle 4π²(1−c)(1−c³)/3, with k = R/h, c = 1/√(1+k²).
+#[test]
+fn disk_has_its_variance() {
+    for k in [0.25_f64, 1.0, 4.0, 8.0] {
+        let disk = Disk { center: [0.0, 0.0, 1.0].into(), normal: [0.0, 0.0, -1.0].into(), radius: k };
+        let c = 1.0 / (1.0 + k * k).sqrt();
+        let square = |s: LightSample<f64>| irradiance(&s, [0.0, 0.0, 1.0]).powi(2);
+        let by_area = mean(400, |u| square(disk.by_area(origin(), u)));
+        let truth = (PI * k).powi(2) / 3.0 * (1.0 - (1.0 + k * k).powi(-3));
+        assert!((by_area / truth - 1.0).abs() < 1e-3, "{k}: {by_area} for {truth}");
+        let by_solid_angle = mean(400, |u| square(disk.by_solid_angle(origin(), u)));
+        let truth = 4.0 * PI * PI * (1.0 - c) * (1.0 - c * c * c) / 3.0;
+        assert!((by_solid_angle / truth - 1.0).abs() < 1e-5, "{k}: {by_solid_angle} for {truth}");
     }
 }
 
@@ -129,6 +159,64 @@ fn cylinder_points_lie_on_it() {
     }
 }
 
+/// Irradiance of a line of unit radiance and width: by Gauss and Legendre along it, clipped to the horizon.
+fn line_irradiance(a: V3, edge: V3, n: V3) -> f64 {
+    let (low, high) = (dot(a, n), dot(a, n) + dot(edge, n));
+    let crossing = (low / (low - high)).clamp(0.0, 1.0);
+    let (first, last) = (if low < 0.0 { crossing } else { 0.0 }, if high < 0.0 { crossing } else { 1.0 });
+    let panels = 200;
+    let mut sum = 0.0;
+    for panel in 0..panels {
+        for (x, weight) in gauss_legendre::<8>() {
+            let t = first + (last - first) * (f64::from(panel) + x) / f64::from(panels);
+            let point = along(a, edge, t);
+            let r = length(point);
+            sum += weight * length(cross(point, edge)) * dot(point, n).max(0.0) / (r * r * r * r);
+        }
+    }
+    if low < 0.0 && high < 0.0 { 0.0 } else { sum * (last - first) / f64::from(panels) }
+}
+
+#[test]
+fn lines_have_their_irradiance() {
+    let mut random = Random::new(6);
+    for i in 0..30 {
+        let size = [1.0, 0.01, 20.0][i % 3];
+        let (p, e, n) = (random.direction(), random.direction().map(|x| x * size), random.direction());
+        let (line, truth) = (Line { p: p.into(), edge: e.into() }, line_irradiance(p, e, n));
+        let total = line_irradiance(p, e, unit(p)) + truth;
+        let steps = 20_000;
+        let mean = |f: &dyn Fn(f64) -> LightSample<f64>| {
+            (0..steps).map(|k| irradiance(&f((f64::from(k) + 0.5) / f64::from(steps)), n)).sum::<f64>()
+                / f64::from(steps)
+        };
+        let by_length = mean(&|u| line.by_length(origin(), u));
+        assert!((by_length - truth).abs() < 1e-4 * total, "by length {i}: {by_length} for {truth}");
+        let by_angle = mean(&|u| line.by_angle(origin(), u));
+        assert!((by_angle - truth).abs() < 1e-6 * total, "by angle {i}: {by_angle} for {truth}");
+        for k in 0..100 {
+            let u = (f64::from(k) + random.unit_f64()) / 100.0;
+            let s = line.by_projected_solid_angle(origin(), n.into(), u);
+            let e = irradiance(&s, n);
+            // at the ends of the range the cosine is a small difference
+            let slack = 1e-12 / dot(s.direction.at(0), n).abs().max(1e-9);
+            assert!((e - truth).abs() <= (1e-9 + slack) * truth, "projected {i}: {e} for {truth} at {u}");
+            // on the line, and the number comes back
+            for s in [s, line.by_angle(origin(), u), line.by_length(origin(), u)] {
+                let x = sub(s.direction.at(0).map(|w| w * s.distance), p);
+                let off = length(cross(x, unit(e_of(&line))));
+                assert!(s.pdf == 0.0 || off < 1e-11 * s.distance / sine(&s, &line), "off the line by {off}");
+            }
+        }
+    }
+}
+fn e_of(line: &Line<f64>) -> V3 {
+    line.edge.at(0)
+}
+fn sine(s: &LightSample<f64>, line: &Line<f64>) -> f64 {
+    length(cross(s.direction.at(0), unit(e_of(line))))
+}
+
 #[test]
 fn sun_and_sky() {
     let h = 0.1;
@@ -178,11 +266,15 @@ fn delta_lights() {
 }
 
 /// All lights with the parameters a, b (b also as a unit vector) and r, from the point p.
-fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [LightSample<R>; 9] {
+fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [LightSample<R>; 13] {
     let n = b.normalize();
     [
         Disk { center: a, normal: n, radius: r }.by_area(p, u),
+        Disk { center: a, normal: n, radius: r }.by_solid_angle(p, u),
         Cylinder { p: a, axis: b, radius: r }.by_area(p, u),
+        Line { p: a, edge: b }.by_length(p, u.x),
+        Line { p: a, edge: b }.by_angle(p, u.x),
+        Line { p: a, edge: b }.by_projected_solid_angle(p, n, u.x),
         Point { position: a }.sample(p),
         Spot { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.sample(p),
         Spot { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.sample(p),

@@ -3,9 +3,10 @@
 use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
-    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Hexagon,
+    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, Exponential, GgxVisibleNormals, Hexagon,
     Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PolarDisk, ProjectedCap, ProjectedParallelogram,
-    ProjectedPentagon, ProjectedTriangle, Rectangle, Tent, Triangle, UniformHemisphere, UniformSphere, nearest_hit,
+    ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle, UniformHemisphere,
+    UniformSphere, nearest_hit,
 };
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -149,6 +150,14 @@ fn main() {
             warp("cone", domain::cones, 1000),
             warp("sphere_cap", || domain::caps(3, 11), 200),
             warp("spherical_polygon", || domain::hexagons(3, 15), 60),
+            warp("spherical_disk", || domain::disks(3, 31), 100),
+            warp("spherical_segment", || domain::segments(3, 21).0, 200),
+            warp("projected_segment", || domain::segments(1, 22).1, 60),
+            warp("disk_surface", || domain::disk_surfaces().to_vec(), 200),
+            warp("sphere_surface", || domain::sphere_surfaces().to_vec(), 200),
+            warp("cylinder_side", || domain::cylinder_sides().to_vec(), 200),
+            warp("cosine_triangle", || domain::cosine_triangles(2, 43), 60),
+            warp("cosine_rectangle", || domain::cosine_rectangles(2, 44), 60),
             warp("projected_cap", || domain::projected_caps(3, 14), 100),
             warp("projected_triangle", || domain::projected_triangles(3, 16), 60),
             warp("projected_parallelogram", || domain::projected_parallelograms(1, 17), 40),
@@ -202,6 +211,11 @@ fn any_parameters_are_survived() {
         laws::any_bits(&Parallelogram::new(a, b, c), u);
         laws::any_bits(&Cap::new(a, b[0]), u);
         laws::any_bits(&ProjectedCap::new(a, b[0], c), u);
+        if i % 4 < 2 {
+            laws::any_bits(&Disk::new(a, b, c[0]), u);
+            laws::any_bits(&Segment::new(a, b), u);
+            laws::any_bits(&ProjectedSegment::new(a, b, c), u);
+        }
         laws::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
         laws::any_bits(&ProjectedTriangle::by_vertices(a, b, c, d), u);
         laws::any_bits(&ProjectedTriangle::by_edges(a, b, c, d), u);

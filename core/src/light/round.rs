@@ -1,6 +1,6 @@
 use super::{LightSample, flat_by_area, sighting, solid_angle_pdf};
 use crate::real::{Mask, Real};
-use crate::seen::{Sighting, lanewise};
+use crate::seen::{Sighting, SphericalDisk, lanewise};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{ConcentricDisk, Warp};
 
@@ -30,6 +30,13 @@ impl<R: Real> Disk<R> {
         let offset = frame.s * (q.x * self.radius) + frame.t * (q.y * self.radius);
         let area = self.radius * self.radius * R::lit(core::f64::consts::PI);
         flat_by_area((self.center - p) + offset, self.normal * area)
+    }
+    /// Uniform over the solid angle, [`SphericalDisk`]: every sample that the plane of the surface does not hide is worth its cosine.
+    #[inline(always)]
+    pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
+        let seen = SphericalDisk::new(self.center - p, self.normal, self.radius);
+        let Sighting { direction, distance } = seen.sight(u);
+        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }
 

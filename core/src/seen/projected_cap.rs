@@ -84,7 +84,7 @@ pub(super) fn ratio<R: Real>(a: R, b: R) -> R {
 
 /// S(φ) = φ − sinφ cosφ for φ in [0, π/2]: ½(Φ − sinΦ) with Φ = 2φ, by its series.
 #[inline(always)]
-fn segment<R: Real>(phi: R) -> R {
+pub(super) fn segment<R: Real>(phi: R) -> R {
     const fn coefficients<const N: usize>() -> [f64; N] {
         let mut c = [2.0 / 3.0; N];
         let mut i = 1;

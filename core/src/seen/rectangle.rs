@@ -73,7 +73,7 @@ lanewise! {
 
 /// Unit vector and length at any scale.
 #[inline(always)]
-fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
+pub(super) fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
     let scale = v.max_abs().exponent_reciprocal();
     let v = v * scale;
     let squared = v.length_squared();
