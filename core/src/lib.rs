@@ -49,8 +49,8 @@ pub mod vector;
 pub mod warp;
 
 pub use light::{
-    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Line, Parallelogram, Point, Polygon, Rectangle,
-    Sphere, Spot, Sun, Triangle,
+    BilinearPatch, ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Line, Parallelogram, Point, Polygon,
+    Rectangle, Sphere, Spot, Sun, Triangle,
 };
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};

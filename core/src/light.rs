@@ -12,6 +12,7 @@
 //! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`Triangle`], [`Rectangle`] | | [`by_cosine_warp`](Rectangle::by_cosine_warp), times about the cosine | |
+//! | [`BilinearPatch`] | [`by_area`](BilinearPatch::by_area) | | |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
 //! | [`Cylinder`] | [`by_area`](Cylinder::by_area): half of it and more faces away | | |
 //! | [`Line`] | by [length](Line::by_length) | by [angle](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
@@ -24,6 +25,7 @@ mod delta;
 mod distant;
 mod environment;
 mod line;
+mod patch;
 mod polygon;
 mod round;
 
@@ -31,6 +33,7 @@ pub use delta::{Directional, Point, Spot};
 pub use distant::{ConstantEnvironment, Sun};
 pub use environment::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Texel};
 pub use line::Line;
+pub use patch::BilinearPatch;
 pub use polygon::Polygon;
 pub use round::{Cylinder, Disk};
 

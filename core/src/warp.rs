@@ -16,6 +16,7 @@
 //! | [`DiskSurface`] | points of a disk in space | 1/(πR²) | [`per_steradian`] converts |
 //! | [`CylinderSide`] | points of a cylinder's side | 1/(2πRL) | as that |
 //! | [`SphereSurface`] | points of a sphere | 1/(4πR²) | as that |
+//! | [`PatchSurface`] | points of a bilinear patch | nearly 1/area | as that |
 //!
 //! On a line, as [`Warp1`]:
 //!
@@ -47,7 +48,7 @@ pub use hemisphere::CosineHemisphere;
 pub use linear::{Linear, Tent};
 pub use normal::Normal;
 pub use octahedral::Octahedral;
-pub use surface::{CylinderSide, DiskSurface, SphereSurface, per_steradian};
+pub use surface::{CylinderSide, DiskSurface, PatchSurface, SphereSurface, per_steradian};
 pub use triangle::{AreaTriangle, LowDistortionTriangle};
 pub use visible_normals::GgxVisibleNormals;
 

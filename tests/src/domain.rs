@@ -2,8 +2,8 @@
 
 use crate::subjects::{
     Bilinear, Cap, Cone, CosineRectangle, CosineTriangle, CylinderSide, Disk, DiskSurface, Exponential,
-    GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, ProjectedCap, ProjectedParallelogram, ProjectedPentagon,
-    ProjectedSegment, ProjectedTriangle, Rectangle, Segment, SphereSurface, Tent, Triangle,
+    GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, PatchSurface, ProjectedCap, ProjectedParallelogram,
+    ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, SphereSurface, Tent, Triangle,
 };
 
 /// SplitMix64: nothing of the generators under test.
@@ -510,6 +510,36 @@ pub fn cylinder_sides() -> Vec<Case<CylinderSide>> {
     let mut all = PLACES.map(of).to_vec();
     all.push(("long", CylinderSide { p: PLACE, axis: times(AXIS, 10.0), radius: 0.1 }));
     all.push(("short", CylinderSide { p: PLACE, axis: times(AXIS, 0.1), radius: 1.0 }));
+    all
+}
+
+/// Bilinear patches in space: flat, twisted, a trapezium, long, and with two corners in one place.
+#[must_use]
+pub fn patch_surfaces() -> Vec<Case<PatchSurface>> {
+    let u = [0.8, 0.36, -0.2];
+    let v = [-0.3, 0.9, 0.5];
+    let sum = |s: f32, t: f32, lift: f32| -> [f32; 3] {
+        let n = [0.36, -0.34, 0.83];
+        core::array::from_fn(|k| s * u[k] + t * v[k] + lift * n[k])
+    };
+    let mut all: Vec<Case<PatchSurface>> = PLACES
+        .map(|(name, d, size)| {
+            let [u, v, w] = [u, v, sum(1.0, 1.0, 0.4)].map(|e| times(e, size));
+            (name, PatchSurface { p: times(PLACE, d), u, v, w })
+        })
+        .to_vec();
+    for (name, w) in [
+        ("flat", sum(1.0, 1.0, 0.0)),
+        ("trapezium", sum(0.6, 1.0, 0.0)),
+        ("kite", sum(2.0, 1.7, 0.0)),
+        ("strongly twisted", sum(1.0, 1.0, 1.5)),
+        ("nearly a triangle", sum(0.02, 1.0, 0.0)),
+    ] {
+        all.push((name, PatchSurface { p: PLACE, u, v, w }));
+    }
+    let long = times(u, 0.01);
+    let w = core::array::from_fn(|k| 1.5 * long[k] + v[k]);
+    all.push(("sliver 1e2", PatchSurface { p: PLACE, u: long, v, w }));
     all
 }
 

@@ -90,6 +90,8 @@ pub const SPHERICAL_DISK: Tolerance =
     Tolerance { point: 4.0, steps: 4.0, distance: 4.0, density: 5.0, round_trip: 8.0 };
 /// A frame and a sum; coordinates are rounded to their size.
 pub const SURFACE: Tolerance = Tolerance { point: 4.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 8.0 };
+/// A bilinear density, with its steps, and a sum; the inverse is a quadratic equation's root.
+pub const PATCH: Tolerance = Tolerance { point: 4.0, steps: 6.0, distance: 0.0, density: 8.0, round_trip: 8.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

@@ -4,9 +4,9 @@ use etendue_tests::domain::{self, Case, Random};
 use etendue_tests::laws::{self, Subject};
 use etendue_tests::subjects::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, Exponential, GgxVisibleNormals, Hexagon,
-    Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PolarDisk, ProjectedCap, ProjectedParallelogram,
-    ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle, UniformHemisphere,
-    UniformSphere, nearest_hit,
+    Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap,
+    ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle,
+    UniformHemisphere, UniformSphere, nearest_hit,
 };
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -156,6 +156,7 @@ fn main() {
             warp("disk_surface", || domain::disk_surfaces().to_vec(), 200),
             warp("sphere_surface", || domain::sphere_surfaces().to_vec(), 200),
             warp("cylinder_side", || domain::cylinder_sides().to_vec(), 200),
+            warp("patch_surface", domain::patch_surfaces, 200),
             warp("cosine_triangle", || domain::cosine_triangles(2, 43), 60),
             warp("cosine_rectangle", || domain::cosine_rectangles(2, 44), 60),
             warp("projected_cap", || domain::projected_caps(3, 14), 100),
@@ -211,6 +212,7 @@ fn any_parameters_are_survived() {
         laws::any_bits(&Parallelogram::new(a, b, c), u);
         laws::any_bits(&Cap::new(a, b[0]), u);
         laws::any_bits(&ProjectedCap::new(a, b[0], c), u);
+        laws::any_bits(&PatchSurface { p: d, u: a, v: b, w: c }, u);
         if i % 4 < 2 {
             laws::any_bits(&Disk::new(a, b, c[0]), u);
             laws::any_bits(&Segment::new(a, b), u);
