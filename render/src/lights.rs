@@ -18,7 +18,7 @@ pub enum Technique {
     Area,
     /// Directions uniform over the solid angle of a light
     SolidAngle,
-    /// Directions of a sphere light uniform over its projected solid angle; of other shapes as solid-angle
+    /// Directions uniform over the projected solid angle of a light
     ProjectedSolidAngle,
     /// Directions by what the surface reflects: the cosine, or the visible normals of a rough metal
     Brdf,
@@ -46,7 +46,7 @@ pub enum Measure {
     Area,
     /// Solid angle at the shading point.
     SolidAngle,
-    /// Solid angle projected on the surface there, where that can be done, else solid angle.
+    /// Solid angle projected on the surface there.
     Projected,
 }
 
@@ -231,8 +231,8 @@ impl Lights {
         const ONLY_PARALLELOGRAMS: u32 = 1 << PARALLELOGRAM;
         let mut sample = match self.kinds {
             ONLY_SPHERES => chosen.sphere(measure, p, normal, u),
-            ONLY_TRIANGLES => chosen.triangle(measure, p, u),
-            ONLY_PARALLELOGRAMS => chosen.parallelogram(measure, p, u),
+            ONLY_TRIANGLES => chosen.triangle(measure, p, normal, u),
+            ONLY_PARALLELOGRAMS => chosen.parallelogram(measure, p, normal, u),
             _ => self.mixed(chosen, measure, p, normal, u),
         };
         sample.emits = sample.emits | chosen.two_sided();
@@ -246,8 +246,8 @@ impl Lights {
             let [a, b, c] = chosen.vectors();
             let sample = match kind {
                 SPHERE => chosen.sphere(measure, p, normal, u),
-                TRIANGLE => chosen.triangle(measure, p, u),
-                PARALLELOGRAM => chosen.parallelogram(measure, p, u),
+                TRIANGLE => chosen.triangle(measure, p, normal, u),
+                PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
                 POINT => Point { position: a }.sample(p),
                 SPOT => Spot { position: a, axis: b, cos_inner: c.x, cos_outer: c.y }.sample(p),
                 DISTANT => Directional { direction: a }.sample(),
@@ -367,6 +367,12 @@ impl Table {
     }
 }
 
+/// Keeps the long way out of the short ones' registers.
+#[inline(never)]
+fn projected(sample: impl Fn() -> LightSample<X8>) -> LightSample<X8> {
+    sample()
+}
+
 impl Chosen {
     #[inline(always)]
     fn new(r: [X8; 16]) -> Self {
@@ -394,16 +400,24 @@ impl Chosen {
         }
     }
     #[inline]
-    fn triangle(&self, measure: Measure, p: V8, u: Vec2<X8>) -> LightSample<X8> {
+    fn triangle(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
         let [v0, e1, e2] = self.vectors();
         let light = Triangle { v0, e1, e2 };
-        if measure == Measure::Area { light.by_area(p, u) } else { light.by_solid_angle(p, u) }
+        match measure {
+            Measure::Area => light.by_area(p, u),
+            Measure::SolidAngle => light.by_solid_angle(p, u),
+            Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal, u)),
+        }
     }
     #[inline]
-    fn parallelogram(&self, measure: Measure, p: V8, u: Vec2<X8>) -> LightSample<X8> {
+    fn parallelogram(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
         let [corner, u_edge, v_edge] = self.vectors();
         let light = Parallelogram { p: corner, u: u_edge, v: v_edge };
-        if measure == Measure::Area { light.by_area(p, u) } else { light.by_solid_angle(p, u) }
+        match measure {
+            Measure::Area => light.by_area(p, u),
+            Measure::SolidAngle => light.by_solid_angle(p, u),
+            Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal, u)),
+        }
     }
     #[inline]
     fn two_sided(&self) -> M8 {

@@ -285,7 +285,7 @@ fn run_selftest(options: &Selftest) -> Result<bool, Box<dyn Error>> {
             let mark = if selftest::worst(std::slice::from_ref(row)) < selftest::LIMIT { "" } else { "  disagrees" };
             writeln!(
                 out,
-                "  {technique:21} {sampler:12} {r:.6} {g:.6} {b:.6}   ± {:.1e}   z {x:+.2} {y:+.2} {z:+.2}{mark}",
+                "  {technique:21} {sampler:13} {r:.6} {g:.6} {b:.6}   ± {:.1e}   z {x:+.2} {y:+.2} {z:+.2}{mark}",
                 row.error.iter().fold(0.0_f64, |m, &e| m.max(e))
             )?;
         }

@@ -43,17 +43,24 @@ pub fn applies(technique: Technique, scene: &Scene) -> bool {
     !(blind && scene.materials.iter().any(Material::is_glossy))
 }
 
-/// Renders the scene by every technique and sampler that applies.
+/// Renders the scene by every technique and sampler that applies, and that can tell its variance with so many samples.
 pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
     let mut rows = Vec::new();
+    let mut images = 0;
     for &technique in Technique::value_variants().iter().filter(|&&t| applies(t, scene)) {
         let Effort { side, spp, seed, depth } = *effort;
-        for &sampler in Sampler::value_variants().iter().filter(|s| s.check(spp, false).is_ok()) {
+        let lens = scene.camera.lens.is_some();
+        for &sampler in Sampler::value_variants().iter().filter(|s| s.check(spp, lens).is_ok()) {
             // images that share a seed share noise
-            let seed = seed.wrapping_mul(0x1_0000).wrapping_add(rows.len() as u64);
+            images += 1;
+            let seed = seed.wrapping_mul(0x1_0000).wrapping_add(images);
             let settings = Settings { width: side, height: side, spp, technique, depth, sampler, seed };
             let (film, _) = world.render(&settings, |_| ());
-            rows.push(Row { technique, sampler, mean: film.mean(), error: error(&film), z: [0.0; 3] });
+            let error = error(&film);
+            // a pixel of one replicate knows no variance
+            if error.iter().all(|e| e.is_finite()) {
+                rows.push(Row { technique, sampler, mean: film.mean(), error, z: [0.0; 3] });
+            }
         }
     }
     judge(&mut rows);

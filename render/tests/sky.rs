@@ -23,7 +23,9 @@ fn texel(x: usize, y: usize) -> [f16; 3] {
     let rgb: [f64; 3] = std::array::from_fn(|k| {
         let (sky, horizon) = ([0.12, 0.25, 0.6][k], [0.55, 0.55, 0.5][k]);
         let above = sky + (horizon - sky) * pale + disk * [1.0, 0.8, 0.5][k];
-        if w.z > 0.0 { above } else { [0.09, 0.07, 0.05][k] }
+        // the horizon is soft: texels lie across it
+        let ground = [0.09, 0.07, 0.05][k];
+        ground + (above - ground) * ((w.z + 0.1) / 0.2).clamp(0.0, 1.0)
     });
     rgb.map(f16::from_f64)
 }

@@ -1,7 +1,8 @@
 //! Scenes that hold mirrors, rough metals, delta lights or a sky, and techniques that combine two: what the plain path does without.
 //!
 //! A sample is followed through perfect mirrors to the first surface that is none; there is nothing random in that. Then all lanes are at
-//! one surface each, and light and surface are sampled for all at once. A sample so reflects at one surface besides mirrors; the rays
+//! one surface each, and light and surface are sampled for all at once. (Rays between mirrors keep their lanes: moved up into fewer
+//! packets they took as long in the room of mirrors, 1.00 ± 0.03, and 1.04 times as long among three thousand balls.) A sample so reflects at one surface besides mirrors; the rays
 //! towards lights see mirrors as what blocks them.
 
 use super::bsdf::{Bsdf, Finish, Metal, PLAIN};
