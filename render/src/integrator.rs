@@ -11,6 +11,7 @@ use crate::lens::Eye;
 use crate::lights::{Lights, Technique};
 use crate::sampler::{CHOICE, Packet, Sampler, Source};
 use crate::scene::{Camera, Material, Scene, Shape};
+use crate::sensor::{Exposure, Sensor};
 use crate::sky::Sky;
 use bsdf::Finish;
 use etendue::{Mask, Real, Vec2, u32x8};
@@ -74,6 +75,9 @@ pub struct World {
     /// Is there no mirror and no rough metal?
     only_diffuse: bool,
     camera: Camera,
+    /// Diagonal of the film in millimetres.
+    diagonal: f64,
+    sensor: Sensor,
 }
 
 /// A side of a square of pixels that one thread renders at a time.
@@ -106,6 +110,8 @@ impl World {
             normals: scene.shapes.iter().map(|s| normal_of(&s.geometry)).collect(),
             shapes: scene.shapes.clone(),
             camera: scene.camera.clone(),
+            diagonal: scene.film.diagonal,
+            sensor: Sensor::default(),
             accel,
             albedos: scene.materials.iter().map(albedo).collect(),
             finishes: scene.materials.iter().map(bsdf::finish).collect(),
@@ -118,6 +124,17 @@ impl World {
     fn plain(&self, technique: Technique) -> bool {
         let one = !matches!(technique, Technique::MisBalance | Technique::MisPower);
         one && self.only_diffuse && self.deltas.is_empty() && self.sky.is_none()
+    }
+
+    /// The same world, of which images measure something else than radiance.
+    #[must_use]
+    pub fn with_sensor(self, sensor: Sensor) -> Self {
+        Self { sensor, ..self }
+    }
+
+    /// How the radiance of an image of this size is weighed; nothing if it is not.
+    pub fn exposure(&self, width: u32, height: u32) -> Option<Exposure> {
+        Exposure::new(self.sensor, &self.camera, self.diagonal, [width, height])
     }
 
     /// Renders an image; `progress` is told of pixels as they are finished.
@@ -160,6 +177,7 @@ struct Work<'a> {
     world: &'a World,
     settings: &'a Settings,
     eye: Eye,
+    exposure: Option<Exposure>,
     source: Source,
     count: RayCount,
     stack: Stack,
@@ -182,6 +200,7 @@ impl<'a> Work<'a> {
             world,
             settings,
             eye: Eye::new(&world.camera, settings.width, settings.height),
+            exposure: world.exposure(settings.width, settings.height),
             source,
             count: RayCount::default(),
             stack: Stack::default(),
@@ -226,7 +245,12 @@ impl<'a> Work<'a> {
             let starts = (start..total).step_by(8).take(GROUP);
             packets.clear();
             packets.extend(starts.clone().map(packet));
-            let radiance = if plain { self.group(&packets) } else { self.paths(&packets) };
+            let mut radiance = if plain { self.group(&packets) } else { self.paths(&packets) };
+            if let Some(exposure) = &self.exposure {
+                for (radiance, packet) in radiance.iter_mut().zip(&packets) {
+                    *radiance = *radiance * exposure.weight(&self.source, packet);
+                }
+            }
             for ((start, packet), radiance) in starts.zip(&packets).zip(radiance) {
                 if whole {
                     let (pixel, sample) = place(start);

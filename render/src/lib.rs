@@ -13,8 +13,10 @@ pub mod lights;
 pub mod sampler;
 pub mod scene;
 pub mod selftest;
+pub mod sensor;
 pub mod sky;
 
 pub use integrator::{RayCount, Settings, World};
 pub use lights::Technique;
 pub use sampler::Sampler;
+pub use sensor::Sensor;

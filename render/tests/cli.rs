@@ -117,6 +117,7 @@ fn json_has_the_fields_that_it_should() {
         "scene",
         "seconds",
         "seed",
+        "sensor",
         "spp",
         "technique",
         "threads",
@@ -247,6 +248,9 @@ fn bad_arguments_are_told() {
         ("--spp", "4294967296"),
         ("--technique", "luck"),
         ("--sampler", "dice"),
+        ("--sensor", "irradiance"),
+        ("--sensor", "power"),
+        ("--sensor", "film"),
         ("--seed", "x"),
         ("--threads", "-1"),
         ("--repeat", "0"),
@@ -383,6 +387,10 @@ fn list_names_everything() {
         "sobol",
         "sobol-4d",
         "z-order",
+        "sensors",
+        "radiance",
+        "irradiance",
+        "power",
     ];
     assert_eq!(names, expected);
 }
