@@ -14,6 +14,7 @@ use crate::scene::{Camera, Material, Scene, Shape};
 use crate::sensor::{Exposure, Sensor};
 use crate::sky::Sky;
 use bsdf::Finish;
+use direct::keep;
 use etendue::{Mask, Real, Vec2, u32x8};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -141,6 +142,11 @@ impl World {
     ///
     /// The result depends on scene and settings alone, whatever the threads do.
     pub fn render(&self, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
+        self.render_through(&Eye::new(&self.camera, settings.width, settings.height), settings, progress)
+    }
+
+    /// Renders an image of what an eye sees that is not the scene's own camera; one for an image of this size.
+    pub fn render_through(&self, eye: &Eye, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
         let (width, height) = (settings.width, settings.height);
         let columns = width.div_ceil(TILE);
         let tiles = columns as usize * height.div_ceil(TILE) as usize;
@@ -150,7 +156,7 @@ impl World {
                 let x = (tile as u32 % columns) * TILE;
                 let y = (tile as u32 / columns) * TILE;
                 let area = [x, y, (x + TILE).min(width), (y + TILE).min(height)];
-                let mut work = Work::new(self, settings);
+                let mut work = Work::new(self, settings, *eye);
                 let pixels = work.tile(area);
                 progress(pixels.len() as u64);
                 (area, pixels, work.count)
@@ -193,13 +199,12 @@ fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
 }
 
 impl<'a> Work<'a> {
-    fn new(world: &'a World, settings: &'a Settings) -> Self {
-        let lens = world.camera.lens.is_some();
-        let source = Source::new(settings.sampler, settings.seed, settings.spp, lens, settings.width);
+    fn new(world: &'a World, settings: &'a Settings, eye: Eye) -> Self {
+        let source = Source::new(settings.sampler, settings.seed, settings.spp, eye.has_lens(), settings.width);
         Self {
             world,
             settings,
-            eye: Eye::new(&world.camera, settings.width, settings.height),
+            eye,
             exposure: world.exposure(settings.width, settings.height),
             source,
             count: RayCount::default(),
@@ -246,8 +251,11 @@ impl<'a> Work<'a> {
             packets.clear();
             packets.extend(starts.clone().map(packet));
             let mut radiance = if plain { self.group(&packets) } else { self.paths(&packets) };
-            if let Some(exposure) = &self.exposure {
-                for (radiance, packet) in radiance.iter_mut().zip(&packets) {
+            for (radiance, packet) in radiance.iter_mut().zip(&packets) {
+                if let Some(open) = self.eye.open(&self.source, packet) {
+                    *radiance = keep(*radiance, open);
+                }
+                if let Some(exposure) = &self.exposure {
                     *radiance = *radiance * exposure.weight(&self.source, packet);
                 }
             }

@@ -10,6 +10,7 @@ pub mod image;
 pub mod integrator;
 pub mod lens;
 pub mod lights;
+pub mod pupil;
 pub mod sampler;
 pub mod scene;
 pub mod selftest;

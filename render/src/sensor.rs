@@ -4,10 +4,11 @@
 //! stated by the scene (35 mm if not). Both are measured in camera space, whose unit is the metre, as in pbrt.
 
 use crate::accel::X8;
+use crate::lens::Slopes;
 use crate::sampler::{FILM, LENS, Packet, Source};
 use crate::scene;
 use etendue::warp::ConcentricDisk;
-use etendue::{Real, Vec2, Warp};
+use etendue::{Real, Warp};
 use std::f64::consts::PI;
 
 /// What a pixel measures.
@@ -31,9 +32,7 @@ pub enum Sensor {
 pub struct Exposure {
     /// Radius of the lens over its distance from the film.
     ratio: f64,
-    /// The ray's slope at the top left corner, and its change for a pixel to the right and for one down.
-    corner: [f64; 2],
-    step: [f64; 2],
+    slopes: Slopes,
     /// Area over which irradiance is added up: 1 for irradiance itself.
     area: f64,
 }
@@ -43,7 +42,7 @@ impl Exposure {
     /// weighed. A pinhole lets nothing through.
     #[must_use]
     pub fn new(sensor: Sensor, camera: &scene::Camera, diagonal: f64, [width, height]: [u32; 2]) -> Option<Self> {
-        let [across, down] = camera.tan_half(width, height);
+        let [across, _] = camera.tan_half(width, height);
         let [w, h] = [width, height].map(f64::from);
         let pitch = 1e-3 * diagonal / w.hypot(h);
         let distance = 0.5 * pitch * w / across;
@@ -53,7 +52,7 @@ impl Exposure {
             Sensor::Power => pitch * pitch,
         };
         let ratio = camera.lens.map_or(0.0, |lens| lens.radius) / distance;
-        Some(Self { ratio, corner: [-across, down], step: [2.0 * across / w, -2.0 * down / h], area })
+        Some(Self { ratio, slopes: Slopes::new(camera, width, height), area })
     }
     /// What the middle of the film measures where all radiance is 1: π sin²α, tan α = k, over the pixel's area for power.
     #[must_use]
@@ -65,12 +64,8 @@ impl Exposure {
     pub fn weight(&self, source: &Source, packet: &Packet) -> X8 {
         let film = source.pair(packet, FILM);
         let lens = ConcentricDisk.sample(source.pair(packet, LENS));
-        let place = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
-        let slope = |k: usize, lens: X8| {
-            let film = X8::lit(self.step[k]).mul_add(place[k], X8::lit(self.corner[k]));
-            X8::lit(self.ratio).mul_add(lens, film)
-        };
-        let q = Vec2::new(slope(0, lens.x), slope(1, lens.y));
+        let [x, y] = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
+        let q = lens * X8::lit(self.ratio) + self.slopes.at(x, y);
         let square = X8::lit(1.0) + q.length_squared();
         X8::lit(PI * self.ratio.powi(2) * self.area) / (square * square)
     }
