@@ -3,6 +3,7 @@
 mod convergence;
 mod images;
 mod integrals;
+mod pupil;
 mod shapes;
 mod sheet;
 
@@ -56,6 +57,8 @@ pub enum Name {
     Efficiency,
     /// Pixel and light sampled apart, or together
     Padding,
+    /// The lens as points of the film see it, in and out of focus, cut by its barrel
+    Pupil,
     /// All of them
     All,
 }
@@ -91,6 +94,7 @@ impl Studio<'_> {
             Name::QuadsConvergence => self.quads_convergence(),
             Name::Efficiency => self.efficiency(),
             Name::Padding => self.padding(),
+            Name::Pupil => self.pupil(),
             Name::All => Err("all is not one figure".into()),
         }
     }

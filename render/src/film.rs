@@ -26,6 +26,16 @@ pub struct Film {
 }
 
 impl Film {
+    /// All values times `factor`.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let times = |x: f32, factor: f64| (f64::from(x) * factor) as f32;
+        let scaled = |p: &Pixel| Pixel {
+            mean: p.mean.map(|x| times(x, factor)),
+            variance: p.variance.map(|x| times(x, factor * factor)),
+        };
+        Self { pixels: self.pixels.iter().map(scaled).collect(), ..*self }
+    }
     /// Mean over all pixels.
     pub fn mean(&self) -> [f64; 3] {
         let sum = |k: usize| self.pixels.iter().map(|p| f64::from(p.mean[k])).sum::<f64>();

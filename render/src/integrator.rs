@@ -11,8 +11,10 @@ use crate::lens::Eye;
 use crate::lights::{Lights, Technique};
 use crate::sampler::{CHOICE, Packet, Sampler, Source};
 use crate::scene::{Camera, Material, Scene, Shape};
+use crate::sensor::{Exposure, Sensor};
 use crate::sky::Sky;
 use bsdf::Finish;
+use direct::keep;
 use etendue::{Mask, Real, Vec2, u32x8};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -74,6 +76,9 @@ pub struct World {
     /// Is there no mirror and no rough metal?
     only_diffuse: bool,
     camera: Camera,
+    /// Diagonal of the film in millimetres.
+    diagonal: f64,
+    sensor: Sensor,
 }
 
 /// A side of a square of pixels that one thread renders at a time.
@@ -106,6 +111,8 @@ impl World {
             normals: scene.shapes.iter().map(|s| normal_of(&s.geometry)).collect(),
             shapes: scene.shapes.clone(),
             camera: scene.camera.clone(),
+            diagonal: scene.film.diagonal,
+            sensor: Sensor::default(),
             accel,
             albedos: scene.materials.iter().map(albedo).collect(),
             finishes: scene.materials.iter().map(bsdf::finish).collect(),
@@ -120,10 +127,26 @@ impl World {
         one && self.only_diffuse && self.deltas.is_empty() && self.sky.is_none()
     }
 
+    /// The same world, of which images measure something else than radiance.
+    #[must_use]
+    pub fn with_sensor(self, sensor: Sensor) -> Self {
+        Self { sensor, ..self }
+    }
+
+    /// How the radiance of an image of this size is weighed; nothing if it is not.
+    pub fn exposure(&self, width: u32, height: u32) -> Option<Exposure> {
+        Exposure::new(self.sensor, &self.camera, self.diagonal, [width, height])
+    }
+
     /// Renders an image; `progress` is told of pixels as they are finished.
     ///
     /// The result depends on scene and settings alone, whatever the threads do.
     pub fn render(&self, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
+        self.render_through(&Eye::new(&self.camera, settings.width, settings.height), settings, progress)
+    }
+
+    /// Renders an image of what an eye sees that is not the scene's own camera; one for an image of this size.
+    pub fn render_through(&self, eye: &Eye, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
         let (width, height) = (settings.width, settings.height);
         let columns = width.div_ceil(TILE);
         let tiles = columns as usize * height.div_ceil(TILE) as usize;
@@ -133,7 +156,7 @@ impl World {
                 let x = (tile as u32 % columns) * TILE;
                 let y = (tile as u32 / columns) * TILE;
                 let area = [x, y, (x + TILE).min(width), (y + TILE).min(height)];
-                let mut work = Work::new(self, settings);
+                let mut work = Work::new(self, settings, *eye);
                 let pixels = work.tile(area);
                 progress(pixels.len() as u64);
                 (area, pixels, work.count)
@@ -160,6 +183,7 @@ struct Work<'a> {
     world: &'a World,
     settings: &'a Settings,
     eye: Eye,
+    exposure: Option<Exposure>,
     source: Source,
     count: RayCount,
     stack: Stack,
@@ -175,13 +199,13 @@ fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
 }
 
 impl<'a> Work<'a> {
-    fn new(world: &'a World, settings: &'a Settings) -> Self {
-        let lens = world.camera.lens.is_some();
-        let source = Source::new(settings.sampler, settings.seed, settings.spp, lens, settings.width);
+    fn new(world: &'a World, settings: &'a Settings, eye: Eye) -> Self {
+        let source = Source::new(settings.sampler, settings.seed, settings.spp, eye.has_lens(), settings.width);
         Self {
             world,
             settings,
-            eye: Eye::new(&world.camera, settings.width, settings.height),
+            eye,
+            exposure: world.exposure(settings.width, settings.height),
             source,
             count: RayCount::default(),
             stack: Stack::default(),
@@ -226,7 +250,15 @@ impl<'a> Work<'a> {
             let starts = (start..total).step_by(8).take(GROUP);
             packets.clear();
             packets.extend(starts.clone().map(packet));
-            let radiance = if plain { self.group(&packets) } else { self.paths(&packets) };
+            let mut radiance = if plain { self.group(&packets) } else { self.paths(&packets) };
+            for (radiance, packet) in radiance.iter_mut().zip(&packets) {
+                if let Some(open) = self.eye.open(&self.source, packet) {
+                    *radiance = keep(*radiance, open);
+                }
+                if let Some(exposure) = &self.exposure {
+                    *radiance = *radiance * exposure.weight(&self.source, packet);
+                }
+            }
             for ((start, packet), radiance) in starts.zip(&packets).zip(radiance) {
                 if whole {
                     let (pixel, sample) = place(start);

@@ -1,8 +1,9 @@
 //! The eye of an image: a pinhole, or a thin lens with its film.
 
-use crate::accel::{V8, X8};
+use crate::accel::{M8, V8, X8};
 use crate::camera::Pinhole;
-use crate::sampler::{LENS, Packet, Source};
+use crate::pupil::{Barrel, Pupil};
+use crate::sampler::{FILM, LENS, Packet, Source};
 use crate::scene;
 use etendue::warp::ConcentricDisk;
 use etendue::{Real, Vec2, Warp};
@@ -21,7 +22,8 @@ pub struct ThinLens {
 }
 
 impl ThinLens {
-    fn new(camera: &scene::Camera, lens: &scene::Lens, width: u32, height: u32) -> Self {
+    /// For an image of `width` × `height` pixels.
+    pub fn new(camera: &scene::Camera, lens: &scene::Lens, width: u32, height: u32) -> Self {
         let along = |length: f64| [camera.right, camera.up].map(|axis| axis.map(|x| (x * length) as f32));
         Self {
             center: Pinhole::new(camera, width, height),
@@ -32,10 +34,37 @@ impl ThinLens {
     /// Origin and unit direction through a position in pixels from the top left, and the point of the lens for `u` in \[0, 1)².
     #[inline]
     pub fn ray(&self, x: X8, y: X8, u: Vec2<X8>) -> (V8, V8) {
-        let lens = ConcentricDisk.sample(u);
+        self.leave(x, y, ConcentricDisk.sample(u))
+    }
+    /// The same, from a point in units of the lens's radius.
+    #[inline]
+    pub fn leave(&self, x: X8, y: X8, lens: Vec2<X8>) -> (V8, V8) {
         let at = |[right, up]: [[f32; 3]; 2]| V8::from(up).mul_add(lens.y, V8::from(right) * lens.x);
         let (origin, direction) = self.center.through(x, y);
         (origin + at(self.radii), (direction - at(self.bends)).normalize())
+    }
+}
+
+/// Slopes of the rays through the lens's centre: steps to the right and upwards for one along the axis.
+#[derive(Clone, Copy, Debug)]
+pub struct Slopes {
+    /// At the top left corner, and the change for a pixel to the right and for one down.
+    corner: [f64; 2],
+    step: [f64; 2],
+}
+
+impl Slopes {
+    /// For an image of `width` × `height` pixels.
+    pub fn new(camera: &scene::Camera, width: u32, height: u32) -> Self {
+        let [across, down] = camera.tan_half(width, height);
+        let step = [2.0 * across / f64::from(width), -2.0 * down / f64::from(height)];
+        Self { corner: [-across, down], step }
+    }
+    /// At a position in pixels from the top left.
+    #[inline]
+    pub fn at(&self, x: X8, y: X8) -> Vec2<X8> {
+        let slope = |k: usize, place: X8| X8::lit(self.step[k]).mul_add(place, X8::lit(self.corner[k]));
+        Vec2::new(slope(0, x), slope(1, y))
     }
 }
 
@@ -46,6 +75,10 @@ pub enum Eye {
     Pinhole(Pinhole),
     /// From the points of a lens.
     ThinLens(ThinLens),
+    /// From those that a barrel leaves open.
+    Barrel(ThinLens, Barrel),
+    /// From one point of the film to all of the lens.
+    Pupil(Pupil),
 }
 
 impl Eye {
@@ -69,7 +102,31 @@ impl Eye {
         let [x, y] = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
         match self {
             Self::Pinhole(pinhole) => pinhole.ray(x, y),
-            Self::ThinLens(lens) => lens.ray(x, y, source.pair(packet, LENS)),
+            Self::ThinLens(lens) | Self::Barrel(lens, _) => lens.ray(x, y, source.pair(packet, LENS)),
+            Self::Pupil(pupil) => pupil.ray(x, y),
         }
+    }
+    /// The lanes whose rays get through, if some may not. Those that do not count, as black.
+    #[inline]
+    pub fn open(&self, source: &Source, packet: &Packet) -> Option<M8> {
+        let place = || {
+            let film = source.pair(packet, FILM);
+            [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y]
+        };
+        match self {
+            Self::Pinhole(_) | Self::ThinLens(_) => None,
+            Self::Barrel(_, barrel) => {
+                let [x, y] = place();
+                Some(barrel.open(x, y, ConcentricDisk.sample(source.pair(packet, LENS))))
+            }
+            Self::Pupil(pupil) => {
+                let [x, y] = place();
+                Some(pupil.open(x, y))
+            }
+        }
+    }
+    /// Do samples have a point on the lens?
+    pub const fn has_lens(&self) -> bool {
+        matches!(self, Self::ThinLens(_) | Self::Barrel(..))
     }
 }

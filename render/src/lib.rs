@@ -10,11 +10,14 @@ pub mod image;
 pub mod integrator;
 pub mod lens;
 pub mod lights;
+pub mod pupil;
 pub mod sampler;
 pub mod scene;
 pub mod selftest;
+pub mod sensor;
 pub mod sky;
 
 pub use integrator::{RayCount, Settings, World};
 pub use lights::Technique;
 pub use sampler::Sampler;
+pub use sensor::Sensor;

@@ -4,7 +4,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_render::chart::{self, name, size};
 use etendue_render::compare::Comparison;
 use etendue_render::figure;
-use etendue_render::{RayCount, Sampler, Settings, Technique, World, image, scene, selftest};
+use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World, image, scene, selftest};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::error::Error;
@@ -56,6 +56,9 @@ struct Render {
     /// Where random numbers come from
     #[arg(long, value_enum, default_value = "independent")]
     sampler: Sampler,
+    /// What pixels measure; for irradiance and power the scene needs a lens
+    #[arg(long, value_enum, default_value = "radiance")]
+    sensor: Sensor,
     /// Image size in pixels; else what the scene says
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
@@ -181,7 +184,8 @@ fn list() -> io::Result<()> {
         Ok(())
     }
     values::<Technique>(&mut out, "techniques")?;
-    values::<Sampler>(&mut out, "samplers")
+    values::<Sampler>(&mut out, "samplers")?;
+    values::<Sensor>(&mut out, "sensors")
 }
 
 fn render(options: &Render) -> Result<(), Box<dyn Error>> {
@@ -201,6 +205,13 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
         sampler: options.sampler,
         seed: options.seed,
     };
+    if options.sensor != Sensor::Radiance && scene.camera.lens.is_none() {
+        let (sensor, scene) = (name(options.sensor), &options.scene);
+        return Err(format!(
+            "--sensor {sensor}: nothing gets through the pinhole of {scene}: its camera has no lensradius"
+        )
+        .into());
+    }
     settings.sampler.check(settings.spp, scene.camera.lens.is_some()).map_err(|what| format!("--sampler: {what}"))?;
     let output = options.output.clone().unwrap_or_else(|| match &scene.film.filename {
         Some(file) => Path::new(file).with_extension("exr"),
@@ -210,7 +221,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let start = Instant::now();
-    let world = pool.install(|| World::new(&scene))?;
+    let world = pool.install(|| World::new(&scene))?.with_sensor(options.sensor);
     let build = start.elapsed().as_secs_f64();
 
     let pixels = u64::from(width) * u64::from(height);
@@ -228,7 +239,11 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
     let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
     image::write_exr(&output, &film)?;
     let picture = output.with_extension("png");
-    image::write_png(&picture, &film)?;
+    match world.exposure(width, height) {
+        None => image::write_png(&picture, &film)?,
+        // exposed so that what is uniform looks alike by every sensor, in the middle
+        Some(exposure) => image::write_png(&picture, &film.scaled(1.0 / exposure.on_axis()))?,
+    }
 
     let mean = film.mean();
     if options.json {
@@ -239,6 +254,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
             "spp": settings.spp,
             "technique": name(settings.technique),
             "sampler": name(settings.sampler),
+            "sensor": name(options.sensor),
             "seed": settings.seed,
             "threads": pool.current_num_threads(),
             "seconds": { "load": load, "build": build, "render": seconds },
@@ -249,7 +265,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
         writeln!(io::stdout(), "{report}")?;
     } else {
         let seconds = [load, build, median(&mut seconds)];
-        report(&settings, &scene.name, [&output, &picture], mean, rays, seconds)?;
+        report(&settings, &scene.name, options.sensor, [&output, &picture], mean, rays, seconds)?;
     }
     Ok(())
 }
@@ -310,6 +326,7 @@ fn median(values: &mut [f64]) -> f64 {
 fn report(
     settings: &Settings,
     scene: &str,
+    sensor: Sensor,
     [output, picture]: [&Path; 2],
     [r, g, b]: [f64; 3],
     rays: RayCount,
@@ -322,7 +339,10 @@ fn report(
     writeln!(out, "load {load:.3} s, build {build:.3} s, render {render:.3} s")?;
     let rate = rays.camera as f64 / render / 1e6;
     writeln!(out, "{rate:.1} million samples/s; {} camera rays, {} shadow rays", rays.camera, rays.shadow)?;
-    writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?;
+    match sensor {
+        Sensor::Radiance => writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?,
+        Sensor::Irradiance | Sensor::Power => writeln!(out, "mean {} {r:.6e} {g:.6e} {b:.6e}", name(sensor))?,
+    }
     writeln!(out, "wrote {} and {}", output.display(), picture.display())
 }
 

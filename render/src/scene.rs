@@ -55,6 +55,8 @@ pub struct Film {
     pub width: u32,
     /// Pixels down, 1 to 65,536; at most 2²⁸ pixels in all.
     pub height: u32,
+    /// Diagonal of the film in millimetres, over 0; 35 if the file does not say.
+    pub diagonal: f64,
     /// Where the file wants its image written.
     pub filename: Option<String>,
 }

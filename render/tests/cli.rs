@@ -117,6 +117,7 @@ fn json_has_the_fields_that_it_should() {
         "scene",
         "seconds",
         "seed",
+        "sensor",
         "spp",
         "technique",
         "threads",
@@ -247,6 +248,9 @@ fn bad_arguments_are_told() {
         ("--spp", "4294967296"),
         ("--technique", "luck"),
         ("--sampler", "dice"),
+        ("--sensor", "irradiance"),
+        ("--sensor", "power"),
+        ("--sensor", "film"),
         ("--seed", "x"),
         ("--threads", "-1"),
         ("--repeat", "0"),
@@ -351,6 +355,17 @@ fn selftest_prints_a_table() {
 }
 
 #[test]
+fn the_pupil_is_drawn_by_one_command() {
+    let folder = Folder::new();
+    let text = folder.succeed(&["figure", "pupil", "-o", "here"]);
+    assert_eq!(text.lines().filter(|line| line.contains("% of the lens is open")).count(), 6, "{text}");
+    assert_eq!(folder.names(), ["here"]);
+    let drawing = fs::read_to_string(folder.path("here").join("pupil.svg")).unwrap();
+    // an image and three views, twice
+    assert_eq!(drawing.matches("<image ").count(), 8);
+}
+
+#[test]
 fn list_names_everything() {
     let text = Folder::new().succeed(&["list"]);
     let names: Vec<_> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
@@ -383,6 +398,10 @@ fn list_names_everything() {
         "sobol",
         "sobol-4d",
         "z-order",
+        "sensors",
+        "radiance",
+        "irradiance",
+        "power",
     ];
     assert_eq!(names, expected);
 }

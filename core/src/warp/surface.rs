@@ -277,7 +277,11 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.p + self.offset(self.parameters().sample(u))
+        let (unit, scale, _) = self.in_units();
+        let point = self.p + unit.offset(self.parameters().sample(u)) * scale.exponent_reciprocal();
+        let most = R::lit(f64::from(f32::MAX));
+        let within = |x: R| x.clamp(-most, most);
+        Vec3::new(within(point.x), within(point.y), within(point.z))
     }
     #[inline(always)]
     fn pdf(&self, point: Vec3<R>) -> R {

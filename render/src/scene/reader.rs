@@ -92,7 +92,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
     Ok(Scene {
         name: name.unwrap_or_else(|| file.to_string()),
         camera,
-        film: reader.film.unwrap_or(Film { width: 1280, height: 720, filename: None }),
+        film: reader.film.unwrap_or(Film { width: 1280, height: 720, diagonal: 35.0, filename: None }),
         pixel_samples: reader.pixel_samples.unwrap_or(16),
         materials: out.materials,
         triangles: out.triangles,
@@ -390,8 +390,12 @@ impl Reader<'_> {
                 params.error(format!("{width} × {height} pixels: each side must be 1 to 65536, and all at most 2^28"))
             );
         }
+        let diagonal = params.float("diagonal")?.unwrap_or(35.0);
+        if !(1e-2..=1e6).contains(&diagonal) {
+            return Err(params.error(format!("\"diagonal\": {diagonal:e} mm is not within 1e-2 and 1e6")));
+        }
         let filename = params.text("filename")?;
-        self.film = Some(Film { width: width as u32, height: height as u32, filename });
+        self.film = Some(Film { width: width as u32, height: height as u32, diagonal, filename });
         Ok(())
     }
 

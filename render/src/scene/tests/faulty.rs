@@ -156,6 +156,7 @@ fn errors_before_the_world() {
         ("Scale 1 1 0\nCamera \"perspective\"", 2, "its transform is singular"),
         ("Film \"gbuffer\"", 1, "Film \"gbuffer\": not supported"),
         ("Film \"rgb\" \"integer xresolution\" 0", 1, "0 × 720 pixels"),
+        ("Film \"rgb\" \"float diagonal\" 0", 1, "\"diagonal\": 0e0 mm"),
         ("Film \"rgb\" \"integer yresolution\" -1", 1, "1280 × -1 pixels"),
         ("Film \"rgb\" \"integer xresolution\" 65537", 1, "65537 × 720 pixels"),
         ("Film \"rgb\" \"integer xresolution\" 65536 \"integer yresolution\" 65536", 1, "65536 × 65536 pixels"),

@@ -194,7 +194,7 @@ fn new_builtin_scenes_are_sound() {
         let scene = load(name).unwrap();
         assert_eq!(warnings(&scene), [""; 0], "{name}");
         assert_eq!((scene.name.as_str(), scene.pixel_samples), (*name, 64));
-        assert_eq!(scene.film, Film { width: 256, height: 256, filename: Some(format!("{name}.exr")) });
+        assert_eq!(scene.film, Film { width: 256, height: 256, diagonal: 35.0, filename: Some(format!("{name}.exr")) });
     }
     let cornell = load("cornell-box").unwrap();
     assert_eq!((cornell.triangles.len(), cornell.shapes.len()), (30, 1));

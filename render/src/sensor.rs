@@ -1,0 +1,72 @@
+//! What a pixel measures: radiance, irradiance or power.
+//!
+//! The film lies at the distance z behind the lens at which its shorter side spans the camera's field of view; its diagonal is
+//! stated by the scene (35 mm if not). Both are measured in camera space, whose unit is the metre, as in pbrt.
+
+use crate::accel::X8;
+use crate::lens::Slopes;
+use crate::sampler::{FILM, LENS, Packet, Source};
+use crate::scene;
+use etendue::warp::ConcentricDisk;
+use etendue::{Real, Warp};
+use std::f64::consts::PI;
+
+/// What a pixel measures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Sensor {
+    /// Radiance, W/(m² sr): the mean over pixel and lens
+    #[default]
+    Radiance,
+    /// Irradiance of the film, W/m²: its mean over the pixel
+    Irradiance,
+    /// Power that falls on the pixel, W
+    Power,
+}
+
+/// The measure of radiance that arrives at the film by a lens.
+///
+/// E(p) = ∫ L cosθ cosθ' / ‖p' − p‖² dA' over points p' of the exit pupil, which is the lens: film and lens are parallel, so it is
+/// z² ∫ L / ‖p' − p‖⁴ dA', z their distance. In units of z, with p' = k ℓ for ℓ in the unit disk, k = r/z, and p = −t: E = π k² times
+/// the mean of L / (1 + ‖k ℓ + t‖²)². Where k is small that is π k² L cos⁴θ.
+#[derive(Clone, Copy, Debug)]
+pub struct Exposure {
+    /// Radius of the lens over its distance from the film.
+    ratio: f64,
+    slopes: Slopes,
+    /// Area over which irradiance is added up: 1 for irradiance itself.
+    area: f64,
+}
+
+impl Exposure {
+    /// For an image of `width` × `height` square pixels on a film of this diagonal in millimetres; nothing for radiance, which is not
+    /// weighed. A pinhole lets nothing through.
+    #[must_use]
+    pub fn new(sensor: Sensor, camera: &scene::Camera, diagonal: f64, [width, height]: [u32; 2]) -> Option<Self> {
+        let [across, _] = camera.tan_half(width, height);
+        let [w, h] = [width, height].map(f64::from);
+        let pitch = 1e-3 * diagonal / w.hypot(h);
+        let distance = 0.5 * pitch * w / across;
+        let area = match sensor {
+            Sensor::Radiance => return None,
+            Sensor::Irradiance => 1.0,
+            Sensor::Power => pitch * pitch,
+        };
+        let ratio = camera.lens.map_or(0.0, |lens| lens.radius) / distance;
+        Some(Self { ratio, slopes: Slopes::new(camera, width, height), area })
+    }
+    /// What the middle of the film measures where all radiance is 1: π sin²α, tan α = k, over the pixel's area for power.
+    #[must_use]
+    pub fn on_axis(&self) -> f64 {
+        PI * self.ratio.powi(2) / (1.0 + self.ratio.powi(2)) * self.area
+    }
+    /// The factor from the radiance of eight samples to their share of the measure.
+    #[inline]
+    pub fn weight(&self, source: &Source, packet: &Packet) -> X8 {
+        let film = source.pair(packet, FILM);
+        let lens = ConcentricDisk.sample(source.pair(packet, LENS));
+        let [x, y] = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
+        let q = lens * X8::lit(self.ratio) + self.slopes.at(x, y);
+        let square = X8::lit(1.0) + q.length_squared();
+        X8::lit(PI * self.ratio.powi(2) * self.area) / (square * square)
+    }
+}
