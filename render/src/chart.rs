@@ -11,7 +11,7 @@ pub mod stats;
 pub mod summary;
 pub mod warps;
 
-use crate::{Sampler, Technique, World, image, scene};
+use crate::{Sampler, Settings, Technique, World, image, scene, selftest};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{Key, Plan, Subject, Table};
@@ -121,14 +121,45 @@ fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
 }
 
 /// Why a sampler cannot take so many samples, if so.
-fn inapplicable(sampler: Sampler, spp: u32) -> Option<String> {
-    sampler.check(spp, false).err()
+fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
+    sampler.check(spp, lens).err()
+}
+
+/// The techniques that apply to a scene and differ there; and why others do not.
+fn techniques(scene: &scene::Scene, subject: &Subject, asked: &[Technique]) -> (Vec<Technique>, Vec<String>) {
+    let (mut list, mut images, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+    for &technique in asked {
+        let mut leave = |why: &str| notes.push(format!("{}: {} is left out: {why}", subject.name, name(technique)));
+        if !selftest::applies(technique, scene) {
+            leave("it finds the lights in this scene's rough metals too rarely for its error to be known");
+            continue;
+        }
+        let [width, height] = subject.size.map(|side| side.min(64));
+        let sampler = Sampler::Independent;
+        let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, seed: 1 };
+        let pixels = subject.world.render(&settings, |_| ()).0.pixels;
+        match images.iter().position(|other| *other == pixels) {
+            Some(first) => leave(&format!("it makes the same image as {} here", name(list[first]))),
+            None => {
+                list.push(technique);
+                images.push(pixels);
+            }
+        }
+    }
+    (list, notes)
+}
+
+/// A scene that is ready to be measured, with the techniques to measure.
+struct Prepared {
+    subject: Subject,
+    techniques: Vec<Technique>,
+    notes: Vec<String>,
 }
 
 /// A scene, ready to be measured.
-fn subject(options: &Options, name: &str, facts: &[(&str, String)]) -> Result<(Subject, Vec<String>), Box<dyn Error>> {
+fn prepare(options: &Options, name: &str, facts: &[(&str, String)]) -> Result<Prepared, Box<dyn Error>> {
     let scene = scene::load(name)?;
-    let warnings = scene.warnings.iter().map(ToString::to_string).collect();
+    let mut notes: Vec<String> = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
     let (width, height) = options.size.unwrap_or_else(|| {
         let shrink = |side: u32| if options.quick { (side / 2).max(1) } else { side };
         (shrink(scene.film.width), shrink(scene.film.height))
@@ -160,7 +191,11 @@ fn subject(options: &Options, name: &str, facts: &[(&str, String)]) -> Result<(S
     bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
-    Ok((Subject { name: name.to_owned(), world, size, settings: hash(&bytes), reference }, warnings))
+    let lens = scene.camera.lens.is_some();
+    let subject = Subject { name: name.to_owned(), world, size, lens, settings: hash(&bytes), reference };
+    let (techniques, left_out) = techniques(&scene, &subject, &chosen(&options.techniques));
+    notes.extend(left_out);
+    Ok(Prepared { subject, techniques, notes })
 }
 
 /// indicatif draws nothing where stderr is not a terminal.
@@ -229,13 +264,15 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let facts = machine::facts(pool.current_num_threads());
     let mut notes = Vec::new();
     let mut subjects: Vec<Subject> = Vec::new();
+    let mut techniques = Vec::new();
     for scene in &options.scenes {
         if subjects.iter().any(|s| s.name == *scene) {
             continue;
         }
-        let (subject, warnings) = pool.install(|| subject(options, scene, &facts).map_err(|e| e.to_string()))?;
-        notes.extend(warnings.into_iter().map(|w| format!("warning: {w}")));
-        subjects.push(subject);
+        let prepared = pool.install(|| prepare(options, scene, &facts).map_err(|e| e.to_string()))?;
+        notes.extend(prepared.notes);
+        subjects.push(prepared.subject);
+        techniques.push(prepared.techniques);
     }
     let default =
         if options.quick { (0..4).map(|k| 1 << (2 * k)).collect() } else { (0..11).map(|k| 1 << k).collect() };
@@ -243,11 +280,11 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     spps.sort_unstable();
     spps.dedup();
     let mut keys = Vec::new();
-    for scene in 0..subjects.len() {
+    for (scene, techniques) in techniques.iter().enumerate() {
         for &spp in &spps {
             for &sampler in &chosen(&options.samplers) {
-                for &technique in &chosen(&options.techniques) {
-                    match inapplicable(sampler, spp) {
+                for &technique in techniques {
+                    match inapplicable(sampler, spp, subjects[scene].lens) {
                         Some(reason) if !notes.contains(&reason) => notes.push(reason),
                         Some(_) => (),
                         None => keys.push(Key { scene, technique, sampler, spp }),

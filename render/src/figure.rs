@@ -59,6 +59,8 @@ pub enum Name {
     Padding,
     /// The lens as points of the film see it, in and out of focus, cut by its barrel
     Pupil,
+    /// Pixel, lens and light sampled apart, or together
+    Defocus,
     /// All of them
     All,
 }
@@ -95,6 +97,7 @@ impl Studio<'_> {
             Name::Efficiency => self.efficiency(),
             Name::Padding => self.padding(),
             Name::Pupil => self.pupil(),
+            Name::Defocus => self.defocus(),
             Name::All => Err("all is not one figure".into()),
         }
     }

@@ -108,6 +108,10 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     folder.succeed(&format!("{SMALL} --replicates 3 -o out"));
     let more = folder.read("out/measurements.csv");
     assert!(more.starts_with(&table) && more.lines().count() == 1 + 3 * 2 * 2, "{more}");
+    // a technique that is another one by another name is told, and left out
+    let out = folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers latin -o other");
+    assert!(out.contains("cosine-hemisphere is left out: it makes the same image as uniform-hemisphere"), "{out}");
+    assert!(!folder.read("other/measurements.csv").contains("cosine-hemisphere"));
     // other settings: measured anew, and those of before are kept
     let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
     assert!(out.contains("12 measurements of other settings"), "{out}");
@@ -129,6 +133,11 @@ fn faults_are_told() {
     says("chart quads --reference a.exr", &["a.exr"]);
     says("chart quads --spp 3 --samplers stratified-4d", &["nothing to measure", "stratified-4d"]);
     says("figure luck", &["luck"]);
+    // as one of rough metals by directions of the hemisphere
+    says(
+        "chart plates --techniques uniform-hemisphere --reference-spp 32 --size 8x8",
+        &["nothing to measure", "rough"],
+    );
     fs::create_dir(folder.0.join("out")).unwrap();
     fs::write(folder.0.join("out/measurements.csv"), "a,b\n1,2\n").unwrap();
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 1"]);
@@ -225,9 +234,9 @@ fn errors_are_those_of_the_images() {
             height: 64,
             spp: key.spp,
             technique: key.technique,
+            depth: Settings::DEPTH,
             sampler: key.sampler,
             seed: rows[0].seed,
-            depth: Settings::DEPTH,
         };
         let image = Picture::from(&world.render(&settings, |_| ()).0);
         let comparison = Comparison::new(&reference.picture, &image, reference.error).unwrap();
@@ -245,9 +254,9 @@ fn errors_are_those_of_the_images() {
                     height: 64,
                     spp: point.spp,
                     technique,
+                    depth: Settings::DEPTH,
                     sampler,
                     seed,
-                    depth: Settings::DEPTH,
                 };
                 let film = world.render(&settings, |_| ()).0;
                 film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>() / (3.0 * 64.0 * 64.0)

@@ -2,7 +2,7 @@
 
 use super::plot::{Bar, Bars, Chart, Dot, Drawing, Line, Scale, short};
 use super::stats::Estimate;
-use super::summary::{Series, Summary};
+use super::summary::{Point, Series, Summary};
 
 /// A chart and the name of its file.
 #[derive(Clone, Debug)]
@@ -27,7 +27,12 @@ pub fn id(series: &Series) -> String {
     format!("{}/{}", super::name(series.way.technique), super::name(series.way.sampler))
 }
 
-fn lines(summary: &Summary, name: impl Fn(&Series) -> String, x: impl Fn(&super::summary::Point) -> Bar) -> Vec<Line> {
+fn lines(
+    summary: &Summary,
+    name: impl Fn(&Series) -> String,
+    x: impl Fn(&Point) -> Bar,
+    sure: impl Fn(&Point) -> bool,
+) -> Vec<Line> {
     let line = |series: &Series| Line {
         id: id(series),
         name: name(series),
@@ -35,7 +40,7 @@ fn lines(summary: &Summary, name: impl Fn(&Series) -> String, x: impl Fn(&super:
         dash: series.way.sampler as usize,
         joined: true,
         mark: 1.0,
-        dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: p.mse.is_sure() }).collect(),
+        dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: sure(p) }).collect(),
     };
     summary.series.iter().map(line).collect()
 }
@@ -48,7 +53,7 @@ pub fn error_over_time(summary: &Summary) -> Figure {
         x_label: "seconds for an image".to_owned(),
         y_label: "mean squared error".to_owned(),
         scales: [Scale::Log, Scale::Log],
-        lines: lines(summary, |s| s.way.title(), |p| p.seconds.into()),
+        lines: lines(summary, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
         guides: vec![-1.0, -1.5],
         equal: false,
     };
@@ -70,7 +75,7 @@ pub fn error_over_samples(summary: &Summary) -> Figure {
         x_label: "samples per pixel".to_owned(),
         y_label: "mean squared error".to_owned(),
         scales: [Scale::Binary, Scale::Log],
-        lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp))),
+        lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp)), |p| p.mse.is_sure()),
         guides: vec![-1.0, -1.5],
         equal: false,
     };
@@ -127,7 +132,8 @@ pub fn time_to_error(summary: &Summary) -> Option<Figure> {
         unit: " s".to_owned(),
     };
     let caption =
-        "Shorter is better. A hollow bar lies beyond what was measured, by the slope of the nearest two points, or rests on times that are not sure."
+        "Shorter is better. A hollow bar lies beyond what was measured, by the slope of the nearest two points, or rests on \
+                   times that are not sure."
             .to_owned();
     Some(Figure { file: "time-to-error", drawing: bars.draw(), caption })
 }

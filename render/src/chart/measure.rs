@@ -21,6 +21,8 @@ pub struct Subject {
     pub world: World,
     /// Pixels across and down.
     pub size: [u32; 2],
+    /// Whether its camera has a lens: two more dimensions.
+    pub lens: bool,
     /// What images are compared with.
     pub reference: Reference,
     /// Hash of all that a measurement depends on, beside what a [`Row`] says.
@@ -173,9 +175,9 @@ impl Plan {
             height,
             spp: key.spp,
             technique: key.technique,
+            depth: Settings::DEPTH,
             sampler: key.sampler,
             seed,
-            depth: Settings::DEPTH,
         };
         let begin = Instant::now();
         let mut seconds = Vec::new();

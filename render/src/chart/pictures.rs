@@ -84,7 +84,7 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
             let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, name(way.technique), name(way.sampler));
             let seed = plan.seed.wrapping_add(super::hash(text.as_bytes()));
             let (technique, sampler) = (way.technique, way.sampler);
-            let settings = Settings { width, height, spp, technique, sampler, seed, depth: Settings::DEPTH };
+            let settings = Settings { width, height, spp, technique, depth: Settings::DEPTH, sampler, seed };
             subject.world.render(&settings, |_| ()).0.pixels.iter().map(|p| p.mean).collect()
         })
         .collect();
@@ -120,7 +120,7 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         .series
         .iter()
         .filter(|s| Some(s.way.sampler) == baseline || Some(s.way.technique) == best)
-        .filter(|s| super::inapplicable(s.way.sampler, spp).is_none())
+        .filter(|s| super::inapplicable(s.way.sampler, spp, subject.lens).is_none())
         .map(|s| (s.way, spread(plan, scene, s.way, spp)))
         .collect();
     // one scale for all: that of the best in the middle, of the worst at the end

@@ -34,7 +34,7 @@ impl Reference {
     #[must_use]
     pub fn builtin(scene: &str) -> Option<Self> {
         let (name, error, bytes) = BUILTIN.iter().find(|(name, ..)| *name == scene)?;
-        let picture = image::decode_exr(bytes, Path::new(name)).expect("a reference of this program's own");
+        let picture = image::decode(Path::new(name), bytes).expect("a reference of this program's own");
         let about = "by an independent renderer, 32,768 samples per pixel".to_owned();
         Some(Self { picture, error: *error, about })
     }
@@ -53,22 +53,22 @@ impl Reference {
         Ok(Self { picture, error: own.unwrap_or(error), about: format!("the file {}", path.display()) })
     }
 
-    /// Rendered here: by solid angle, stratified.
+    /// Rendered here: by multiple importance sampling, stratified.
     pub fn render(world: &World, [width, height]: [u32; 2], spp: u32, progress: impl Fn(u64) + Sync) -> Self {
         // a seed that no measurement has
-        let (technique, sampler, seed) = (Technique::SolidAngle, Sampler::Stratified, 0x5eed_0f7e_fe7e_ce00);
+        let (technique, sampler, seed) = (Technique::MisPower, Sampler::Stratified, 0x5eed_0f7e_fe7e_ce00);
         let settings = Settings {
             width,
             height,
             spp: spp.next_multiple_of(4).max(32),
             technique,
+            depth: Settings::DEPTH,
             sampler,
             seed,
-            depth: Settings::DEPTH,
         };
         let picture = Picture::from(&world.render(&settings, progress).0);
         let error = picture.variance.as_ref().map_or(f64::INFINITY, |v| mean(v));
-        let about = format!("rendered by this program, solid-angle, stratified, {} samples per pixel", settings.spp);
+        let about = format!("rendered by this program, mis-power, stratified, {} samples per pixel", settings.spp);
         Self { picture, error, about }
     }
 

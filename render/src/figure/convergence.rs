@@ -4,7 +4,6 @@ use super::images::ratio_text;
 use super::sheet::Svg;
 use super::{Finding, Studio};
 use crate::chart::charts::{self, with_interval};
-use crate::chart::stats::Estimate;
 use crate::chart::summary::Summary;
 use crate::chart::{self, Outcome, name};
 use crate::{Sampler, Settings, Technique, World, image, scene};
@@ -18,6 +17,7 @@ fn samplers(names: &[&str]) -> Vec<Sampler> {
 
 impl Studio<'_> {
     /// Measures into a folder beside the figures.
+    #[expect(clippy::too_many_arguments, reason = "what options have, but for what all figures share")]
     fn measure(
         &self,
         folder: &str,
@@ -26,6 +26,7 @@ impl Studio<'_> {
         samplers: Vec<Sampler>,
         spp: Vec<u32>,
         replicates: u32,
+        reference_spp: Option<u32>,
     ) -> Result<Outcome, Box<dyn Error>> {
         let options = chart::Options {
             scenes: scenes.iter().map(|s| (*s).to_owned()).collect(),
@@ -36,15 +37,16 @@ impl Studio<'_> {
             replicates: Some(replicates),
             reference: None,
             reference_error: 0.0,
-            reference_spp: None,
+            reference_spp,
             size: Some((128, 128)),
             seed: self.options.seed,
             threads: self.options.threads,
             baseline: Technique::Area,
             target: None,
-            time_limit: None,
+            time_limit: Some(3600),
             warps: false,
-            quick: false,
+            // references of fewer samples, where there is none
+            quick: true,
         };
         chart::measure(&options, self.stop)
     }
@@ -52,8 +54,15 @@ impl Studio<'_> {
     pub(super) fn quads_convergence(&self) -> Result<Finding, Box<dyn Error>> {
         let samplers = samplers(&["independent", "stratified"]);
         let counts: Vec<u32> = (0..11).map(|k| 1 << k).collect();
-        let outcome =
-            self.measure("quads-convergence", &["quads"], vec![Technique::SolidAngle], samplers.clone(), counts, 5)?;
+        let outcome = self.measure(
+            "quads-convergence",
+            &["quads"],
+            vec![Technique::SolidAngle],
+            samplers.clone(),
+            counts,
+            5,
+            None,
+        )?;
         let summary = outcome.summaries.first().ok_or("nothing was measured")?;
         let mut headline = slopes(summary);
         let last = |k: usize| summary.series[k].points.last().map(|p| p.mse);
@@ -70,9 +79,9 @@ impl Studio<'_> {
                     height: 256,
                     spp,
                     technique: Technique::SolidAngle,
+                    depth: Settings::DEPTH,
                     sampler,
                     seed: self.options.seed,
-                    depth: Settings::DEPTH,
                 };
                 let film = world.render(&settings, |_| ()).0;
                 let at = |i: usize| &film.pixels[(84 + i / 80) * 256 + 60 + i % 80];
@@ -86,20 +95,22 @@ impl Studio<'_> {
 
     pub(super) fn efficiency(&self) -> Result<Finding, Box<dyn Error>> {
         let scenes: Vec<&str> = scene::builtin().iter().map(|(name, _)| *name).collect();
-        let outcome = self.measure("efficiency", &scenes, Vec::new(), vec![Sampler::Independent], vec![16], 8)?;
+        let outcome = self.measure("efficiency", &scenes, Vec::new(), vec![Sampler::Independent], vec![16], 8, None)?;
         let mut headline = Vec::new();
         let mut charts = Vec::new();
-        for summary in &outcome.summaries {
+        // where all techniques are one there is nothing to compare
+        for summary in outcome.summaries.iter().filter(|s| s.series.len() > 1) {
             charts.extend(charts::efficiency(summary).map(|f| Svg::chart(&f.drawing)));
             let best = summary.gains.iter().max_by(|a, b| a.gain.value.total_cmp(&b.gain.value));
-            if let Some(best) = best {
-                headline.push(format!(
+            headline.push(match best {
+                Some(best) if Some(best.series) != summary.baseline => format!(
                     "{}: {} has {} times the efficiency of area",
                     summary.scene,
                     name(summary.series[best.series].way.technique),
                     ratio_text(&best.gain)
-                ));
-            }
+                ),
+                _ => format!("{}: nothing is more efficient than area", summary.scene),
+            });
         }
         let mut charts = charts.into_iter();
         let mut rows = Vec::new();
@@ -114,25 +125,41 @@ impl Studio<'_> {
     }
 
     pub(super) fn padding(&self) -> Result<Finding, Box<dyn Error>> {
-        let samplers = samplers(&["independent", "stratified", "sobol", "stratified-4d", "sobol-4d"]);
         // each is n⁴, 2n⁴ or 4n⁴
-        let counts = vec![1, 4, 16, 64, 256, 1024];
-        let outcome = self.measure("padding", &["sphere-light"], vec![Technique::SolidAngle], samplers, counts, 5)?;
+        let about = "Pixel and light are four dimensions: points that are good in pairs, associated at random (padding), or \
+                     good in all four together.";
+        self.joint("padding", "sphere-light", vec![1, 4, 16, 64, 256, 1024], about)
+    }
+
+    pub(super) fn defocus(&self) -> Result<Finding, Box<dyn Error>> {
+        // stratified-4d takes only those that are n⁶, 2n⁶ or 4n⁶ of these
+        let about = "Pixel, lens and light are six dimensions: points that are good in pairs, associated at random (padding), or good in \
+                     all six together.";
+        self.joint("defocus", "defocus", vec![1, 4, 16, 64, 256, 1024], about)
+    }
+
+    /// Samplers that pad, and samplers that do not.
+    fn joint(&self, name: &str, scene: &str, counts: Vec<u32>, about: &str) -> Result<Finding, Box<dyn Error>> {
+        const AT: u32 = 256;
+        // the error of a reference of few samples would drown that of the best samplers
+        let reference_spp = (scene == "defocus").then_some(8192);
+        let samplers = samplers(&["independent", "stratified", "sobol", "stratified-4d", "sobol-4d"]);
+        let techniques = vec![Technique::SolidAngle];
+        let outcome = self.measure(name, &[scene], techniques, samplers, counts, 5, reference_spp)?;
         let summary = outcome.summaries.first().ok_or("nothing was measured")?;
         let mut headline = slopes(summary);
-        let error = |k: usize, spp: u32| summary.series[k].at(spp).map(|p| p.mse);
+        let error = |k: usize| summary.series[k].at(AT).map(|p| p.mse);
         for k in 1..summary.series.len() {
-            if let [Some(a), Some(b)] = [error(0, 256), error(k, 256)] {
-                let ratio =
-                    Estimate { value: a.value / b.value, half: a.value / b.value * (a.relative() + b.relative()) };
-                let name = name(summary.series[k].way.sampler);
+            if let [Some(a), Some(b)] = [error(0), error(k)] {
+                let ratio = a.value / b.value;
+                let half = ratio * (a.relative() + b.relative());
+                let name = crate::chart::name(summary.series[k].way.sampler);
                 headline.push(format!(
-                    "at 256 samples {name} has {:.1} ± {:.1} times less error than independent",
-                    ratio.value, ratio.half
+                    "at {AT} samples {name} has {ratio:.1} ± {half:.1} times less error than independent"
                 ));
             }
         }
-        let mut lines = vec!["Pixel and light are four dimensions: strata in pairs that are associated at random (padding), or together.".to_owned()];
+        let mut lines = vec![about.to_owned()];
         lines.extend(headline.iter().cloned());
         let svg = Svg::chart(&charts::error_over_samples(summary).drawing);
         Ok(Finding { svg: svg.captioned(&lines), headline })

@@ -30,9 +30,9 @@ impl Studio<'_> {
                 height: 256,
                 spp,
                 technique,
+                depth: Settings::DEPTH,
                 sampler: Sampler::Independent,
                 seed: seed.wrapping_add(k),
-                depth: Settings::DEPTH,
             };
             world.render(&settings, |_| ()).0
         })

@@ -67,7 +67,9 @@ impl Bars {
                 if *sure {
                     area.draw(&Rectangle::new(rectangle, rgb(*color).mix(0.75).filled()))?;
                 } else {
-                    area.draw(&Rectangle::new(rectangle, stroke(rgb(*color), 10)))?;
+                    let [(x0, y0), (x1, y1)] = rectangle;
+                    let outline = [(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)];
+                    area.draw(&PathElement::new(outline, stroke(rgb(*color), 10)))?;
                 }
                 let ends = [(at(bar.low), middle), (at(bar.high), middle)];
                 area.draw(&PathElement::new(ends, stroke(INK, 10)))?;
