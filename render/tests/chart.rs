@@ -109,7 +109,8 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     let more = folder.read("out/measurements.csv");
     assert!(more.starts_with(&table) && more.lines().count() == 1 + 3 * 2 * 2, "{more}");
     // a technique that is another one by another name is told, and left out
-    let out = folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers latin -o other");
+    let out =
+        folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers latin -o other");
     assert!(out.contains("cosine-hemisphere is left out: it makes the same image as uniform-hemisphere"), "{out}");
     assert!(!folder.read("other/measurements.csv").contains("cosine-hemisphere"));
     // other settings: measured anew, and those of before are kept
