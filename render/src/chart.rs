@@ -108,6 +108,11 @@ pub(crate) fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
 
+/// Hash of the program itself: what another build has measured does not count.
+fn build() -> u64 {
+    std::env::current_exe().and_then(std::fs::read).map_or(0, |bytes| hash(&bytes))
+}
+
 /// All of them, or those that were asked for, each once.
 fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
     let all = if asked.is_empty() { T::value_variants() } else { asked };
@@ -157,7 +162,7 @@ struct Prepared {
 }
 
 /// A scene, ready to be measured.
-fn prepare(options: &Options, name: &str, facts: &[(&str, String)]) -> Result<Prepared, Box<dyn Error>> {
+fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepared, Box<dyn Error>> {
     let scene = scene::load(name)?;
     let mut notes: Vec<String> = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
     let (width, height) = options.size.unwrap_or_else(|| {
@@ -186,7 +191,7 @@ fn prepare(options: &Options, name: &str, facts: &[(&str, String)]) -> Result<Pr
     };
     let mut bytes = Vec::new();
     // every number of a scene that is not a mesh; the mesh as it is
-    write!(bytes, "{:?}{:?}{:?}{facts:?}{}", scene.camera, scene.materials, scene.shapes, options.seed)?;
+    write!(bytes, "{:?}{:?}{:?}{circumstances}{}", scene.camera, scene.materials, scene.shapes, options.seed)?;
     bytes.extend(scene.triangles.iter().flatten().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));
@@ -262,6 +267,9 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let facts = machine::facts(pool.current_num_threads());
+    // the commit may move on, as long as the program stays
+    let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
+    let circumstances = format!("{kept:?}{:016x}", build());
     let mut notes = Vec::new();
     let mut subjects: Vec<Subject> = Vec::new();
     let mut techniques = Vec::new();
@@ -269,7 +277,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
         if subjects.iter().any(|s| s.name == *scene) {
             continue;
         }
-        let prepared = pool.install(|| prepare(options, scene, &facts).map_err(|e| e.to_string()))?;
+        let prepared = pool.install(|| prepare(options, scene, &circumstances).map_err(|e| e.to_string()))?;
         notes.extend(prepared.notes);
         subjects.push(prepared.subject);
         techniques.push(prepared.techniques);
