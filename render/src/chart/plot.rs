@@ -394,12 +394,14 @@ fn group(attributes: &str, body: &str) -> String {
     format!("<g {attributes}>\n{body}</g>\n")
 }
 
-/// Samples of the lines with their names, two to a row, from `top` on; and its height.
+/// Samples of the lines with their names, two to a row if they are short, from `top` on; and its height.
 fn legend(lines: &[Line], top: i32) -> (String, i32) {
     if lines.is_empty() {
         return (String::new(), 0);
     }
-    let rows = (lines.len() as i32 + 1) / 2;
+    let longest = lines.iter().map(|l| l.name.chars().count()).max().unwrap_or(0);
+    let columns = if longest > 34 { 1 } else { 2 };
+    let rows = (lines.len() as i32 + columns - 1) / columns;
     let height = rows * ROW + 8;
     let body = layer(WIDTH, top + height, |area| {
         for (i, line) in lines.iter().enumerate() {
