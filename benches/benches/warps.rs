@@ -1,13 +1,12 @@
 //! Time per sample of every routine in f32, f32x4 and f32x8. `cargo bench -p etendue-benches --bench warps -- "cone"` for some.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use etendue::{Real, f32x4, f32x8};
-use etendue_benches::{SAMPLES, routines};
+use etendue_benches::{Routine, SAMPLES, every_width};
 use std::time::{Duration, Instant};
 
 /// One iteration is one sample, whatever the width: criterion's time is the time per sample.
-fn width<R: Real + 'static>(criterion: &mut Criterion, width: &str) {
-    for mut routine in routines::<R>() {
+fn width(criterion: &mut Criterion, routines: Vec<Routine>, width: &str) {
+    for mut routine in routines {
         criterion.bench_function(&format!("{}/{width}", routine.name), |bencher| {
             bencher.iter_custom(|iterations| {
                 let calls = iterations.div_ceil(SAMPLES as u64);
@@ -22,9 +21,9 @@ fn width<R: Real + 'static>(criterion: &mut Criterion, width: &str) {
 }
 
 fn warps(criterion: &mut Criterion) {
-    width::<f32>(criterion, "f32");
-    width::<f32x4>(criterion, "f32x4");
-    width::<f32x8>(criterion, "f32x8");
+    for (routines, name) in every_width().into_iter().zip(["f32", "f32x4", "f32x8"]) {
+        width(criterion, routines, name);
+    }
 }
 
 criterion_group! {

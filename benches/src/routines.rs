@@ -1,5 +1,7 @@
 //! Samples, densities and inverses.
 
+use etendue::discrete::{AliasTable, PiecewiseConstant2d};
+use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::seen::{
     CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphereCap, SphericalDisk,
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
@@ -8,10 +10,13 @@ use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
 };
 use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
-    LowDistortionTriangle, Normal, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, Exponential,
+    GgxVisibleNormals, Linear, LowDistortionTriangle, Normal, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent,
+    UniformHemisphere, UniformSphere, Warp, Warp1,
 };
-use etendue::{Disk, Line, Parallelogram, Real, Sphere, Triangle, Uint, Vec2, Vec3};
+use etendue::{
+    BilinearPatch, Cylinder, Disk, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Uint, Vec2, Vec3, f32x4, f32x8,
+};
 use std::hint::black_box;
 
 /// Samples per call of [`Routine::run`].
@@ -96,9 +101,33 @@ impl<R: Real + 'static> List<R> {
     }
 }
 
-/// Everything, at one width.
+fn half_of<R: Real>() -> R {
+    R::lit(0.5)
+}
+
+/// Tables of 64 × 32 cells, which a process builds once.
+fn tables<R: Real + 'static>(list: &mut List<R>) {
+    let weights: Vec<f32> = (0..2048).map(|i| 1.0 + (i * 37 % 101) as f32).collect();
+    let buffer = |n: usize| -> &'static mut [f32] { Vec::leak(vec![0.0; n]) };
+    let table = PiecewiseConstant2d::build(&weights, 64, buffer(PiecewiseConstant2d::buffer(64, 32)));
+    list.warp("table 64x32", table.expect("weights are positive"));
+    let sky = buffer(ImageEnvironment::buffer(64, 32));
+    let sky = ImageEnvironment::build(&weights, 64, EnvironmentMap::Equirectangular, sky);
+    list.warp("image environment 64x32", sky.expect("weights are positive"));
+    let weights = Vec::leak(weights);
+    let alias = AliasTable::build(weights, buffer(2048), Vec::leak(vec![0; 2048])).expect("weights are positive");
+    let us = list.squares.iter().map(|u| u.x).collect();
+    list.push("alias table 2048 cell", alias, us, |t, u| t.cell(u));
+}
+
+/// Everything in f32, f32x4 and f32x8: compiled here, once.
 #[must_use]
-pub fn routines<R: Real + 'static>() -> Vec<Routine> {
+pub fn every_width() -> [Vec<Routine>; 3] {
+    [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()]
+}
+
+/// Everything, at one width.
+fn routines<R: Real + 'static>() -> Vec<Routine> {
     let mut list = List::<R> { routines: Vec::new(), squares: squares(0), viewpoints: viewpoints() };
     let vector = |v: [f64; 3]| Vec3::<R>::new(R::lit(v[0]), R::lit(v[1]), R::lit(v[2]));
 
@@ -112,6 +141,7 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.warp("low-distortion triangle", LowDistortionTriangle);
     list.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 4.0].map(R::lit) });
     list.warp("GGX visible normals", GgxVisibleNormals::new(R::lit(0.4), R::lit(0.2), vector([0.6, 0.0, 0.8])));
+    list.warp("octahedral", Octahedral);
     list.line("linear", Linear { a: R::lit(1.0), b: R::lit(3.0) });
     list.line("tent", Tent { radius: R::lit(2.0) });
     list.line("exponential", Exponential { rate: R::lit(0.7) });
@@ -190,6 +220,20 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("projected segment invert", move |p, _| arc.invert(p));
 
     list.prepared("light parallelogram by projected solid angle", move |p, u| quad.by_projected_solid_angle(p, up, u));
+
+    list.warp("disk surface", DiskSurface { center: a, normal: up, radius });
+    list.warp("cylinder side", CylinderSide { p: a, axis: e1, radius });
+    list.warp("sphere surface", SphereSurface { center: a, radius });
+    let twisted = e1 + e2 + up * R::lit(0.3);
+    list.warp("patch surface", PatchSurface { p: a, u: e1, v: e2, w: twisted });
+    let patch = BilinearPatch { p: a, u: e1, v: e2, w: twisted };
+    list.prepared("light bilinear patch by area", move |p, u| patch.by_area(p, u));
+    let cylinder = Cylinder { p: a, axis: e1, radius };
+    list.prepared("light cylinder by area", move |p, u| cylinder.by_area(p, u));
+    let pentagon = Polygon { corners: [a, a + e1, a + e1 + e2 * half_of(), a + e1 * half_of() + e2, a + e2] };
+    list.prepared("light pentagon by area", move |p, u| pentagon.by_area(p, u));
+    list.prepared("light pentagon by solid angle", move |p, u| pentagon.by_solid_angle(p, u));
+    tables(&mut list);
 
     list.sequence("independent", Independent::new(1));
     list.sequence("stratified", Stratified::new(1, 64));

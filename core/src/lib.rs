@@ -30,6 +30,8 @@
 //! or per unit area as stated. `u` is uniform in [0, 1)². Directions are unit vectors pointing away from the shading point.
 //! Local frames have z up.
 //!
+#![doc = include_str!("index.md")]
+//!
 //! # Speed
 //! `wide` chooses its vector width when it is compiled. Build with `-C target-cpu=x86-64-v3` (or native), or a packet of 8
 //! is two or more registers and has no fused multiply-add.

@@ -7,10 +7,12 @@ use core::f32::consts::PI;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Reservoir, Welford};
 use etendue::light::{
-    ConstantEnvironment, Cylinder, Directional, Disk, EnvironmentMap, ImageEnvironment, Point, Spot, Sun,
+    BilinearPatch, ConstantEnvironment, Cylinder, Directional, Disk, EnvironmentMap, ImageEnvironment, Line, Point,
+    Polygon, Spot, Sun,
 };
 use etendue::seen::{
-    ProjectedCap, SphereCap, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalTriangle,
+    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphereCap, SphericalDisk,
+    SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::select::{LightBound, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{
@@ -18,8 +20,9 @@ use etendue::sequence::{
     ZOrder,
 };
 use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, Exponential, GgxVisibleNormals, Linear,
-    LowDistortionTriangle, Normal, Octahedral, PolarDisk, Tent, UniformHemisphere, UniformSphere,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, Exponential,
+    GgxVisibleNormals, Linear, LowDistortionTriangle, Normal, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent,
+    UniformHemisphere, UniformSphere,
 };
 use etendue::{
     LightSample, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, Warp1, f32x8, u32x8,
@@ -104,6 +107,17 @@ impl Count {
         }
         self.check(far < 1e-3 && near(sum(inverse) / SAMPLES as f32, measure, 2e-2));
     }
+    /// Half an arc of 2 atan(1/2) radians.
+    fn arc(&mut self, sample: impl Fn(X) -> (Vec3<X>, X), invert: impl Fn(Vec3<X>) -> X) {
+        let (mut far, mut inverse) = (0.0_f32, lit(0.0));
+        for u in squares() {
+            let (w, pdf) = sample(u.x);
+            let off = invert(w) - u.x;
+            far = (0..8).map(|i| off.lane(i).abs()).fold(far, f32::max);
+            inverse += lit(1.0) / pdf;
+        }
+        self.check(far < 1e-3 && near(sum(inverse) / SAMPLES as f32, 0.927_295_2, 1e-2));
+    }
     fn line<W: Warp1<X>>(&mut self, warp: W) {
         let kept = squares().all(|u| {
             let x = warp.sample(u.x);
@@ -164,6 +178,27 @@ fn seen(count: &mut Count) {
     count.warp(SphericalRectangle::new(a, b - a, c - a), square);
     count.warp(SphericalPolygon::new([a, b, d, c]), square);
     count.warp(ProjectedCap::new([0.0, 2.0, 0.0].into(), lit(1.0), UP.into()), 2.0 * PI * 0.133_974_6);
+    count.warp(ProjectedTriangle::new(a, b, c, UP.into()), 0.5 * square);
+    count.warp(ProjectedPolygon::new([a, b, d, c], UP.into()), square);
+    count.warp(CosineWarped::new(SphericalTriangle::new(a, b, c), UP.into()), 0.5 * square);
+    // of a disk as wide as it is high, 2π(1 − 1/√2)
+    let down = [0.0, -1.0, 0.0].into();
+    count.warp(SphericalDisk::new([0.0, 1.0, 0.0].into(), down, lit(1.0)), 2.0 * PI * 0.292_893_2);
+    let (end, edge) = ([-1.0, 2.0, 0.0].into(), [2.0, 0.0, 0.0].into());
+    let segment = SphericalSegment::new(end, edge);
+    count.arc(|u| (segment.sample(u), segment.pdf(segment.sample(u))), |w| segment.invert(w));
+    let segment = ProjectedSegment::new(end, edge, UP.into());
+    count.arc(|u| (segment.sample(u), segment.pdf(segment.sample(u))), |w| segment.invert(w));
+}
+
+fn surfaces(count: &mut Count) {
+    let (center, normal, radius) = ([0.0, 2.0, 0.0].into(), [0.0, -1.0, 0.0].into(), lit(0.5));
+    count.warp(DiskSurface { center, normal, radius }, 0.25 * PI);
+    count.warp(SphereSurface { center, radius }, PI);
+    count.warp(CylinderSide { p: center, axis: [2.0, 0.0, 0.0].into(), radius }, 2.0 * PI);
+    let (u, v) = ([1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
+    // a trapezium
+    count.warp(PatchSurface { p: center, u, v, w: [0.5, 0.0, 1.0].into() }, 0.75);
 }
 
 fn tables(count: &mut Count) {
@@ -209,6 +244,7 @@ fn lights(count: &mut Count) {
     // E = π r²/(h² + r²); one-sided, so that its normal points down
     let disk = Disk { center: [0.0, 1.0, 0.0].into(), normal: [0.0, -1.0, 0.0].into(), radius: lit(1.0) };
     count.light(0.5 * PI, |u| disk.by_area(o, u));
+    count.light(0.5 * PI, |u| disk.by_solid_angle(o, u));
     // Lambert: a square of side 1 at the distance 1, and its half
     let (p, u, v) = ([-0.5, 1.0, -0.5].into(), [1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
     let square = 0.752_274_7;
@@ -218,7 +254,23 @@ fn lights(count: &mut Count) {
     let rectangle = Rectangle { p, u, v };
     count.light(square, |u| rectangle.by_area(o, u));
     count.light(square, |u| rectangle.by_solid_angle(o, u));
+    count.light(square, |u| panel.by_projected_solid_angle(o, UP.into(), u));
+    count.light(square, |u| rectangle.by_cosine_warp(o, UP.into(), u));
+    let corners = [p, p + u, p + u + v, p + v];
+    let polygon = Polygon { corners };
+    count.light(square, |u| polygon.by_area(o, u));
+    count.light(square, |u| polygon.by_solid_angle(o, u));
+    count.light(square, |u| polygon.by_projected_solid_angle(o, UP.into(), u));
+    let patch = BilinearPatch { p, u, v, w: u + v };
+    count.light(square, |u| patch.by_area(o, u));
+    // per unit of its width
+    let line = Line { p: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
+    count.light(0.431_823_8, |u| line.by_length(o, u.x));
+    count.light(0.431_823_8, |u| line.by_angle(o, u.x));
+    count.light(0.431_823_8, |u| line.by_projected_solid_angle(o, UP.into(), u.x));
     let half = Triangle { v0: p, e1: u, e2: v };
+    count.light(0.5 * square, |u| half.by_projected_solid_angle(o, UP.into(), u));
+    count.light(0.5 * square, |u| half.by_cosine_warp(o, UP.into(), u));
     count.light(0.5 * square, |u| half.by_area(o, u));
     count.light(0.5 * square, |u| half.by_solid_angle(o, u));
     let cylinder = Cylinder { p: [-1.0, 2.0, 0.0].into(), axis: [2.0, 0.0, 0.0].into(), radius: lit(0.5) };
@@ -279,6 +331,7 @@ extern "C" fn main() -> ! {
     let mut count = Count(0);
     warps(&mut count);
     seen(&mut count);
+    surfaces(&mut count);
     tables(&mut count);
     lights(&mut count);
     sequences(&mut count);
