@@ -287,6 +287,7 @@ pub(crate) fn normal_quantile_f32<R: Real>(u: R) -> R {
         -0.000_294_894_690_764,
     ];
     let (half, one) = (R::lit(0.5), R::lit(1.0));
+    let u = u.clamp(R::lit(0.0), one);
     // the lower and upper tail: both exact where they are small
     let least = R::lit(LEAST_TAIL);
     let (low, high) = (u.max(least), (one - u).max(least));

@@ -188,7 +188,9 @@ impl SpatialLights<'_> {
         let distance = Self::distance(light, p);
         let positive = distance.gt(R::lit(0.0));
         // at the centre of a point light: the least distance is 0, and the ratio 1
-        let ratio = R::select(positive, least / R::select(positive, distance, R::lit(1.0)), R::lit(1.0));
+        let one = R::lit(1.0);
+        // only a light of no power is nearer than the least
+        let ratio = R::select(positive, least / R::select(positive, distance, one), one).min(one);
         let power = if light.power > 0.0 && light.power < f32::INFINITY { light.power } else { 0.0 };
         R::lit(f64::from(power)) * (ratio * ratio).max(R::lit(1.0 / 262_144.0))
     }

@@ -184,3 +184,17 @@ fn spatial_choice_knows_no_unit() {
         }
     }
 }
+
+/// A light of no power may be the nearest one, also at no distance at all.
+#[test]
+fn a_dark_light_is_no_nearest() {
+    let dark = LightBound { center: [0.0, 0.0, 0.0], radius: 0.0, power: 0.0 };
+    let lit = LightBound { center: [0.0, 0.0, 1e30], radius: 0.1, power: 1.0 };
+    let lights = [dark, lit];
+    for p in [[0.0_f32, 0.0, 0.0], [0.0, 0.0, 1e-30]] {
+        let table = SpatialLights { lights: &lights };
+        let choice = table.choose(p.into(), 0.5_f32);
+        assert_eq!((choice.index, choice.probability), (1, 1.0));
+        assert_eq!([0, 1].map(|i| table.pmf::<f32>(p.into(), i)), [0.0, 1.0]);
+    }
+}

@@ -9,9 +9,9 @@ lanewise! {
     /// - Formula: sin²σ = R²/d², cos²σ = (d²−R²)/d² with d²−R² in twice the working precision, h = 1−cosσ = sin²σ/(1+cosσ); then the
     ///   cone's map. From inside the sphere every direction hits it: h = 2.
     /// - Domain: any centre and radius > 0, at any distance; on the surface, the half of the directions that look inwards.
-    /// - Density: 1/(2πh) per steradian within the cone, 0 off it.
+    /// - Density: 1/(2πh) per steradian within the cone (and within 8 ulp of the direction beyond), 0 off it.
     /// - Degenerate: a radius ≤ 0 (or beyond the reach of f32: R/d < 1e−18) has pdf 0 and samples the direction to the centre.
-    /// - Greatest error: pdf 1.8e−7 relative; direction 3.0e−7; distance 3.6e−7 relative, but for the limb, where its slope is infinite.
+    /// - Greatest error: pdf 2.4e−7 relative; direction 3.0e−7; distance 3.6e−7 relative, but for the limb, where its slope is infinite.
     /// - Source: PBR 4th ed., 6.2.4, in a form without its switch to a series for small spheres.
     SphereCap {
         frame: Frame<R>,
@@ -100,7 +100,7 @@ impl<R: Real> Warp<R> for SphereCap<R> {
     }
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.cone.pdf(self.frame.to_local(w))
+        self.cone.pdf_in_frame(self.frame.to_local(w))
     }
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

@@ -49,10 +49,19 @@ impl<R: Real> Cone<R> {
     /// Is a direction at `one_minus_cos` from the axis inside, give or take the rounding of the direction?
     #[inline(always)]
     pub fn contains(&self, one_minus_cos: R) -> R::Mask {
+        self.contains_but_for(one_minus_cos, SLACK)
+    }
+    #[inline(always)]
+    fn contains_but_for(&self, one_minus_cos: R, slack: f64) -> R::Mask {
         let h = self.height();
         // (σ + ε)²/2 = σ²/2 + σε + ε²/2
-        let slack = R::lit(SLACK).mul_add((h + h).sqrt(), R::lit(0.5 * SLACK * SLACK));
+        let slack = R::lit(slack).mul_add((h + h).sqrt(), R::lit(0.5 * slack * slack));
         one_minus_cos.le(h + slack)
+    }
+    /// The pdf of a direction that a frame has turned there and back: twice the slack.
+    #[inline(always)]
+    pub(crate) fn pdf_in_frame(&self, w: Vec3<R>) -> R {
+        self.density().keep(self.contains_but_for(one_minus_z(w), 2.0 * SLACK))
     }
 }
 
