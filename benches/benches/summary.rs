@@ -3,8 +3,9 @@
 //!
 //! The median of repetitions that take turns, so that a change of the processor's clock meets all widths alike.
 
+use etendue::{f32x4, f32x8};
 use etendue_benches::rays::{Spread, Workload};
-use etendue_benches::{Routine, SAMPLES, every_width};
+use etendue_benches::{Routine, SAMPLES, routines};
 use etendue_render::accel::Stack;
 use std::hint::black_box;
 use std::time::Instant;
@@ -35,7 +36,7 @@ fn main() {
     } else {
         println!("{:38} {:>8} {:>8} {:>8} {:>7}", "ns/sample, median", "f32", "f32x4", "f32x8", "x1/x8");
     }
-    let [one, four, eight] = every_width();
+    let [one, four, eight] = [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()];
     let widths = one.into_iter().zip(four).zip(eight);
     for ((one, four), eight) in widths.filter(|((one, _), _)| one.name.contains(&filter)) {
         let mut each = [one, four, eight];

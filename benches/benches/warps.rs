@@ -1,7 +1,8 @@
 //! Time per sample of every routine in f32, f32x4 and f32x8. `cargo bench -p etendue-benches --bench warps -- "cone"` for some.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use etendue_benches::{Routine, SAMPLES, every_width};
+use etendue::{f32x4, f32x8};
+use etendue_benches::{Routine, SAMPLES, routines};
 use std::time::{Duration, Instant};
 
 /// One iteration is one sample, whatever the width: criterion's time is the time per sample.
@@ -21,9 +22,9 @@ fn width(criterion: &mut Criterion, routines: Vec<Routine>, width: &str) {
 }
 
 fn warps(criterion: &mut Criterion) {
-    for (routines, name) in every_width().into_iter().zip(["f32", "f32x4", "f32x8"]) {
-        width(criterion, routines, name);
-    }
+    width(criterion, routines::<f32>(), "f32");
+    width(criterion, routines::<f32x4>(), "f32x4");
+    width(criterion, routines::<f32x8>(), "f32x8");
 }
 
 criterion_group! {

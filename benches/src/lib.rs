@@ -6,4 +6,4 @@
 pub mod rays;
 pub mod routines;
 
-pub use routines::{Routine, SAMPLES, every_width};
+pub use routines::{Routine, SAMPLES, routines};

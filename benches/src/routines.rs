@@ -14,9 +14,7 @@ use etendue::warp::{
     GgxVisibleNormals, Linear, LowDistortionTriangle, Normal, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent,
     UniformHemisphere, UniformSphere, Warp, Warp1,
 };
-use etendue::{
-    BilinearPatch, Cylinder, Disk, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Uint, Vec2, Vec3, f32x4, f32x8,
-};
+use etendue::{BilinearPatch, Cylinder, Disk, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Uint, Vec2, Vec3};
 use std::hint::black_box;
 
 /// Samples per call of [`Routine::run`].
@@ -120,14 +118,9 @@ fn tables<R: Real + 'static>(list: &mut List<R>) {
     list.push("alias table 2048 cell", alias, us, |t, u| t.cell(u));
 }
 
-/// Everything in f32, f32x4 and f32x8: compiled here, once.
+/// Everything, at one width: generic, so that only what measures it has to compile it.
 #[must_use]
-pub fn every_width() -> [Vec<Routine>; 3] {
-    [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()]
-}
-
-/// Everything, at one width.
-fn routines<R: Real + 'static>() -> Vec<Routine> {
+pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let mut list = List::<R> { routines: Vec::new(), squares: squares(0), viewpoints: viewpoints() };
     let vector = |v: [f64; 3]| Vec3::<R>::new(R::lit(v[0]), R::lit(v[1]), R::lit(v[2]));
 
