@@ -327,8 +327,13 @@ impl<R: Real> Sector<R> {
         // q_A × q_w and q_w × q_T, of horizontal parts
         let (start, far) = (normal.cross(self.apex), normal.cross(self.tangent));
         let clockwise = start.dot(self.tangent).lt(zero);
-        let y = start.dot(w - self.apex).negate_where(clockwise).max(zero);
+        let y = start.dot(w - self.apex).negate_where(clockwise);
         let x = (-far.dot(w)).negate_where(clockwise);
+        // per sine of the way from the vertex this is the cosine of a plane between those of both arcs, which bound it better than the
+        // rounded direction does: along a steep arc a unit of azimuth is a long way
+        let way = w.cross(self.apex).length();
+        let y = y.max(way * self.outer.min(self.inner));
+        let y = R::select(self.slope.ge(zero), y.min(way * self.outer), y);
         let small = self.near.gt(zero);
         let (mut s, mut c, mut area) = (zero, one, zero);
         if small.any() {
