@@ -125,9 +125,15 @@ fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
     list
 }
 
+/// Sets in a pixel: one, which has the least error, since errors are told from replicates of the image; those of stratified-4d have few
+/// sizes.
+fn sets(sampler: Sampler) -> u32 {
+    u32::from(sampler != Sampler::Stratified4d)
+}
+
 /// Why a sampler cannot take so many samples, if so.
 fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
-    sampler.check(spp, lens).err()
+    sampler.check(spp, sets(sampler), lens).err()
 }
 
 /// The techniques that apply to a scene and differ there; and why others do not.
@@ -141,7 +147,7 @@ fn techniques(scene: &scene::Scene, subject: &Subject, asked: &[Technique]) -> (
         }
         let [width, height] = subject.size.map(|side| side.min(64));
         let sampler = Sampler::Independent;
-        let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, seed: 1 };
+        let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, sets: 1, seed: 1 };
         let pixels = subject.world.render(&settings, |_| ()).0.pixels;
         match images.iter().position(|other| *other == pixels) {
             Some(first) => leave(&format!("it makes the same image as {} here", name(list[first]))),

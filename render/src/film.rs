@@ -10,6 +10,8 @@ pub struct Pixel {
     pub mean: [f32; 3],
     /// Variance of that mean; infinite if the samples cannot tell.
     pub variance: [f32; 3],
+    /// How many samples it is the mean of.
+    pub samples: u32,
 }
 
 /// A rendered image.
@@ -19,8 +21,6 @@ pub struct Film {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Samples in each pixel.
-    pub samples: u32,
     /// Row by row from the top left.
     pub pixels: Vec<Pixel>,
 }
@@ -33,6 +33,7 @@ impl Film {
         let scaled = |p: &Pixel| Pixel {
             mean: p.mean.map(|x| times(x, factor)),
             variance: p.variance.map(|x| times(x, factor * factor)),
+            samples: p.samples,
         };
         Self { pixels: self.pixels.iter().map(scaled).collect(), ..*self }
     }
@@ -58,6 +59,8 @@ pub struct PixelSum {
     count: f64,
     replicates: [Welford<f64>; 3],
     finished: f64,
+    /// In all replicates.
+    taken: u32,
 }
 
 impl PixelSum {
@@ -65,6 +68,7 @@ impl PixelSum {
     #[inline]
     pub fn push_packet(&mut self, radiance: V8) {
         self.packets += 1;
+        self.taken += 8;
         let reciprocal = X8::splat(1.0 / self.packets as f32);
         for (lane, x) in self.lanes.iter_mut().zip([radiance.x, radiance.y, radiance.z]) {
             lane.push(x, reciprocal);
@@ -77,6 +81,7 @@ impl PixelSum {
     #[inline]
     pub fn push(&mut self, radiance: [f32; 3]) {
         self.count += 1.0;
+        self.taken += 1;
         for (sum, x) in self.samples.iter_mut().zip(radiance) {
             sum.push(f64::from(x), 1.0 / self.count);
         }
@@ -110,8 +115,19 @@ impl PixelSum {
     pub fn finish(&mut self) -> Pixel {
         self.flush();
         let (sums, n) = if self.finished > 0.0 { (self.replicates, self.finished) } else { (self.samples, self.count) };
-        let pixel = Pixel { mean: sums.map(|s| s.mean as f32), variance: sums.map(|s| (s.variance(n) / n) as f32) };
+        let pixel = Pixel {
+            mean: sums.map(|s| s.mean as f32),
+            variance: sums.map(|s| (s.variance(n) / n) as f32),
+            samples: self.taken,
+        };
         *self = Self::default();
         pixel
+    }
+    /// The mean of what there is of a replicate, the number of its samples, and a clean slate.
+    pub fn take(&mut self) -> ([f64; 3], u32) {
+        self.flush();
+        let taken = (self.samples.map(|s| s.mean), self.taken);
+        *self = Self::default();
+        taken
     }
 }

@@ -76,7 +76,7 @@ pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
         channels.push(AnyChannel::new(name, plane(&|p| p.mean[k])));
         channels.push(AnyChannel::new(format!("variance.{name}").as_str(), plane(&|p| p.variance[k])));
     }
-    channels.push(AnyChannel::new("samples.N", FlatSamples::U32(vec![film.samples; film.pixels.len()])));
+    channels.push(AnyChannel::new("samples.N", FlatSamples::U32(film.pixels.iter().map(|p| p.samples).collect())));
     // an increasing line order makes the bytes independent of the threads that compress
     let encoding =
         Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };

@@ -1,5 +1,6 @@
 //! Direct light, in packets: camera rays, light samples, shadow rays.
 
+mod adaptive;
 mod bsdf;
 mod direct;
 mod paths;
@@ -13,6 +14,7 @@ use crate::sampler::{CHOICE, Packet, Sampler, Source};
 use crate::scene::{Camera, Material, Scene, Shape};
 use crate::sensor::{Exposure, Sensor};
 use crate::sky::Sky;
+use adaptive::Effort;
 use bsdf::Finish;
 use direct::keep;
 use etendue::{Mask, Real, Vec2, u32x8};
@@ -35,6 +37,9 @@ pub struct Settings {
     pub depth: u32,
     /// Where the random numbers come from.
     pub sampler: Sampler,
+    /// Independent sets of samples in each pixel, 1, 2 or 4: its variance is that of their means, infinite of one. 0 is as few as can
+    /// tell it; see [`Sampler::sets`].
+    pub sets: u32,
     /// Images of different seeds are independent.
     pub seed: u64,
 }
@@ -148,6 +153,47 @@ impl World {
     /// Renders an image of what an eye sees that is not the scene's own camera; one for an image of this size.
     pub fn render_through(&self, eye: &Eye, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
         let (width, height) = (settings.width, settings.height);
+        if settings.sampler == Sampler::Adaptive {
+            return self.render_adaptively(eye, settings, progress);
+        }
+        let (tiles, rays) = self.tiles(eye, settings, |work, area| {
+            let pixels = work.tile(area);
+            progress(pixels.len() as u64);
+            pixels
+        });
+        (Film { width, height, pixels: tiles }, rays)
+    }
+
+    /// The pilot's samples, then the others.
+    fn render_adaptively(&self, eye: &Eye, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
+        let (width, height) = (settings.width, settings.height);
+        let sets = settings.sampler.sets(settings.spp, settings.sets, eye.has_lens());
+        let effort = Effort::new(settings.spp, sets);
+        let pilot = effort.pilot;
+        let (first, rays) = self.tiles(eye, settings, |work, area| work.parts(area, sets, |_, _| [0, pilot]));
+        let packets = adaptive::allot(&first, width, &effort);
+        let (second, more) = self.tiles(eye, settings, |work, area| {
+            let parts = work.parts(area, sets, |x, y| [pilot, packets[(y * width + x) as usize]]);
+            progress(parts.len() as u64);
+            parts
+        });
+        let pixels = first.iter().zip(&second).map(|(a, b)| a.finish(b, sets)).collect();
+        let rays = RayCount {
+            camera: rays.camera + more.camera,
+            mirror: rays.mirror + more.mirror,
+            shadow: rays.shadow + more.shadow,
+        };
+        (Film { width, height, pixels }, rays)
+    }
+
+    /// What is made of each tile, row by row of it, put together to an image.
+    fn tiles<T: Copy + Default + Send>(
+        &self,
+        eye: &Eye,
+        settings: &Settings,
+        of: impl Fn(&mut Work, [u32; 4]) -> Vec<T> + Sync,
+    ) -> (Vec<T>, RayCount) {
+        let (width, height) = (settings.width, settings.height);
         let columns = width.div_ceil(TILE);
         let tiles = columns as usize * height.div_ceil(TILE) as usize;
         let rendered: Vec<_> = (0..tiles)
@@ -157,12 +203,11 @@ impl World {
                 let y = (tile as u32 / columns) * TILE;
                 let area = [x, y, (x + TILE).min(width), (y + TILE).min(height)];
                 let mut work = Work::new(self, settings, *eye);
-                let pixels = work.tile(area);
-                progress(pixels.len() as u64);
+                let pixels = of(&mut work, area);
                 (area, pixels, work.count)
             })
             .collect();
-        let mut pixels = vec![Pixel::default(); width as usize * height as usize];
+        let mut pixels = vec![T::default(); width as usize * height as usize];
         let mut rays = RayCount::default();
         for ([x0, y0, x1, y1], tile, count) in rendered {
             let across = (x1 - x0) as usize;
@@ -174,7 +219,7 @@ impl World {
             rays.mirror += count.mirror;
             rays.shadow += count.shadow;
         }
-        (Film { width, height, samples: settings.spp, pixels }, rays)
+        (pixels, rays)
     }
 }
 
@@ -200,7 +245,8 @@ fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
 
 impl<'a> Work<'a> {
     fn new(world: &'a World, settings: &'a Settings, eye: Eye) -> Self {
-        let source = Source::new(settings.sampler, settings.seed, settings.spp, eye.has_lens(), settings.width);
+        let source =
+            Source::new(settings.sampler, settings.seed, settings.spp, settings.sets, eye.has_lens(), settings.width);
         Self {
             world,
             settings,
@@ -244,21 +290,12 @@ impl<'a> Work<'a> {
                 active: M8::from_bits((1 << count) - 1),
             }
         };
-        let plain = self.world.plain(self.settings.technique);
         let mut packets = Vec::with_capacity(GROUP);
         for start in (0..total).step_by(8 * GROUP) {
             let starts = (start..total).step_by(8).take(GROUP);
             packets.clear();
             packets.extend(starts.clone().map(packet));
-            let mut radiance = if plain { self.group(&packets) } else { self.paths(&packets) };
-            for (radiance, packet) in radiance.iter_mut().zip(&packets) {
-                if let Some(open) = self.eye.open(&self.source, packet) {
-                    *radiance = keep(*radiance, open);
-                }
-                if let Some(exposure) = &self.exposure {
-                    *radiance = *radiance * exposure.weight(&self.source, packet);
-                }
-            }
+            let radiance = self.radiance(&packets);
             for ((start, packet), radiance) in starts.zip(&packets).zip(radiance) {
                 if whole {
                     let (pixel, sample) = place(start);
@@ -282,6 +319,21 @@ impl<'a> Work<'a> {
             rows[((y - y0) * (x1 - x0) + (x - x0)) as usize] = sum.finish();
         }
         rows
+    }
+
+    /// What the samples of a group of packets add to their pixels.
+    fn radiance(&mut self, packets: &[Packet]) -> [V8; GROUP] {
+        let plain = self.world.plain(self.settings.technique);
+        let mut radiance = if plain { self.group(packets) } else { self.paths(packets) };
+        for (radiance, packet) in radiance.iter_mut().zip(packets) {
+            if let Some(open) = self.eye.open(&self.source, packet) {
+                *radiance = keep(*radiance, open);
+            }
+            if let Some(exposure) = &self.exposure {
+                *radiance = *radiance * exposure.weight(&self.source, packet);
+            }
+        }
+        radiance
     }
 
     /// Radiance of the samples of a group of packets.

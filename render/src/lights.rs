@@ -66,10 +66,28 @@ const FEW: usize = 32;
 /// its interval of u, kind and sides (bits), index of its shape (bits).
 type Record = [f32; 16];
 
-/// Emitters, chosen in proportion to their power.
+/// What a light can contribute to a point, as far as it matters for the choice of one.
+#[derive(Clone, Copy, Debug)]
+struct Reach {
+    center: [f32; 3],
+    /// Of a sphere around it.
+    radius: f32,
+    /// Of a flat one.
+    normal: [f32; 3],
+    /// It shines to all sides: 1, else 0.
+    round: f32,
+    /// It is flat and shines to both sides.
+    two_sided: bool,
+    /// Of one side.
+    power: f32,
+}
+
+/// Emitters, chosen in proportion to their power or to what they can contribute to a point.
 #[derive(Debug)]
 pub struct Lights {
     records: Vec<Record>,
+    /// Of each, if they are few, more than one, and all have an area; else none.
+    reaches: Vec<Reach>,
     /// Upper ends of the intervals of `u`; the last is 1.
     ends: Vec<f32>,
     /// Bit k is set if there is a light of kind k.
@@ -77,7 +95,17 @@ pub struct Lights {
     sky: Option<Arc<Sky>>,
     /// Probability of each shape of the scene; 0 of those that are no lights.
     shape_probabilities: Vec<f32>,
+    /// Which light each of them is.
+    shape_lights: Vec<u32>,
     sky_probability: f32,
+}
+
+/// What the lights can contribute to the points of a packet: power · cosθ cosθ' / d² by the centre of each, where cosθ is that of the
+/// direction within the sphere around the light that is nearest to the normal, and d is no less than its radius. It is 0 only where a light
+/// is below the horizon or seen from behind.
+pub struct Near {
+    /// Sums over the lights up to each.
+    ends: [X8; FEW],
 }
 
 /// One light in each lane.
@@ -87,6 +115,8 @@ pub struct Chosen {
     pub radiance: V8,
     /// Probability with which it was chosen.
     pub probability: X8,
+    /// Of its interval of `u`, where the choice is by power.
+    start: X8,
     kind: u32x8,
     /// Index of its shape; [`NOTHING`] if it is none.
     pub shape: u32x8,
@@ -215,12 +245,61 @@ impl Lights {
                 .fold(X8::lit(0.0), |sum, &end| sum + one.keep(u.ge(X8::splat(end))));
             passed.to_uint().to_array().map(|i| i as usize)
         };
+        let chosen = self.gathered(index);
+        let rest = Real::clamp((u - chosen.start) / chosen.probability, X8::lit(0.0), X8::below_one());
+        (chosen, rest)
+    }
+    /// What each light can contribute to points of a surface, if they are few and more than one; nothing where the choice is by power.
+    #[inline(always)]
+    pub fn near(&self, p: V8, normal: V8) -> Option<Near> {
+        if self.reaches.is_empty() {
+            return None;
+        }
+        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+        let mut ends = [zero; FEW];
+        let mut sum = zero;
+        for (reach, end) in self.reaches.iter().zip(&mut ends) {
+            let to = V8::from(reach.center) - p;
+            let radius = X8::splat(reach.radius);
+            let inverse = one / X8::max(to.length_squared(), radius * radius).sqrt();
+            let cos = X8::min(X8::max((to.dot(normal) + radius) * inverse, zero), one);
+            let facing = -to.dot(V8::from(reach.normal)) * inverse;
+            let facing = X8::max(if reach.two_sided { facing.abs() } else { facing }, zero) + X8::splat(reach.round);
+            sum += cos * facing * (X8::splat(reach.power) * inverse * inverse);
+            *end = sum;
+        }
+        Some(Near { ends })
+    }
+    /// A light per lane for `u`, and `u` stretched over what its interval leaves: by power, or by what is near.
+    #[inline(always)]
+    pub fn choose_near(&self, near: Option<&Near>, u: X8) -> (Chosen, X8) {
+        let Some(Near { ends }) = near else { return self.choose(u) };
+        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+        let last = self.reaches.len() - 1;
+        let sum = ends[last];
+        let target = u * sum;
+        let (mut index, mut start, mut end) = (zero, zero, ends[0]);
+        for k in 0..last {
+            let passed = target.ge(ends[k]);
+            index += one.keep(passed);
+            start = select(passed, ends[k], start);
+            end = select(passed, ends[k + 1], end);
+        }
+        let mut chosen = self.gathered(index.to_uint().to_array().map(|i| i as usize));
+        let width = end - start;
+        let some = width.gt(zero);
+        chosen.probability = (width / select(some, sum, one)).keep(some);
+        let rest = Real::clamp((target - start) / select(some, width, one), zero, X8::below_one());
+        (chosen, rest)
+    }
+    #[inline(always)]
+    fn gathered(&self, index: [usize; 8]) -> Chosen {
         let rows = index.map(|i| &self.records[i]);
         let half = |start: usize| X8::transpose(rows.map(|r| X8::from(&r[start..start + 8])));
         let (a, b) = (half(0), half(8));
-        let chosen = Chosen::new(std::array::from_fn(|k| if k < 8 { a[k] } else { b[k - 8] }));
-        let rest = Real::clamp((u - b[5]) / chosen.probability, X8::lit(0.0), X8::below_one());
-        (chosen, rest)
+        let mut chosen = Chosen::new(std::array::from_fn(|k| if k < 8 { a[k] } else { b[k - 8] }));
+        chosen.start = b[5];
+        chosen
     }
     /// A sample of the chosen lights from points `p` on surfaces with this normal; `emits` already takes account of lights with two
     /// sides, and `radiance` of `chosen` of where in the sky the sample lies.
@@ -274,7 +353,7 @@ impl Lights {
     /// Density per steradian, with the probability of the choice, with which [`sample`](Self::sample) by solid angle draws the
     /// direction `w` of a shape from `p`.
     #[inline]
-    pub fn shape_pdf(&self, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
+    pub fn shape_pdf(&self, near: Option<&Near>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         let pdf = match *geometry {
             Geometry::Sphere { center, radius } => SphereCap::new(V8::from(center) - p, X8::splat(radius)).pdf(w),
             Geometry::Triangle([a, b, c]) => {
@@ -286,7 +365,15 @@ impl Lights {
                 SphericalParallelogram::new(V8::from(corner) - p, V8::from(u), V8::from(v)).pdf(w)
             }
         };
-        pdf * X8::splat(self.shape_probabilities[shape])
+        pdf * match near {
+            None => X8::splat(self.shape_probabilities[shape]),
+            Some(Near { ends }) => {
+                let (zero, sum) = (X8::lit(0.0), ends[self.reaches.len() - 1]);
+                let light = self.shape_lights[shape] as usize;
+                let before = if light == 0 { zero } else { ends[light - 1] };
+                (ends[light] - before) / select(sum.gt(zero), sum, X8::lit(1.0))
+            }
+        }
     }
     /// The same for a direction of the sky.
     #[inline]
@@ -355,15 +442,61 @@ impl Table {
             last[12] = 1.0 - last[13];
         }
         let mut shape_probabilities = vec![0.0; shapes];
+        let mut shape_lights = vec![0; shapes];
         let mut sky_probability = 0.0;
-        for record in &self.records {
+        for (index, record) in (0..).zip(&self.records) {
             match (record[14].to_bits() & KINDS, record[15].to_bits()) {
                 (SKY, _) => sky_probability = record[12],
                 (_, NOTHING) => {}
-                (_, shape) => shape_probabilities[shape as usize] = record[12],
+                (_, shape) => {
+                    shape_probabilities[shape as usize] = record[12];
+                    shape_lights[shape as usize] = index;
+                }
             }
         }
-        Lights { records: self.records, ends, kinds: self.kinds, sky, shape_probabilities, sky_probability }
+        let only_areas = self.kinds & !(1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM) == 0;
+        let few = only_areas && (2..=FEW).contains(&self.records.len());
+        let reaches = if few { self.records.iter().zip(&self.powers).map(reach).collect() } else { Vec::new() };
+        Lights {
+            reaches,
+            records: self.records,
+            ends,
+            kinds: self.kinds,
+            sky,
+            shape_probabilities,
+            shape_lights,
+            sky_probability,
+        }
+    }
+}
+
+/// Of a light with an area.
+fn reach((record, power): (&Record, &f64)) -> Reach {
+    let vector = |k: usize| -> Vec3<f64> { std::array::from_fn(|i| f64::from(record[k + i])).into() };
+    let kind = record[14].to_bits();
+    let (p, u, v) = (vector(0), vector(3), vector(6));
+    let (center, radius, normal) = match kind & KINDS {
+        SPHERE => (p, f64::from(record[3]), Vec3::default()),
+        TRIANGLE => {
+            let center = p + (u + v) * (1.0 / 3.0);
+            let corners = [p, p + u, p + v];
+            (center, corners.into_iter().map(|c| (c - center).length()).fold(0.0, f64::max), u.cross(v))
+        }
+        _ => {
+            let center = p + (u + v) * 0.5;
+            (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
+        }
+    };
+    let length = normal.length();
+    let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
+    Reach {
+        center: narrow(center),
+        // it is outside of the rounded centre's sphere by no more than this
+        radius: (radius * (1.0 + 1e-6)) as f32,
+        normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
+        round: if length > 0.0 { 0.0 } else { 0.25 },
+        two_sided: kind & TWO_SIDED != 0 && length > 0.0,
+        power: *power as f32 * if kind & TWO_SIDED != 0 { 0.5 } else { 1.0 },
     }
 }
 
@@ -380,6 +513,7 @@ impl Chosen {
             geometry: std::array::from_fn(|k| r[k]),
             radiance: V8::new(r[9], r[10], r[11]),
             probability: r[12],
+            start: r[13],
             kind: r[14].to_bits(),
             shape: r[15].to_bits(),
         }

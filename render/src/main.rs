@@ -59,6 +59,9 @@ struct Render {
     /// What pixels measure; for irradiance and power the scene needs a lens
     #[arg(long, value_enum, default_value = "radiance")]
     sensor: Sensor,
+    /// Independent sets of samples in a pixel: one has the least error, but the image does not know its variance; else as few as can tell it
+    #[arg(long, value_name = "1|2|4", value_parser = sets)]
+    sets: Option<u32>,
     /// Image size in pixels; else what the scene says
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
@@ -169,6 +172,11 @@ fn command_line() -> String {
     std::iter::once("etendue".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }
 
+/// Parses `--sets`.
+fn sets(text: &str) -> Result<u32, String> {
+    [1, 2, 4].into_iter().find(|n| text == n.to_string()).ok_or_else(|| "want 1, 2 or 4".to_owned())
+}
+
 fn list() -> io::Result<()> {
     let mut out = io::stdout().lock();
     writeln!(out, "scenes")?;
@@ -203,6 +211,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
         technique: options.technique,
         depth: options.depth,
         sampler: options.sampler,
+        sets: options.sets.unwrap_or(0),
         seed: options.seed,
     };
     if options.sensor != Sensor::Radiance && scene.camera.lens.is_none() {
@@ -212,7 +221,8 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
         )
         .into());
     }
-    settings.sampler.check(settings.spp, scene.camera.lens.is_some()).map_err(|what| format!("--sampler: {what}"))?;
+    let check = settings.sampler.check(settings.spp, settings.sets, scene.camera.lens.is_some());
+    check.map_err(|what| format!("--sampler: {what}"))?;
     let output = options.output.clone().unwrap_or_else(|| match &scene.film.filename {
         Some(file) => Path::new(file).with_extension("exr"),
         None => PathBuf::from(format!("{}.exr", scene.name)),
@@ -252,6 +262,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
             "width": width,
             "height": height,
             "spp": settings.spp,
+            "sets": settings.sampler.sets(settings.spp, settings.sets, scene.camera.lens.is_some()),
             "technique": name(settings.technique),
             "sampler": name(settings.sampler),
             "sensor": name(options.sensor),

@@ -32,6 +32,8 @@ pub enum Sampler {
     Sobol4d,
     /// Owen-scrambled Sobol pairs dealt out along a Z-order curve of pixels: blue noise
     ZOrder,
+    /// Owen-scrambled Sobol pairs as sobol, more of them in pixels around which they vary
+    Adaptive,
 }
 
 /// The pair for the position in the pixel.
@@ -60,8 +62,7 @@ pub struct Packet {
     pub active: M8,
 }
 
-/// How many replicates a pixel of `spp` samples is made of: as few as can tell their variance, four where that leaves eight
-/// samples or more to each.
+/// As few replicates of a pixel of `spp` samples as can tell their variance, four where that leaves eight samples or more to each.
 const fn replicates(spp: u32) -> u32 {
     if spp.is_multiple_of(4) && spp >= 32 {
         4
@@ -71,6 +72,9 @@ const fn replicates(spp: u32) -> u32 {
         1
     }
 }
+
+/// Fewest samples of a pixel in each replicate of [`Sampler::Adaptive`]: eight to tell how many more, and eight more.
+const FEWEST: u32 = 16;
 
 /// The side of the greatest grid of `dimensions` with at most `count` cells.
 fn side(count: u32, dimensions: u32) -> u32 {
@@ -82,29 +86,54 @@ const fn dimensions(lens: bool) -> u32 {
     if lens { 6 } else { 4 }
 }
 
-/// Replicates of a pixel of `spp` jittered samples of 4 or 6 dimensions: 4, 2 or 1, whichever leaves a power n⁴ or n⁶.
-fn joint_replicates(spp: u32, dimensions: u32) -> Option<u32> {
-    [4, 2, 1].into_iter().find(|r| spp.is_multiple_of(*r) && side(spp / r, dimensions).pow(dimensions) * r == spp)
+/// Replicates of a pixel of `spp` jittered samples of 4 or 6 dimensions: 4, 2 or 1, whichever leaves a power n⁴ or n⁶, or `sets` of
+/// them if it is not 0.
+fn joint_replicates(spp: u32, dimensions: u32, sets: u32) -> Option<u32> {
+    let fits = |r: u32| spp.is_multiple_of(r) && side(spp / r, dimensions).pow(dimensions) * r == spp;
+    [4, 2, 1].into_iter().filter(|r| sets == 0 || *r == sets).find(|r| fits(*r))
 }
 
 impl Sampler {
-    /// Whether this sampler can take `spp` samples of each pixel as it should; for [`Sampler::Stratified4d`], whether that is
-    /// n⁴, 2n⁴ or 4n⁴ (n⁶ with a lens).
+    /// Whether this sampler can take `spp` samples of each pixel as it should, in `sets` sets (see [`Settings::sets`](crate::Settings::sets)): for
+    /// [`Sampler::Stratified4d`], whether that is n⁴, 2n⁴ or 4n⁴ (n⁶ with a lens).
     ///
     /// # Errors
     /// It is not, and what is.
-    pub fn check(self, spp: u32, lens: bool) -> Result<(), String> {
-        let d = dimensions(lens);
-        if self != Self::Stratified4d || joint_replicates(spp, d).is_some() {
-            return Ok(());
+    pub fn check(self, spp: u32, sets: u32, lens: bool) -> Result<(), String> {
+        if sets > 1 && !spp.is_multiple_of(sets) {
+            return Err(format!("{spp} samples per pixel are not {sets} sets alike"));
         }
-        let power = if lens { "n⁶" } else { "n⁴" };
-        let fits = |n: &u32| joint_replicates(*n, d).is_some();
-        let below = (1..spp).rev().find(fits).unwrap_or(1);
-        let above = (spp + 1..).find(fits).unwrap_or(u32::MAX);
-        Err(format!(
-            "stratified-4d takes {power}, 2{power} or 4{power} samples per pixel: {spp} is none of these; {below} and {above} are"
-        ))
+        let d = dimensions(lens);
+        match self {
+            Self::Adaptive if spp < FEWEST * sets.max(1) => {
+                Err(format!("adaptive takes {} samples per pixel or more: {spp} are too few", FEWEST * sets.max(1)))
+            }
+            Self::Stratified4d if joint_replicates(spp, d, sets).is_none() => {
+                let power = if lens { "n⁶" } else { "n⁴" };
+                let powers = match sets {
+                    0 => format!("{power}, 2{power} or 4{power}"),
+                    1 => power.to_owned(),
+                    _ => format!("{sets}{power}"),
+                };
+                let fits = |n: &u32| joint_replicates(*n, d, sets).is_some();
+                let below = (1..spp).rev().find(fits).unwrap_or(sets.max(1));
+                let above = (spp + 1..).find(fits).unwrap_or(u32::MAX);
+                Err(format!(
+                    "stratified-4d takes {powers} samples per pixel: {spp} is none of these; {below} and {above} are"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+    /// Independent sets of samples in a pixel where `asked` are asked for (0: as few as can tell the variance, if any can).
+    #[must_use]
+    pub fn sets(self, spp: u32, asked: u32, lens: bool) -> u32 {
+        match self {
+            _ if asked != 0 && self != Self::Stratified4d => asked,
+            Self::Stratified4d => joint_replicates(spp, dimensions(lens), asked).unwrap_or(replicates(spp)),
+            Self::Adaptive => [4, 2].into_iter().find(|sets| spp >= FEWEST * sets).unwrap_or(1),
+            _ => replicates(spp),
+        }
     }
 }
 
@@ -140,18 +169,18 @@ const fn joint(dimension: u32) -> u32 {
 }
 
 impl Source {
-    /// For `spp` samples in each pixel of an image of this width; `lens` says whether they have a point on a lens.
+    /// For `spp` samples, in `sets` sets, in each pixel of an image of this width; `lens` says whether they have a point on a lens.
     ///
     /// Any count will do. [`Sampler::Stratified4d`] fills the greatest grid that a replicate holds as often as it can, see
-    /// [`Sampler::check`]; Sobol's points are best where `spp` is a power of two.
+    /// [`Sampler::check`]; Sobol's points are best where a set is a power of two.
     #[must_use]
-    pub fn new(sampler: Sampler, seed: u64, spp: u32, lens: bool, width: u32) -> Self {
+    pub fn new(sampler: Sampler, seed: u64, spp: u32, sets: u32, lens: bool, width: u32) -> Self {
         let d = dimensions(lens);
-        let count = match sampler {
-            Sampler::Stratified4d => joint_replicates(spp, d).unwrap_or(replicates(spp)),
-            _ => replicates(spp),
+        let span = match sampler {
+            // its replicates have no fixed length: samples are counted from the beginning of each
+            Sampler::Adaptive => 0,
+            _ => spp / sampler.sets(spp, sets, lens),
         };
-        let span = spp / count;
         // a replicate begins with a set of its own
         let (set, stride) = match sampler {
             Sampler::Independent => (Set::Independent(Independent::new(seed)), span),
@@ -161,7 +190,7 @@ impl Source {
                 (Set::Stratified4d(set), span.next_multiple_of(set.count()))
             }
             Sampler::Latin => (Set::Latin(LatinHypercube::new(seed, span)), span),
-            Sampler::Sobol => (Set::Sobol(OwenSobol::new(seed)), span),
+            Sampler::Sobol | Sampler::Adaptive => (Set::Sobol(OwenSobol::new(seed)), span),
             Sampler::Sobol4d => (Set::Sobol4d(JointSobol::new(seed)), span),
             Sampler::ZOrder => {
                 let set = ZOrder::new(seed, span);

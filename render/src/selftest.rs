@@ -50,11 +50,11 @@ pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
     for &technique in Technique::value_variants().iter().filter(|&&t| applies(t, scene)) {
         let Effort { side, spp, seed, depth } = *effort;
         let lens = scene.camera.lens.is_some();
-        for &sampler in Sampler::value_variants().iter().filter(|s| s.check(spp, lens).is_ok()) {
+        for &sampler in Sampler::value_variants().iter().filter(|s| s.check(spp, 0, lens).is_ok()) {
             // images that share a seed share noise
             images += 1;
             let seed = seed.wrapping_mul(0x1_0000).wrapping_add(images);
-            let settings = Settings { width: side, height: side, spp, technique, depth, sampler, seed };
+            let settings = Settings { width: side, height: side, spp, technique, depth, sampler, sets: 0, seed };
             let (film, _) = world.render(&settings, |_| ());
             let error = error(&film);
             // a pixel of one replicate knows no variance

@@ -237,6 +237,7 @@ fn errors_are_those_of_the_images() {
             technique: key.technique,
             depth: Settings::DEPTH,
             sampler: key.sampler,
+            sets: 1,
             seed: rows[0].seed,
         };
         let image = Picture::from(&world.render(&settings, |_| ()).0);
@@ -257,6 +258,7 @@ fn errors_are_those_of_the_images() {
                     technique,
                     depth: Settings::DEPTH,
                     sampler,
+                    sets: 0,
                     seed,
                 };
                 let film = world.render(&settings, |_| ()).0;
@@ -264,7 +266,9 @@ fn errors_are_those_of_the_images() {
             };
             let foretold = (100..103).map(of).sum::<f64>() / 3.0;
             let ratio = point.mse.value / foretold;
-            assert!((ratio - 1.0).abs() < 0.12, "{} {}: {ratio}", series.way.title(), point.spp);
+            // one set of strata errs less than the two or four that can tell their variance
+            let range = if series.way.sampler == Sampler::Independent { 0.88..1.12 } else { 0.4..0.9 };
+            assert!(range.contains(&ratio), "{} {}: {ratio}", series.way.title(), point.spp);
             assert!(point.bias.abs() < 4.5, "{} {}: bias {}", series.way.title(), point.spp, point.bias);
         }
         let slope = series.slope.as_ref().unwrap();

@@ -150,7 +150,7 @@ fn edges_out_of_focus_have_their_closed_form() {
                 let spp = 256;
                 let [width, height] = SIZE;
                 let technique = Technique::SolidAngle;
-                let settings = Settings { width, height, spp, technique, sampler, seed: 5, depth: 8 };
+                let settings = Settings { width, height, spp, technique, sampler, seed: 5, depth: 8, sets: 0 };
                 let image = render(&edge(radius, focus, mesh), &settings);
                 assert!(agrees(&reference, &image), "{sampler:?}, radius {radius}, focus {focus}, mesh {mesh}");
                 if sampler == Sampler::Sobol && focus != 2.0 {
@@ -169,7 +169,7 @@ fn edges_out_of_focus_have_their_closed_form() {
 fn techniques_and_samplers_agree_through_a_lens() {
     let scene = scene::load("defocus").unwrap();
     let of = |technique, sampler, spp, seed| {
-        render(&scene, &Settings { width: 96, height: 64, spp, technique, sampler, seed, depth: 8 })
+        render(&scene, &Settings { width: 96, height: 64, spp, technique, sampler, seed, depth: 8, sets: 0 })
     };
     let reference = of(Technique::SolidAngle, Sampler::Independent, 1024, 0);
     for sampler in SAMPLERS {
@@ -194,6 +194,7 @@ fn the_unit_of_length_does_not_matter() {
         sampler: Sampler::Sobol4d,
         seed: 3,
         depth: 8,
+        sets: 0,
     };
     let image = render(&read(&text), &settings);
     for scale in [1024.0, 1.0 / 4096.0] {

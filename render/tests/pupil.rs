@@ -21,7 +21,8 @@ fn scene(lens: &str, world: &str) -> scene::Scene {
 }
 
 fn render(scene: &scene::Scene, eye: &Eye, [width, height]: [u32; 2], spp: u32, sampler: Sampler) -> Film {
-    let settings = Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 4, depth: 1 };
+    let settings =
+        Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 4, depth: 1, sets: 0 };
     World::new(scene).unwrap().render_through(eye, &settings, |_| ()).0
 }
 

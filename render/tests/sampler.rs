@@ -9,7 +9,7 @@ type M8 = <X8 as Real>::Mask;
 
 /// Film, light and lens of every sample of one pixel, in the order in which they are taken.
 fn points(sampler: Sampler, spp: u32, lens: bool, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
-    let source = Source::new(sampler, seed, spp, lens, 256);
+    let source = Source::new(sampler, seed, spp, 0, lens, 256);
     let replicate = |i: u32| i.checked_div(source.span()).unwrap_or(0);
     let mut all = Vec::new();
     for start in (0..spp).step_by(8) {
@@ -133,7 +133,7 @@ fn replicates_are_independent() {
 #[test]
 fn the_choice_of_a_light_has_numbers_of_its_own() {
     for sampler in [Sampler::Independent, Sampler::Stratified4d, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
-        let source = Source::new(sampler, 1, 64, true, 8);
+        let source = Source::new(sampler, 1, 64, 0, true, 8);
         let zero = u32x8::splat(0);
         let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
         let packet = Packet { x: zero, y: zero, sample, replicate: zero, active: M8::splat(true) };

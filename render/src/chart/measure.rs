@@ -177,6 +177,7 @@ impl Plan {
             technique: key.technique,
             depth: Settings::DEPTH,
             sampler: key.sampler,
+            sets: super::sets(key.sampler),
             seed,
         };
         let begin = Instant::now();

@@ -11,7 +11,7 @@ use crate::{Settings, image};
 pub struct Picture {
     /// For its file.
     pub file: String,
-    /// Which kind: `image`, `difference` or `variance`.
+    /// Which kind: `image`, `difference`, `variance` or `samples`.
     pub kind: &'static str,
     /// For the reader.
     pub title: String,
@@ -70,6 +70,9 @@ fn png(size: [u32; 2], pixels: impl Iterator<Item = [u8; 3]>) -> Vec<u8> {
     image::encode_png(size, &pixels).unwrap_or_default()
 }
 
+/// The end of the scale of samples.
+const MOST_SAMPLES: f64 = 4096.0;
+
 /// Means and variances over replicates of an image, pixel by pixel, channels taken together.
 struct Spread {
     first: Vec<[f32; 3]>,
@@ -84,7 +87,16 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
             let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, name(way.technique), name(way.sampler));
             let seed = plan.seed.wrapping_add(super::hash(text.as_bytes()));
             let (technique, sampler) = (way.technique, way.sampler);
-            let settings = Settings { width, height, spp, technique, depth: Settings::DEPTH, sampler, seed };
+            let settings = Settings {
+                width,
+                height,
+                spp,
+                technique,
+                depth: Settings::DEPTH,
+                sampler,
+                sets: super::sets(sampler),
+                seed,
+            };
             subject.world.render(&settings, |_| ()).0.pixels.iter().map(|p| p.mean).collect()
         })
         .collect();
@@ -151,14 +163,18 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         push("difference", png(size, differences));
         let scaled = spread.variance.iter().map(|v| heat((v.max(low) / low).ln() / (high / low).ln()));
         push("variance", png(size, scaled));
+        let wanted = spread.variance.iter().map(|v| f64::from(spp) * v / summary.target);
+        push("samples", png(size, wanted.map(|n| heat(n.max(1.0).ln() / MOST_SAMPLES.ln()))));
     }
     let caption = format!(
-        "{spp} samples in every pixel: a map of their number would be one colour. Difference from the reference: blue is too dark, red too bright, \
+        "{spp} samples in every pixel. Difference from the reference: blue is too dark, red too bright, \
          full colour at ±{}. Variance of a pixel over {REPLICATES} replicates: black is {} and less, pale yellow {} and more, \
-         logarithmic between.",
+         logarithmic between. Samples: how many a pixel would need for a variance of {}, if that falls as their number grows: black is 1, \
+         pale yellow {MOST_SAMPLES} and more, logarithmic between.",
         short(range),
         short(low),
         short(high),
+        short(summary.target),
     );
     Panel { scene: summary.scene.clone(), spp, pictures, caption }
 }

@@ -64,6 +64,7 @@ impl Reference {
             technique,
             depth: Settings::DEPTH,
             sampler,
+            sets: 0,
             seed,
         };
         let picture = Picture::from(&world.render(&settings, progress).0);

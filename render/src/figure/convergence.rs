@@ -81,6 +81,7 @@ impl Studio<'_> {
                     technique: Technique::SolidAngle,
                     depth: Settings::DEPTH,
                     sampler,
+                    sets: 1,
                     seed: self.options.seed,
                 };
                 let film = world.render(&settings, |_| ()).0;

@@ -32,6 +32,7 @@ impl Studio<'_> {
                 technique,
                 depth: Settings::DEPTH,
                 sampler: Sampler::Independent,
+                sets: 0,
                 seed: seed.wrapping_add(k),
             };
             world.render(&settings, |_| ()).0

@@ -44,7 +44,7 @@ impl Studio<'_> {
         let own = scene.camera.lens.ok_or("the scene has no lens")?;
         let seen = |eye: &Eye, [width, height]: [u32; 2], sampler, spp| {
             let (technique, seed) = (Technique::SolidAngle, self.options.seed);
-            let settings = Settings { width, height, spp, technique, sampler, seed, depth: 1 };
+            let settings = Settings { width, height, spp, technique, sampler, sets: 0, seed, depth: 1 };
             world.render_through(eye, &settings, |_| ()).0
         };
         let [width, height] = IMAGE;

@@ -30,13 +30,16 @@ impl Work<'_> {
         let mut reflected = [V8::default(); GROUP];
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, s)| s.reflects.any()) {
             let mut u = light[p];
-            let (mut chosen, rest) = world.lights.choose(choice.map_or(u.x, |choice| choice[p]));
+            let number = choice.map_or(u.x, |choice| choice[p]);
+            let near = world.lights.near(surface.point, surface.normal);
+            let (mut chosen, rest) = world.lights.choose_near(near.as_ref(), number);
             if choice.is_none() {
                 u.x = rest;
             }
             let sample = world.lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
-            lit[p] = surface.reflects & sample.emits & sample.pdf.gt(zero) & cos.gt(zero);
+            let some = sample.pdf.gt(zero) & chosen.probability.gt(zero);
+            lit[p] = surface.reflects & sample.emits & some & cos.gt(zero);
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[p] = world.accel.rays(surface.point, sample.direction);
             limit[p] = sample.distance * X8::lit(SPARED);

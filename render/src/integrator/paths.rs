@@ -210,7 +210,9 @@ impl Work<'_> {
             let mut chosen = match given {
                 Some(index) => lights.one(index),
                 None => {
-                    let (chosen, rest) = lights.choose(pairs.choice.map_or(u.x, |choice| choice[p]));
+                    let number = pairs.choice.map_or(u.x, |choice| choice[p]);
+                    let near = lights.near(surface.point, surface.normal);
+                    let (chosen, rest) = lights.choose_near(near.as_ref(), number);
                     if pairs.choice.is_none() {
                         u.x = rest;
                     }
@@ -219,7 +221,8 @@ impl Work<'_> {
             };
             let sample = lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
-            lit[p] = surface.reflects & sample.emits & sample.pdf.gt(zero) & cos.gt(zero);
+            let some = sample.pdf.gt(zero) & chosen.probability.gt(zero);
+            lit[p] = surface.reflects & sample.emits & some & cos.gt(zero);
             let (value, surface_pdf) = bsdf.evaluate(sample.direction);
             let pdf = select(lit[p], sample.pdf * chosen.probability, one);
             let weight = match heuristic {
@@ -290,13 +293,15 @@ impl Work<'_> {
             let met = sent & hits[p].any();
             let mut radiance = V8::default();
             let mut light_pdf = X8::lit(0.0);
+            let combined = heuristic.is_some() && met.any();
+            let near = if combined { world.lights.near(point, end.surface.normal) } else { None };
             lit[p] = M8::splat(false);
             world.each_shape(&hits[p], met, &rays[p], |index, here, shape, outward| {
                 if let Some((emitted, here)) = emitted(here, shape, outward, direction) {
                     radiance = V8::select(here, emitted, radiance);
                     lit[p] = lit[p] | here;
                     if heuristic.is_some() && here.any() {
-                        let pdf = world.lights.shape_pdf(index, &shape.geometry, point, direction);
+                        let pdf = world.lights.shape_pdf(near.as_ref(), index, &shape.geometry, point, direction);
                         light_pdf = select(here, pdf, light_pdf);
                     }
                 }

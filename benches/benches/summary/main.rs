@@ -1,7 +1,10 @@
 //! Two tables: time per sample of every routine in f32, f32x4 and f32x8, and how much faster eight lanes are than one; rays per
-//! second on one thread. `cargo bench -p etendue-benches --bench summary -- cone` for some, `-- --markdown` as the README has it.
+//! second on one thread. `cargo bench -p etendue-benches --bench summary -- cone` for some, `-- --markdown` as the README has it;
+//! `-- --instructions` counts instructions instead, which needs Valgrind.
 //!
 //! The median of repetitions that take turns, so that a change of the processor's clock meets all widths alike.
+
+mod instructions;
 
 use etendue::{f32x4, f32x8};
 use etendue_benches::rays::{Spread, Workload};
@@ -27,14 +30,40 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
+/// The last column is how much less eight lanes take than one.
+fn row(markdown: bool, name: &str, [one, four, eight]: [f64; 3]) {
+    let gain = one / eight;
+    if markdown {
+        println!("| {name} | {one:.2} | {four:.2} | {eight:.2} | {gain:.1} |");
+    } else {
+        println!("{name:38} {one:8.2} {four:8.2} {eight:8.2} {gain:7.1}");
+    }
+}
+
 fn main() {
     // cargo itself passes --bench
-    let filter = std::env::args().skip(1).find(|a| !a.starts_with('-')).unwrap_or_default();
-    let markdown = std::env::args().any(|a| a == "--markdown");
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let filter = arguments.iter().find(|a| !a.starts_with('-')).cloned().unwrap_or_default();
+    let given = |flag: &str| arguments.iter().any(|a| a == flag);
+    if given(instructions::CHILD) {
+        return instructions::child(&filter);
+    }
+    let (markdown, counted) = (given("--markdown"), given("--instructions"));
+    let what = if counted { "instructions/sample" } else { "ns/sample, median" };
     if markdown {
-        println!("| ns/sample, median | f32 | x4 | x8 | x1/x8 |\n|---|---|---|---|---|");
+        println!("| {what} | f32 | x4 | x8 | x1/x8 |\n|---|---|---|---|---|");
     } else {
-        println!("{:38} {:>8} {:>8} {:>8} {:>7}", "ns/sample, median", "f32", "f32x4", "f32x8", "x1/x8");
+        println!("{what:38} {:>8} {:>8} {:>8} {:>7}", "f32", "f32x4", "f32x8", "x1/x8");
+    }
+    if counted {
+        match instructions::count(&filter) {
+            Ok(rows) => rows.iter().for_each(|(name, counts)| row(markdown, name, *counts)),
+            Err(error) => {
+                eprintln!("{error}");
+                std::process::exit(2);
+            }
+        }
+        return;
     }
     let [one, four, eight] = [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()];
     let widths = one.into_iter().zip(four).zip(eight);
@@ -45,12 +74,7 @@ fn main() {
         }
         let rounds: Vec<_> = (0..REPETITIONS).map(|_| each.each_mut().map(nanoseconds)).collect();
         let [one, four, eight] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
-        let (name, gain) = (&each[0].name, one / eight);
-        if markdown {
-            println!("| {name} | {one:.2} | {four:.2} | {eight:.2} | {gain:.1} |");
-        } else {
-            println!("{name:38} {one:8.2} {four:8.2} {eight:8.2} {gain:7.1}");
-        }
+        row(markdown, &each[0].name, [one, four, eight]);
     }
     if "rays".contains(&filter) {
         rays();

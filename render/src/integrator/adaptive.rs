@@ -1,0 +1,166 @@
+//! Samples where they are needed: a few for every pixel, the others by how much those vary around it.
+//!
+//! The pilot's samples are part of the image. A pixel's number of samples depends on the variance at its neighbours and not on its
+//! own, so that a pixel which has happened to be dark is not left so: mean and number are independent, but for the share that one
+//! pixel has in the sum over all.
+
+use super::{Work, z_order};
+use crate::accel::{GROUP, M8, V8};
+use crate::film::{Pixel, PixelSum};
+use crate::sampler::Packet;
+use etendue::estimate::Welford;
+use etendue::{Mask, Real, u32x8};
+
+/// Squared error falls about as N^−1.5 where a pixel's integrand is smooth but for edges: then Σ cᵢ nᵢ^−1.5 at a given Σ nᵢ is least
+/// with nᵢ in proportion to cᵢ^0.4.
+const POWER: f64 = 0.4;
+/// Neighbours are pixels up to so many rows and columns away.
+const REACH: u32 = 2;
+
+/// Numbers of samples of an image: of each set of a pixel, in packets of eight.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// Packets that each set begins with.
+    pub(super) pilot: u32,
+    /// Packets of each set, on average over the pixels.
+    pub(super) packets: f64,
+}
+
+impl Effort {
+    pub(super) fn new(spp: u32, sets: u32) -> Self {
+        let packets = f64::from(spp) / f64::from(8 * sets);
+        // a quarter
+        Self { pilot: ((packets / 4.0).round() as u32).max(1), packets }
+    }
+}
+
+/// What a range of the samples of a pixel comes to.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
+    /// Of each set.
+    means: [[f64; 3]; 4],
+    /// In each set.
+    packets: u32,
+    /// Variance of the means of four samples each, over channels and sets.
+    variance: f64,
+}
+
+impl Part {
+    /// Of two ranges, the finished pixel.
+    pub(super) fn finish(&self, other: &Self, sets: u32) -> Pixel {
+        let packets = self.packets + other.packets;
+        let share = f64::from(other.packets) / f64::from(packets);
+        let mut over = [Welford::<f64>::default(); 3];
+        for (k, (a, b)) in self.means.iter().zip(&other.means).take(sets as usize).enumerate() {
+            for (sum, (a, b)) in over.iter_mut().zip(a.iter().zip(b)) {
+                sum.push(a + share * (b - a), 1.0 / (k + 1) as f64);
+            }
+        }
+        let n = f64::from(sets);
+        Pixel {
+            mean: over.map(|s| s.mean as f32),
+            variance: over.map(|s| (s.variance(n) / n) as f32),
+            samples: packets * 8 * sets,
+        }
+    }
+}
+
+/// Packets of each set of every pixel, from the variance that the pilot has found.
+pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> Vec<u32> {
+    let (columns, rows) = (width as usize, parts.len() / width as usize);
+    let near = |i: usize, most: usize| i.saturating_sub(REACH as usize)..(i + REACH as usize + 1).min(most);
+    let wanted: Vec<f64> = (0..parts.len())
+        .map(|i| {
+            let (x, y) = (i % columns, i / columns);
+            let (mut sum, mut count) = (0.0, 0);
+            for row in near(y, rows) {
+                for column in near(x, columns).filter(|&column| (column, row) != (x, y)) {
+                    sum += parts[row * columns + column].variance;
+                    count += 1;
+                }
+            }
+            (sum / f64::from(count.max(1))).powf(POWER)
+        })
+        .collect();
+    let (pilot, total) = (f64::from(effort.pilot), effort.packets * parts.len() as f64);
+    let spent = |scale: f64| wanted.iter().map(|w| (w * scale).max(pilot)).sum::<f64>();
+    let most = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
+    if most <= 0.0 {
+        // nothing varies: all alike
+        return vec![(effort.packets.round() as u32).max(effort.pilot); parts.len()];
+    }
+    let (mut low, mut high) = (0.0, total / most);
+    while spent(high) < total {
+        high *= 2.0;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if spent(middle) < total { low = middle } else { high = middle }
+    }
+    // Sobol's points are best in powers of two: the one below or above, by a number that has nothing to do with the samples
+    let rounded = |i: usize, packets: f64| {
+        let below = packets.log2().floor().exp2();
+        let turn = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
+        let up = (turn as f64 / (1_u64 << 53) as f64) < packets / below - 1.0;
+        (if up { 2.0 * below } else { below }) as u32
+    };
+    wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect()
+}
+
+impl Work<'_> {
+    /// Packets `from` to `to` of each set of the pixels of an area, row by row; `range` is told column and row.
+    pub(super) fn parts(&mut self, area: [u32; 4], sets: u32, range: impl Fn(u32, u32) -> [u32; 2]) -> Vec<Part> {
+        let [x0, y0, x1, _] = area;
+        let pixels = z_order(area);
+        let place = |[x, y]: [u32; 2]| ((y - y0) * (x1 - x0) + (x - x0)) as usize;
+        let mut parts = vec![Part::default(); pixels.len()];
+        let items = pixels.iter().flat_map(|&[x, y]| {
+            let [from, to] = range(x, y);
+            (0..sets).flat_map(move |set| (from..to).map(move |packet| ([x, y], set, packet, packet + 1 == to)))
+        });
+        let mut items = items.peekable();
+        let (mut sum, mut blocks, mut count) = (PixelSum::default(), [Welford::<f64>::default(); 3], 0);
+        let mut packets = Vec::with_capacity(GROUP);
+        let mut group = Vec::with_capacity(GROUP);
+        while items.peek().is_some() {
+            group.clear();
+            group.extend(items.by_ref().take(GROUP));
+            packets.clear();
+            packets.extend(group.iter().map(|&([x, y], set, packet, _)| Packet {
+                x: u32x8::splat(x),
+                y: u32x8::splat(y),
+                sample: u32x8::splat(8 * packet) + u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]),
+                replicate: u32x8::splat(set),
+                active: M8::splat(true),
+            }));
+            let radiance = self.radiance(&packets);
+            for (&(pixel, set, _, last), radiance) in group.iter().zip(radiance) {
+                sum.push_packet(radiance);
+                for half in halves(radiance) {
+                    count += 1;
+                    for (block, x) in blocks.iter_mut().zip(half) {
+                        block.push(x, 1.0 / f64::from(count));
+                    }
+                }
+                if last {
+                    let part = &mut parts[place(pixel)];
+                    let (mean, samples) = sum.take();
+                    (part.means[set as usize], part.packets) = (mean, samples / 8);
+                    if set + 1 == sets {
+                        part.variance = blocks.iter().map(|b| b.variance(f64::from(count))).sum();
+                        (blocks, count) = Default::default();
+                    }
+                }
+            }
+        }
+        parts
+    }
+}
+
+/// The means of four lanes each.
+fn halves(radiance: V8) -> [[f64; 3]; 2] {
+    [0, 4].map(|first| {
+        [radiance.x, radiance.y, radiance.z]
+            .map(|channel| (first..first + 4).map(|k| f64::from(channel.lane(k))).sum::<f64>() / 4.0)
+    })
+}
