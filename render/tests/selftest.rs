@@ -5,8 +5,10 @@ use etendue_render::{World, scene};
 
 #[test]
 fn all_agree_on_every_scene() {
-    let effort = Effort { side: 24, spp: 64, seed: 1, depth: 8 };
     for (name, _) in scene::builtin().iter().filter(|(name, _)| *name != "terrain") {
+        // light that is sampled on rough metal has long tails: few of its pixels tell its variance
+        let spp = if *name == "plates" { 256 } else { 64 };
+        let effort = Effort { side: 32, spp, seed: 1, depth: 8 };
         let scene = scene::load(name).unwrap();
         let rows = selftest::rows(&scene, &World::new(&scene).unwrap(), &effort);
         assert!(rows.len() >= 12, "{name}: {} images", rows.len());
@@ -15,8 +17,9 @@ fn all_agree_on_every_scene() {
             .map(|row| row.error.iter().zip(row.mean).map(|(e, m)| e / m).fold(0.0, f64::max))
             .inspect(|e| println!("{name}: relative error {e:.4}"))
             .collect();
-        // agreement with what says nothing would be worth nothing; in the plates a small bright light in view is found by chance
-        let (most, several) = if *name == "plates" { (0.4, 0.06) } else { (0.12, 0.02) };
+        // agreement with what says nothing would be worth nothing; in the plates a small bright light in view is found by chance,
+        // and adaptive numbers of samples go after what few directions of the hemisphere have found
+        let (most, several) = if *name == "plates" { (0.4, 0.06) } else { (0.15, 0.02) };
         assert!(errors.iter().all(|&e| e < most), "{name}: {errors:?}");
         assert!(errors.iter().filter(|&&e| e < several).count() >= 4, "{name}: {errors:?}");
         assert!(selftest::worst(&rows) < selftest::LIMIT, "{name}: {rows:#?}");
