@@ -331,11 +331,9 @@ impl<R: Real> ProjectedPolygon<R, 4> {
     pub fn parallelogram(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, normal: Vec3<R>) -> Self {
         let (a, b) = (p + u, p + v);
         let (both, c) = (u + v, a + v);
-        let fan = core::array::from_fn(|i| match i {
-            0 => ProjectedTriangle::with_sides([p, a, c], [u, v, -both], [u, v], normal),
-            1 => ProjectedTriangle::with_sides([p, c, b], [both, -u, -v], [u, v], normal),
-            _ => ProjectedTriangle::default(),
-        });
+        let mut fan = [ProjectedTriangle::default(); 4];
+        fan[0] = ProjectedTriangle::with_sides([p, a, c], [u, v, -both], [u, v], normal);
+        fan[1] = ProjectedTriangle::with_sides([p, c, b], [both, -u, -v], [u, v], normal);
         Self { projected: fan[0].projected + fan[1].projected, fan }
     }
 }
@@ -348,16 +346,11 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// For corners relative to the point, on a surface with the normal `normal`.
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
-        let fan: [_; N] = core::array::from_fn(|i| {
-            if i < Self::TRIANGLES {
-                ProjectedTriangle::new(corners[0], corners[i + 1], corners[i + 2], normal)
-            } else {
-                ProjectedTriangle::default()
-            }
-        });
+        let mut fan = [ProjectedTriangle::default(); N];
         let mut projected = R::lit(0.0);
-        for triangle in &fan[..Self::TRIANGLES] {
-            projected += triangle.projected;
+        for i in 0..Self::TRIANGLES {
+            fan[i] = ProjectedTriangle::new(corners[0], corners[i + 1], corners[i + 2], normal);
+            projected += fan[i].projected;
         }
         Self { fan, projected }
     }
