@@ -40,6 +40,8 @@ lanewise! {
         e2: Vec3<R>,
         normal: Vec3<R>,
         l1: R,
+        /// distance of the farthest vertex: that of no point is more
+        farthest: R,
         /// unit vector to `v1`, and tangents there: towards `v0`, and across towards `v2`
         apex: Vec3<R>,
         along: Vec3<R>,
@@ -160,6 +162,7 @@ impl<R: Real> SphericalTriangle<R> {
             e2,
             normal,
             l1,
+            farthest: l0.max(l1).max(squared[2] * i2),
             apex,
             along: apex.cross(pole),
             across,
@@ -193,6 +196,7 @@ impl<R: Real> SphericalTriangle<R> {
             e2: vector(yes.e2, no.e2),
             normal: vector(yes.normal, no.normal),
             l1: real(yes.l1, no.l1),
+            farthest: real(yes.farthest, no.farthest),
             apex: vector(yes.apex, no.apex),
             along: vector(yes.along, no.along),
             across: vector(yes.across, no.across),
@@ -335,8 +339,8 @@ impl<R: Real> SphericalTriangle<R> {
         let numerator = R::select(behind, self.volume.abs(), self.l1);
         let denominator = R::select(behind, direction.dot(self.normal).abs(), reciprocal);
         let some = denominator.gt(zero) & self.solid_angle.gt(zero);
-        // a point of the triangle is within 4 units; what does not fit f32 ends at its largest number
-        let distance = (numerator / R::select(some, denominator, one)).min(R::lit(4.0));
+        // what does not fit f32 ends at its largest number
+        let distance = (numerator / R::select(some, denominator, one)).min(self.farthest);
         let distance = (distance * self.unit).min(R::lit(f64::from(f32::MAX)));
         Sighting { direction, distance: distance.keep(some) }
     }
