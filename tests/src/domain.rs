@@ -81,6 +81,12 @@ pub fn square(random: usize, seed: u64) -> Vec<[f32; 2]> {
     all
 }
 
+/// A number in [0, 1): in one of three from [`EDGES`].
+pub fn unit_or_edge(random: &mut Random) -> f64 {
+    let word = random.word();
+    if word.is_multiple_of(3) { f64::from(EDGES[(word >> 32) as usize % EDGES.len()]) } else { random.unit_f64() }
+}
+
 /// A shape and the regime that it stands for.
 pub type Case<S> = (&'static str, S);
 
@@ -276,6 +282,23 @@ fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
         });
     }
     all
+}
+
+/// Corner and edges of flat shapes so nearly in a plane with the viewpoint that f32 hardly tells on which side it is.
+#[must_use]
+pub fn nearly_in_plane(each: usize, seed: u64) -> Vec<[[f32; 3]; 3]> {
+    let mut random = Random::new(seed);
+    let mut one = |height: f64| {
+        let a = frame(&mut random);
+        if random.word() & 1 == 0 {
+            let v0 = combine(&a, random.range(-1.0, 1.0), 2.0, height);
+            return [v0, combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow);
+        }
+        // the far edge square to the view, so that its whole is about as far as its ends
+        let v0 = combine(&a, random.range(-0.1, 0.1), random.range(0.2, 2.0), height);
+        [v0, combine(&a, -0.3, 1.0, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow)
+    };
+    [1e-5, 1e-6, 1e-7, 1e-8].into_iter().flat_map(|height| (0..each).map(|_| one(height)).collect::<Vec<_>>()).collect()
 }
 
 /// Triangles of every regime.

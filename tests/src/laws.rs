@@ -118,6 +118,10 @@ pub trait Subject: Copy + Debug {
     fn reach(&self) -> f64 {
         0.0
     }
+    /// Distance of the farthest vertex of a flat shape; 0 for others.
+    fn farthest(&self) -> f64 {
+        0.0
+    }
     /// Relative change of the distance per turn of the direction.
     fn slant(&self, _w: V3) -> f64 {
         1.0
@@ -339,7 +343,8 @@ fn points_agree<S: Subject>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> 
     let error = s.distance(again, point);
     let step = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         .map(|d| {
-            let u = [(inverse[0] + d[0]).clamp(0.0, 1.0 - ULP), (inverse[1] + d[1]).clamp(0.0, 1.0 - ULP)];
+            // up to 1: beyond the last step of the grid lies as much as before it
+            let u = [(inverse[0] + d[0]).clamp(0.0, 1.0), (inverse[1] + d[1]).clamp(0.0, 1.0)];
             s.distance(sample_at(s, u), again)
         })
         .into_iter()
@@ -438,6 +443,20 @@ pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
     let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
     assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d} for {e}: {distance:e} units");
     point.max(distance)
+}
+
+/// **Within reach**: no point is farther than the farthest vertex of a flat shape, however uncertain the distance is at grazing.
+///
+/// Returns the excess in units in the last place.
+pub fn within_reach<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
+    let (distance, reach) =
+        (observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0].sighting[3], s.farthest());
+    if reach == 0.0 {
+        return 0.0;
+    }
+    let excess = (distance / reach - 1.0) / ULP;
+    assert!(excess <= tolerances::REACH, "{excess:e} units beyond the farthest vertex: {s:?} at {u:?}");
+    excess.max(0.0)
 }
 
 /// ∫ pdf = 1, over the independent parameterisation; of the f64 body where the density varies and a rounded direction does not resolve

@@ -229,8 +229,8 @@ impl Subject for Cone {
 /// `seen::SphereCap`.
 #[derive(Clone, Copy, Debug)]
 pub struct Cap {
-    center: [f32; 3],
-    radius: f32,
+    pub(crate) center: [f32; 3],
+    pub(crate) radius: f32,
     /// 1 − cosσ and σ.
     truth: (f64, f64),
 }
