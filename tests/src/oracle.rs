@@ -209,6 +209,9 @@ pub fn gauss_legendre<const N: usize>() -> [(f64, f64); N] {
             }
             slope = n * (x * p - last) / (x * x - 1.0);
             x -= p / slope;
+            if (p / slope).abs() < 1e-17 {
+                break;
+            }
         }
         (0.5 + 0.5 * x, 1.0 / ((1.0 - x * x) * slope * slope))
     })

@@ -132,8 +132,14 @@ impl<D: Defect> Subject for Planted<D> {
     fn inverse_units(&self, u: [f64; 2]) -> f64 {
         self.0.inverse_units(u)
     }
+    fn inverse_steps(&self) -> f64 {
+        self.0.inverse_steps()
+    }
     fn reachable(&self, point: V3) -> bool {
         self.0.reachable(point)
+    }
+    fn torn(&self, u: [f64; 2], step: f64) -> bool {
+        self.0.torn(u, step)
     }
     fn granularity(&self) -> f64 {
         self.0.granularity()

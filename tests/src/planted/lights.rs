@@ -41,7 +41,7 @@ impl<const WRONG: bool> Technique for CosineWarp<WRONG> {
         Some(if WRONG { pdf } else { pdf * warp.pdf(seen.invert(w)) })
     }
     /// The inverse is known to some steps of a direction's rounding over the size.
-    fn evaluated_to(&self) -> f64 {
+    fn evaluated_to(&self, _: crate::oracle::V3) -> f64 {
         1e-4
     }
 }

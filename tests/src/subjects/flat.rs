@@ -314,7 +314,9 @@ impl Subject for Parallelogram {
         SphericalParallelogram::splat(warp)
     }
     fn tolerance(&self) -> Tolerance {
-        self.known.widened(tolerances::PARALLELOGRAM)
+        let all = self.known.widened(tolerances::PARALLELOGRAM);
+        // where the second triangle begins is known as the solid angles are
+        Tolerance { steps: all.steps + 0.5 * self.known.condition, ..all }
     }
     fn scaled(&self, factor: f32) -> Self {
         let times = |v: [f32; 3]| v.map(|x| x * factor);
