@@ -295,3 +295,12 @@ fn flat_by_area<R: Real>(point: Vec3<R>, normal: Vec3<R>) -> LightSample<R> {
         delta: R::Mask::splat(false),
     }
 }
+/// The same where sums of edges may have overflowed: then there is nothing to see.
+#[inline(always)]
+fn finite_by_area<R: Real>(point: Vec3<R>, normal: Vec3<R>) -> LightSample<R> {
+    let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
+    let finite = [point, normal].map(|v| below(v.x) & below(v.y) & below(v.z));
+    let finite = finite[0] & finite[1];
+    let kept = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite));
+    flat_by_area(kept(point), kept(normal))
+}

@@ -1,12 +1,8 @@
-//! Any text as a scene file: a scene or an error with file and line, never a panic; and a scene that is read can be built.
+//! Any bytes as a scene.
 #![no_main]
 
-use etendue_render::{World, scene};
-use std::path::Path;
+#[path = "../bodies/files.rs"]
+#[allow(dead_code, reason = "each target calls one of them")]
+mod files;
 
-libfuzzer_sys::fuzz_target!(|text: &str| {
-    match scene::parse(text, "fuzz.pbrt", Path::new("no such folder")) {
-        Ok(scene) => drop(World::new(&scene)),
-        Err(error) => assert!(error.to_string().starts_with("fuzz.pbrt:"), "{error}"),
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| files::scene(bytes));

@@ -126,6 +126,26 @@ pub fn tone_map(radiance: [f32; 3]) -> [u8; 3] {
     })
 }
 
+/// Most pixels of an image that is read, as of films.
+const MOST_PIXELS: u128 = 1 << 28;
+/// Most bytes of pixels for each byte of the file: deflate, the densest of the compressions, has 1,032.
+const MOST_EXPANSION: u128 = 2048;
+
+/// A header may claim any size: whether a file of that length can hold it, before memory is taken for it.
+fn believe(path: &Path, [width, height]: [u128; 2], bits_per_pixel: u128, file: usize) -> Result<(), ImageError> {
+    let pixels = width.saturating_mul(height);
+    if pixels > MOST_PIXELS {
+        return Err(failed(path, format!("{width} × {height} pixels: no more than {MOST_PIXELS} are read")));
+    }
+    let bytes = pixels.saturating_mul(bits_per_pixel) / 8;
+    if bytes / MOST_EXPANSION > file as u128 {
+        let what =
+            format!("{width} × {height} pixels, {bytes} bytes, cannot be in a file of {file} bytes: it is damaged");
+        return Err(failed(path, what));
+    }
+    Ok(())
+}
+
 /// An image read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -142,7 +162,7 @@ pub struct Picture {
 /// Reads a picture of radiance: OpenEXR or Radiance HDR, or a PNG whose values are decoded from sRGB.
 ///
 /// # Errors
-/// The file is missing or damaged, or of another kind.
+/// The file is missing or damaged, of another kind, or has more than 2²⁸ pixels.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
     let bytes = crate::scene::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode(path, &bytes)
@@ -160,7 +180,11 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
     let not_one =
         |error: &dyn fmt::Display| failed(path, format!("not an EXR, HDR or PNG image that can be read: {error}"));
     let format = image_files::guess_format(bytes).map_err(|error| not_one(&error))?;
-    let image = image_files::load_from_memory_with_format(bytes, format).map_err(|error| not_one(&error))?;
+    let reader = || image_files::ImageReader::with_format(Cursor::new(bytes), format);
+    let (width, height) = reader().into_dimensions().map_err(|error| not_one(&error))?;
+    // a PNG may have one bit to a pixel
+    believe(path, [width.into(), height.into()], 1, bytes.len())?;
+    let image = reader().decode().map_err(|error| not_one(&error))?;
     let (width, height) = (image.width() as usize, image.height() as usize);
     let encoded = format == image_files::ImageFormat::Png;
     let decode = |x: f32| if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) };
@@ -191,8 +215,17 @@ pub fn read_exr(path: &Path) -> Result<Picture, ImageError> {
 /// As [`read_exr`], from a file's bytes; messages call it `path`.
 ///
 /// # Errors
-/// It is damaged, or has no R, G, B.
+/// It is damaged, has no R, G, B, or more than 2²⁸ pixels.
 pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
+    let not_one = |error: exr::error::Error| failed(path, format!("not an EXR image that can be read: {error}"));
+    let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(not_one)?;
+    for header in &meta.headers {
+        let samples = header.channels.list.iter().map(|c| c.sample_type.bytes_per_sample() as u128);
+        let size = [header.layer_size.width() as u128, header.layer_size.height() as u128];
+        // channels may be subsampled, which R, G and B are not here: four bytes are the least that is of use
+        let full = header.channels.list.iter().all(|c| c.sampling == exr::math::Vec2(1, 1));
+        believe(path, size, 8 * if full { samples.sum() } else { 4 }, bytes.len())?;
+    }
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -200,7 +233,7 @@ pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
         .first_valid_layer()
         .all_attributes()
         .from_buffered(Cursor::new(bytes))
-        .map_err(|error| failed(path, format!("not an EXR image that can be read: {error}")))?;
+        .map_err(not_one)?;
     let layer = &image.layer_data;
     let (width, height) = (layer.size.width(), layer.size.height());
     let channel = |name: &str| -> Option<Vec<f32>> {

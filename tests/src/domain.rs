@@ -5,6 +5,8 @@ use crate::subjects::{
     GgxVisibleNormals, Hexagon, Linear, Normal, Parallelogram, PatchSurface, ProjectedCap, ProjectedParallelogram,
     ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, SphereSurface, Tent, Triangle,
 };
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 /// SplitMix64: nothing of the generators under test.
 #[derive(Clone, Debug)]
@@ -79,6 +81,12 @@ pub fn square(random: usize, seed: u64) -> Vec<[f32; 2]> {
     let mut all: Vec<_> = EDGES.iter().flat_map(|&x| EDGES.map(|y| [x, y])).collect();
     all.extend((0..random).map(|_| [rng.unit(), rng.unit()]));
     all
+}
+
+/// A number in [0, 1): in one of three from [`EDGES`].
+pub fn unit_or_edge(random: &mut Random) -> f64 {
+    let word = random.word();
+    if word.is_multiple_of(3) { f64::from(EDGES[(word >> 32) as usize % EDGES.len()]) } else { random.unit_f64() }
 }
 
 /// A shape and the regime that it stands for.
@@ -276,6 +284,23 @@ fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
         });
     }
     all
+}
+
+/// Corner and edges of flat shapes so nearly in a plane with the viewpoint that f32 hardly tells on which side it is.
+#[must_use]
+pub fn nearly_in_plane(each: usize, seed: u64) -> Vec<[[f32; 3]; 3]> {
+    let mut random = Random::new(seed);
+    let mut one = |height: f64| {
+        let a = frame(&mut random);
+        if random.word() & 1 == 0 {
+            let v0 = combine(&a, random.range(-1.0, 1.0), 2.0, height);
+            return [v0, combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow);
+        }
+        // the far edge square to the view, so that its whole is about as far as its ends
+        let v0 = combine(&a, random.range(-0.1, 0.1), random.range(0.2, 2.0), height);
+        [v0, combine(&a, -0.3, 1.0, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow)
+    };
+    [1e-5, 1e-6, 1e-7, 1e-8].into_iter().flat_map(|height| (0..each).map(|_| one(height)).collect::<Vec<_>>()).collect()
 }
 
 /// Triangles of every regime.
@@ -561,9 +586,15 @@ pub fn cosine_rectangles(each: usize, seed: u64) -> Vec<Case<CosineRectangle>> {
     with_normals(rectangles(each, seed), seed, |shape, normal| CosineRectangle { shape, normal })
 }
 
-/// Disks of every regime: radius, height of the point over the plane, and offset from the axis.
+/// Disks of every regime.
 #[must_use]
 pub fn disks(each: usize, seed: u64) -> Vec<Case<Disk>> {
+    disk_parameters(each, seed).into_iter().map(|(name, (c, n, r))| (name, Disk::new(c, n, r))).collect()
+}
+/// Centre, normal and radius of [`disks`]: from the radius, the height of the point over the plane, and its offset from the axis.
+#[must_use]
+#[expect(clippy::type_complexity, reason = "vectors and a number")]
+pub fn disk_parameters(each: usize, seed: u64) -> Vec<Case<([f32; 3], [f32; 3], f32)>> {
     let mut random = Random::new(seed);
     let mut all = Vec::new();
     for _ in 0..each {
@@ -591,17 +622,32 @@ pub fn disks(each: usize, seed: u64) -> Vec<Case<Disk>> {
         ] {
             let axes = frame(&mut random);
             let center = narrow(combine(&axes, offset, 0.0, height));
-            all.push((name, Disk::new(center, narrow(axes[2]), radius as f32)));
+            all.push((name, (center, narrow(axes[2]), radius as f32)));
         }
-        all.push(("exactly on the axis", Disk::new([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], random.range(0.1, 4.0) as f32)));
+        all.push(("exactly on the axis", ([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], random.range(0.1, 4.0) as f32)));
     }
     all
 }
 
-/// Line segments of every regime: from one end, in the plane of point and segment (along the direction to it, and across), the edge; and the
-/// height over the horizon of either end.
+/// Line segments of every regime, and over a horizon.
 #[must_use]
 pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
+    let (plain, over) = segment_parameters(each, seed);
+    let plain = plain.into_iter().map(|(name, [a, edge])| (name, Segment::new(a, edge))).collect();
+    let over = over.into_iter().map(|(name, [a, edge, n])| (name, ProjectedSegment::new(a, edge, n)));
+    (plain, over.filter(|(_, s)| s.seen()).collect())
+}
+/// Two names as one, made once.
+fn joined(name: &'static str, place: &'static str) -> &'static str {
+    static NAMES: Mutex<BTreeMap<[&str; 2], &str>> = Mutex::new(BTreeMap::new());
+    let mut names = NAMES.lock().expect("nothing panics here");
+    names.entry([name, place]).or_insert_with(|| Box::leak(format!("{name}, {place}").into_boxed_str()))
+}
+/// One end and the edge from there, and besides the normal of the surface, of [`segments`]: from one end, in the plane of point and segment (along the direction to it, and across), the edge; and the
+/// height over the horizon of either end.
+#[must_use]
+#[expect(clippy::type_complexity, reason = "vectors")]
+pub fn segment_parameters(each: usize, seed: u64) -> (Vec<Case<[[f32; 3]; 2]>>, Vec<Case<[[f32; 3]; 3]>>) {
     let mut random = Random::new(seed);
     let (mut plain, mut projected) = (Vec::new(), Vec::new());
     for _ in 0..each {
@@ -623,7 +669,7 @@ pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<Project
         ] {
             let axes = frame(&mut random);
             let [p, e] = [a, edge].map(|v| narrow(combine(&axes, v[0], v[1], 0.0)));
-            plain.push((name, Segment::new(p, e)));
+            plain.push((name, [p, e]));
             // in units of the distance, so that small segments cross the horizon too
             let size = f64::hypot(edge[0], edge[1]).min(1.0) / f64::hypot(a[0], a[1]).max(1.0);
             for (place, tilt, lift) in [
@@ -641,18 +687,14 @@ pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<Project
                 let rest = f64::sqrt((1.0 - lift * lift - tilt * tilt).max(0.01));
                 let mix = |k: usize| unit[k] * lift + side[k] * tilt;
                 let normal = combine(&axes, mix(0), mix(1), rest);
-                let case = ProjectedSegment::new(p, e, narrow(normal));
-                if case.seen() {
-                    let label: &'static str = Box::leak(format!("{name}, {place}").into_boxed_str());
-                    projected.push((label, case));
-                }
+                projected.push((joined(name, place), [p, e, narrow(normal)]));
             }
         }
     }
     let level = [0.0, 0.0, 1.0];
-    projected.push(("an end on the horizon", ProjectedSegment::new([1.0, 0.5, 0.0], [0.5, 1.0, 2.0], level)));
-    projected.push(("half the sky", ProjectedSegment::new([-1e4, 0.0, 1.0], [2e4, 0.0, 0.0], level)));
-    projected.push(("a sliver of sky", ProjectedSegment::new([1.0, 0.0, -1.0], [1e3, 0.0, 3.0], level)));
+    projected.push(("an end on the horizon", [[1.0, 0.5, 0.0], [0.5, 1.0, 2.0], level]));
+    projected.push(("half the sky", [[-1e4, 0.0, 1.0], [2e4, 0.0, 0.0], level]));
+    projected.push(("a sliver of sky", [[1.0, 0.0, -1.0], [1e3, 0.0, 3.0], level]));
     (plain, projected)
 }
 
@@ -670,7 +712,8 @@ enum Lie {
 }
 
 /// Flat shapes over a horizon, of every regime: corner, edges and normal.
-fn over_horizon(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 4])> {
+#[must_use]
+pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
     use Lie::{At, Corner, Cut, Zenith};
     let mut random = Random::new(seed);
     let mut all = Vec::new();

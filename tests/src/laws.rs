@@ -97,6 +97,10 @@ pub trait Subject: Copy + Debug {
     fn inverse_units(&self, _u: [f64; 2]) -> f64 {
         2.0
     }
+    /// Steps of `u` by which an inverse may be off, besides what the point's rounding does.
+    fn inverse_steps(&self) -> f64 {
+        2.0
+    }
     /// Does some `u` of the grid map near the point? Not in tails of less than 2⁻²⁴.
     fn reachable(&self, _point: V3) -> bool {
         true
@@ -116,6 +120,10 @@ pub trait Subject: Copy + Debug {
     }
     /// The length to whose rounding a distance is known, besides itself.
     fn reach(&self) -> f64 {
+        0.0
+    }
+    /// Distance of the farthest vertex of a flat shape; 0 for others.
+    fn farthest(&self) -> f64 {
         0.0
     }
     /// Relative change of the distance per turn of the direction.
@@ -202,7 +210,8 @@ fn total_at<S: Subject, R: Real>(s: &S, u: [f32; 2]) {
     let closed = |u: [f64; 2]| u.iter().all(|x| (0.0..1.0).contains(x));
     assert!(finite && seen.pdf >= 0.0 && closed(seen.inverse), "not total: {s:?} at {u:?}: {seen:?}");
     assert!(
-        length(seen.point) <= s.radius() * (1.0 + 8.0 * ULP),
+        // and what is subnormal is rounded to what there is
+        length(seen.point) <= s.radius() * (1.0 + 8.0 * ULP) + 4e-45,
         "not a unit vector, or too far: {s:?} at {u:?}: {seen:?}"
     );
     for w in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-0.6, 0.8, -0.0], [1e-30, -1e-42, 1.0]] {
@@ -290,8 +299,8 @@ fn closed_at<S: Subject, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     let mut greatest = points_agree(s, seen.point, seen.inverse, known);
     let u = [f64::from(u[0]), f64::from(u[1])];
     let h = 1.0 / 4096.0;
-    if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || s.torn(u, h) {
-        // at the ends of the square derivatives vanish or grow without bound
+    if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || s.torn(u, h) || s.torn(seen.inverse, h) {
+        // at the ends of the square derivatives vanish or grow without bound, and beside a tear the other side is as good
         return greatest / rounding(s, ulp);
     }
     let slope = |axis: usize| {
@@ -303,7 +312,12 @@ fn closed_at<S: Subject, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     };
     let (a, b) = (slope(0), slope(1));
     let area = length(cross(a, b)).max(1e-300);
-    for (axis, across) in [(0, length(b)), (1, length(a))] {
+    let both = [(0, length(b)), (1, length(a))];
+    if both.iter().any(|&(axis, across)| u[axis].min(1.0 - u[axis]) <= known * across / area) {
+        // over the end of the square a neighbouring triangle may begin
+        return greatest / rounding(s, ulp);
+    }
+    for (axis, across) in both {
         let allowed = known * across / area;
         let grid = s.inverse_units(u) * ULP;
         let mut error = (seen.inverse[axis] - u[axis]).abs();
@@ -324,7 +338,10 @@ fn closed_at<S: Subject, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
 
 /// `sample(invert(w)) = w` for points that did not come from `sample`.
 pub fn onto<S: Subject>(s: &S, st: [f64; 2]) -> f64 {
-    let (w, _) = s.chart(st[0], st[1]);
+    inverse(s, s.chart(st[0], st[1]).0)
+}
+/// `sample(invert(w)) = w` for a given point.
+pub fn inverse<S: Subject>(s: &S, w: V3) -> f64 {
     let warp = S::prepare::<f32>(&[*s]);
     let point = S::Point::<f32>::gather(&[w]);
     let inverse = warp.invert(point).at(0);
@@ -339,16 +356,18 @@ fn points_agree<S: Subject>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> 
     let error = s.distance(again, point);
     let step = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         .map(|d| {
-            let u = [(inverse[0] + d[0]).clamp(0.0, 1.0 - ULP), (inverse[1] + d[1]).clamp(0.0, 1.0 - ULP)];
+            // up to 1: beyond the last step of the grid lies as much as before it
+            let u = [(inverse[0] + d[0]).clamp(0.0, 1.0), (inverse[1] + d[1]).clamp(0.0, 1.0)];
             s.distance(sample_at(s, u), again)
         })
         .into_iter()
         .fold(0.0, f64::max);
+    let units = s.inverse_steps();
     assert!(
-        error <= known + 2.0 * step,
-        "inverse: {s:?}: {point:?} inverts to {inverse:?}, which maps {error:e} away; allowed {known:e} + 2·{step:e}"
+        error <= known + units * step,
+        "inverse: {s:?}: {point:?} inverts to {inverse:?}, which maps {error:e} away; allowed {known:e} + {units}·{step:e}"
     );
-    error - 2.0 * step
+    error - units * step
 }
 
 /// The pdf of a sample is the shape's density, and what is evaluated for any point of the shape that came otherwise.
@@ -410,7 +429,7 @@ pub fn jacobian<S: Subject>(s: &S, u: [f64; 2]) -> f64 {
     let area = length(cross(slope(0), slope(1)));
     let point = sample_at(s, inner);
     let product = area * s.density(point);
-    let allowed = tolerances::JACOBIAN + 4.0 * ULP_F64 / (h * s.extent()[1]);
+    let allowed = tolerances::JACOBIAN + 6.0 * ULP_F64 / (h * s.extent()[1]);
     assert!((product - 1.0).abs() <= allowed, "area × pdf = {product}: {s:?} at {inner:?}, allowed {allowed:e}");
     (product - 1.0).abs()
 }
@@ -425,7 +444,8 @@ pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
     let u = u.map(f64::from);
     let wide = at(u);
     let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
-        .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0 - ULP), (u[1] + d[1]).clamp(0.0, 1.0 - ULP)]));
+        // up to 1: what is rounded may go as far beyond the last step of the grid as before it
+        .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0), (u[1] + d[1]).clamp(0.0, 1.0)]));
     let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).fold(0.0, f64::max);
     let excess =
         s.distance(narrow.point, wide.point) - s.tolerance().steps * step(&|o| s.distance(o.point, wide.point));
@@ -438,6 +458,20 @@ pub fn accurate<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
     let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
     assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d} for {e}: {distance:e} units");
     point.max(distance)
+}
+
+/// **Within reach**: no point is farther than the farthest vertex of a flat shape, however uncertain the distance is at grazing.
+///
+/// Returns the excess in units in the last place.
+pub fn within_reach<S: Subject>(s: &S, u: [f32; 2]) -> f64 {
+    let (distance, reach) =
+        (observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0].sighting[3], s.farthest());
+    if reach == 0.0 {
+        return 0.0;
+    }
+    let excess = (distance / reach - 1.0) / ULP;
+    assert!(excess <= tolerances::REACH, "{excess:e} units beyond the farthest vertex: {s:?} at {u:?}");
+    excess.max(0.0)
 }
 
 /// ∫ pdf = 1, over the independent parameterisation; of the f64 body where the density varies and a rounded direction does not resolve

@@ -7,14 +7,23 @@
 //! - [`oracle`]: closed forms, double-double arithmetic and quadrature; nothing here calls the code under test.
 //! - [`domain`]: arguments biased to where methods fail.
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
+//! - [`suite`]: all laws over all regimes.
+//! - [`campaign`]: the bodies of the fuzz targets.
+//! - [`checks`]: the same for functions that are no warps; [`techniques`]: for lights.
+//! - [`planted`]: defects of well-known renderers, which the laws must notice.
 //! - [`stats`]: probabilities of what was observed.
 
+pub mod campaign;
+pub mod checks;
 pub mod domain;
 pub mod double_double;
 pub mod laws;
 pub mod oracle;
+pub mod planted;
 pub mod stats;
 pub mod subjects;
+pub mod suite;
+pub mod techniques;
 pub mod tolerances;
 
 /// The README's example, compiled and run with the documentation's.

@@ -3,41 +3,17 @@
 use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, density, log_variance_error};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8};
+use etendue_tests::checks::{self, EXTREMES, HEURISTICS};
 use etendue_tests::stats;
-
-const HEURISTICS: [Heuristic; 6] = [
-    Heuristic::Balance,
-    Heuristic::POWER,
-    Heuristic::Power(0),
-    Heuristic::Power(1),
-    Heuristic::Power(5),
-    Heuristic::Maximum,
-];
-const EXTREMES: [f32; 13] =
-    [0.0, 1e-45, 1e-40, f32::MIN_POSITIVE, 1e-30, 1e-10, 0.3, 1.0, 7.0, 1e20, 1e38, f32::MAX, f32::INFINITY];
 
 #[test]
 fn weights_sum_to_one_at_every_extreme() {
     for heuristic in HEURISTICS {
-        let check = |densities: &[f32], weights: &[f32]| {
-            let sum: f64 = weights.iter().copied().map(f64::from).sum();
-            let expected = f64::from(u8::from(densities.iter().any(|d| *d > 0.0)));
-            assert!((sum - expected).abs() <= 2.4e-7, "{heuristic:?} {densities:?} {weights:?}");
-            assert!(weights.iter().all(|w| (0.0..=1.0).contains(w)), "{heuristic:?} {densities:?} {weights:?}");
-            for (d, w) in densities.iter().zip(weights) {
-                assert!(*d > 0.0 || *w == 0.0, "{heuristic:?} {densities:?} {weights:?}");
-            }
-        };
+        checks::extreme_weights(heuristic, |d| heuristic.weights(d), |d| heuristic.weights(d));
         for a in EXTREMES {
-            for b in EXTREMES {
-                check(&[a, b], &heuristic.weights([a, b]));
-                for c in EXTREMES {
-                    check(&[a, b, c], &heuristic.weights([a, b, c]));
-                }
-            }
             assert_eq!(heuristic.weights([a, f32::NAN, -1.0]), heuristic.weights([a, 0.0, 0.0]));
         }
-        assert_eq!(heuristic.weights::<f32, 0>([]), []);
+        assert_eq!(heuristic.weights::<f32, 0>([]), [0.0; 0]);
     }
     // the formula as it is often written fails at both ends
     let naive = |a: f32, b: f32| a * a / (a * a + b * b);

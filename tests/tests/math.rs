@@ -3,32 +3,8 @@
 use core::f64::consts::PI;
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
 use etendue::{Real, f32x8};
+use etendue_tests::checks::{self, Greatest};
 use etendue_tests::domain::Random;
-
-/// The greatest error seen, where, and the figure that the documentation states.
-struct Greatest {
-    name: &'static str,
-    error: f64,
-    at: [f32; 2],
-}
-impl Greatest {
-    fn of(name: &'static str) -> Self {
-        Self { name, error: 0.0, at: [0.0; 2] }
-    }
-    fn take(&mut self, error: f64, at: [f32; 2]) {
-        // a NaN is the greatest error of all
-        let error = if error.is_nan() { f64::INFINITY } else { error };
-        if error > self.error {
-            self.error = error;
-            self.at = at;
-        }
-    }
-    fn assert_below(&self, documented: f64) {
-        println!("{:40} {:.3e} at {:?}, documented {documented:.2e}", self.name, self.error, self.at);
-        assert!(self.error <= documented, "{}: {:e} at {:?}", self.name, self.error, self.at);
-        assert!(self.error >= 0.9 * documented, "{}: the figure can be tightened to {:e}", self.name, self.error);
-    }
-}
 
 #[test]
 fn sin_cos_turns() {
@@ -83,40 +59,7 @@ fn acos() {
 
 #[test]
 fn atan2() {
-    let mut relative = Greatest::of("atan2, relative");
-    let mut random = Random::new(2);
-    for i in 0..1 << 21 {
-        let scale = random.magnitude(1e-30, 1e30);
-        let ratio = if i % 2 == 0 { random.magnitude(1e-38, 1.0) } else { random.unit_f64() };
-        let (a, b) = (scale as f32, (scale * ratio) as f32);
-        let signs = random.word();
-        let sign = |x: f32, bit: u32| if signs >> bit & 1 == 1 { -x } else { x };
-        let (y, x) = if signs >> 2 & 1 == 1 { (sign(a, 0), sign(b, 1)) } else { (sign(b, 0), sign(a, 1)) };
-        let truth = f64::from(y).atan2(f64::from(x));
-        if truth.abs() > f64::from(f32::MIN_POSITIVE) {
-            relative.take((f64::from(Real::atan2(y, x)) / truth - 1.0).abs(), [y, x]);
-        }
-    }
-    relative.assert_below(2.0e-7);
-    // both subnormal, and an angle that is
-    let tiny = 1e-42_f32;
-    assert!((f64::from(Real::atan2(tiny, tiny)) - PI / 4.0).abs() < 3e-7);
-    assert!((f64::from(Real::atan2(-3.0 * tiny, -tiny)) - (-3.0_f64).atan2(-1.0)).abs() < 1e-3);
-    assert_eq!(Real::atan2(1e-30_f32, 1e10), 1e-40);
-    // axes and signed zeros, as in IEEE 754
-    for y in [0.0_f32, -0.0, 1.0, -1.0] {
-        for x in [0.0_f32, -0.0, 1.0, -1.0] {
-            let (ours, std) = (Real::atan2(y, x), y.atan2(x));
-            if y == 0.0 && x == 0.0 {
-                assert!(ours == 0.0 && ours.is_sign_negative() == y.is_sign_negative(), "{y} {x}: {ours}");
-            } else {
-                assert!(
-                    (ours - std).abs() <= 3e-7 && ours.is_sign_negative() == std.is_sign_negative(),
-                    "{y} {x}: {ours}"
-                );
-            }
-        }
-    }
+    checks::atan2(Real::atan2);
 }
 
 #[test]

@@ -8,8 +8,8 @@ use etendue_tests::subjects::{
     ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle,
     UniformHemisphere, UniformSphere, nearest_hit,
 };
+use etendue_tests::suite;
 use libtest_mimic::{Arguments, Failed, Trial};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 
 /// What has been checked.
@@ -23,94 +23,24 @@ struct Checked {
 }
 static CHECKED: Mutex<Vec<Checked>> = Mutex::new(Vec::new());
 
-/// Runs one law over the cases; returns its greatest figure, and reports every regime that breaks it with the first message.
-fn each<S: Subject>(law: &str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> (f64, Option<String>) {
-    let mut regimes: Vec<(&str, f64, usize, String)> = Vec::new();
-    for (i, (regime, subject)) in cases.iter().enumerate() {
-        let at = regimes.iter().position(|r| r.0 == *regime).unwrap_or_else(|| {
-            regimes.push((regime, 0.0, 0, String::new()));
-            regimes.len() - 1
-        });
-        let entry = &mut regimes[at];
-        match catch_unwind(AssertUnwindSafe(|| run(subject, i))) {
-            Ok(figure) => entry.1 = entry.1.max(figure),
-            Err(error) => {
-                if entry.2 == 0 {
-                    entry.3 = error.downcast_ref::<String>().map_or_else(|| "panic inside".into(), Clone::clone);
-                }
-                entry.2 += 1;
-            }
-        }
-    }
-    if std::env::args().any(|a| a == "--nocapture") {
-        for (regime, figure, broken, _) in &regimes {
-            println!("{law:10} {regime:28} {figure:9.3e} {}", if *broken > 0 { "BROKEN" } else { "" });
-        }
-    }
-    let failures: Vec<_> = regimes.iter().filter(|r| r.2 > 0).map(|r| format!("[{}] ×{}: {}", r.0, r.2, r.3)).collect();
-    let greatest = regimes.iter().fold(0.0, |most, r| f64::max(most, r.1));
-    (greatest, (!failures.is_empty()).then(|| format!("{law}:\n{}", failures.join("\n"))))
-}
-
-/// All laws over the cases, at the edges of the square and `random` points more.
+/// All laws over the cases; reports every regime that breaks one with the first message.
 fn all<S: Subject>(warp: &'static str, cases: &[Case<S>], random: usize) -> Result<(), Failed> {
-    let square = domain::square(random, 1);
-    let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
-        let square = &square;
-        move |s: &S, seed: usize| {
-            let mut random = Random::new(seed as u64);
-            square.iter().map(|&u| run(s, u, &mut random)).fold(0.0, f64::max)
+    let outcomes = suite::all(cases, random);
+    if std::env::args().any(|a| a == "--nocapture") {
+        for (law, r) in outcomes.iter().flat_map(|o| o.regimes.iter().map(|r| (o.law, r))) {
+            println!("{law:10} {:28} {:9.3e} {}", r.name, r.figure, if r.broken > 0 { "BROKEN" } else { "" });
         }
-    };
-    let laws = [
-        each(
-            "total",
-            cases,
-            at(|s, u, _| {
-                laws::total(s, u);
-                0.0
-            }),
-        ),
-        each(
-            "scale",
-            cases,
-            at(|s, u, _| {
-                laws::scale(s, u);
-                0.0
-            }),
-        ),
-        each("accurate", cases, at(|s, u, _| laws::accurate(s, u))),
-        each("closed", cases, at(|s, u, _| laws::closed(s, u))),
-        each("density", cases, at(|s, u, r| laws::density(s, u, [r.unit_f64(), r.unit_f64()]))),
-        each("onto", cases, at(|s, _, r| laws::onto(s, [r.unit_f64(), r.unit_f64()]))),
-        each("jacobian", cases, at(|s, _, r| laws::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
-        each(
-            "outside",
-            cases,
-            at(|s, _, r| {
-                laws::outside(s, r);
-                0.0
-            }),
-        ),
-        each("integral", cases, |s, _| laws::integral(s)),
-        each("chi-square", cases, |s, i| laws::chi_square(s, i as u64)),
-        each("lanes", cases, |_, i| {
-            // each lane a different regime, each with its own u
-            let kin: Vec<S> = cases.iter().map(|c| c.1).filter(|s| s.kin(&cases[i].1)).collect();
-            let lanes = core::array::from_fn(|k| kin[(i + k * 3) % kin.len()]);
-            for start in (0..square.len() - 8).step_by(5) {
-                laws::lanes(&lanes, &core::array::from_fn(|k| square[start + k]));
-            }
-            0.0
-        }),
-    ];
+    }
     let mut regimes: Vec<_> = cases.iter().map(|c| c.0).collect();
     regimes.sort_unstable();
     regimes.dedup();
-    // of the laws "accurate" and "density"
-    let greatest = [laws[2].0, laws[4].0];
+    let greatest = ["accurate", "density"]
+        .map(|law| outcomes.iter().find(|o| o.law == law).map_or(f64::NAN, suite::Outcome::greatest));
     CHECKED.lock().unwrap().push(Checked { warp, regimes: regimes.len(), cases: cases.len(), greatest });
-    let broken: Vec<_> = laws.into_iter().filter_map(|law| law.1).collect();
+    let broken: Vec<_> = outcomes
+        .iter()
+        .flat_map(|o| o.broken().map(|r| format!("{} [{}] ×{}: {}", o.law, r.name, r.broken, r.first)))
+        .collect();
     if broken.is_empty() { Ok(()) } else { Err(format!("broken laws:\n{}", broken.join("\n")).into()) }
 }
 
@@ -169,6 +99,7 @@ fn main() {
             other("any_parameters_are_survived", any_parameters_are_survived),
             other("contact", contact),
             other("spheres_are_hit_in_front", spheres_are_hit_in_front),
+            other("nothing_is_beyond_its_shape", nothing_is_beyond_its_shape),
             other("nasty_rectangles", nasty_rectangles),
         ],
     );
@@ -186,7 +117,7 @@ fn main() {
             );
         }
         let pairs: usize = checked.iter().map(|c| c.regimes).sum();
-        println!("laws: {} warps, {pairs} (warp, regime) pairs, 11 laws each", checked.len());
+        println!("laws: {} warps, {pairs} (warp, regime) pairs, {} laws each", checked.len(), suite::LAWS);
     }
     conclusion.exit();
 }
@@ -268,6 +199,22 @@ fn spheres_are_hit_in_front() {
     for (_, cap) in domain::caps(3, 17) {
         square.iter().for_each(|&u| nearest_hit(&cap, u));
     }
+}
+/// In every regime, and where the distance is least certain: nearly in a plane with the shape.
+fn nothing_is_beyond_its_shape() {
+    fn check<S: Subject>(cases: &[Case<S>]) {
+        let outcome = suite::within_reach(cases);
+        let broken: Vec<_> = outcome.broken().map(|r| format!("[{}] ×{}: {}", r.name, r.broken, r.first)).collect();
+        assert!(broken.is_empty(), "{}", broken.join("\n"));
+    }
+    let edge_on = domain::nearly_in_plane(50, 19);
+    let cases = |name| edge_on.iter().map(move |&[v, a, b]| (name, [v, a, b]));
+    check(&domain::triangles(4, 12));
+    check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Triangle::by_edges(v, a, b))).collect::<Vec<_>>());
+    check(&domain::parallelograms(4, 13));
+    check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Parallelogram::new(v, a, b))).collect::<Vec<_>>());
+    check(&domain::rectangles(4, 14));
+    check(&domain::hexagons(4, 15));
 }
 fn nasty_rectangles() {
     let mut random = Random::new(15);

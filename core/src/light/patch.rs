@@ -1,4 +1,4 @@
-use super::{LightSample, flat_by_area};
+use super::{LightSample, finite_by_area};
 use crate::real::Real;
 use crate::seen::lanewise;
 use crate::vector::{Vec2, Vec3};
@@ -30,6 +30,6 @@ impl<R: Real> BilinearPatch<R> {
         let some = density.gt(zero);
         let part = (one / R::select(some, density, one)).keep(some);
         // |∂s×∂t| over the density of (s, t) is what a flat light has for its area
-        flat_by_area(surface.p + surface.offset(st), surface.normal(st) * part)
+        finite_by_area(surface.p + surface.offset(st), surface.normal(st) * part)
     }
 }

@@ -1,4 +1,4 @@
-use super::{LightSample, flat_by_area};
+use super::{LightSample, finite_by_area};
 use crate::real::{Mask, Real};
 use crate::seen::{ProjectedPolygon, Sighting, SphericalPolygon};
 use crate::vector::{Vec2, Vec3};
@@ -57,12 +57,7 @@ impl<R: Real, const N: usize> Polygon<R, N> {
         let x = unit_interval((place - before) / R::select(width.gt(zero), width, one));
         let b: Vec2<R> = AreaTriangle.sample(Vec2::new(x, u.y));
         let point = first.mul_add(b.x, second.mul_add(b.y, origin - p));
-        // sums that overflowed: nothing to see
-        let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
-        let finite = [point, whole].map(|v| below(v.x) & below(v.y) & below(v.z));
-        let finite = finite[0] & finite[1];
-        let kept = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite));
-        flat_by_area(kept(point), kept(whole) * R::lit(0.5))
+        finite_by_area(point, whole * R::lit(0.5))
     }
     /// Uniform over the solid angle, [`SphericalPolygon`].
     #[inline(always)]

@@ -22,9 +22,9 @@ lanewise! {
     ///   in t^¼, four panels of 5 nodes (relative error 1e−8 for every disk; in double precision 20 nodes, 4e−14). Within the panel the integral
     ///   is inverted by two (four) steps of Newton's method. 1−cosθ = u₁(1−D).
     /// - Domain: u in [0, 1)²; any disk, from either side, a normal of any length.
-    /// - Density: 1/Ω per steradian inside (and within 6 to 9 ulp of the direction beyond), 0 outside. Ω = 4 sinα sinβ ∫₀¹.
+    /// - Density: 1/Ω per steradian inside (and within 6 to 9 ulp of the direction beyond, 17 at the ends of the major axis), 0 outside. Ω = 4 sinα sinβ ∫₀¹.
     /// - Degenerate: the point in the disk's plane (on the disk and its rim too), a radius ≤ 0, Ω < 1e−37: pdf 0.
-    /// - Greatest error: Ω 2.4e−7 relative; direction 1.8e−7, besides 4 steps of 2⁻²⁴ in u; distance 2e−7 relative, over the
+    /// - Greatest error: Ω 4e−7 relative; direction 1.8e−7, besides 4 steps of 2⁻²⁴ in u; distance 2e−7 relative, over the
     ///   cosine to the disk's normal.
     /// - Source: Guillén, Ureña, King, Fajardo, Georgiev, López-Moreno and Jarabo, "Area-Preserving Parameterizations for Spherical
     ///   Ellipses", CGF 36(4), 2017, for the polar map; the integral by the eccentric angle and its inverse are derived here.

@@ -35,7 +35,7 @@ lanewise! {
     ///   elsewhere. A direction off that plane stands for its projection on it. Per unit of length at the distance r it is sin γ/r of
     ///   that, with γ the angle between direction and segment.
     /// - Degenerate: the point on the line of the segment, a length of 0, or α < 1e−30: pdf 0.
-    /// - Greatest error: direction 2.4e−7; pdf 3e−7 relative; distance 4e−7 relative, over sinγ.
+    /// - Greatest error: direction 2.9e−7; pdf 3e−7 relative; distance 4e−7 relative, over sinγ.
     /// - Source: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012, 4.1, by angles
     ///   at the ends instead of the foot of the perpendicular.
     SphericalSegment {

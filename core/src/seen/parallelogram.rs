@@ -9,7 +9,9 @@ use crate::warp::{Warp, unit_interval};
 /// the diagonal without a jump, so that strata of the square stay connected.
 ///
 /// - Formula: Ω = Ω₁ + Ω₂; u₀ < Ω₁/Ω takes the triangle (p+u, p, p+u+v) at u₀Ω/Ω₁, else (p+u+v, p, p+v) with the rest.
-/// - Domain, density, degenerate input, error, source: as the triangle.
+/// - Domain, density, degenerate input, source: as the triangle.
+/// - Greatest error: as the triangle; and what half a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the elevation of the nearest
+///   corner, since the place where the second triangle begins is known as Ω₁ and Ω are.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SphericalParallelogram<R> {
     first: SphericalTriangle<R>,

@@ -9,9 +9,9 @@ lanewise! {
     /// - Formula: sin²σ = R²/d², cos²σ = (d²−R²)/d² with d²−R² in twice the working precision, h = 1−cosσ = sin²σ/(1+cosσ); then the
     ///   cone's map. From inside the sphere every direction hits it: h = 2.
     /// - Domain: any centre and radius > 0, at any distance; on the surface, the half of the directions that look inwards.
-    /// - Density: 1/(2πh) per steradian within the cone (and within 8 ulp of the direction beyond), 0 off it.
+    /// - Density: 1/(2πh) per steradian within the cone (and within 10 ulp of the direction beyond), 0 off it.
     /// - Degenerate: a radius ≤ 0 (or beyond the reach of f32: R/d < 1e−18) has pdf 0 and samples the direction to the centre.
-    /// - Greatest error: pdf 2.4e−7 relative; direction 3.0e−7; distance 3.6e−7 relative, but for the limb, where its slope is infinite.
+    /// - Greatest error: pdf 3.0e−7 relative; direction 4.8e−7; distance 3.6e−7 relative, but for the limb, where its slope is infinite.
     /// - Source: PBR 4th ed., 6.2.4, in a form without its switch to a series for small spheres.
     SphereCap {
         frame: Frame<R>,
@@ -28,6 +28,10 @@ impl<R: Real> SphereCap<R> {
     #[inline]
     pub fn new(center: Vec3<R>, radius: R) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // a difference that overflowed: nothing to see
+        let finite = center.max_abs().lt(R::lit(f64::INFINITY));
+        let center = Vec3::new(center.x.keep(finite), center.y.keep(finite), center.z.keep(finite));
+        let radius = radius.keep(finite);
         let scale = center.max_abs().max(radius.abs()).exponent_reciprocal();
         let (c, r) = (center * scale, radius * scale);
         let power = c.length_squared_minus_square(r);

@@ -4,7 +4,9 @@ use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
 
-/// Angle by which a sample may leave the triangle through the error of its direction: 8 ulp of a component near 1.
+/// Angle by which a sample may leave a triangle through the error of its direction: 12 ulp of a component near 1.
+const BEYOND: f64 = 12.0 / 16_777_216.0;
+/// The same of one that is drawn by projected solid angle.
 pub(super) const SLACK: f64 = 8.0 / 16_777_216.0;
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 
@@ -24,7 +26,7 @@ lanewise! {
     ///   long, M comes from P = ((a−b)(a+b) V₀/l₀ + 2b(a+bd₀₂) V₂/l₂)/|·|, a = cosη − (d₀₂+d₁₂) sinη/G₀, b = (1+d₀₁) sinη/G₀,
     ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), if that is the better conditioned; so does the distance.
     /// - Domain: u in [0, 1)²; any triangle, from any side.
-    /// - Density: 1/Ω per steradian inside (and within 8 ulp of the direction beyond), 0 outside.
+    /// - Density: 1/Ω per steradian inside (and within 12 ulp of the direction beyond), 0 outside.
     /// - Degenerate: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
     /// - Greatest error: direction 5.4e−7, at any size, elevation and aspect; more by 1/sin of the angle between two vertices that lie
     ///   nearly opposite (the point is near an edge), and near the far edge by a few steps of u where Ω > π. Ω 1.2e−7, more by 1/sin
@@ -40,6 +42,8 @@ lanewise! {
         e2: Vec3<R>,
         normal: Vec3<R>,
         l1: R,
+        /// distance of the farthest vertex: that of no point is more
+        farthest: R,
         /// unit vector to `v1`, and tangents there: towards `v0`, and across towards `v2`
         apex: Vec3<R>,
         along: Vec3<R>,
@@ -160,6 +164,7 @@ impl<R: Real> SphericalTriangle<R> {
             e2,
             normal,
             l1,
+            farthest: l0.max(l1).max(squared[2] * i2),
             apex,
             along: apex.cross(pole),
             across,
@@ -193,6 +198,7 @@ impl<R: Real> SphericalTriangle<R> {
             e2: vector(yes.e2, no.e2),
             normal: vector(yes.normal, no.normal),
             l1: real(yes.l1, no.l1),
+            farthest: real(yes.farthest, no.farthest),
             apex: vector(yes.apex, no.apex),
             along: vector(yes.along, no.along),
             across: vector(yes.across, no.across),
@@ -335,8 +341,8 @@ impl<R: Real> SphericalTriangle<R> {
         let numerator = R::select(behind, self.volume.abs(), self.l1);
         let denominator = R::select(behind, direction.dot(self.normal).abs(), reciprocal);
         let some = denominator.gt(zero) & self.solid_angle.gt(zero);
-        // a point of the triangle is within 4 units; what does not fit f32 ends at its largest number
-        let distance = (numerator / R::select(some, denominator, one)).min(R::lit(4.0));
+        // what does not fit f32 ends at its largest number
+        let distance = (numerator / R::select(some, denominator, one)).min(self.farthest);
         let distance = (distance * self.unit).min(R::lit(f64::from(f32::MAX)));
         Sighting { direction, distance: distance.keep(some) }
     }
@@ -346,32 +352,39 @@ impl<R: Real> SphericalTriangle<R> {
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
         self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w)
     }
-    /// On the inner side of the plane through the viewpoint and two vertices, to 8 ulp of the direction; where these vertices, or v0
-    /// and v1 from which the map starts, lie nearly opposite, their plane is known no better than −cos : sin of their angle.
+    /// On the inner side of the plane through the viewpoint and two vertices, to 12 ulp of the direction; where these vertices, or others
+    /// from which the map goes to them, lie nearly opposite, it is known no better than −cos : sin of their angle.
     #[inline(always)]
-    fn within(&self, w: Vec3<R>, a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> R::Mask {
+    fn within(&self, w: Vec3<R>, a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>, known: R) -> R::Mask {
         let n = plane(a, b, edge);
-        let some = self.sin_side.gt(R::lit(0.0));
-        let start = (R::lit(1.0) - self.g2) / R::select(some, self.sin_side, R::lit(1.0));
-        let slack = (n.length() * start.max(R::lit(1.0))).max(-a.dot(b)) * R::lit(SLACK);
+        let slack = (n.length() * known).max(-a.dot(b)) * R::lit(BEYOND);
         w.dot(n).negate_where(self.in_front()).ge(-slack)
+    }
+    /// 1, or more where v0 and v1, from which the map starts, lie nearly opposite.
+    #[inline(always)]
+    fn start(&self) -> R {
+        let some = self.sin_side.gt(R::lit(0.0));
+        ((R::lit(1.0) - self.g2) / R::select(some, self.sin_side, R::lit(1.0))).max(R::lit(1.0))
     }
     #[inline(always)]
     pub(super) fn within_v1_v2(&self, w: Vec3<R>) -> R::Mask {
-        self.within(w, self.v1, self.v2, self.e2 - self.e1)
+        // the map comes to this side along the one from v0 to v2
+        let sin_squared = (-self.d02).mul_add(self.d02, R::lit(1.0)).max(R::lit(1e-7));
+        let known = self.start().max(-self.d02 * rsqrt(sin_squared));
+        self.within(w, self.v1, self.v2, self.e2 - self.e1, known)
     }
     #[inline(always)]
     pub(super) fn within_v2_v0(&self, w: Vec3<R>) -> R::Mask {
-        self.within(w, self.v2, self.v0, -self.e2)
+        self.within(w, self.v2, self.v0, -self.e2, self.start())
     }
     #[inline(always)]
     pub(super) fn within_v0_v1(&self, w: Vec3<R>) -> R::Mask {
-        self.within(w, self.v0, self.v1, self.e1)
+        self.within(w, self.v0, self.v1, self.e1, self.start())
     }
     /// Towards the plane of the triangle.
     #[inline(always)]
     pub(super) fn ahead(&self, w: Vec3<R>) -> R::Mask {
-        let slack = self.normal.length() * R::lit(SLACK);
+        let slack = self.normal.length() * R::lit(BEYOND);
         w.dot(self.normal).negate_where(self.in_front()).ge(-slack)
     }
     /// On the far side of the plane through the viewpoint, v0 and v1 from v2.

@@ -1,5 +1,5 @@
 use super::owen_sobol::{pascal, scramble};
-use super::stratified::divide;
+use super::stratified::{divide, replicate};
 use super::{Independent, OwenSobol, Sequence};
 use crate::real::{Real, Uint};
 use crate::vector::Vec2;
@@ -123,8 +123,8 @@ impl Sequence for JointSobol {
 ///
 /// - Formula: the digits of the sample's index in base `side`, each turned by a random number of its own, are the cell; u = (cell + jitter)/side.
 /// - Property: samples [k·count, (k+1)·count) of a pixel have exactly one point in each cell. Any part of them is unbiased.
-/// - Domain: a side of 1 to what leaves no more than 2²² cells; any sample below 2³¹. Pairs beyond those joined are
-///   [`Independent`].
+/// - Domain: a side of 1 to what leaves no more than 2²² cells; any sample: from 2³¹ on they are in the cells of 2³¹ before, at fresh
+///   places. Pairs beyond those joined are [`Independent`].
 /// - Replicates: indices [k·count, (k+1)·count) are independent copies; see [`Stratified`](super::Stratified).
 /// - When: what couples the pairs, at high counts. One pair alone has side² strata for its side⁴ samples: there
 ///   [`Stratified`](super::Stratified) has side⁴ strata.
@@ -176,7 +176,7 @@ impl Sequence for JointStratified {
             let quotient = divide::<R>(v, by);
             (quotient, v.wrapping_sub(quotient.wrapping_mul(R::Uint::splat(by))))
         };
-        let (set, index) = split(sample, self.count);
+        let (set, index) = replicate::<R>(sample, self.count);
         let (quotient, first) = split(divide::<R>(index, self.side.pow(2 * dimension)), self.side);
         let (_, second) = split(quotient, self.side);
         let turns = self.random.words(pixel, set, !dimension);

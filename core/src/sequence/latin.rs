@@ -1,5 +1,5 @@
 use super::independent::hash4;
-use super::stratified::{divide, permute};
+use super::stratified::{permute, replicate};
 use super::{Independent, Sequence};
 use crate::real::{Real, Uint};
 use crate::vector::Vec2;
@@ -10,7 +10,8 @@ use crate::warp::unit_interval;
 ///
 /// - Formula: u = (stratum + jitter)/count, stratum = permutation of the sample's index, keyed by (pixel, dimension, axis, seed).
 /// - Property: the `count` samples of a replicate have exactly one point in each column and each row of 1/count.
-/// - Domain: any count from 1 to 2²²; sample indices beyond the count start over with fresh permutations.
+/// - Domain: any count from 1 to 2²²; sample indices beyond the count start over with fresh permutations, and from 2³¹ on with the
+///   permutations of 2³¹ before, and fresh places in the strata.
 /// - Replicates: indices [k·count, (k+1)·count) are independent copies; see [`Stratified`](super::Stratified).
 /// - Source: McKay, Beckman and Conover 1979; Stein 1987 for the variance: what is a sum of functions of one coordinate
 ///   converges fast, all else as with independent samples.
@@ -37,9 +38,7 @@ impl Sequence for LatinHypercube {
     #[inline]
     fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
         let scale = R::lit(1.0 / f64::from(self.count));
-        let count = R::Uint::splat(self.count);
-        let replicate = divide::<R>(sample, self.count);
-        let index = sample.wrapping_sub(replicate.wrapping_mul(count));
+        let (replicate, index) = replicate::<R>(sample, self.count);
         let keys = hash4([
             pixel,
             replicate,

@@ -8,7 +8,8 @@ use crate::warp::unit_interval;
 /// (padding), and placed uniformly within their cells.
 ///
 /// - Formula: cell = permutation of the sample's index, keyed by (pixel, dimension, seed); u = (cell + jitter)/(columns, rows).
-/// - Domain: any count from 1 to 2²²; any sample below 2³¹: indices beyond the count start over with fresh strata.
+/// - Domain: any count from 1 to 2²²; any sample: indices beyond the count start over with fresh strata, and from 2³¹ on with the
+///   strata of 2³¹ before, and fresh places in them.
 /// - Grid: columns × rows = count where a factorisation no longer than 2 : 1 exists, else the smallest grid that is nearly
 ///   square and holds the count; then a random selection of its cells is used, so every point is still uniform.
 /// - Replicates: indices [k·count, (k+1)·count) are independent copies. The variance of an estimate comes from the spread
@@ -95,9 +96,7 @@ pub(super) fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
 impl Sequence for Stratified {
     #[inline]
     fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
-        let count = R::Uint::splat(self.count);
-        let replicate = divide::<R>(sample, self.count);
-        let index = sample.wrapping_sub(replicate.wrapping_mul(count));
+        let (replicate, index) = replicate::<R>(sample, self.count);
         let keys = hash4([
             pixel,
             replicate,
@@ -114,6 +113,14 @@ impl Sequence for Stratified {
         };
         Vec2::new(place(column, jitter.x, self.columns), place(row, jitter.y, self.rows))
     }
+}
+
+/// Which copy of the set a sample belongs to, and its index in there, less than `count`: what is not would never be permuted into the set.
+#[inline]
+pub(super) fn replicate<R: Real>(sample: R::Uint, count: u32) -> (R::Uint, R::Uint) {
+    let sample = sample & R::Uint::splat(0x7fff_ffff);
+    let replicate = divide::<R>(sample, count);
+    (replicate, sample.wrapping_sub(replicate.wrapping_mul(R::Uint::splat(count))))
 }
 
 /// ⌊numerator/denominator⌋ for numerators below 2³¹: a rounded quotient, the rounded quotient of what is left, and at most one

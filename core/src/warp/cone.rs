@@ -54,14 +54,16 @@ impl<R: Real> Cone<R> {
     #[inline(always)]
     fn contains_but_for(&self, one_minus_cos: R, slack: f64) -> R::Mask {
         let h = self.height();
-        // (σ + ε)²/2 = σ²/2 + σε + ε²/2
-        let slack = R::lit(slack).mul_add((h + h).sqrt(), R::lit(0.5 * slack * slack));
+        // 1−cos(σ + ε) = h + ε sinσ + ½ε² cosσ + …
+        let sin = (h * (R::lit(2.0) - h)).sqrt();
+        // behind, 1−cos is 1−z, of which the rounding counts
+        let slack = R::lit(slack).mul_add(sin.max(h - R::lit(1.0)), R::lit(0.5 * slack * slack));
         one_minus_cos.le(h + slack)
     }
-    /// The pdf of a direction that a frame has turned there and back: twice the slack.
+    /// The pdf of a direction that a frame has turned there and back: 10 ulp.
     #[inline(always)]
     pub(crate) fn pdf_in_frame(&self, w: Vec3<R>) -> R {
-        self.density().keep(self.contains_but_for(one_minus_z(w), 2.0 * SLACK))
+        self.density().keep(self.contains_but_for(one_minus_z(w), 2.5 * SLACK))
     }
 }
 

@@ -19,6 +19,13 @@ fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
     let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
     (v * inverse, squared * inverse / scale)
 }
+/// A point that does not fit its numbers ends at the largest one.
+#[inline(always)]
+fn finite<R: Real>(point: Vec3<R>) -> Vec3<R> {
+    let most = R::lit(f64::from(f32::MAX));
+    let within = |x: R| x.clamp(-most, most);
+    Vec3::new(within(point.x), within(point.y), within(point.z))
+}
 
 lanewise! {
     /// Points of a disk in space, uniform by area: [`ConcentricDisk`] in the [`Frame`] of its normal.
@@ -58,7 +65,7 @@ impl<R: Real> Warp<R> for DiskSurface<R> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let q: Vec2<R> = ConcentricDisk.sample(u);
         let frame = Frame::new(self.normal);
-        frame.s.mul_add(q.x * self.radius, frame.t.mul_add(q.y * self.radius, self.center))
+        finite(frame.s.mul_add(q.x * self.radius, frame.t.mul_add(q.y * self.radius, self.center)))
     }
     #[inline(always)]
     fn pdf(&self, point: Vec3<R>) -> R {
@@ -108,7 +115,7 @@ impl<R: Real> Warp<R> for CylinderSide<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.normal(u).mul_add(self.radius, self.axis.mul_add(u.x, self.p))
+        finite(self.normal(u).mul_add(self.radius, self.axis.mul_add(u.x, self.p)))
     }
     #[inline(always)]
     fn pdf(&self, point: Vec3<R>) -> R {
@@ -149,7 +156,7 @@ impl<R: Real> Warp<R> for SphereSurface<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let normal: Vec3<R> = UniformSphere.sample(u);
-        normal.mul_add(self.radius, self.center)
+        finite(normal.mul_add(self.radius, self.center))
     }
     #[inline(always)]
     fn pdf(&self, _: Vec3<R>) -> R {
@@ -278,10 +285,7 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let (unit, scale, _) = self.in_units();
-        let point = self.p + unit.offset(self.parameters().sample(u)) * scale.exponent_reciprocal();
-        let most = R::lit(f64::from(f32::MAX));
-        let within = |x: R| x.clamp(-most, most);
-        Vec3::new(within(point.x), within(point.y), within(point.z))
+        finite(self.p + unit.offset(self.parameters().sample(u)) * scale.exponent_reciprocal())
     }
     #[inline(always)]
     fn pdf(&self, point: Vec3<R>) -> R {

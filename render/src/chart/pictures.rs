@@ -11,7 +11,7 @@ use crate::{Settings, image};
 pub struct Picture {
     /// For its file.
     pub file: String,
-    /// Which kind: `image`, `difference`, `variance` or `samples`.
+    /// Which kind: `image`, `difference`, `variance`, `wanted` or `samples`.
     pub kind: &'static str,
     /// For the reader.
     pub title: String,
@@ -77,11 +77,14 @@ const MOST_SAMPLES: f64 = 4096.0;
 struct Spread {
     first: Vec<[f32; 3]>,
     variance: Vec<f64>,
+    /// In each pixel of the first.
+    samples: Vec<u32>,
 }
 
 fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
     let subject = &plan.subjects[scene];
     let [width, height] = subject.size;
+    let mut samples = Vec::new();
     let images: Vec<Vec<[f32; 3]>> = (0..u64::from(REPLICATES))
         .map(|k| {
             let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, name(way.technique), name(way.sampler));
@@ -97,7 +100,11 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
                 sets: super::sets(sampler),
                 seed,
             };
-            subject.world.render(&settings, |_| ()).0.pixels.iter().map(|p| p.mean).collect()
+            let film = subject.world.render(&settings, |_| ()).0;
+            if k == 0 {
+                samples = film.pixels.iter().map(|p| p.samples).collect();
+            }
+            film.pixels.iter().map(|p| p.mean).collect()
         })
         .collect();
     let n = f64::from(REPLICATES);
@@ -110,7 +117,7 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
             (channel(0) + channel(1) + channel(2)) / 3.0
         })
         .collect();
-    Spread { first: images.into_iter().next().unwrap_or_default(), variance }
+    Spread { first: images.into_iter().next().unwrap_or_default(), variance, samples }
 }
 
 /// Renders the images of a scene again: a few replicates of few samples.
@@ -163,14 +170,17 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         push("difference", png(size, differences));
         let scaled = spread.variance.iter().map(|v| heat((v.max(low) / low).ln() / (high / low).ln()));
         push("variance", png(size, scaled));
-        let wanted = spread.variance.iter().map(|v| f64::from(spp) * v / summary.target);
-        push("samples", png(size, wanted.map(|n| heat(n.max(1.0).ln() / MOST_SAMPLES.ln()))));
+        let number = |n: f64| heat(n.max(1.0).ln() / MOST_SAMPLES.ln());
+        push("wanted", png(size, spread.variance.iter().map(|v| number(f64::from(spp) * v / summary.target))));
+        if spread.samples.windows(2).any(|w| w[0] != w[1]) {
+            push("samples", png(size, spread.samples.iter().map(|n| number(f64::from(*n)))));
+        }
     }
     let caption = format!(
-        "{spp} samples in every pixel. Difference from the reference: blue is too dark, red too bright, \
+        "{spp} samples in every pixel, or on average. Difference from the reference: blue is too dark, red too bright, \
          full colour at ±{}. Variance of a pixel over {REPLICATES} replicates: black is {} and less, pale yellow {} and more, \
-         logarithmic between. Samples: how many a pixel would need for a variance of {}, if that falls as their number grows: black is 1, \
-         pale yellow {MOST_SAMPLES} and more, logarithmic between.",
+         logarithmic between. Wanted: how many samples a pixel would need for a variance of {}, if that falls as their number grows; samples: how \
+         many an adaptive sampler took: black is 1, pale yellow {MOST_SAMPLES} and more, logarithmic between.",
         short(range),
         short(low),
         short(high),

@@ -46,10 +46,10 @@ impl Disk {
         let (s, t) = basis(n);
         let mut this = Self { center, normal, radius, axes: [s, t, n], height: z, sines, cosines, solid_angle: 0.0 };
         // slices across the major axis, each an arc about it
-        let mut last = FRAC_PI_2;
+        let (mut last, nodes) = (FRAC_PI_2, gauss_legendre::<16>());
         for panel in 0..60 {
             let next = if panel == 59 { 0.0 } else { last * 0.6 };
-            for (x, weight) in gauss_legendre::<16>() {
+            for (x, weight) in nodes {
                 let angle = next + (last - next) * x;
                 let d = (cosines[1] * angle.cos()).hypot(cosines[0] * angle.sin());
                 let arc = (sines[0] * angle.sin()).atan2(d);
@@ -105,7 +105,8 @@ impl Subject for Disk {
         // from the cone's side, at right angles
         let n = unit(cross(point, cross(self.axes[2], outwards)));
         let sign = if dot(n, outwards) < 0.0 { -1.0 } else { 1.0 };
-        Some(unit(along(unit(point), n, sign * margin)))
+        // at the ends of the major axis a direction is put back across before it is judged
+        Some(unit(along(unit(point), n, sign * 1.25 * margin)))
     }
     fn extent(&self) -> [f64; 2] {
         [2.0 * self.sines[1], 2.0 * self.sines[0]]

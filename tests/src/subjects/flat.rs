@@ -168,6 +168,11 @@ impl Triangle {
         let flat = Flat { v0: wide(v0), e1: edge(v1), e2: edge(v2), exact };
         Self { v0, a: v1, b: v2, by_edges: false, flat, known: flat.known() }
     }
+    /// First vertex and edges.
+    pub(crate) fn edges(&self) -> [V3; 3] {
+        let (v0, a, b) = (wide(self.v0), wide(self.a), wide(self.b));
+        if self.by_edges { [v0, a, b] } else { [v0, sub(a, v0), sub(b, v0)] }
+    }
     /// For `SphericalTriangle::with_edges`: the other vertices are the rounded sums.
     #[must_use]
     pub fn by_edges(v0: [f32; 3], e1: [f32; 3], e2: [f32; 3]) -> Self {
@@ -245,6 +250,9 @@ impl Subject for Triangle {
     fn reach(&self) -> f64 {
         self.flat.reach()
     }
+    fn farthest(&self) -> f64 {
+        self.flat.reach()
+    }
     fn slant(&self, w: V3) -> f64 {
         1.0 / dot(w, unit(cross(self.flat.e1, self.flat.e2))).abs()
     }
@@ -306,7 +314,9 @@ impl Subject for Parallelogram {
         SphericalParallelogram::splat(warp)
     }
     fn tolerance(&self) -> Tolerance {
-        self.known.widened(tolerances::PARALLELOGRAM)
+        let all = self.known.widened(tolerances::PARALLELOGRAM);
+        // where the second triangle begins is known as the solid angles are
+        Tolerance { steps: all.steps + 0.5 * self.known.condition, ..all }
     }
     fn scaled(&self, factor: f32) -> Self {
         let times = |v: [f32; 3]| v.map(|x| x * factor);
@@ -341,6 +351,9 @@ impl Subject for Parallelogram {
     }
     fn reach(&self) -> f64 {
         self.flat.reach()
+    }
+    fn farthest(&self) -> f64 {
+        self.corners().into_iter().map(length).fold(0.0, f64::max)
     }
     fn slant(&self, w: V3) -> f64 {
         1.0 / dot(w, unit(cross(self.flat.e1, self.flat.e2))).abs()
@@ -405,6 +418,9 @@ impl Subject for Rectangle {
     }
     fn reach(&self) -> f64 {
         self.0.reach()
+    }
+    fn farthest(&self) -> f64 {
+        self.0.farthest()
     }
     fn slant(&self, w: V3) -> f64 {
         self.0.slant(w)
@@ -516,6 +532,9 @@ impl Subject for Hexagon {
     }
     fn reach(&self) -> f64 {
         self.corners().into_iter().map(length).fold(0.0, f64::max)
+    }
+    fn farthest(&self) -> f64 {
+        self.reach()
     }
     fn slant(&self, w: V3) -> f64 {
         1.0 / dot(w, unit(cross(self.fan[0].e1, self.fan[0].e2))).abs()

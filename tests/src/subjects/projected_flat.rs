@@ -40,7 +40,7 @@ impl Truth {
             let (e1, e2) = (difference(exact[1], exact[0]), difference(exact[2], exact[0]));
             let flat = Flat { v0: rounded(exact[0]), e1, e2, exact };
             // not one that the horizon has left as a line
-            if length(cross(e1, e2)) > 1e-14 * length(e1) * length(e2) {
+            if length(cross(e1, e2)) > 1e-14 * length(e1) * length(e2) && triangles < fan.len() {
                 fan[triangles] = flat;
                 triangles += 1;
             }

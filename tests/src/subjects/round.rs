@@ -229,8 +229,8 @@ impl Subject for Cone {
 /// `seen::SphereCap`.
 #[derive(Clone, Copy, Debug)]
 pub struct Cap {
-    center: [f32; 3],
-    radius: f32,
+    pub(crate) center: [f32; 3],
+    pub(crate) radius: f32,
     /// 1 − cosσ and σ.
     truth: (f64, f64),
 }
@@ -256,6 +256,13 @@ impl Subject for Cap {
     fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R> {
         SphereCap::splat(warp)
     }
+    /// From inside u₀ is half of 1−cosθ.
+    fn inverse_units(&self, _: [f64; 2]) -> f64 {
+        3.0
+    }
+    fn inverse_steps(&self) -> f64 {
+        3.0
+    }
     fn tolerance(&self) -> Tolerance {
         tolerances::CAP
     }
@@ -275,7 +282,8 @@ impl Subject for Cap {
         [x.hypot(y).atan2(z) / self.truth.1, turns(y, x)]
     }
     fn outside(&self, margin: f64, random: &mut Random) -> Option<V3> {
-        let theta = self.truth.1 + margin;
+        // besides its slack, what the frame has rounded
+        let theta = self.truth.1 + 1.25 * margin;
         (theta < PI - 1e-2).then(|| polar(self.axes(), theta, random.range(0.0, TAU)))
     }
     fn extent(&self) -> [f64; 2] {

@@ -249,9 +249,9 @@ impl ProjectedSegment {
         if below[0] && below[1] {
             return this;
         }
-        let panels = 16;
+        let (panels, nodes) = (16, gauss_legendre::<16>());
         for panel in 0..panels {
-            for (x, weight) in gauss_legendre::<16>() {
+            for (x, weight) in nodes {
                 let theta = (f64::from(panel) + x) / f64::from(panels) * arc.angle;
                 this.whole += weight * arc.angle / f64::from(panels) * this.value(theta);
             }

@@ -1,0 +1,4 @@
+//! `campaign::spherical_disk` on any bytes.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::campaign::spherical_disk(bytes));

@@ -1,0 +1,146 @@
+//! Sequences.
+
+use super::Input;
+use etendue::sequence::{
+    Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
+};
+use etendue::{Uint, Vec2, f32x8, u32x8};
+
+/// Every sequence, anywhere: in [0, 1)², the same in packets, and again.
+pub(super) fn sequence(input: &mut Input<'_>) {
+    fn check(sequence: &(impl Sequence + core::fmt::Debug), pixel: u32, sample: u32, dimension: u32) {
+        let (pixels, samples) =
+            (u32x8::from_fn(|k| pixel.wrapping_add(k as u32)), u32x8::from_fn(|k| sample.wrapping_add(7 * k as u32)));
+        let packet: Vec2<f32x8> = sequence.pair(pixels, samples, dimension);
+        for k in 0..8 {
+            let one: Vec2<f32> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
+            assert_eq!(packet.lane(k), one, "{sequence:?} lane {k}: pixel {pixel}, sample {sample}, {dimension}");
+            let inside = (0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y);
+            assert!(inside, "{sequence:?}: {one:?}: pixel {pixel}, sample {sample}, {dimension}");
+        }
+    }
+    let (seed, kind) = (input.seed(), input.below(9));
+    let [pixel, sample, dimension, count] = counters(input);
+    match kind {
+        0 => check(&Independent::new(seed), pixel, sample, dimension),
+        1 => check(&Stratified::new(seed, count), pixel, sample, dimension),
+        2 => check(&LatinHypercube::new(seed, count), pixel, sample, dimension),
+        3 => check(&Lattice::r2(seed), pixel, sample, dimension),
+        4 => check(&Lattice::fibonacci(seed, count), pixel, sample, dimension),
+        5 => check(&OwenSobol::new(seed), pixel, sample, dimension),
+        6 => check(&ZOrder::new(seed, count), pixel, sample, dimension),
+        7 => check(&JointSobol::new(seed), pixel, sample, dimension % 8),
+        _ => check(&JointStratified::new(seed, count, pixel % 6), pixel, sample, dimension % 8),
+    }
+}
+/// Counters: small ones, powers of two, the last ones, and any.
+fn counters<const N: usize>(input: &mut Input<'_>) -> [u32; N] {
+    [(); N].map(|()| {
+        let word = input.word();
+        [word, word % 1024, u32::MAX - word % 16, 1_u32 << (word % 32)][input.below(4) as usize]
+    })
+}
+
+/// In which of `cells` equal parts of [0, 1).
+fn cell(u: f32, cells: u32) -> usize {
+    // exact where cells are a power of two; else a point on the grid of 2⁻²⁴ may be rounded over an edge
+    (f64::from(u) * f64::from(cells)) as usize
+}
+/// Which cell, unless it is on an edge: from below a point may have been rounded onto it.
+fn inside(u: Vec2<f32>, columns: u32, rows: u32) -> Option<usize> {
+    let on_an_edge = |u: f32, cells: u32| (f64::from(u) * f64::from(cells)).fract() == 0.0;
+    let some = !on_an_edge(u.x, columns) && !on_an_edge(u.y, rows);
+    some.then(|| cell(u.x, columns) + cell(u.y, rows) * columns as usize)
+}
+/// As many samples as cells, one in each; those on edges, which are few, count for any.
+fn once(cells: impl Iterator<Item = Option<usize>>, count: usize, what: impl core::fmt::Debug) {
+    let (mut taken, mut samples) = (vec![false; count], 0);
+    for cell in cells {
+        samples += 1;
+        if let Some(cell) = cell {
+            assert!(!taken[cell], "cell {cell} of {count} twice: {what:?}");
+            taken[cell] = true;
+        }
+    }
+    assert_eq!(samples, count);
+}
+
+/// Each cell of a replicate once, wherever it begins, and each box of a net as often as the others.
+pub(super) fn strata(input: &mut Input<'_>) {
+    let (seed, kind) = (input.seed(), input.below(6));
+    let [pixel, start] = counters(input);
+    let draw = |sequence: &Stratified, sample, dimension| -> Vec2<f32> { sequence.pair(pixel, sample, dimension) };
+    match kind {
+        0 => {
+            // a power of two, so that no point is rounded over an edge
+            let strata = Stratified::new(seed, 1 << input.below(9));
+            let ([columns, rows], count) = (strata.grid(), strata.count());
+            let first = start % (1 << 31) / count * count;
+            let dimension = input.word();
+            let of = |u| inside(u, columns, rows);
+            once((0..count).map(|i| of(draw(&strata, first + i, dimension))), count as usize, (strata, pixel, first));
+        }
+        1 => {
+            let latin = LatinHypercube::new(seed, 1 << input.below(9));
+            let count = latin.count();
+            let first = start % (1 << 31) / count * count;
+            let dimension = input.word();
+            let all: Vec<Vec2<f32>> = (0..count).map(|i| latin.pair(pixel, first + i, dimension)).collect();
+            let along =
+                |pick: fn(&Vec2<f32>) -> f32| all.iter().map(move |u| inside(Vec2::new(pick(u), 0.5_f32), count, 1));
+            once(along(|u| u.x), count as usize, (latin, pixel, first));
+            once(along(|u| u.y), count as usize, (latin, pixel, first));
+        }
+        2 => {
+            let (side, pairs) = (1 << input.below(3), u32::from(2 + input.below(2)));
+            let strata = JointStratified::new(seed, side, pairs);
+            let count = strata.count();
+            assert_eq!(count, side.pow(2 * pairs));
+            let first = start % (1 << 31) / count * count;
+            let of = |i: u32| {
+                (0..pairs).try_fold(0, |sum, dimension| {
+                    let u: Vec2<f32> = strata.pair(pixel, first + i, dimension);
+                    inside(u, side, side).map(|cell| sum * (side * side) as usize + cell)
+                })
+            };
+            once((0..count).map(of), count as usize, (strata, pixel, first));
+        }
+        3 => {
+            // in each coordinate, and in boxes of one pair
+            let (owen, bits) = (OwenSobol::new(seed), u32::from(1 + input.below(8)));
+            let (count, dimension) = (1_u32 << bits, input.word());
+            let first = start >> bits << bits;
+            let all: Vec<Vec2<f32>> = (0..count).map(|i| owen.pair(pixel, first + i, dimension)).collect();
+            let across = u32::from(input.below(9)).min(bits);
+            let of = |u: &Vec2<f32>| cell(u.x, 1 << across) << (bits - across) | cell(u.y, 1 << (bits - across));
+            once(all.iter().map(|u| Some(of(u))), count as usize, (owen, pixel, first, across));
+        }
+        _ => net(input, seed, pixel, start),
+    }
+}
+
+/// Boxes of the joint sequence's net, of up to six dimensions: 2ᵗ points in each box of 2ᵗ⁻ᵐ.
+fn net(input: &mut Input<'_>, seed: u64, pixel: u32, start: u32) {
+    const T: [u32; 6] = [0, 0, 1, 3, 5, 8];
+    let dimensions = 1 + u32::from(input.below(6));
+    let t = T[dimensions as usize - 1];
+    let m = t + u32::from(input.below(4));
+    let mut sides = [0_u32; 6];
+    for _ in t..m {
+        sides[usize::from(input.below(dimensions as u8))] += 1;
+    }
+    let (sobol, first) = (JointSobol::new(seed), start >> m << m);
+    let mut boxes = vec![0_u32; 1 << (m - t)];
+    for i in 0..1 << m {
+        let mut place = 0;
+        for pair in 0..dimensions.div_ceil(2) {
+            let u: Vec2<f32> = sobol.pair(pixel, first + i, pair);
+            for (x, side) in [u.x, u.y].into_iter().zip(&sides[2 * pair as usize..]) {
+                place = place << side | cell(x, 1 << side);
+            }
+        }
+        boxes[place] += 1;
+    }
+    let even = boxes.iter().all(|n| *n == 1 << t);
+    assert!(even, "boxes {:?} of 2^-{}: {boxes:?}: seed {seed}, pixel {pixel}, from {first}", &sides[..], m - t);
+}

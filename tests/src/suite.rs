@@ -1,0 +1,135 @@
+//! All laws over all regimes: what the tests of the warps run, and what planted defects are put through.
+
+use crate::domain::{self, Case, Random};
+use crate::laws::{self, Subject};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What became of one law in one regime.
+#[derive(Clone, Debug)]
+pub struct Regime {
+    /// As the domain names it.
+    pub name: &'static str,
+    /// Greatest figure that the law returned.
+    pub figure: f64,
+    /// In how many cases the law was broken.
+    pub broken: usize,
+    /// What the first of these said.
+    pub first: String,
+}
+
+/// What became of one law.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Its name.
+    pub law: &'static str,
+    /// In each regime.
+    pub regimes: Vec<Regime>,
+}
+impl Outcome {
+    /// Greatest figure over all regimes.
+    #[must_use]
+    pub fn greatest(&self) -> f64 {
+        self.regimes.iter().fold(0.0, |most, r| f64::max(most, r.figure))
+    }
+    /// The regimes in which the law was broken.
+    pub fn broken(&self) -> impl Iterator<Item = &Regime> {
+        self.regimes.iter().filter(|r| r.broken > 0)
+    }
+}
+
+/// How many laws there are.
+pub const LAWS: usize = 11;
+
+/// What a panic said.
+#[must_use]
+pub fn message(panic: &(dyn core::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("panic inside").to_owned()
+}
+
+/// Runs one law over the cases.
+fn each<S: Subject>(law: &'static str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> Outcome {
+    let mut regimes: Vec<Regime> = Vec::new();
+    for (i, (name, subject)) in cases.iter().enumerate() {
+        let at = regimes.iter().position(|r| r.name == *name).unwrap_or_else(|| {
+            regimes.push(Regime { name, figure: 0.0, broken: 0, first: String::new() });
+            regimes.len() - 1
+        });
+        let entry = &mut regimes[at];
+        match catch_unwind(AssertUnwindSafe(|| run(subject, i))) {
+            Ok(figure) => entry.figure = entry.figure.max(figure),
+            Err(error) => {
+                if entry.broken == 0 {
+                    entry.first = message(&*error);
+                }
+                entry.broken += 1;
+            }
+        }
+    }
+    Outcome { law, regimes }
+}
+
+/// **Within reach**, by itself: also for shapes of which less is known than the other laws ask.
+pub fn within_reach<S: Subject>(cases: &[Case<S>]) -> Outcome {
+    let square = domain::square(20, 2);
+    each("reach", cases, |s, _| square.iter().map(|&u| laws::within_reach(s, u)).fold(0.0, f64::max))
+}
+
+/// All laws over the cases, at the edges of the square and `random` points more.
+pub fn all<S: Subject>(cases: &[Case<S>], random: usize) -> [Outcome; LAWS] {
+    let square = domain::square(random, 1);
+    let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
+        let square = &square;
+        move |s: &S, seed: usize| {
+            let mut random = Random::new(seed as u64);
+            square.iter().map(|&u| run(s, u, &mut random)).fold(0.0, f64::max)
+        }
+    };
+    // the charts' own edges are where a density goes to 0
+    let chart = |r: &mut Random| [(); 2].map(|()| domain::unit_or_edge(r));
+    [
+        each(
+            "total",
+            cases,
+            at(|s, u, _| {
+                laws::total(s, u);
+                0.0
+            }),
+        ),
+        each(
+            "scale",
+            cases,
+            at(|s, u, _| {
+                laws::scale(s, u);
+                0.0
+            }),
+        ),
+        each("accurate", cases, at(|s, u, _| laws::accurate(s, u))),
+        each("closed", cases, at(|s, u, _| laws::closed(s, u))),
+        each("density", cases, |s, seed| {
+            let mut random = Random::new(seed as u64);
+            square.iter().map(|&u| laws::density(s, u, chart(&mut random))).fold(0.0, f64::max)
+        }),
+        each("onto", cases, at(|s, _, r| laws::onto(s, [r.unit_f64(), r.unit_f64()]))),
+        each("jacobian", cases, at(|s, _, r| laws::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
+        each(
+            "outside",
+            cases,
+            at(|s, _, r| {
+                laws::outside(s, r);
+                0.0
+            }),
+        ),
+        each("integral", cases, |s, _| laws::integral(s)),
+        each("chi-square", cases, |s, i| laws::chi_square(s, i as u64)),
+        each("lanes", cases, |_, i| {
+            // each lane a different regime, each with its own u
+            let kin: Vec<S> = cases.iter().map(|c| c.1).filter(|s| s.kin(&cases[i].1)).collect();
+            let lanes = core::array::from_fn(|k| kin[(i + k * 3) % kin.len()]);
+            for start in (0..square.len() - 8).step_by(5) {
+                laws::lanes(&lanes, &core::array::from_fn(|k| square[start + k]));
+            }
+            0.0
+        }),
+    ]
+}
