@@ -10,12 +10,13 @@
 //! - [`stats`]: probabilities of what was observed.
 
 pub mod domain;
-pub mod double_double;
 pub mod laws;
 pub mod oracle;
 pub mod stats;
 pub mod subjects;
 pub mod tolerances;
+
+pub use etendue_render::atlas::double_double;
 
 /// The README's example, compiled and run with the documentation's.
 #[cfg(doctest)]
