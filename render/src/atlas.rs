@@ -297,7 +297,7 @@ impl Tally {
     fn add_unseen(&mut self, measure: f64, sample: &Sample) {
         self.all += 1.0;
         // by area a point of the plane is seen from its edge; below the least measure either answer will do
-        let right = sample.finite() && (sample.pdf == 0.0 || measure > 0.0);
+        let right = sample.finite() && (sample.pdf == 0.0 || measure > 0.0 || sample.by_area);
         self.invalid += f64::from(u8::from(!right));
     }
     fn add(&mut self, truth: &Truth, reference: &Reference, u: [f32; 2], sample: &Sample) {

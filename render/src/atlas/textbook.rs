@@ -136,7 +136,11 @@ impl Arvo {
     /// The inverse: the solid angle of the triangle swept over that of the whole, and a ratio of 1 − cos.
     #[must_use]
     pub fn invert(&self, w: V, excess: Excess) -> [f32; 2] {
-        let mut swept = normalize(cross(cross(self.b, w), cross(self.c, self.a)));
+        let plane = cross(self.b, w);
+        if dot(plane, plane) == 0.0 {
+            return [0.0; 2];
+        }
+        let mut swept = normalize(cross(plane, cross(self.c, self.a)));
         if dot(swept, add(self.a, self.c)) < 0.0 {
             swept = times(swept, -1.0);
         }

@@ -37,7 +37,6 @@ fn solid_angle(a: Dd3, b: Dd3, c: Dd3, volume: Dd) -> f64 {
 /// A triangle and Arvo's map about its vertex `v1`: the area swept from `v0` is u₀Ω, 1−cos of the angle from `v1` is u₁ of the whole.
 #[derive(Clone, Debug)]
 pub struct Fan {
-    vertices: [Dd3; 3],
     units: [Dd3; 3],
     /// tan(Ω/2) = g0/(g1+g2)
     g: [Dd; 3],
@@ -57,7 +56,7 @@ impl Fan {
         let g = [g0, dot(add(units[0], units[1]), units[2]), one + dot(units[0], units[1])];
         let touches = g0.to_f64() <= 0.0;
         let omega = if touches { 0.0 } else { solid_angle(v0, v1, v2, volume) };
-        Self { vertices: [v0, v1, v2], units, g, solid_angle: omega }
+        Self { units, g, solid_angle: omega }
     }
     /// In steradians.
     #[must_use]
