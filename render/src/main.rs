@@ -3,8 +3,8 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_render::chart::{self, name, size};
 use etendue_render::compare::Comparison;
-use etendue_render::{atlas, figure};
 use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World, image, scene, selftest};
+use etendue_render::{atlas, figure};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::error::Error;

@@ -1,10 +1,10 @@
 //! The maps, the table, and the page that shows them.
 
 use super::pose::{Kind, Sweep};
-use super::{Chart, Figures};
+use super::{Chart, Figures, LIMIT};
+use crate::image;
 use std::error::Error;
 use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
 
 /// What a map shows.
@@ -14,13 +14,15 @@ enum Measure {
     Pdf,
     RoundTrip,
     Invalid,
+    Bias,
     Efficiency,
 }
-const MEASURES: [(Measure, &str); 5] = [
+const MEASURES: [(Measure, &str); 6] = [
     (Measure::Direction, "error of direction"),
     (Measure::Pdf, "error of pdf"),
     (Measure::RoundTrip, "round trip"),
     (Measure::Invalid, "invalid samples"),
+    (Measure::Bias, "bias of irradiance"),
     (Measure::Efficiency, "efficiency : by area"),
 ];
 impl Measure {
@@ -30,11 +32,12 @@ impl Measure {
             Self::Pdf => cell.pdf,
             Self::RoundTrip => cell.round_trip,
             Self::Invalid => cell.invalid,
+            Self::Bias => cell.bias,
             Self::Efficiency => chart.efficiency(cell),
         }
     }
     fn is_error(self) -> bool {
-        matches!(self, Self::Direction | Self::Pdf | Self::RoundTrip)
+        matches!(self, Self::Direction | Self::Pdf | Self::RoundTrip | Self::Bias)
     }
 }
 
@@ -252,12 +255,20 @@ pub struct Summary {
     pub kind: Kind,
     /// Its name, and whether it is of the core.
     pub method: (&'static str, bool),
-    /// Of direction, pdf and round trip; NaN: not measured.
-    pub greatest: [f64; 3],
+    /// Of direction, pdf, round trip and bias; NaN: not measured.
+    pub greatest: [f64; 4],
     /// Cells that keep the contract, that have an invalid sample, and all.
     pub cells: [usize; 3],
+    /// Cells with a bias within the limit, and all in which it was measured.
+    pub unbiased: [usize; 2],
     /// Nanoseconds for one sample.
     pub cost: f64,
+}
+
+impl Summary {
+    fn unbiased_part(&self) -> String {
+        format!("{:.1} %", 100.0 * self.unbiased[0] as f64 / self.unbiased[1].max(1) as f64)
+    }
 }
 
 /// Of each kind and technique, in order.
@@ -267,18 +278,27 @@ pub fn summary(charts: &[Chart]) -> Vec<Summary> {
     for chart in charts {
         let method = (chart.method.name, chart.method.ours);
         let at = all.iter().position(|s| s.kind == chart.kind && s.method == method).unwrap_or_else(|| {
-            let none = [f64::NAN; 3];
-            all.push(Summary { kind: chart.kind, method, greatest: none, cells: [0; 3], cost: chart.cost });
+            let none = [f64::NAN; 4];
+            all.push(Summary {
+                kind: chart.kind,
+                method,
+                greatest: none,
+                cells: [0; 3],
+                unbiased: [0; 2],
+                cost: chart.cost,
+            });
             all.len() - 1
         });
         let entry = &mut all[at];
         for cell in &chart.cells {
-            for (most, x) in entry.greatest.iter_mut().zip([cell.direction, cell.pdf, cell.round_trip]) {
+            for (most, x) in entry.greatest.iter_mut().zip([cell.direction, cell.pdf, cell.round_trip, cell.bias]) {
                 *most = most.max(x);
             }
             entry.cells[0] += usize::from(cell.meets());
             entry.cells[1] += usize::from(cell.invalid > 0.0);
             entry.cells[2] += 1;
+            entry.unbiased[0] += usize::from(cell.bias <= LIMIT);
+            entry.unbiased[1] += usize::from(!cell.bias.is_nan());
         }
     }
     all
@@ -292,17 +312,17 @@ fn figure(x: f64) -> String {
 #[must_use]
 pub fn table(charts: &[Chart]) -> String {
     let mut out = format!(
-        "{:17} {:32} {:>9} {:>9} {:>10}  {:>12} {:>8}\n",
-        "shape", "technique", "direction", "pdf", "round trip", "within 1e-5", "invalid"
+        "{:23} {:40} {:>9} {:>8} {:>10} {:>8}  {:>11} {:>8} {:>8}\n",
+        "shape", "technique", "direction", "pdf", "round trip", "bias", "within 1e-5", "unbiased", "invalid"
     );
     for s in summary(charts) {
-        let [direction, pdf, round_trip] = s.greatest.map(figure);
+        let [direction, pdf, round_trip, bias] = s.greatest.map(figure);
         let name = format!("{}{}", if s.method.1 { "" } else { "textbook: " }, s.method.0);
         let part = |n: usize| format!("{:.1} %", 100.0 * n as f64 / s.cells[2] as f64);
-        let (within, invalid) = (part(s.cells[0]), part(s.cells[1]));
+        let (within, unbiased, invalid) = (part(s.cells[0]), s.unbiased_part(), part(s.cells[1]));
         let _ = writeln!(
             out,
-            "{:17} {name:32} {direction:>9} {pdf:>9} {round_trip:>10}  {within:>12} {invalid:>8}",
+            "{:23} {name:40} {direction:>9} {pdf:>8} {round_trip:>10} {bias:>8}  {within:>11} {unbiased:>8} {invalid:>8}",
             s.kind.name()
         );
     }
@@ -310,17 +330,17 @@ pub fn table(charts: &[Chart]) -> String {
 }
 
 fn legend(stops: &[(f64, [u8; 3])], low: i32, high: i32, first: &str, last: &str) -> String {
+    let width = f64::from(high - low) * 40.0 + 46.0;
     let mut out = format!(
-        r#"<svg width="{}" height="34" font-family="sans-serif" font-size="10">"#,
-        f64::from(high - low) * 40.0 + 40.0
+        r#"<svg viewBox="0 0 {width} 34" style="width:{width}px;max-width:100%" font-family="sans-serif" font-size="10">"#
     );
     for quarter in low * 4..high * 4 {
-        let x = f64::from(quarter - low * 4) * 10.0 + 15.0;
+        let x = f64::from(quarter - low * 4) * 10.0 + 18.0;
         let fill = blend(stops, f64::from(quarter) / 4.0 + 0.01);
         let _ = write!(out, r#"<rect x="{x}" y="2" width="10.5" height="14" fill="{fill}"/>"#);
     }
     for power in low..=high {
-        let x = f64::from(power - low) * 40.0 + 15.0;
+        let x = f64::from(power - low) * 40.0 + 18.0;
         let text = match power {
             p if p == low => format!("{first}1e{p}"),
             p if p == high => format!("{last}1e{p}"),
@@ -351,9 +371,10 @@ fn html(charts: &[Chart], sheets: &[(Kind, Sweep, String)], quick: bool) -> Stri
         let part = |n: usize| format!("{:.1} %", 100.0 * n as f64 / s.cells[2] as f64);
         let _ = writeln!(
             rows,
-            r#"<tr class="{class}"><td>{shape}</td><td>{}</td>{cells}<td>{}</td><td>{}</td><td>{:.0}</td></tr>"#,
+            r#"<tr class="{class}"><td>{shape}</td><td>{}</td>{cells}<td>{}</td><td>{}</td><td>{}</td><td>{:.0}</td></tr>"#,
             escape(s.method.0),
             part(s.cells[0]),
+            s.unbiased_part(),
             part(s.cells[1]),
             s.cost
         );
@@ -375,8 +396,8 @@ fn html(charts: &[Chart], sheets: &[(Kind, Sweep, String)], quick: bool) -> Stri
         .replace("{{MAPS}}", &maps)
 }
 
-fn table_of_cells(charts: &[Chart], path: &Path) -> Result<(), Box<dyn Error>> {
-    let mut out = csv::Writer::from_path(path)?;
+fn table_of_cells(charts: &[Chart]) -> Result<Vec<u8>, Box<dyn Error>> {
+    let mut out = csv::Writer::from_writer(Vec::new());
     out.write_record([
         "shape",
         "sweep",
@@ -389,6 +410,7 @@ fn table_of_cells(charts: &[Chart], path: &Path) -> Result<(), Box<dyn Error>> {
         "round_trip",
         "invertible",
         "invalid",
+        "bias",
         "variance_ratio",
         "efficiency",
         "meets",
@@ -409,14 +431,14 @@ fn table_of_cells(charts: &[Chart], path: &Path) -> Result<(), Box<dyn Error>> {
                 number(cell.round_trip),
                 number(cell.invertible),
                 number(cell.invalid),
+                number(cell.bias),
                 number(cell.variance_ratio),
                 number(chart.efficiency(cell)),
                 cell.meets().to_string(),
             ])?;
         }
     }
-    out.flush()?;
-    Ok(())
+    Ok(out.into_inner()?)
 }
 
 /// Writes `atlas.csv`, a sheet of maps for each sweep, and last of all `atlas.html`, which holds everything.
@@ -424,7 +446,6 @@ fn table_of_cells(charts: &[Chart], path: &Path) -> Result<(), Box<dyn Error>> {
 /// # Errors
 /// Where a file cannot be written.
 pub fn write(charts: &[Chart], directory: &Path, quick: bool) -> Result<(), Box<dyn Error>> {
-    let named = |path: &Path, e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
     let mut sheets: Vec<(Kind, Sweep, String)> = Vec::new();
     let mut rest = charts;
     while let Some(first) = rest.first() {
@@ -434,13 +455,12 @@ pub fn write(charts: &[Chart], directory: &Path, quick: bool) -> Result<(), Box<
         sheets.push((first.kind, first.sweep.clone(), sheet(&these.iter().collect::<Vec<_>>())));
         rest = others;
     }
-    let path = directory.join("atlas.csv");
-    table_of_cells(charts, &path).map_err(|e| named(&path, &e))?;
+    image::replace(&directory.join("atlas.csv"), &table_of_cells(charts)?)?;
     for (kind, sweep, svg) in &sheets {
         let path = directory.join(format!("{}-{}.svg", kind.name(), sweep.name));
-        fs::write(&path, svg).map_err(|e| named(&path, &e))?;
+        image::replace(&path, svg.as_bytes())?;
     }
     let path = directory.join("atlas.html");
-    fs::write(&path, html(charts, &sheets, quick)).map_err(|e| named(&path, &e))?;
+    image::replace(&path, html(charts, &sheets, quick).as_bytes())?;
     Ok(())
 }

@@ -38,8 +38,25 @@ pub enum Kind {
     Rectangle,
     /// A convex hexagon by solid angle
     Polygon,
+    /// A disk by solid angle
+    Disk,
+    /// A line segment by angle
+    Segment,
+    /// A triangle by projected solid angle
+    ProjectedTriangle,
+    /// A parallelogram by projected solid angle
+    ProjectedParallelogram,
+    /// A convex hexagon by projected solid angle
+    ProjectedPolygon,
+    /// A line segment by what it gives to a surface
+    ProjectedSegment,
 }
 impl Kind {
+    /// All of them.
+    #[must_use]
+    pub fn all() -> &'static [Self] {
+        Self::value_variants()
+    }
     /// As on the command line.
     #[must_use]
     pub fn name(self) -> String {
@@ -53,6 +70,29 @@ impl Kind {
     }
     fn round(self) -> bool {
         matches!(self, Self::Sphere | Self::ProjectedSphere)
+    }
+    /// Has it length alone?
+    #[must_use]
+    pub fn line(self) -> bool {
+        matches!(self, Self::Segment | Self::ProjectedSegment)
+    }
+    /// Is its density that of the irradiance of a receiver?
+    #[must_use]
+    pub fn projected(self) -> bool {
+        matches!(
+            self,
+            Self::ProjectedSphere
+                | Self::ProjectedTriangle
+                | Self::ProjectedParallelogram
+                | Self::ProjectedPolygon
+                | Self::ProjectedSegment
+        )
+    }
+    fn triangle(self) -> bool {
+        matches!(self, Self::Triangle | Self::ProjectedTriangle)
+    }
+    fn hexagon(self) -> bool {
+        matches!(self, Self::Polygon | Self::ProjectedPolygon)
     }
 }
 
@@ -77,6 +117,22 @@ pub enum Shape {
     },
     /// A hexagon.
     Corners([[f32; 3]; 6]),
+    /// A disk.
+    Disk {
+        /// Centre.
+        center: [f32; 3],
+        /// Of any length.
+        normal: [f32; 3],
+        /// Radius.
+        radius: f32,
+    },
+    /// A line.
+    Segment {
+        /// First end.
+        a: [f32; 3],
+        /// To the other.
+        edge: [f32; 3],
+    },
 }
 
 /// A shape, and the receiver's normal.
@@ -112,8 +168,21 @@ pub struct Sweep {
     pub x: Vec<Tick>,
     /// Upwards.
     pub y: Vec<Tick>,
-    /// Is it the first sweep of its kind?
-    first: bool,
+    /// What they are.
+    axes: Axes,
+}
+
+/// What a sweep varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Axes {
+    /// Size, and elevation of a sphere over the horizon or of the viewpoint over a flat shape.
+    Elevation,
+    /// Size, and elevation of the light over the horizon in units of its size.
+    Horizon,
+    /// Aspect ratio and distance.
+    Aspect,
+    /// Where the viewpoint is over a disk's plane, and how high.
+    Foot,
 }
 
 fn power(exponent: f64) -> Tick {
@@ -142,6 +211,23 @@ fn elevations(per_decade: i32) -> Vec<Tick> {
     all
 }
 
+/// Elevations in units of the size: where the horizon touches and cuts.
+fn cuts() -> Vec<Tick> {
+    let near = |k: i32| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" });
+    let mut up = vec![named(1.1, "1.1"), named(1.001, ""), named(1.0 + 1e-6, ""), named(1.0, "1")];
+    up.extend((1..=7).rev().map(near));
+    up.extend([named(0.7, ""), named(0.5, "0.5"), named(0.2, "")]);
+    up.extend([-2.0, -4.0, -6.0].map(power));
+    let down = up.iter().map(|t| {
+        let label = if t.label.is_empty() { String::new() } else { format!("-{}", t.label) };
+        Tick { value: -t.value, label }
+    });
+    let mut all: Vec<_> = down.collect();
+    all.push(named(0.0, "0"));
+    all.extend(up.into_iter().rev());
+    all
+}
+
 /// The sweeps of a kind; coarse if `quick`.
 #[must_use]
 pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
@@ -152,35 +238,15 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
         x.extend([named(0.3, ""), named(0.7, ""), named(0.9, "0.9")]);
         x.extend((2..=7).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" })));
         x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.1, ""), named(1e3, "1e3")]);
-        let mut near: Vec<_> =
-            (1..=7).rev().map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" })).collect();
-        near.extend([named(0.7, ""), named(0.5, "0.5"), named(0.2, "")]);
-        near.extend([-2.0, -4.0, -6.0].map(power));
-        let mut y: Vec<_> = [1.1, 1.001, 1.0 + 1e-6].map(|v| named(v, "")).to_vec();
-        y[0].label = "1.1".into();
-        y.push(named(1.0, "1"));
-        y.extend(near);
-        let below: Vec<_> = y
-            .iter()
-            .rev()
-            .map(|t| Tick {
-                value: -t.value,
-                label: if t.label.is_empty() { String::new() } else { format!("-{}", t.label) },
-            })
-            .collect();
-        y.push(named(0.0, "0"));
-        y.extend(below);
-        y.reverse();
-        let title = "size × elevation of the centre over the horizon";
         return vec![
             Sweep {
                 name: "size-elevation",
-                title,
+                title: "size × elevation of the centre over the horizon",
                 x_title: "radius / distance",
                 y_title: "sine of elevation",
                 x: x.clone(),
                 y: elevations(fine),
-                first: true,
+                axes: Axes::Elevation,
             },
             Sweep {
                 name: "size-horizon",
@@ -188,33 +254,65 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
                 x_title: "radius / distance",
                 y_title: "sine of elevation / (radius/distance)",
                 x: x.into_iter().filter(|t| t.value < 1.0).collect(),
-                y,
-                first: false,
+                y: cuts(),
+                axes: Axes::Horizon,
             },
         ];
     }
-    let mut distances = vec![named(0.0, "0")];
-    distances.extend(powers(-6, 9, fine));
-    vec![
-        Sweep {
-            name: "size-elevation",
-            title: "size × elevation of the viewpoint over the plane of the light",
-            x_title: "size / distance",
-            y_title: "sine of elevation",
-            x: powers(-9, 5, fine),
-            y: elevations(fine),
-            first: true,
+    let mut list = vec![Sweep {
+        name: "size-elevation",
+        title: if kind.line() {
+            "size × elevation of the viewpoint over the line of the light"
+        } else {
+            "size × elevation of the viewpoint over the plane of the light"
         },
-        Sweep {
+        x_title: "size / distance",
+        y_title: "sine of elevation",
+        x: powers(-9, 5, fine),
+        y: elevations(fine),
+        axes: Axes::Elevation,
+    }];
+    if kind.projected() {
+        list.push(Sweep {
+            name: "size-horizon",
+            title: "size × elevation of the light over the surface, in units of its size: where the horizon cuts",
+            x_title: "size / distance",
+            y_title: "height of the centre / half the size",
+            x: powers(-9, 2, fine),
+            y: cuts(),
+            axes: Axes::Horizon,
+        });
+    }
+    let mut heights = vec![named(0.0, "0")];
+    heights.extend(powers(-6, 9, fine));
+    if kind == Kind::Disk {
+        let mut x = vec![named(0.0, "0")];
+        x.extend(powers(-6, -1, fine));
+        x.push(named(0.5, ""));
+        x.extend((1..=6).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 6 { "1-1e-6" } else { "" })));
+        x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.0 + 1e-3, ""), named(1.5, "1.5")]);
+        x.extend(powers(1, 6, fine));
+        list.push(Sweep {
+            name: "foot-height",
+            title: "foot of the viewpoint on the disk's plane × its height",
+            x_title: "distance of the foot from the centre / radius",
+            y_title: "height / radius",
+            x,
+            y: heights,
+            axes: Axes::Foot,
+        });
+    } else if !kind.line() {
+        list.push(Sweep {
             name: "aspect-distance",
             title: "aspect ratio × distance",
             x_title: "length / width",
             y_title: "distance / length",
             x: powers(0, 6, 2 * fine),
-            y: distances,
-            first: false,
-        },
-    ]
+            y: heights,
+            axes: Axes::Aspect,
+        });
+    }
+    list
 }
 
 /// SplitMix64.
@@ -270,61 +368,98 @@ fn axes(random: &mut Random, upright: bool) -> [V3; 3] {
 }
 
 impl Sweep {
+    /// Does it vary the distance to a shape of one size?
+    #[must_use]
+    pub fn touches(&self) -> bool {
+        matches!(self.axes, Axes::Aspect | Axes::Foot)
+    }
+
     /// The pose of a cell; each `turn` is another rotation of it.
     #[must_use]
     pub fn pose(&self, kind: Kind, x: f64, y: f64, turn: u64) -> Pose {
         let mut random = Random(turn.wrapping_mul(0x1234_5678_9abc_def1) ^ x.to_bits() ^ y.to_bits().rotate_left(17));
-        let exact = if self.first { y == 0.0 } else { !kind.round() && y == 0.0 };
-        let axes = axes(&mut random, exact);
+        let exact = y == 0.0 && (kind.round() == (self.axes == Axes::Elevation) || !kind.round());
+        let axes = axes(&mut random, exact && self.axes != Axes::Horizon);
         let units = axes.map(unit);
         let at = |v: V3| -> V3 { core::array::from_fn(|i| (0..3).map(|k| units[k][i] * v[k]).sum()) };
         let up = narrow(units[2]);
+        let around = |random: &mut Random| (std::f64::consts::TAU * random.unit()).sin_cos();
+        let level = |sine: f64| ((1.0 - sine) * (1.0 + sine)).max(0.0).sqrt();
         if kind.round() {
-            let sin = if self.first { y } else { y * x };
-            let (s, c) = (std::f64::consts::TAU * random.unit()).sin_cos();
-            let level = ((1.0 - sin) * (1.0 + sin)).max(0.0).sqrt();
-            let center = narrow(at([level * c, level * s, sin]));
+            let sin = if self.axes == Axes::Elevation { y } else { y * x };
+            let (s, c) = around(&mut random);
+            let center = narrow(at([level(sin) * c, level(sin) * s, sin]));
             return Pose { shape: Shape::Sphere { center, radius: x as f32 }, normal: up };
         }
-        // the light lies across the third axis; its centre is at `center`
-        let (length, width, center) = if self.first {
-            let (s, c) = (std::f64::consts::TAU * random.unit()).sin_cos();
-            let level = ((1.0 - y) * (1.0 + y)).max(0.0).sqrt();
-            (x, 0.7 * x, [level * c, level * s, y])
+        // a flat light lies across the third axis, a line along the first; its centre is at `center`
+        let (length, width, center) = match self.axes {
+            Axes::Elevation if kind.line() => {
+                let (s, c) = around(&mut random);
+                (x, 0.0, [level(y), y.abs() * c, y * s])
+            }
+            Axes::Elevation => {
+                let (s, c) = around(&mut random);
+                (x, 0.7 * x, [level(y) * c, level(y) * s, y])
+            }
+            Axes::Horizon => (x, 0.7 * x, [0.3, 0.48, 0.824_621]),
+            Axes::Aspect => (1.0, 1.0 / x, [0.5 * y, 0.2 * y, 0.843 * y]),
+            Axes::Foot => {
+                let (s, c) = around(&mut random);
+                (1.0, 1.0, [x * c, x * s, y])
+            }
+        };
+        let center = at(center);
+        // the receiver faces the light, or has it at the horizon: there the normal is turned about an axis across both
+        let towards = if center == [0.0; 3] { units[2] } else { unit(center) };
+        let normal = if self.axes == Axes::Horizon {
+            let across = unit(cross(towards, units[(turn % 3) as usize]));
+            let sine = (y * 0.5 * x).clamp(-1.0, 1.0);
+            let flat = cross(across, towards);
+            narrow(core::array::from_fn(|i| towards[i] * sine + flat[i] * level(sine)))
         } else {
-            (1.0, 1.0 / x, [0.5 * y, 0.2 * y, 0.843 * y])
+            narrow(towards)
         };
         let edge = |k: usize, size: f64| {
             let l = axes[k][0].hypot(axes[k][1]).hypot(axes[k][2]);
             axes[k].map(|x| x * coarse(size / l))
         };
-        let (u, mut v) = (edge(0, length), edge(1, width));
+        let shape = match kind {
+            Kind::Disk => {
+                let radius = if self.axes == Axes::Foot { 1.0 } else { 0.5 * length } as f32;
+                Shape::Disk { center: narrow(center), normal: up, radius }
+            }
+            Kind::Segment | Kind::ProjectedSegment => {
+                let u = narrow(edge(0, length));
+                Shape::Segment { a: narrow(core::array::from_fn(|i| center[i] - 0.5 * f64::from(u[i]))), edge: u }
+            }
+            _ => self.flat(kind, center, [edge(0, length), edge(1, width)], y, turn),
+        };
+        Pose { shape, normal }
+    }
+
+    fn flat(&self, kind: Kind, center: V3, [u, mut v]: [V3; 2], y: f64, turn: u64) -> Shape {
         let skew = match kind {
-            Kind::Triangle => 0.3,
-            Kind::Parallelogram if self.first => 0.4,
+            _ if kind.triangle() => 0.3,
+            Kind::Parallelogram | Kind::ProjectedParallelogram if self.axes != Axes::Aspect => 0.4,
             _ => 0.0,
         };
         v = core::array::from_fn(|i| v[i] + skew * u[i]);
-        let middle = if kind == Kind::Triangle { 1.0 / 3.0 } else { 0.5 };
-        let center = at(center);
-        let towards_viewer = narrow(if center == [0.0; 3] { units[2] } else { unit(center) });
-        let shape = if kind == Kind::Polygon {
+        if kind.hexagon() {
             let corner = |i: usize| {
                 let (s, c) = (std::f64::consts::TAU * i as f64 / 6.0).sin_cos();
                 narrow(core::array::from_fn(|k| center[k] + 0.5 * (u[k] * c + v[k] * s)))
             };
-            Shape::Corners(core::array::from_fn(corner))
-        } else {
-            let (u, v) = (narrow(u), narrow(v));
-            // touching: within, on a vertex, on an edge
-            let (s, t) = match turn % 3 {
-                1 if !self.first && y == 0.0 => (0.0, 0.0),
-                2 if !self.first && y == 0.0 => (0.5, 0.0),
-                _ => (middle, middle),
-            };
-            let p = core::array::from_fn(|i| center[i] - s * f64::from(u[i]) - t * f64::from(v[i]));
-            Shape::Flat { p: narrow(p), u, v }
+            return Shape::Corners(core::array::from_fn(corner));
+        }
+        let (u, v) = (narrow(u), narrow(v));
+        let middle = if kind.triangle() { 1.0 / 3.0 } else { 0.5 };
+        // touching: within, on a vertex, on an edge
+        let (s, t) = match turn % 3 {
+            1 if self.axes == Axes::Aspect && y == 0.0 => (0.0, 0.0),
+            2 if self.axes == Axes::Aspect && y == 0.0 => (0.5, 0.0),
+            _ => (middle, middle),
         };
-        Pose { shape, normal: towards_viewer }
+        let p = core::array::from_fn(|i| center[i] - s * f64::from(u[i]) - t * f64::from(v[i]));
+        Shape::Flat { p: narrow(p), u, v }
     }
 }

@@ -1,29 +1,31 @@
 //! What is true of a shape seen from a point: solid angles, densities and the maps themselves in 106 bits. Nothing here calls the bodies
 //! under test, but for the directions of projected shapes (see [`Truth::direction`]).
 
+use super::curves::{Arc, Ellipse};
 use super::double_double::{Dd, Dd3, cross, dot};
 use super::pose::{Kind, Pose, Shape, V3, unit, wide};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use etendue::seen::ProjectedCap;
+use etendue::seen::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
+use etendue::warp::ConcentricDisk;
 use etendue::{Frame, Vec2, Vec3, Warp};
 
-fn dd(a: V3) -> Dd3 {
+pub(super) fn dd(a: V3) -> Dd3 {
     a.map(Dd::from)
 }
-fn add(a: Dd3, b: Dd3) -> Dd3 {
+pub(super) fn add(a: Dd3, b: Dd3) -> Dd3 {
     core::array::from_fn(|i| a[i] + b[i])
 }
-fn times(a: Dd3, s: Dd) -> Dd3 {
+pub(super) fn times(a: Dd3, s: Dd) -> Dd3 {
     a.map(|x| x * s)
 }
-fn length(a: Dd3) -> Dd {
+pub(super) fn length(a: Dd3) -> Dd {
     dot(a, a).sqrt()
 }
-fn normalized(a: Dd3) -> Dd3 {
+pub(super) fn normalized(a: Dd3) -> Dd3 {
     let l = length(a);
     if l.to_f64() > 0.0 { a.map(|x| x / l) } else { a }
 }
-fn narrow(a: Dd3) -> V3 {
+pub(super) fn narrow(a: Dd3) -> V3 {
     a.map(Dd::to_f64)
 }
 
@@ -158,7 +160,7 @@ impl Window {
 }
 
 /// Where an increasing function with f(0) = 0 and f(`end`) = `top` is `target`: false position (Illinois), and halves where that is slow.
-fn root(end: f64, top: f64, target: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn root(end: f64, top: f64, target: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, end);
     let (mut f_low, mut f_high) = (-target, top - target);
     if f_high <= 0.0 {
@@ -213,7 +215,41 @@ pub fn projected_cap(center: V3, radius: f64, normal: V3) -> f64 {
         return 0.0;
     }
     let y = ((sin - height) * (sin + height)).sqrt();
+    // a thin lune is a small difference of the three
     (y.atan2(cos) + sin * sin * height * y.atan2(-(cos * height)) - y * cos).to_f64()
+}
+
+/// The corners of what the horizon of `n` leaves of a convex polygon.
+#[must_use]
+pub fn above_horizon(corners: &[Dd3], n: Dd3) -> Vec<Dd3> {
+    let mut above = Vec::new();
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let (ha, hb) = (dot(a, n), dot(b, n));
+        if ha.to_f64() >= 0.0 {
+            above.push(a);
+        }
+        if (ha.to_f64() < 0.0) != (hb.to_f64() < 0.0) {
+            let part = ha / (ha - hb);
+            above.push(core::array::from_fn(|k| a[k] + (b[k] - a[k]) * part));
+        }
+    }
+    above
+}
+
+/// Lambert's sum over the edges of a polygon above the horizon of `n`: good to 1e−13 down to 1e−8 of the distance.
+#[must_use]
+pub fn lambert(corners: &[Dd3], n: Dd3) -> f64 {
+    let mut sum = Dd::default();
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let normal = cross(a, b);
+        let length = dot(normal, normal).sqrt();
+        if length.to_f64() > 0.0 {
+            sum = sum + length.atan2(dot(a, b)) * dot(normal, n) / length;
+        }
+    }
+    0.5 * (sum / dot(n, n).sqrt()).to_f64().abs()
 }
 
 #[derive(Clone, Debug)]
@@ -221,7 +257,14 @@ enum Map {
     Cap { frame: Frame<f64>, one_minus_cos: f64 },
     Fans(Vec<Fan>),
     Window(Window),
-    Body(ProjectedCap<f64>),
+    Disk(Box<Ellipse>),
+    Line(Arc),
+    Surface(Arc),
+    // the f64 bodies, whose laws the tests hold to closed forms
+    Lune(Box<ProjectedCap<f64>>),
+    Triangle(Box<ProjectedTriangle<f64>>),
+    Quad(Box<ProjectedPolygon<f64, 4>>),
+    Hexagon(Box<ProjectedPolygon<f64, 6>>),
 }
 
 /// Of one pose.
@@ -247,24 +290,38 @@ impl Truth {
     /// Of a kind of shape in a pose.
     #[must_use]
     pub fn new(kind: Kind, pose: &Pose) -> Self {
-        let projected = kind == Kind::ProjectedSphere;
+        let projected = kind.projected();
         let normal = unit(wide(pose.normal));
+        let n = dd(wide(pose.normal));
+        let vector = |v: V3| Vec3::new(v[0], v[1], v[2]);
         let (map, measure, extent) = match &pose.shape {
             Shape::Sphere { center, radius } => {
                 let (c, r) = (wide(*center), f64::from(*radius));
-                let h = cap(c, r);
+                let h = if r > 0.0 { cap(c, r) } else { 0.0 };
                 let sigma = if h >= 2.0 { FRAC_PI_2 } else { (h * (2.0 - h)).sqrt().atan2(1.0 - h) };
                 if projected {
-                    let vector = |v: V3| Vec3::new(v[0], v[1], v[2]);
                     let body = ProjectedCap::new(vector(c), r, vector(wide(pose.normal)));
-                    (Map::Body(body), projected_cap(c, r, wide(pose.normal)), 2.0 * sigma)
+                    (Map::Lune(Box::new(body)), projected_cap(c, r, wide(pose.normal)), 2.0 * sigma)
                 } else {
                     let axis = if c == [0.0; 3] { [0.0, 0.0, 1.0] } else { unit(c) };
                     let frame = Frame::new(Vec3::new(axis[0], axis[1], axis[2]));
                     (Map::Cap { frame, one_minus_cos: h }, TAU * h, 2.0 * sigma)
                 }
             }
+            Shape::Disk { center, normal, radius } => {
+                let ellipse = Ellipse::new(wide(*center), wide(*normal), f64::from(*radius));
+                let (measure, extent) = (ellipse.solid_angle(), 2.0 * ellipse.sines[1].min(1.0).asin());
+                (Map::Disk(Box::new(ellipse)), measure, extent)
+            }
+            Shape::Segment { a, edge } => {
+                let (a, edge) = (dd(wide(*a)), dd(wide(*edge)));
+                let arc = Arc::new(a, edge, projected.then_some(n));
+                let (measure, extent) = if projected { (arc.whole, arc.angle) } else { (arc.angle, arc.angle) };
+                (if projected { Map::Surface(arc) } else { Map::Line(arc) }, measure, extent)
+            }
             Shape::Flat { p, u, v } => {
+                let wide_normal = vector(wide(pose.normal));
+                let (pw, uw, vw) = (vector(wide(*p)), vector(wide(*u)), vector(wide(*v)));
                 let (p, u, v) = (dd(wide(*p)), dd(wide(*u)), dd(wide(*v)));
                 let minus = |a: Dd3| a.map(|x| -x);
                 let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
@@ -279,6 +336,18 @@ impl Truth {
                         let measure = fan.solid_angle;
                         (Map::Fans(vec![fan]), measure, widest(&[p, pu, pv]))
                     }
+                    Kind::ProjectedTriangle => {
+                        let body = ProjectedTriangle::with_edges(pw, pw + uw, pw + vw, uw, vw, wide_normal);
+                        let corners = [p, pu, pv];
+                        let measure = lambert(&above_horizon(&corners, n), n);
+                        (Map::Triangle(Box::new(body)), measure, widest(&corners))
+                    }
+                    Kind::ProjectedParallelogram => {
+                        let body = ProjectedPolygon::parallelogram(pw, uw, vw, wide_normal);
+                        let corners = [p, pu, puv, pv];
+                        let measure = lambert(&above_horizon(&corners, n), n);
+                        (Map::Quad(Box::new(body)), measure, widest(&corners))
+                    }
                     _ => {
                         let fans = vec![Fan::new(pu, minus(u), v), Fan::new(puv, minus(add(u, v)), minus(u))];
                         let measure = fans.iter().map(Fan::solid_angle).sum();
@@ -288,6 +357,19 @@ impl Truth {
             }
             Shape::Corners(corners) => {
                 let c = corners.map(|c| dd(wide(c)));
+                if projected {
+                    let body = ProjectedPolygon::new(corners.map(|c| vector(wide(c))), vector(wide(pose.normal)));
+                    let measure = lambert(&above_horizon(&c, n), n);
+                    return Self {
+                        map: Map::Hexagon(Box::new(body)),
+                        measure,
+                        extent: widest(&c),
+                        projected,
+                        normal,
+                        shape: pose.shape.clone(),
+                        kind,
+                    };
+                }
                 let edge = |from: Dd3, to: Dd3| add(to, from.map(|x| -x));
                 let fans: Vec<_> = (1..5).map(|i| Fan::new(c[i], edge(c[i], c[0]), edge(c[i], c[i + 1]))).collect();
                 let measure = fans.iter().map(Fan::solid_angle).sum();
@@ -297,8 +379,8 @@ impl Truth {
         Self { map, measure, extent, projected, normal, shape: pose.shape.clone(), kind }
     }
 
-    /// The direction for `u`. Of a sphere, a triangle, a parallelogram, a rectangle and a polygon it is computed from the map's definition in
-    /// 106 bits; of a projected sphere it is that of the f64 body, whose density the laws of the tests hold to the closed form.
+    /// The direction for `u`, computed from the map's definition; but of projected spheres, triangles, parallelograms and polygons it is
+    /// that of the f64 body, whose density the laws of the tests hold to the closed form.
     #[must_use]
     pub fn direction(&self, u: [f64; 2]) -> V3 {
         match &self.map {
@@ -323,24 +405,50 @@ impl Truth {
                 [0.0, 0.0, 1.0]
             }
             Map::Window(window) => window.at(u),
-            Map::Body(body) => {
-                let w = body.sample(Vec2::new(u[0], u[1]));
-                [w.x, w.y, w.z]
-            }
+            Map::Disk(ellipse) => ellipse.at(u),
+            Map::Line(arc) => arc.at(u[0] * arc.angle),
+            Map::Surface(arc) => arc.at(arc.angle_of(u[0])),
+            Map::Lune(body) => sampled(&**body, u),
+            Map::Triangle(body) => sampled(&**body, u),
+            Map::Quad(body) => sampled(&**body, u),
+            Map::Hexagon(body) => sampled(&**body, u),
         }
     }
 
-    /// Is the second coordinate of u an azimuth?
+    /// Has it one dimension?
     #[must_use]
-    pub fn periodic(&self) -> bool {
-        matches!(self.map, Map::Cap { .. })
+    pub fn line(&self) -> bool {
+        self.kind.line()
+    }
+    /// Unit vector to the middle of the shape.
+    #[must_use]
+    pub fn towards(&self) -> V3 {
+        let middle = match &self.shape {
+            Shape::Sphere { center, .. } | Shape::Disk { center, .. } => wide(*center),
+            Shape::Flat { p, u, v } => {
+                let part = if matches!(self.kind, Kind::Triangle | Kind::ProjectedTriangle) { 1.0 / 3.0 } else { 0.5 };
+                core::array::from_fn(|i| f64::from(p[i]) + part * (f64::from(u[i]) + f64::from(v[i])))
+            }
+            Shape::Corners(c) => core::array::from_fn(|i| c.iter().map(|c| f64::from(c[i])).sum::<f64>()),
+            Shape::Segment { a, edge } => core::array::from_fn(|i| f64::from(a[i]) + 0.5 * f64::from(edge[i])),
+        };
+        if middle == [0.0; 3] { self.normal } else { unit(middle) }
+    }
+
+    /// Is a coordinate of u an azimuth?
+    #[must_use]
+    pub fn periodic(&self, axis: usize) -> bool {
+        matches!((&self.map, axis), (Map::Cap { .. }, 1) | (Map::Disk(_), 0))
     }
 
     /// The density at a direction of the shape: its value, and by how much an error of the direction changes it, per radian.
     #[must_use]
     pub fn density(&self, w: V3) -> [f64; 2] {
-        if self.projected {
-            let cos: f64 = (0..3).map(|i| w[i] * self.normal[i]).sum();
+        let cos: f64 = (0..3).map(|i| w[i] * self.normal[i]).sum();
+        if let Map::Surface(arc) = &self.map {
+            let sin: f64 = (0..3).map(|i| w[i] * arc.foot[i]).sum();
+            [sin.max(0.0) * cos.max(0.0) / self.measure, (sin.abs() + cos.abs()) / self.measure]
+        } else if self.projected {
             [cos.max(0.0) / self.measure, 1.0 / self.measure]
         } else {
             [1.0 / self.measure, 0.0]
@@ -363,7 +471,7 @@ impl Truth {
             Shape::Flat { p, u: e1, v: e2 } => {
                 let (p, e1, e2) = (dd(wide(*p)), dd(wide(*e1)), dd(wide(*e2)));
                 let normal = cross(e1, e2);
-                let (b1, b2, part) = if self.kind == Kind::Triangle {
+                let (b1, b2, part) = if matches!(self.kind, Kind::Triangle | Kind::ProjectedTriangle) {
                     let root = u[0].sqrt();
                     (root * (1.0 - u[1]), root * u[1], 0.5)
                 } else {
@@ -372,7 +480,39 @@ impl Truth {
                 let point = add(p, add(times(e1, Dd::from(b1)), times(e2, Dd::from(b2))));
                 (point, times(normal, Dd::from(part)))
             }
-            Shape::Corners(_) => return ([0.0; 3], 0.0),
+            Shape::Corners(corners) => {
+                let c = corners.map(|c| dd(wide(c)));
+                let edge: [Dd3; 5] = core::array::from_fn(|i| add(c[i + 1], c[0].map(|x| -x)));
+                let normals: [Dd3; 4] = core::array::from_fn(|i| cross(edge[i], edge[i + 1]));
+                let areas = normals.map(|n| length(n).to_f64());
+                let total: f64 = areas.iter().sum();
+                let (mut place, mut i) = (u[0] * total, 0);
+                while i < 3 && place >= areas[i] {
+                    place -= areas[i];
+                    i += 1;
+                }
+                let root = (place / areas[i]).clamp(0.0, 1.0).sqrt();
+                let (b1, b2) = (Dd::from(root * (1.0 - u[1])), Dd::from(root * u[1]));
+                let point = add(c[0], add(times(edge[i], b1), times(edge[i + 1], b2)));
+                let whole = normals.into_iter().reduce(add).unwrap_or(normals[0]);
+                (point, times(whole, Dd::from(0.5)))
+            }
+            Shape::Disk { center, normal, radius } => {
+                let n = unit(wide(*normal));
+                let frame = Frame::new(Vec3::new(n[0], n[1], n[2]));
+                let r = f64::from(*radius);
+                let q = ConcentricDisk.sample(Vec2::new(u[0], u[1])) * r;
+                let offset = frame.s * q.x + frame.t * q.y;
+                let area = dd(wide(*normal)).map(|x| x * Dd::from(PI * r * r));
+                (add(dd(wide(*center)), dd([offset.x, offset.y, offset.z])), area)
+            }
+            Shape::Segment { a, edge } => {
+                let (a, edge) = (dd(wide(*a)), dd(wide(*edge)));
+                let point = add(a, times(edge, Dd::from(u[0])));
+                let across = length(cross(a, edge)).to_f64();
+                let pdf = if across > 0.0 { dot(point, point).to_f64() / across } else { 0.0 };
+                return (narrow(normalized(point)), pdf);
+            }
         };
         let d = length(point);
         let along = dot(point, normal).abs();
@@ -380,6 +520,49 @@ impl Truth {
             return (narrow(normalized(point)), 0.0);
         }
         (narrow(normalized(point)), (d * d * d / along).to_f64())
+    }
+}
+
+fn sampled(body: &impl Warp<f64, Point = Vec3<f64>>, u: [f64; 2]) -> V3 {
+    let w = body.sample(Vec2::new(u[0], u[1]));
+    [w.x, w.y, w.z]
+}
+
+impl Truth {
+    /// What the shape gives to a receiver with the unit normal `n`, per unit of radiance; of a segment, times the height over its line and
+    /// per unit of its width. By closed form; NaN for a disk, which has none.
+    #[must_use]
+    pub fn irradiance(&self, n: V3) -> f64 {
+        let n = dd(n);
+        match &self.shape {
+            Shape::Sphere { center, radius } => projected_cap(wide(*center), f64::from(*radius), narrow(n)),
+            Shape::Flat { p, u, v } => {
+                let (p, u, v) = (dd(wide(*p)), dd(wide(*u)), dd(wide(*v)));
+                let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
+                let corners = if matches!(self.kind, Kind::Triangle | Kind::ProjectedTriangle) {
+                    vec![p, pu, pv]
+                } else {
+                    vec![p, pu, puv, pv]
+                };
+                lambert(&above_horizon(&corners, n), n)
+            }
+            Shape::Corners(corners) => lambert(&above_horizon(&corners.map(|c| dd(wide(c))), n), n),
+            Shape::Disk { .. } => f64::NAN,
+            Shape::Segment { a, edge } => Arc::new(dd(wide(*a)), dd(wide(*edge)), Some(n)).whole,
+        }
+    }
+    /// Of the point over a line; 1 for what is none.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        let Shape::Segment { a, edge } = &self.shape else { return 1.0 };
+        let (a, edge) = (dd(wide(*a)), dd(wide(*edge)));
+        (length(cross(a, edge)) / length(edge)).to_f64()
+    }
+    /// The distance of a line in a direction of the plane of point and line over the height; 1 for what is none.
+    #[must_use]
+    pub fn stretch(&self, w: V3) -> f64 {
+        let Shape::Segment { edge, .. } = &self.shape else { return 1.0 };
+        1.0 / length(cross(dd(w), dd(unit(wide(*edge))))).to_f64()
     }
 }
 
