@@ -30,10 +30,10 @@ pub(super) fn narrow(a: Dd3) -> V3 {
 }
 
 /// Solid angle of a triangle with the corners a, b, c, whose a·(b×c) is known, by Van Oosterom and Strackee.
-fn solid_angle(a: Dd3, b: Dd3, c: Dd3, volume: Dd) -> f64 {
+fn solid_angle(a: Dd3, b: Dd3, c: Dd3, volume: Dd) -> Dd {
     let [la, lb, lc] = [a, b, c].map(length);
     let under = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-    2.0 * volume.abs().to_f64().atan2(under.to_f64())
+    Dd::from(2.0) * volume.abs().atan2(under)
 }
 
 /// A triangle and Arvo's map about its vertex `v1`: the area swept from `v0` is u₀Ω, 1−cos of the angle from `v1` is u₁ of the whole.
@@ -42,7 +42,7 @@ pub struct Fan {
     units: [Dd3; 3],
     /// tan(Ω/2) = g0/(g1+g2)
     g: [Dd; 3],
-    solid_angle: f64,
+    solid_angle: Dd,
 }
 impl Fan {
     /// From a vertex and the edges to the two others.
@@ -57,19 +57,19 @@ impl Fan {
         let g0 = if lengths.to_f64() > 0.0 { volume.abs() / lengths } else { Dd::default() };
         let g = [g0, dot(add(units[0], units[1]), units[2]), one + dot(units[0], units[1])];
         let touches = g0.to_f64() <= 0.0;
-        let omega = if touches { 0.0 } else { solid_angle(v0, v1, v2, volume) };
+        let omega = if touches { Dd::default() } else { solid_angle(v0, v1, v2, volume) };
         Self { units, g, solid_angle: omega }
     }
     /// In steradians.
     #[must_use]
     pub fn solid_angle(&self) -> f64 {
-        self.solid_angle
+        self.solid_angle.to_f64()
     }
     /// The unit vector to the point of the edge `v0 v2` for `u₀`.
     #[must_use]
-    pub fn swept(&self, u0: f64) -> Dd3 {
-        let h = 0.5 * u0 * self.solid_angle;
-        let (s, c) = (Dd::from(h.sin()), Dd::from(h.cos()));
+    pub fn swept(&self, u0: Dd) -> Dd3 {
+        // near v2 what is left is small
+        let (s, c) = (Dd::from(0.5) * u0 * self.solid_angle).sin_cos();
         let [a, _, b] = self.units;
         let alpha = self.g[0] * c - self.g[1] * s;
         let beta = self.g[2] * s;
@@ -78,12 +78,12 @@ impl Fan {
     }
     /// The direction for `u`.
     #[must_use]
-    pub fn at(&self, u: [f64; 2]) -> V3 {
-        let (p, apex) = (self.swept(u[0]), self.units[1]);
+    pub fn at(&self, u: (Dd, f64)) -> V3 {
+        let (p, apex) = (self.swept(u.0), self.units[1]);
         let (normal, cos) = (cross(apex, p), dot(apex, p));
         let one = Dd::from(1.0);
         let versine = if cos.to_f64() > 0.0 { dot(normal, normal) / (one + cos) } else { one - cos };
-        let k = Dd::from(u[1]) * versine;
+        let k = Dd::from(u.1) * versine;
         let tangent = normalized(cross(normal, apex));
         let sin = (k * (Dd::from(2.0) - k)).sqrt();
         narrow(add(times(apex, one - k), times(tangent, sin)))
@@ -91,9 +91,9 @@ impl Fan {
     /// Of the part of it that `u₀` has swept, from the point that [`swept`](Self::swept) gives: u₀Ω if the map is right.
     #[must_use]
     pub fn area_swept(&self, u0: f64) -> f64 {
-        let p = self.swept(u0);
+        let p = self.swept(Dd::from(u0));
         let [a, b, _] = self.units;
-        solid_angle(a, b, p, dot(p, cross(a, b)))
+        solid_angle(a, b, p, dot(p, cross(a, b))).to_f64()
     }
 }
 
@@ -132,7 +132,7 @@ impl Window {
         let zero = Dd::default();
         let [a, b, c, d] = [at(zero, zero), at(dx, zero), at(dx, self.size[1]), at(zero, self.size[1])];
         let volume = self.height * dx * self.size[1];
-        solid_angle(a, b, c, volume) + solid_angle(a, c, d, volume)
+        (solid_angle(a, b, c, volume) + solid_angle(a, c, d, volume)).to_f64()
     }
     fn at(&self, u: [f64; 2]) -> V3 {
         let target = u[0] * self.solid_angle;
@@ -333,7 +333,7 @@ impl Truth {
                     }
                     Kind::Triangle => {
                         let fan = Fan::new(p, u, v);
-                        let measure = fan.solid_angle;
+                        let measure = fan.solid_angle();
                         (Map::Fans(vec![fan]), measure, widest(&[p, pu, pv]))
                     }
                     Kind::ProjectedTriangle => {
@@ -392,15 +392,16 @@ impl Truth {
                 [w.x, w.y, w.z]
             }
             Map::Fans(fans) => {
-                let swept = u[0] * self.measure;
-                let mut before = 0.0;
-                let last = fans.iter().rposition(|f| f.solid_angle > 0.0).unwrap_or(0);
+                let whole = fans.iter().fold(Dd::default(), |sum, f| sum + f.solid_angle);
+                let mut rest = Dd::from(u[0]) * whole;
+                let last = fans.iter().rposition(|f| f.solid_angle() > 0.0).unwrap_or(0);
                 for (i, fan) in fans.iter().enumerate() {
-                    if i == last || swept < before + fan.solid_angle {
-                        let part = if fan.solid_angle > 0.0 { (swept - before) / fan.solid_angle } else { 0.0 };
-                        return fan.at([part.clamp(0.0, 1.0), u[1]]);
+                    let beyond = (rest - fan.solid_angle).to_f64();
+                    if i == last || beyond < 0.0 {
+                        let part = if fan.solid_angle() > 0.0 { rest / fan.solid_angle } else { Dd::default() };
+                        return fan.at((part, u[1]));
                     }
-                    before += fan.solid_angle;
+                    rest = rest - fan.solid_angle;
                 }
                 [0.0, 0.0, 1.0]
             }
