@@ -109,7 +109,8 @@ impl Figures {
     #[must_use]
     pub fn meets(&self) -> bool {
         let within = |x: f64| x.is_nan() || x <= LIMIT;
-        within(self.direction) && within(self.pdf) && within(self.round_trip) && !(self.invalid > 0.0)
+        [self.direction, self.pdf, self.round_trip].into_iter().all(within)
+            && (self.invalid.is_nan() || self.invalid <= 0.0)
     }
 }
 

@@ -22,7 +22,7 @@ fn triangles() {
     close(octant.solid_angle(), FRAC_PI_2, 1e-15, "octant");
     // facing and small: the area; seen edge-on: times the sine
     for (size, sine) in [(1e-3, 1.0), (1e-9, 1.0), (1e-6, 1e-7), (1e-9, 1e-7)] {
-        let level = ((1.0 - sine) * (1.0 + sine) as f64).sqrt();
+        let level = f64::sqrt((1.0 - sine) * (1.0 + sine));
         let fan = Fan::new(dd([level, 0.0, sine]), dd([size, 0.0, 0.0]), dd([0.0, size, 0.0]));
         close(fan.solid_angle(), 0.5 * size * size * sine, 3.0 * size + 1e-13, "small triangle");
     }
