@@ -423,7 +423,7 @@ fn atlas_of_one_shape() {
     let mut table = csv::Reader::from_path(folder.path("maps/atlas.csv")).unwrap();
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
     // every cell of three techniques, and ours keeps the contract in all of them
-    assert!(rows.len() % 3 == 0 && rows.len() > 600, "{}", rows.len());
+    assert!(rows.len().is_multiple_of(3) && rows.len() > 600, "{}", rows.len());
     let ours = |r: &&csv::StringRecord| &r[2] == "SphericalSegment";
     let last = table.headers().unwrap().len() - 1;
     assert!(rows.iter().filter(ours).all(|r| &r[last] == "true"));
