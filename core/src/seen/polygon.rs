@@ -12,7 +12,9 @@ use crate::warp::{Warp, unit_interval};
 ///   per lane, and its map computed once.
 /// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
 /// - Density: 1/Ω per steradian inside (and within the triangle's slack beyond), 0 outside.
-/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, error and source: as the triangle.
+/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, and source: as the triangle.
+/// - Greatest error: as the parallelogram, from points that are farther from the plane than the corners are by their rounding. From nearer the
+///   fan overlaps itself, and up to all of Ω may be wrong.
 ///
 /// ```
 /// use etendue::seen::SphericalPolygon;
