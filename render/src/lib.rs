@@ -1,6 +1,7 @@
 //! A direct-lighting renderer that measures techniques of light sampling: scenes in, images with their variance out.
 
 pub mod accel;
+pub mod atlas;
 pub mod camera;
 pub mod chart;
 pub mod compare;

@@ -3,8 +3,8 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_render::chart::{self, name, size};
 use etendue_render::compare::Comparison;
-use etendue_render::figure;
 use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World, image, scene, selftest};
+use etendue_render::{atlas, figure};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::error::Error;
@@ -33,6 +33,8 @@ enum Command {
     Chart(chart::Options),
     /// Draw a figure of a lecture on sampling lights
     Figure(figure::Options),
+    /// Where methods fail: maps of the error of every technique, beside the textbook's
+    Atlas(atlas::Options),
     /// List built-in scenes, techniques and samplers
     List,
 }
@@ -151,6 +153,7 @@ fn main() -> ExitCode {
         Command::Compare(options) => compare(&options),
         Command::Chart(options) => chart::run(&options, &command_line()),
         Command::Figure(options) => figure::run(&options),
+        Command::Atlas(options) => atlas::run(&options),
         Command::List => list().map_err(Into::into),
     };
     match result {

@@ -407,3 +407,37 @@ fn list_names_everything() {
     ];
     assert_eq!(names, expected);
 }
+
+#[test]
+fn atlas_of_one_shape() {
+    let folder = Folder::new();
+    let said = folder.succeed(&["atlas", "--quick", "--shape", "segment", "-o", "maps"]);
+    assert!(said.contains("SphericalSegment") && said.ends_with("atlas.html\n"), "{said}");
+    let mut names: Vec<_> =
+        fs::read_dir(folder.path("maps")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["atlas.csv", "atlas.html", "segment-size-elevation.svg"]);
+    let page = fs::read_to_string(folder.path("maps/atlas.html")).unwrap();
+    assert!(page.contains("equiangular, by arc tangents") && page.contains("<svg"));
+    assert!(!page.contains("{{") && !page.contains(">NaN") && !page.contains("\"NaN"), "all is filled in");
+    let mut table = csv::Reader::from_path(folder.path("maps/atlas.csv")).unwrap();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    // every cell of three techniques, and ours keeps the contract in all of them
+    assert!(rows.len().is_multiple_of(3) && rows.len() > 600, "{}", rows.len());
+    let ours = |r: &&csv::StringRecord| &r[2] == "SphericalSegment";
+    let last = table.headers().unwrap().len() - 1;
+    assert!(rows.iter().filter(ours).all(|r| &r[last] == "true"));
+    assert!(rows.iter().filter(|r| !ours(r)).any(|r| &r[last] == "false"));
+}
+
+#[test]
+fn atlas_that_cannot_be() {
+    let folder = Folder::new();
+    let error = folder.fail(&["atlas", "--shape", "torus", "-o", "maps"]);
+    assert!(error.contains("torus") && error.contains("projected-segment"), "{error}");
+    let taken = folder.write("taken", "a file");
+    let error = folder.fail(&["atlas", "--quick", "--shape", "segment", "-o", "taken"]);
+    assert!(error.contains("taken"), "{error}");
+    assert_eq!(fs::read_to_string(taken).unwrap(), "a file");
+    assert_eq!(folder.names(), ["taken"]);
+}

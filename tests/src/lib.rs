@@ -16,7 +16,6 @@
 pub mod campaign;
 pub mod checks;
 pub mod domain;
-pub mod double_double;
 pub mod laws;
 pub mod oracle;
 pub mod planted;
@@ -25,6 +24,8 @@ pub mod subjects;
 pub mod suite;
 pub mod techniques;
 pub mod tolerances;
+
+pub use etendue_render::atlas::double_double;
 
 /// The README's example, compiled and run with the documentation's.
 #[cfg(doctest)]

@@ -1,6 +1,6 @@
 //! Truth: closed forms, quadrature and double-double arithmetic. Nothing here calls the code under test.
 
-use crate::double_double::{Dd, Dd3, cross as dd_cross, determinant, dot as dd_dot};
+use crate::double_double::{Dd, Dd3, determinant, dot as dd_dot};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// A vector in f64.
@@ -147,38 +147,7 @@ pub fn projected_polygon(vertices: &[V3], n: V3) -> f64 {
     0.5 * sum.abs()
 }
 
-/// The corners of what the horizon of `n` leaves of a convex polygon, in 106 bits.
-#[must_use]
-pub fn above_horizon(corners: &[Dd3], n: Dd3) -> Vec<Dd3> {
-    let mut above = Vec::new();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let (ha, hb) = (dd_dot(a, n), dd_dot(b, n));
-        if ha.to_f64() >= 0.0 {
-            above.push(a);
-        }
-        if (ha.to_f64() < 0.0) != (hb.to_f64() < 0.0) {
-            let part = ha / (ha - hb);
-            above.push(core::array::from_fn(|k| a[k] + (b[k] - a[k]) * part));
-        }
-    }
-    above
-}
-
-/// Lambert's sum over the edges of a polygon above the horizon of `n`, in 106 bits: good to 1e−13 down to 1e−8 of the distance.
-#[must_use]
-pub fn lambert(corners: &[Dd3], n: Dd3) -> f64 {
-    let mut sum = Dd::default();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let normal = dd_cross(a, b);
-        let length = dd_dot(normal, normal).sqrt();
-        if length.to_f64() > 0.0 {
-            sum = sum + length.atan2(dd_dot(a, b)) * dd_dot(normal, n) / length;
-        }
-    }
-    0.5 * (sum / dd_dot(n, n).sqrt()).to_f64().abs()
-}
+pub use etendue_render::atlas::truth::{above_horizon, lambert};
 
 /// Form factor from a point to a disk that faces it: radius r, height h, offset a of the axis.
 #[must_use]

@@ -13,7 +13,7 @@ fn weights_sum_to_one_at_every_extreme() {
         for a in EXTREMES {
             assert_eq!(heuristic.weights([a, f32::NAN, -1.0]), heuristic.weights([a, 0.0, 0.0]));
         }
-        assert_eq!(heuristic.weights::<f32, 0>([]), [0.0; 0]);
+        assert!(heuristic.weights::<f32, 0>([]).is_empty());
     }
     // the formula as it is often written fails at both ends
     let naive = |a: f32, b: f32| a * a / (a * a + b * b);

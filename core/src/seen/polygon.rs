@@ -12,7 +12,9 @@ use crate::warp::{Warp, unit_interval};
 ///   per lane, and its map computed once.
 /// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
 /// - Density: 1/Ω per steradian inside (and within the triangle's slack beyond), 0 outside.
-/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, error and source: as the triangle.
+/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, and source: as the triangle.
+/// - Greatest error: as the parallelogram, from points that are farther from the plane than the corners are by their rounding. From nearer the
+///   fan overlaps itself, and up to all of Ω may be wrong.
 ///
 /// ```
 /// use etendue::seen::SphericalPolygon;
@@ -45,7 +47,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let p = corners[0];
         for i in 0..Self::TRIANGLES {
             let (a, b) = (corners[i + 1], corners[i + 2]);
-            fan[i] = SphericalTriangle::with_edges(a, p, b, p - a, b - a);
+            fan[i] = SphericalTriangle::new(a, p, b);
             solid_angle += fan[i].solid_angle();
         }
         Self { fan, solid_angle }
@@ -75,28 +77,37 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         }
         front
     }
-    /// Which triangle, and `u` within it.
+    /// Which triangle, `u` within it, and 1−u₀ there: each from the end of the fan that is nearer.
     #[inline(always)]
-    fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>) {
+    fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let swept = u.x * self.solid_angle;
+        let (swept, left) = (u.x * self.solid_angle, (one - u.x) * self.solid_angle);
+        // of those behind
+        let mut behind = [zero; N];
+        for i in (1..Self::TRIANGLES).rev() {
+            behind[i - 1] = behind[i] + self.fan[i].solid_angle();
+        }
         let mut chosen = self.fan[0];
-        let (mut before, mut sum) = (zero, self.fan[0].solid_angle());
-        for triangle in &self.fan[1..Self::TRIANGLES] {
+        let (mut before, mut after, mut sum) = (zero, behind[0], self.fan[0].solid_angle());
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
             let later = swept.ge(sum) & triangle.solid_angle().gt(zero);
             chosen = SphericalTriangle::select(later, triangle, &chosen);
             before = R::select(later, sum, before);
+            after = R::select(later, behind[i], after);
             sum += triangle.solid_angle();
         }
         let whole = chosen.solid_angle();
-        let x = unit_interval((swept - before) / R::select(whole.gt(zero), whole, one));
-        (chosen, Vec2::new(x, u.y))
+        let inverse = one / R::select(whole.gt(zero), whole, one);
+        let late = u.x.gt(R::lit(0.5));
+        let (from, to) = ((swept - before) * inverse, (left - after) * inverse);
+        let x = unit_interval(R::select(late, one - to, from));
+        (chosen, Vec2::new(x, u.y), R::select(late, to, one - from).clamp(zero, one))
     }
     /// The direction for `u` and the distance to the polygon along it.
     #[inline(always)]
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
-        let (triangle, u) = self.branch(u);
-        triangle.sight(u)
+        let (triangle, u, rest) = self.branch(u);
+        triangle.sight_from(u, rest)
     }
 }
 
@@ -104,8 +115,8 @@ impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let (triangle, u) = self.branch(u);
-        triangle.sample(u)
+        let (triangle, u, rest) = self.branch(u);
+        triangle.sample_from(u, rest)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {

@@ -27,7 +27,10 @@ lanewise! {
     /// - Density: cosθ/Ω⊥ per steradian within the cone (and within 4 ulp beyond) and above the horizon, 0 elsewhere. From inside the
     ///   sphere: the whole hemisphere, cosθ/π.
     /// - Degenerate: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` gives some unit vector.
-    /// - Greatest error: Ω⊥ 3e−7 relative (a thin lune: times 3 cosω/(sinσ−|cosω|)); direction 4e−7, besides 4 steps of 2⁻²⁴ in u.
+    /// - Greatest error: Ω⊥ 3e−7 relative, however thin the part that the horizon leaves; of a cap of more than 80° whose centre is below the
+    ///   horizon, times 1/sin²ω: it is then a ring about the nadir, and circle and ellipse are alike. Direction 4e−7, besides 4 steps of
+    ///   2⁻²⁴ in u, times the same; where the horizon touches the cap it has a square root's slope, and may be off by 1e−3 of the size.
+    ///   A cap of less than 1e−6 on the horizon has cosines below the rounding of its directions, and some are lost.
     /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two maps of
     ///   the cut cap and the forms without cancellation are derived here.
     ProjectedCap {
@@ -52,6 +55,8 @@ lanewise! {
         along_z: R,
         distance: R,
         power: R,
+        /// how far the sphere reaches over the horizon: 0 where it touches, less where it is clear of it
+        margin: R,
         unit: R,
     }
 }
@@ -65,6 +70,13 @@ pub(super) fn double<R: Real>() -> bool {
 /// Inner product as if computed in twice the working precision.
 #[inline(always)]
 pub(super) fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
+    let [sum, rest] = exact_dot_pair(a, b);
+    sum + rest
+}
+
+/// The same as an unevaluated sum of two.
+#[inline(always)]
+fn exact_dot_pair<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
     let product = |a: R, b: R| {
         let p = a * b;
         (p, R::product_error(a, b, p))
@@ -72,7 +84,21 @@ pub(super) fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
     let ((x, ex), (y, ey), (z, ez)) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
     let (s, e1) = two_sum(x, y);
     let (s, e2) = two_sum(s, z);
-    s + ((e1 + e2) + (ex + (ey + ez)))
+    [s, (e1 + e2) + (ex + (ey + ez))]
+}
+
+/// r|n| − |c·n|, of which `height` is c·n: the distance of a sphere from touching the horizon, good to parts of itself.
+#[inline(always)]
+fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
+    let [squared, more] = exact_dot_pair(n, n);
+    let some = squared.gt(R::lit(0.0));
+    let length = squared * rsqrt(R::select(some, squared, R::lit(1.0)));
+    let again = length * length;
+    let off = (squared - again) - (R::product_error(length, length, again) - more);
+    let length_rest = off * R::lit(0.5) / R::select(some, length, R::lit(1.0));
+    let reach = r * length;
+    let reach_rest = r.mul_add(length_rest, R::product_error(r, length, reach));
+    (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))))
 }
 
 /// a/b, or 0 where b is not positive.
@@ -244,11 +270,13 @@ impl<R: Real> ProjectedCap<R> {
         let length_squared = normal.length_squared();
         let flat = length_squared.le(zero);
         let shrink = rsqrt(R::select(flat, one, length_squared));
-        let along_z = exact_dot(c, normal) * shrink;
+        let heights = exact_dot_pair(c, normal);
+        let along_z = (heights[0] + heights[1]) * shrink;
+        let margin = tangent_distance(r, normal, heights) * shrink;
+        // y: horizontal, across the plane of normal and axis, before the normal is rounded
+        let across = normal.cross(c) * shrink;
         let normal = normal * shrink;
         let normal = Vec3::new(normal.x, normal.y, R::select(flat, one, normal.z));
-        // y: horizontal, across the plane of normal and axis
-        let across = normal.cross(c);
         let width_squared = across.length_squared();
         let oblique = width_squared.gt(R::lit(1e-36));
         let inverse_width = rsqrt(R::select(oblique, width_squared, one));
@@ -265,9 +293,10 @@ impl<R: Real> ProjectedCap<R> {
         let by_height = reciprocal(along_x.mul_add(along_x, along_z * along_z));
         let sin_omega = pick((along_x * by_height).min(one), 0.0);
         let cos_omega = pick((along_z * by_height).clamp(-one, one), 1.0);
-        let height_squared = ((r - along_z) * (r + along_z)).max(zero) * inverse * inverse;
+        let height_squared = (margin * (r + along_z.abs())).max(zero) * inverse * inverse;
         let height = height_squared.sqrt().keep(outside);
-        let whole = cos_omega.ge(sin_sigma);
+        // seen from inside it is
+        let whole = !outside | (margin.le(zero) & along_z.ge(zero));
         let sin_theta = ratio(height, sin_omega).min(one);
         let floor = R::lit(1e-9);
         let tan_theta = height / cos_sigma.max(floor);
@@ -281,7 +310,7 @@ impl<R: Real> ProjectedCap<R> {
         let (_, lune) = arcs(tan_theta.min(one / beta), one / beta);
         let below = height * height * tan_theta * lune;
         let projected = R::select(cos_omega.ge(zero), R::select(whole, R::lit(PI) * area, above), below);
-        let visible = cos_omega.gt(-sin_sigma) & (r.gt(zero));
+        let visible = (whole | margin.gt(zero)) & r.gt(zero);
         let axis = c * inverse;
         Self {
             frame,
@@ -301,6 +330,7 @@ impl<R: Real> ProjectedCap<R> {
             along_z,
             distance: squared * inverse,
             power,
+            margin: R::select(outside, margin, -one),
             unit: one / scale,
         }
     }
@@ -327,7 +357,7 @@ impl<R: Real> ProjectedCap<R> {
 
     #[inline(always)]
     fn whole(&self) -> R::Mask {
-        self.cos_omega.ge(self.sin_sigma)
+        self.margin.le(R::lit(0.0)) & self.cos_omega.ge(R::lit(0.0))
     }
 
     /// 1 − the centre of the ellipse: 1 − sinω cosσ.

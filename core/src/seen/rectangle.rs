@@ -1,5 +1,5 @@
-use super::{Sighting, lanewise};
-use crate::math::{rsqrt, two_sum};
+use super::{Sighting, exact_cross, exact_height, lanewise};
+use crate::math::rsqrt;
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
@@ -86,21 +86,10 @@ pub(super) fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
 #[inline(always)]
 fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
     let (u, v) = (u * u.max_abs().exponent_reciprocal(), v * v.max_abs().exponent_reciprocal());
-    // a·b − c·d as a sum of two
-    let cross = |a: R, b: R, c: R, d: R| {
-        let (ab, cd) = (a * b, c * d);
-        let (sum, error) = two_sum(ab, -cd);
-        (sum, error + (R::product_error(a, b, ab) - R::product_error(c, d, cd)))
-    };
-    let ((x, ex), (y, ey), (z, ez)) = (cross(u.y, v.z, u.z, v.y), cross(u.z, v.x, u.x, v.z), cross(u.x, v.y, u.y, v.x));
-    let (normal, length) = unit_and_length(Vec3::new(x + ex, y + ey, z + ez));
-    let term = |a: R, b: R| (a * b, R::product_error(a, b, a * b));
-    let ((a, ea), (b, eb), (c, ec)) = (term(p.x, x), term(p.y, y), term(p.z, z));
-    let (sum, e1) = two_sum(a, b);
-    let (sum, e2) = two_sum(sum, c);
-    let rest = (e1 + e2) + ((ea + eb) + ec) + p.dot(Vec3::new(ex, ey, ez));
+    let cross = exact_cross(u, v);
+    let (normal, length) = unit_and_length(cross[0] + cross[1]);
     let some = length.gt(R::lit(0.0));
-    (normal, ((sum + rest) / R::select(some, length, R::lit(1.0))).keep(some))
+    (normal, (exact_height(p, cross) / R::select(some, length, R::lit(1.0))).keep(some))
 }
 
 /// `a/b`, 0 where b is not positive.

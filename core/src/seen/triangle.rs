@@ -1,4 +1,4 @@
-use super::{Sighting, lanewise};
+use super::{Sighting, exact_cross, exact_height, exact_sum, lanewise};
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
@@ -16,30 +16,34 @@ lanewise! {
     /// The map is Arvo's: u₀ sweeps the great circle through the vertex `v1` from `v0` to `v2` so that the swept area is u₀Ω, and u₁
     /// moves away from `v1` uniformly in 1−cos. Small differences come from the edges and never from unit vectors, so that a
     /// triangle of 1e−9 of its distance is sampled as well as a large one; directions come from unit vectors and never from
-    /// points of the plane, so that the plane may be as near as it likes.
+    /// points of the plane, so that the plane may be as near as it likes. The height over the plane is formed in twice the working
+    /// precision, so that the point may be as near to it as it likes.
     ///
-    /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l and cosines d between the V:
-    ///   tan(Ω/2) = |V₀·(E₁×E₂)| / (l₀l₁l₂ + (V₀·V₁)l₂ + (V₀·V₂)l₁ + (V₁·V₂)l₀).
+    /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l, cosines d and sums s = Vᵢ/lᵢ + Vⱼ/lⱼ between the V:
+    ///   tan(Ω/2) = G₀/T, G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), T = 1 + d₀₁ + d₀₂ + d₁₂ = sᵢₖ·sⱼₖ for any vertex k (Van Oosterom and Strackee). Where
+    ///   an angle exceeds 120° T is that product, at the vertex of which the others are the least opposite, and a sum of nearly opposite unit vectors
+    ///   follows from the foot h of the perpendicular on their edge: h(1/lᵢ + 1/lⱼ), and along the edge h²(1/lᵢ(lᵢ+|a|) − 1/lⱼ(lⱼ+|b|)).
     ///   With c the side v0 v1, α the angle at v0, η = u₀Ω/2 and k = tan(c/2), the point P of the far edge lies, in stereographic projection
-    ///   from opposite v1, at X = k − σ cos(α−η)/sinα, Y = σ sin(α−η)/sinα, σ = 2 sinη/sin c. With M = X² + Y² = tan²(∠(V₁,P)/2)
-    ///   and g = 2u₁/(1+M) the direction is zV₁/l₁ + √(g(1+z)) (X, Y), z = 1 − gM, with X along the tangent towards v0. Where c is
-    ///   long, M comes from P = ((a−b)(a+b) V₀/l₀ + 2b(a+bd₀₂) V₂/l₂)/|·|, a = cosη − (d₀₂+d₁₂) sinη/G₀, b = (1+d₀₁) sinη/G₀,
-    ///   G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), if that is the better conditioned; so does the distance.
+    ///   from opposite v1, at X = k − σ cos(α−η)/sinα, Y = σ sin(α−η)/sinα, σ = 2 sinη/sin c; α−η and η count from the end that is
+    ///   nearer. With M = X² + Y² = tan²(∠(V₁,P)/2) and g = 2u₁/(1+M) the direction is zV₁/l₁ + √(g(1+z)) (X, Y), z = 1 − gM, with X
+    ///   along the tangent towards v0. P = (r(r+2b) V₀/l₀ + 2b(r + b(1+d₀₂)) V₂/l₂)/|·|, r = sin(Ω/2−η)/sin(Ω/2), b = (1+d₀₁) sinη/G₀;
+    ///   the distance follows from it, and X and Y too where c is long and that is the better conditioned.
     /// - Domain: u in [0, 1)²; any triangle, from any side.
     /// - Density: 1/Ω per steradian inside (and within 12 ulp of the direction beyond), 0 outside.
     /// - Degenerate: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
-    /// - Greatest error: direction 5.4e−7, at any size, elevation and aspect; more by 1/sin of the angle between two vertices that lie
-    ///   nearly opposite (the point is near an edge), and near the far edge by a few steps of u where Ω > π. Ω 1.2e−7, more by 1/sin
-    ///   of the elevation of the nearest vertex. Distance 5.4e−7 of itself over |cos| at the plane, and of the farthest vertex.
-    ///   The inverse is that of a direction 6e−7 away, times how much longer than wide the triangle is seen.
+    /// - Greatest error over the atlas (size, elevation, aspect ratio and distance): Ω 5e−7 relative, direction 5.4e−7 (1.4e−5 of π), for
+    ///   edges as they are given; but 7e−5 of Ω beside the middle of an edge that is a million times longer than the triangle is wide
+    ///   and than the point is far. Distance 5.4e−7 of itself over |cos| at the plane, and of the farthest vertex.
+    ///   The inverse is that of a direction 6e−7 away, times how much longer than wide the triangle is seen; from less than 1e−3 of its
+    ///   size over the plane of a triangle that surrounds the point, where most of u₀ belongs to a direction's rounding, it is worth nothing.
     /// - Source: Arvo 1995, "Stratified Sampling of Spherical Triangles"; Van Oosterom and Strackee 1983 for Ω; Peters 2021,
     ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry; here on edges.
     SphericalTriangle {
-        v0: Vec3<R>,
-        v1: Vec3<R>,
-        v2: Vec3<R>,
-        e1: Vec3<R>,
-        e2: Vec3<R>,
+        /// planes through the viewpoint and two vertices, pointing inwards, and how far a direction may be beyond: v0 v1, v1 v2, v2 v0
+        side01: Vec3<R>,
+        side12: Vec3<R>,
+        side20: Vec3<R>,
+        slack: Vec3<R>,
         normal: Vec3<R>,
         l1: R,
         /// distance of the farthest vertex: that of no point is more
@@ -52,21 +56,74 @@ lanewise! {
         cot_alpha: R,
         stretch: R,
         tan_half: R,
+        /// with H = Ω/2: sin and cos of H, sin and cos of α−H over sinα
+        half: Vec2<R>,
+        turned: Vec2<R>,
         /// sine of the side v0 v1
         sin_side: R,
         inv_l0: R,
         inv_l2: R,
-        /// G₁/G₀; G₂; G₂/G₀
-        g1: R,
+        /// (G₁+G₂)/G₀; 1/sin(Ω/2); G₂; G₂/G₀
+        total_over: R,
+        inv_half_sin: R,
         g2: R,
         g2_over: R,
-        d02: R,
-        d12: R,
+        /// 1+d₀₂; sin² of that side; V₂/l₂ along the tangents at v1; 1+d₁₂
+        plus02: R,
+        sin02: R,
+        x2: R,
+        y2: R,
+        plus12: R,
         /// V₀·(E₁×E₂), signed: negative where the point is on the side of the normal (v1−v0)×(v2−v0)
         volume: R,
         solid_angle: R,
         unit: R,
     }
+}
+
+/// What is known better than from the rounded vertices: V₀×V₁, V₀×V₂, the normal E₁×E₂, its product with any vertex, and v2−v1.
+pub(super) struct Planes<R> {
+    pub(super) n01: Vec3<R>,
+    pub(super) n02: Vec3<R>,
+    pub(super) normal: Vec3<R>,
+    pub(super) volume: R,
+    pub(super) edge: Vec3<R>,
+}
+
+#[inline(always)]
+fn zero<R: Real>() -> Vec3<R> {
+    Vec3::splat(Vec3::default())
+}
+
+/// Va/lₐ + Vb/l_b for a and b more than 90° apart, given their product: with h the foot of the perpendicular on the line through both, good to
+/// parts of itself.
+#[inline]
+fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> Vec3<R> {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let plain = a * ia + b * ib;
+    let opposite = a.dot(b).lt(zero);
+    let edge = b - a;
+    let squared = edge.length_squared();
+    let some = squared.gt(R::lit(1e-36));
+    let inverse = rsqrt(R::select(some, squared, one));
+    let by = inverse * inverse;
+    let foot = edge.cross(n) * by;
+    let height = n.length_squared() * by;
+    let along = edge * inverse;
+    // 1 − |a·along|/lₐ
+    let lack = |v: Vec3<R>, i: R| height * i * i / (one + v.dot(along).abs() * i);
+    let sum = foot.mul_add(ia + ib, along * (lack(a, ia) - lack(b, ib)));
+    Vec3::select(opposite & some, sum, plain)
+}
+
+/// In a unit in which no coordinate exceeds 2, and 1 over it; zeros where a sum overflowed: a triangle of no extent.
+#[inline(always)]
+pub(super) fn to_unit<R: Real, const N: usize>(vectors: [Vec3<R>; N]) -> ([Vec3<R>; N], R) {
+    let reach = vectors.iter().fold(R::lit(0.0), |most, v| most.max(v.max_abs()));
+    let finite = reach.lt(R::lit(f64::INFINITY));
+    let scale = reach.exponent_reciprocal();
+    let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
+    (vectors.map(scaled), scale)
 }
 
 /// a×b = a×(b−a), from the shorter of the two: each is good to parts in 2²⁴ of itself.
@@ -82,7 +139,7 @@ struct Arc<R> {
     y: R,
     /// tan²(θ/2)
     m: R,
-    /// sine and cosine of the half of the area swept
+    /// sine of the half of the area swept, and sine of that left over that of the whole
     swept: [R; 2],
 }
 
@@ -90,63 +147,86 @@ impl<R: Real> SphericalTriangle<R> {
     /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point.
     #[inline(always)]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
-        let scale = v0.max_abs().max(v1.max_abs()).max(v2.max_abs()).exponent_reciprocal();
-        let (v0, v1, v2) = (v0 * scale, v1 * scale, v2 * scale);
-        let (e1, e2) = (v1 - v0, v2 - v0);
-        Self::prepare([v0, v1, v2], [e1, e2, e1.cross(e2)], scale)
+        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
+        let ([e1, d1], [e2, d2]) = (exact_sum([v1, zero()], [-v0, zero()]), exact_sum([v2, zero()], [-v0, zero()]));
+        let [normal, rest] = exact_cross(e1, e2);
+        let rest = rest + (d1.cross(e2) + e1.cross(d2));
+        let volume = exact_height(v0, [normal, rest]);
+        let planes = Planes { n01: v0.cross(v1), n02: v0.cross(v2), normal: normal + rest, volume, edge: v2 - v1 };
+        Self::prepare([v0, v1, v2], &planes, || v1.cross(v2), scale)
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
-    /// were moved to the point: for a small and far triangle they hold its shape.
+    /// were moved to the point: for a small and far triangle they hold its shape. The planes through the point are those of `v0` and the
+    /// edges.
     #[inline(always)]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
-        Self::with_normal([v0, v1, v2], [e1, e2], [e1, e2])
+        let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
+        let exact = exact_cross(e1, e2);
+        let (normal, volume) = (exact[0] + exact[1], exact_height(v0, exact));
+        let planes = Planes { n01: v0.cross(e1), n02: v0.cross(e2), normal, volume, edge: e2 - e1 };
+        // v1×v2 = (v0+e1)×(v0+e2)
+        let n12 = || {
+            let [n, rest] = exact_sum(exact, exact_sum(exact_cross(v0, e2), exact_cross(e1, v0)));
+            n + rest
+        };
+        Self::prepare([v0, v1, v2], &planes, n12, scale)
     }
 
-    /// As `with_edges`, with the normal as the product of two vectors, for edges that are themselves rounded sums.
+    /// With all lengths below 4. `n12` = V₁×V₂ is asked for where it is needed.
     #[inline(always)]
-    pub(super) fn with_normal(vertices: [Vec3<R>; 3], edges: [Vec3<R>; 2], factors: [Vec3<R>; 2]) -> Self {
-        let reach = |all: &[Vec3<R>]| all.iter().fold(R::lit(0.0), |most, v| most.max(v.max_abs()));
-        let reach = reach(&vertices).max(reach(&edges));
-        // sums that overflowed: a triangle of no extent
-        let finite = reach.lt(R::lit(f64::INFINITY));
-        let scale = reach.exponent_reciprocal();
-        let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
-        let [e1, e2] = edges.map(scaled);
-        let [f1, f2] = factors.map(scaled);
-        Self::prepare(vertices.map(scaled), [e1, e2, f1.cross(f2)], scale)
-    }
-
-    /// With all lengths below 4.
-    #[inline(always)]
-    fn prepare([v0, v1, v2]: [Vec3<R>; 3], [e1, e2, normal]: [Vec3<R>; 3], scale: R) -> Self {
+    pub(super) fn prepare([v0, v1, v2]: [Vec3<R>; 3], planes: &Planes<R>, n12: impl Fn() -> Vec3<R>, scale: R) -> Self {
+        let Planes { n01, n02, normal, volume, edge } = *planes;
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let squared = [v0, v1, v2].map(Vec3::length_squared);
         let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
         let (d01, d02) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2);
-        // the same at each vertex; at the nearest it cancels least
-        let (n01, n02) = (plane(v0, v1, e1), plane(v0, v2, e2));
         let inverse = |n: Vec3<R>| {
             let squared = n.length_squared();
             rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
         };
         let i01 = inverse(n01);
-        let (l0, l1) = (squared[0] * i0, squared[1] * i1);
+        let (l0, l1, l2) = (squared[0] * i0, squared[1] * i1, squared[2] * i2);
         let sin_side = n01.length_squared() * i01 * i0 * i1;
         let inv_sin_side = i01 * l0 * l1;
+        let stretch = R::lit(2.0) * inv_sin_side;
         // 1−d₀₁ and 1+d₀₁, the small one from the sine
         let small = sin_side * sin_side / (one + d01.abs());
         let obtuse = d01.lt(zero);
         let (minus, g2) = (R::select(obtuse, one - d01, small), R::select(obtuse, small, one + d01));
-        let nearest = Vec3::select(squared[1].lt(squared[0]), v1, v0);
-        let nearest = Vec3::select(squared[2].lt(squared[0].min(squared[1])), v2, nearest);
-        let volume = nearest.dot(normal);
+        let tan_half = minus * inv_sin_side;
         let g0 = volume.abs() * i0 * i1 * i2;
         // (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
         let apex = v1 * i1;
-        let g1 = (v0 * i0 + apex).dot(v2) * i2;
+        let mut total = (v0 * i0 + apex).dot(v2).mul_add(i2, g2);
         let towards = volume.lt(zero);
         let pole = n01 * i01;
+        let along = apex.cross(pole);
+        // V₂/l₂ along the tangents at v1, and 1+d₁₂
+        let d12 = apex.dot(v2) * i2;
+        let (mut x2, y2) = (along.dot(edge) * i2, volume.abs() * i01 * i2);
+        let (mut plus12, mut plus02) = (one + d12, one + d02);
+        let sin02 = n02.length_squared() * (i0 * i2) * (i0 * i2);
+        // a side of more than 120° is rare: the work is done where there is one
+        let wide = d01.min(d02).min(d12).lt(R::lit(-0.5));
+        if wide.any() {
+            let n12 = n12();
+            let sums = [
+                sum_of_units([v0, v1], [i0, i1], n01),
+                sum_of_units([v0, v2], [i0, i2], n02),
+                sum_of_units([v1, v2], [i1, i2], n12),
+            ];
+            // 1 + d₀₁ + d₀₂ + d₁₂ at the vertex from which the others are not opposite
+            let at0 = sums[0].dot(sums[1]);
+            let at1 = sums[0].dot(sums[2]);
+            let at2 = sums[1].dot(sums[2]);
+            let sum = R::select(d01.gt(d02.max(d12)), at2, R::select(d02.gt(d12), at1, at0));
+            total = R::select(wide, sum, total);
+            x2 = R::select(wide, -(n01.dot(n12) * i01 * i1 * i2), x2);
+            let behind = x2.mul_add(x2, y2 * y2) / (one + d12.abs());
+            plus12 = R::select(wide & d12.lt(zero), behind, plus12);
+            plus02 = R::select(wide & d02.lt(zero), sin02 / (one + d02.abs()), plus02);
+        }
         let across = Vec3::select(towards, -pole, pole);
         // sinα : cosα = |volume| l₀ : n₀₁·n₀₂
         let opposite = volume.abs() * l0;
@@ -154,31 +234,58 @@ impl<R: Real> SphericalTriangle<R> {
         let cot_alpha = (n01.dot(n02) / R::select(angle, opposite, one)).keep(angle);
         // at a vertex all of them are 0, and so is the angle
         let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
-        let solid_angle = (R::lit(2.0) * g0.atan2(g1 + g2)).keep(somewhere);
+        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(somewhere);
         let inv_g0 = one / R::select(g0.gt(R::lit(1e-37)), g0, one);
+        // the same from v2, where the sweep ends: P there has the coordinates (X, Y) = (tanδ₂/2) (cosψ, sinψ)
+        let squared = g0.mul_add(g0, total * total).max(R::lit(1e-36));
+        let over = rsqrt(squared);
+        let half = Vec2::new(g0 * over, total * over);
+        let inv_half_sin = inv_g0 * squared * over;
+        let by_plus = one / plus12.max(R::lit(1e-30));
+        // over sin(Ω/2) · 2/sin c
+        let by_swept = R::lit(0.5) * sin_side * inv_half_sin;
+        let some = by_swept.lt(R::lit(1e30));
+        let most = R::lit(1e18);
+        let turned = Vec2::new(
+            (y2 * by_plus * by_swept).min(most).keep(some),
+            (x2.mul_add(-by_plus, tan_half) * by_swept).clamp(-most, most).keep(some),
+        );
+        // the great circles through v0 and v1, from which the map starts, or through vertices that lie nearly opposite are known no better
+        // than −cos : sin of their angle; to the one through v1 and v2 the map comes along the one from v0 to v2
+        let start = -d01 / R::select(sin_side.gt(zero), sin_side, one);
+        let inwards = |n: Vec3<R>| Vec3::select(towards, -n, n);
+        let n12 = n12();
+        let start = start.max(one).min(R::lit(1e18));
+        let far = start.max(-d02 * rsqrt(sin02.max(R::lit(1e-7))));
+        let slack = |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).max(-a.dot(b)) * R::lit(BEYOND);
         Self {
-            v0,
-            v1,
-            v2,
-            e1,
-            e2,
+            side01: inwards(n01),
+            side12: inwards(n12),
+            side20: inwards(-n02),
+            slack: Vec3::new(slack(n01, v0, v1, start), slack(n12, v1, v2, far), slack(n02, v2, v0, start)),
             normal,
             l1,
-            farthest: l0.max(l1).max(squared[2] * i2),
+            farthest: l0.max(l1).max(l2),
             apex,
-            along: apex.cross(pole),
+            along,
             across,
             cot_alpha,
-            stretch: R::lit(2.0) * inv_sin_side,
-            tan_half: minus * inv_sin_side,
+            stretch,
+            tan_half,
+            half,
+            turned,
             sin_side,
             inv_l0: i0,
             inv_l2: i2,
-            g1: g1 * inv_g0,
+            total_over: total * inv_g0,
+            inv_half_sin,
             g2,
             g2_over: g2 * inv_g0,
-            d02,
-            d12: apex.dot(v2) * i2,
+            plus02,
+            sin02,
+            x2,
+            y2,
+            plus12,
             volume,
             solid_angle,
             unit: scale.exponent_reciprocal(),
@@ -191,11 +298,10 @@ impl<R: Real> SphericalTriangle<R> {
         let real = |a, b| R::select(mask, a, b);
         let vector = |a, b| Vec3::select(mask, a, b);
         Self {
-            v0: vector(yes.v0, no.v0),
-            v1: vector(yes.v1, no.v1),
-            v2: vector(yes.v2, no.v2),
-            e1: vector(yes.e1, no.e1),
-            e2: vector(yes.e2, no.e2),
+            side01: vector(yes.side01, no.side01),
+            side12: vector(yes.side12, no.side12),
+            side20: vector(yes.side20, no.side20),
+            slack: vector(yes.slack, no.slack),
             normal: vector(yes.normal, no.normal),
             l1: real(yes.l1, no.l1),
             farthest: real(yes.farthest, no.farthest),
@@ -205,14 +311,20 @@ impl<R: Real> SphericalTriangle<R> {
             cot_alpha: real(yes.cot_alpha, no.cot_alpha),
             stretch: real(yes.stretch, no.stretch),
             tan_half: real(yes.tan_half, no.tan_half),
+            half: Vec2::new(real(yes.half.x, no.half.x), real(yes.half.y, no.half.y)),
+            turned: Vec2::new(real(yes.turned.x, no.turned.x), real(yes.turned.y, no.turned.y)),
             sin_side: real(yes.sin_side, no.sin_side),
             inv_l0: real(yes.inv_l0, no.inv_l0),
             inv_l2: real(yes.inv_l2, no.inv_l2),
-            g1: real(yes.g1, no.g1),
+            total_over: real(yes.total_over, no.total_over),
+            inv_half_sin: real(yes.inv_half_sin, no.inv_half_sin),
             g2: real(yes.g2, no.g2),
             g2_over: real(yes.g2_over, no.g2_over),
-            d02: real(yes.d02, no.d02),
-            d12: real(yes.d12, no.d12),
+            plus02: real(yes.plus02, no.plus02),
+            sin02: real(yes.sin02, no.sin02),
+            x2: real(yes.x2, no.x2),
+            y2: real(yes.y2, no.y2),
+            plus12: real(yes.plus12, no.plus12),
             volume: real(yes.volume, no.volume),
             solid_angle: real(yes.solid_angle, no.solid_angle),
             unit: real(yes.unit, no.unit),
@@ -237,47 +349,65 @@ impl<R: Real> SphericalTriangle<R> {
         self.volume.lt(R::lit(0.0))
     }
 
-    /// The arc that cuts `u` of the area off.
+    /// The arc that cuts `u` of the area off, and leaves `rest` = 1−u of it.
     #[inline(always)]
-    fn arc(&self, u: R) -> Arc<R> {
-        let zero = R::lit(0.0);
-        let (s, c) = (u * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
+    fn arc(&self, u: R, rest: R) -> Arc<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // from the end that is nearer: α−η and H−η are small differences near the other
+        let far = u.gt(R::lit(0.5));
+        let part = R::select(far, rest, u);
+        let (sin, cos) = (part * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
+        let s = R::select(far, self.half.x * cos - self.half.y * sin, sin);
         // cos(α−η) and sin(α−η), over sinα
-        let turn_cos = self.cot_alpha.mul_add(c, s);
-        let turn_sin = (-self.cot_alpha).mul_add(s, c);
+        let from_sin = R::select(far, self.turned.x, one);
+        let from_cos = R::select(far, self.turned.y, -self.cot_alpha);
+        let turn_sin = from_sin.mul_add(cos, from_cos * sin);
+        let turn_cos = from_cos.mul_add(cos, -(from_sin * sin)).negate_where(!far);
         let stretched = s * self.stretch;
         // P opposite v1 would be at infinity; its square must fit
         let most = R::lit(1e15);
         let x = (-stretched).mul_add(turn_cos, self.tan_half).clamp(-most, most);
         let y = (stretched * turn_sin).clamp(zero, most);
-        let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, c] };
+        let left = R::select(far, sin * self.inv_half_sin, (-sin).mul_add(self.total_over, cos));
+        let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, left] };
         // a side of more than 120° is rare: the work is done where there is one
         let long = self.g2.lt(R::lit(0.5));
         if long.any() { self.opposite_arc(arc, long) } else { arc }
     }
 
-    /// Where v0 lies nearly opposite v1 the arc's length follows from its angle no more: then from P itself, where that is better.
+    /// Where v0 lies nearly opposite v1 the arc does not follow from its angle any more: then from P itself, where that is better.
     #[inline]
     fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (one, two) = (R::lit(1.0), R::lit(2.0));
         let [w0, w2] = self.weights(arc.swept);
-        let cos = w0.mul_add(self.g2 - one, w2 * self.d12).clamp(-one, one);
-        // errors of θ: ε/sinθ from P, ε sinθ/(sinα sin(side)) from the angle
-        let better = long & ((one - cos) * (one + cos)).gt(self.alpha().0 * self.sin_side) & arc.m.gt(zero);
-        let m = R::select(better, (one - cos) / R::select(better, one + cos, one), arc.m);
-        let scale = R::select(better, (m / R::select(better, arc.m, one)).sqrt(), one);
-        Arc { x: arc.x * scale, y: arc.y * scale, m, swept: arc.swept }
+        // P is a unit vector: w₀ + w₂ exceeds 1 by what the chord from v0 to v2 lacks of the arc
+        let acute = self.plus02.gt(one);
+        let minus = R::select(acute, self.sin02 / self.plus02.max(one), two - self.plus02);
+        let lack = two * w0 * w2 * minus / (one + w0 + w2);
+        let sum = w0.mul_add(self.g2, w2 * self.plus12);
+        let plus = sum - lack;
+        let inverse = one / R::select(plus.gt(R::lit(1e-15)), plus, R::lit(1e-15));
+        let (first, second) = (w0 * self.sin_side * inverse, w2 * self.x2 * inverse);
+        // either X is a sum: of these two, or of tan(c/2) and the rest of it
+        let known = plus.gt(sum * R::lit(0.125)) & (first + second.abs()).lt(self.tan_half.max(arc.x.abs()));
+        let better = long & known;
+        let x = R::select(better, first + second, arc.x);
+        let y = R::select(better, w2 * self.y2 * inverse, arc.y);
+        Arc { x, y, m: x.mul_add(x, y * y), swept: arc.swept }
     }
 
     /// P as a sum of the unit vectors to v0 and v2.
     #[inline(always)]
-    fn weights(&self, [s, c]: [R; 2]) -> [R; 2] {
+    fn weights(&self, [s, left]: [R; 2]) -> [R; 2] {
         let (zero, two) = (R::lit(0.0), R::lit(2.0));
-        let a = (-s).mul_add(self.g1, c);
+        // a − b = cosη − sinη (G₁+G₂)/G₀ = sin(H−η)/sin H
         let b = s * self.g2_over;
-        let w0 = ((a - b) * (a + b)).max(zero);
-        let w2 = (two * b * b.mul_add(self.d02, a)).max(zero);
-        let squared = w0.mul_add(w0, w2 * w2) + two * self.d02 * w0 * w2;
+        let a = left + b;
+        let w0 = (left * (a + b)).max(zero);
+        // b d₀₂ + a, w₂ − w₀ and |P|²: where v0 and v2 lie nearly opposite these are small differences
+        let w2 = (two * b * b.mul_add(self.plus02, left)).max(zero);
+        let more = two * b * b * self.plus02 - left * left;
+        let squared = more.mul_add(more, two * self.plus02 * w0 * w2);
         let inverse = rsqrt(squared.max(R::lit(1e-30)));
         [w0 * inverse, w2 * inverse]
     }
@@ -312,7 +442,9 @@ impl<R: Real> SphericalTriangle<R> {
         // 1−cosθ = 2M/(1+M), and the sine of the angle over √M
         let over = u * (two / (one + arc.m));
         let z = (-over).mul_add(arc.m, one);
-        let sin_over = (over * (one + z)).max(zero).sqrt();
+        // 1+z = 2(1 + (1−u)M)/(1+M): near the antipode of v1 z says nothing about the sine
+        let plus = (one - u).mul_add(arc.m, one) * (two / (one + arc.m));
+        let sin_over = (over * plus).max(zero).sqrt();
         let tangent = self.along.mul_add(arc.x, self.across * arc.y);
         let direction = self.apex.mul_add(z, tangent * sin_over);
         // a unit vector but for rounding: one step of Newton's to 1/√
@@ -323,8 +455,13 @@ impl<R: Real> SphericalTriangle<R> {
     /// The direction for `u` and the distance to the triangle along it.
     #[inline(always)]
     pub fn sight(&self, u: Vec2<R>) -> Sighting<R> {
+        self.sight_from(u, R::lit(1.0) - u.x)
+    }
+    /// As `sight`, for a u₀ of which 1−u₀ is known better.
+    #[inline(always)]
+    pub(super) fn sight_from(&self, u: Vec2<R>, rest: R) -> Sighting<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let arc = self.arc(u.x);
+        let arc = self.arc(u.x, rest);
         let (direction, z, sin_over) = self.along_arc(&arc, u.y);
         let [w0, w2] = self.weights(arc.swept);
         let inv_p = w0.mul_add(self.inv_l0, w2 * self.inv_l2);
@@ -347,39 +484,28 @@ impl<R: Real> SphericalTriangle<R> {
         Sighting { direction, distance: distance.keep(some) }
     }
 
+    /// As `sample`, for a u₀ of which 1−u₀ is known better.
+    #[inline(always)]
+    pub(super) fn sample_from(&self, u: Vec2<R>, rest: R) -> Vec3<R> {
+        self.along_arc(&self.arc(u.x, rest), u.y).0
+    }
+
     /// Is the direction inside, give or take the rounding of the direction itself?
     #[inline(always)]
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
         self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w)
     }
-    /// On the inner side of the plane through the viewpoint and two vertices, to 12 ulp of the direction; where these vertices, or others
-    /// from which the map goes to them, lie nearly opposite, it is known no better than −cos : sin of their angle.
-    #[inline(always)]
-    fn within(&self, w: Vec3<R>, a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>, known: R) -> R::Mask {
-        let n = plane(a, b, edge);
-        let slack = (n.length() * known).max(-a.dot(b)) * R::lit(BEYOND);
-        w.dot(n).negate_where(self.in_front()).ge(-slack)
-    }
-    /// 1, or more where v0 and v1, from which the map starts, lie nearly opposite.
-    #[inline(always)]
-    fn start(&self) -> R {
-        let some = self.sin_side.gt(R::lit(0.0));
-        ((R::lit(1.0) - self.g2) / R::select(some, self.sin_side, R::lit(1.0))).max(R::lit(1.0))
-    }
     #[inline(always)]
     pub(super) fn within_v1_v2(&self, w: Vec3<R>) -> R::Mask {
-        // the map comes to this side along the one from v0 to v2
-        let sin_squared = (-self.d02).mul_add(self.d02, R::lit(1.0)).max(R::lit(1e-7));
-        let known = self.start().max(-self.d02 * rsqrt(sin_squared));
-        self.within(w, self.v1, self.v2, self.e2 - self.e1, known)
+        w.dot(self.side12).ge(-self.slack.y)
     }
     #[inline(always)]
     pub(super) fn within_v2_v0(&self, w: Vec3<R>) -> R::Mask {
-        self.within(w, self.v2, self.v0, -self.e2, self.start())
+        w.dot(self.side20).ge(-self.slack.z)
     }
     #[inline(always)]
     pub(super) fn within_v0_v1(&self, w: Vec3<R>) -> R::Mask {
-        self.within(w, self.v0, self.v1, self.e1, self.start())
+        w.dot(self.side01).ge(-self.slack.x)
     }
     /// Towards the plane of the triangle.
     #[inline(always)]
@@ -398,7 +524,7 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.along_arc(&self.arc(u.x), u.y).0
+        self.sample_from(u, R::lit(1.0) - u.x)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {

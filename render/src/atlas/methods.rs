@@ -1,0 +1,390 @@
+//! The techniques of each kind of shape: ours, and the textbook's.
+
+use super::pose::{Kind, Pose, Shape};
+use super::textbook::{self, Excess};
+use etendue::light::Polygon;
+use etendue::seen::{
+    ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, Sighting, SphereCap, SphericalDisk,
+    SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
+};
+use etendue::{Disk, LightSample, Line, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp};
+
+/// What a technique says for one `u`.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// Unit direction.
+    pub direction: [f32; 3],
+    /// Density per steradian, of a segment per radian, evaluated for the direction.
+    pub pdf: f32,
+    /// What an estimator of irradiance divides the cosine by: that density; of a line, per sinγ ds/r² (γ from the line, s along it).
+    pub weight: f32,
+    /// Inverse of the direction, where there is one.
+    pub inverse: Option<[f32; 2]>,
+    /// Was it drawn by area?
+    pub by_area: bool,
+    /// Is it of the side that emits?
+    pub emits: bool,
+}
+impl Sample {
+    /// By solid angle.
+    #[must_use]
+    pub fn new(direction: [f32; 3], pdf: f32, inverse: Option<[f32; 2]>) -> Self {
+        Self { direction, pdf, weight: pdf, inverse, by_area: false, emits: true }
+    }
+    /// Is all of it finite?
+    #[must_use]
+    pub fn finite(&self) -> bool {
+        let inverse = self.inverse.unwrap_or_default();
+        self.direction.iter().chain(&inverse).chain(&[self.pdf]).all(|x| x.is_finite())
+    }
+}
+
+/// What to draw, and where to put it.
+#[derive(Debug)]
+pub struct Draw<'a> {
+    /// Points of the square.
+    pub us: &'a [[f32; 2]],
+    /// Is the inverse wanted too?
+    pub invert: bool,
+    /// The samples.
+    pub out: &'a mut Vec<Sample>,
+}
+impl Draw<'_> {
+    /// One sample for each point.
+    pub(super) fn each(&mut self, f: impl Fn([f32; 2], bool) -> Sample) {
+        self.out.extend(self.us.iter().map(|&u| f(u, self.invert)));
+    }
+    /// By projected solid angle, with the density at the cosine to the normal as it was given.
+    fn projected(&mut self, warp: &impl Warp<f32, Point = Vec3<f32>>, density: impl Fn(f32) -> f32, normal: Vec3<f32>) {
+        self.each(|u, invert| {
+            let w = warp.sample(Vec2::new(u[0], u[1]));
+            let inverse = invert.then(|| warp.invert(w)).map(|u| [u.x, u.y]);
+            let weight = density(w.dot(normal));
+            Sample { weight, ..Sample::new([w.x, w.y, w.z], warp.pdf(w), inverse) }
+        });
+    }
+    fn warp(&mut self, warp: &impl Warp<f32, Point = Vec3<f32>>) {
+        self.each(|u, invert| {
+            let w = warp.sample(Vec2::new(u[0], u[1]));
+            let inverse = invert.then(|| warp.invert(w)).map(|u| [u.x, u.y]);
+            Sample::new([w.x, w.y, w.z], warp.pdf(w), inverse)
+        });
+    }
+    /// Along a line, with the weight of its light: the second number stays as it is.
+    fn line(
+        &mut self,
+        sample: impl Fn(f32) -> Vec3<f32>,
+        pdf: impl Fn(Vec3<f32>) -> f32,
+        inverse: impl Fn(Vec3<f32>) -> f32,
+        weight: impl Fn(f32) -> f32,
+    ) {
+        self.each(|u, invert| {
+            let w = sample(u[0]);
+            let inverse = invert.then(|| [inverse(w), u[1]]);
+            Sample { weight: weight(u[0]), ..Sample::new([w.x, w.y, w.z], pdf(w), inverse) }
+        });
+    }
+    /// The directions of ours with a density computed otherwise, times the cosine to a normal if there is one.
+    fn with_density(&mut self, warp: &impl Warp<f32, Point = Vec3<f32>>, density: f32, normal: Option<Vec3<f32>>) {
+        self.each(|u, _| {
+            let w = warp.sample(Vec2::new(u[0], u[1]));
+            let cos = normal.map_or(1.0, |n| w.dot(n).max(0.0));
+            Sample::new([w.x, w.y, w.z], cos * density, None)
+        });
+    }
+    fn light(&mut self, sample: impl Fn(Vec2<f32>) -> LightSample<f32>) {
+        self.each(|u, _| {
+            let LightSample { direction: w, pdf, emits, .. } = sample(Vec2::new(u[0], u[1]));
+            Sample { by_area: true, emits, ..Sample::new([w.x, w.y, w.z], pdf, None) }
+        });
+    }
+}
+
+/// A technique.
+#[derive(Clone, Copy, Debug)]
+pub struct Method {
+    /// Short.
+    pub name: &'static str,
+    /// Of the core, or a baseline?
+    pub ours: bool,
+    /// Prepares for a pose and draws.
+    pub run: fn(&Pose, &mut Draw<'_>),
+}
+
+type V = [f32; 3];
+
+fn vector(v: V) -> Vec3<f32> {
+    Vec3::new(v[0], v[1], v[2])
+}
+fn add(a: V, b: V) -> V {
+    core::array::from_fn(|i| a[i] + b[i])
+}
+fn sphere(pose: &Pose) -> (V, f32, V) {
+    match pose.shape {
+        Shape::Sphere { center, radius } => (center, radius, pose.normal),
+        _ => ([0.0; 3], 0.0, pose.normal),
+    }
+}
+fn flat(pose: &Pose) -> (V, V, V) {
+    match pose.shape {
+        Shape::Flat { p, u, v } => (p, u, v),
+        _ => ([0.0; 3], [0.0; 3], [0.0; 3]),
+    }
+}
+fn disk(pose: &Pose) -> (V, V, f32) {
+    match pose.shape {
+        Shape::Disk { center, normal, radius } => (center, normal, radius),
+        _ => ([0.0; 3], [0.0; 3], 0.0),
+    }
+}
+fn segment(pose: &Pose) -> (V, V) {
+    match pose.shape {
+        Shape::Segment { a, edge } => (a, edge),
+        _ => ([0.0; 3], [0.0; 3]),
+    }
+}
+fn line(pose: &Pose) -> Line<f32> {
+    let (a, edge) = segment(pose);
+    Line { p: vector(a), edge: vector(edge) }
+}
+fn corners(pose: &Pose) -> [V; 6] {
+    match pose.shape {
+        Shape::Corners(corners) => corners,
+        _ => [[0.0; 3]; 6],
+    }
+}
+/// As the core orders them: about the first corner.
+fn halves(pose: &Pose) -> [[V; 3]; 2] {
+    let (p, u, v) = flat(pose);
+    let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
+    [[pu, p, puv], [puv, p, pv]]
+}
+fn hexagon(pose: &Pose) -> [[V; 3]; 4] {
+    let c = corners(pose);
+    core::array::from_fn(|i| [c[i + 1], c[0], c[i + 2]])
+}
+const ORIGIN: Vec3<f32> = Vec3 { x: 0.0, y: 0.0, z: 0.0 };
+
+/// Those of a kind of shape: by solid angle or projected solid angle first, then by area, then the textbook's.
+#[must_use]
+pub fn methods(kind: Kind) -> Vec<Method> {
+    let ours = |name, run| Method { name, ours: true, run };
+    let textbook = |name, run| Method { name, ours: false, run };
+    let sphere_area = ours("by area", |pose, draw| {
+        let (center, radius, _) = sphere(pose);
+        let light = Sphere { center: vector(center), radius };
+        draw.light(|u| light.by_area(ORIGIN, u));
+    });
+    let area = ours("by area", |pose, draw| {
+        let (p, u, v) = flat(pose);
+        let light = Parallelogram { p: vector(p), u: vector(u), v: vector(v) };
+        draw.light(|u| light.by_area(ORIGIN, u));
+    });
+    let triangle_area = ours("by area", |pose, draw| {
+        let (p, u, v) = flat(pose);
+        let light = Triangle { v0: vector(p), e1: vector(u), e2: vector(v) };
+        draw.light(|u| light.by_area(ORIGIN, u));
+    });
+    let polygon_area = ours("by area", |pose, draw| {
+        let light = Polygon { corners: corners(pose).map(vector) };
+        draw.light(|u| light.by_area(ORIGIN, u));
+    });
+    let length = ours("by area", |pose, draw| {
+        let light = line(pose);
+        draw.each(|u, _| {
+            let LightSample { direction: w, distance, pdf, .. } = light.by_length(ORIGIN, u[0]);
+            // per radian of the plane of point and line
+            let density = if pdf > 0.0 { pdf / distance } else { 0.0 };
+            Sample { by_area: true, weight: pdf, ..Sample::new([w.x, w.y, w.z], density, None) }
+        });
+    });
+    match kind {
+        Kind::Sphere => vec![
+            ours("SphereCap", |pose, draw| {
+                let (center, radius, _) = sphere(pose);
+                draw.warp(&SphereCap::new(vector(center), radius));
+            }),
+            sphere_area,
+            textbook("cone, 1-cos naive", |pose, draw| {
+                let (center, radius, _) = sphere(pose);
+                textbook::cone(center, radius, false, draw);
+            }),
+            textbook("cone, series below 1.5°", |pose, draw| {
+                let (center, radius, _) = sphere(pose);
+                textbook::cone(center, radius, true, draw);
+            }),
+        ],
+        Kind::ProjectedSphere => vec![
+            ours("ProjectedCap", |pose, draw| {
+                let (center, radius, normal) = sphere(pose);
+                let map = ProjectedCap::new(vector(center), radius, vector(normal));
+                draw.projected(&map, |cos| map.density(cos), vector(normal));
+            }),
+            sphere_area,
+            textbook("closed form of the density", |pose, draw| {
+                let (center, radius, normal) = sphere(pose);
+                let projected = textbook::projected_cap(center, radius, normal);
+                let cap = ProjectedCap::new(vector(center), radius, vector(normal));
+                draw.each(|u, _| {
+                    let w = cap.sample(Vec2::new(u[0], u[1]));
+                    let cos = w.dot(vector(normal)).max(0.0);
+                    Sample::new([w.x, w.y, w.z], cos / projected, None)
+                });
+            }),
+        ],
+        Kind::Triangle => vec![
+            ours("SphericalTriangle", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                let (p, u, v) = (vector(p), vector(u), vector(v));
+                draw.warp(&SphericalTriangle::with_edges(p, p + u, p + v, u, v));
+            }),
+            triangle_area,
+            textbook("Arvo, angle excess", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                textbook::fan([[p, add(p, u), add(p, v)]], Excess::Angles, draw);
+            }),
+            textbook("Van Oosterom, unit vectors", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                textbook::fan([[p, add(p, u), add(p, v)]], Excess::Oosterom, draw);
+            }),
+            textbook("area outside 3e-4 to 6.22 sr", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                textbook::triangle_with_thresholds(p, u, v, draw);
+            }),
+        ],
+        Kind::Parallelogram => vec![
+            ours("SphericalParallelogram", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                draw.warp(&SphericalParallelogram::new(vector(p), vector(u), vector(v)));
+            }),
+            area,
+            textbook("two of Arvo, angle excess", |pose, draw| textbook::fan(halves(pose), Excess::Angles, draw)),
+            textbook("two of Van Oosterom", |pose, draw| textbook::fan(halves(pose), Excess::Oosterom, draw)),
+        ],
+        Kind::Rectangle => vec![
+            ours("SphericalRectangle", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                draw.warp(&SphericalRectangle::new(vector(p), vector(u), vector(v)));
+            }),
+            area,
+            textbook("Ureña 2013 as published", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                textbook::urena(p, u, v, draw);
+            }),
+            textbook("area outside 3e-4 to 6.22 sr", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                textbook::rectangle_with_thresholds(p, u, v, draw);
+            }),
+        ],
+        Kind::Polygon => vec![
+            ours("SphericalPolygon", |pose, draw| {
+                draw.warp(&SphericalPolygon::new(corners(pose).map(vector)));
+            }),
+            polygon_area,
+            textbook("four of Arvo, angle excess", |pose, draw| textbook::fan(hexagon(pose), Excess::Angles, draw)),
+            textbook("four of Van Oosterom", |pose, draw| textbook::fan(hexagon(pose), Excess::Oosterom, draw)),
+        ],
+        Kind::Disk => vec![
+            ours("SphericalDisk", |pose, draw| {
+                let (center, normal, radius) = disk(pose);
+                draw.warp(&SphericalDisk::new(vector(center), vector(normal), radius));
+            }),
+            ours("by area", |pose, draw| {
+                let (center, normal, radius) = disk(pose);
+                let light = Disk { center: vector(center), normal: vector(normal), radius };
+                draw.light(|u| light.by_area(ORIGIN, u));
+            }),
+            textbook("Ω by arc cosines of the cone", |pose, draw| {
+                let (center, normal, radius) = disk(pose);
+                let map = SphericalDisk::new(vector(center), vector(normal), radius);
+                draw.with_density(&map, 1.0 / textbook::disk(center, normal, radius), None);
+            }),
+        ],
+        Kind::Segment => vec![
+            ours("SphericalSegment", |pose, draw| {
+                let (a, edge) = segment(pose);
+                let map = SphericalSegment::new(vector(a), vector(edge));
+                let weight = |u| line(pose).by_angle(ORIGIN, u).pdf;
+                draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
+            }),
+            length,
+            textbook("equiangular, by arc tangents", |pose, draw| {
+                let (a, edge) = segment(pose);
+                let map = textbook::Equiangular::new(a, edge);
+                let back = |v: Vec3<f32>| [v.x, v.y, v.z];
+                let weight = |u| map.pdf() * map.distance(u);
+                draw.line(|u| vector(map.sample(u)), |_| map.pdf(), |w| map.invert(back(w)), weight);
+            }),
+        ],
+        Kind::ProjectedTriangle => vec![
+            ours("ProjectedTriangle", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
+                let map = ProjectedTriangle::with_edges(p, p + u, p + v, u, v, n);
+                draw.projected(&map, |cos| map.density(cos), n);
+            }),
+            triangle_area,
+            textbook("Lambert by arc cosines", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                let corners = [p, add(p, u), add(p, v)];
+                let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
+                let map = ProjectedTriangle::with_edges(p, p + u, p + v, u, v, n);
+                draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
+            }),
+        ],
+        Kind::ProjectedParallelogram => vec![
+            ours("ProjectedPolygon of 4", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                let n = vector(pose.normal);
+                let map = ProjectedPolygon::parallelogram(vector(p), vector(u), vector(v), n);
+                draw.projected(&map, |cos| map.density(cos), n);
+            }),
+            area,
+            textbook("Lambert by arc cosines", |pose, draw| {
+                let (p, u, v) = flat(pose);
+                let corners = [p, add(p, u), add(add(p, u), v), add(p, v)];
+                let n = vector(pose.normal);
+                let map = ProjectedPolygon::parallelogram(vector(p), vector(u), vector(v), n);
+                draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
+            }),
+        ],
+        Kind::ProjectedPolygon => vec![
+            ours("ProjectedPolygon of 6", |pose, draw| {
+                let n = vector(pose.normal);
+                let map = ProjectedPolygon::new(corners(pose).map(vector), n);
+                draw.projected(&map, |cos| map.density(cos), n);
+            }),
+            polygon_area,
+            textbook("Lambert by arc cosines", |pose, draw| {
+                let n = vector(pose.normal);
+                let map = ProjectedPolygon::new(corners(pose).map(vector), n);
+                draw.with_density(&map, 1.0 / textbook::lambert(&corners(pose), pose.normal), Some(n));
+            }),
+        ],
+        Kind::ProjectedSegment => vec![
+            ours("ProjectedSegment", |pose, draw| {
+                let (a, edge) = segment(pose);
+                let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
+                let weight = |u| line(pose).by_projected_solid_angle(ORIGIN, vector(pose.normal), u).pdf;
+                draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
+            }),
+            length,
+            textbook("density over its closed form", |pose, draw| {
+                let (a, edge) = segment(pose);
+                let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
+                let whole = textbook::projected_segment(a, edge, pose.normal);
+                let (along, n) = (vector(edge), vector(pose.normal));
+                let along = along * (1.0 / along.length());
+                let pdf = |w: Vec3<f32>| {
+                    let cos = w.dot(along);
+                    (1.0 - cos * cos).max(0.0).sqrt() * w.dot(n).max(0.0) / whole
+                };
+                draw.each(|u, _| {
+                    let Sighting { direction: w, distance } = map.sight(u[0]);
+                    let pdf = pdf(w);
+                    Sample { weight: pdf * distance, ..Sample::new([w.x, w.y, w.z], pdf, None) }
+                });
+            }),
+        ],
+    }
+}

@@ -1,0 +1,465 @@
+//! Where a shape stands: the two sweeps, with lengths that are exact in f32.
+
+use clap::ValueEnum;
+
+/// A vector in f64.
+pub type V3 = [f64; 3];
+
+/// f32 to f64.
+#[must_use]
+pub fn wide(a: [f32; 3]) -> V3 {
+    a.map(f64::from)
+}
+/// Unit vector; 0 stays 0.
+#[must_use]
+pub fn unit(a: V3) -> V3 {
+    let l = a[0].hypot(a[1]).hypot(a[2]);
+    if l > 0.0 { a.map(|x| x / l) } else { a }
+}
+fn narrow(a: V3) -> [f32; 3] {
+    a.map(|x| x as f32)
+}
+fn cross(a: V3, b: V3) -> V3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// What the atlas sweeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Kind {
+    /// A sphere by solid angle
+    Sphere,
+    /// A sphere by projected solid angle
+    ProjectedSphere,
+    /// A triangle by solid angle
+    Triangle,
+    /// A parallelogram by solid angle
+    Parallelogram,
+    /// A rectangle by solid angle
+    Rectangle,
+    /// A convex hexagon by solid angle
+    Polygon,
+    /// A disk by solid angle
+    Disk,
+    /// A line segment by angle
+    Segment,
+    /// A triangle by projected solid angle
+    ProjectedTriangle,
+    /// A parallelogram by projected solid angle
+    ProjectedParallelogram,
+    /// A convex hexagon by projected solid angle
+    ProjectedPolygon,
+    /// A line segment by what it gives to a surface
+    ProjectedSegment,
+}
+impl Kind {
+    /// All of them.
+    #[must_use]
+    pub fn all() -> &'static [Self] {
+        Self::value_variants()
+    }
+    /// As on the command line.
+    #[must_use]
+    pub fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+    }
+    /// What it is.
+    #[must_use]
+    pub fn about(self) -> String {
+        let help = self.to_possible_value().and_then(|v| v.get_help().map(ToString::to_string));
+        help.unwrap_or_default()
+    }
+    fn round(self) -> bool {
+        matches!(self, Self::Sphere | Self::ProjectedSphere)
+    }
+    /// Has it length alone?
+    #[must_use]
+    pub fn line(self) -> bool {
+        matches!(self, Self::Segment | Self::ProjectedSegment)
+    }
+    /// Is its density that of the irradiance of a receiver?
+    #[must_use]
+    pub fn projected(self) -> bool {
+        matches!(
+            self,
+            Self::ProjectedSphere
+                | Self::ProjectedTriangle
+                | Self::ProjectedParallelogram
+                | Self::ProjectedPolygon
+                | Self::ProjectedSegment
+        )
+    }
+    fn triangle(self) -> bool {
+        matches!(self, Self::Triangle | Self::ProjectedTriangle)
+    }
+    fn hexagon(self) -> bool {
+        matches!(self, Self::Polygon | Self::ProjectedPolygon)
+    }
+}
+
+/// A shape relative to the viewpoint.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Centre and radius.
+    Sphere {
+        /// Centre.
+        center: [f32; 3],
+        /// Radius.
+        radius: f32,
+    },
+    /// A triangle or a parallelogram: corner and edges.
+    Flat {
+        /// Corner.
+        p: [f32; 3],
+        /// Edge.
+        u: [f32; 3],
+        /// Edge.
+        v: [f32; 3],
+    },
+    /// A hexagon.
+    Corners([[f32; 3]; 6]),
+    /// A disk.
+    Disk {
+        /// Centre.
+        center: [f32; 3],
+        /// Of any length.
+        normal: [f32; 3],
+        /// Radius.
+        radius: f32,
+    },
+    /// A line.
+    Segment {
+        /// First end.
+        a: [f32; 3],
+        /// To the other.
+        edge: [f32; 3],
+    },
+}
+
+/// A shape, and the receiver's normal.
+#[derive(Clone, Debug)]
+pub struct Pose {
+    /// Relative to the viewpoint.
+    pub shape: Shape,
+    /// Of the receiver.
+    pub normal: [f32; 3],
+}
+
+/// One value of an axis.
+#[derive(Clone, Debug)]
+pub struct Tick {
+    /// The value.
+    pub value: f64,
+    /// As written on the axis.
+    pub label: String,
+}
+
+/// Two axes.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// As in the table.
+    pub name: &'static str,
+    /// Over the map.
+    pub title: &'static str,
+    /// Across.
+    pub x_title: &'static str,
+    /// Upwards.
+    pub y_title: &'static str,
+    /// Across.
+    pub x: Vec<Tick>,
+    /// Upwards.
+    pub y: Vec<Tick>,
+    /// What they are.
+    axes: Axes,
+}
+
+/// What a sweep varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Axes {
+    /// Size, and elevation of a sphere over the horizon or of the viewpoint over a flat shape.
+    Elevation,
+    /// Size, and elevation of the light over the horizon in units of its size.
+    Horizon,
+    /// Aspect ratio and distance.
+    Aspect,
+    /// Where the viewpoint is over a disk's plane, and how high.
+    Foot,
+}
+
+fn power(exponent: f64) -> Tick {
+    let whole = (exponent - exponent.round()).abs() < 1e-9;
+    let label = if whole { format!("1e{}", exponent.round()) } else { String::new() };
+    Tick { value: 10.0_f64.powf(exponent), label }
+}
+fn named(value: f64, label: &str) -> Tick {
+    Tick { value, label: label.to_owned() }
+}
+fn powers(low: i32, high: i32, per_decade: i32) -> Vec<Tick> {
+    (low * per_decade..=high * per_decade).map(|i| power(f64::from(i) / f64::from(per_decade))).collect()
+}
+
+/// From the nadir to the zenith: sines, finest at the horizon.
+fn elevations(per_decade: i32) -> Vec<Tick> {
+    let mut up: Vec<_> = powers(-7, -1, per_decade);
+    up.extend([named(0.3, ""), named(0.6, ""), named(0.9, ""), named(1.0, "1")]);
+    let down = up.iter().rev().map(|t| {
+        let label = if t.label.is_empty() { String::new() } else { format!("-{}", t.label) };
+        Tick { value: -t.value, label }
+    });
+    let mut all: Vec<_> = down.collect();
+    all.push(named(0.0, "0"));
+    all.extend(up);
+    all
+}
+
+/// Elevations in units of the size: where the horizon touches and cuts.
+fn cuts() -> Vec<Tick> {
+    let near = |k: i32| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" });
+    let mut up = vec![named(1.1, "1.1"), named(1.001, ""), named(1.0 + 1e-6, ""), named(1.0, "1")];
+    up.extend((1..=7).rev().map(near));
+    up.extend([named(0.7, ""), named(0.5, "0.5"), named(0.2, "")]);
+    up.extend([-2.0, -4.0, -6.0].map(power));
+    let down = up.iter().map(|t| {
+        let label = if t.label.is_empty() { String::new() } else { format!("-{}", t.label) };
+        Tick { value: -t.value, label }
+    });
+    let mut all: Vec<_> = down.collect();
+    all.push(named(0.0, "0"));
+    all.extend(up.into_iter().rev());
+    all
+}
+
+/// The sweeps of a kind; coarse if `quick`.
+#[must_use]
+pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
+    let fine = if quick { 1 } else { 2 };
+    if kind.round() {
+        // to the surface, and inside
+        let mut x = powers(-9, -1, fine);
+        x.extend([named(0.3, ""), named(0.7, ""), named(0.9, "0.9")]);
+        x.extend((2..=7).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" })));
+        x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.1, ""), named(1e3, "1e3")]);
+        return vec![
+            Sweep {
+                name: "size-elevation",
+                title: "size × elevation of the centre over the horizon",
+                x_title: "radius / distance",
+                y_title: "sine of elevation",
+                x: x.clone(),
+                y: elevations(fine),
+                axes: Axes::Elevation,
+            },
+            Sweep {
+                name: "size-horizon",
+                title: "size × elevation in units of the size: where the horizon cuts",
+                x_title: "radius / distance",
+                y_title: "sine of elevation / (radius/distance)",
+                x: x.into_iter().filter(|t| t.value < 1.0).collect(),
+                y: cuts(),
+                axes: Axes::Horizon,
+            },
+        ];
+    }
+    let mut list = vec![Sweep {
+        name: "size-elevation",
+        title: if kind.line() {
+            "size × elevation of the viewpoint over the line of the light"
+        } else {
+            "size × elevation of the viewpoint over the plane of the light"
+        },
+        x_title: "size / distance",
+        y_title: "sine of elevation",
+        x: powers(-9, 5, fine),
+        y: elevations(fine),
+        axes: Axes::Elevation,
+    }];
+    if kind.projected() {
+        list.push(Sweep {
+            name: "size-horizon",
+            title: "size × elevation of the light over the surface, in units of its size: where the horizon cuts",
+            x_title: "size / distance",
+            y_title: "height of the centre / half the size",
+            x: powers(-9, 2, fine),
+            y: cuts(),
+            axes: Axes::Horizon,
+        });
+    }
+    let mut heights = vec![named(0.0, "0")];
+    heights.extend(powers(-6, 9, fine));
+    if kind == Kind::Disk {
+        let mut x = vec![named(0.0, "0")];
+        x.extend(powers(-6, -1, fine));
+        x.push(named(0.5, ""));
+        x.extend((1..=6).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 6 { "1-1e-6" } else { "" })));
+        x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.0 + 1e-3, ""), named(1.5, "1.5")]);
+        x.extend(powers(1, 6, fine));
+        list.push(Sweep {
+            name: "foot-height",
+            title: "foot of the viewpoint on the disk's plane × its height",
+            x_title: "distance of the foot from the centre / radius",
+            y_title: "height / radius",
+            x,
+            y: heights,
+            axes: Axes::Foot,
+        });
+    } else if !kind.line() {
+        list.push(Sweep {
+            name: "aspect-distance",
+            title: "aspect ratio × distance",
+            x_title: "length / width",
+            y_title: "distance / length",
+            x: powers(0, 6, 2 * fine),
+            y: heights,
+            axes: Axes::Aspect,
+        });
+    }
+    list
+}
+
+/// SplitMix64.
+struct Random(u64);
+impl Random {
+    fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ z >> 31
+    }
+    fn unit(&mut self) -> f64 {
+        (self.word() >> 11) as f64 / 9_007_199_254_740_992.0
+    }
+}
+
+/// `n` points of the square, biased to its edges: multiples of 2⁻²⁴.
+#[must_use]
+pub fn square(n: usize, seed: u64) -> Vec<[f32; 2]> {
+    const EDGES: [f32; 7] = [0.0, 1.0 / 16_777_216.0, 1e-3, 0.5, 0.75, 0.999, 1.0 - 1.0 / 16_777_216.0];
+    let mut random = Random(seed ^ 0x5eed);
+    (0..n)
+        .map(|i| {
+            let mut axis = |edge: bool| {
+                let word = random.word();
+                if edge { EDGES[(word % 7) as usize] } else { (word >> 40) as f32 / 16_777_216.0 }
+            };
+            // a quarter in a corner, a half at a side
+            [axis(i % 4 < 2), axis(i % 4 == 0 || i % 4 == 2)]
+        })
+        .collect()
+}
+
+/// To 8 bits.
+fn coarse(x: f64) -> f64 {
+    if x == 0.0 {
+        return 0.0;
+    }
+    let unit = (x.abs().log2().floor() - 7.0).exp2();
+    (x / unit).round() * unit
+}
+
+/// Three perpendicular vectors whose products with numbers of 8 bits are exact in f32: columns of the rotation by a quaternion of small
+/// integers. The third has length 1. `upright`: the third is the z axis, so that a height of 0 is exact.
+fn axes(random: &mut Random, upright: bool) -> [V3; 3] {
+    let mut pick = || (random.word() % 13) as f64 - 6.0;
+    let (a, d) = (pick() + 0.5, pick());
+    let (b, c) = if upright { (0.0, 0.0) } else { (pick(), pick()) };
+    let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
+    let v = [2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)];
+    [u, v, unit(cross(u, v))]
+}
+
+impl Sweep {
+    /// Does it vary the distance to a shape of one size?
+    #[must_use]
+    pub fn touches(&self) -> bool {
+        matches!(self.axes, Axes::Aspect | Axes::Foot)
+    }
+
+    /// The pose of a cell; each `turn` is another rotation of it.
+    #[must_use]
+    pub fn pose(&self, kind: Kind, x: f64, y: f64, turn: u64) -> Pose {
+        let mut random = Random(turn.wrapping_mul(0x1234_5678_9abc_def1) ^ x.to_bits() ^ y.to_bits().rotate_left(17));
+        let exact = y == 0.0 && (kind.round() == (self.axes == Axes::Elevation) || !kind.round());
+        let axes = axes(&mut random, exact && self.axes != Axes::Horizon);
+        let units = axes.map(unit);
+        let at = |v: V3| -> V3 { core::array::from_fn(|i| (0..3).map(|k| units[k][i] * v[k]).sum()) };
+        let up = narrow(units[2]);
+        let around = |random: &mut Random| (std::f64::consts::TAU * random.unit()).sin_cos();
+        let level = |sine: f64| ((1.0 - sine) * (1.0 + sine)).max(0.0).sqrt();
+        if kind.round() {
+            let sin = if self.axes == Axes::Elevation { y } else { y * x };
+            let (s, c) = around(&mut random);
+            let center = narrow(at([level(sin) * c, level(sin) * s, sin]));
+            return Pose { shape: Shape::Sphere { center, radius: x as f32 }, normal: up };
+        }
+        // a flat light lies across the third axis, a line along the first; its centre is at `center`
+        let (length, width, center) = match self.axes {
+            Axes::Elevation if kind.line() => {
+                let (s, c) = around(&mut random);
+                (x, 0.0, [level(y), y.abs() * c, y * s])
+            }
+            Axes::Elevation => {
+                let (s, c) = around(&mut random);
+                (x, 0.7 * x, [level(y) * c, level(y) * s, y])
+            }
+            Axes::Horizon => (x, 0.7 * x, [0.3, 0.48, 0.824_621]),
+            Axes::Aspect => (1.0, 1.0 / x, [0.5 * y, 0.2 * y, 0.843 * y]),
+            Axes::Foot => {
+                let (s, c) = around(&mut random);
+                (1.0, 1.0, [x * c, x * s, y])
+            }
+        };
+        let center = at(center);
+        // the receiver faces the light, or has it at the horizon: there the normal is turned about an axis across both
+        let towards = if center == [0.0; 3] { units[2] } else { unit(center) };
+        let normal = if self.axes == Axes::Horizon {
+            let across = unit(cross(towards, units[(turn % 3) as usize]));
+            let sine = (y * 0.5 * x).clamp(-1.0, 1.0);
+            let flat = cross(across, towards);
+            narrow(core::array::from_fn(|i| towards[i] * sine + flat[i] * level(sine)))
+        } else {
+            narrow(towards)
+        };
+        let edge = |k: usize, size: f64| {
+            let l = axes[k][0].hypot(axes[k][1]).hypot(axes[k][2]);
+            axes[k].map(|x| x * coarse(size / l))
+        };
+        let shape = match kind {
+            Kind::Disk => {
+                let radius = if self.axes == Axes::Foot { 1.0 } else { 0.5 * length } as f32;
+                Shape::Disk { center: narrow(center), normal: up, radius }
+            }
+            Kind::Segment | Kind::ProjectedSegment => {
+                let u = narrow(edge(0, length));
+                Shape::Segment { a: narrow(core::array::from_fn(|i| center[i] - 0.5 * f64::from(u[i]))), edge: u }
+            }
+            _ => self.flat(kind, center, [edge(0, length), edge(1, width)], y, turn),
+        };
+        Pose { shape, normal }
+    }
+
+    fn flat(&self, kind: Kind, center: V3, [u, mut v]: [V3; 2], y: f64, turn: u64) -> Shape {
+        let skew = match kind {
+            _ if kind.triangle() => 0.3,
+            Kind::Parallelogram | Kind::ProjectedParallelogram if self.axes != Axes::Aspect => 0.4,
+            _ => 0.0,
+        };
+        v = core::array::from_fn(|i| v[i] + skew * u[i]);
+        if kind.hexagon() {
+            let corner = |i: usize| {
+                let (s, c) = (std::f64::consts::TAU * i as f64 / 6.0).sin_cos();
+                narrow(core::array::from_fn(|k| center[k] + 0.5 * (u[k] * c + v[k] * s)))
+            };
+            return Shape::Corners(core::array::from_fn(corner));
+        }
+        let (u, v) = (narrow(u), narrow(v));
+        let middle = if kind.triangle() { 1.0 / 3.0 } else { 0.5 };
+        // touching: within, on a vertex, on an edge
+        let (s, t) = match turn % 3 {
+            1 if self.axes == Axes::Aspect && y == 0.0 => (0.0, 0.0),
+            2 if self.axes == Axes::Aspect && y == 0.0 => (0.5, 0.0),
+            _ => (middle, middle),
+        };
+        let p = core::array::from_fn(|i| center[i] - s * f64::from(u[i]) - t * f64::from(v[i]));
+        Shape::Flat { p: narrow(p), u, v }
+    }
+}

@@ -1,0 +1,424 @@
+//! Baselines: the forms that textbooks and papers print, in f32, as they are usually coded. They are here to be seen failing: nothing
+//! else calls them.
+
+use super::methods::{Draw, Sample};
+use core::f32::consts::{FRAC_PI_2, PI, TAU};
+
+type V = [f32; 3];
+
+fn dot(a: V, b: V) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+fn cross(a: V, b: V) -> V {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+fn add(a: V, b: V) -> V {
+    core::array::from_fn(|i| a[i] + b[i])
+}
+fn sub(a: V, b: V) -> V {
+    core::array::from_fn(|i| a[i] - b[i])
+}
+fn times(a: V, s: f32) -> V {
+    a.map(|x| x * s)
+}
+fn length(a: V) -> f32 {
+    dot(a, a).sqrt()
+}
+fn normalize(a: V) -> V {
+    let l = length(a);
+    a.map(|x| x / l)
+}
+
+/// The cone by its cosine: cosσ = √(1 − R²/d²), cosθ = 1 − u₀(1 − cosσ), sinθ = √(1 − cos²θ). With `series`, below sin²σ = 0.00068523 (1.5°)
+/// sin²θ = u₀ sin²σ and 1 − cosσ = ½ sin²σ, as in PBR 4th ed., 6.2.4.
+pub fn cone(center: V, radius: f32, series: bool, draw: &mut Draw<'_>) {
+    let distance = length(center);
+    let axis = normalize(center);
+    let frame = etendue::Frame::new(etendue::Vec3::new(axis[0], axis[1], axis[2]));
+    let sin_squared = radius * radius / (distance * distance);
+    let small = series && sin_squared < 0.000_685_23;
+    let cos_sigma = (1.0 - sin_squared).max(0.0).sqrt();
+    let h = if small { 0.5 * sin_squared } else { 1.0 - cos_sigma };
+    draw.each(|u, invert| {
+        let mut cos = 1.0 - u[0] * h;
+        let mut sin_squared_theta = 1.0 - cos * cos;
+        if small {
+            sin_squared_theta = sin_squared * u[0];
+            cos = (1.0 - sin_squared_theta).sqrt();
+        }
+        let sin = sin_squared_theta.max(0.0).sqrt();
+        let (s, c) = (TAU * u[1]).sin_cos();
+        let w = frame.to_world(etendue::Vec3::new(sin * c, sin * s, cos));
+        let inverse = invert.then(|| {
+            let local = frame.to_local(w);
+            let azimuth = local.y.atan2(local.x) / TAU;
+            [(1.0 - local.z) / h, if azimuth < 0.0 { azimuth + 1.0 } else { azimuth }]
+        });
+        Sample::new([w.x, w.y, w.z], 1.0 / (TAU * h), inverse)
+    });
+}
+
+/// The projected solid angle of a cap in closed form, from the angles σ and ω (Snyder 1996).
+#[must_use]
+pub fn projected_cap(center: V, radius: f32, normal: V) -> f32 {
+    let distance = length(center);
+    let sigma = (radius / distance).asin();
+    let omega = (dot(center, normal) / distance).clamp(-1.0, 1.0).acos();
+    let (s, c, cos) = (sigma.sin(), sigma.cos(), omega.cos());
+    if omega + sigma <= FRAC_PI_2 {
+        PI * s * s * cos
+    } else if omega - sigma >= FRAC_PI_2 {
+        0.0
+    } else {
+        let y = (s * s - cos * cos).max(0.0).sqrt();
+        y.atan2(c) + s * s * cos * y.atan2(-c * cos) - y * c
+    }
+}
+
+/// How the solid angle of a spherical triangle is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excess {
+    /// α + β + γ − π, the angles by arc cosines of the planes' normals (Girard; Arvo 1995).
+    Angles,
+    /// 2 atan2(|a·(b×c)|, 1 + a·b + b·c + c·a) on unit vectors (Van Oosterom and Strackee 1983).
+    Oosterom,
+}
+
+/// A spherical triangle and Arvo's map, "Stratified Sampling of Spherical Triangles", 1995: about b, from a to c.
+#[derive(Clone, Copy, Debug)]
+pub struct Arvo {
+    a: V,
+    b: V,
+    c: V,
+    cos_c: f32,
+    angle: [f32; 2],
+    solid_angle: f32,
+}
+impl Arvo {
+    /// Of vertices relative to the point.
+    #[must_use]
+    pub fn new([a, b, c]: [V; 3], excess: Excess) -> Self {
+        let (a, b, c) = (normalize(a), normalize(b), normalize(c));
+        let planes = [cross(a, b), cross(b, c), cross(c, a)].map(normalize);
+        let angle = |p: V, q: V| (-dot(p, q)).clamp(-1.0, 1.0).acos();
+        let (alpha, beta, gamma) =
+            (angle(planes[0], planes[2]), angle(planes[1], planes[0]), angle(planes[2], planes[1]));
+        let solid_angle = match excess {
+            Excess::Angles => alpha + beta + gamma - PI,
+            Excess::Oosterom => {
+                let volume = dot(a, cross(b, c)).abs();
+                2.0 * volume.atan2(1.0 + dot(a, b) + dot(b, c) + dot(c, a))
+            }
+        };
+        Self { a, b, c, cos_c: dot(a, b), angle: [alpha.sin(), alpha.cos()], solid_angle }
+    }
+    /// In steradians.
+    #[must_use]
+    pub fn solid_angle(&self) -> f32 {
+        self.solid_angle
+    }
+    /// The direction for `u`.
+    #[must_use]
+    pub fn sample(&self, u: [f32; 2]) -> V {
+        let [sin_alpha, cos_alpha] = self.angle;
+        let (sin_area, cos_area) = (u[0] * self.solid_angle).sin_cos();
+        let s = sin_area * cos_alpha - cos_area * sin_alpha;
+        let t = cos_area * cos_alpha + sin_area * sin_alpha;
+        let p = t - cos_alpha;
+        let q = s + sin_alpha * self.cos_c;
+        let cos = ((q * t - p * s) * cos_alpha - q) / ((q * s + p * t) * sin_alpha);
+        let cos = cos.clamp(-1.0, 1.0);
+        let towards = |from: V, to: V| normalize(sub(to, times(from, dot(from, to))));
+        let swept = add(times(self.a, cos), times(towards(self.a, self.c), (1.0 - cos * cos).max(0.0).sqrt()));
+        let z = 1.0 - u[1] * (1.0 - dot(swept, self.b));
+        add(times(self.b, z), times(towards(self.b, swept), (1.0 - z * z).max(0.0).sqrt()))
+    }
+    /// The inverse: the solid angle of the triangle swept over that of the whole, and a ratio of 1 − cos.
+    #[must_use]
+    pub fn invert(&self, w: V, excess: Excess) -> [f32; 2] {
+        let plane = cross(self.b, w);
+        if dot(plane, plane) == 0.0 {
+            return [0.0; 2];
+        }
+        let mut swept = normalize(cross(plane, cross(self.c, self.a)));
+        if dot(swept, add(self.a, self.c)) < 0.0 {
+            swept = times(swept, -1.0);
+        }
+        let part = Self::new([self.a, self.b, swept], excess);
+        [part.solid_angle / self.solid_angle, (1.0 - dot(w, self.b)) / (1.0 - dot(swept, self.b))]
+    }
+}
+
+/// A fan of spherical triangles, one for each part of u₀.
+pub fn fan<const N: usize>(triangles: [[V; 3]; N], excess: Excess, draw: &mut Draw<'_>) {
+    let fans = triangles.map(|t| Arvo::new(t, excess));
+    let whole: f32 = fans.iter().map(Arvo::solid_angle).sum();
+    draw.each(|u, invert| {
+        let swept = u[0] * whole;
+        let mut before = 0.0;
+        let mut chosen = (fans.len() - 1, 0.0);
+        for (i, f) in fans.iter().enumerate() {
+            if i + 1 == fans.len() || swept < before + f.solid_angle {
+                chosen = (i, before);
+                break;
+            }
+            before += f.solid_angle;
+        }
+        let f = &fans[chosen.0];
+        let w = f.sample([(swept - chosen.1) / f.solid_angle, u[1]]);
+        let inverse = invert.then(|| {
+            let [x, y] = f.invert(w, excess);
+            [(chosen.1 + x * f.solid_angle) / whole, y]
+        });
+        Sample::new(w, 1.0 / whole, inverse)
+    });
+}
+
+/// A point of a flat shape, uniform by area: d²/(|cosθ'| A). A triangle if `half`, else a parallelogram.
+pub fn area(p: V, e1: V, e2: V, half: bool, draw: &mut Draw<'_>) {
+    let normal = cross(e1, e2);
+    let area = length(normal) * if half { 0.5 } else { 1.0 };
+    draw.each(|u, _| {
+        let (b1, b2) = if half {
+            let root = u[0].sqrt();
+            (root * (1.0 - u[1]), root * u[1])
+        } else {
+            (u[0], u[1])
+        };
+        let point = add(p, add(times(e1, b1), times(e2, b2)));
+        let squared = dot(point, point);
+        let w = normalize(point);
+        let pdf = squared / (dot(w, normalize(normal)).abs() * area);
+        Sample { by_area: true, ..Sample::new(w, pdf, None) }
+    });
+}
+
+/// A renderer's triangle: by solid angle (Van Oosterom and Strackee, Arvo) from 3e−4 to 6.22 steradians, by area outside.
+pub fn triangle_with_thresholds(p: V, e1: V, e2: V, draw: &mut Draw<'_>) {
+    let vertices = [p, add(p, e1), add(p, e2)];
+    let solid_angle = Arvo::new(vertices, Excess::Oosterom).solid_angle();
+    if (3e-4..=6.22).contains(&solid_angle) {
+        fan([vertices], Excess::Oosterom, draw);
+    } else {
+        area(p, e1, e2, true, draw);
+    }
+}
+
+/// A spherical rectangle: Ureña, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles", 2013.
+#[derive(Clone, Copy, Debug)]
+pub struct Urena {
+    axes: [V; 3],
+    x: [f32; 2],
+    y: [f32; 2],
+    z: f32,
+    b: [f32; 2],
+    k: f32,
+    solid_angle: f32,
+}
+impl Urena {
+    /// Of a corner and two perpendicular edges.
+    #[must_use]
+    pub fn new(p: V, u: V, v: V) -> Self {
+        let (lu, lv) = (length(u), length(v));
+        let (x_axis, y_axis) = (times(u, 1.0 / lu), times(v, 1.0 / lv));
+        let mut z_axis = cross(x_axis, y_axis);
+        let mut z = dot(p, z_axis);
+        if z > 0.0 {
+            (z, z_axis) = (-z, times(z_axis, -1.0));
+        }
+        let (x0, y0) = (dot(p, x_axis), dot(p, y_axis));
+        let (x1, y1) = (x0 + lu, y0 + lv);
+        let corner = |x, y| [x, y, z];
+        let around = [corner(x0, y0), corner(x1, y0), corner(x1, y1), corner(x0, y1)];
+        let n: [V; 4] = core::array::from_fn(|i| normalize(cross(around[i], around[(i + 1) % 4])));
+        let gamma: [f32; 4] = core::array::from_fn(|i| (-dot(n[i], n[(i + 1) % 4])).clamp(-1.0, 1.0).acos());
+        let k = TAU - gamma[2] - gamma[3];
+        Self {
+            axes: [x_axis, y_axis, z_axis],
+            x: [x0, x1],
+            y: [y0, y1],
+            z,
+            b: [n[0][2], n[2][2]],
+            k,
+            solid_angle: gamma[0] + gamma[1] - k,
+        }
+    }
+    /// In steradians.
+    #[must_use]
+    pub fn solid_angle(&self) -> f32 {
+        self.solid_angle
+    }
+    /// The direction for `u`.
+    #[must_use]
+    pub fn sample(&self, u: [f32; 2]) -> V {
+        let [b0, b1] = self.b;
+        let (sin, cos) = (u[0] * self.solid_angle + self.k).sin_cos();
+        let f = (cos * b0 - b1) / sin;
+        let c = (1.0 / (f * f + b0 * b0).sqrt() * if f > 0.0 { 1.0 } else { -1.0 }).clamp(-1.0, 1.0);
+        let x = (-(c * self.z) / (1.0 - c * c).max(1e-12).sqrt()).clamp(self.x[0], self.x[1]);
+        let d = (x * x + self.z * self.z).sqrt();
+        let h = self.y.map(|y| y / (d * d + y * y).sqrt());
+        let height = h[0] + u[1] * (h[1] - h[0]);
+        let squared = height * height;
+        let y = if squared < 1.0 - 1e-6 { height * d / (1.0 - squared).sqrt() } else { self.y[1] };
+        let [a, b, n] = self.axes;
+        normalize(add(times(a, x), add(times(b, y), times(n, self.z))))
+    }
+    /// The inverse, by solving the same equations for `u`.
+    #[must_use]
+    pub fn invert(&self, w: V) -> [f32; 2] {
+        let [a, b, n] = self.axes;
+        let scale = self.z / dot(w, n);
+        let x = (dot(w, a) * scale).clamp(self.x[0], self.x[1]);
+        let y = dot(w, b) * scale;
+        // cos of the azimuth about y, then f, then b₀ cos − f sin = b₁
+        let [b0, b1] = self.b;
+        let c = x / (x * x + self.z * self.z).sqrt();
+        let f = (1.0 / (c * c) - b0 * b0).max(0.0).sqrt().copysign(c);
+        let radius = (b0 * b0 + f * f).sqrt();
+        let (offset, reach) = (f.atan2(b0), (b1 / radius).clamp(-1.0, 1.0).acos());
+        // of the angles that solve it, the one within the swept part
+        let mut best = (f32::INFINITY, 0.0);
+        for root in [reach - offset, -reach - offset] {
+            for turn in [0.0, TAU, 2.0 * TAU] {
+                let part = (root + turn - self.k) / self.solid_angle;
+                let miss = (part - 0.5).abs();
+                let sin = (root + turn).sin();
+                if miss < best.0 && sin != 0.0 {
+                    best = (miss, part);
+                }
+            }
+        }
+        let d = (x * x + self.z * self.z).sqrt();
+        let h = self.y.map(|y| y / (d * d + y * y).sqrt());
+        [best.1, (y / (d * d + y * y).sqrt() - h[0]) / (h[1] - h[0])]
+    }
+}
+
+/// The published spherical rectangle.
+pub fn urena(p: V, u: V, v: V, draw: &mut Draw<'_>) {
+    let map = Urena::new(p, u, v);
+    draw.each(|u, invert| {
+        let w = map.sample(u);
+        Sample::new(w, 1.0 / map.solid_angle(), invert.then(|| map.invert(w)))
+    });
+}
+
+/// A renderer's rectangle: the published one from 3e−4 to 6.22 steradians, by area outside.
+pub fn rectangle_with_thresholds(p: V, u: V, v: V, draw: &mut Draw<'_>) {
+    let solid_angle = Urena::new(p, u, v).solid_angle();
+    if (3e-4..=6.22).contains(&solid_angle) { urena(p, u, v, draw) } else { area(p, u, v, false, draw) }
+}
+
+/// The projected solid angle of a polygon: clipped to the horizon, then Lambert's sum with arc cosines of the vertices' unit vectors.
+#[must_use]
+pub fn lambert(corners: &[V], normal: V) -> f32 {
+    let mut above = Vec::new();
+    for (i, &a) in corners.iter().enumerate() {
+        let b = corners[(i + 1) % corners.len()];
+        let (ha, hb) = (dot(a, normal), dot(b, normal));
+        if ha >= 0.0 {
+            above.push(normalize(a));
+        }
+        if (ha < 0.0) != (hb < 0.0) {
+            above.push(normalize(add(a, times(sub(b, a), ha / (ha - hb)))));
+        }
+    }
+    let edge = |i: usize| {
+        let (a, b) = (above[i], above[(i + 1) % above.len()]);
+        dot(a, b).clamp(-1.0, 1.0).acos() * dot(normalize(cross(a, b)), normal)
+    };
+    0.5 * (0..above.len()).map(edge).sum::<f32>().abs()
+}
+
+/// The solid angle of a disk by 32 midpoints of 2π − 4∫√(q/(q+a²b²)) over the tangents a and b of its cone, from a half-angle by arc cosines.
+#[must_use]
+pub fn disk(center: V, normal: V, radius: f32) -> f32 {
+    let n = normalize(normal);
+    let z = dot(center, n).abs();
+    let squared = dot(center, center);
+    // to the nearest and the farthest point of the rim
+    let off = (squared - z * z).max(0.0).sqrt();
+    let (near, far) = ((z * z + (off - radius).powi(2)).sqrt(), (z * z + (off + radius).powi(2)).sqrt());
+    let alpha = 0.5 * ((squared - radius * radius) / (near * far)).clamp(-1.0, 1.0).acos();
+    let a = alpha.tan();
+    // tan of the major half-angle, R/√(dist² along the axis of the cone)
+    let b = radius / ((near * far).sqrt() * alpha.cos());
+    const N: u32 = 32;
+    let sum: f32 = (0..N)
+        .map(|i| {
+            let (s, c) = ((i as f32 + 0.5) * FRAC_PI_2 / N as f32).sin_cos();
+            let q = b * b * c * c + a * a * s * s;
+            (q / (q + a * a * b * b)).sqrt()
+        })
+        .sum();
+    TAU - 4.0 * sum * FRAC_PI_2 / N as f32
+}
+
+/// Equiangular sampling by arc tangents from the foot of the perpendicular: Kulla and Fajardo 2012.
+#[derive(Clone, Copy, Debug)]
+pub struct Equiangular {
+    foot: V,
+    along: V,
+    height: f32,
+    angles: [f32; 2],
+}
+impl Equiangular {
+    /// From one end, and to the other.
+    #[must_use]
+    pub fn new(a: V, edge: V) -> Self {
+        let size = length(edge);
+        let along = times(edge, 1.0 / size);
+        let near = dot(a, along);
+        let foot = sub(a, times(along, near));
+        let height = length(foot);
+        Self { foot, along, height, angles: [(near / height).atan(), ((near + size) / height).atan()] }
+    }
+    /// The direction for `u`.
+    #[must_use]
+    pub fn sample(&self, u: f32) -> V {
+        let theta = (1.0 - u) * self.angles[0] + u * self.angles[1];
+        normalize(add(self.foot, times(self.along, self.height * theta.tan())))
+    }
+    /// The distance for `u`.
+    #[must_use]
+    pub fn distance(&self, u: f32) -> f32 {
+        self.height / ((1.0 - u) * self.angles[0] + u * self.angles[1]).cos()
+    }
+    /// Per radian.
+    #[must_use]
+    pub fn pdf(&self) -> f32 {
+        1.0 / (self.angles[1] - self.angles[0])
+    }
+    /// The inverse.
+    #[must_use]
+    pub fn invert(&self, w: V) -> f32 {
+        let theta = (dot(w, self.along) / dot(w, times(self.foot, 1.0 / self.height))).atan();
+        (theta - self.angles[0]) / (self.angles[1] - self.angles[0])
+    }
+}
+
+/// ∫ sinγ cosθ over a segment above the horizon, in closed form with angles from the foot of the perpendicular.
+#[must_use]
+pub fn projected_segment(mut a: V, edge: V, normal: V) -> f32 {
+    let mut b = add(a, edge);
+    let (low, high) = (dot(a, normal), dot(b, normal));
+    let there = add(a, times(edge, low / (low - high)));
+    if low < 0.0 && high < 0.0 {
+        return 0.0;
+    }
+    if low < 0.0 {
+        a = there;
+    } else if high < 0.0 {
+        b = there;
+    }
+    let along = normalize(edge);
+    let foot = normalize(sub(a, times(along, dot(a, along))));
+    let angle = |p: V| dot(p, along).atan2(dot(p, foot));
+    // sinγ = cosφ, cosθ = n·(foot cosφ + along sinφ) at the angle φ from the foot
+    let up_to = |phi: f32| {
+        let (s, c) = phi.sin_cos();
+        0.5 * (dot(normal, foot) * (phi + s * c) + dot(normal, along) * s * s)
+    };
+    up_to(angle(b)) - up_to(angle(a))
+}
