@@ -147,7 +147,7 @@ pub fn projected_polygon(vertices: &[V3], n: V3) -> f64 {
     0.5 * sum.abs()
 }
 
-pub use etendue_render::atlas::truth::{above_horizon, lambert};
+pub use crate::double_double::{above_horizon, lambert};
 
 /// Form factor from a point to a disk that faces it: radius r, height h, offset a of the axis.
 #[must_use]

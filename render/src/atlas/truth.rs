@@ -2,7 +2,7 @@
 //! under test, but for the directions of projected shapes (see [`Truth::direction`]).
 
 use super::curves::{Arc, Ellipse};
-use super::double_double::{Dd, Dd3, cross, dot};
+use super::double_double::{Dd, Dd3, above_horizon, cross, dot, lambert};
 use super::pose::{Kind, Pose, Shape, V3, unit, wide};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use etendue::seen::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
@@ -217,39 +217,6 @@ pub fn projected_cap(center: V3, radius: f64, normal: V3) -> f64 {
     let y = ((sin - height) * (sin + height)).sqrt();
     // a thin lune is a small difference of the three
     (y.atan2(cos) + sin * sin * height * y.atan2(-(cos * height)) - y * cos).to_f64()
-}
-
-/// The corners of what the horizon of `n` leaves of a convex polygon.
-#[must_use]
-pub fn above_horizon(corners: &[Dd3], n: Dd3) -> Vec<Dd3> {
-    let mut above = Vec::new();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let (ha, hb) = (dot(a, n), dot(b, n));
-        if ha.to_f64() >= 0.0 {
-            above.push(a);
-        }
-        if (ha.to_f64() < 0.0) != (hb.to_f64() < 0.0) {
-            let part = ha / (ha - hb);
-            above.push(core::array::from_fn(|k| a[k] + (b[k] - a[k]) * part));
-        }
-    }
-    above
-}
-
-/// Lambert's sum over the edges of a polygon above the horizon of `n`: good to 1e−13 down to 1e−8 of the distance.
-#[must_use]
-pub fn lambert(corners: &[Dd3], n: Dd3) -> f64 {
-    let mut sum = Dd::default();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let normal = cross(a, b);
-        let length = dot(normal, normal).sqrt();
-        if length.to_f64() > 0.0 {
-            sum = sum + length.atan2(dot(a, b)) * dot(normal, n) / length;
-        }
-    }
-    0.5 * (sum / dot(n, n).sqrt()).to_f64().abs()
 }
 
 #[derive(Clone, Debug)]
