@@ -1,18 +1,43 @@
-//! Ray intersection in packets of 8: trees built by obvhs, traversed here.
+//! Ray intersection in groups of up to 8 packets of 8: trees built by obvhs, traversed here.
 //!
 //! Guarantees: the tree never loses a hit that the test of a triangle would report (slabs are widened by more than the error of the
 //! triangle test); neighbouring triangles leave no gap between them; zero components and −0 in directions are as good as others;
-//! nothing depends on the unit of length. Ties of equal distance go to the triangle of lower index.
+//! nothing depends on the unit of length. A hit is nearer than its limit, never at it; ties of equal distance go to the triangle of
+//! lower index. So what a ray hits depends on neither its companions nor the way it takes through the tree, bit for bit.
 
+/// Calls a function whose planes are in an order that depends on the octant of the rays alone.
+macro_rules! by_octant {
+    ($octant:expr, else $other:literal, $this:ident.$function:ident $arguments:tt) => {
+        match $octant {
+            0 => $this.$function::<0> $arguments,
+            1 => $this.$function::<1> $arguments,
+            2 => $this.$function::<2> $arguments,
+            3 => $this.$function::<3> $arguments,
+            4 => $this.$function::<4> $arguments,
+            5 => $this.$function::<5> $arguments,
+            6 => $this.$function::<6> $arguments,
+            7 => $this.$function::<7> $arguments,
+            _ => $this.$function::<$other> $arguments,
+        }
+    };
+}
+
+mod build;
+mod packets;
 mod shaft;
 mod shape;
+mod single;
+mod stream;
 mod tree;
 mod triangle;
 
+pub use packets::Stack;
+use packets::slabs;
 use shaft::Shaft;
 pub use shape::ShapeSet;
-use tree::Tree;
-pub use tree::{BuildError, Stack};
+use single::Nearest;
+pub use tree::BuildError;
+use tree::{Primitives, Tree};
 
 use etendue::{Frame, Mask, Real, Vec3, f32x8, u32x8};
 
@@ -43,8 +68,7 @@ pub struct Rays {
     frame: [V8; 2],
     inverse: V8,
     /// −(origin ± pad)/direction, for the lower and the upper planes of boxes.
-    lower: V8,
-    upper: V8,
+    offset: [V8; 2],
     /// Per axis: do all rays run towards +, all towards −, or neither?
     common_sign: Option<[bool; 3]>,
     /// By how much boxes are widened, at the most.
@@ -59,8 +83,7 @@ impl Default for Rays {
             direction: zero,
             frame: [zero; 2],
             inverse: zero,
-            lower: zero,
-            upper: zero,
+            offset: [zero; 2],
             common_sign: None,
             pad: 0.0,
         }
@@ -88,8 +111,7 @@ impl Rays {
             direction,
             frame: [frame.s, frame.t],
             inverse,
-            lower: plane(origin, pad),
-            upper: plane(origin, -pad),
+            offset: [plane(origin, pad), plane(origin, -pad)],
             common_sign: common.then(|| negative.map(|bits| bits != 0)),
             pad: pad.to_array().into_iter().fold(0.0, f32::max),
         }
@@ -119,6 +141,22 @@ impl Hits {
     #[inline]
     pub fn any(&self) -> M8 {
         !equal(self.place, u32x8::splat(NOTHING))
+    }
+    #[inline]
+    fn nearest(&self, lane: usize) -> Nearest {
+        Nearest {
+            distance: self.distance.as_array()[lane],
+            place: self.place.as_array()[lane],
+            b1: self.b1.as_array()[lane],
+            b2: self.b2.as_array()[lane],
+        }
+    }
+    #[inline]
+    fn put(&mut self, lane: usize, nearest: &Nearest) {
+        self.distance.as_mut_array()[lane] = nearest.distance;
+        self.place.as_mut_array()[lane] = nearest.place;
+        self.b1.as_mut_array()[lane] = nearest.b1;
+        self.b2.as_mut_array()[lane] = nearest.b2;
     }
     /// True where a shape was hit.
     #[inline]
@@ -164,10 +202,25 @@ pub fn pick(mask: M8, yes: u32x8, no: u32x8) -> u32x8 {
     select(mask, X8::from_bits(yes), X8::from_bits(no)).to_bits()
 }
 
+/// How groups of packets go through the tree of triangles. It makes no difference to what they hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Way {
+    /// As one where they have a narrow shaft in common, else as a stream.
+    #[default]
+    Choose,
+    /// As a stream: each node is visited once, by the rays that enter it, and rays that are left alone go on one by one.
+    Stream,
+    /// Ray by ray.
+    Single,
+    /// Each leaf in turn, whatever else has been hit, without the tree above it: the oracle of the others.
+    Exhaustive,
+}
+
 /// All that rays can meet: mesh triangles in a tree, and the shapes that are intersected as they are.
 #[derive(Debug)]
 pub struct Accel {
     triangles: Tree<triangle::Soup>,
+    way: Way,
     /// Spheres and emitters.
     pub shapes: ShapeSet,
     reach: f32,
@@ -181,7 +234,12 @@ impl Accel {
     pub fn new(triangles: &[[[f32; 3]; 3]], shapes: ShapeSet) -> Result<Self, BuildError> {
         let mesh = triangles.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
         let reach = mesh.max(shapes.reach());
-        Ok(Self { triangles: triangle::Soup::tree(triangles)?, shapes, reach })
+        Ok(Self { triangles: triangle::Soup::tree(triangles)?, way: Way::default(), shapes, reach })
+    }
+    /// The same, but rays go through it in another way: to compare them.
+    #[must_use]
+    pub fn with_way(self, way: Way) -> Self {
+        Self { way, ..self }
     }
     /// Rays for this scene.
     #[inline(always)]
@@ -194,47 +252,82 @@ impl Accel {
     /// All slices are of one length, up to [`GROUP`].
     #[inline]
     pub fn closest(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
-        self.in_groups(rays, active, |range, shaft| {
-            let (rays, active, hits) = (&rays[range.clone()], &active[range.clone()], &mut hits[range]);
-            self.shapes.tree().closest(rays, active, shaft, hits, stack);
-            self.triangles.closest(rays, active, shaft, hits, stack);
-        });
+        let shaft = self.shaft(rays, active);
+        self.closest_of_shapes(rays, active, shaft.as_ref(), hits, stack);
+        match (&shaft, self.way) {
+            (Some(shaft), _) => self.triangles.closest(rays, active, Some(shaft), hits, stack),
+            (None, Way::Single) => self.triangles.closest_one_by_one(rays, active, hits, stack),
+            (None, Way::Exhaustive) => self.triangles.each_leaf(|leaf, node, slot| {
+                for ((rays, &active), hits) in rays.iter().zip(active).zip(&mut *hits) {
+                    let (near, entered) = slabs::<false>(node, slot, rays, [false; 3], X8::lit(f64::INFINITY));
+                    self.triangles.primitives().closest(leaf.clone(), rays, near, active & entered, hits);
+                }
+            }),
+            (None, _) => self.triangles.closest_stream(rays, active, hits, stack),
+        }
     }
     /// The nearest hits of shapes alone.
     #[inline]
     pub fn closest_shape(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
-        self.in_groups(rays, active, |range, shaft| {
-            let (rays, active, hits) = (&rays[range.clone()], &active[range.clone()], &mut hits[range]);
-            self.shapes.tree().closest(rays, active, shaft, hits, stack);
-        });
+        let shaft = self.shaft(rays, active);
+        self.closest_of_shapes(rays, active, shaft.as_ref(), hits, stack);
+    }
+    /// Shapes are few: without a shaft packet by packet.
+    #[inline]
+    fn closest_of_shapes(
+        &self,
+        rays: &[Rays],
+        active: &[M8],
+        shaft: Option<&Shaft>,
+        hits: &mut [Hits],
+        stack: &mut Stack,
+    ) {
+        if shaft.is_some() {
+            return self.shapes.tree().closest(rays, active, shaft, hits, stack);
+        }
+        for p in (0..rays.len()).filter(|&p| active[p].any()) {
+            self.shapes.tree().closest(&rays[p..=p], &active[p..=p], None, &mut hits[p..=p], stack);
+        }
     }
     /// Takes out of `active` the lanes in which something lies nearer than `limit`, other than shape `target`
     /// (an index without [`SHAPE`], or [`NOTHING`]).
     #[inline]
     pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], stack: &mut Stack) {
-        let before: [M8; GROUP] = std::array::from_fn(|p| active.get(p).copied().unwrap_or(M8::splat(false)));
-        self.in_groups(rays, &before[..rays.len()], |range, shaft| {
-            let (rays, active) = (&rays[range.clone()], &mut active[range.clone()]);
-            let (limit, target) = (&limit[range.clone()], &target[range]);
-            self.shapes.tree().occluded(rays, active, limit, target, shaft, stack);
-            if active.iter().any(|a| a.any()) {
-                self.triangles.occluded(rays, active, limit, target, shaft, stack);
+        let shaft = self.shaft(rays, active);
+        let shapes = self.shapes.tree();
+        if let Some(shaft) = &shaft {
+            shapes.occluded(rays, active, limit, target, Some(shaft), stack);
+        } else {
+            for p in 0..rays.len() {
+                if active[p].any() {
+                    shapes.occluded(&rays[p..=p], &mut active[p..=p], &limit[p..=p], &target[p..=p], None, stack);
+                }
             }
-        });
+        }
+        if !active.iter().any(|a| a.any()) {
+            return;
+        }
+        match (&shaft, self.way) {
+            (Some(shaft), _) => self.triangles.occluded(rays, active, limit, target, Some(shaft), stack),
+            (None, Way::Single) => self.triangles.occluded_one_by_one(rays, active, limit, stack),
+            (None, Way::Exhaustive) => self.triangles.each_leaf(|leaf, node, slot| {
+                for (p, active) in active.iter_mut().enumerate() {
+                    let (near, entered) = slabs::<false>(node, slot, &rays[p], [false; 3], X8::lit(f64::INFINITY));
+                    let (soup, lanes) = (self.triangles.primitives(), *active & entered);
+                    *active = *active & !soup.occluded(leaf.clone(), &rays[p], near, lanes, limit[p], target[p]);
+                }
+            }),
+            (None, _) => self.triangles.occluded_stream(rays, active, limit, stack),
+        }
     }
-    /// As one group where the packets have a narrow shaft in common, else packet by packet.
+    /// A narrow shaft that the rays have in common.
     #[inline]
-    fn in_groups(&self, rays: &[Rays], active: &[M8], mut each: impl FnMut(std::ops::Range<usize>, Option<&Shaft>)) {
-        if let Some(shaft) = Shaft::new(rays, active) {
-            return each(0..rays.len(), Some(&shaft));
-        }
-        for p in (0..rays.len()).filter(|&p| active[p].any()) {
-            each(p..p + 1, None);
-        }
+    fn shaft(&self, rays: &[Rays], active: &[M8]) -> Option<Shaft> {
+        if self.way == Way::Choose { Shaft::new(rays, active) } else { None }
     }
     /// The corners of the mesh triangle at a place.
     #[inline]
-    pub fn corners(&self, place: u32) -> &[f32; 9] {
+    pub fn corners(&self, place: u32) -> [f32; 9] {
         self.triangles.primitives().corners(place)
     }
     /// For each place, the index of its triangle in the slice that the tree was built over.

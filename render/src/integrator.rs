@@ -126,6 +126,11 @@ impl World {
         })
     }
 
+    /// Bytes held by the tree and its triangles.
+    pub fn bytes(&self) -> usize {
+        self.accel.bytes()
+    }
+
     /// Does the plain path do: diffuse surfaces and emitters, sampled by one technique?
     fn plain(&self, technique: Technique) -> bool {
         let one = !matches!(technique, Technique::MisBalance | Technique::MisPower);

@@ -1,10 +1,14 @@
 //! Spheres and emitters, intersected as they are.
 
+use super::build::Costs;
 use super::tree::{BuildError, Primitives, Tree};
 use super::{Hits, M8, Rays, SHAPE, V8, X8, equal, max, pick, select};
 use crate::scene::{Geometry, Shape};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
+
+/// A packet meets one shape after the other, each in about the time of a node.
+const COSTS: Costs = Costs { most: 4, leaf: 0.0, primitive: 1.0 };
 
 /// A shape in the form in which it is intersected.
 #[derive(Clone, Copy, Debug)]
@@ -86,8 +90,9 @@ impl ShapeSet {
         let reach = boxes.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
         let tree = Tree::build(
             shapes.len(),
+            COSTS,
             |i| boxes[i],
-            |order| Solids {
+            |order, _| Solids {
                 solids: order.iter().map(|&i| solid(&shapes[i as usize].geometry)).collect(),
                 ids: order.to_vec(),
             },
@@ -137,7 +142,7 @@ fn intersect(solid: &Solid, rays: &Rays, limit: X8) -> (X8, M8) {
 
 impl Primitives for Solids {
     #[inline]
-    fn closest(&self, range: Range<usize>, rays: &Rays, active: M8, hits: &mut Hits) {
+    fn closest(&self, range: Range<usize>, rays: &Rays, _near: X8, active: M8, hits: &mut Hits) {
         for (solid, &id) in self.solids[range.clone()].iter().zip(&self.ids[range]) {
             let (distance, hit) = intersect(solid, rays, hits.distance);
             let hit = hit & active;
@@ -146,7 +151,7 @@ impl Primitives for Solids {
         }
     }
     #[inline]
-    fn occluded(&self, range: Range<usize>, rays: &Rays, active: M8, limit: X8, skip: u32x8) -> M8 {
+    fn occluded(&self, range: Range<usize>, rays: &Rays, _near: X8, active: M8, limit: X8, skip: u32x8) -> M8 {
         let mut hidden = M8::splat(false);
         for (solid, &id) in self.solids[range.clone()].iter().zip(&self.ids[range]) {
             let others = active & !equal(skip, u32x8::splat(id));

@@ -52,9 +52,8 @@ impl World {
             (v0, v1, v2) = (corner(0), corner(3), corner(6));
             albedo = V8::from(self.albedo(first));
         } else {
-            let nowhere = [0.0; 9];
-            let rows: [&[f32; 9]; 8] =
-                std::array::from_fn(|i| if lanes.lane(i) { self.accel.corners(places[i]) } else { &nowhere });
+            let rows: [[f32; 9]; 8] =
+                std::array::from_fn(|i| if lanes.lane(i) { self.accel.corners(places[i]) } else { [0.0; 9] });
             let c = X8::transpose(rows.map(|r| X8::from(&r[..8])));
             let last = X8::from(rows.map(|r| r[8]));
             (v0, v1, v2) = (V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last));

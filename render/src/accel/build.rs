@@ -1,0 +1,204 @@
+//! Building of trees: obvhs's binary tree, of which nodes of eight children are made here. The one file that names obvhs.
+
+use super::WIDTH;
+use super::tree::{Bounds, DEPTH, Node};
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use obvhs::{Boundable, aabb::Aabb, bvh2::Bvh2, bvh2::node::Bvh2Node, bvh2::reinsertion::ReinsertionOptimizer};
+
+/// What leaves may be and what it costs to visit them, in visits of an inner node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Costs {
+    /// Most primitives in a leaf, at most 15.
+    pub(super) most: usize,
+    /// Cost of any leaf.
+    pub(super) leaf: f32,
+    /// And of each primitive in it.
+    pub(super) primitive: f32,
+}
+
+/// A tree of nodes, the root first, and the primitives in the order of its leaves.
+pub(super) type Built = (Vec<Node>, Vec<u32>);
+
+/// Levels from the leaves up at which obvhs looks for partners among next neighbours alone.
+const NARROW_SEARCH: usize = 3;
+/// Part of the nodes for which obvhs seeks a better place.
+const REINSERTED: f32 = 0.05;
+
+struct Boxed<'a>(&'a Bounds);
+
+impl Boundable for Boxed<'_> {
+    fn aabb(&self) -> Aabb {
+        let [low, high] = *self.0;
+        Aabb::new(low.into(), high.into())
+    }
+}
+
+/// Nothing if the tree would be too deep (many primitives in one place).
+pub(super) fn build(all: &[Bounds], costs: Costs) -> Option<Built> {
+    if all.len() <= costs.most || crowded(all) {
+        return None;
+    }
+    let boxes: Vec<_> = all.iter().map(Boxed).collect();
+    let indices = (0..all.len() as u32).collect();
+    let mut bvh = PlocBuilder::with_capacity(all.len()).build(
+        PlocSearchDistance::Medium,
+        &boxes,
+        indices,
+        SortPrecision::U64,
+        NARROW_SEARCH,
+    );
+    ReinsertionOptimizer::default().run(&mut bvh, REINSERTED, None);
+    Collapse::new(&bvh, costs)?.nodes()
+}
+
+/// Are more than 64 primitives alike? obvhs's builder recurses once for each of those.
+fn crowded(all: &[Bounds]) -> bool {
+    let mut keys: Vec<u64> = all
+        .iter()
+        .map(|b| {
+            b.as_flattened()
+                .iter()
+                .fold(0_u64, |h, x| (h ^ u64::from(x.to_bits())).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29))
+        })
+        .collect();
+    keys.sort_unstable();
+    keys.windows(64).any(|w| w[0] == w[63])
+}
+
+/// Least costs of replacing a subtree by 1, 2, … 7 children of one node.
+type Least = [f32; WIDTH - 1];
+
+/// The choice of nodes and leaves whose surface area heuristic is least, by dynamic programming over the binary tree.
+/// (Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3.1.)
+struct Collapse<'a> {
+    bvh: &'a Bvh2,
+    costs: Costs,
+    /// Of each inner node, at the place of its pair of children.
+    least: Vec<Least>,
+    /// Primitives below it.
+    sizes: Vec<u32>,
+}
+
+/// Where what belongs to an inner node is kept: obvhs keeps children in pairs, the first pair at 1.
+fn pair(node: &Bvh2Node) -> usize {
+    node.first_index as usize / 2
+}
+
+impl<'a> Collapse<'a> {
+    fn new(bvh: &'a Bvh2, costs: Costs) -> Option<Self> {
+        let pairs = bvh.nodes.len() / 2;
+        let mut this = Self { bvh, costs, least: vec![[0.0; WIDTH - 1]; pairs], sizes: vec![0; pairs] };
+        // parents before their children
+        let mut order = Vec::with_capacity(pairs);
+        let mut pending = vec![(0_u32, 1)];
+        while let Some((index, depth)) = pending.pop() {
+            let node = &bvh.nodes[index as usize];
+            if node.is_leaf() {
+                continue;
+            }
+            if depth >= DEPTH {
+                return None;
+            }
+            order.push(index);
+            pending.extend([(node.first_index, depth + 1), (node.first_index + 1, depth + 1)]);
+        }
+        for &index in order.iter().rev() {
+            let node = &bvh.nodes[index as usize];
+            let children = [0, 1].map(|i| &bvh.nodes[node.first_index as usize + i]);
+            let size = children.map(|c| this.size(c)).iter().sum();
+            let [left, right] = children.map(|c| this.least(c));
+            let area = node.aabb().half_area();
+            // of j children, j − 2 at the place: the best of all ways to deal them out
+            let mut dealt = [f32::INFINITY; WIDTH - 1];
+            for j in 2..=WIDTH {
+                for k in 1..j {
+                    dealt[j - 2] = dealt[j - 2].min(left[k - 1] + right[j - k - 1]);
+                }
+            }
+            let mut least = [0.0; WIDTH - 1];
+            least[0] = (dealt[WIDTH - 2] + area).min(this.leaf_cost(area, size));
+            for j in 2..WIDTH {
+                least[j - 1] = dealt[j - 2].min(least[j - 2]);
+            }
+            (this.least[pair(node)], this.sizes[pair(node)]) = (least, size);
+        }
+        Some(this)
+    }
+    fn size(&self, node: &Bvh2Node) -> u32 {
+        if node.is_leaf() { node.prim_count } else { self.sizes[pair(node)] }
+    }
+    fn least(&self, node: &Bvh2Node) -> Least {
+        if node.is_leaf() {
+            return [self.leaf_cost(node.aabb().half_area(), node.prim_count); WIDTH - 1];
+        }
+        self.least[pair(node)]
+    }
+    fn leaf_cost(&self, area: f32, size: u32) -> f32 {
+        if size as usize > self.costs.most {
+            return f32::INFINITY;
+        }
+        area * (self.costs.leaf + self.costs.primitive * size as f32)
+    }
+    fn becomes_leaf(&self, node: &Bvh2Node) -> bool {
+        let size = self.size(node);
+        node.is_leaf() || self.leaf_cost(node.aabb().half_area(), size) <= self.least(node)[0]
+    }
+    /// The descendants that stand for a node in up to `room` places, which are at least 2 or 1 for the node itself.
+    fn deal(&self, index: usize, room: usize, chosen: &mut [usize; WIDTH], count: &mut usize) {
+        let node = &self.bvh.nodes[index];
+        let room = if node.is_leaf() { 1 } else { room };
+        if room == 1 || room < WIDTH && self.least(node)[room - 1] == self.least(node)[room - 2] {
+            if room > 1 {
+                return self.deal(index, room - 1, chosen, count);
+            }
+            chosen[*count] = index;
+            *count += 1;
+            return;
+        }
+        let first = node.first_index as usize;
+        let [left, right] = [first, first + 1].map(|i| self.least(&self.bvh.nodes[i]));
+        let cost = |k: usize| left[k - 1] + right[room - k - 1];
+        let best = (2..room).fold(1, |best, k| if cost(k) < cost(best) { k } else { best });
+        self.deal(first, best, chosen, count);
+        self.deal(first + 1, room - best, chosen, count);
+    }
+    fn nodes(&self) -> Option<Built> {
+        let bvh = self.bvh;
+        let mut nodes = vec![Node::default()];
+        let mut order = Vec::with_capacity(bvh.primitive_indices.len());
+        // (obvhs's node, ours), depth first so that subtrees are contiguous
+        let mut pending = vec![(0_usize, 0_usize)];
+        let mut below = Vec::new();
+        while let Some((index, place)) = pending.pop() {
+            let (mut children, mut count) = ([0; WIDTH], 0);
+            self.deal(index, WIDTH, &mut children, &mut count);
+            let mut inner = [(0, 0); WIDTH];
+            let mut inners = 0;
+            for &child in &children[..count] {
+                let node = &bvh.nodes[child];
+                let bounds = [node.aabb().min.to_array(), node.aabb().max.to_array()];
+                if self.becomes_leaf(node) {
+                    let first = order.len();
+                    below.push(node);
+                    while let Some(node) = below.pop() {
+                        let first = node.first_index as usize;
+                        if node.is_leaf() {
+                            order.extend_from_slice(&bvh.primitive_indices[first..first + node.prim_count as usize]);
+                        } else {
+                            below.extend([&bvh.nodes[first + 1], &bvh.nodes[first]]);
+                        }
+                    }
+                    nodes[place].push(&bounds, first as u32, order.len() - first);
+                } else {
+                    nodes.push(Node::default());
+                    let to = nodes.len() - 1;
+                    nodes[place].push(&bounds, to as u32, 0);
+                    inner[inners] = (child, to);
+                    inners += 1;
+                }
+            }
+            pending.extend(inner[..inners].iter().rev());
+        }
+        Some((nodes, order))
+    }
+}
