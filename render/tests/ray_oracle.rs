@@ -1,0 +1,287 @@
+//! All ways through the tree against every leaf tested in turn, on meshes and rays made to lose hits: bit for bit.
+//!
+//! What tests a single triangle is checked in `rays.rs`, in double precision; here nothing is left to a tolerance.
+//!
+//! Among them is what obvhs's own traversal gets wrong: −0 in a direction and rays in the plane of a box (kinds 3, 4 and 5), distances
+//! below 10⁻⁴ (scale 10⁻⁶), a tree deeper than its stack ("nested"), primitives in one place ("alike"; 100,000 of them in `rays.rs`),
+//! and gaps between neighbours (`closed_meshes_do_not_leak`).
+
+use etendue::sequence::{Independent, Sequence};
+use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
+use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, ShapeSet, Stack, Way};
+
+type Triangle = [[f32; 3]; 3];
+type Ray = ([f32; 3], [f32; 3]);
+
+/// Numbers of [0, 1), without end.
+struct Random {
+    index: u32,
+}
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.index += 1;
+        let u: Vec2<f32> = Independent::new(9).pair(0, self.index, 0);
+        u.x
+    }
+    fn signed(&mut self) -> f32 {
+        self.unit() * 2.0 - 1.0
+    }
+    fn point(&mut self) -> [f32; 3] {
+        [self.signed(), self.signed(), self.signed()]
+    }
+    fn below(&mut self, n: usize) -> usize {
+        (self.unit() * n as f32) as usize % n
+    }
+}
+
+fn add(a: [f32; 3], b: [f32; 3], s: f32) -> [f32; 3] {
+    std::array::from_fn(|k| a[k] + b[k] * s)
+}
+
+/// A sheet of n × n squares of two triangles each over [−1, 1]², at a height; all of its corners are on a lattice.
+fn sheet(n: usize, height: impl Fn(f32, f32) -> f32) -> Vec<Triangle> {
+    let at = |i: usize, j: usize| {
+        let (x, z) = (2.0 * i as f32 / n as f32 - 1.0, 2.0 * j as f32 / n as f32 - 1.0);
+        [x, height(x, z), z]
+    };
+    let square = |i, j| {
+        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+        [[a, b, c], [d, c, b]]
+    };
+    (0..n * n).flat_map(|k| square(k / n, k % n)).collect()
+}
+
+/// The cube [−1, 1]³, each side as a sheet.
+fn cube(n: usize) -> Vec<Triangle> {
+    let side = sheet(n, |_, _| 1.0);
+    let turned = |f: fn([f32; 3]) -> [f32; 3]| side.iter().map(|t| t.map(f)).collect::<Vec<_>>();
+    [
+        turned(|[x, y, z]| [x, y, z]),
+        turned(|[x, y, z]| [x, -y, z]),
+        turned(|[x, y, z]| [y, x, z]),
+        turned(|[x, y, z]| [-y, x, z]),
+        turned(|[x, y, z]| [x, z, y]),
+        turned(|[x, y, z]| [x, z, -y]),
+    ]
+    .concat()
+}
+
+/// Meshes on which traversals go wrong, within [−2, 2]³.
+fn meshes(random: &mut Random) -> Vec<(&'static str, Vec<Triangle>)> {
+    let soup = (0..300).map(|_| {
+        let center = random.point();
+        [0; 3].map(|_| add(center, random.point(), 0.2))
+    });
+    let soup = soup.collect();
+    let slivers = (0..200).map(|_| {
+        let (a, along) = (random.point(), random.point());
+        [a, add(a, along, 1.0), add(add(a, along, random.unit()), random.point(), 1e-6)]
+    });
+    let slivers = slivers.collect();
+    let fan = (0..64).map(|i| {
+        let rim = |i: usize| {
+            let (sin, cos) = (i as f32 / 64.0 * std::f32::consts::TAU).sin_cos();
+            [cos, 0.3 * cos, sin]
+        };
+        [[0.0; 3], rim(i), rim((i + 1) % 64)]
+    });
+    let fan = fan.collect();
+    // each half the size of the one before: a tree as deep as obvhs makes one
+    let nested = (0..120).map(|i| {
+        let s = 0.75_f32.powi(i);
+        [[-s, s * 0.1, -s], [s, -s * 0.1, -s], [0.0, s * 0.2, s]]
+    });
+    let nested = nested.collect();
+    let twins = sheet(4, |x, _| 0.25 * x).into_iter().flat_map(|t| [t, t, [t[1], t[2], t[0]]]).collect();
+    // few enough for obvhs, which makes a list of them
+    let alike = (0..120).map(|i| {
+        if i % 2 == 0 {
+            [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 0.0, 1.0]]
+        } else {
+            [[-1.0, 0.5, 0.0], [1.0, -0.5, 0.0], [0.0, 0.0, 1.0]]
+        }
+    });
+    let alike = alike.collect();
+    vec![
+        ("alike", alike),
+        ("soup", soup),
+        ("slivers", slivers),
+        ("fan", fan),
+        ("nested", nested),
+        ("twins", twins),
+        ("cube", cube(5)),
+        ("hills", sheet(12, |x, z| 0.25 * (x * x - z))),
+        ("floor", sheet(8, |_, _| 0.0)),
+    ]
+}
+
+/// A ray of a kind: every which way; at a corner; at a point of an edge; along an axis through the lattice, with −0; in the plane of a
+/// side of the box of a triangle; from a corner.
+fn ray(kind: usize, mesh: &[Triangle], random: &mut Random) -> Ray {
+    let t = mesh[random.below(mesh.len())];
+    let origin = random.point().map(|x| 2.0 * x);
+    let towards = |o: [f32; 3], p: [f32; 3]| (o, add(p, o, -1.0));
+    let (a, b) = (t[random.below(3)], t[random.below(3)]);
+    match kind {
+        0 => (origin, random.point()),
+        1 => towards(origin, a),
+        2 => towards(origin, add(a.map(|x| 0.5 * x), b, 0.5)),
+        3 | 4 => {
+            let (axis, sign) = (random.below(3), if random.unit() < 0.5 { 1.0 } else { -1.0 });
+            let zero = if random.unit() < 0.5 { 0.0 } else { -0.0 };
+            let mut o = if kind == 3 { a } else { add(a.map(|x| 0.5 * x), b, 0.5) };
+            o[axis] = -3.0 * sign;
+            (o, std::array::from_fn(|k| if k == axis { sign } else { zero }))
+        }
+        5 => {
+            let axis = random.below(3);
+            let (mut o, mut p) = (origin, random.point());
+            let plane = t.iter().map(|v| v[axis]).fold(f32::INFINITY, f32::min);
+            (o[axis], p[axis]) = (plane, plane);
+            towards(o, p)
+        }
+        _ => (a, random.point()),
+    }
+}
+
+/// Seven kinds, and then groups of rays that stay close together.
+const KINDS: usize = 9;
+
+fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
+    if kind < 7 {
+        return (0..8 * GROUP).map(|_| ray(kind, mesh, random)).collect();
+    }
+    // narrow enough for a shaft, or just not
+    let (o, d) = ray(1, mesh, random);
+    let spread = if kind == 7 { 0.005 } else { 0.03 };
+    (0..8 * GROUP).map(|_| (add(o, random.point(), 0.001), add(d, random.point(), spread))).collect()
+}
+
+/// What all rays of a group hit, and which of them are free up to half of that distance, all of it, and a bit more.
+#[derive(Debug, PartialEq)]
+struct Found {
+    /// Bits of the distance, of the place and of both coordinates.
+    hits: Vec<[u32; 4]>,
+    free: Vec<u32>,
+}
+
+fn trace(accel: &Accel, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found {
+    let axis = |p: usize, f: &dyn Fn(usize) -> f32| f32x8::from_fn(|i| f(8 * p + i));
+    let vector = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
+        Vec3::new(axis(p, &|i| f(i)[0]), axis(p, &|i| f(i)[1]), axis(p, &|i| f(i)[2]))
+    };
+    let packets: Vec<_> =
+        (0..GROUP).map(|p| accel.rays(vector(p, &|i| rays[i].0), vector(p, &|i| rays[i].1))).collect();
+    let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); GROUP];
+    accel.closest(&packets, active, &mut hits, stack);
+    let bits = |x: f32x8, i: usize| x.to_array()[i].to_bits();
+    let each = (0..8 * GROUP).map(|i| {
+        let (h, i) = (&hits[i / 8], i % 8);
+        [bits(h.distance, i), h.place.to_array()[i], bits(h.b1, i), bits(h.b2, i)]
+    });
+    let each: Vec<_> = each.collect();
+    // limits at, before and behind the hits
+    let limits = [0.5, 1.0, 1.000_001].map(|c| hits.map(|h| h.distance * f32x8::splat(c)));
+    let free = limits.iter().flat_map(|limit| {
+        let mut open: Vec<_> = active.to_vec();
+        accel.occluded(&packets, &mut open, limit, &[u32x8::splat(NOTHING); GROUP], stack);
+        open.into_iter().map(|m| m.bits()).collect::<Vec<_>>()
+    });
+    let free = free.collect();
+    // and closest hits up to such limits
+    let mut until = hits.map(|h| Hits::none(h.distance));
+    accel.closest(&packets, active, &mut until, stack);
+    assert!(until.iter().zip(active).all(|(u, &a)| !(u.any() & a).any()), "a hit at the limit counts");
+    Found { hits: each, free }
+}
+
+/// Traces groups of all kinds on all meshes, scaled and shifted; returns how many rays were compared, and how many of them hit.
+fn campaign(groups: usize, seed: u32) -> [u64; 2] {
+    let mut random = Random { index: seed };
+    let mut stack = Stack::default();
+    let mut counts = [0; 2];
+    for (name, mesh) in meshes(&mut random) {
+        for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
+            let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
+            let placed: Vec<Triangle> = mesh.iter().map(|t| t.map(place)).collect();
+            let accel = |way| Accel::new(&placed, ShapeSet::new(&[]).unwrap()).unwrap().with_way(way);
+            let oracle = accel(Way::Exhaustive);
+            let ways = [Way::Choose, Way::Stream, Way::Single].map(|way| (way, accel(way)));
+            for index in 0..groups * KINDS {
+                let kind = index % KINDS;
+                let rays = group(kind, &mesh, &mut random).into_iter().filter_map(|(o, d)| {
+                    let length = d.iter().map(|&x| f64::from(x) * f64::from(x)).sum::<f64>().sqrt() as f32;
+                    (length > 0.0).then(|| (place(o), d.map(|x| x / length)))
+                });
+                let mut rays: Vec<_> = rays.collect();
+                let Some(&first) = rays.first() else { continue };
+                rays.resize(8 * GROUP, first);
+                // some lanes, packets too, are off
+                let all = M8::splat(true);
+                let mask =
+                    |p: usize| if index % 3 == 0 { M8::from_bits((index * 37 + p * 91) as u32 & 0xff) } else { all };
+                let active: Vec<_> = (0..GROUP).map(mask).collect();
+                let expected = trace(&oracle, &rays, &active, &mut stack);
+                for (way, accel) in &ways {
+                    let found = trace(accel, &rays, &active, &mut stack);
+                    for (i, (f, e)) in found.hits.iter().zip(&expected.hits).enumerate() {
+                        let [f32::INFINITY, _] = [f32::from_bits(e[0]), 0.0] else {
+                            assert_eq!(f, e, "{way:?}, {name} × {scale} + {shift}, kind {kind}: ray {i} {:?}", rays[i]);
+                            continue;
+                        };
+                        assert_eq!(
+                            f[1], NOTHING,
+                            "{way:?}, {name} × {scale} + {shift}, kind {kind}: ray {i} {:?}",
+                            rays[i]
+                        );
+                    }
+                    assert_eq!(found, expected, "{way:?}, {name} × {scale} + {shift}, kind {kind}");
+                }
+                counts[0] += 8 * GROUP as u64;
+                counts[1] += expected.hits.iter().filter(|h| h[1] != NOTHING).count() as u64;
+            }
+        }
+    }
+    counts
+}
+
+#[test]
+fn ways_agree_with_every_leaf_tested() {
+    let [rays, hits] = campaign(6, 1);
+    assert!(rays > 100_000 && hits * 3 > rays, "{hits} of {rays} hit");
+}
+
+#[test]
+#[ignore = "ten million rays"]
+fn ways_agree_with_every_leaf_tested_at_length() {
+    let [rays, hits] = campaign(440, 1_000_000);
+    println!("{rays} rays, {hits} of them hit, no disagreement");
+    assert!(rays >= 10_000_000, "{rays}");
+}
+
+/// From within a closed mesh every ray meets it, at its corners and edges too.
+#[test]
+fn closed_meshes_do_not_leak() {
+    let mut random = Random { index: 77 };
+    let mut stack = Stack::default();
+    for scale in [1e-6_f32, 1.0, 1e6] {
+        let mesh: Vec<Triangle> = cube(7).iter().map(|t| t.map(|v| v.map(|x| x * scale))).collect();
+        for way in [Way::Choose, Way::Stream, Way::Single] {
+            let accel = Accel::new(&mesh, ShapeSet::new(&[]).unwrap()).unwrap().with_way(way);
+            for index in 0..300 {
+                let center = random.point().map(|x| 0.9 * x * scale);
+                let rays = (0..8 * GROUP).map(|_| {
+                    let t = mesh[random.below(mesh.len())];
+                    let (a, b) = (t[random.below(3)], t[random.below(3)]);
+                    let mix = if index % 2 == 0 { 0.5 } else { random.unit() };
+                    let d = add(add(a, add(b, a, -1.0), mix), center, -1.0).map(f64::from);
+                    let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
+                    (center, d.map(|x| (x / length) as f32))
+                });
+                let found = trace(&accel, &rays.collect::<Vec<_>>(), &[M8::splat(true); GROUP], &mut stack);
+                assert!(found.hits.iter().all(|h| h[1] != NOTHING), "a leak at scale {scale}, {way:?}");
+            }
+        }
+    }
+}
