@@ -1,33 +1,31 @@
-//! Camera and shadow rays: criterion's throughput is in rays per second, its time per ray.
+//! Rays of every kind, by every way: criterion's throughput is in rays per second, its time per ray.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use etendue_benches::rays::{Spread, Workload};
+use etendue_benches::rays::{How, Kind, Workload};
 use etendue_render::accel::Stack;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 fn rays(criterion: &mut Criterion) {
     for scene in ["quads", "terrain"] {
-        for (spread, name) in [(Spread::Pixel, "a pixel"), (Spread::Block, "8x8 pixels")] {
-            let workload = Workload::new(scene, 512, spread);
-            let mut group = criterion.benchmark_group(format!("{scene}, 64 rays of {name}"));
+        let workload = Workload::new(scene, 512);
+        for (kind, name) in Kind::ALL {
+            let mut group = criterion.benchmark_group(format!("{scene}, {name}"));
             group.throughput(Throughput::Elements(1));
-            let [camera, shadow] = workload.rays();
-            let mut bench = |name: &str, rays: u64, trace: fn(&Workload, &mut Stack) -> u64| {
+            let rays = workload.rays(kind);
+            for (how, name) in How::ALL {
                 let mut stack = Stack::default();
                 group.bench_function(name, |bencher| {
                     bencher.iter_custom(|iterations| {
                         let calls = iterations.div_ceil(rays);
                         let start = Instant::now();
                         for _ in 0..calls {
-                            black_box(trace(&workload, &mut stack));
+                            black_box(workload.trace(kind, how, &mut stack));
                         }
                         start.elapsed().mul_f64(iterations as f64 / (calls * rays) as f64)
                     });
                 });
-            };
-            bench("camera, closest", camera, Workload::closest);
-            bench("shadow, occluded", shadow, Workload::occluded);
+            }
             group.finish();
         }
     }

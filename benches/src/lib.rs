@@ -3,6 +3,7 @@
 //! A routine works on [`SAMPLES`] samples that fit the first-level cache, one packet after the other, and hands every result
 //! to `black_box`: what is measured is throughput, with neighbouring packets overlapping as they do in a renderer.
 
+pub mod baseline;
 pub mod rays;
 pub mod routines;
 

@@ -1,8 +1,10 @@
-//! Rays as a renderer traces them: from the camera, and from what they meet to the lights.
+//! Rays as a renderer traces them through the triangles of a scene: from the camera, from what they meet to the lights, and about.
 
+use crate::baseline::{self, Baseline, BaselineRay};
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Mask, Real, u32x8};
-use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, Rays, ShapeSet, Stack, V8, X8};
+use etendue::warp::{CosineHemisphere, Warp};
+use etendue::{Frame, Mask, Real, u32x8};
+use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, Rays, ShapeSet, Stack, V8, Way, X8};
 use etendue_render::camera::Pinhole;
 use etendue_render::{
     lights::{Lights, Measure},
@@ -12,13 +14,53 @@ use etendue_render::{
 /// Pixels across the image whose pixels are drawn from.
 const SIDE: u32 = 256;
 
-/// How the 64 rays of a group lie in the image.
+/// Which rays, in groups of 64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spread {
-    /// 64 samples of one pixel.
+pub enum Kind {
+    /// From the camera through one pixel; what is nearest.
     Pixel,
-    /// One sample of each of 8 × 8 pixels.
-    Block,
+    /// From the camera through 8 × 8 pixels; what is nearest.
+    Camera,
+    /// From the points seen in one pixel to a light: is it hidden?
+    ShadowOfPoint,
+    /// From the points seen in 8 × 8 pixels to a light: is it hidden?
+    ShadowOfPixels,
+    /// From the points seen in 8 × 8 pixels into the hemisphere, a unit far: is anything there?
+    Ambient,
+    /// The shadow rays of all pixels in random order.
+    Shuffled,
+}
+
+impl Kind {
+    /// All of them, with names.
+    pub const ALL: [(Self, &'static str); 6] = [
+        (Self::Pixel, "camera, a pixel"),
+        (Self::Camera, "camera, 8x8 pixels"),
+        (Self::ShadowOfPoint, "shadow, a pixel"),
+        (Self::ShadowOfPixels, "shadow, 8x8 pixels"),
+        (Self::Ambient, "ambient occlusion"),
+        (Self::Shuffled, "shadow, shuffled"),
+    ];
+    fn nearest(self) -> bool {
+        matches!(self, Self::Pixel | Self::Camera)
+    }
+}
+
+/// What traces them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum How {
+    /// obvhs, ray by ray.
+    Obvhs,
+    /// The renderer's tree, ray by ray.
+    Single,
+    /// The renderer's tree, in groups.
+    Groups,
+}
+
+impl How {
+    /// All of them, with names.
+    pub const ALL: [(Self, &'static str); 3] =
+        [(Self::Obvhs, "obvhs, per ray"), (Self::Single, "single"), (Self::Groups, "groups")];
 }
 
 /// Eight rays, as far as a renderer has them before it traces them.
@@ -28,97 +70,141 @@ struct Packet {
     direction: V8,
     active: M8,
     limit: X8,
-    target: u32x8,
 }
 
 type Group = [Packet; GROUP];
 
-/// Camera rays and shadow rays of one scene.
+/// Rays of every kind through one scene.
 pub struct Workload {
-    accel: Accel,
-    camera: Vec<Group>,
-    shadow: Vec<Group>,
+    single: Accel,
+    groups: Accel,
+    baseline: Baseline,
+    kinds: Vec<(Vec<Group>, Vec<BaselineRay>)>,
 }
 
-/// Rays that are alive.
-fn count(groups: &[Group]) -> u64 {
-    groups.iter().flatten().map(|p| u64::from(p.active.bits().count_ones())).sum()
+/// Rays that are alive, one by one.
+fn each(groups: &[Group]) -> impl Iterator<Item = ([f32; 3], [f32; 3], f32)> {
+    groups.iter().flatten().flat_map(|p| {
+        (0..8)
+            .filter(|&i| p.active.lane(i))
+            .map(|i| (p.origin.lane(i).into(), p.direction.lane(i).into(), p.limit.lane(i)))
+    })
 }
 
 impl Workload {
-    /// Of a built-in scene; `groups` groups of 64 camera rays, spread over the image, and as many of shadow rays.
+    /// Of a built-in scene; `groups` groups of 64 rays of each kind, spread over the image.
     ///
     /// # Panics
     /// There is no such scene.
     #[must_use]
-    pub fn new(name: &str, groups: u32, spread: Spread) -> Self {
+    pub fn new(name: &str, groups: u32) -> Self {
         let scene = scene::load(name).expect("a built-in scene");
-        let shapes = ShapeSet::new(&scene.shapes).expect("few shapes");
-        let accel = Accel::new(&scene.triangles, shapes).expect("as many triangles as fit");
-        let pinhole = Pinhole::new(&scene.camera, SIDE, SIDE);
+        let accel = |way| {
+            let none = ShapeSet::new(&[]).expect("none are few");
+            Accel::new(&scene.triangles, none).expect("as many triangles as fit").with_way(way)
+        };
+        let (single, accel) = (accel(Way::Single), accel(Way::Choose));
         let random = Independent::new(1);
         let lanes = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
-
-        let camera: Vec<Group> = (0..groups)
-            .map(|group| {
-                // places in order of a bit-reversed index are spread evenly
+        let pinhole = Pinhole::new(&scene.camera, SIDE, SIDE);
+        let camera = |block: bool| -> Vec<Group> {
+            let group = |group| {
                 let [x, y] = random.words(group, 0, 3).map(|w| ((w >> 16) * (SIDE - 8)) >> 16)[..2] else {
                     unreachable!()
                 };
                 std::array::from_fn(|p| {
                     let p = p as u32;
-                    let (dx, dy) = match spread {
-                        Spread::Pixel => (u32x8::splat(0), 0),
-                        Spread::Block => (lanes, p),
-                    };
+                    let (dx, dy) = if block { (lanes, p) } else { (u32x8::splat(0), 0) };
                     let jitter = random.pair::<X8>(u32x8::splat(group), lanes + u32x8::splat(8 * p), 0);
                     let across = X8::from_uint(u32x8::splat(x) + dx) + jitter.x;
                     let down = X8::from_uint(u32x8::splat(y + dy)) + jitter.y;
                     let (origin, direction) = pinhole.ray(across, down);
-                    let limit = X8::lit(f64::INFINITY);
-                    Packet { origin, direction, active: M8::splat(true), limit, target: u32x8::splat(NOTHING) }
+                    Packet { origin, direction, active: M8::splat(true), limit: X8::lit(f64::INFINITY) }
                 })
-            })
-            .collect();
-
+            };
+            (0..groups).map(group).collect()
+        };
         let lights = Lights::new(&scene, None);
         let mut stack = Stack::default();
-        let shadow = camera
-            .iter()
-            .zip(0..)
-            .map(|(group, index)| {
+        let mut from_hits = |camera: &[Group], make: &dyn Fn(&Point, etendue::Vec2<X8>) -> Packet| -> Vec<Group> {
+            let group = |(group, index): (&Group, u32)| {
                 let hits = closest(&accel, group, &mut stack);
                 std::array::from_fn(|p| {
                     let u = random.pair(u32x8::splat(index), lanes + u32x8::splat(8 * p as u32), 1);
-                    towards_light(&accel, &lights, &group[p], &hits[p], u)
+                    make(&Point::new(&accel, &group[p], &hits[p]), u)
                 })
-            })
-            .collect();
-        Self { accel, camera, shadow }
-    }
-
-    /// Number of camera rays and of shadow rays.
-    #[must_use]
-    pub fn rays(&self) -> [u64; 2] {
-        [count(&self.camera), count(&self.shadow)]
-    }
-
-    /// Traces all camera rays: how many meet something.
-    pub fn closest(&self, stack: &mut Stack) -> u64 {
-        let met = |group| closest(&self.accel, group, stack).map(|h| u64::from(h.any().bits().count_ones()));
-        self.camera.iter().flat_map(met).sum()
-    }
-
-    /// Traces all shadow rays: how many reach their light.
-    pub fn occluded(&self, stack: &mut Stack) -> u64 {
-        let visible = |group: &Group| {
-            let rays: [Rays; GROUP] = std::array::from_fn(|p| self.accel.rays(group[p].origin, group[p].direction));
-            let mut active = group.map(|p| p.active);
-            self.accel.occluded(&rays, &mut active, &group.map(|p| p.limit), &group.map(|p| p.target), stack);
-            active.map(|a| u64::from(a.bits().count_ones())).iter().sum::<u64>()
+            };
+            camera.iter().zip(0..).map(group).collect()
         };
-        self.shadow.iter().map(visible).sum()
+        let (pixel, block) = (camera(false), camera(true));
+        let to_light = |point: &Point, u| point.to_light(&lights, u);
+        let of_point = from_hits(&pixel, &to_light);
+        let of_pixels = from_hits(&block, &to_light);
+        let ambient = from_hits(&block, &|point, u| point.hemisphere(u));
+        let shuffled = shuffled(&of_pixels);
+        let kinds = [pixel, block, of_point, of_pixels, ambient, shuffled].map(|groups| {
+            let rays = each(&groups).map(|(o, d, limit)| baseline::ray(o, d, limit)).collect();
+            (groups, rays)
+        });
+        Self { single, groups: accel, baseline: Baseline::new(&scene.triangles), kinds: kinds.into() }
     }
+
+    /// How many rays there are of a kind.
+    #[must_use]
+    pub fn rays(&self, kind: Kind) -> u64 {
+        self.kinds[kind as usize].1.len() as u64
+    }
+
+    /// Traces all rays of a kind: how many meet something.
+    pub fn trace(&self, kind: Kind, how: How, stack: &mut Stack) -> u64 {
+        let (groups, rays) = &self.kinds[kind as usize];
+        let accel = match how {
+            How::Obvhs if kind.nearest() => {
+                return rays.iter().filter_map(|&r| self.baseline.closest(r)).count() as u64;
+            }
+            How::Obvhs => return rays.iter().filter(|&&r| self.baseline.occluded(r)).count() as u64,
+            How::Single => &self.single,
+            How::Groups => &self.groups,
+        };
+        let count = |m: M8| u64::from(m.bits().count_ones());
+        if kind.nearest() {
+            let met = |group| closest(accel, group, stack).map(|h| count(h.any())).iter().sum::<u64>();
+            return groups.iter().map(met).sum();
+        }
+        let hidden = |group: &Group| {
+            let rays: [Rays; GROUP] = std::array::from_fn(|p| accel.rays(group[p].origin, group[p].direction));
+            let before = group.map(|p| p.active);
+            let mut active = before;
+            accel.occluded(&rays, &mut active, &group.map(|p| p.limit), &[u32x8::splat(NOTHING); GROUP], stack);
+            before.iter().zip(active).map(|(&b, a)| count(b & !a)).sum::<u64>()
+        };
+        groups.iter().map(hidden).sum()
+    }
+}
+
+/// The same rays in random order, without those that are not alive.
+fn shuffled(groups: &[Group]) -> Vec<Group> {
+    let mut rays: Vec<_> = each(groups).collect();
+    let random = Independent::new(2);
+    for i in (1..rays.len()).rev() {
+        let [word, ..] = random.words(0, i as u32, 0);
+        rays.swap(i, ((u64::from(word) * (i as u64 + 1)) >> 32) as usize);
+    }
+    let whole = rays.chunks_exact(8 * GROUP).map(|rays| {
+        std::array::from_fn(|p| {
+            let vector = |f: &dyn Fn(usize) -> [f32; 3]| {
+                let axis = |k: usize| X8::from_fn(|i| f(8 * p + i)[k]);
+                V8::new(axis(0), axis(1), axis(2))
+            };
+            Packet {
+                origin: vector(&|i| rays[i].0),
+                direction: vector(&|i| rays[i].1),
+                active: M8::splat(true),
+                limit: X8::from_fn(|i| rays[8 * p + i].2),
+            }
+        })
+    });
+    whole.collect()
 }
 
 fn closest(accel: &Accel, group: &Group, stack: &mut Stack) -> [Hits; GROUP] {
@@ -128,28 +214,41 @@ fn closest(accel: &Accel, group: &Group, stack: &mut Stack) -> [Hits; GROUP] {
     hits
 }
 
-/// From where mesh triangles are met to a point of a light, by solid angle.
-fn towards_light(accel: &Accel, lights: &Lights, packet: &Packet, hits: &Hits, u: etendue::Vec2<X8>) -> Packet {
-    let zero = X8::lit(0.0);
-    let met = hits.any() & !hits.shapes();
-    let mut normal = V8::default();
-    for lane in (0..8).filter(|&i| met.lane(i)) {
-        let c = accel.corners(hits.place.as_array()[lane]);
-        let corner = |k: usize| V8::from([c[k], c[k + 1], c[k + 2]]);
-        let n = (corner(3) - corner(0)).cross(corner(6) - corner(0)).normalize();
-        normal = V8::select(M8::from_bits(1 << lane), n, normal);
+/// Where mesh triangles are met.
+struct Point {
+    met: M8,
+    normal: V8,
+    place: V8,
+}
+
+impl Point {
+    fn new(accel: &Accel, packet: &Packet, hits: &Hits) -> Self {
+        let met = hits.any();
+        let mut normal = V8::default();
+        for lane in (0..8).filter(|&i| met.lane(i)) {
+            let c = accel.corners(hits.place.as_array()[lane]);
+            let corner = |k: usize| V8::from([c[k], c[k + 1], c[k + 2]]);
+            let n = (corner(3) - corner(0)).cross(corner(6) - corner(0)).normalize();
+            normal = V8::select(M8::from_bits(1 << lane), n, normal);
+        }
+        let away = normal.dot(packet.direction).gt(X8::lit(0.0));
+        let normal = V8::new(normal.x.negate_where(away), normal.y.negate_where(away), normal.z.negate_where(away));
+        let place = packet.direction.mul_add(hits.distance.keep(met), packet.origin) + normal * X8::lit(1e-4);
+        Self { met, normal, place }
     }
-    let away = normal.dot(packet.direction).gt(zero);
-    let normal = V8::new(normal.x.negate_where(away), normal.y.negate_where(away), normal.z.negate_where(away));
-    let origin = packet.direction.mul_add(hits.distance.keep(met), packet.origin) + normal * X8::lit(1e-4);
-    let (mut chosen, rest) = lights.choose(u.x);
-    let sample = lights.sample(&mut chosen, Measure::SolidAngle, origin, normal, etendue::Vec2::new(rest, u.y));
-    let active = met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(normal).gt(zero);
-    Packet {
-        origin,
-        direction: sample.direction,
-        active,
-        limit: sample.distance * X8::lit(1.0 - 1.0 / 131_072.0),
-        target: chosen.shape,
+    /// To a point of a light, by solid angle.
+    fn to_light(&self, lights: &Lights, u: etendue::Vec2<X8>) -> Packet {
+        let zero = X8::lit(0.0);
+        let (mut chosen, rest) = lights.choose(u.x);
+        let u = etendue::Vec2::new(rest, u.y);
+        let sample = lights.sample(&mut chosen, Measure::SolidAngle, self.place, self.normal, u);
+        let active = self.met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(self.normal).gt(zero);
+        let limit = sample.distance * X8::lit(1.0 - 1.0 / 131_072.0);
+        Packet { origin: self.place, direction: sample.direction, active, limit }
+    }
+    /// Into the hemisphere, by the cosine.
+    fn hemisphere(&self, u: etendue::Vec2<X8>) -> Packet {
+        let direction = Frame::new(self.normal).to_world(CosineHemisphere.sample(u));
+        Packet { origin: self.place, direction, active: self.met, limit: X8::lit(1.0) }
     }
 }

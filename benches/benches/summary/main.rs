@@ -1,13 +1,14 @@
 //! Two tables: time per sample of every routine in f32, f32x4 and f32x8, and how much faster eight lanes are than one; rays per
 //! second on one thread. `cargo bench -p etendue-benches --bench summary -- cone` for some, `-- --markdown` as the README has it;
-//! `-- --instructions` counts instructions instead, which needs Valgrind.
+//! `-- --instructions` counts instructions instead, which needs Valgrind;
+//! `-- rays --json=FILE` writes the rays to FILE, too (an absolute path).
 //!
 //! The median of repetitions that take turns, so that a change of the processor's clock meets all widths alike.
 
 mod instructions;
 
 use etendue::{f32x4, f32x8};
-use etendue_benches::rays::{Spread, Workload};
+use etendue_benches::rays::{How, Kind, Workload};
 use etendue_benches::{Routine, SAMPLES, routines};
 use etendue_render::accel::Stack;
 use std::hint::black_box;
@@ -50,6 +51,7 @@ fn main() {
     }
     let (markdown, counted) = (given("--markdown"), given("--instructions"));
     let what = if counted { "instructions/sample" } else { "ns/sample, median" };
+    let json = arguments.iter().find_map(|a| a.strip_prefix("--json="));
     if markdown {
         println!("| {what} | f32 | x4 | x8 | x1/x8 |\n|---|---|---|---|---|");
     } else {
@@ -77,27 +79,42 @@ fn main() {
         row(markdown, &each[0].name, [one, four, eight]);
     }
     if "rays".contains(&filter) {
-        rays();
+        rays(json);
     }
 }
 
-fn rays() {
-    println!("\n{:38} {:>8} {:>8}", "million rays/s, median", "camera", "shadow");
+/// Hits are told too: they are the same for all ways, but for rays at edges, through which obvhs lets some pass.
+fn rays(json: Option<&str>) {
+    println!("\n{:32} {:>15} {:>9} {:>9} {:>9}", "million rays/s, median", "obvhs, per ray", "single", "groups", "hit");
+    let mut rows = Vec::new();
     for scene in ["quads", "terrain"] {
-        for (spread, name) in [(Spread::Pixel, "64 rays of a pixel"), (Spread::Block, "64 rays of 8x8 pixels")] {
-            let workload = Workload::new(scene, 512, spread);
-            let mut stack = Stack::default();
-            let mut speed = |rays: u64, trace: fn(&Workload, &mut Stack) -> u64| {
-                let start = Instant::now();
-                black_box(trace(&workload, &mut stack));
-                rays as f64 / start.elapsed().as_secs_f64() / 1e6
-            };
-            let [camera, shadow] = workload.rays();
+        let workload = Workload::new(scene, 512);
+        let mut stack = Stack::default();
+        for (kind, name) in Kind::ALL {
+            let rays = workload.rays(kind);
             let rounds: Vec<_> = (0..REPETITIONS)
-                .map(|_| [speed(camera, Workload::closest), speed(shadow, Workload::occluded)])
+                .map(|_| {
+                    How::ALL.map(|(how, _)| {
+                        let start = Instant::now();
+                        let hits = black_box(workload.trace(kind, how, &mut stack));
+                        (rays as f64 / start.elapsed().as_secs_f64() / 1e6, hits)
+                    })
+                })
                 .collect();
-            let [camera, shadow] = [0, 1].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
-            println!("{:38} {camera:8.1} {shadow:8.1}", format!("{scene}, {name}"));
+            let [obvhs, single, groups] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k].0).collect()));
+            let [obvhs_hits, _, hits] = rounds[0].map(|(_, hits)| hits);
+            let hit = hits as f64 / rays as f64;
+            println!("{:32} {obvhs:15.1} {single:9.1} {groups:9.1} {hit:9.3}", format!("{scene}, {name}"));
+            rows.push(serde_json::json!({
+                "scene": scene, "kind": name, "rays": rays, "hits": hits, "hits_obvhs": obvhs_hits,
+                "million_rays_per_second": { "obvhs": obvhs, "single": single, "groups": groups },
+            }));
         }
+    }
+    if let Some(path) = json
+        && let Err(error) = std::fs::write(path, format!("{:#}\n", serde_json::Value::from(rows)))
+    {
+        eprintln!("error: {path}: {error}");
+        std::process::exit(2);
     }
 }

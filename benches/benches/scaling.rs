@@ -1,0 +1,108 @@
+//! What a scene costs as it grows: hills of 10² … 10⁷ triangles under one light, and hills of 20,000 under 1 … 10⁵ lights.
+//!
+//! `cargo bench -p etendue-benches --bench scaling -- [MOST]` with MOST triangles at the most. "build" is all of preparing to render,
+//! on as many threads as there are; rendering is 256 × 256 pixels of 16 samples on one thread.
+
+use etendue_render::integrator::{Settings, World};
+use etendue_render::lights::Technique;
+use etendue_render::sampler::Sampler;
+use etendue_render::scene::{self, Emission, Geometry, Scene, Shape};
+use std::time::Instant;
+
+/// The camera and materials of `terrain`, without what is in it.
+fn empty() -> Scene {
+    let mut scene = scene::load("terrain").expect("a built-in scene");
+    scene.triangles.clear();
+    scene.triangle_materials.clear();
+    scene.shapes.truncate(1);
+    scene
+}
+
+/// A sheet over [−12, 12]² with about `count` triangles.
+fn hills(scene: &mut Scene, count: usize) {
+    let n = ((count as f64 / 2.0).sqrt().round() as usize).max(1);
+    let at = |i: usize, j: usize| {
+        let [x, z] = [i, j].map(|k| -12.0 + 24.0 * k as f64 / n as f64);
+        let y = 0.25 * (1.7 * x).sin() * (1.3 * z).cos() + 0.1 * (5.3 * x + 1.1).sin() * (4.7 * z + 0.3).sin();
+        [x as f32, y as f32, z as f32]
+    };
+    scene.triangles = (0..n * n)
+        .flat_map(|k| {
+            let (i, j) = (k / n, k % n);
+            let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)];
+            [[a, b, c], [d, c, b]]
+        })
+        .collect();
+    scene.triangle_materials = vec![0; scene.triangles.len()];
+}
+
+/// `count` small panels on a lattice 5 above the ground, of the same power together.
+fn panels(scene: &mut Scene, count: usize) {
+    let model = scene.shapes[0].clone();
+    let n = (count as f64).sqrt().ceil() as usize;
+    let (pitch, side) = (8.0 / n as f32, 4.0 / n as f32);
+    let emission = model
+        .emission
+        .map(|e| Emission { radiance: e.radiance.map(|x| x / (4.0 * (count as f32) / (n * n) as f32)), ..e });
+    scene.shapes = (0..count)
+        .map(|k| Shape {
+            geometry: Geometry::Parallelogram {
+                p: [-4.0 + pitch * (k / n) as f32, 5.0, -4.0 + pitch * (k % n) as f32],
+                u: [side, 0.0, 0.0],
+                v: [0.0, 0.0, side],
+            },
+            emission,
+            ..model.clone()
+        })
+        .collect();
+}
+
+/// Peak memory of this process so far in MB, where the system tells.
+fn peak() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
+    line.and_then(|l| l.trim().trim_end_matches(" kB").parse::<f64>().ok()).map_or(f64::NAN, |kb| kb / 1024.0)
+}
+
+fn row(scene: &Scene) {
+    let start = Instant::now();
+    let world = World::new(scene).expect("few enough primitives");
+    let build = start.elapsed().as_secs_f64();
+    let settings = Settings {
+        width: 256,
+        height: 256,
+        spp: 16,
+        technique: Technique::SolidAngle,
+        depth: 0,
+        sets: 0,
+        sampler: Sampler::Independent,
+        seed: 1,
+    };
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let start = Instant::now();
+    let _ = one.install(|| world.render(&settings, |_| ()));
+    let speed = 256.0 * 256.0 * 16.0 / start.elapsed().as_secs_f64() / 1e6;
+    let bytes = world.bytes() as f64 / scene.triangles.len() as f64;
+    let (triangles, lights, peak) = (scene.triangles.len(), scene.shapes.len(), peak());
+    println!("{triangles:10} {lights:8} {build:10.3} {bytes:12.1} {peak:10.0} {speed:12.2}");
+}
+
+fn main() {
+    let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(10_000_000);
+    println!(
+        "{:>10} {:>8} {:>10} {:>12} {:>10} {:>12}",
+        "triangles", "lights", "build, s", "bytes each", "peak, MB", "M samples/s"
+    );
+    for lights in [1, 10, 100, 1_000, 10_000, 100_000] {
+        let mut scene = empty();
+        hills(&mut scene, 20_000);
+        panels(&mut scene, lights);
+        row(&scene);
+    }
+    let sizes = (2..8).map(|k| 10_usize.pow(k)).filter(|&n| n <= most);
+    for triangles in sizes {
+        let mut scene = empty();
+        hills(&mut scene, triangles);
+        row(&scene);
+    }
+}

@@ -1,0 +1,226 @@
+//! Rays per second on triangles and rays from files, so that other programs can be run on the same ones.
+//!
+//! `cargo run --release -p etendue-benches --example trace -- TRIANGLES RAYS… [--repetitions 7] [--only obvhs,single,stream,groups] [--json FILE]`
+//!
+//! Little-endian f32: nine for a triangle, eight for a ray: origin, least distance (0), unit direction, greatest distance. Rays are
+//! taken 64 at a time in the order of the file, on one thread. A line gives the median, least and greatest of the repetitions, the
+//! hits and, for closest hits, the sum of their distances. "groups" is what the renderer does: 64 rays as one shaft where that is narrow, else as
+//! a "stream"; "single" is ray by ray.
+
+use etendue::{Mask, u32x8};
+use etendue_benches::baseline::{self, Baseline};
+use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, Rays, ShapeSet, Stack, V8, Way, X8};
+use std::process::ExitCode;
+use std::time::Instant;
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The numbers of a file, `row` to a row.
+fn read(path: &str, row: usize) -> Result<Vec<f32>, String> {
+    let bytes = std::fs::read(path).map_err(|e| format!("{path}: {e}"))?;
+    if bytes.is_empty() || bytes.len() % (4 * row) != 0 {
+        return Err(format!("{path}: {} bytes are not rows of {row} numbers of 4 bytes", bytes.len()));
+    }
+    let numbers: Vec<_> = bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
+    match numbers.iter().position(|x| !(x.is_finite() || row == 8 && *x == f32::INFINITY)) {
+        Some(i) => Err(format!("{path}: row {}, column {}: {} is not finite", i / row, i % row, numbers[i])),
+        None => Ok(numbers),
+    }
+}
+
+struct Ray {
+    origin: [f32; 3],
+    direction: [f32; 3],
+    limit: f32,
+}
+
+fn read_rays(path: &str) -> Result<Vec<Ray>, String> {
+    let rows = read(path, 8)?;
+    let rays = rows.chunks_exact(8).enumerate().map(|(i, r)| {
+        let direction = [r[4], r[5], r[6]];
+        let length = direction.iter().map(|x| x * x).sum::<f32>().sqrt();
+        if (length - 1.0).abs() > 1e-5 {
+            return Err(format!("{path}: row {i}: a direction of length {length}, not 1"));
+        }
+        if r[3] != 0.0 {
+            return Err(format!("{path}: row {i}: least distance {}, not 0", r[3]));
+        }
+        Ok(Ray { origin: [r[0], r[1], r[2]], direction, limit: r[7] })
+    });
+    rays.collect()
+}
+
+/// Eight rays as a renderer has them before it traces them.
+#[derive(Clone, Copy)]
+struct Packet {
+    origin: V8,
+    direction: V8,
+    limit: X8,
+    active: M8,
+}
+
+type Group = [Packet; GROUP];
+
+fn groups(rays: &[Ray]) -> Vec<Group> {
+    let group = |rays: &[Ray]| {
+        std::array::from_fn(|p| {
+            let at = |lane: usize| rays.get(8 * p + lane).unwrap_or(&rays[0]);
+            let axis = |f: &dyn Fn(&Ray) -> f32| X8::from(std::array::from_fn(|lane| f(at(lane))));
+            let point =
+                |f: &dyn Fn(&Ray) -> [f32; 3]| V8::new(axis(&|r| f(r)[0]), axis(&|r| f(r)[1]), axis(&|r| f(r)[2]));
+            let count = rays.len().saturating_sub(8 * p).min(8);
+            Packet {
+                origin: point(&|r| r.origin),
+                direction: point(&|r| r.direction),
+                limit: axis(&|r| r.limit),
+                active: M8::from_bits((1 << count) - 1),
+            }
+        })
+    };
+    rays.chunks(8 * GROUP).map(group).collect()
+}
+
+/// What a way of tracing found.
+#[derive(Clone, Copy, PartialEq)]
+struct Found {
+    hits: u64,
+    distances: f64,
+}
+
+fn closest(accel: &Accel, groups: &[Group], stack: &mut Stack) -> Found {
+    let mut found = Found { hits: 0, distances: 0.0 };
+    for group in groups {
+        let rays: [Rays; GROUP] = std::array::from_fn(|p| accel.rays(group[p].origin, group[p].direction));
+        let mut hits = group.map(|p| Hits::none(p.limit));
+        accel.closest(&rays, &group.map(|p| p.active), &mut hits, stack);
+        for hits in &hits {
+            let bits = hits.any().bits();
+            found.hits += u64::from(bits.count_ones());
+            let distances = hits.distance.as_array().iter().enumerate();
+            found.distances += distances.filter(|(i, _)| bits >> i & 1 != 0).map(|(_, &d)| f64::from(d)).sum::<f64>();
+        }
+    }
+    found
+}
+
+fn occluded(accel: &Accel, groups: &[Group], stack: &mut Stack) -> Found {
+    let mut hits = 0;
+    for group in groups {
+        let rays: [Rays; GROUP] = std::array::from_fn(|p| accel.rays(group[p].origin, group[p].direction));
+        let before = group.map(|p| p.active);
+        let mut open = before;
+        accel.occluded(&rays, &mut open, &group.map(|p| p.limit), &[u32x8::splat(NOTHING); GROUP], stack);
+        hits += before.iter().zip(&open).map(|(b, o)| u64::from((b.bits() & !o.bits()).count_ones())).sum::<u64>();
+    }
+    Found { hits, distances: 0.0 }
+}
+
+/// Million rays per second: median, least, greatest; and what was found.
+fn measure(repetitions: usize, rays: usize, mut trace: impl FnMut() -> Found) -> ([f64; 3], Found) {
+    let mut found = trace();
+    let mut speeds: Vec<_> = (0..repetitions)
+        .map(|_| {
+            let start = Instant::now();
+            found = trace();
+            rays as f64 / start.elapsed().as_secs_f64() / 1e6
+        })
+        .collect();
+    speeds.sort_by(f64::total_cmp);
+    ([speeds[speeds.len() / 2], speeds[0], speeds[speeds.len() - 1]], found)
+}
+
+fn run() -> Result<(), String> {
+    let mut files = Vec::new();
+    let (mut repetitions, mut only, mut json) = (7, String::new(), None);
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        let mut value = || arguments.next().ok_or(format!("{argument} wants a value"));
+        match argument.as_str() {
+            "--repetitions" => {
+                let text = value()?;
+                repetitions =
+                    text.parse().ok().filter(|n| *n > 0).ok_or(format!("--repetitions {text}: not a number from 1"))?;
+            }
+            "--only" => only = value()?,
+            "--json" => json = Some(value()?),
+            _ if argument.starts_with("--") => return Err(format!("no option {argument}")),
+            _ => files.push(argument),
+        }
+    }
+    let [triangles, rays @ ..] = &files[..] else { return Err("TRIANGLES RAYS… are wanted".to_owned()) };
+    if rays.is_empty() {
+        return Err("no file of rays".to_owned());
+    }
+    let path = triangles;
+    let triangles: Vec<[[f32; 3]; 3]> = read(path, 9)?
+        .chunks_exact(9)
+        .map(|t| std::array::from_fn(|v| std::array::from_fn(|k| t[3 * v + k])))
+        .collect();
+    let shapes = ShapeSet::new(&[]).map_err(|e| e.to_string())?;
+    let start = Instant::now();
+    let mut accel = Accel::new(&triangles, shapes).map_err(|e| e.to_string())?;
+    let build = start.elapsed().as_secs_f64();
+    let per_triangle = accel.bytes() as f64 / triangles.len() as f64;
+    println!("{path}: {} triangles, built in {build:.3} s, {per_triangle:.1} bytes per triangle", triangles.len());
+    let baseline = (only.is_empty() || only.contains("obvhs")).then(|| Baseline::new(&triangles));
+    let mut stack = Stack::default();
+    let mut rows = Vec::new();
+    for path in rays {
+        let rays = read_rays(path)?;
+        println!(
+            "{path}: {} rays\n  {:22} {:>8}  {:>19}  {:>9}  sum of distances",
+            rays.len(),
+            "M rays/s",
+            "median",
+            "[least, greatest]",
+            "hits"
+        );
+        let mut report = |name: &str, ([median, least, greatest], found): ([f64; 3], Found)| {
+            println!(
+                "  {name:22} {median:8.3}  [{least:8.3} {greatest:8.3}]  {:9}  {:.9e}",
+                found.hits, found.distances
+            );
+            rows.push(serde_json::json!({
+                "rays": path, "what": name, "median": median, "least": least, "greatest": greatest,
+                "hits": found.hits, "distances": found.distances,
+            }));
+        };
+        if let Some(baseline) = &baseline {
+            let rays: Vec<_> = rays.iter().map(|r| baseline::ray(r.origin, r.direction, r.limit)).collect();
+            let all = || {
+                let each = rays.iter().filter_map(|&r| baseline.closest(r));
+                each.fold(Found { hits: 0, distances: 0.0 }, |f, t| Found {
+                    hits: f.hits + 1,
+                    distances: f.distances + f64::from(t),
+                })
+            };
+            report("closest obvhs", measure(repetitions, rays.len(), all));
+            let all = || Found { hits: rays.iter().filter(|&&r| baseline.occluded(r)).count() as u64, distances: 0.0 };
+            report("any obvhs", measure(repetitions, rays.len(), all));
+        }
+        let groups = groups(&rays);
+        for (way, name) in [(Way::Single, "single"), (Way::Stream, "stream"), (Way::Choose, "groups")] {
+            if !only.is_empty() && !only.contains(name) {
+                continue;
+            }
+            accel = accel.with_way(way);
+            let speed = measure(repetitions, rays.len(), || closest(&accel, &groups, &mut stack));
+            report(&format!("closest {name}"), speed);
+            let speed = measure(repetitions, rays.len(), || occluded(&accel, &groups, &mut stack));
+            report(&format!("any {name}"), speed);
+        }
+    }
+    if let Some(file) = json {
+        let summary = serde_json::json!({ "triangles": triangles.len(), "build_seconds": build, "bytes_per_triangle": per_triangle, "rows": rows });
+        std::fs::write(&file, format!("{summary:#}\n")).map_err(|e| format!("{file}: {e}"))?;
+    }
+    Ok(())
+}
