@@ -3,6 +3,7 @@
 
 use super::super::lanewise;
 use super::super::projected_cap::{double, ratio};
+use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::unit_interval;
@@ -316,8 +317,9 @@ impl<R: Real> Sector<R> {
         // as a displacement, so that it is as good as it is small
         let moved = normal * (ratio(squared, up + z) * nu) - flat * (nu / (one + keep));
         let w = arc + moved;
-        // a unit vector but for rounding: one step of Newton's to 1/√
-        w * w.length_squared().mul_add(R::lit(-0.5), R::lit(1.5))
+        // a unit vector but for rounding; from the triangle's own plane or corner its planes are all rounding
+        let squared = w.length_squared();
+        w * rsqrt(R::select(squared.gt(R::lit(1e-30)), squared, one))
     }
 
     /// The share of the area before the azimuth of a direction, and `u` across.
