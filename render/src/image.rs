@@ -131,9 +131,12 @@ const MOST_PIXELS: u128 = 1 << 28;
 /// Most bytes of pixels for each byte of the file: deflate, the densest of the compressions, has 1,032.
 const MOST_EXPANSION: u128 = 2048;
 
-/// A header may claim any size: whether a file of that length can hold it, before memory is taken for it.
+/// A header may claim any size: whether there is something, and a file of that length can hold it, before memory is taken for it.
 fn believe(path: &Path, [width, height]: [u128; 2], bits_per_pixel: u128, file: usize) -> Result<(), ImageError> {
     let pixels = width.saturating_mul(height);
+    if pixels == 0 {
+        return Err(failed(path, format!("{width} × {height} pixels: there is nothing in it")));
+    }
     if pixels > MOST_PIXELS {
         return Err(failed(path, format!("{width} × {height} pixels: no more than {MOST_PIXELS} are read")));
     }

@@ -52,3 +52,11 @@ fn a_size_that_the_file_cannot_hold_is_an_error() {
     let error = image::decode(Path::new("huge.exr"), &bytes).unwrap_err().to_string();
     assert_eq!(error, "huge.exr: 16777024 × 16777024 pixels: no more than 268435456 are read");
 }
+
+/// What a fuzzer found: an HDR image of no rows, whose mean is 0/0.
+#[test]
+fn an_image_of_nothing_is_an_error() {
+    let bytes = include_bytes!("../../fuzz/seeds/image/zero-rows");
+    let error = image::decode(Path::new("flat.hdr"), bytes).unwrap_err().to_string();
+    assert_eq!(error, "flat.hdr: 4 × 0 pixels: there is nothing in it");
+}
