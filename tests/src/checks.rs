@@ -56,10 +56,15 @@ pub fn atan2(atan2: impl Fn(f32, f32) -> f32) {
         }
     }
     relative.assert_below(2.0e-7);
-    // both subnormal, and an angle that is
-    let tiny = 1e-42_f32;
-    assert!((f64::from(atan2(tiny, tiny)) - PI / 4.0).abs() < 3e-7);
-    assert!((f64::from(atan2(-3.0 * tiny, -tiny)) - (-3.0_f64).atan2(-1.0)).abs() < 1e-3);
+    // both subnormal, all ratios on their grid, and an angle that is subnormal
+    let mut steps = [Greatest::of("atan2 below 64 steps of 2⁻¹⁴⁹"), Greatest::of("atan2 of subnormal numbers")];
+    for (i, j, side) in (1..256_u32).flat_map(|i| (1..256).flat_map(move |j| [(i, j, 1.0), (i, j, -1.0)])) {
+        let (y, x) = (f32::from_bits(i), side * f32::from_bits(j));
+        let relative = f64::from(atan2(y, x)) / f64::from(y).atan2(f64::from(x)) - 1.0;
+        steps[usize::from(i.max(j) >= 64)].take(relative.abs(), [y, x]);
+    }
+    steps[0].assert_below(5.2e-6);
+    steps[1].assert_below(1.6e-7);
     assert_eq!(atan2(1e-30_f32, 1e10), 1e-40);
     // axes and signed zeros, as in IEEE 754
     for y in [0.0_f32, -0.0, 1.0, -1.0] {
