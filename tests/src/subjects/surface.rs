@@ -177,6 +177,11 @@ impl PatchSurface {
         let [by_s, by_t] = self.sides(s, t);
         length(cross(by_s, by_t))
     }
+    fn density_at(&self, s: f64, t: f64) -> f64 {
+        let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[s, t]| self.area(s, t));
+        let weight = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
+        weight / (0.25 * (a + b + c + d)) / self.area(s, t)
+    }
 }
 impl Subject for PatchSurface {
     type Warp<R: Real> = warp::PatchSurface<R>;
@@ -198,9 +203,7 @@ impl Subject for PatchSurface {
     }
     fn density(&self, point: V3) -> f64 {
         let [s, t] = self.locate(point);
-        let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[s, t]| self.area(s, t));
-        let weight = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
-        weight / (0.25 * (a + b + c + d)) / self.area(s, t)
+        self.density_at(s, t)
     }
     fn chart(&self, s: f64, t: f64) -> (V3, f64) {
         let [by_s, _] = self.sides(s, t);
@@ -251,7 +254,7 @@ impl Subject for PatchSurface {
     }
     // the density is that at the point: where it moves, so does that
     fn gradient(&self) -> f64 {
-        let at = |s: f64, t: f64| self.density(self.chart(s, t).0);
+        let at = |s: f64, t: f64| self.density_at(s, t);
         let steps = (0..64).map(|i| [f64::from(i % 8) / 8.0, f64::from(i / 8) / 8.0]);
         let steepest = steps
             .map(|[s, t]| {
