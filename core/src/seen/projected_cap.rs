@@ -24,7 +24,7 @@ lanewise! {
     ///   At sinθ·t across, the lune is as wide as sinθ tanθ sin²ω b² m²/((1+P)(1+Q)(P+Q)), m = 1−t², P = √(1+m tan²θ), Q = √(1+mb²);
     ///   its area up to t has the like form, and is inverted by a fixed number of steps of Halley's method.
     /// - Domain: u in [0, 1)²; any centre and radius > 0, from outside or inside; a normal of any length.
-    /// - Density: cosθ/Ω⊥ per steradian within the cone (and within 4 ulp beyond) and above the horizon, 0 elsewhere. From inside the
+    /// - Density: cosθ/Ω⊥ per steradian within the cone (and within 10 ulp beyond) and above the horizon, 0 elsewhere. From inside the
     ///   sphere: the whole hemisphere, cosθ/π.
     /// - Degenerate: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` gives some unit vector.
     /// - Greatest error: Ω⊥ 3e−7 relative, however thin the part that the horizon leaves; of a cap of more than 80° whose centre is below the
@@ -578,7 +578,7 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         let moved = (w - self.axis).length_squared() * R::lit(0.5);
-        self.density(w.dot(self.frame.n)).keep(self.cone.contains(moved) | self.inside())
+        self.density(w.dot(self.frame.n)).keep(self.cone.contains_turned(moved) | self.inside())
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

@@ -60,19 +60,25 @@ impl<R: Real> Cone<R> {
         let slack = R::lit(slack).mul_add(sin.max(h - R::lit(1.0)), R::lit(0.5 * slack * slack));
         one_minus_cos.le(h + slack)
     }
-    /// The pdf of a direction that a frame has turned there and back: 10 ulp.
+    /// The same of a direction that a frame has turned there and back: 10 ulp.
+    #[inline(always)]
+    pub(crate) fn contains_turned(&self, one_minus_cos: R) -> R::Mask {
+        self.contains_but_for(one_minus_cos, 2.5 * SLACK)
+    }
+    /// The pdf of a direction that a frame has turned there and back.
     #[inline(always)]
     pub(crate) fn pdf_in_frame(&self, w: Vec3<R>) -> R {
-        self.density().keep(self.contains_but_for(one_minus_z(w), 2.5 * SLACK))
+        self.density().keep(self.contains_turned(one_minus_z(w)))
     }
 }
 
-/// 1−cosθ of a unit vector's angle to +z: from its distance to the axis in front, from z behind.
+/// 1−cosθ of a unit vector's angle to +z: from its distance to the axis in front, from z elsewhere, where a length that is off by
+/// rounding counts for less.
 #[inline(always)]
 fn one_minus_z<R: Real>(w: Vec3<R>) -> R {
     let one = R::lit(1.0);
     let front = w.x.mul_add(w.x, w.y * w.y) / (one + w.z.abs());
-    R::select(w.z.gt(R::lit(0.0)), front, one - w.z)
+    R::select(w.z.gt(R::lit(0.5)), front, one - w.z)
 }
 
 impl<R: Real> Warp<R> for Cone<R> {
