@@ -1,6 +1,7 @@
 //! Direct light, in packets: camera rays, light samples, shadow rays.
 
 mod adaptive;
+mod allocation;
 mod bsdf;
 mod direct;
 mod paths;
@@ -15,6 +16,7 @@ use crate::scene::{Camera, Material, Scene, Shape};
 use crate::sensor::{Exposure, Sensor};
 use crate::sky::Sky;
 use adaptive::Effort;
+use allocation::{Allocated, Blocks};
 use bsdf::Finish;
 use direct::keep;
 use etendue::{Mask, Real, Vec2, u32x8};
@@ -58,6 +60,8 @@ pub struct RayCount {
     pub mirror: u64,
     /// Towards a light, or into the hemisphere to find one.
     pub shadow: u64,
+    /// Through the corners of pixels, to see which lights matter there.
+    pub corner: u64,
 }
 
 /// A scene ready to be rendered.
@@ -175,10 +179,10 @@ impl World {
         let sets = settings.sampler.sets(settings.spp, settings.sets, eye.has_lens());
         let effort = Effort::new(settings.spp, sets);
         let pilot = effort.pilot;
-        let (first, rays) = self.tiles(eye, settings, |work, area| work.parts(area, sets, |_, _| [0, pilot]));
+        let (first, rays) = self.tiles(eye, settings, |work, area| work.parts(area, &effort, |_, _| [0, pilot]));
         let packets = adaptive::allot(&first, width, &effort);
         let (second, more) = self.tiles(eye, settings, |work, area| {
-            let parts = work.parts(area, sets, |x, y| [pilot, packets[(y * width + x) as usize]]);
+            let parts = work.parts(area, &effort, |x, y| [pilot, packets[(y * width + x) as usize]]);
             progress(parts.len() as u64);
             parts
         });
@@ -187,6 +191,7 @@ impl World {
             camera: rays.camera + more.camera,
             mirror: rays.mirror + more.mirror,
             shadow: rays.shadow + more.shadow,
+            corner: rays.corner + more.corner,
         };
         (Film { width, height, pixels }, rays)
     }
@@ -223,6 +228,7 @@ impl World {
             rays.camera += count.camera;
             rays.mirror += count.mirror;
             rays.shadow += count.shadow;
+            rays.corner += count.corner;
         }
         (pixels, rays)
     }
@@ -295,12 +301,22 @@ impl<'a> Work<'a> {
                 active: M8::from_bits((1 << count) - 1),
             }
         };
+        let weights = if whole { self.weights(area, span) } else { None };
+        let mut blocks = Blocks::new(span);
+        let mut allocated = Vec::with_capacity(GROUP);
         let mut packets = Vec::with_capacity(GROUP);
         for start in (0..total).step_by(8 * GROUP) {
             let starts = (start..total).step_by(8).take(GROUP);
             packets.clear();
             packets.extend(starts.clone().map(packet));
-            let radiance = self.radiance(&packets);
+            allocated.clear();
+            if let Some(weights) = &weights {
+                allocated.extend(starts.clone().map(|start| {
+                    let (pixel, sample) = place(start);
+                    blocks.packet(weights, pixels[pixel], sample % span)
+                }));
+            }
+            let radiance = self.radiance(&packets, &allocated);
             for ((start, packet), radiance) in starts.zip(&packets).zip(radiance) {
                 if whole {
                     let (pixel, sample) = place(start);
@@ -326,10 +342,10 @@ impl<'a> Work<'a> {
         rows
     }
 
-    /// What the samples of a group of packets add to their pixels.
-    fn radiance(&mut self, packets: &[Packet]) -> [V8; GROUP] {
+    /// What the samples of a group of packets add to their pixels, by the lights that they are allocated to if they are.
+    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated]) -> [V8; GROUP] {
         let plain = self.world.plain(self.settings.technique);
-        let mut radiance = if plain { self.group(packets) } else { self.paths(packets) };
+        let mut radiance = if plain { self.group(packets, allocated) } else { self.paths(packets) };
         for (radiance, packet) in radiance.iter_mut().zip(packets) {
             if let Some(open) = self.eye.open(&self.source, packet) {
                 *radiance = keep(*radiance, open);
@@ -342,7 +358,7 @@ impl<'a> Work<'a> {
     }
 
     /// Radiance of the samples of a group of packets.
-    fn group(&mut self, packets: &[Packet]) -> [V8; GROUP] {
+    fn group(&mut self, packets: &[Packet], allocated: &[Allocated]) -> [V8; GROUP] {
         let world = self.world;
         let count = packets.len();
         let mut light = [Vec2::default(); GROUP];
@@ -350,7 +366,11 @@ impl<'a> Work<'a> {
         let mut active = [M8::splat(false); GROUP];
         let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
         for (p, packet) in packets.iter().enumerate() {
-            let (origin, direction, second) = self.eye.rays(&self.source, packet);
+            let [film, second] = match allocated.get(p) {
+                Some(allocated) => self.source.film_and_light_of(packet, allocated.light, allocated.sample),
+                None => self.source.film_and_light(packet),
+            };
+            let (origin, direction) = self.eye.through(&self.source, packet, film);
             light[p] = second;
             rays[p] = world.accel.rays(origin, direction);
             active[p] = packet.active;
@@ -377,7 +397,7 @@ impl<'a> Work<'a> {
                     }
                     choice
                 });
-                self.light(surfaces, light, choice)
+                self.light(surfaces, light, allocated, choice)
             }
             Technique::UniformHemisphere => self.hemisphere(surfaces, light, false),
             Technique::CosineHemisphere | Technique::Brdf => self.hemisphere(surfaces, light, true),

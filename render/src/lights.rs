@@ -60,7 +60,7 @@ const SKY: u32 = 6;
 const KINDS: u32 = 7;
 const TWO_SIDED: u32 = 8;
 /// Up to here a light is found by comparing with all; and choosing one leaves enough digits of `u` to choose a point with.
-const FEW: usize = 32;
+pub const FEW: usize = 32;
 
 /// Sixteen numbers a light, so that eight lanes are gathered by two transpositions: geometry (9), radiance (3), probability, the start of
 /// its interval of u, kind and sides (bits), index of its shape (bits).
@@ -106,6 +106,13 @@ pub struct Lights {
 pub struct Near {
     /// Sums over the lights up to each.
     ends: [X8; FEW],
+}
+
+impl Near {
+    /// Of each light.
+    pub fn parts(&self, lights: usize) -> impl Iterator<Item = X8> {
+        (0..lights).map(|k| if k == 0 { self.ends[0] } else { self.ends[k] - self.ends[k - 1] })
+    }
 }
 
 /// One light in each lane.
@@ -269,6 +276,15 @@ impl Lights {
             *end = sum;
         }
         Some(Near { ends })
+    }
+    /// The number of lights, where they are few, more than one, and all have an area.
+    pub fn few(&self) -> Option<usize> {
+        (!self.reaches.is_empty()).then_some(self.reaches.len())
+    }
+    /// The light that each lane is told to sample, with its share of the samples.
+    #[inline(always)]
+    pub fn told(&self, light: u32x8, share: X8) -> Chosen {
+        Chosen { probability: share, ..self.gathered(light.to_array().map(|i| i as usize)) }
     }
     /// A light per lane for `u`, and `u` stretched over what its interval leaves: by power, or by what is near.
     #[inline(always)]

@@ -272,7 +272,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
             "seed": settings.seed,
             "threads": pool.current_num_threads(),
             "seconds": { "load": load, "build": build, "render": seconds },
-            "rays": { "camera": rays.camera, "mirror": rays.mirror, "shadow": rays.shadow },
+            "rays": { "camera": rays.camera, "mirror": rays.mirror, "shadow": rays.shadow, "corner": rays.corner },
             "mean": mean,
             "output": output,
         });

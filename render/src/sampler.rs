@@ -213,6 +213,21 @@ impl Source {
             _ => [self.pair(packet, FILM), self.pair(packet, LIGHT)],
         }
     }
+    /// Can samples be counted for each light by itself? Then each has a good set of its own.
+    #[must_use]
+    pub const fn allocates(&self) -> bool {
+        matches!(self.set, Set::Sobol(_))
+    }
+    /// The pairs [`FILM`], and [`LIGHT`] of samples that are counted for each light: `sample` those of the lane's `light`.
+    #[inline]
+    pub fn film_and_light_of(&self, packet: &Packet, light: u32x8, sample: u32x8) -> [Vec2<X8>; 2] {
+        let pixel = packet.y * self.width + packet.x;
+        let key = pixel * u32x8::splat(4) + packet.replicate + light * u32x8::splat(0x9e37_79b9);
+        match &self.set {
+            Set::Sobol(set) => [self.pair(packet, FILM), set.pair(key, sample, LIGHT)],
+            _ => self.film_and_light(packet),
+        }
+    }
     /// A pair of numbers for each of eight samples.
     #[inline]
     pub fn pair(&self, packet: &Packet, dimension: u32) -> Vec2<X8> {

@@ -126,7 +126,7 @@ fn json_has_the_fields_that_it_should() {
     ];
     assert_eq!(keys(&report), expected);
     assert_eq!(keys(&report["seconds"]), ["build", "load", "render"]);
-    assert_eq!(keys(&report["rays"]), ["camera", "mirror", "shadow"]);
+    assert_eq!(keys(&report["rays"]), ["camera", "corner", "mirror", "shadow"]);
     assert_eq!((&report["scene"], &report["output"]), (&Value::from("quads"), &Value::from("a.exr")));
     assert_eq!((&report["technique"], &report["sampler"]), (&Value::from("area"), &Value::from("independent")));
     let number = |key: &str| report[key].as_u64().unwrap();

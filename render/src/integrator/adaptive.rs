@@ -4,6 +4,7 @@
 //! own, so that a pixel which has happened to be dark is not left so: mean and number are independent, but for the share that one
 //! pixel has in the sum over all.
 
+use super::allocation::{Allocated, Blocks};
 use super::{Work, z_order};
 use crate::accel::{GROUP, M8, V8};
 use crate::film::{Pixel, PixelSum};
@@ -24,13 +25,14 @@ pub(super) struct Effort {
     pub(super) pilot: u32,
     /// Packets of each set, on average over the pixels.
     pub(super) packets: f64,
+    pub(super) sets: u32,
 }
 
 impl Effort {
     pub(super) fn new(spp: u32, sets: u32) -> Self {
         let packets = f64::from(spp) / f64::from(8 * sets);
         // a quarter
-        Self { pilot: ((packets / 4.0).round() as u32).max(1), packets }
+        Self { pilot: ((packets / 4.0).round() as u32).max(1), packets, sets }
     }
 }
 
@@ -41,7 +43,8 @@ pub(super) struct Part {
     means: [[f64; 3]; 4],
     /// In each set.
     packets: u32,
-    /// Variance of the means of four samples each, over channels and sets.
+    /// Variance of the means of four samples each, over channels and sets; where samples are allocated to lights, a sum of squared
+    /// differences between samples of one light.
     variance: f64,
 }
 
@@ -109,7 +112,8 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> Vec<u32> {
 
 impl Work<'_> {
     /// Packets `from` to `to` of each set of the pixels of an area, row by row; `range` is told column and row.
-    pub(super) fn parts(&mut self, area: [u32; 4], sets: u32, range: impl Fn(u32, u32) -> [u32; 2]) -> Vec<Part> {
+    pub(super) fn parts(&mut self, area: [u32; 4], effort: &Effort, range: impl Fn(u32, u32) -> [u32; 2]) -> Vec<Part> {
+        let sets = effort.sets;
         let [x0, y0, x1, _] = area;
         let pixels = z_order(area);
         let place = |[x, y]: [u32; 2]| ((y - y0) * (x1 - x0) + (x - x0)) as usize;
@@ -119,7 +123,11 @@ impl Work<'_> {
             (0..sets).flat_map(move |set| (from..to).map(move |packet| ([x, y], set, packet, packet + 1 == to)))
         });
         let mut items = items.peekable();
-        let (mut sum, mut blocks, mut count) = (PixelSum::default(), [Welford::<f64>::default(); 3], 0);
+        let weights = self.weights(area, 8 * effort.pilot);
+        let mut blocks = Blocks::new(8 * effort.pilot);
+        let mut allocated = Vec::with_capacity(GROUP);
+        let (mut sum, mut spread, mut count, mut between) =
+            (PixelSum::default(), [Welford::<f64>::default(); 3], 0, 0.0);
         let mut packets = Vec::with_capacity(GROUP);
         let mut group = Vec::with_capacity(GROUP);
         while items.peek().is_some() {
@@ -133,13 +141,21 @@ impl Work<'_> {
                 replicate: u32x8::splat(set),
                 active: M8::splat(true),
             }));
-            let radiance = self.radiance(&packets);
-            for (&(pixel, set, _, last), radiance) in group.iter().zip(radiance) {
+            allocated.clear();
+            if let Some(weights) = &weights {
+                allocated.extend(group.iter().map(|&(pixel, _, packet, _)| blocks.packet(weights, pixel, 8 * packet)));
+            }
+            let radiance = self.radiance(&packets, &allocated);
+            for (p, (&(pixel, set, _, last), radiance)) in group.iter().zip(radiance).enumerate() {
                 sum.push_packet(radiance);
-                for half in halves(radiance) {
-                    count += 1;
-                    for (block, x) in blocks.iter_mut().zip(half) {
-                        block.push(x, 1.0 / f64::from(count));
+                if let Some(allocated) = allocated.get(p) {
+                    between += differences(radiance, allocated);
+                } else {
+                    for half in halves(radiance) {
+                        count += 1;
+                        for (spread, x) in spread.iter_mut().zip(half) {
+                            spread.push(x, 1.0 / f64::from(count));
+                        }
                     }
                 }
                 if last {
@@ -147,14 +163,25 @@ impl Work<'_> {
                     let (mean, samples) = sum.take();
                     (part.means[set as usize], part.packets) = (mean, samples / 8);
                     if set + 1 == sets {
-                        part.variance = blocks.iter().map(|b| b.variance(f64::from(count))).sum();
-                        (blocks, count) = Default::default();
+                        part.variance = match &weights {
+                            Some(_) => between,
+                            None => spread.iter().map(|b| b.variance(f64::from(count))).sum(),
+                        };
+                        (spread, count, between) = Default::default();
                     }
                 }
             }
         }
         parts
     }
+}
+
+/// Squares of the differences of two neighbours that go to the same light.
+fn differences(radiance: V8, allocated: &Allocated) -> f64 {
+    let light = allocated.light.to_array();
+    let channels = [radiance.x, radiance.y, radiance.z].map(|channel| channel.to_array());
+    let square = |k: usize| channels.iter().map(|c| f64::from(c[k] - c[k + 1]).powi(2)).sum::<f64>();
+    [0, 2, 4, 6].into_iter().filter(|&k| light[k] == light[k + 1]).map(square).sum()
 }
 
 /// The means of four lanes each.

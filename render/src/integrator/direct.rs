@@ -1,6 +1,7 @@
 //! Light that a surface reflects, by sampling a light or the hemisphere.
 
 use super::Work;
+use super::allocation::Allocated;
 use super::surface::{Surface, emitted};
 use crate::accel::{GROUP, Hits, M8, NOTHING, SHAPE, V8, X8, pick, select};
 use etendue::warp::{CosineHemisphere, UniformHemisphere};
@@ -11,12 +12,13 @@ pub(super) const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
 impl Work<'_> {
-    /// Reflected light by sampling a light.
+    /// Reflected light by sampling a light: the one that is `allocated` to each sample, if they are, or one by chance.
     #[inline]
     pub(super) fn light(
         &mut self,
         surfaces: &[Surface],
         light: [Vec2<X8>; GROUP],
+        allocated: &[Allocated],
         choice: Option<[X8; GROUP]>,
     ) -> [V8; GROUP] {
         let world = self.world;
@@ -30,12 +32,17 @@ impl Work<'_> {
         let mut reflected = [V8::default(); GROUP];
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, s)| s.reflects.any()) {
             let mut u = light[p];
-            let number = choice.map_or(u.x, |choice| choice[p]);
-            let near = world.lights.near(surface.point, surface.normal);
-            let (mut chosen, rest) = world.lights.choose_near(near.as_ref(), number);
-            if choice.is_none() {
-                u.x = rest;
-            }
+            let mut chosen = if let Some(allocated) = allocated.get(p) {
+                world.lights.told(allocated.light, allocated.share)
+            } else {
+                let number = choice.map_or(u.x, |choice| choice[p]);
+                let near = world.lights.near(surface.point, surface.normal);
+                let (chosen, rest) = world.lights.choose_near(near.as_ref(), number);
+                if choice.is_none() {
+                    u.x = rest;
+                }
+                chosen
+            };
             let sample = world.lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & chosen.probability.gt(zero);

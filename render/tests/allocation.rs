@@ -1,0 +1,105 @@
+//! Few lights are allocated to the samples of a pixel: with less error, and no bias.
+
+use etendue_render::image::Picture;
+use etendue_render::{Sampler, Settings, Technique, World, compare::Comparison, image, scene};
+use std::path::Path;
+
+const SETTINGS: Settings = Settings {
+    width: 32,
+    height: 32,
+    spp: 16,
+    technique: Technique::SolidAngle,
+    depth: 8,
+    sampler: Sampler::Sobol,
+    sets: 1,
+    seed: 1,
+};
+
+fn world(name: &str) -> World {
+    World::new(&scene::load(name).unwrap()).unwrap()
+}
+
+/// A corner of a pixel is looked through once by each tile of 16×16 pixels, and only where lights are allocated: in a scene of some
+/// lights, by samples that are counted for each of them.
+#[test]
+fn corners_are_looked_through_where_it_helps() {
+    let corners = |name: &str, settings: Settings| world(name).render(&settings, |_| ()).1.corner;
+    let four_tiles = 4 * 17 * 17;
+    assert_eq!(corners("quads", SETTINGS), four_tiles);
+    assert_eq!(corners("quads", Settings { spp: 64, sets: 4, ..SETTINGS }), four_tiles);
+    // before the pilot, and after it
+    assert_eq!(corners("quads", Settings { sampler: Sampler::Adaptive, ..SETTINGS }), 2 * four_tiles);
+    assert_eq!(corners("quads", Settings { width: 17, height: 3, ..SETTINGS }), 17 * 4 + 2 * 4);
+    for other in [
+        // one light
+        ("sphere-light", SETTINGS),
+        // by chance
+        ("quads", Settings { sampler: Sampler::Independent, ..SETTINGS }),
+        ("quads", Settings { sampler: Sampler::Sobol4d, ..SETTINGS }),
+        // no power of two, or less than a packet
+        ("quads", Settings { spp: 24, ..SETTINGS }),
+        ("quads", Settings { spp: 4, ..SETTINGS }),
+        // lights are not sampled
+        ("quads", Settings { technique: Technique::CosineHemisphere, ..SETTINGS }),
+        // a lens
+        ("defocus", SETTINGS),
+    ] {
+        assert_eq!(corners(other.0, other.1), 0, "{other:?}");
+    }
+}
+
+/// The mean over seeds is that of an image whose lights are chosen by chance; also where a corner does not see what the pixel holds.
+#[test]
+fn is_not_biased() {
+    let world = world("quads");
+    let precise = Settings { spp: 1 << 16, sampler: Sampler::Sobol4d, seed: 7, ..SETTINGS };
+    let precise = world.render(&precise, |_| ()).0;
+    for (sampler, spp, sets) in [(Sampler::Sobol, 8, 1), (Sampler::Sobol, 64, 4), (Sampler::Adaptive, 64, 1)] {
+        let settings = Settings { spp, sets, sampler, ..SETTINGS };
+        let n = 200;
+        let off: Vec<f64> = (0..n)
+            .map(|seed| {
+                let film = world.render(&Settings { seed: 100 + seed, ..settings }, |_| ()).0;
+                let difference = |(a, b): (&etendue_render::film::Pixel, &etendue_render::film::Pixel)| {
+                    f64::from(a.mean[0]) - f64::from(b.mean[0])
+                };
+                film.pixels.iter().zip(&precise.pixels).map(difference).sum::<f64>() / film.pixels.len() as f64
+            })
+            .collect();
+        let mean = off.iter().sum::<f64>() / n as f64;
+        let error = (off.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n * (n - 1)) as f64).sqrt();
+        println!("{sampler:?}, {spp} samples, {sets} sets: bias {mean:.1e} ± {error:.1e} of {:.3}", precise.mean()[0]);
+        assert!(mean.abs() < 4.0 * error && error < 5e-5, "{sampler:?}: {mean:e} ± {error:e}");
+    }
+}
+
+/// The variance that the sets tell is that of the image.
+#[test]
+fn sets_tell_the_error() {
+    let world = world("quads");
+    let settings = Settings { width: 64, height: 64, spp: 64, sets: 4, ..SETTINGS };
+    let films: Vec<_> = (0..24).map(|seed| world.render(&Settings { seed, ..settings }, |_| ()).0).collect();
+    let n = films.len() as f64;
+    let (mut told, mut found) = (0.0, 0.0);
+    for i in 0..64 * 64 {
+        let mean = films.iter().map(|f| f64::from(f.pixels[i].mean[1])).sum::<f64>() / n;
+        found += films.iter().map(|f| (f64::from(f.pixels[i].mean[1]) - mean).powi(2)).sum::<f64>() / (n - 1.0);
+        told += films.iter().map(|f| f64::from(f.pixels[i].variance[1])).sum::<f64>() / n;
+    }
+    println!("variance told / found: {:.3}", told / found);
+    assert!((told / found - 1.0).abs() < 0.05, "{told:e} told, {found:e} found");
+}
+
+/// Error against the image that comes with the program, less its own: by chance (sobol-4d) over allocated (sobol).
+#[test]
+fn errs_less_than_by_chance() {
+    let reference = image::read_exr(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references/quads.exr")).unwrap();
+    let world = world("quads");
+    let measured = |sampler| {
+        let settings = Settings { width: 256, height: 256, spp: 64, sampler, ..SETTINGS };
+        Comparison::new(&reference, &Picture::from(&world.render(&settings, |_| ()).0), 1.9e-8).unwrap().mse
+    };
+    let (chance, allocated) = (measured(Sampler::Sobol4d), measured(Sampler::Sobol));
+    println!("quads: {chance:.2e} by chance, {allocated:.2e} allocated, {:.2} times less", chance / allocated);
+    assert!(chance > 3.0 * allocated, "{chance:e} {allocated:e}");
+}
