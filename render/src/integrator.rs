@@ -179,10 +179,10 @@ impl World {
         let sets = settings.sampler.sets(settings.spp, settings.sets, eye.has_lens());
         let effort = Effort::new(settings.spp, sets);
         let pilot = effort.pilot;
-        let (first, rays) = self.tiles(eye, settings, |work, area| work.parts(area, &effort, |_, _| [0, pilot]));
-        let packets = adaptive::allot(&first, width, &effort);
+        let (first, rays) = self.tiles(eye, settings, |work, area| work.parts(area, &effort, None, |_, _| [0, pilot]));
+        let (packets, weights) = adaptive::allot(&first, width, &effort);
         let (second, more) = self.tiles(eye, settings, |work, area| {
-            let parts = work.parts(area, &effort, |x, y| [pilot, packets[(y * width + x) as usize]]);
+            let parts = work.parts(area, &effort, weights.as_ref(), |x, y| [pilot, packets[(y * width + x) as usize]]);
             progress(parts.len() as u64);
             parts
         });

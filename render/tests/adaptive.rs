@@ -67,7 +67,7 @@ fn threads_do_not_matter() {
 /// Error against the images that come with the program, less their own.
 #[test]
 fn errs_less_than_as_many_samples_everywhere() {
-    for (name, error, least) in [("sphere-light", 4.8e-9, 4.0), ("triangle-light", 2.6e-8, 4.0), ("quads", 1.9e-8, 1.1)]
+    for (name, error, least) in [("sphere-light", 4.8e-9, 4.0), ("triangle-light", 2.6e-8, 4.0), ("quads", 1.9e-8, 1.8)]
     {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/references/{name}.exr"));
         let reference = image::read_exr(&path).unwrap();

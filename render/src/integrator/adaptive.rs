@@ -4,7 +4,7 @@
 //! own, so that a pixel which has happened to be dark is not left so: mean and number are independent, but for the share that one
 //! pixel has in the sum over all.
 
-use super::allocation::{Allocated, Blocks};
+use super::allocation::{APART, Allocated, Blocks, Weights};
 use super::{Work, z_order};
 use crate::accel::{GROUP, M8, V8};
 use crate::film::{Pixel, PixelSum};
@@ -43,9 +43,13 @@ pub(super) struct Part {
     means: [[f64; 3]; 4],
     /// In each set.
     packets: u32,
-    /// Variance of the means of four samples each, over channels and sets; where samples are allocated to lights, a sum of squared
-    /// differences between samples of one light.
+    /// Variance of the means of four samples each, over channels and sets.
     variance: f64,
+    /// Lights to which the samples were allocated, if they were, and to no more than `APART`.
+    lights: usize,
+    /// Of each: a sum of squared differences of two neighbours among its samples, the logarithm to base 2 of their number in a set.
+    spread: [f32; APART],
+    taken: [u8; APART],
 }
 
 impl Part {
@@ -68,29 +72,48 @@ impl Part {
     }
 }
 
-/// Packets of each set of every pixel, from the variance that the pilot has found.
-pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> Vec<u32> {
+/// Of every pixel, the packets of each set, from the variance that the pilot has found; and what samples of each light are worth, where they
+/// are allocated and the pilot can tell.
+pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, Option<Weights>) {
     let (columns, rows) = (width as usize, parts.len() / width as usize);
     let near = |i: usize, most: usize| i.saturating_sub(REACH as usize)..(i + REACH as usize + 1).min(most);
-    let wanted: Vec<f64> = (0..parts.len())
-        .map(|i| {
-            let (x, y) = (i % columns, i / columns);
-            let (mut sum, mut count) = (0.0, 0);
-            for row in near(y, rows) {
-                for column in near(x, columns).filter(|&column| (column, row) != (x, y)) {
-                    sum += parts[row * columns + column].variance;
-                    count += 1;
+    let neighbours = |i: usize| {
+        let (x, y) = (i % columns, i / columns);
+        let all = near(y, rows).flat_map(move |row| near(x, columns).map(move |column| row * columns + column));
+        all.filter(move |&other| other != i).map(|other| &parts[other])
+    };
+    let lights = parts[0].lights;
+    let mut weights = None;
+    let wanted: Vec<f64> = if lights == 0 {
+        let mean = |i: usize| {
+            let (sum, count) = neighbours(i).fold((0.0, 0), |(sum, count), part| (sum + part.variance, count + 1));
+            sum / f64::from(count.max(1))
+        };
+        (0..parts.len()).map(|i| mean(i).powf(POWER)).collect()
+    } else {
+        // each light's part of the error falls with its own samples: Σ over the lights of cᵢ nᵢ^−1.5 is (Σ cᵢ^0.4)^2.5 n^−1.5 at its least
+        let mut of = Vec::with_capacity(parts.len() * lights);
+        for i in 0..parts.len() {
+            let (mut sum, mut count) = ([0.0; APART], [0; APART]);
+            for part in neighbours(i) {
+                for k in 0..lights {
+                    sum[k] += f64::from(part.spread[k]);
+                    count[k] += (1 << part.taken[k]) >> 1;
                 }
             }
-            (sum / f64::from(count.max(1))).powf(POWER)
-        })
-        .collect();
+            of.extend((0..lights).map(|k| (sum[k] / f64::from(count[k].max(1))).powf(POWER) as f32));
+        }
+        let sums = of.chunks(lights).map(|each| each.iter().map(|&w| f64::from(w)).sum()).collect();
+        let area = [0, 0, width, rows as u32];
+        weights = Some(Weights { lights, of, area, begun: parts.iter().map(|part| part.taken).collect() });
+        sums
+    };
     let (pilot, total) = (f64::from(effort.pilot), effort.packets * parts.len() as f64);
     let spent = |scale: f64| wanted.iter().map(|w| (w * scale).max(pilot)).sum::<f64>();
     let most = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
     if most <= 0.0 {
         // nothing varies: all alike
-        return vec![(effort.packets.round() as u32).max(effort.pilot); parts.len()];
+        return (vec![(effort.packets.round() as u32).max(effort.pilot); parts.len()], weights);
     }
     let (mut low, mut high) = (0.0, total / most);
     while spent(high) < total {
@@ -107,12 +130,19 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> Vec<u32> {
         let up = (turn as f64 / (1_u64 << 53) as f64) < packets / below - 1.0;
         (if up { 2.0 * below } else { below }) as u32
     };
-    wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect()
+    (wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect(), weights)
 }
 
 impl Work<'_> {
-    /// Packets `from` to `to` of each set of the pixels of an area, row by row; `range` is told column and row.
-    pub(super) fn parts(&mut self, area: [u32; 4], effort: &Effort, range: impl Fn(u32, u32) -> [u32; 2]) -> Vec<Part> {
+    /// Packets `from` to `to` of each set of the pixels of an area, row by row; `range` is told column and row. Samples are allocated
+    /// to the lights by `weights` if it has any, else by what is seen at the corners of the pixels.
+    pub(super) fn parts(
+        &mut self,
+        area: [u32; 4],
+        effort: &Effort,
+        weights: Option<&Weights>,
+        range: impl Fn(u32, u32) -> [u32; 2],
+    ) -> Vec<Part> {
         let sets = effort.sets;
         let [x0, y0, x1, _] = area;
         let pixels = z_order(area);
@@ -123,11 +153,11 @@ impl Work<'_> {
             (0..sets).flat_map(move |set| (from..to).map(move |packet| ([x, y], set, packet, packet + 1 == to)))
         });
         let mut items = items.peekable();
-        let weights = self.weights(area, 8 * effort.pilot);
+        let found = if weights.is_none() { self.weights(area, 8 * effort.pilot) } else { None };
+        let weights = weights.or(found.as_ref());
         let mut blocks = Blocks::new(8 * effort.pilot);
         let mut allocated = Vec::with_capacity(GROUP);
-        let (mut sum, mut spread, mut count, mut between) =
-            (PixelSum::default(), [Welford::<f64>::default(); 3], 0, 0.0);
+        let (mut sum, mut tally) = (PixelSum::default(), Tally::default());
         let mut packets = Vec::with_capacity(GROUP);
         let mut group = Vec::with_capacity(GROUP);
         while items.peek().is_some() {
@@ -142,32 +172,20 @@ impl Work<'_> {
                 active: M8::splat(true),
             }));
             allocated.clear();
-            if let Some(weights) = &weights {
+            if let Some(weights) = weights {
                 allocated.extend(group.iter().map(|&(pixel, _, packet, _)| blocks.packet(weights, pixel, 8 * packet)));
             }
             let radiance = self.radiance(&packets, &allocated);
             for (p, (&(pixel, set, _, last), radiance)) in group.iter().zip(radiance).enumerate() {
                 sum.push_packet(radiance);
-                if let Some(allocated) = allocated.get(p) {
-                    between += differences(radiance, allocated);
-                } else {
-                    for half in halves(radiance) {
-                        count += 1;
-                        for (spread, x) in spread.iter_mut().zip(half) {
-                            spread.push(x, 1.0 / f64::from(count));
-                        }
-                    }
-                }
+                tally.push(radiance, allocated.get(p));
                 if last {
                     let part = &mut parts[place(pixel)];
                     let (mean, samples) = sum.take();
                     (part.means[set as usize], part.packets) = (mean, samples / 8);
                     if set + 1 == sets {
-                        part.variance = match &weights {
-                            Some(_) => between,
-                            None => spread.iter().map(|b| b.variance(f64::from(count))).sum(),
-                        };
-                        (spread, count, between) = Default::default();
+                        tally.end(part, sets, weights.map_or(0, |weights| weights.lights));
+                        tally = Tally::default();
                     }
                 }
             }
@@ -176,12 +194,54 @@ impl Work<'_> {
     }
 }
 
-/// Squares of the differences of two neighbours that go to the same light.
-fn differences(radiance: V8, allocated: &Allocated) -> f64 {
-    let light = allocated.light.to_array();
-    let channels = [radiance.x, radiance.y, radiance.z].map(|channel| channel.to_array());
-    let square = |k: usize| channels.iter().map(|c| f64::from(c[k] - c[k + 1]).powi(2)).sum::<f64>();
-    [0, 2, 4, 6].into_iter().filter(|&k| light[k] == light[k + 1]).map(square).sum()
+/// How the samples of a pixel vary.
+#[derive(Default)]
+struct Tally {
+    halves: [Welford<f64>; 3],
+    count: u32,
+    /// Of neighbours among the samples of one light: squared differences, of all lights and of each for itself; samples of each.
+    between: f64,
+    spread: [f64; APART],
+    samples: [u32; APART],
+}
+
+impl Tally {
+    fn push(&mut self, radiance: V8, allocated: Option<&Allocated>) {
+        let Some(allocated) = allocated else {
+            for half in halves(radiance) {
+                self.count += 1;
+                for (spread, x) in self.halves.iter_mut().zip(half) {
+                    spread.push(x, 1.0 / f64::from(self.count));
+                }
+            }
+            return;
+        };
+        let (light, share) = (allocated.light.to_array(), allocated.share.to_array());
+        let channels = [radiance.x, radiance.y, radiance.z].map(|channel| channel.to_array());
+        for k in [0, 2, 4, 6].into_iter().filter(|&k| light[k] == light[k + 1]) {
+            let square = channels.iter().map(|c| f64::from(c[k] - c[k + 1]).powi(2)).sum::<f64>();
+            self.between += square;
+            if let Some(spread) = self.spread.get_mut(light[k] as usize) {
+                *spread += square * f64::from(share[k]).powi(2);
+            }
+        }
+        for light in light {
+            if let Some(samples) = self.samples.get_mut(light as usize) {
+                *samples += 1;
+            }
+        }
+    }
+    fn end(&self, part: &mut Part, sets: u32, lights: usize) {
+        part.variance = match lights {
+            0 => self.halves.iter().map(|b| b.variance(f64::from(self.count))).sum(),
+            _ => self.between,
+        };
+        if (1..=APART).contains(&lights) {
+            part.lights = lights;
+            part.spread = self.spread.map(|spread| spread as f32);
+            part.taken = self.samples.map(|samples| (samples / sets).checked_ilog2().unwrap_or(0) as u8);
+        }
+    }
 }
 
 /// The means of four lanes each.

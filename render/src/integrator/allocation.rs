@@ -3,7 +3,8 @@
 //! The samples of a pixel are strata of one set: a light gets a power of two of them, one after another, so that they are a good set of
 //! their own. Its share of them is known, and what it adds is divided by that: no light is sampled more or less often than
 //! it should be, which for lights of different colours is most of the noise. How many a light gets goes by what it can contribute
-//! to the pixel's corners, never by what its samples have found, so that nothing is biased.
+//! to the pixel's corners, or by what has been found at the pixel's neighbours, never by what its own samples have found: so nothing
+//! is biased.
 
 use super::{TILE, Work};
 use crate::accel::{GROUP, Hits, M8, Rays, X8};
@@ -11,14 +12,20 @@ use crate::lens::Eye;
 use crate::lights::{FEW, Technique};
 use etendue::{Mask, Real, u32x8};
 
+/// Up to so many lights, the adaptive sampler tells which of them vary.
+pub(super) const APART: usize = 8;
+/// Least share of a light in what all are worth: a pixel may be unlike its corners and neighbours.
+const LEAST: f32 = 0.02;
 /// Squared error of a light's part c falls about as c² n^−1.5: at a given sum of the n it is least with n in proportion to c^0.8.
 const POWER: f32 = 0.8;
 
-/// What the lights can contribute to the pixels of a tile: of each, row by row, a number for each light.
+/// What samples of the lights are worth in the pixels of an area: of each, row by row, a number for each light.
 pub(super) struct Weights {
-    lights: usize,
-    of: Vec<f32>,
-    area: [u32; 4],
+    pub(super) lights: usize,
+    pub(super) of: Vec<f32>,
+    pub(super) area: [u32; 4],
+    /// Logarithms to base 2 of the samples in a set that each light has had in the first block of each pixel, if that is done.
+    pub(super) begun: Vec<[u8; APART]>,
 }
 
 /// How the samples of a block of a power of two are allocated to the lights, most to the first.
@@ -43,10 +50,12 @@ pub(super) struct Allocated {
 }
 
 impl Weights {
-    /// Of a block of a pixel, where each light has had `before` samples of it, to which this adds.
-    fn allocate(&self, [x, y]: [u32; 2], size: u32, before: &mut [u32; FEW]) -> Allocation {
+    fn index(&self, [x, y]: [u32; 2]) -> usize {
         let [x0, y0, x1, _] = self.area;
-        let pixel = ((y - y0) * (x1 - x0) + (x - x0)) as usize;
+        ((y - y0) * (x1 - x0) + (x - x0)) as usize
+    }
+    /// Of a block of a pixel, where each light has had `before` samples of it, to which this adds.
+    fn allocate(&self, pixel: usize, size: u32, before: &mut [u32; FEW]) -> Allocation {
         Allocation::new(&self.of[pixel * self.lights..][..self.lights], size, before)
     }
 }
@@ -57,7 +66,10 @@ impl Allocation {
         let mut left = size - lights as u32;
         let mut each = [1; FEW];
         let mut worth = [0.0; FEW];
-        worth[..lights].copy_from_slice(weights);
+        let least = LEAST * weights.iter().sum::<f32>().max(f32::MIN_POSITIVE);
+        for (worth, weight) in worth.iter_mut().zip(weights) {
+            *worth = weight + least;
+        }
         // while there are samples left, twice as many for the light for which they are worth most: the least count divides what
         // is left, so that it comes out even
         while left > 0 {
@@ -75,8 +87,8 @@ impl Allocation {
         light[..lights].sort_by_key(|&k| std::cmp::Reverse(each[k as usize]));
         let mut allocation = Self { lights, light, end: [0; FEW], before: [0; FEW], reciprocal: 1.0 / size as f32 };
         let mut sum = 0;
-        for k in 0..lights {
-            let one = light[k] as usize;
+        for (k, one) in light.iter().enumerate().take(lights) {
+            let one = *one as usize;
             sum += each[one];
             (allocation.end[k], allocation.before[k]) = (sum, before[one]);
             before[one] += each[one];
@@ -119,8 +131,15 @@ impl Blocks {
             return allocation.packet(sample - start);
         }
         let (mut from, mut before) = (0, [0; FEW]);
+        let index = weights.index(pixel);
+        if let Some(begun) = weights.begun.get(index) {
+            from = self.first;
+            for (before, begun) in before.iter_mut().zip(&begun[..weights.lights]) {
+                *before = 1 << begun;
+            }
+        }
         loop {
-            let allocation = weights.allocate(pixel, from.max(self.first), &mut before);
+            let allocation = weights.allocate(index, from.max(self.first), &mut before);
             if from == start {
                 self.known = Some((pixel, start, allocation));
                 return allocation.packet(sample - start);
@@ -179,6 +198,6 @@ impl Work<'_> {
             let four = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
             of.extend((0..lights).map(|k| four.iter().map(|c| corners[c + k]).sum::<f32>().powf(POWER)));
         }
-        Some(Weights { lights, of, area })
+        Some(Weights { lights, of, area, begun: Vec::new() })
     }
 }
