@@ -24,6 +24,7 @@ macro_rules! by_octant {
 
 mod build;
 mod packets;
+mod parts;
 mod shaft;
 mod shape;
 mod single;
@@ -232,9 +233,19 @@ impl Accel {
     /// # Errors
     /// More than 2³¹ − 1 triangles.
     pub fn new(triangles: &[[[f32; 3]; 3]], shapes: ShapeSet) -> Result<Self, BuildError> {
-        let mesh = triangles.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
-        let reach = mesh.max(shapes.reach());
-        Ok(Self { triangles: triangle::Soup::tree(triangles)?, way: Way::default(), shapes, reach })
+        // with room for what loads from the last leaf
+        let mut own = Vec::with_capacity(triangles.len() + 1);
+        own.extend_from_slice(triangles);
+        Self::taking(own, shapes)
+    }
+    /// The same, in the memory of the triangles: it needs that of a few thousand of them besides what it holds in the end.
+    ///
+    /// # Errors
+    /// More than 2³¹ − 1 triangles.
+    pub fn taking(triangles: Vec<[[f32; 3]; 3]>, shapes: ShapeSet) -> Result<Self, BuildError> {
+        let triangles = triangle::Soup::tree(triangles)?;
+        let reach = triangles.reach().max(shapes.reach());
+        Ok(Self { triangles, way: Way::default(), shapes, reach })
     }
     /// The same, but rays go through it in another way: to compare them.
     #[must_use]

@@ -100,6 +100,22 @@ impl World {
     /// More primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
         let accel = Accel::new(&scene.triangles, ShapeSet::new(&scene.shapes)?)?;
+        Ok(Self::with(scene, accel))
+    }
+
+    /// The same, in the memory of the scene's triangles, of which it leaves none there.
+    ///
+    /// # Errors
+    /// More primitives than a tree can index.
+    pub fn taking(scene: &mut Scene) -> Result<Self, BuildError> {
+        let shapes = ShapeSet::new(&scene.shapes)?;
+        let accel = Accel::taking(std::mem::take(&mut scene.triangles), shapes)?;
+        let world = Self::with(scene, accel);
+        scene.triangle_materials = Vec::new();
+        Ok(world)
+    }
+
+    fn with(scene: &Scene, accel: Accel) -> Self {
         let one = scene.triangle_materials.windows(2).all(|w| w[0] == w[1]);
         let place_materials = if one {
             Vec::new()
@@ -112,7 +128,7 @@ impl World {
             Material::Mirror(_) | Material::Conductor { .. } => [1.0; 3],
         };
         let sky = scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)));
-        Ok(Self {
+        Self {
             lights: Lights::new(scene, sky.clone()),
             deltas: Lights::deltas(scene),
             sky,
@@ -127,7 +143,7 @@ impl World {
             finishes: scene.materials.iter().map(bsdf::finish).collect(),
             place_materials,
             one_material: scene.triangle_materials.first().copied().unwrap_or(0),
-        })
+        }
     }
 
     /// Bytes held by the tree and its triangles.
