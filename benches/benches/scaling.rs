@@ -64,9 +64,10 @@ fn peak() -> f64 {
     line.and_then(|l| l.trim().trim_end_matches(" kB").parse::<f64>().ok()).map_or(f64::NAN, |kb| kb / 1024.0)
 }
 
-fn row(scene: &Scene) {
+fn row(mut scene: Scene) {
+    let (triangles, lights) = (scene.triangles.len(), scene.shapes.len());
     let start = Instant::now();
-    let world = World::new(scene).expect("few enough primitives");
+    let world = World::taking(&mut scene).expect("few enough primitives");
     let build = start.elapsed().as_secs_f64();
     let settings = Settings {
         width: 256,
@@ -82,8 +83,7 @@ fn row(scene: &Scene) {
     let start = Instant::now();
     let _ = one.install(|| world.render(&settings, |_| ()));
     let speed = 256.0 * 256.0 * 16.0 / start.elapsed().as_secs_f64() / 1e6;
-    let bytes = world.bytes() as f64 / scene.triangles.len() as f64;
-    let (triangles, lights, peak) = (scene.triangles.len(), scene.shapes.len(), peak());
+    let (bytes, peak) = (world.bytes() as f64 / triangles as f64, peak());
     println!("{triangles:10} {lights:8} {build:10.3} {bytes:12.1} {peak:10.0} {speed:12.2}");
 }
 
@@ -97,12 +97,12 @@ fn main() {
         let mut scene = empty();
         hills(&mut scene, 20_000);
         panels(&mut scene, lights);
-        row(&scene);
+        row(scene);
     }
     let sizes = (2..8).map(|k| 10_usize.pow(k)).filter(|&n| n <= most);
     for triangles in sizes {
         let mut scene = empty();
         hills(&mut scene, triangles);
-        row(&scene);
+        row(scene);
     }
 }

@@ -173,6 +173,9 @@ impl<'a> Collapse<'a> {
         while let Some((index, place)) = pending.pop() {
             let (mut children, mut count) = ([0; WIDTH], 0);
             self.deal(index, WIDTH, &mut children, &mut count);
+            // what is soon done with goes to the top of the stack, which is last: a shadow ray that is hidden there is spared the rest
+            let cost = |child: usize| self.least(&bvh.nodes[child])[0] / bvh.nodes[child].aabb().half_area();
+            children[..count].sort_unstable_by(|&a, &b| cost(b).total_cmp(&cost(a)).then(a.cmp(&b)));
             let mut inner = [(0, 0); WIDTH];
             let mut inners = 0;
             for &child in &children[..count] {

@@ -155,6 +155,10 @@ impl<P> Tree<P> {
             (0..WIDTH).filter(|&slot| node.count[slot] != 0).for_each(|slot| f(node.leaf(slot), node, slot));
         }
     }
+    /// How many primitives there are.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
     pub(super) fn primitives(&self) -> &P {
         &self.primitives
     }
