@@ -1,7 +1,7 @@
 //! Trees of many primitives: parts that are built each for itself, on all threads, and a tree over their roots.
 //!
 //! How the primitives are parted depends on them alone, so that the tree does not depend on the number of threads; and what a build
-//! needs besides the tree is that of a few parts.
+//! needs besides the tree is the memory of a few parts, and of the nodes once more.
 
 use super::WIDTH;
 use super::build::{Costs, build};
