@@ -1,20 +1,33 @@
 //! What a scene costs as it grows: hills of 10² … 10⁷ triangles under one light, and hills of 20,000 under 1 … 10⁵ lights.
 //!
 //! `cargo bench -p etendue-benches --bench scaling -- [MOST]` with MOST triangles at the most. "build" is all of preparing to render,
-//! on as many threads as there are; rendering is 256 × 256 pixels of 16 samples on one thread.
+//! on as many threads as there are; "peak" is all memory of the process from making the scene to its image; rendering is 256 × 256 pixels of
+//! 16 samples on one thread, by solid angle.
 
 use etendue_render::integrator::{Settings, World};
 use etendue_render::lights::Technique;
 use etendue_render::sampler::Sampler;
 use etendue_render::scene::{self, Emission, Geometry, Scene, Shape};
+use std::path::Path;
 use std::time::Instant;
 
-/// The camera and materials of `terrain`, without what is in it.
+/// A camera above the ground and a light of 2 × 2; the material of the ground is the first.
+const EMPTY: &str = r#"
+Scale -1 1 1
+LookAt 0 6 7.5   0 0 -0.2   0 1 0
+Camera "perspective" "float fov" 40
+WorldBegin
+Material "diffuse" "rgb reflectance" [ 0.5 0.5 0.5 ]
+Shape "sphere" "float radius" 0.01
+Material "diffuse" "rgb reflectance" [ 0 0 0 ]
+AreaLightSource "diffuse" "rgb L" [ 12 12 12 ]
+Shape "bilinearmesh" "point3 P" [ 1 5 -2   3 5 -2   1 5 0   3 5 0 ]
+"#;
+
 fn empty() -> Scene {
-    let mut scene = scene::load("terrain").expect("a built-in scene");
-    scene.triangles.clear();
-    scene.triangle_materials.clear();
-    scene.shapes.truncate(1);
+    let mut scene = scene::parse(EMPTY, "empty.pbrt", Path::new(".")).expect("a scene");
+    // the sphere is there for its material
+    scene.shapes.remove(0);
     scene
 }
 
@@ -26,13 +39,11 @@ fn hills(scene: &mut Scene, count: usize) {
         let y = 0.25 * (1.7 * x).sin() * (1.3 * z).cos() + 0.1 * (5.3 * x + 1.1).sin() * (4.7 * z + 0.3).sin();
         [x as f32, y as f32, z as f32]
     };
-    scene.triangles = (0..n * n)
-        .flat_map(|k| {
-            let (i, j) = (k / n, k % n);
-            let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)];
-            [[a, b, c], [d, c, b]]
-        })
-        .collect();
+    scene.triangles = Vec::with_capacity(2 * n * n + 1);
+    for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+        let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)];
+        scene.triangles.extend([[a, b, c], [d, c, b]]);
+    }
     scene.triangle_materials = vec![0; scene.triangles.len()];
 }
 
@@ -57,16 +68,22 @@ fn panels(scene: &mut Scene, count: usize) {
         .collect();
 }
 
-/// Peak memory of this process so far in MB, where the system tells.
+/// Forgets the peak so far, where the system can.
+fn start_peak() {
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+}
+
+/// Peak memory of this process in MB since [`start_peak`], where the system tells.
 fn peak() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
     line.and_then(|l| l.trim().trim_end_matches(" kB").parse::<f64>().ok()).map_or(f64::NAN, |kb| kb / 1024.0)
 }
 
-fn row(scene: &Scene) {
+fn row(mut scene: Scene) {
+    let (triangles, lights) = (scene.triangles.len(), scene.shapes.len());
     let start = Instant::now();
-    let world = World::new(scene).expect("few enough primitives");
+    let world = World::taking(&mut scene).expect("few enough primitives");
     let build = start.elapsed().as_secs_f64();
     let settings = Settings {
         width: 256,
@@ -82,27 +99,26 @@ fn row(scene: &Scene) {
     let start = Instant::now();
     let _ = one.install(|| world.render(&settings, |_| ()));
     let speed = 256.0 * 256.0 * 16.0 / start.elapsed().as_secs_f64() / 1e6;
-    let bytes = world.bytes() as f64 / scene.triangles.len() as f64;
-    let (triangles, lights, peak) = (scene.triangles.len(), scene.shapes.len(), peak());
-    println!("{triangles:10} {lights:8} {build:10.3} {bytes:12.1} {peak:10.0} {speed:12.2}");
+    let (bytes, peak) = (world.bytes() as f64 / triangles as f64, peak());
+    println!("| {triangles} | {lights} | {build:.4} | {bytes:.1} | {peak:.0} | {speed:.2} |");
 }
 
 fn main() {
     let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(10_000_000);
-    println!(
-        "{:>10} {:>8} {:>10} {:>12} {:>10} {:>12}",
-        "triangles", "lights", "build, s", "bytes each", "peak, MB", "M samples/s"
-    );
+    println!("| triangles | lights | build, s | bytes of tree and triangles, each | peak, MB | M samples/s |");
+    println!("|---|---|---|---|---|---|");
     for lights in [1, 10, 100, 1_000, 10_000, 100_000] {
+        start_peak();
         let mut scene = empty();
         hills(&mut scene, 20_000);
         panels(&mut scene, lights);
-        row(&scene);
+        row(scene);
     }
     let sizes = (2..8).map(|k| 10_usize.pow(k)).filter(|&n| n <= most);
     for triangles in sizes {
+        start_peak();
         let mut scene = empty();
         hills(&mut scene, triangles);
-        row(&scene);
+        row(scene);
     }
 }

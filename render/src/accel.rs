@@ -24,6 +24,7 @@ macro_rules! by_octant {
 
 mod build;
 mod packets;
+mod parts;
 mod shaft;
 mod shape;
 mod single;
@@ -232,9 +233,19 @@ impl Accel {
     /// # Errors
     /// More than 2³¹ − 1 triangles.
     pub fn new(triangles: &[[[f32; 3]; 3]], shapes: ShapeSet) -> Result<Self, BuildError> {
-        let mesh = triangles.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
-        let reach = mesh.max(shapes.reach());
-        Ok(Self { triangles: triangle::Soup::tree(triangles)?, way: Way::default(), shapes, reach })
+        // with room for what loads from the last leaf
+        let mut own = Vec::with_capacity(triangles.len() + 1);
+        own.extend_from_slice(triangles);
+        Self::taking(own, shapes)
+    }
+    /// The same, in the memory of the triangles: it needs that of a few thousand of them besides what it holds in the end.
+    ///
+    /// # Errors
+    /// More than 2³¹ − 1 triangles.
+    pub fn taking(triangles: Vec<[[f32; 3]; 3]>, shapes: ShapeSet) -> Result<Self, BuildError> {
+        let triangles = triangle::Soup::tree(triangles)?;
+        let reach = triangles.reach().max(shapes.reach());
+        Ok(Self { triangles, way: Way::default(), shapes, reach })
     }
     /// The same, but rays go through it in another way: to compare them.
     #[must_use]
@@ -294,18 +305,18 @@ impl Accel {
     #[inline]
     pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], stack: &mut Stack) {
         let shaft = self.shaft(rays, active);
-        let shapes = self.shapes.tree();
-        if let Some(shaft) = &shaft {
-            shapes.occluded(rays, active, limit, target, Some(shaft), stack);
-        } else {
-            for p in 0..rays.len() {
-                if active[p].any() {
-                    shapes.occluded(&rays[p..=p], &mut active[p..=p], &limit[p..=p], &target[p..=p], None, stack);
-                }
+        // the only shape does not hide itself
+        let own = |(&a, &t): (&M8, &u32x8)| !(a & !equal(t, u32x8::splat(0))).any();
+        let none = match self.shapes.tree().count() {
+            0 => true,
+            1 => active.iter().zip(target).all(own),
+            _ => false,
+        };
+        if !none {
+            self.occluded_by_shapes(rays, active, limit, target, shaft.as_ref(), stack);
+            if !active.iter().any(|a| a.any()) {
+                return;
             }
-        }
-        if !active.iter().any(|a| a.any()) {
-            return;
         }
         match (&shaft, self.way) {
             (Some(shaft), _) => self.triangles.occluded(rays, active, limit, target, Some(shaft), stack),
@@ -318,6 +329,27 @@ impl Accel {
                 }
             }),
             (None, _) => self.triangles.occluded_stream(rays, active, limit, stack),
+        }
+    }
+    /// As [`Self::closest_of_shapes`].
+    #[inline]
+    fn occluded_by_shapes(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        limit: &[X8],
+        target: &[u32x8],
+        shaft: Option<&Shaft>,
+        stack: &mut Stack,
+    ) {
+        let shapes = self.shapes.tree();
+        if shaft.is_some() {
+            return shapes.occluded(rays, active, limit, target, shaft, stack);
+        }
+        for p in 0..rays.len() {
+            if active[p].any() {
+                shapes.occluded(&rays[p..=p], &mut active[p..=p], &limit[p..=p], &target[p..=p], None, stack);
+            }
         }
     }
     /// A narrow shaft that the rays have in common.

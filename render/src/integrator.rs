@@ -100,6 +100,22 @@ impl World {
     /// More primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
         let accel = Accel::new(&scene.triangles, ShapeSet::new(&scene.shapes)?)?;
+        Ok(Self::with(scene, accel))
+    }
+
+    /// The same, in the memory of the scene's triangles, of which it leaves none there.
+    ///
+    /// # Errors
+    /// More primitives than a tree can index.
+    pub fn taking(scene: &mut Scene) -> Result<Self, BuildError> {
+        let shapes = ShapeSet::new(&scene.shapes)?;
+        let accel = Accel::taking(std::mem::take(&mut scene.triangles), shapes)?;
+        let world = Self::with(scene, accel);
+        scene.triangle_materials = Vec::new();
+        Ok(world)
+    }
+
+    fn with(scene: &Scene, accel: Accel) -> Self {
         let one = scene.triangle_materials.windows(2).all(|w| w[0] == w[1]);
         let place_materials = if one {
             Vec::new()
@@ -112,7 +128,7 @@ impl World {
             Material::Mirror(_) | Material::Conductor { .. } => [1.0; 3],
         };
         let sky = scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)));
-        Ok(Self {
+        Self {
             lights: Lights::new(scene, sky.clone()),
             deltas: Lights::deltas(scene),
             sky,
@@ -127,7 +143,7 @@ impl World {
             finishes: scene.materials.iter().map(bsdf::finish).collect(),
             place_materials,
             one_material: scene.triangle_materials.first().copied().unwrap_or(0),
-        })
+        }
     }
 
     /// Bytes held by the tree and its triangles.
@@ -245,6 +261,8 @@ struct Work<'a> {
     stack: Stack,
     /// Camera rays of a group, and their shadow rays.
     rays: Box<[[Rays; GROUP]; 2]>,
+    /// What the camera rays of a group meet.
+    surfaces: Vec<Surface>,
 }
 
 /// The pixels of an area [x0, y0, x1, y1) along a Z-order curve: neighbours in the list are neighbours in the image.
@@ -267,6 +285,7 @@ impl<'a> Work<'a> {
             count: RayCount::default(),
             stack: Stack::default(),
             rays: Box::default(),
+            surfaces: Vec::with_capacity(GROUP),
         }
     }
 
@@ -379,15 +398,15 @@ impl<'a> Work<'a> {
         world.accel.closest(&rays[..count], &active[..count], &mut hits[..count], &mut self.stack);
 
         let mut radiance = [V8::default(); GROUP];
-        let mut surfaces = [Surface::default(); GROUP];
-        for p in 0..count {
-            surfaces[p] = world.surface(&hits[p], &rays[p]);
-            radiance[p] = surfaces[p].emission;
+        let mut surfaces = std::mem::take(&mut self.surfaces);
+        surfaces.clear();
+        surfaces.extend(hits[..count].iter().zip(&*rays).map(|(hits, rays)| world.surface(hits, rays)));
+        for (radiance, surface) in radiance.iter_mut().zip(&surfaces) {
+            *radiance = surface.emission;
         }
         if world.lights.is_empty() {
             return radiance;
         }
-        let surfaces = &surfaces[..count];
         let reflected = match self.settings.technique {
             Technique::Area | Technique::SolidAngle | Technique::ProjectedSolidAngle => {
                 let choice = world.lights.many().then(|| {
@@ -397,15 +416,16 @@ impl<'a> Work<'a> {
                     }
                     choice
                 });
-                self.light(surfaces, light, allocated, choice)
+                self.light(&surfaces, light, allocated, choice)
             }
-            Technique::UniformHemisphere => self.hemisphere(surfaces, light, false),
-            Technique::CosineHemisphere | Technique::Brdf => self.hemisphere(surfaces, light, true),
+            Technique::UniformHemisphere => self.hemisphere(&surfaces, light, false),
+            Technique::CosineHemisphere | Technique::Brdf => self.hemisphere(&surfaces, light, true),
             Technique::MisBalance | Technique::MisPower => unreachable!("these are not for the plain path"),
         };
         for p in 0..count {
             radiance[p] += reflected[p];
         }
+        self.surfaces = surfaces;
         radiance
     }
 }

@@ -201,7 +201,7 @@ fn list() -> io::Result<()> {
 
 fn render(options: &Render) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
-    let scene = scene::load(&options.scene)?;
+    let mut scene = scene::load(&options.scene)?;
     let load = start.elapsed().as_secs_f64();
     for warning in &scene.warnings {
         eprintln!("warning: {warning}");
@@ -234,7 +234,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let start = Instant::now();
-    let world = pool.install(|| World::new(&scene))?.with_sensor(options.sensor);
+    let world = pool.install(|| World::taking(&mut scene))?.with_sensor(options.sensor);
     let build = start.elapsed().as_secs_f64();
 
     let pixels = u64::from(width) * u64::from(height);

@@ -2,7 +2,7 @@
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
-use etendue_render::accel::{Accel, Hits, NOTHING, ShapeSet, Stack};
+use etendue_render::accel::{Accel, Hits, NOTHING, ShapeSet, Stack, Way};
 
 type V = [f64; 3];
 
@@ -120,4 +120,71 @@ fn identical_triangles_build() {
     let ray = accel.rays([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into());
     accel.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Stack::default());
     assert_eq!(accel.order()[hits[0].place.to_array()[0] as usize], 0);
+}
+
+/// 60,000 triangles: a sheet, 20,000 of one place, and some far away and large.
+fn many() -> Vec<[[f32; 3]; 3]> {
+    let point = |i: u32, k: u32| {
+        let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
+        [x, y, z]
+    };
+    let near = |i: u32, center: [f32; 3], size: f32| {
+        [1, 2, 3].map(|k| std::array::from_fn(|a| center[a] + size * point(i, k)[a]))
+    };
+    (0..60_000)
+        .map(|i| match i % 600 {
+            0 => near(i, point(i, 0).map(|x| 1e4 * x), 1e3),
+            1..200 => near(0, [0.1, 0.2, 0.3], 0.2),
+            _ => near(i, [point(i, 0)[0], 0.1 * point(i, 0)[1], point(i, 0)[2]], 0.03),
+        })
+        .collect()
+}
+
+#[test]
+fn trees_of_many_parts_are_whole() {
+    let triangles = many();
+    let accel = accel(&triangles);
+    let mut order = accel.order().to_vec();
+    for (place, &id) in (0..).zip(&order) {
+        assert_eq!(&accel.corners(place), triangles[id as usize].as_flattened(), "place {place}");
+    }
+    order.sort_unstable();
+    assert!(order.into_iter().eq(0..triangles.len() as u32), "not each triangle once");
+    // as many hits as there are by looking at every leaf
+    let rays: Vec<_> = (0..64_u32)
+        .map(|i| {
+            let ([x, z], [u, v]) = (random(i, 20), random(i, 21));
+            let d = [0.3 * u, -1.0, 0.3 * v];
+            let length = d.iter().map(|x| x * x).sum::<f32>().sqrt();
+            ([x, 2.0, z], d.map(|x| x / length))
+        })
+        .collect();
+    let lanes = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
+        let axis = |k: usize| f32x8::from_fn(|i| f(8 * p + i)[k]);
+        Vec3::new(axis(0), axis(1), axis(2))
+    };
+    let all = [<f32x8 as Real>::Mask::splat(true); 8];
+    let found = [Way::Choose, Way::Stream, Way::Single, Way::Exhaustive].map(|way| {
+        let accel = self::accel(&triangles).with_way(way);
+        let packets: Vec<_> = (0..8).map(|p| accel.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
+        let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
+        accel.closest(&packets, &all, &mut hits, &mut Stack::default());
+        hits.map(|h| (h.distance.to_array().map(f32::to_bits), h.place.to_array()))
+    });
+    let met = found[3].iter().flat_map(|(_, places)| places).filter(|&&place| place != NOTHING).count();
+    assert!(met > 32, "{met} of 64 rays hit");
+    assert!(found.iter().all(|f| *f == found[3]), "ways differ");
+}
+
+#[test]
+fn trees_do_not_depend_on_threads() {
+    let triangles = many();
+    let built = [1, 2, 5].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| format!("{:?}", accel(&triangles)))
+    });
+    assert!(built[1] == built[0] && built[2] == built[0], "the number of threads makes a difference");
+    // nor on who owns the triangles
+    let own = Accel::taking(triangles, ShapeSet::new(&[]).unwrap()).unwrap();
+    assert!(format!("{own:?}") == built[0], "triangles that are given away make a difference");
 }

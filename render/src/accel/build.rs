@@ -1,7 +1,8 @@
 //! Building of trees: obvhs's binary tree, of which nodes of eight children are made here. The one file that names obvhs.
 
-use super::WIDTH;
-use super::tree::{Bounds, DEPTH, Node};
+use super::tree::{Bounded, Node};
+use super::{WIDTH, X8, min};
+use etendue::Real;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::{Boundable, aabb::Aabb, bvh2::Bvh2, bvh2::node::Bvh2Node, bvh2::reinsertion::ReinsertionOptimizer};
 
@@ -19,50 +20,48 @@ pub(super) struct Costs {
 /// A tree of nodes, the root first, and the primitives in the order of its leaves.
 pub(super) type Built = (Vec<Node>, Vec<u32>);
 
-/// Levels from the leaves up at which obvhs looks for partners among next neighbours alone.
-const NARROW_SEARCH: usize = 3;
 /// Part of the nodes for which obvhs seeks a better place.
-const REINSERTED: f32 = 0.05;
+const REINSERTED: f32 = 0.1;
 
-struct Boxed<'a>(&'a Bounds);
+struct Boxed<'a, T>(&'a T);
 
-impl Boundable for Boxed<'_> {
+impl<T: Bounded> Boundable for Boxed<'_, T> {
     fn aabb(&self) -> Aabb {
-        let [low, high] = *self.0;
+        let [low, high] = self.0.bounds();
         Aabb::new(low.into(), high.into())
     }
 }
 
-/// Nothing if the tree would be too deep (many primitives in one place).
-pub(super) fn build(all: &[Bounds], costs: Costs) -> Option<Built> {
+/// Nothing if the tree would be deeper than `depth` (many primitives in one place).
+pub(super) fn build<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Option<Built> {
     if all.len() <= costs.most || crowded(all) {
         return None;
     }
     let boxes: Vec<_> = all.iter().map(Boxed).collect();
     let indices = (0..all.len() as u32).collect();
-    let mut bvh = PlocBuilder::with_capacity(all.len()).build(
-        PlocSearchDistance::Medium,
-        &boxes,
-        indices,
-        SortPrecision::U64,
-        NARROW_SEARCH,
-    );
+    let mut bvh =
+        PlocBuilder::with_capacity(all.len()).build(PlocSearchDistance::Low, &boxes, indices, SortPrecision::U64, 0);
     ReinsertionOptimizer::default().run(&mut bvh, REINSERTED, None);
-    Collapse::new(&bvh, costs)?.nodes()
+    Some(Collapse::new(&bvh, costs, depth)?.nodes())
 }
 
-/// Are more than 64 primitives alike? obvhs's builder recurses once for each of those.
-fn crowded(all: &[Bounds]) -> bool {
-    let mut keys: Vec<u64> = all
-        .iter()
-        .map(|b| {
-            b.as_flattened()
-                .iter()
-                .fold(0_u64, |h, x| (h ^ u64::from(x.to_bits())).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29))
-        })
-        .collect();
-    keys.sort_unstable();
-    keys.windows(64).any(|w| w[0] == w[63])
+/// Primitives that are alike, of which obvhs's builder joins one pair a round.
+const ALIKE: usize = 64;
+
+/// Are there more than that?
+fn crowded<T: Bounded>(all: &[T]) -> bool {
+    let mut keys = all.iter().map(|item| {
+        let mix = |h: u64, x: &f32| (h ^ u64::from(x.to_bits())).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+        item.bounds().as_flattened().iter().fold(0, mix)
+    });
+    // by chance no slot of as many as there are primitives comes near
+    let bits = usize::BITS - all.len().leading_zeros();
+    let mut slots = vec![0_u8; 1 << bits];
+    keys.any(|key| {
+        let slot = &mut slots[(key.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - bits)) as usize];
+        *slot += 1;
+        usize::from(*slot) == ALIKE
+    })
 }
 
 /// Least costs of replacing a subtree by 1, 2, … 7 children of one node.
@@ -85,7 +84,7 @@ fn pair(node: &Bvh2Node) -> usize {
 }
 
 impl<'a> Collapse<'a> {
-    fn new(bvh: &'a Bvh2, costs: Costs) -> Option<Self> {
+    fn new(bvh: &'a Bvh2, costs: Costs, deepest: usize) -> Option<Self> {
         let pairs = bvh.nodes.len() / 2;
         let mut this = Self { bvh, costs, least: vec![[0.0; WIDTH - 1]; pairs], sizes: vec![0; pairs] };
         // parents before their children
@@ -96,7 +95,7 @@ impl<'a> Collapse<'a> {
             if node.is_leaf() {
                 continue;
             }
-            if depth >= DEPTH {
+            if depth >= deepest {
                 return None;
             }
             order.push(index);
@@ -109,12 +108,14 @@ impl<'a> Collapse<'a> {
             let [left, right] = children.map(|c| this.least(c));
             let area = node.aabb().half_area();
             // of j children, j − 2 at the place: the best of all ways to deal them out
-            let mut dealt = [f32::INFINITY; WIDTH - 1];
-            for j in 2..=WIDTH {
-                for k in 1..j {
-                    dealt[j - 2] = dealt[j - 2].min(left[k - 1] + right[j - k - 1]);
-                }
+            let mut shifted = [f32::INFINITY; 2 * WIDTH];
+            shifted[WIDTH..2 * WIDTH - 1].copy_from_slice(&right);
+            let mut dealt = X8::lit(f64::INFINITY);
+            for k in 1..WIDTH {
+                let rest: [f32; WIDTH] = shifted[WIDTH + 1 - k..2 * WIDTH + 1 - k].try_into().expect("8 numbers");
+                dealt = min(X8::splat(left[k - 1]) + X8::from(rest), dealt);
             }
+            let dealt = dealt.to_array();
             let mut least = [0.0; WIDTH - 1];
             least[0] = (dealt[WIDTH - 2] + area).min(this.leaf_cost(area, size));
             for j in 2..WIDTH {
@@ -162,7 +163,7 @@ impl<'a> Collapse<'a> {
         self.deal(first, best, chosen, count);
         self.deal(first + 1, room - best, chosen, count);
     }
-    fn nodes(&self) -> Option<Built> {
+    fn nodes(&self) -> Built {
         let bvh = self.bvh;
         let mut nodes = vec![Node::default()];
         let mut order = Vec::with_capacity(bvh.primitive_indices.len());
@@ -172,6 +173,9 @@ impl<'a> Collapse<'a> {
         while let Some((index, place)) = pending.pop() {
             let (mut children, mut count) = ([0; WIDTH], 0);
             self.deal(index, WIDTH, &mut children, &mut count);
+            // what is soon done with goes to the top of the stack, which is last: a shadow ray that is hidden there is spared the rest
+            let cost = |child: usize| self.least(&bvh.nodes[child])[0] / bvh.nodes[child].aabb().half_area();
+            children[..count].sort_unstable_by(|&a, &b| cost(b).total_cmp(&cost(a)).then(a.cmp(&b)));
             let mut inner = [(0, 0); WIDTH];
             let mut inners = 0;
             for &child in &children[..count] {
@@ -199,6 +203,6 @@ impl<'a> Collapse<'a> {
             }
             pending.extend(inner[..inners].iter().rev());
         }
-        Some((nodes, order))
+        (nodes, order)
     }
 }

@@ -89,13 +89,10 @@ impl ShapeSet {
         let boxes: Vec<_> = shapes.iter().map(|s| bounds(&s.geometry)).collect();
         let reach = boxes.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
         let tree = Tree::build(
-            shapes.len(),
+            boxes,
             COSTS,
-            |i| boxes[i],
-            |order, _| Solids {
-                solids: order.iter().map(|&i| solid(&shapes[i as usize].geometry)).collect(),
-                ids: order.to_vec(),
-            },
+            |_| (),
+            |_, ids, _| Solids { solids: ids.iter().map(|&i| solid(&shapes[i as usize].geometry)).collect(), ids },
         )?;
         Ok(Self { tree, reach })
     }

@@ -1,6 +1,7 @@
 //! A tree of boxes with eight children a node.
 
-use super::build::{Built, Costs, build};
+use super::build::{Built, Costs};
+use super::parts::build_parts;
 use super::{Hits, M8, Rays, WIDTH, X8};
 use etendue::u32x8;
 use std::ops::Range;
@@ -88,30 +89,65 @@ pub(crate) struct Tree<P> {
 /// Least and greatest corner.
 pub(super) type Bounds = [[f32; 3]; 2];
 
-fn union(a: Bounds, b: Bounds) -> Bounds {
-    [std::array::from_fn(|k| a[0][k].min(b[0][k])), std::array::from_fn(|k| a[1][k].max(b[1][k]))]
+/// The box of nothing.
+pub(super) const EMPTY: Bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+
+/// The lesser; `b` where either is NaN. (`f32::min` takes three times as long, for a NaN that there is not.)
+#[inline(always)]
+pub(super) fn lesser(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// The greater; `b` where either is NaN.
+#[inline(always)]
+pub(super) fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
+#[inline]
+pub(super) fn union(a: Bounds, b: Bounds) -> Bounds {
+    [std::array::from_fn(|k| lesser(a[0][k], b[0][k])), std::array::from_fn(|k| greater(a[1][k], b[1][k]))]
+}
+
+/// What has a box around it.
+pub(super) trait Bounded: Copy + Send + Sync {
+    fn bounds(&self) -> Bounds;
+    /// The middle of the box along one axis.
+    #[inline]
+    fn middle(&self, axis: usize) -> f32 {
+        let [low, high] = self.bounds();
+        0.5 * low[axis] + 0.5 * high[axis]
+    }
+}
+
+impl Bounded for Bounds {
+    #[inline]
+    fn bounds(&self) -> Bounds {
+        *self
+    }
 }
 
 impl<P> Tree<P> {
-    pub(super) fn build(
-        count: usize,
+    /// A tree over `items`, which come to `primitives` in the order of its leaves, with the index that each had before, and to `leaf` those of one
+    /// leaf at a time.
+    pub(super) fn build<T: Bounded>(
+        mut items: Vec<T>,
         costs: Costs,
-        bounds: impl Fn(usize) -> Bounds,
-        arrange: impl FnOnce(&[u32], &mut dyn Iterator<Item = Range<usize>>) -> P,
+        leaf: impl Fn(&mut [T]) + Sync,
+        primitives: impl FnOnce(Vec<T>, Vec<u32>, &[Node]) -> P,
     ) -> Result<Self, BuildError> {
+        let count = items.len();
         if count >= 1 << 31 {
             return Err(BuildError { count });
         }
-        let all: Vec<Bounds> = (0..count).map(bounds).collect();
-        let (nodes, order) = build(&all, costs).unwrap_or_else(|| balanced(&all, costs.most));
-        let mut sizes = vec![0_u8; count];
-        for node in &nodes {
-            for (&first, &count) in node.first.iter().zip(&node.count).filter(|(_, count)| **count != 0) {
-                sizes[first as usize] = count;
-            }
-        }
-        let mut leaves = (0..count).filter(|&at| sizes[at] != 0).map(|at| at..at + usize::from(sizes[at]));
-        Ok(Self { primitives: arrange(&order, &mut leaves), nodes, count })
+        let mut ids: Vec<u32> = (0..count as u32).collect();
+        let nodes = build_parts(&mut items, &mut ids, costs, &leaf);
+        Ok(Self { primitives: primitives(items, ids, &nodes), nodes, count })
+    }
+    /// Greatest magnitude of a coordinate of its box.
+    pub(super) fn reach(&self) -> f32 {
+        let planes = self.nodes[0].planes.as_flattened().as_flattened();
+        planes.iter().map(|x| x.abs()).filter(|x| x.is_finite()).fold(0.0, f32::max)
     }
     /// Calls `f` with each leaf, the node that it is in, and its slot there.
     pub(super) fn each_leaf(&self, mut f: impl FnMut(Range<usize>, &Node, usize)) {
@@ -119,16 +155,20 @@ impl<P> Tree<P> {
             (0..WIDTH).filter(|&slot| node.count[slot] != 0).for_each(|slot| f(node.leaf(slot), node, slot));
         }
     }
+    /// How many primitives there are.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
     pub(super) fn primitives(&self) -> &P {
         &self.primitives
     }
 }
 
 /// A tree by halving along the longest axis of the centres: of depth log₂ n whatever the input.
-fn balanced(all: &[Bounds], most: usize) -> Built {
+pub(super) fn balanced<T: Bounded>(all: &[T], most: usize) -> Built {
+    let all: &[Bounds] = &all.iter().map(Bounded::bounds).collect::<Vec<_>>();
     let mut order: Vec<u32> = (0..all.len() as u32).collect();
     let mut nodes = vec![Node::default()];
-    let empty = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
     let mut pending = if all.is_empty() { vec![] } else { vec![(0..all.len(), 0_usize)] };
     while let Some((range, place)) = pending.pop() {
         let mut parts = vec![range];
@@ -144,7 +184,7 @@ fn balanced(all: &[Bounds], most: usize) -> Built {
             parts.push(middle..range.end);
         }
         for part in parts {
-            let bounds = order[part.clone()].iter().fold(empty, |a, &i| union(a, all[i as usize]));
+            let bounds = order[part.clone()].iter().fold(EMPTY, |a, &i| union(a, all[i as usize]));
             if part.len() <= most {
                 nodes[place].push(&bounds, part.start as u32, part.len());
             } else {
@@ -159,7 +199,7 @@ fn balanced(all: &[Bounds], most: usize) -> Built {
 }
 
 /// Puts the lesser half along the longest axis of the centres first.
-fn halve(all: &[Bounds], part: &mut [u32]) {
+pub(super) fn halve(all: &[Bounds], part: &mut [u32]) {
     let center = |i: u32, axis: usize| all[i as usize][0][axis] + all[i as usize][1][axis];
     let extent = |axis: usize| {
         let ends = part.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &i| {

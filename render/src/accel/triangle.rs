@@ -3,13 +3,30 @@
 use super::build::Costs;
 use super::packets::each_bit;
 use super::single::{Leaves, Nearest, Single};
-use super::tree::{BuildError, Primitives, Tree};
+use super::tree::{Bounded, Bounds, BuildError, Primitives, Tree, greater, lesser};
 use super::{Hits, M8, NOTHING, Rays, V8, X8, max, min, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
 
 /// A packet meets one triangle after the other, a single ray all of a leaf at once.
 const COSTS: Costs = Costs { most: 8, leaf: 0.7, primitive: 0.2 };
+
+/// A triangle.
+pub(super) type Corners = [[f32; 3]; 3];
+
+impl Bounded for Corners {
+    #[inline]
+    fn bounds(&self) -> Bounds {
+        let [a, b, c] = self;
+        let all = |pick: fn(f32, f32) -> f32| std::array::from_fn(|k| pick(pick(a[k], b[k]), c[k]));
+        [all(lesser), all(greater)]
+    }
+    #[inline]
+    fn middle(&self, axis: usize) -> f32 {
+        let [a, b, c] = self.map(|corner| corner[axis]);
+        0.5 * lesser(lesser(a, b), c) + 0.5 * greater(greater(a, b), c)
+    }
+}
 
 /// Mesh triangles in the order of the leaves. A leaf of n holds its nine coordinates one after the other, each of them n times, so that
 /// a load of eight lanes is the coordinate of all its triangles (and of what lies behind it).
@@ -23,29 +40,29 @@ pub(super) struct Soup {
 }
 
 impl Soup {
-    pub(super) fn tree(triangles: &[[[f32; 3]; 3]]) -> Result<Tree<Self>, BuildError> {
-        let bounds = |[a, b, c]: &[[f32; 3]; 3]| {
-            [std::array::from_fn(|k| a[k].min(b[k]).min(c[k])), std::array::from_fn(|k| a[k].max(b[k]).max(c[k]))]
+    pub(super) fn tree(triangles: Vec<Corners>) -> Result<Tree<Self>, BuildError> {
+        let by_coordinate = |leaf: &mut [Corners]| {
+            let mut turned = [0.0; 9 * COSTS.most];
+            let all = leaf.len();
+            let coordinates = leaf.as_flattened_mut().as_flattened_mut();
+            for (i, triangle) in coordinates.chunks_exact(9).enumerate() {
+                triangle.iter().enumerate().for_each(|(k, &x)| turned[k * all + i] = x);
+            }
+            coordinates.copy_from_slice(&turned[..9 * all]);
         };
-        Tree::build(
-            triangles.len(),
-            COSTS,
-            |i| bounds(&triangles[i]),
-            |order, leaves| {
-                let mut coordinates = Vec::with_capacity(9 * order.len() + 8);
-                let mut layout = Vec::with_capacity(order.len());
-                for leaf in leaves {
-                    let (all, leaf) = (leaf.len() as u8, &order[leaf]);
-                    for k in 0..9 {
-                        coordinates.extend(leaf.iter().map(|&id| triangles[id as usize].as_flattened()[k]));
-                    }
-                    layout.extend((0..all).map(|before| before << 4 | all));
+        Tree::build(triangles, COSTS, by_coordinate, |triangles, ids, nodes| {
+            let mut leaves = vec![0; ids.len()];
+            for node in nodes {
+                for leaf in (0..node.children as usize).map(|slot| node.leaf(slot)) {
+                    let all = leaf.len() as u8;
+                    leaves[leaf].iter_mut().zip(0..).for_each(|(l, before)| *l = before << 4 | all);
                 }
-                // for loads from the last leaf
-                coordinates.extend([0.0; 8]);
-                Self { coordinates, leaves: layout, ids: order.to_vec() }
-            },
-        )
+            }
+            let mut coordinates = triangles.into_flattened().into_flattened();
+            // for loads from the last leaf
+            coordinates.extend([0.0; 8]);
+            Self { coordinates, leaves, ids }
+        })
     }
     #[inline]
     pub(super) fn corners(&self, place: u32) -> [f32; 9] {
