@@ -83,7 +83,9 @@ pub struct Figures {
     /// Greatest relative error of a density, beyond what 2 ulp of its direction change it.
     pub pdf: f64,
     /// Greatest error of u after there and back; where 4 ulp of a direction (2 of the sample, 2 of the inverse) are worth more of u than the
-    /// limit, relative to that, times the limit. Samples where they are worth more than 0.1 are not counted: there f32 has no inverse.
+    /// limit, relative to that, times the limit. Samples where they are worth more than 0.1 are not counted: there f32 has no inverse. At a
+    /// tear of the map (about the zenith, or from one part to the next) two u are as good: there it is how far the direction of the inverse
+    /// is from the sample, relative to 4 ulp, times the limit.
     pub round_trip: f64,
     /// Part of the samples that had an inverse in f32.
     pub invertible: f64,
@@ -422,13 +424,20 @@ impl Tally {
             return;
         }
         self.inverted += 1.0;
-        for axis in 0..2 {
+        let off = |axis: usize| {
             let mut error = f64::from((inverse[axis] - u[axis]).abs());
             if truth.periodic(axis) {
                 error = error.min((1.0 - error).abs());
             }
-            self.round_trip = self.round_trip.max(error * (LIMIT / worth[axis]).min(1.0));
+            error * (LIMIT / worth[axis]).min(1.0)
+        };
+        let mut error = off(0).max(off(1));
+        if error > LIMIT {
+            let there = truth.direction(inverse.map(f64::from));
+            let apart = (0..3).map(|i| (w[i] - there[i]).abs()).fold(0.0, f64::max);
+            error = error.min(apart / (2.0 * DIRECTION_ULP) * LIMIT);
         }
+        self.round_trip = self.round_trip.max(error);
     }
     fn figures(&self, variance_ratio: f64) -> Figures {
         if self.all == 0.0 {
