@@ -71,6 +71,8 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 pub const LIMIT: f64 = 1e-5;
 /// Or, of a direction, so much in each component: 2 ulp.
 const DIRECTION_ULP: f64 = 2.0 * f32::EPSILON as f64;
+/// Between two u.
+const STEP: f64 = 1.0 / 16_777_216.0;
 /// Solid angles below have no finite reciprocal, or nearly so.
 const NOTHING: f64 = 1e-36;
 
@@ -84,8 +86,8 @@ pub struct Figures {
     pub pdf: f64,
     /// Greatest error of u after there and back; where 4 ulp of a direction (2 of the sample, 2 of the inverse) are worth more of u than the
     /// limit, relative to that, times the limit. Samples where they are worth more than 0.1 are not counted: there f32 has no inverse. At a
-    /// tear of the map (about the zenith, or from one part to the next) two u are as good: there it is how far the direction of the inverse
-    /// is from the sample, relative to 4 ulp, times the limit.
+    /// tear of the map (about the zenith, or from one part to the next) two u are as good: there it is how far the direction that the technique
+    /// has for the inverse is from the sample, relative to 6 ulp (2 of either, 2 of the inverse), times the limit.
     pub round_trip: f64,
     /// Part of the samples that had an inverse in f32.
     pub invertible: f64,
@@ -229,7 +231,8 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
     let u = u.map(f64::from);
     let direction = truth.direction(u);
     let slope = |axis: usize| -> V3 {
-        let h = if u[axis] < 0.5 { 1.0 / 4096.0 } else { -1.0 / 4096.0 };
+        // a step of u: at the ends of a sweep the slope is another after a few
+        let h = if u[axis] < 0.5 { STEP } else { -STEP };
         let mut moved = u;
         moved[axis] += h;
         let w = truth.direction(moved);
@@ -264,7 +267,11 @@ pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], det
             (method.run)(&pose, &mut Draw { us: &us, invert: true, out: &mut samples });
             for (i, sample) in samples.iter().enumerate() {
                 match references.get(i) {
-                    Some(reference) => tally.add(&truth, reference, us[i], sample),
+                    Some(reference) => tally.add(&truth, reference, us[i], sample, |u| {
+                        let mut again = Vec::with_capacity(1);
+                        (method.run)(&pose, &mut Draw { us: &[u], invert: false, out: &mut again });
+                        pose::wide(again[0].direction)
+                    }),
                     None => tally.add_unseen(truth.measure, sample),
                 }
             }
@@ -390,7 +397,15 @@ impl Tally {
         let right = sample.finite() && (sample.pdf == 0.0 || measure > 0.0 || sample.by_area);
         self.invalid += f64::from(u8::from(!right));
     }
-    fn add(&mut self, truth: &Truth, reference: &Reference, u: [f32; 2], sample: &Sample) {
+    /// `again`: the direction of the technique for another u.
+    fn add(
+        &mut self,
+        truth: &Truth,
+        reference: &Reference,
+        u: [f32; 2],
+        sample: &Sample,
+        again: impl Fn([f32; 2]) -> V3,
+    ) {
         self.all += 1.0;
         let w = pose::wide(sample.direction);
         let (expected, density) = if sample.by_area {
@@ -433,9 +448,9 @@ impl Tally {
         };
         let mut error = off(0).max(off(1));
         if error > LIMIT {
-            let there = truth.direction(inverse.map(f64::from));
+            let there = again(inverse);
             let apart = (0..3).map(|i| (w[i] - there[i]).abs()).fold(0.0, f64::max);
-            error = error.min(apart / (2.0 * DIRECTION_ULP) * LIMIT);
+            error = error.min(apart / (3.0 * DIRECTION_ULP) * LIMIT);
         }
         self.round_trip = self.round_trip.max(error);
     }
