@@ -76,7 +76,7 @@ pub(super) fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
 
 /// The same as an unevaluated sum of two.
 #[inline(always)]
-fn exact_dot_pair<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
+pub(super) fn exact_dot_pair<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
     let product = |a: R, b: R| {
         let p = a * b;
         (p, R::product_error(a, b, p))
