@@ -71,8 +71,8 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 pub const LIMIT: f64 = 1e-5;
 /// Or, of a direction, so much in each component: 2 ulp.
 const DIRECTION_ULP: f64 = 2.0 * f32::EPSILON as f64;
-/// Between two u.
-const STEP: f64 = 1.0 / 16_777_216.0;
+/// Between u whose directions give a slope.
+const STEP: f64 = 1.0 / 4_294_967_296.0;
 /// Solid angles below have no finite reciprocal, or nearly so.
 const NOTHING: f64 = 1e-36;
 
@@ -231,7 +231,7 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
     let u = u.map(f64::from);
     let direction = truth.direction(u);
     let slope = |axis: usize| -> V3 {
-        // a step of u: at the ends of a sweep the slope is another after a few
+        // far less than a step of u: at the ends of a sweep the slope is another after one
         let h = if u[axis] < 0.5 { STEP } else { -STEP };
         let mut moved = u;
         moved[axis] += h;

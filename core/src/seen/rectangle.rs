@@ -1,5 +1,6 @@
+use super::projected_cap::exact_dot_pair;
 use super::{Sighting, exact_cross, exact_height, lanewise};
-use crate::math::rsqrt;
+use crate::math::{rsqrt, two_sum};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
@@ -172,16 +173,21 @@ impl<R: Real> SphericalRectangle<R> {
 
         let (z, side) = (signed.abs(), one.copysign(signed));
 
-        // both axes point to the far end
-        let ends = |axis: Vec3<R>, size: R, edge: Vec3<R>| {
-            let (low, high) = (p.dot(axis), (p + edge).dot(axis));
+        // both axes point to the far end; of far corners the coordinates are small differences
+        let ends = |size: R, edge: Vec3<R>| {
+            let unit = edge * edge.max_abs().exponent_reciprocal();
+            let squared = unit.length_squared();
+            let inverse = rsqrt(squared).keep(squared.gt(zero));
+            let ([low, low_rest], [reach, reach_rest]) = (exact_dot_pair(p, unit), exact_dot_pair(edge, unit));
+            let (high, high_rest) = two_sum(low, reach);
+            let (low, high) = ((low + low_rest) * inverse, (high + (high_rest + (low_rest + reach_rest))) * inverse);
             // a tiny size may be lost in both; the near end is the smaller number
             let flip = (low + high).lt(zero);
             let near = R::select(flip, -high, low).max(R::lit(-0.5) * size);
             (flip, near, near + size)
         };
-        let (flip_x, x0, x1) = ends(x_axis, dx, u);
-        let (flip_y, y0, y1) = ends(y_axis, dy, v);
+        let (flip_x, x0, x1) = ends(dx, u);
+        let (flip_y, y0, y1) = ends(dy, v);
         let turn = |v: Vec3<R>, m: R::Mask| Vec3::new(v.x.negate_where(m), v.y.negate_where(m), v.z.negate_where(m));
         let (side_x, side_y) = (turn(x_axis, flip_x), turn(y_axis, flip_y));
         let (anchored_x, anchored_y) = ((x0 + x0).ge(x1), (y0 + y0).ge(y1));
