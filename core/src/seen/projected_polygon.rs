@@ -1,10 +1,10 @@
 mod piece;
 mod sector;
 
-use super::projected_cap::{exact_dot, exact_dot_pair, ratio};
+use super::projected_cap::{exact_dot_pair, ratio};
 use super::triangle::{SLACK, to_unit};
-use super::{Sighting, exact_cross, exact_height, exact_sum, lanewise};
-use crate::math::{rsqrt, two_sum};
+use super::{Sighting, exact_cross, exact_height, exact_height_pair, exact_sum, lanewise};
+use crate::math::{difference_of_products, rsqrt, two_sum};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
@@ -31,11 +31,16 @@ lanewise! {
     /// - Density: cosθ/Ω⊥ per steradian inside (and within 8 ulp of the direction beyond) and above the horizon, 0 elsewhere.
     /// - Degenerate: the point in the plane (also inside the triangle), zero area, lengths whose sums overflow, or nothing above the
     ///   horizon: Ω⊥ = 0 and pdf 0; `sample` gives some vector, of unit length or 0.
-    /// - Greatest error: Ω⊥ 4e−7 relative, times 1/sin of the elevation of the nearest vertex over the triangle's plane and 1/cos of the
-    ///   triangle to the normal. Direction 6e−7, besides 8 steps of 2⁻²⁴ in u. Distance as `SphericalTriangle`. The inverse is that of a
+    /// - Greatest error: Ω⊥ 4e−7 relative, and over the atlas at most 1e−5, also of slivers and from next to the triangle's plane, since products and heights that
+    ///   are small differences are formed in twice the working precision. Beyond: overhead 1e−15 over its size and over the sine of the
+    ///   elevation over its plane (that is, below sizes of 1e−6), from less than 1e−3 of its length beside slivers of over 1e3 (1e−9 times the
+    ///   aspect ratio), and in its plane's normal where it covers all but 1e−4 of a hemisphere.
+    ///   Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; from next to the plane of a triangle that surrounds the point a step is worth 1/sin of the
+    ///   elevation, since so much do the areas of the sectors differ. Distance as `SphericalTriangle`. The inverse is that of a
     ///   direction 1.4e−6 away, times how much longer than wide the triangle is seen. In a corner a sweep begins like √u₀ (on the
-    ///   horizon ∛u₀): within 2⁻²⁴ of the whole its inverse is the nearest `u` below 1, and if the horizon has cut the triangle in
-    ///   two, u₀ near the join belongs to one or the other.
+    ///   horizon ∛u₀): the share counts from the nearer end; within 2⁻²⁴ of the whole its inverse is the nearest `u` below 1, and if the
+    ///   horizon has cut the triangle in two, u₀ near the join belongs to one or the other. About the zenith the inverse of the azimuth at
+    ///   which the sweep begins may be 0 or 1.
     /// - Source: Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 4, for the sectors of the disk; Lambert for the
     ///   areas. Sectors from vertices, not between sorted azimuths: where both edges meet every quantity is a length or a volume of the
     ///   triangle and is small as the triangle is, and the zenith may lie on an edge. The forms without cancellation are derived here.
@@ -170,13 +175,16 @@ impl<R: Real> ProjectedTriangle<R> {
         let (normal, long, shrink) = unit_normal(normal);
         let over = |v: Vec3<R>, rest: Vec3<R>| {
             let [z, more] = exact_dot_pair(v, long);
-            (z + (more + rest.dot(long))) * shrink
+            [z, more + rest.dot(long)]
         };
-        let z = match rests {
-            Some([r1, r2]) => [exact_dot(v[0], long) * shrink, over(v[1], r1), over(v[2], r2)],
-            None => v.map(|v| exact_dot(v, long) * shrink),
+        let heights = match rests {
+            Some([r1, r2]) => [exact_dot_pair(v[0], long), over(v[1], r1), over(v[2], r2)],
+            None => v.map(|v| exact_dot_pair(v, long)),
         };
-        let areas = products.map(|n| exact_height(long, n) * shrink);
+        let volumes = products.map(|n| exact_height_pair(long, n));
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let (z, areas) = (heights.map(rounded), volumes.map(rounded));
+        let exact = Exact { edges: e, products, heights, volumes, shrink };
         let products = products.map(|[n, rest]| n + rest);
         let m_squared = products.map(Vec3::length_squared);
         let inverses = m_squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
@@ -188,7 +196,7 @@ impl<R: Real> ProjectedTriangle<R> {
         let (mut second, mut diagonal) = (Piece::default(), Vec3::default());
         if cut.any() {
             let rest;
-            (corners, rest, diagonal) = clip(&corners, e, products, normal);
+            (corners, rest, diagonal) = clip(&corners, &exact, normal);
             if rest.volume.abs().gt(zero).any() {
                 second = Piece::new(&rest, normal);
             }
@@ -267,30 +275,42 @@ impl<R: Real> ProjectedTriangle<R> {
         let ahead = w.dot(self.plane).negate_where(self.in_front());
         least.ge(R::lit(-SLACK)) & ahead.ge(-(self.plane.length() * R::lit(SLACK)))
     }
-    /// The area before a direction of the triangle, and `u` across.
+    /// The area before a direction of the triangle, and `u` across; `edge`: what a jump of the map is kept away from.
     #[inline(always)]
-    fn locate(&self, w: Vec3<R>) -> Vec2<R> {
+    fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
         let zero = R::lit(0.0);
         let mut found = self.first.locate(self.normal, w);
         let some = self.second.area.gt(zero);
         if some.any() {
             let later = some & (w.dot(self.diagonal).gt(zero) | self.first.area.le(zero));
             let other = self.second.locate(self.normal, w);
-            found.x = R::select(later, self.first.area + other.x, found.x);
+            let before = found.x.min(R::select(some, self.first.area - edge, self.first.area)).max(zero);
+            found.x = R::select(later, self.first.area + other.x.max(edge), before);
             found.y = R::select(later, other.y, found.y);
         }
         found
     }
 }
 
-/// What the horizon leaves of a triangle with these edges and products of vertices: one or two, and the plane between them, towards the second.
-#[inline(never)]
-fn clip<R: Real>(
-    corners: &Corners<R>,
+/// Edges, and as sums of two the products of vertices, heights, and products with the normal, for a normal of the length 1/`shrink`.
+struct Exact<R> {
     edges: [Vec3<R>; 3],
-    products: [Vec3<R>; 3],
-    normal: Vec3<R>,
-) -> (Corners<R>, Corners<R>, Vec3<R>) {
+    products: [[Vec3<R>; 2]; 3],
+    heights: [[R; 2]; 3],
+    volumes: [[R; 2]; 3],
+    shrink: R,
+}
+
+/// Two steps of u₀: from one part to the next the map may jump, and u₀Ω⊥ is known to so much.
+#[inline(always)]
+fn edge<R: Real>(whole: R) -> R {
+    let step = R::lit(1.0) - R::below_one();
+    whole * (step + step)
+}
+
+/// What the horizon leaves of a triangle: one or two, and the plane between them, towards the second.
+#[inline(never)]
+fn clip<R: Real>(corners: &Corners<R>, exact: &Exact<R>, normal: Vec3<R>) -> (Corners<R>, Corners<R>, Vec3<R>) {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
     let Corners { vertices: v, poles, lengths, areas, heights: z, volume } = *corners;
     let below = z.map(|z| z.lt(zero));
@@ -300,9 +320,8 @@ fn clip<R: Real>(
     let pick = |x: [R; 3], i: usize| R::select(by1, x[next(i, 1)], R::select(by2, x[next(i, 2)], x[i]));
     let turned = |x: [Vec3<R>; 3], i: usize| Vec3::select(by1, x[next(i, 1)], Vec3::select(by2, x[next(i, 2)], x[i]));
     let [v0, v1, v2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(v, i));
-    let [e0, e1, e2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(edges, i));
+    let [e0, e1, e2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(exact.edges, i));
     let [p0, p1, p2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(poles, i));
-    let (m0, m2) = (turned(products, 0), turned(products, 2));
     let [z0, z1, z2]: [R; 3] = core::array::from_fn(|i| pick(z, i));
     let [l0, l1, l2]: [R; 3] = core::array::from_fn(|i| pick(lengths, i));
     let [a0, a1, a2]: [R; 3] = core::array::from_fn(|i| pick(areas, i));
@@ -327,12 +346,25 @@ fn clip<R: Real>(
     };
     let of = |of_quad: R, of_triangle: R, all: R| R::select(whole, all, R::select(quad, of_quad, of_triangle));
     // v0×h1, and of what lies on the horizon
-    let diagonal = m0 * r1 - m2 * t1;
+    let pair = |x: [[R; 2]; 3], i: usize| [pick(x.map(|x| x[0]), i), pick(x.map(|x| x[1]), i)];
+    let vectors = |i: usize| [0, 1].map(|k| turned(exact.products.map(|m| m[k]), i));
+    let (high, low) = (pair(exact.heights, 1), pair(exact.heights, 2));
+    let share = ratio(one, (high[0] + high[1]) - (low[0] + low[1])).min(R::lit(1e37));
+    // −(low·from + high·to)/(high − low): products of such sums
+    let between = |from: [R; 2], to: [R; 2]| {
+        let rest = low[0].mul_add(from[1], low[1] * from[0]) + high[0].mul_add(to[1], high[1] * to[0]);
+        -(difference_of_products(low[0], from[0], -high[0], to[0]) + rest) * share
+    };
+    let ([m0, r0], [m2, r2]) = (vectors(0), vectors(2));
+    let axis = |f: fn(Vec3<R>) -> R| between([f(m0), f(r0)], [f(m2), f(r2)]);
+    let diagonal = Vec3::new(axis(|v| v.x), axis(|v| v.y), axis(|v| v.z));
+    let area = between(pair(exact.volumes, 0), pair(exact.volumes, 2)) * exact.shrink;
     let squared = diagonal.length_squared();
     let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
-    let (diagonal, length, area) = (diagonal * inverse, squared * inverse, a0 * r1 - a2 * t1);
+    let (diagonal, length) = (diagonal * inverse, squared * inverse);
     let (first_volume, second_volume) = (volume * R::select(quad, t1, t0 * t2), volume * r1 * t2);
-    let level = |volume: R| ratio(volume, z0);
+    // no more than the product of two lengths, however small the height of the vertex
+    let level = |volume: R| ratio(volume, z0).clamp(R::lit(-16.0), R::lit(16.0));
     let (first_level, second_level) = (level(first_volume), level(second_volume));
     let turn = one.negate_where(volume.lt(zero));
     let horizon = normal * turn;
@@ -368,7 +400,7 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let found = self.locate(w);
+        let found = self.locate(w, edge(self.projected));
         Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
     }
 }
@@ -383,7 +415,10 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
 /// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
 /// - Density: cosθ/Ω⊥ per steradian inside and above the horizon, 0 elsewhere.
 /// - Degenerate: corners that coincide or lie in line are allowed; otherwise, error and source: as the triangle. From one triangle to the
-///   next the map jumps: within the rounding of the areas before, a `u₀` may belong to one or the other.
+///   next the map jumps: within the rounding of the areas before, a `u₀` may belong to one or the other, and if the zenith lies on an edge
+///   between two of them to rounding, the direction of a `u` may be another after the last bit of the normal has changed, and its inverse
+///   that of the other triangle. Density and area do not know of that. As [`SphericalPolygon`](super::SphericalPolygon), from no nearer
+///   to the plane than the corners are by their rounding: up to all of Ω⊥ may be wrong there.
 #[derive(Clone, Copy, Debug)]
 pub struct ProjectedPolygon<R, const N: usize> {
     /// The last two are empty.
@@ -517,14 +552,16 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let zero = R::lit(0.0);
-        let mut found = self.fan[0].locate(w);
+        let edge = edge(self.projected);
+        let mut found = self.fan[0].locate(w, edge);
         let mut sum = self.fan[0].projected;
         for triangle in &self.fan[1..Self::TRIANGLES] {
             let some = triangle.projected.gt(zero);
             // on the far side of the edge with which the triangle begins
             let later = some & (w.dot(triangle.pole0).ge(zero) | sum.le(zero));
-            let other = triangle.locate(w);
-            found.x = R::select(later, sum + other.x, found.x);
+            let other = triangle.locate(w, edge);
+            let before = found.x.min(R::select(some, sum - edge, found.x));
+            found.x = R::select(later, sum + other.x.max(edge), before.max(zero));
             found.y = R::select(later, other.y, found.y);
             sum += triangle.projected;
         }

@@ -43,8 +43,8 @@ impl<R: Real> Piece<R> {
         let squared = v.map(Vec3::length_squared);
         let shrink = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
         let next = [1, 2, 0];
-        let m_inverse = length.map(|l| ratio(one, l));
-        let cosine: [R; 3] = core::array::from_fn(|i| areas[i] * m_inverse[i]);
+        let m_inverse = length.map(|l| ratio(one, l).min(R::lit(1e37)));
+        let cosine: [R; 3] = core::array::from_fn(|i| (areas[i] * m_inverse[i]).clamp(-one, one));
         let reversed = volume.lt(zero);
         let cosine = cosine.map(|c| c.negate_where(reversed));
         // one edge on the far side of the other two: inner if its plane lies over the triangle. None about the zenith
