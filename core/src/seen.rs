@@ -85,12 +85,19 @@ pub(crate) fn exact_sum<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -
 
 /// p·n for an n that is a sum of two, rounded once: the height of a far point over a plane is a small difference.
 #[inline(always)]
-pub(crate) fn exact_height<R: Real>(p: Vec3<R>, [n, rest]: [Vec3<R>; 2]) -> R {
+pub(crate) fn exact_height<R: Real>(p: Vec3<R>, n: [Vec3<R>; 2]) -> R {
+    let [sum, rest] = exact_height_pair(p, n);
+    sum + rest
+}
+
+/// The same as an unevaluated sum of two.
+#[inline(always)]
+pub(crate) fn exact_height_pair<R: Real>(p: Vec3<R>, [n, rest]: [Vec3<R>; 2]) -> [R; 2] {
     let term = |a: R, b: R| (a * b, R::product_error(a, b, a * b));
     let ((a, ea), (b, eb), (c, ec)) = (term(p.x, n.x), term(p.y, n.y), term(p.z, n.z));
     let (sum, e1) = two_sum(a, b);
     let (sum, e2) = two_sum(sum, c);
-    sum + ((e1 + e2) + ((ea + eb) + ec) + p.dot(rest))
+    [sum, ((e1 + e2) + ((ea + eb) + ec) + p.dot(rest))]
 }
 
 /// A struct whose fields are lanes, with the operations that go field by field.

@@ -71,6 +71,8 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 pub const LIMIT: f64 = 1e-5;
 /// Or, of a direction, so much in each component: 2 ulp.
 const DIRECTION_ULP: f64 = 2.0 * f32::EPSILON as f64;
+/// Between u whose directions give a slope.
+const STEP: f64 = 1.0 / 4_294_967_296.0;
 /// Solid angles below have no finite reciprocal, or nearly so.
 const NOTHING: f64 = 1e-36;
 
@@ -83,7 +85,9 @@ pub struct Figures {
     /// Greatest relative error of a density, beyond what 2 ulp of its direction change it.
     pub pdf: f64,
     /// Greatest error of u after there and back; where 4 ulp of a direction (2 of the sample, 2 of the inverse) are worth more of u than the
-    /// limit, relative to that, times the limit. Samples where they are worth more than 0.1 are not counted: there f32 has no inverse.
+    /// limit, relative to that, times the limit. Samples where they are worth more than 0.1 are not counted: there f32 has no inverse. At a
+    /// tear of the map (about the zenith, or from one part to the next) two u are as good: there it is how far the direction that the technique
+    /// has for the inverse is from the sample, relative to 6 ulp (2 of either, 2 of the inverse), times the limit.
     pub round_trip: f64,
     /// Part of the samples that had an inverse in f32.
     pub invertible: f64,
@@ -227,7 +231,8 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
     let u = u.map(f64::from);
     let direction = truth.direction(u);
     let slope = |axis: usize| -> V3 {
-        let h = if u[axis] < 0.5 { 1.0 / 4096.0 } else { -1.0 / 4096.0 };
+        // far less than a step of u: at the ends of a sweep the slope is another after one
+        let h = if u[axis] < 0.5 { STEP } else { -STEP };
         let mut moved = u;
         moved[axis] += h;
         let w = truth.direction(moved);
@@ -262,7 +267,11 @@ pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], det
             (method.run)(&pose, &mut Draw { us: &us, invert: true, out: &mut samples });
             for (i, sample) in samples.iter().enumerate() {
                 match references.get(i) {
-                    Some(reference) => tally.add(&truth, reference, us[i], sample),
+                    Some(reference) => tally.add(&truth, reference, us[i], sample, |u| {
+                        let mut again = Vec::with_capacity(1);
+                        (method.run)(&pose, &mut Draw { us: &[u], invert: false, out: &mut again });
+                        pose::wide(again[0].direction)
+                    }),
                     None => tally.add_unseen(truth.measure, sample),
                 }
             }
@@ -388,7 +397,15 @@ impl Tally {
         let right = sample.finite() && (sample.pdf == 0.0 || measure > 0.0 || sample.by_area);
         self.invalid += f64::from(u8::from(!right));
     }
-    fn add(&mut self, truth: &Truth, reference: &Reference, u: [f32; 2], sample: &Sample) {
+    /// `again`: the direction of the technique for another u.
+    fn add(
+        &mut self,
+        truth: &Truth,
+        reference: &Reference,
+        u: [f32; 2],
+        sample: &Sample,
+        again: impl Fn([f32; 2]) -> V3,
+    ) {
         self.all += 1.0;
         let w = pose::wide(sample.direction);
         let (expected, density) = if sample.by_area {
@@ -422,13 +439,20 @@ impl Tally {
             return;
         }
         self.inverted += 1.0;
-        for axis in 0..2 {
+        let off = |axis: usize| {
             let mut error = f64::from((inverse[axis] - u[axis]).abs());
             if truth.periodic(axis) {
                 error = error.min((1.0 - error).abs());
             }
-            self.round_trip = self.round_trip.max(error * (LIMIT / worth[axis]).min(1.0));
+            error * (LIMIT / worth[axis]).min(1.0)
+        };
+        let mut error = off(0).max(off(1));
+        if error > LIMIT {
+            let there = again(inverse);
+            let apart = (0..3).map(|i| (w[i] - there[i]).abs()).fold(0.0, f64::max);
+            error = error.min(apart / (3.0 * DIRECTION_ULP) * LIMIT);
         }
+        self.round_trip = self.round_trip.max(error);
     }
     fn figures(&self, variance_ratio: f64) -> Figures {
         if self.all == 0.0 {

@@ -11,9 +11,8 @@ use crate::warp::{Warp, unit_interval};
 ///
 /// - Formula: Ω = Ω₁ + Ω₂; u₀ < Ω₁/Ω takes the triangle (p+u, p, p+u+v) at u₀Ω/Ω₁, else (p+u+v, p, p+v) with the rest.
 /// - Domain, density, degenerate input, source: as the triangle.
-/// - Greatest error over the atlas: Ω 5e−7 relative. Direction as the triangle; but where the point is within 1e−3 of its size and a step of u₀ is
-///   worth more of the direction than 1e−5 (next to the ends of the sweep) as much as a few of these steps.
-///   And what half a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the elevation of the nearest
+/// - Greatest error over the atlas: Ω 5e−7 relative. Direction as the triangle, from all but 1e−5 of its size over its plane; and what half
+///   a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the elevation of the nearest
 ///   corner, since the place where the second triangle begins is known as Ω₁ and Ω are.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SphericalParallelogram<R> {

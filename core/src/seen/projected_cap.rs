@@ -76,7 +76,7 @@ pub(super) fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
 
 /// The same as an unevaluated sum of two.
 #[inline(always)]
-fn exact_dot_pair<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
+pub(super) fn exact_dot_pair<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
     let product = |a: R, b: R| {
         let p = a * b;
         (p, R::product_error(a, b, p))
@@ -488,7 +488,8 @@ impl<R: Real> ProjectedCap<R> {
     /// The half-lune's area beyond t, in the units of a slice: what is left after a difference would have few digits.
     #[inline]
     fn tail(&self, t: R) -> R {
-        let rest = R::lit(1.0) - t;
+        let one = R::lit(1.0);
+        let rest = one - t;
         let mut sum = R::lit(0.0);
         for (x, weight) in [
             (0.0198550717512319, 0.0506142681451885),
@@ -500,7 +501,8 @@ impl<R: Real> ProjectedCap<R> {
             (0.8983332387068134, 0.1111905172266872),
             (0.9801449282487681, 0.0506142681451885),
         ] {
-            sum = R::lit(weight).mul_add(self.slice(rest.mul_add(R::lit(x), t), false).width, sum);
+            // in √(1−t), of which P and Q have no steep root
+            sum = R::lit(2.0 * weight * x).mul_add(self.slice(rest.mul_add(R::lit(-x * x), one), false).width, sum);
         }
         sum * rest
     }

@@ -1,13 +1,15 @@
+mod horizon;
 mod piece;
 mod sector;
 
-use super::projected_cap::{exact_dot, ratio};
-use super::triangle::{SLACK, plane};
-use super::{Sighting, lanewise};
-use crate::math::rsqrt;
+use super::projected_cap::{exact_dot_pair, ratio};
+use super::triangle::{SLACK, to_unit};
+use super::{Sighting, exact_cross, exact_height, exact_height_pair, exact_sum, lanewise};
+use crate::math::{rsqrt, two_sum};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
+use horizon::{Exact, clip};
 use piece::{Corners, Piece};
 use sector::Sector;
 
@@ -31,11 +33,16 @@ lanewise! {
     /// - Density: cosθ/Ω⊥ per steradian inside (and within 8 ulp of the direction beyond) and above the horizon, 0 elsewhere.
     /// - Degenerate: the point in the plane (also inside the triangle), zero area, lengths whose sums overflow, or nothing above the
     ///   horizon: Ω⊥ = 0 and pdf 0; `sample` gives some vector, of unit length or 0.
-    /// - Greatest error: Ω⊥ 4e−7 relative, times 1/sin of the elevation of the nearest vertex over the triangle's plane and 1/cos of the
-    ///   triangle to the normal. Direction 6e−7, besides 8 steps of 2⁻²⁴ in u. Distance as `SphericalTriangle`. The inverse is that of a
+    /// - Greatest error: Ω⊥ 4e−7 relative, and over the atlas at most 1e−5, also of slivers and from next to the triangle's plane, since products and heights that
+    ///   are small differences are formed in twice the working precision. Beyond: overhead 1e−15 over its size and over the sine of the
+    ///   elevation over its plane (that is, below sizes of 1e−6), from less than 1e−3 of its length beside slivers of over 1e3 (1e−9 times the
+    ///   aspect ratio), and in its plane's normal where it covers all but 1e−4 of a hemisphere.
+    ///   Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; from next to the plane of a triangle that surrounds the point a step is worth 1/sin of the
+    ///   elevation, since so much do the areas of the sectors differ. Distance as `SphericalTriangle`. The inverse is that of a
     ///   direction 1.4e−6 away, times how much longer than wide the triangle is seen. In a corner a sweep begins like √u₀ (on the
-    ///   horizon ∛u₀): within 2⁻²⁴ of the whole its inverse is the nearest `u` below 1, and if the horizon has cut the triangle in
-    ///   two, u₀ near the join belongs to one or the other.
+    ///   horizon ∛u₀): the share counts from the nearer end; within 2⁻²⁴ of the whole its inverse is the nearest `u` below 1, and if the
+    ///   horizon has cut the triangle in two, u₀ near the join belongs to one or the other. About the zenith the inverse of the azimuth at
+    ///   which the sweep begins may be 0 or 1.
     /// - Source: Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 4, for the sectors of the disk; Lambert for the
     ///   areas. Sectors from vertices, not between sorted azimuths: where both edges meet every quantity is a length or a volume of the
     ///   triangle and is small as the triangle is, and the zenith may lie on an edge. The forms without cancellation are derived here.
@@ -80,56 +87,118 @@ fn unit_normal<R: Real>(normal: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
     (scaled * shrink, scaled, shrink)
 }
 
+/// A triangle: vertices, what the second and third lack if they are rounded, edges from each to the next, products of each vertex and the
+/// next, and (v1−v0)×(v2−v0).
+struct Given<R> {
+    vertices: [Vec3<R>; 3],
+    rests: Option<[Vec3<R>; 2]>,
+    edges: [Vec3<R>; 3],
+    products: [[Vec3<R>; 2]; 3],
+    plane: [Vec3<R>; 2],
+}
+
+/// a − b as a sum of two.
+#[inline(always)]
+fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    let ((x, ex), (y, ey), (z, ez)) = (two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z));
+    [Vec3::new(x, y, z), Vec3::new(ex, ey, ez)]
+}
+
+/// n + a×b of a sum of two, for a small a×b.
+#[inline(always)]
+fn with_rest<R: Real>([n, rest]: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    [n, rest + a.cross(b)]
+}
+
 impl<R: Real> ProjectedTriangle<R> {
     /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point, on a surface with the normal `normal`.
-    #[inline(always)]
+    #[inline]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, normal: Vec3<R>) -> Self {
-        Self::with_sides([v0, v1, v2], [v1 - v0, v2 - v1, v0 - v2], [v1 - v0, v2 - v0], normal)
+        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
+        let edges = [difference(v1, v0), difference(v2, v1), difference(v0, v2)];
+        let product = |v: Vec3<R>, [e, d]: [Vec3<R>; 2]| with_rest(exact_cross(v, e), v, d);
+        let products = [product(v0, edges[0]), product(v1, edges[1]), product(v2, edges[2])];
+        let ([e1, d1], [e2, d2]) = (edges[0], edges[2]);
+        let [plane, rest] = exact_cross(e2, e1);
+        let plane = [plane, rest + (d2.cross(e1) + e2.cross(d1))];
+        let corners = Given { vertices: [v0, v1, v2], rests: None, edges: edges.map(|e| e[0]), products, plane };
+        Self::prepare(&corners, normal, scale)
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
     /// were moved to the point: for a small and far triangle they hold its shape.
-    #[inline(always)]
+    #[inline]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
-        Self::with_sides([v0, v1, v2], [e1, e2 - e1, -e2], [e1, e2], normal)
+        let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
+        let rest = |v: Vec3<R>, e: Vec3<R>| {
+            let [sum, rest] = exact_sum([v0, Vec3::default()], [e, Vec3::default()]);
+            (sum - v) + rest
+        };
+        Self::with_sides(
+            [v0, v1, v2],
+            [rest(v1, e1), rest(v2, e2)],
+            [[e1, Vec3::default()], difference(e2, e1), [-e2, Vec3::default()]],
+            [e1, e2],
+            normal,
+            scale,
+        )
     }
 
-    /// With all three edges, from each vertex to the next, and the plane's normal as a product.
-    #[inline]
-    fn with_sides(vertices: [Vec3<R>; 3], edges: [Vec3<R>; 3], factors: [Vec3<R>; 2], normal: Vec3<R>) -> Self {
-        let zero = R::lit(0.0);
-        let reach = |all: &[Vec3<R>]| all.iter().fold(zero, |most, v| most.max(v.max_abs()));
-        let reach = reach(&vertices).max(reach(&edges));
-        // sums that overflowed: a triangle of no extent
-        let finite = reach.lt(R::lit(f64::INFINITY));
-        let scale = reach.exponent_reciprocal();
-        let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
-        let (v, e, [f1, f2]) = (vertices.map(scaled), edges.map(scaled), factors.map(scaled));
-        let plane = f1.cross(f2);
-        let squared = v.map(Vec3::length_squared);
-        // the same at each vertex; at the nearest it cancels least
-        let nearest = Vec3::select(squared[1].lt(squared[0]), v[1], v[0]);
-        let nearest = Vec3::select(squared[2].lt(squared[0].min(squared[1])), v[2], nearest);
-        let volume = nearest.dot(plane);
-        let (normal, long, shrink) = unit_normal(normal);
-        // heights from the first vertex where the edge is the shorter: a sum has lost what the edge still knows
-        let over = |v: Vec3<R>| exact_dot(v, long) * shrink;
-        let first = over(v[0]);
-        let beside =
-            |v: Vec3<R>, e: Vec3<R>| R::select(e.length_squared().lt(v.length_squared()), first + over(e), over(v));
-        let z = [first, beside(v[1], e[0]), beside(v[2], -e[2])];
+    /// With all three edges, from each vertex to the next, as sums of two, what the rounded second and third vertex lack, and the plane's normal
+    /// as a product; all lengths below 4.
+    #[inline(always)]
+    fn with_sides(
+        vertices: [Vec3<R>; 3],
+        rests: [Vec3<R>; 2],
+        edges: [[Vec3<R>; 2]; 3],
+        factors: [Vec3<R>; 2],
+        normal: Vec3<R>,
+        scale: R,
+    ) -> Self {
+        let [v0, v1, _] = vertices;
+        let [e0, e1, e2] = edges;
+        let [n, rest] = exact_cross(v1, e1[0]);
+        let products = [
+            with_rest(exact_cross(v0, e0[0]), v0, e0[1]),
+            [n, rest + (v1.cross(e1[1]) + rests[0].cross(e1[0]))],
+            with_rest(exact_cross(v0, e2[0]), v0, e2[1]),
+        ];
+        let plane = exact_cross(factors[0], factors[1]);
+        let corners = Given { vertices, rests: Some(rests), edges: edges.map(|e| e[0]), products, plane };
+        Self::prepare(&corners, normal, scale)
+    }
 
-        let m: [Vec3<R>; 3] = core::array::from_fn(|i| self::plane(v[i], v[(i + 1) % 3], e[i]));
-        let m_squared = m.map(Vec3::length_squared);
-        let inverse = m_squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
-        let poles = core::array::from_fn(|i| m[i] * inverse[i]);
+    #[inline]
+    fn prepare(given: &Given<R>, normal: Vec3<R>, scale: R) -> Self {
+        let zero = R::lit(0.0);
+        let Given { vertices: v, rests, edges: e, products, plane } = *given;
+        let volume = exact_height(v[0], plane);
+        let plane = plane[0] + plane[1];
+        let (normal, long, shrink) = unit_normal(normal);
+        let over = |v: Vec3<R>, rest: Vec3<R>| {
+            let [z, more] = exact_dot_pair(v, long);
+            [z, more + rest.dot(long)]
+        };
+        let heights = match rests {
+            Some([r1, r2]) => [exact_dot_pair(v[0], long), over(v[1], r1), over(v[2], r2)],
+            None => v.map(|v| exact_dot_pair(v, long)),
+        };
+        let volumes = products.map(|n| exact_height_pair(long, n));
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let (z, areas) = (heights.map(rounded), volumes.map(rounded));
+        let exact = Exact { edges: e, products, heights, volumes, shrink };
+        let products = products.map(|[n, rest]| n + rest);
+        let m_squared = products.map(Vec3::length_squared);
+        let inverses = m_squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
+        let lengths: [R; 3] = core::array::from_fn(|i| m_squared[i] * inverses[i]);
+        let poles: [Vec3<R>; 3] = core::array::from_fn(|i| products[i] * inverses[i]);
         let below = z.map(|z| z.lt(zero));
         let cut = below[0] | below[1] | below[2];
-        let mut corners = Corners { vertices: v, edges: e, poles, heights: z, volume };
+        let mut corners = Corners { vertices: v, poles, lengths, areas, heights: z, volume };
         let (mut second, mut diagonal) = (Piece::default(), Vec3::default());
         if cut.any() {
             let rest;
-            (corners, rest, diagonal) = clip(&corners, normal);
+            (corners, rest, diagonal) = clip(&corners, &exact, normal);
             if rest.volume.abs().gt(zero).any() {
                 second = Piece::new(&rest, normal);
             }
@@ -138,7 +207,7 @@ impl<R: Real> ProjectedTriangle<R> {
 
         let side = |i: usize| {
             // the plane of vertices that lie nearly opposite is known no better than −cos : sin of their angle: by so much shorter
-            let length = m_squared[i] * inverse[i];
+            let length = lengths[i];
             poles[i] * ratio(length, length.max(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
         };
         Self {
@@ -172,14 +241,14 @@ impl<R: Real> ProjectedTriangle<R> {
         self.volume.lt(R::lit(0.0))
     }
 
-    /// The sector for `u`, and the share of it that is before the azimuth.
+    /// The sector that has the area `swept` before it and `left` behind, and the share of it that is before the azimuth, from its apex.
     #[inline(always)]
-    fn choose(&self, swept: R) -> (Sector<R>, R) {
-        let (mut sector, mut share) = self.first.choose(swept);
+    fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
+        let (mut sector, mut share) = self.first.choose(swept, left - self.second.area);
         let some = self.second.area.gt(R::lit(0.0));
         if some.any() {
             let later = some & swept.ge(self.first.area);
-            let (other, rest) = self.second.choose(swept - self.first.area);
+            let (other, rest) = self.second.choose(swept - self.first.area, left);
             sector = Sector::select(later, &other, &sector);
             share = R::select(later, rest, share);
         }
@@ -208,85 +277,35 @@ impl<R: Real> ProjectedTriangle<R> {
         let ahead = w.dot(self.plane).negate_where(self.in_front());
         least.ge(R::lit(-SLACK)) & ahead.ge(-(self.plane.length() * R::lit(SLACK)))
     }
-    /// The area before a direction of the triangle, and `u` across.
+    /// The area before a direction of the triangle, and `u` across; `edge`: what a jump of the map is kept away from.
     #[inline(always)]
-    fn locate(&self, w: Vec3<R>) -> Vec2<R> {
+    fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
         let zero = R::lit(0.0);
         let mut found = self.first.locate(self.normal, w);
         let some = self.second.area.gt(zero);
         if some.any() {
             let later = some & (w.dot(self.diagonal).gt(zero) | self.first.area.le(zero));
             let other = self.second.locate(self.normal, w);
-            found.x = R::select(later, self.first.area + other.x, found.x);
+            let before = found.x.min(R::select(some, self.first.area - edge, self.first.area)).max(zero);
+            found.x = R::select(later, self.first.area + other.x.max(edge), before);
             found.y = R::select(later, other.y, found.y);
         }
         found
     }
 }
 
-/// What the horizon leaves of a triangle: one or two, and the plane between them, towards the second.
-#[inline(never)]
-fn clip<R: Real>(corners: &Corners<R>, normal: Vec3<R>) -> (Corners<R>, Corners<R>, Vec3<R>) {
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let Corners { vertices: v, edges: e, poles, heights: z, volume } = *corners;
-    let below = z.map(|z| z.lt(zero));
-    // turned so that the first vertex is above and the last below
-    let (by1, by2) = (!below[1] & below[0], !below[2] & below[1]);
-    let next = |i: usize, k: usize| (i + k) % 3;
-    let pick = |x: [R; 3], i: usize| R::select(by1, x[next(i, 1)], R::select(by2, x[next(i, 2)], x[i]));
-    let turned = |x: [Vec3<R>; 3], i: usize| Vec3::select(by1, x[next(i, 1)], Vec3::select(by2, x[next(i, 2)], x[i]));
-    let [v0, v1, v2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(v, i));
-    let [e0, e1, e2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(e, i));
-    let [p0, p1, p2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(poles, i));
-    let [z0, z1, z2]: [R; 3] = core::array::from_fn(|i| pick(z, i));
-    let whole = !(below[0] | below[1] | below[2]);
-    let none = below[0] & below[1] & below[2];
-    // where an edge from above meets the horizon
-    let part = |a: R, b: R| ratio(a.max(zero), a.max(zero) - b.min(zero));
-    let (t0, t1, t2) = (part(z0, z1), part(z1, z2), part(z0, z2));
-    let (r1, r2) = (part(-z2, -z1), part(-z2, -z0));
-    let quad = z1.ge(zero);
-    // where that is near the point, the sum cancels: there it is on the line in which the plane of the edge meets the horizon
-    let meet = |v: Vec3<R>, e: Vec3<R>, t: R, pole: Vec3<R>| {
-        let sum = e.mul_add(t, v);
-        let line = pole.cross(normal);
-        let squared = line.length_squared();
-        let better = (squared * v.length_squared()).gt(sum.length_squared());
-        Vec3::select(better, line * ratio(sum.dot(line), squared), sum)
-    };
-    let (h0, h1, h2) = (meet(v0, e0, t0, p0), meet(v1, e1, t1, p1), meet(v0, -e2, t2, p2));
-    let across = e0 + e1 * t1;
-    let choose = |of_quad: Vec3<R>, of_triangle: Vec3<R>, all: Vec3<R>| {
-        Vec3::select(whole, all, Vec3::select(quad, of_quad, of_triangle))
-    };
-    let last = e2 * t2;
-    let diagonal = plane(v0, h1, across);
-    let squared = diagonal.length_squared();
-    let diagonal = diagonal * rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
-    let turn = one.negate_where(volume.lt(zero));
-    let horizon = normal * turn;
-    let first = Corners {
-        vertices: [v0, choose(v1, h0, v1), choose(h1, h2, v2)],
-        edges: [choose(e0, e0 * t0, e0), choose(e1 * t1, -(last + e0 * t0), e1), choose(-across, last, e2)],
-        poles: [p0, choose(p1, horizon, p1), choose(-diagonal, p2, p2)],
-        heights: [z0, R::select(quad, z1, zero), z2.keep(whole)],
-        volume: R::select(whole, volume, (volume * R::select(quad, t1, t0 * t2)).keep(!none)),
-    };
-    let second = Corners {
-        vertices: [v0, h1, h2],
-        edges: [across, e1 * r1 + e2 * r2, last],
-        poles: [diagonal, horizon, p2],
-        heights: [z0, zero, zero],
-        volume: (volume * r1 * t2).keep(quad & !whole & !none),
-    };
-    (first, second, diagonal * turn)
+/// Two steps of u₀: from one part to the next the map may jump, and u₀Ω⊥ is known to so much.
+#[inline(always)]
+fn edge<R: Real>(whole: R) -> R {
+    let step = R::lit(1.0) - R::below_one();
+    whole * (step + step)
 }
 
 impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        let (sector, share) = self.choose(u.x * self.projected);
+        let (sector, share) = self.choose(u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
         sector.direction(self.normal, sector.sweep(share), u.y)
     }
     #[inline(always)]
@@ -295,7 +314,7 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let found = self.locate(w);
+        let found = self.locate(w, edge(self.projected));
         Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
     }
 }
@@ -310,7 +329,10 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
 /// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
 /// - Density: cosθ/Ω⊥ per steradian inside and above the horizon, 0 elsewhere.
 /// - Degenerate: corners that coincide or lie in line are allowed; otherwise, error and source: as the triangle. From one triangle to the
-///   next the map jumps: within the rounding of the areas before, a `u₀` may belong to one or the other.
+///   next the map jumps: within the rounding of the areas before, a `u₀` may belong to one or the other, and if the zenith lies on an edge
+///   between two of them to rounding, the direction of a `u` may be another after the last bit of the normal has changed, and its inverse
+///   that of the other triangle. Density and area do not know of that. As [`SphericalPolygon`](super::SphericalPolygon), from no nearer
+///   to the plane than the corners are by their rounding: up to all of Ω⊥ may be wrong there.
 #[derive(Clone, Copy, Debug)]
 pub struct ProjectedPolygon<R, const N: usize> {
     /// The last two are empty.
@@ -329,11 +351,19 @@ impl<R: Real> ProjectedPolygon<R, 4> {
     /// `normal`. Its shape is that of the edges, however small and far it is.
     #[inline(always)]
     pub fn parallelogram(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, normal: Vec3<R>) -> Self {
-        let (a, b) = (p + u, p + v);
-        let (both, c) = (u + v, a + v);
+        let none = Vec3::default();
+        let ([p, u, v, a, b, c], scale) = to_unit([p, u, v, p + u, p + v, p + u + v]);
+        let both = exact_sum([u, none], [v, none]);
+        let rest = |v: Vec3<R>, e: [Vec3<R>; 2]| {
+            let [sum, rest] = exact_sum([p, none], e);
+            (sum - v) + rest
+        };
+        let (at_a, at_b, at_c) = (rest(a, [u, none]), rest(b, [v, none]), rest(c, both));
         let mut fan = [ProjectedTriangle::default(); 4];
-        fan[0] = ProjectedTriangle::with_sides([p, a, c], [u, v, -both], [u, v], normal);
-        fan[1] = ProjectedTriangle::with_sides([p, c, b], [both, -u, -v], [u, v], normal);
+        let sides = [[u, none], [v, none], both.map(|e| -e)];
+        fan[0] = ProjectedTriangle::with_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
+        let sides = [both, [-u, none], [-v, none]];
+        fan[1] = ProjectedTriangle::with_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
         Self { projected: fan[0].projected + fan[1].projected, fan }
     }
 }
@@ -387,15 +417,20 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     #[inline]
     fn draw(&self, u: Vec2<R>, far: bool) -> (Vec3<R>, R) {
         let zero = R::lit(0.0);
-        let swept = u.x * self.projected;
-        let (mut sector, mut share) = self.fan[0].choose(swept);
+        let (swept, left) = (u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        // the areas of those behind
+        let mut behind = [zero; N];
+        for i in (1..Self::TRIANGLES).rev() {
+            behind[i - 1] = behind[i] + self.fan[i].projected;
+        }
+        let (mut sector, mut share) = self.fan[0].choose(swept, left - behind[0]);
         let mut chosen = R::lit(0.0);
         let mut sum = self.fan[0].projected;
         for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
             let some = triangle.projected.gt(zero);
             if some.any() {
                 let later = swept.ge(sum) & some | (sum.le(zero) & some);
-                let (other, rest) = triangle.choose(swept - sum);
+                let (other, rest) = triangle.choose(swept - sum, left - behind[i]);
                 sector = Sector::select(later, &other, &sector);
                 share = R::select(later, rest, share);
                 chosen = R::select(later, R::lit(i as f64), chosen);
@@ -431,14 +466,16 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let zero = R::lit(0.0);
-        let mut found = self.fan[0].locate(w);
+        let edge = edge(self.projected);
+        let mut found = self.fan[0].locate(w, edge);
         let mut sum = self.fan[0].projected;
         for triangle in &self.fan[1..Self::TRIANGLES] {
             let some = triangle.projected.gt(zero);
             // on the far side of the edge with which the triangle begins
             let later = some & (w.dot(triangle.pole0).ge(zero) | sum.le(zero));
-            let other = triangle.locate(w);
-            found.x = R::select(later, sum + other.x, found.x);
+            let other = triangle.locate(w, edge);
+            let before = found.x.min(R::select(some, sum - edge, found.x));
+            found.x = R::select(later, sum + other.x.max(edge), before.max(zero));
             found.y = R::select(later, other.y, found.y);
             sum += triangle.projected;
         }

@@ -1,6 +1,7 @@
+use super::projected_cap::exact_dot_pair;
 use super::{Sighting, exact_cross, exact_height, lanewise};
-use crate::math::rsqrt;
-use crate::real::Real;
+use crate::math::{rsqrt, two_sum};
+use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
 
@@ -26,9 +27,11 @@ lanewise! {
     ///   [`SphericalParallelogram`](super::SphericalParallelogram).
     /// - Density: 1/Ω per steradian inside (and within 4 ulp of the direction beyond), 0 outside.
     /// - Degenerate: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
-    /// - Greatest error: direction 6e−7 (more where it is seen at grazing from beside a corner: 1.2e−5 has been seen 1e−4 over the plane), besides what 8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded); more by 1/sin of the angle
-    ///   between two corners that lie nearly opposite (500: 1.1e−5). pdf 1.5e−7 relative, times the condition of Ω: 1 but for edge-on
-    ///   shapes, whose height over the plane decides.
+    /// - Greatest error over the atlas: direction 6e−7 (4e−5 of its size if that is 1e−6 and it is seen from 1e−7 over its plane), besides what
+    ///   8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded): u₀ counts from the nearer end where the rectangle lies on both sides of
+    ///   the foot. pdf 5e−7 relative: heights and coordinates are formed in twice the working precision.
+    ///   Next to the plane of a rectangle that surrounds the point nearly all of u₀ and u₁ lies within a direction's rounding: there the inverse
+    ///   is worth nothing.
     /// - Source: Ureña, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"; the forms without
     ///   cancellation are derived here from w = w₁ − 2e.
     SphericalRectangle {
@@ -60,6 +63,12 @@ lanewise! {
         /// cosw₁ − p, cosw₁ + s
         above_p: R,
         above_s: R,
+        /// these of the strip from the foot to x₀, from which the map counts where more than `half` of the area is beyond: ½ if x₀ < 0
+        near_sin: R,
+        near_cos: R,
+        near_above_p: R,
+        near_above_s: R,
+        half: R,
         /// Q = (2cosw₁+k)q₀ + q₁q₂(q₂±k), + where y₀ < 0
         q0: R,
         q1: R,
@@ -166,16 +175,21 @@ impl<R: Real> SphericalRectangle<R> {
 
         let (z, side) = (signed.abs(), one.copysign(signed));
 
-        // both axes point to the far end
-        let ends = |axis: Vec3<R>, size: R, edge: Vec3<R>| {
-            let (low, high) = (p.dot(axis), (p + edge).dot(axis));
+        // both axes point to the far end; of far corners the coordinates are small differences
+        let ends = |size: R, edge: Vec3<R>| {
+            let unit = edge * edge.max_abs().exponent_reciprocal();
+            let squared = unit.length_squared();
+            let inverse = rsqrt(squared).keep(squared.gt(zero));
+            let ([low, low_rest], [reach, reach_rest]) = (exact_dot_pair(p, unit), exact_dot_pair(edge, unit));
+            let (high, high_rest) = two_sum(low, reach);
+            let (low, high) = ((low + low_rest) * inverse, (high + (high_rest + (low_rest + reach_rest))) * inverse);
             // a tiny size may be lost in both; the near end is the smaller number
             let flip = (low + high).lt(zero);
             let near = R::select(flip, -high, low).max(R::lit(-0.5) * size);
             (flip, near, near + size)
         };
-        let (flip_x, x0, x1) = ends(x_axis, dx, u);
-        let (flip_y, y0, y1) = ends(y_axis, dy, v);
+        let (flip_x, x0, x1) = ends(dx, u);
+        let (flip_y, y0, y1) = ends(dy, v);
         let turn = |v: Vec3<R>, m: R::Mask| Vec3::new(v.x.negate_where(m), v.y.negate_where(m), v.z.negate_where(m));
         let (side_x, side_y) = (turn(x_axis, flip_x), turn(y_axis, flip_y));
         let (anchored_x, anchored_y) = ((x0 + x0).ge(x1), (y0 + y0).ge(y1));
@@ -192,22 +206,32 @@ impl<R: Real> SphericalRectangle<R> {
         let gone = gone_x.max(gone_y);
         let base = Vec3::select(gone.le(there_x.max(there_y).max(z)), from_corner, from_foot);
 
-        let (xx, zz, yy) = (x1 * x1, z * z, y0 * y1);
-        let d = xx + zz;
+        let (zz, yy) = (z * z, y0 * y1);
         let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
-        let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
-        let rr = r0 * r1;
         let im = ratio(one, (mm0 * mm1).sqrt());
-        let id = ratio(one, d);
         let across = y0.lt(zero);
-        let sum = y1.mul_add(r0, y0.abs() * r1);
-        let cross = R::select(across, sum * id, ratio(dy * (y1 + y0), sum));
-        let sin_w1 = x1 * z * cross * im;
-        let cos_w1 = xx.mul_add(yy, zz * rr) * id * im;
-        // rr ∓ |y₀y₁|, over d where it is the difference
-        let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
-        let above_p = ratio(zz * dy * dy * im, R::select(across, d * (minus + one), plus + d));
-        let above_s = zz * im * R::select(across, (plus + d) * id, minus + one);
+        // sine and cosine of the strip from the foot to x, cosw − p and cosw + s
+        let strip = |x: R| {
+            let xx = x * x;
+            let d = xx + zz;
+            let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
+            let rr = r0 * r1;
+            let id = ratio(one, d);
+            let sum = y1.mul_add(r0, y0.abs() * r1);
+            let cross = R::select(across, sum * id, ratio(dy * (y1 + y0), sum));
+            // rr ∓ |y₀y₁|, over d where it is the difference
+            let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
+            (
+                x * z * cross * im,
+                xx.mul_add(yy, zz * rr) * id * im,
+                ratio(zz * dy * dy * im, R::select(across, d * (minus + one), plus + d)),
+                zz * im * R::select(across, (plus + d) * id, minus + one),
+            )
+        };
+        let (sin_w1, cos_w1, above_p, above_s) = strip(x1);
+        let straddles = x0.lt(zero);
+        let (near_sin, near_cos, near_above_p, near_above_s) =
+            if straddles.any() { strip(-x0) } else { (zero, zero, zero, zero) };
         let (sin_p, cos_p) = (z * dy * im, (zz + yy) * im);
         let (sin_s, cos_s) = (z * (y0 + y1) * im, (zz - yy) * im);
         let ((minus_p, plus_p), (minus_s, plus_s)) = (one_minus_plus(sin_p, cos_p), one_minus_plus(sin_s, cos_s));
@@ -256,6 +280,11 @@ impl<R: Real> SphericalRectangle<R> {
             inv_sin_w1: ratio(one, sin_w1),
             above_p,
             above_s,
+            near_sin,
+            near_cos,
+            near_above_p,
+            near_above_s,
+            half: R::select(straddles, R::lit(0.5), R::lit(2.0)),
             q0: R::select(across, plus_p * minus_s, minus_p * plus_s),
             q1: (yy + yy) * -im,
             q2: R::select(across, plus_w, minus_w),
@@ -287,19 +316,26 @@ impl<R: Real> SphericalRectangle<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
         let turned = |u: R, flip: R| R::select(flip.gt(zero), u, one - u);
-        let (u, v, rest) = (turned(u.x, self.flip.x), turned(u.y, self.flip.y), turned(one - u.y, self.flip.y));
+        let (left, swept) = (turned(u.x, self.flip.x), turned(one - u.x, self.flip.x));
+        let (v, rest) = (turned(u.y, self.flip.y), turned(one - u.y, self.flip.y));
 
-        // x: from k = cosw − cosw₁
-        let (sin_e, cos_e) = (u * (self.solid_angle * R::lit(INV_FOUR_PI))).sin_cos_turns();
-        let sin_d = self.sin_w1.mul_add(cos_e, -(self.cos_w1 * sin_e)).max(zero);
-        let cos_d = self.cos_w1.mul_add(cos_e, self.sin_w1 * sin_e);
+        // x: from k = cosw − cosw₁, from the nearer end on either side of the foot
+        let near = left.gt(self.half);
+        let part = R::select(near, swept, left);
+        let (sin_w1, cos_w1) =
+            (R::select(near, self.near_sin, self.sin_w1), R::select(near, self.near_cos, self.cos_w1));
+        let (sin_e, cos_e) = (part * (self.solid_angle * R::lit(INV_FOUR_PI))).sin_cos_turns();
+        let sin_d = sin_w1.mul_add(cos_e, -(cos_w1 * sin_e)).max(-one.keep(near));
+        let cos_d = cos_w1.mul_add(cos_e, sin_w1 * sin_e);
         let sin_w = sin_d.mul_add(cos_e, -(cos_d * sin_e));
         let k = (sin_d + sin_d) * sin_e;
-        let root = ((k + self.above_p) * (k + self.above_s)).sqrt();
+        let above_p = k + R::select(near, self.near_above_p, self.above_p);
+        let above_s = k + R::select(near, self.near_above_s, self.above_s);
+        let root = (above_p * above_s).max(zero).sqrt();
         let last = self.q2 + k.negate_where(y0.ge(zero));
         let q = (self.cos_w1 + self.cos_w1 + k).mul_add(self.q0, self.q1 * self.q2 * last);
         let from_far = (sin_d + sin_d) * self.inv_sin_w1 * (sin_e * self.inv_sin_w1) * q * x1 * x1;
-        let foot = z * sin_w;
+        let foot = (z * sin_w).negate_where(near);
         let anchored = self.anchor.x.gt(zero);
         let numerator = R::select(anchored, -from_far, foot);
         let denominator = root * R::select(anchored, x1.mul_add(root, foot), one);
@@ -372,15 +408,29 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
         let elevation = w.dot(self.normal).max(R::lit(1e-18));
         // as in the map, from the far edge, where (x₁−x)/D₁ is the sine of the angle to its plane over that to the rectangle's, or
         // from the foot: then a wrong elevation moves the point along the direction
-        let place = |side: Vec3<R>, plane: Vec3<R>, near: R, far: R, size: R, anchor: R| {
+        let number = |side: Vec3<R>, plane: Vec3<R>, far: R, anchor: R| {
             let anchored = anchor.gt(zero);
             let distance = far.mul_add(far, z * z).sqrt();
-            let number = R::select(anchored, distance, z) * w.dot(Vec3::select(anchored, plane, side)) / elevation;
+            R::select(anchored, distance, z) * w.dot(Vec3::select(anchored, plane, side)) / elevation
+        };
+        let along_x = number(self.side_x, self.far_x, x1, self.anchor.x);
+        let along_y = number(self.side_y, self.far_y, y1, self.anchor.y);
+        // where that is beyond an edge by more than its own rounding, the elevation is wrong: the point of the direction on the edge
+        let known = (one - R::below_one()) * R::lit(4.0) * z / elevation;
+        let within = |number: R, near: R, far: R, anchor: R| {
+            let bound = R::select(number.lt(zero), near, far).abs();
+            let least = number.abs() - known;
+            R::select(least.gt(bound) & anchor.le(zero), bound / least, one)
+        };
+        let scale = within(along_x, x0, x1, self.anchor.x).min(within(along_y, y0, y1, self.anchor.y));
+        let place = |number: R, near: R, far: R, size: R, anchor: R| {
+            let anchored = anchor.gt(zero);
+            let number = R::select(anchored, number, number * scale);
             let gap = R::select(anchored, number, far - number.max(near)).clamp(zero, size);
             (R::select(anchored, far - gap, number).clamp(near, far), gap)
         };
-        let (x, dx) = place(self.side_x, self.far_x, x0, x1, self.size.x, self.anchor.x);
-        let (y, dy) = place(self.side_y, self.far_y, y0, y1, self.size.y, self.anchor.y);
+        let (x, dx) = place(along_x, x0, x1, self.size.x, self.anchor.x);
+        let (y, dy) = place(along_y, y0, y1, self.size.y, self.anchor.y);
         let u = ratio(window(Vec2::new(x, y0), self.far, Vec2::new(dx, self.size.y), z), self.solid_angle);
         let d = x.mul_add(x, z * z);
         let fall = |low: R, gap: R| {

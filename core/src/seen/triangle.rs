@@ -68,12 +68,12 @@ lanewise! {
         inv_half_sin: R,
         g2: R,
         g2_over: R,
-        /// 1+d₀₂; sin² of that side; V₂/l₂ along the tangents at v1; 1+d₁₂
+        /// 1+d₀₂; sin² of that side; V₂/l₂ along the tangents at v1; G₁
         plus02: R,
         sin02: R,
         x2: R,
         y2: R,
-        plus12: R,
+        g1: R,
         /// V₀·(E₁×E₂), signed: negative where the point is on the side of the normal (v1−v0)×(v2−v0)
         volume: R,
         solid_angle: R,
@@ -124,12 +124,6 @@ pub(super) fn to_unit<R: Real, const N: usize>(vectors: [Vec3<R>; N]) -> ([Vec3<
     let scale = reach.exponent_reciprocal();
     let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
     (vectors.map(scaled), scale)
-}
-
-/// a×b = a×(b−a), from the shorter of the two: each is good to parts in 2²⁴ of itself.
-#[inline(always)]
-pub(super) fn plane<R: Real>(a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>) -> Vec3<R> {
-    a.cross(Vec3::select(edge.length_squared().lt(b.length_squared()), edge, b))
 }
 
 /// The arc from `v1` to the point P of the far edge.
@@ -285,7 +279,7 @@ impl<R: Real> SphericalTriangle<R> {
             sin02,
             x2,
             y2,
-            plus12,
+            g1: total - g2,
             volume,
             solid_angle,
             unit: scale.exponent_reciprocal(),
@@ -324,7 +318,7 @@ impl<R: Real> SphericalTriangle<R> {
             sin02: real(yes.sin02, no.sin02),
             x2: real(yes.x2, no.x2),
             y2: real(yes.y2, no.y2),
-            plus12: real(yes.plus12, no.plus12),
+            g1: real(yes.g1, no.g1),
             volume: real(yes.volume, no.volume),
             solid_angle: real(yes.solid_angle, no.solid_angle),
             unit: real(yes.unit, no.unit),
@@ -378,21 +372,24 @@ impl<R: Real> SphericalTriangle<R> {
     /// Where v0 lies nearly opposite v1 the arc does not follow from its angle any more: then from P itself, where that is better.
     #[inline]
     fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
-        let (one, two) = (R::lit(1.0), R::lit(2.0));
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let [w0, w2] = self.weights(arc.swept);
-        // P is a unit vector: w₀ + w₂ exceeds 1 by what the chord from v0 to v2 lacks of the arc
-        let acute = self.plus02.gt(one);
-        let minus = R::select(acute, self.sin02 / self.plus02.max(one), two - self.plus02);
-        let lack = two * w0 * w2 * minus / (one + w0 + w2);
-        let sum = w0.mul_add(self.g2, w2 * self.plus12);
-        let plus = sum - lack;
-        let inverse = one / R::select(plus.gt(R::lit(1e-15)), plus, R::lit(1e-15));
+        // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ small: 1 − P·V₀/l₀ from the sine
+        let along = w2.mul_add(self.plus02 - one, w0);
+        let apart = R::select(along.gt(zero), w2 * w2 * self.sin02 / (one + along.max(zero)), one - along);
+        let sum = w0.mul_add(self.g2, apart + w2 * self.g1.abs());
+        let plus = w0.mul_add(self.g2, apart + w2 * self.g1);
+        let inverse = one / plus.max(R::lit(1e-30));
         let (first, second) = (w0 * self.sin_side * inverse, w2 * self.x2 * inverse);
         // either X is a sum: of these two, or of tan(c/2) and the rest of it
-        let known = plus.gt(sum * R::lit(0.125)) & (first + second.abs()).lt(self.tan_half.max(arc.x.abs()));
+        // nor does P have fewer than two weights that sum up to 1: where v0 is opposite v1 to the last bit they are lost
+        let known = plus.gt(sum * R::lit(0.125))
+            & (w0 + w2).gt(R::lit(0.5))
+            & (first + second.abs()).lt(self.tan_half.max(arc.x.abs()));
         let better = long & known;
-        let x = R::select(better, first + second, arc.x);
-        let y = R::select(better, w2 * self.y2 * inverse, arc.y);
+        let most = R::lit(1e15);
+        let x = R::select(better, (first + second).clamp(-most, most), arc.x);
+        let y = R::select(better, (w2 * self.y2 * inverse).min(most), arc.y);
         Arc { x, y, m: x.mul_add(x, y * y), swept: arc.swept }
     }
 

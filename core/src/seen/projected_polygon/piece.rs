@@ -3,7 +3,6 @@
 
 use super::super::lanewise;
 use super::super::projected_cap::ratio;
-use super::super::triangle::plane;
 use super::sector::{Corner, Sector};
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
@@ -25,12 +24,13 @@ lanewise! {
     }
 }
 
-/// Vertices relative to the point, edges from each to the next, unit normals of their planes, heights over the horizon, and
-/// det(v₀, v₁, v₂).
+/// Vertices relative to the point; of the products of each and the next unit vectors, lengths, and inner products with the normal; heights over
+/// the horizon, and det(v₀, v₁, v₂).
 pub(super) struct Corners<R> {
     pub(super) vertices: [Vec3<R>; 3],
-    pub(super) edges: [Vec3<R>; 3],
     pub(super) poles: [Vec3<R>; 3],
+    pub(super) lengths: [R; 3],
+    pub(super) areas: [R; 3],
     pub(super) heights: [R; 3],
     pub(super) volume: R,
 }
@@ -39,31 +39,12 @@ impl<R: Real> Piece<R> {
     #[inline(never)]
     pub(super) fn new(corners: &Corners<R>, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let Corners { vertices: v, edges: e, poles: pole, heights: z, volume } = *corners;
-        let inverse = |squared: R| rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
+        let Corners { vertices: v, poles: pole, lengths: length, areas, heights: z, volume } = *corners;
         let squared = v.map(Vec3::length_squared);
-        let shrink = squared.map(inverse);
+        let shrink = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
         let next = [1, 2, 0];
-        let m: [Vec3<R>; 3] = core::array::from_fn(|i| plane(v[i], v[next[i]], e[i]));
-        let m_squared = m.map(Vec3::length_squared);
-        let m_inverse = m_squared.map(inverse);
-        let length: [R; 3] = core::array::from_fn(|i| m_squared[i] * m_inverse[i]);
-        let cosine: [R; 3] = core::array::from_fn(|i| {
-            let cos = pole[i].dot(normal);
-            // near the zenith, of the products the one with the smaller factor; from the first vertex, so that the edges alone
-            // tell where the others are
-            let low = |k: usize| (squared[k] - z[k] * z[k]) * e[i].length_squared();
-            let (overhead, from_first) = (low(i).lt(m_squared[i]), low(0).lt(m_squared[i]));
-            if !(overhead | from_first).any() {
-                return cos;
-            }
-            let own = normal.cross(v[i]).dot(e[i]);
-            let mut first = normal.cross(v[0]).dot(e[i]);
-            if i == 1 {
-                first += normal.dot(e[0].cross(e[1]));
-            }
-            R::select(overhead | from_first, R::select(from_first, first, own) * m_inverse[i], cos)
-        });
+        let m_inverse = length.map(|l| ratio(one, l).min(R::lit(1e37)));
+        let cosine: [R; 3] = core::array::from_fn(|i| (areas[i] * m_inverse[i]).clamp(-one, one));
         let reversed = volume.lt(zero);
         let cosine = cosine.map(|c| c.negate_where(reversed));
         // one edge on the far side of the other two: inner if its plane lies over the triangle. None about the zenith
@@ -145,23 +126,22 @@ impl<R: Real> Piece<R> {
         }
     }
 
-    /// The sector that has the area `swept` before it, and the share of its own area that is before the azimuth, from its apex.
+    /// The sector that has the area `swept` before it and `left` behind, and the share of its own area that is before the azimuth, from its
+    /// apex: each from the end that is nearer, where the azimuth is a root of the area.
     #[inline(always)]
-    pub(super) fn choose(&self, swept: R) -> (Sector<R>, R) {
+    pub(super) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let later = swept.ge(self.first.area) & self.second.area.gt(zero);
         let mut sector = Sector::select(later, &self.second, &self.first);
-        let mut rest = R::select(later, swept - self.first.area, swept);
-        let mut back = later;
+        let mut part = R::select(later, left - self.third.area, swept);
         if self.third.area.gt(zero).any() {
             let before = self.first.area + self.second.area;
             let last = swept.ge(before) & self.third.area.gt(zero);
             sector = Sector::select(last, &self.third, &sector);
-            rest = R::select(last, swept - before, rest);
-            back = back & !last;
+            part = R::select(last, swept - before, part);
         }
-        let share = ratio(rest, sector.area).clamp(zero, one);
-        (sector, R::select(back, one - share, share))
+        let share = ratio(part, sector.area).clamp(zero, one);
+        (sector, share)
     }
 
     /// The area before a direction, and `u` across.
