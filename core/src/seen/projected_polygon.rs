@@ -221,7 +221,8 @@ impl<R: Real> ProjectedTriangle<R> {
             plane,
             volume,
             unit: scale.exponent_reciprocal(),
-            projected: first.area + second.area,
+            // from its plane there is nothing to see, whatever rounding makes of it
+            projected: (first.area + second.area).keep(volume.abs().gt(zero)),
         }
     }
 

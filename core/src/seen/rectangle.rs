@@ -5,8 +5,8 @@ use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
 
-/// Angle by which a sample may leave the rectangle through the rounding of its direction: 4 ulp of a component near 1.
-const SLACK: f64 = 4.0 / 16_777_216.0;
+/// Angle by which a sample may leave the rectangle through the rounding of its direction: 8 ulp of a component near 1.
+const SLACK: f64 = 8.0 / 16_777_216.0;
 const INV_FOUR_PI: f64 = 0.25 / core::f64::consts::PI;
 
 lanewise! {
@@ -25,7 +25,7 @@ lanewise! {
     ///   With D² = x²+z², h = y/√(D²+y²) = h₁ − (1−u₁)(h₁−h₀): y = Dh/√(1−h²), 1−h² = (1−h₁²) + (h₁−h)(h₁+h).
     /// - Domain: u in [0, 1)²; any rectangle, from any side. Edges that are not perpendicular are not sheared: use
     ///   [`SphericalParallelogram`](super::SphericalParallelogram).
-    /// - Density: 1/Ω per steradian inside (and within 4 ulp of the direction beyond), 0 outside.
+    /// - Density: 1/Ω per steradian inside (and within 8 ulp of the direction beyond), 0 outside.
     /// - Degenerate: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
     /// - Greatest error over the atlas: direction 6e−7 (4e−5 of its size if that is 1e−6 and it is seen from 1e−7 over its plane), besides what
     ///   8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded): u₀ counts from the nearer end where the rectangle lies on both sides of

@@ -214,6 +214,10 @@ macro_rules! subject {
             fn condition(&self) -> f64 {
                 self.truth.condition
             }
+            // of three sectors' areas one is inverted, and two are rounded
+            fn inverse_steps(&self) -> f64 {
+                3.0
+            }
             fn gradient(&self) -> f64 {
                 1.0 / self.truth.projected
             }

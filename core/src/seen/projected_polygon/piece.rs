@@ -2,12 +2,16 @@
 #![expect(unreachable_pub, reason = "of the macro")]
 
 use super::super::lanewise;
-use super::super::projected_cap::ratio;
+use super::super::projected_cap::{double, ratio};
 use super::sector::{Corner, Sector};
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::unit_interval;
+
+/// Share of the area below which a sector is left out: a small part of a step of 2⁻²⁴ in `u`, or of the precision.
+const NARROWEST: f64 = 1.0 / 4_294_967_296.0;
+const NARROWEST_F64: f64 = 1e-16;
 
 lanewise! {
     /// By azimuth: from the first vertex to the middle one, from there to the last; about the zenith on to the first.
@@ -97,8 +101,8 @@ impl<R: Real> Piece<R> {
             sector
         };
         let (no, yes) = (R::Mask::splat(false), R::Mask::splat(true));
-        let first = sector(0, no, a, size_a, height_a, before, after);
-        let second = sector(1, yes, c, size_c, height_c, after, before);
+        let mut first = sector(0, no, a, size_a, height_a, before, after);
+        let mut second = sector(1, yes, c, size_c, height_c, after, before);
         let mut third = Sector::default();
         if central.any() {
             let tangent = poles[2].cross(c);
@@ -113,6 +117,12 @@ impl<R: Real> Piece<R> {
                 end: [lengths[2], dots[2]],
             });
             third.area = third.area.keep(central & some);
+        }
+        // beside an upright edge there are sectors of no width, in which a direction is all rounding: no `u` but 0 falls into them
+        let least =
+            R::lit(if double::<R>() { NARROWEST_F64 } else { NARROWEST }) * (first.area + second.area + third.area);
+        for sector in [&mut first, &mut second, &mut third] {
+            sector.area = sector.area.keep(sector.area.gt(least));
         }
         // with the long edge outside, they run the other way round
         let turn = one.negate_where(reversed ^ two);
