@@ -21,7 +21,7 @@ lanewise! {
     ///   ψᵢ = atan(yᵢ/z). The strip \[0, x\]×\[y₀, y₁\] has the solid angle w = asin(X sinψ₁) − asin(X sinψ₀), X = x/√(x²+z²); therefore
     ///   x = z sinw/√M, M = (cosw−p)(cosw+s) with p = cos(ψ₁−ψ₀), s = cos(ψ₁+ψ₀). With w = w₁ − 2e, 2e = (1−u₀)Ω, and the
     ///   difference k = cosw − cosw₁ = 2 sin(w₁−e) sin e, M is (k + (cosw₁−p))(k + (cosw₁+s)), and
-    ///   x₁−x = (x₁/sinw₁)² kQ/(√M(x₁√M + z sinw)), Q = (cosw+cosw₁)(1−p)(1+s) − (p−s)(1−cosw)(1−cosw₁).
+    ///   x₁−x = (x₁/sinw₁)² kQ/(√M(x₁√M + z sinw)), Q = sin²w₁(A+B+k) + (cosw+cosw₁)AB with A = cosw₁−p, B = cosw₁+s.
     ///   With D² = x²+z², h = y/√(D²+y²) = h₁ − (1−u₁)(h₁−h₀): y = Dh/√(1−h²), 1−h² = (1−h₁²) + (h₁−h)(h₁+h).
     /// - Domain: u in [0, 1)²; any rectangle, from any side. Edges that are not perpendicular are not sheared: use
     ///   [`SphericalParallelogram`](super::SphericalParallelogram).
@@ -70,9 +70,6 @@ lanewise! {
         near_above_s: R,
         half: R,
         /// Q = (2cosw₁+k)q₀ + q₁q₂(q₂±k), + where y₀ < 0
-        q0: R,
-        q1: R,
-        q2: R,
         solid_angle: R,
         /// of the rectangle's normal: −1 where the point is on the side to which u×v points
         side: R,
@@ -146,15 +143,6 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let first = R::select(straddles, s1, volume).atan2(R::select(straddles, c1, t1));
     let second = R::select(straddles, s0, volume).atan2(R::select(straddles, c0, t0));
     (first + second) * R::select(straddles, one, R::lit(2.0))
-}
-
-/// Sine, cosine, and 1∓cos of an angle in [0, π], the small one of these from the sine.
-#[inline(always)]
-fn one_minus_plus<R: Real>(sin: R, cos: R) -> (R, R) {
-    let one = R::lit(1.0);
-    let (large, small) = (one + cos.abs(), sin * sin / (one + cos.abs()));
-    let acute = cos.gt(R::lit(0.0));
-    (R::select(acute, small, large), R::select(acute, large, small))
 }
 
 impl<R: Real> SphericalRectangle<R> {
@@ -232,10 +220,6 @@ impl<R: Real> SphericalRectangle<R> {
         let straddles = x0.lt(zero);
         let (near_sin, near_cos, near_above_p, near_above_s) =
             if straddles.any() { strip(-x0) } else { (zero, zero, zero, zero) };
-        let (sin_p, cos_p) = (z * dy * im, (zz + yy) * im);
-        let (sin_s, cos_s) = (z * (y0 + y1) * im, (zz - yy) * im);
-        let ((minus_p, plus_p), (minus_s, plus_s)) = (one_minus_plus(sin_p, cos_p), one_minus_plus(sin_s, cos_s));
-        let (minus_w, plus_w) = one_minus_plus(sin_w1, cos_w1);
         let solid_angle = window(Vec2::new(x0, y0), Vec2::new(x1, y1), Vec2::new(dx, dy), z);
         let some = finite
             & solid_angle.gt(R::lit(1e-36))
@@ -285,9 +269,6 @@ impl<R: Real> SphericalRectangle<R> {
             near_above_p,
             near_above_s,
             half: R::select(straddles, R::lit(0.5), R::lit(2.0)),
-            q0: R::select(across, plus_p * minus_s, minus_p * plus_s),
-            q1: (yy + yy) * -im,
-            q2: R::select(across, plus_w, minus_w),
             solid_angle: solid_angle.keep(some),
             side,
             unit: one / scale,
@@ -332,8 +313,9 @@ impl<R: Real> SphericalRectangle<R> {
         let above_p = k + R::select(near, self.near_above_p, self.above_p);
         let above_s = k + R::select(near, self.near_above_s, self.above_s);
         let root = (above_p * above_s).max(zero).sqrt();
-        let last = self.q2 + k.negate_where(y0.ge(zero));
-        let q = (self.cos_w1 + self.cos_w1 + k).mul_add(self.q0, self.q1 * self.q2 * last);
+        // of the far end; where cosw₁ < 0 the difference leaves half of the first term and more
+        let (far_p, far_s) = (self.above_p, self.above_s);
+        let q = (sin_w1 * sin_w1).mul_add(far_p + far_s + k, (cos_w1 + cos_w1 + k) * (far_p * far_s));
         let from_far = (sin_d + sin_d) * self.inv_sin_w1 * (sin_e * self.inv_sin_w1) * q * x1 * x1;
         let foot = (z * sin_w).negate_where(near);
         let anchored = self.anchor.x.gt(zero);
