@@ -13,6 +13,9 @@ use horizon::{Exact, clip};
 use piece::{Corners, Piece};
 use sector::Sector;
 
+/// In units of the greatest coordinate: what is nearer to the horizon is on it.
+const LEAST_HEIGHT: f64 = 1e-30;
+
 lanewise! {
     /// The directions from a point to a triangle above the horizon of a surface normal, by projected solid angle: with density
     /// proportional to the cosine to the normal.
@@ -183,6 +186,11 @@ impl<R: Real> ProjectedTriangle<R> {
             Some([r1, r2]) => [exact_dot_pair(v[0], long), over(v[1], r1), over(v[2], r2)],
             None => v.map(|v| exact_dot_pair(v, long)),
         };
+        // below, the errors of products are subnormal, and the horizon's cut would be rounding
+        let heights = heights.map(|pair| {
+            let some = pair[0].abs().gt(R::lit(LEAST_HEIGHT));
+            pair.map(|x| x.keep(some))
+        });
         let volumes = products.map(|n| exact_height_pair(long, n));
         let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
         let (z, areas) = (heights.map(rounded), volumes.map(rounded));
