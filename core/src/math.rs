@@ -61,7 +61,8 @@ pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
 pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
     let turns = y.atan2(x) * R::lit(0.5 / core::f64::consts::PI);
     let turns = R::select(turns.lt(R::lit(0.0)), turns + R::lit(1.0), turns);
-    turns.min(R::below_one())
+    // of infinite numbers, too
+    turns.clamp(R::lit(0.0), R::below_one())
 }
 
 /// Horner's rule with `mul_add`, coefficients from the constant term up.
