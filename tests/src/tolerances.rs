@@ -93,9 +93,9 @@ pub const PROJECTED_SEGMENT: Tolerance = Tolerance { steps: 4.0, ..SEGMENT };
 /// sum: 4 steps. Fuzzing has seen 6.4 units of the density and 8.1 of the inverse.
 pub const SPHERICAL_DISK: Tolerance =
     Tolerance { point: 4.0, steps: 4.0, distance: 4.0, density: 7.0, round_trip: 9.0 };
-/// A frame and a sum; coordinates are rounded to their size: fuzzing has seen 4.1 units. The density has a length, two products and a
+/// A frame and a sum; coordinates are rounded to their size: 3 ulp. Fuzzing has seen 5.1 units. The density has a length, two products and a
 /// quotient; fuzzing has seen 4.2.
-pub const SURFACE: Tolerance = Tolerance { point: 5.0, steps: 0.0, distance: 0.0, density: 5.0, round_trip: 8.0 };
+pub const SURFACE: Tolerance = Tolerance { point: 6.0, steps: 0.0, distance: 0.0, density: 5.0, round_trip: 8.0 };
 /// A bilinear density, with its steps, and a sum; the inverse is a quadratic equation's root.
 pub const PATCH: Tolerance = Tolerance { point: 4.0, steps: 6.0, distance: 0.0, density: 8.0, round_trip: 8.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
