@@ -1,0 +1,438 @@
+//! Numbers of single and double precision, and packets of them.
+
+use super::{Mask, MaskF64X4, MaskX4, MaskX8, Real, sealed::Sealed};
+use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8};
+
+/// `a·b − p` where the target has no fused multiply-add: Veltkamp's split and Dekker's product.
+#[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
+#[inline(always)]
+fn dekker<R: Real>(a: R, b: R, p: R, splitter: f64) -> R {
+    let split = |x: R| {
+        let c = R::lit(splitter) * x;
+        let high = c - (c - x);
+        (high, x - high)
+    };
+    let ((ah, al), (bh, bl)) = (split(a), split(b));
+    ((ah * bh - p) + ah * bl + al * bh) + al * bl
+}
+
+/// What scalars and packets share: everything that is the same expression on both.
+macro_rules! shared {
+    ($splitter:expr) => {
+        #[inline(always)]
+        fn product_error(a: Self, b: Self, product: Self) -> Self {
+            #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
+            return Real::mul_add(a, b, -product);
+            #[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
+            return dekker(a, b, product, $splitter);
+        }
+    };
+}
+
+/// Transcendentals of single precision: own polynomials, in [`crate::math`].
+macro_rules! polynomials {
+    () => {
+        #[inline(always)]
+        fn sin_cos_turns(self) -> (Self, Self) {
+            crate::math::sin_cos_turns_f32(self)
+        }
+        #[inline(always)]
+        fn acos(self) -> Self {
+            crate::math::acos_f32(self)
+        }
+        #[inline(always)]
+        fn atan2(self, other: Self) -> Self {
+            crate::math::atan2_f32(self, other)
+        }
+        #[inline(always)]
+        fn exp(self) -> Self {
+            crate::math::exp_f32(self)
+        }
+        #[inline(always)]
+        fn exp_m1(self) -> Self {
+            crate::math::exp_m1_f32(self)
+        }
+        #[inline(always)]
+        fn ln_1p(self) -> Self {
+            crate::math::ln_1p_f32(self)
+        }
+        #[inline(always)]
+        fn cbrt(self) -> Self {
+            // a third of the exponent, and nearly of the mantissa: x^(-1/3) within 3.5 %
+            let bits = Self::from_uint(self.to_bits());
+            let guess = (Self::lit(1_419_916_083.0) - bits * Self::lit(1.0 / 3.0)).to_uint();
+            crate::math::cbrt_f32(self, Self::from_bits(guess))
+        }
+        #[inline(always)]
+        fn normal_cdf(self) -> Self {
+            crate::math::normal_cdf_f32(self)
+        }
+        #[inline(always)]
+        fn normal_quantile(self) -> Self {
+            crate::math::normal_quantile_f32(self)
+        }
+    };
+}
+
+/// Transcendentals of double precision: `libm`, lane by lane. This precision is the oracle of the other, not the fast one.
+macro_rules! lane_by_lane {
+    () => {
+        #[inline(always)]
+        fn sin_cos_turns(self) -> (Self, Self) {
+            let quarter = (self * Self::lit(4.0)).round_ties_even();
+            let angle = self * Self::lit(4.0) - quarter;
+            let angle = angle * Self::lit(core::f64::consts::FRAC_PI_2);
+            let value = |i| {
+                let (s, c) = libm::sincos(angle.lane(i));
+                match quarter.lane(i) as i64 & 3 {
+                    0 => (s, c),
+                    1 => (c, -s),
+                    2 => (-s, -c),
+                    _ => (-c, s),
+                }
+            };
+            (Self::from_fn(|i| value(i).0), Self::from_fn(|i| value(i).1))
+        }
+        #[inline(always)]
+        fn acos(self) -> Self {
+            Self::from_fn(|i| libm::acos(self.lane(i).clamp(-1.0, 1.0)))
+        }
+        #[inline(always)]
+        fn atan2(self, other: Self) -> Self {
+            Self::from_fn(|i| libm::atan2(self.lane(i), other.lane(i)))
+        }
+        #[inline(always)]
+        fn exp(self) -> Self {
+            Self::from_fn(|i| libm::exp(self.lane(i).clamp(-745.0, 709.0)))
+        }
+        #[inline(always)]
+        fn exp_m1(self) -> Self {
+            Self::from_fn(|i| libm::expm1(self.lane(i).clamp(-745.0, 709.0)))
+        }
+        #[inline(always)]
+        fn ln_1p(self) -> Self {
+            Self::from_fn(|i| libm::log1p(self.lane(i)))
+        }
+        #[inline(always)]
+        fn cbrt(self) -> Self {
+            Self::from_fn(|i| libm::cbrt(self.lane(i)))
+        }
+        #[inline(always)]
+        fn normal_cdf(self) -> Self {
+            Self::from_fn(|i| 0.5 * libm::erfc(-core::f64::consts::FRAC_1_SQRT_2 * self.lane(i)))
+        }
+        #[inline(always)]
+        fn normal_quantile(self) -> Self {
+            // the polynomial of single precision, and one step of Halley, which cubes its error; below the median, where
+            // Φ keeps its digits
+            let half = Self::lit(0.5);
+            let above = self.gt(half);
+            let lower = <Self as Real>::select(above, Self::lit(1.0) - self, self);
+            let lower = Real::clamp(lower, Self::lit(crate::math::LEAST_TAIL), half);
+            let z = crate::math::normal_quantile_f32(lower);
+            let refined = Self::from_fn(|i| {
+                let z = z.lane(i);
+                let excess = 0.5 * libm::erfc(-core::f64::consts::FRAC_1_SQRT_2 * z) - lower.lane(i);
+                let newton = excess * libm::sqrt(2.0 * core::f64::consts::PI) * libm::exp(0.5 * z * z);
+                z - newton / (1.0 + 0.5 * z * newton)
+            });
+            refined.negate_where(above)
+        }
+    };
+}
+
+macro_rules! scalar_real {
+    ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal, $mantissa:literal, $bias:literal,
+     $splitter:literal, $functions:ident) => {
+        impl Sealed for $scalar {}
+        impl Real for $scalar {
+            type Scalar = $scalar;
+            type Mask = bool;
+            type Uint = u32;
+            const LANES: usize = 1;
+            #[inline(always)]
+            fn splat(value: $scalar) -> Self {
+                value
+            }
+            #[inline(always)]
+            fn lit(value: f64) -> Self {
+                value as $scalar
+            }
+            #[inline(always)]
+            fn from_fn(mut f: impl FnMut(usize) -> $scalar) -> Self {
+                f(0)
+            }
+            #[inline(always)]
+            fn lane(self, i: usize) -> $scalar {
+                [self][i]
+            }
+            #[inline(always)]
+            fn lane_f64(self, i: usize) -> f64 {
+                f64::from([self][i])
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn select_uint(mask: bool, yes: u32, no: u32) -> u32 {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn keep(self, mask: bool) -> Self {
+                if mask { self } else { 0.0 }
+            }
+            #[inline(always)]
+            fn negate_where(self, mask: bool) -> Self {
+                if mask { -self } else { self }
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $scalar::from_bits(self.to_bits() & ($bits::MAX >> 1))
+            }
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                let magnitude = $bits::MAX >> 1;
+                $scalar::from_bits(self.to_bits() & magnitude | sign.to_bits() & !magnitude)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $packet::splat(self).sqrt().to_array()[0]
+            }
+            #[inline(always)]
+            fn round_ties_even(self) -> Self {
+                $packet::splat(self).round_ties_even().to_array()[0]
+            }
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $packet::splat(self).mul_add($packet::splat(a), $packet::splat(b)).to_array()[0]
+            }
+            #[inline(always)]
+            fn exponent_reciprocal(self) -> Self {
+                $scalar::from_bits($bits::wrapping_sub($reflected, self.to_bits() & $exponent))
+                    .max($scalar::MIN_POSITIVE * 0.5)
+            }
+            #[inline(always)]
+            fn exponent(self) -> Self {
+                let integer = (1_u64 << $mantissa) as $scalar;
+                $scalar::from_bits(self.to_bits() >> $mantissa | integer.to_bits()) - (integer + $bias)
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                let integer = 1.5 * (1_u64 << $mantissa) as $scalar + $bias;
+                $scalar::from_bits((self + integer).to_bits() << $mantissa)
+            }
+            #[inline(always)]
+            fn unit(bits: u32) -> Self {
+                (bits >> 8) as $scalar * (1.0 / 16_777_216.0)
+            }
+            #[inline(always)]
+            fn from_uint(value: u32) -> Self {
+                value as i32 as $scalar
+            }
+            #[inline(always)]
+            fn to_uint(self) -> u32 {
+                self as i32 as u32
+            }
+            shared!($splitter);
+            $functions!();
+        }
+    };
+}
+scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, 23, 127.0, 4097.0, polynomials);
+scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 52, 1023.0, 134_217_729.0, lane_by_lane);
+
+macro_rules! packet_real {
+    ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
+     $reflected:literal, $mantissa:literal, $bias:literal, $splitter:literal, $from_int:ident, $functions:ident, $to_uint:expr,
+     $mask_uint:expr) => {
+        impl Sealed for $packet {}
+        impl Real for $packet {
+            type Scalar = $scalar;
+            type Mask = $mask;
+            type Uint = $uint;
+            const LANES: usize = $lanes;
+            #[inline(always)]
+            fn splat(value: $scalar) -> Self {
+                $packet::splat(value)
+            }
+            #[inline(always)]
+            fn lit(value: f64) -> Self {
+                $packet::splat(value as $scalar)
+            }
+            #[inline(always)]
+            fn from_fn(f: impl FnMut(usize) -> $scalar) -> Self {
+                $packet::new(core::array::from_fn(f))
+            }
+            #[inline(always)]
+            fn lane(self, i: usize) -> $scalar {
+                self.as_array()[i]
+            }
+            #[inline(always)]
+            fn lane_f64(self, i: usize) -> f64 {
+                f64::from(self.as_array()[i])
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> $mask {
+                $mask(self.simd_lt(other))
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> $mask {
+                $mask(self.simd_le(other))
+            }
+            #[inline(always)]
+            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                mask.0.select(yes, no)
+            }
+            #[inline(always)]
+            fn select_uint(mask: $mask, yes: $uint, no: $uint) -> $uint {
+                let bits: fn($mask) -> $uint = $mask_uint;
+                no ^ ((no ^ yes) & bits(mask))
+            }
+            #[inline(always)]
+            fn keep(self, mask: $mask) -> Self {
+                self & mask.0
+            }
+            #[inline(always)]
+            fn negate_where(self, mask: $mask) -> Self {
+                self ^ (mask.0 & $packet::splat(-0.0))
+            }
+            // On x86 `fast_min` is minps: `a < b ? a : b`, as the scalar; other targets differ for NaN and ±0.
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
+                    self.fast_min(other)
+                } else {
+                    self.simd_lt(other).select(self, other)
+                }
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
+                    self.fast_max(other)
+                } else {
+                    other.simd_lt(self).select(self, other)
+                }
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $packet::abs(self)
+            }
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                $packet::copysign(self, sign)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $packet::sqrt(self)
+            }
+            #[inline(always)]
+            fn round_ties_even(self) -> Self {
+                $packet::round_ties_even(self)
+            }
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                $packet::mul_add(self, a, b)
+            }
+            #[inline(always)]
+            fn exponent_reciprocal(self) -> Self {
+                $packet::from_bits($bits::splat($reflected) - (self.to_bits() & $bits::splat($exponent)))
+                    .fast_max($packet::splat($scalar::MIN_POSITIVE * 0.5))
+            }
+            #[inline(always)]
+            fn exponent(self) -> Self {
+                let integer = $packet::splat((1_u64 << $mantissa) as $scalar);
+                $packet::from_bits((self.to_bits() >> ($mantissa as u32)) | integer.to_bits())
+                    - (integer + $packet::splat($bias))
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                let integer = 1.5 * (1_u64 << $mantissa) as $scalar + $bias;
+                $packet::from_bits((self + $packet::splat(integer)).to_bits() << ($mantissa as u32))
+            }
+            #[inline(always)]
+            fn unit(bits: $uint) -> Self {
+                $packet::$from_int((bits >> 8u32).cast_signed()) * $packet::splat(1.0 / 16_777_216.0)
+            }
+            #[inline(always)]
+            fn from_uint(value: $uint) -> Self {
+                $packet::$from_int(value.cast_signed())
+            }
+            #[inline(always)]
+            fn to_uint(self) -> $uint {
+                let convert: fn(Self) -> $uint = $to_uint;
+                convert(self)
+            }
+            shared!($splitter);
+            $functions!();
+        }
+    };
+}
+packet_real!(
+    f32x4,
+    f32,
+    u32x4,
+    MaskX4,
+    u32x4,
+    4,
+    0x7f80_0000,
+    0x7f00_0000,
+    23,
+    127.0,
+    4097.0,
+    from_i32x4,
+    polynomials,
+    |x| x.fast_trunc_int().cast_unsigned(),
+    |mask| mask.0.to_bits()
+);
+packet_real!(
+    f32x8,
+    f32,
+    u32x8,
+    MaskX8,
+    u32x8,
+    8,
+    0x7f80_0000,
+    0x7f00_0000,
+    23,
+    127.0,
+    4097.0,
+    from_i32x8,
+    polynomials,
+    |x| x.fast_trunc_int().cast_unsigned(),
+    |mask| mask.0.to_bits()
+);
+use wide::u64x4;
+packet_real!(
+    f64x4,
+    f64,
+    u64x4,
+    MaskF64X4,
+    u32x4,
+    4,
+    0x7ff0_0000_0000_0000,
+    0x7fe0_0000_0000_0000,
+    52,
+    1023.0,
+    134_217_729.0,
+    from_i32x4,
+    lane_by_lane,
+    |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),
+    |mask| u32x4::new(core::array::from_fn(|i| if mask.lane(i) { u32::MAX } else { 0 }))
+);
