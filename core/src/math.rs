@@ -48,6 +48,19 @@ pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
     }
 }
 
+/// a/b, or 0 where b is not positive.
+#[inline(always)]
+pub(crate) fn ratio<R: Real>(a: R, b: R) -> R {
+    let some = b.gt(R::lit(0.0));
+    (a / R::select(some, b, R::lit(1.0))).keep(some)
+}
+
+/// Is this double precision? There, series are longer and steps more.
+#[inline(always)]
+pub(crate) fn double<R: Real>() -> bool {
+    size_of::<R::Scalar>() > 4
+}
+
 /// `a + b` and its rounding error, exactly (Knuth's TwoSum).
 #[inline(always)]
 pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {

@@ -24,6 +24,7 @@
 
 mod cosine_warped;
 mod disk;
+mod exact;
 mod line;
 mod parallelogram;
 mod polygon;
@@ -44,7 +45,6 @@ pub use rectangle::SphericalRectangle;
 pub use sphere::SphereCap;
 pub use triangle::SphericalTriangle;
 
-use crate::math::two_sum;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -64,40 +64,14 @@ pub(crate) fn uniform_density<R: Real>(solid_angle: R) -> R {
     (R::lit(1.0) / R::select(some, solid_angle, R::lit(1.0))).keep(some)
 }
 
-/// u×v as an unevaluated sum of two: as if computed in twice the working precision.
+/// In a unit in which no coordinate exceeds 2, and 1 over it; zeros where a sum overflowed: a triangle of no extent.
 #[inline(always)]
-pub(crate) fn exact_cross<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
-    let cross = |a: R, b: R, c: R, d: R| {
-        let (ab, cd) = (a * b, c * d);
-        let (sum, error) = two_sum(ab, -cd);
-        (sum, error + (R::product_error(a, b, ab) - R::product_error(c, d, cd)))
-    };
-    let ((x, ex), (y, ey), (z, ez)) = (cross(u.y, v.z, u.z, v.y), cross(u.z, v.x, u.x, v.z), cross(u.x, v.y, u.y, v.x));
-    [Vec3::new(x, y, z), Vec3::new(ex, ey, ez)]
-}
-
-/// a + b of two such sums.
-#[inline(always)]
-pub(crate) fn exact_sum<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
-    let ((x, ex), (y, ey), (z, ez)) = (two_sum(a.x, b.x), two_sum(a.y, b.y), two_sum(a.z, b.z));
-    [Vec3::new(x, y, z), Vec3::new(ex, ey, ez) + (ra + rb)]
-}
-
-/// p·n for an n that is a sum of two, rounded once: the height of a far point over a plane is a small difference.
-#[inline(always)]
-pub(crate) fn exact_height<R: Real>(p: Vec3<R>, n: [Vec3<R>; 2]) -> R {
-    let [sum, rest] = exact_height_pair(p, n);
-    sum + rest
-}
-
-/// The same as an unevaluated sum of two.
-#[inline(always)]
-pub(crate) fn exact_height_pair<R: Real>(p: Vec3<R>, [n, rest]: [Vec3<R>; 2]) -> [R; 2] {
-    let term = |a: R, b: R| (a * b, R::product_error(a, b, a * b));
-    let ((a, ea), (b, eb), (c, ec)) = (term(p.x, n.x), term(p.y, n.y), term(p.z, n.z));
-    let (sum, e1) = two_sum(a, b);
-    let (sum, e2) = two_sum(sum, c);
-    [sum, ((e1 + e2) + ((ea + eb) + ec) + p.dot(rest))]
+pub(crate) fn to_unit<R: Real, const N: usize>(vectors: [Vec3<R>; N]) -> ([Vec3<R>; N], R) {
+    let reach = vectors.iter().fold(R::lit(0.0), |most, v| most.max(v.max_abs()));
+    let finite = reach.lt(R::lit(f64::INFINITY));
+    let scale = reach.exponent_reciprocal();
+    let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
+    (vectors.map(scaled), scale)
 }
 
 /// A struct whose fields are lanes, with the operations that go field by field.

@@ -122,6 +122,15 @@ impl<R: Real> Vec3<R> {
         let squared = self.length_squared();
         self * rsqrt(squared).keep(squared.gt(R::lit(0.0)))
     }
+    /// Unit vector and length at any scale; 0 for 0.
+    #[inline(always)]
+    pub(crate) fn unit_and_length(self) -> (Self, R) {
+        let scale = self.max_abs().exponent_reciprocal();
+        let v = self * scale;
+        let squared = v.length_squared();
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
+        (v * inverse, squared * inverse / scale)
+    }
     /// `|self|² − r²` as if computed in twice the working precision and rounded once.
     #[inline(always)]
     pub fn length_squared_minus_square(self, r: R) -> R {

@@ -1,7 +1,7 @@
+use super::exact::exact_dot;
 use super::line::finite_or_zero;
-use super::projected_cap::{double, exact_dot, ratio};
 use super::{Sighting, lanewise, uniform_density};
-use crate::math::rsqrt;
+use crate::math::{double, ratio, rsqrt};
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Linear, Warp, Warp1, unit_interval};

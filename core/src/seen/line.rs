@@ -1,7 +1,7 @@
-use super::projected_cap::{double, exact_dot, ratio, segment};
-use super::rectangle::unit_and_length;
+use super::exact::{exact_dot_pair, rounded_sum};
+use super::projected_cap::segment;
 use super::{Sighting, lanewise};
-use crate::math::two_sum;
+use crate::math::{double, ratio};
 use crate::real::Real;
 use crate::vector::Vec3;
 use crate::warp::{Linear, Warp1, unit_interval};
@@ -59,8 +59,8 @@ impl<R: Real> SphericalSegment<R> {
     pub fn new(a: Vec3<R>, edge: Vec3<R>) -> Self {
         let (a, edge, scale) = common_scale(a, edge);
         let b = a + edge;
-        let (normal, area) = unit_and_length(a.cross(edge));
-        let ((from, from_distance), (to, to_distance)) = (unit_and_length(a), unit_and_length(b));
+        let (normal, area) = a.cross(edge).unit_and_length();
+        let ((from, from_distance), (to, to_distance)) = (a.unit_and_length(), b.unit_and_length());
         Self::between([from, to], [from_distance, to_distance], normal, area, R::lit(1.0) / scale)
     }
     #[inline(always)]
@@ -225,17 +225,16 @@ impl<R: Real> ProjectedSegment<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (a, edge, scale) = common_scale(a, edge);
         let b = a + edge;
-        let (normal, _) = unit_and_length(normal);
-        let (across, area) = unit_and_length(a.cross(edge));
-        let (along, length) = unit_and_length(edge);
-        let ((a_way, a_distance), (b_way, b_distance)) = (unit_and_length(a), unit_and_length(b));
+        let (normal, _) = normal.unit_and_length();
+        let (across, area) = a.cross(edge).unit_and_length();
+        let (along, length) = edge.unit_and_length();
+        let ((a_way, a_distance), (b_way, b_distance)) = (a.unit_and_length(), b.unit_and_length());
 
-        // heights over the horizon: the second as a sum of two, since it may be a small difference
-        let (low, rise) = (exact_dot(normal, a), exact_dot(normal, edge));
-        let (high, lost) = two_sum(low, rise);
-        let high = high + (lost + (exact_rest(normal, a, low) + exact_rest(normal, edge, rise)));
+        // heights over the horizon: the second may be a small difference
+        let (from, up) = (exact_dot_pair(normal, a), exact_dot_pair(normal, edge));
+        let (low, rise, high) = (from[0] + from[1], up[0] + up[1], rounded_sum(from, up));
         let (enters, leaves) = (low.lt(zero), high.lt(zero));
-        let (level, sine) = unit_and_length(normal.cross(across));
+        let (level, sine) = normal.cross(across).unit_and_length();
         // The end on the horizon: by its place, or by the angles to the ends where the line passes near
         let height = ratio(area, length);
         let clip = |below: R::Mask, way: Vec3<R>, distance: R, level: Vec3<R>| {
@@ -320,18 +319,4 @@ impl<R: Real> ProjectedSegment<R> {
         let (u, v) = (ratio(near, self.whole), ratio(far, self.whole));
         unit_interval(R::select(x.le(y), u, R::lit(1.0) - v))
     }
-}
-
-/// What `dot`, the rounded inner product of a and b, lacks.
-#[inline(always)]
-fn exact_rest<R: Real>(a: Vec3<R>, b: Vec3<R>, dot: R) -> R {
-    let product = |a: R, b: R| {
-        let p = a * b;
-        (p, R::product_error(a, b, p))
-    };
-    let ((x, ex), (y, ey), (z, ez)) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
-    let (s, e1) = two_sum(x, y);
-    let (s, e2) = two_sum(s, z);
-    let (difference, e3) = two_sum(s, -dot);
-    difference + (e3 + ((e1 + e2) + (ex + (ey + ez))))
 }

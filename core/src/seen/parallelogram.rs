@@ -1,5 +1,6 @@
-use super::triangle::{Planes, to_unit};
-use super::{Sighting, SphericalTriangle, exact_cross, exact_height, exact_sum};
+use super::exact::{exact_cross, exact_height, exact_sum};
+use super::triangle::Planes;
+use super::{Sighting, SphericalTriangle, to_unit};
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
@@ -34,11 +35,11 @@ impl<R: Real> SphericalParallelogram<R> {
         // (p+u)×v and u×(p+v)
         let (far_u, far_v) = (exact_sum(pv, against), exact_sum(pu.map(|n| -n), against));
         let normal = rounded(normal);
-        let first = Planes { n01: -rounded(pu), n02: rounded(far_u), normal, volume, edge: u + v };
-        let second = Planes { n01: -diagonal, n02: rounded(far_v), normal, volume, edge: v };
+        let first = Planes { n01: -rounded(pu), n02: rounded(far_u), n12: diagonal, normal, volume, edge: u + v };
+        let second = Planes { n01: -diagonal, n02: rounded(far_v), n12: rounded(pv), normal, volume, edge: v };
         Self {
-            first: SphericalTriangle::prepare([a, p, b], &first, || diagonal, scale),
-            second: SphericalTriangle::prepare([b, p, c], &second, || rounded(pv), scale),
+            first: SphericalTriangle::prepare([a, p, b], &first, scale),
+            second: SphericalTriangle::prepare([b, p, c], &second, scale),
         }
     }
     /// Prepared for one point: the same in every lane.

@@ -1,9 +1,17 @@
+mod lune;
+mod segment;
+
+use super::exact::exact_dot_pair;
 use super::{Sighting, lanewise};
-use crate::math::{polynomial, rsqrt, two_sum};
+use crate::math::{double, ratio, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp, concentric, invert_concentric, unit_interval};
-use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, PI};
+use lune::arcs;
+use segment::invert_segment;
+
+pub(super) use segment::segment;
 
 lanewise! {
     /// The directions from a point to a sphere above the horizon of a surface normal, by projected solid angle: with density
@@ -61,32 +69,6 @@ lanewise! {
     }
 }
 
-/// Is this double precision? There, series are longer and steps more.
-#[inline(always)]
-pub(super) fn double<R: Real>() -> bool {
-    size_of::<R::Scalar>() > 4
-}
-
-/// Inner product as if computed in twice the working precision.
-#[inline(always)]
-pub(super) fn exact_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
-    let [sum, rest] = exact_dot_pair(a, b);
-    sum + rest
-}
-
-/// The same as an unevaluated sum of two.
-#[inline(always)]
-pub(super) fn exact_dot_pair<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
-    let product = |a: R, b: R| {
-        let p = a * b;
-        (p, R::product_error(a, b, p))
-    };
-    let ((x, ex), (y, ey), (z, ez)) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
-    let (s, e1) = two_sum(x, y);
-    let (s, e2) = two_sum(s, z);
-    [s, (e1 + e2) + (ex + (ey + ez))]
-}
-
 /// r|n| − |c·n|, of which `height` is c·n: the distance of a sphere from touching the horizon, good to parts of itself.
 #[inline(always)]
 fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
@@ -99,157 +81,6 @@ fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
     let reach = r * length;
     let reach_rest = r.mul_add(length_rest, R::product_error(r, length, reach));
     (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))))
-}
-
-/// a/b, or 0 where b is not positive.
-#[inline(always)]
-pub(super) fn ratio<R: Real>(a: R, b: R) -> R {
-    let some = b.gt(R::lit(0.0));
-    (a / R::select(some, b, R::lit(1.0))).keep(some)
-}
-
-/// S(φ) = φ − sinφ cosφ for φ in [0, π/2]: ½(Φ − sinΦ) with Φ = 2φ, by its series.
-#[inline(always)]
-pub(super) fn segment<R: Real>(phi: R) -> R {
-    const fn coefficients<const N: usize>() -> [f64; N] {
-        let mut c = [2.0 / 3.0; N];
-        let mut i = 1;
-        while i < N {
-            let k = 2.0 * i as f64;
-            c[i] = c[i - 1] * -4.0 / ((k + 2.0) * (k + 3.0));
-            i += 1;
-        }
-        c
-    }
-    let square = phi * phi;
-    let series = if double::<R>() {
-        polynomial(square, const { coefficients::<16>() })
-    } else {
-        polynomial(square, const { coefficients::<9>() })
-    };
-    phi * square * series
-}
-
-/// Sine and cosine of the φ in [0, π/2] with S(φ) = `area`.
-///
-/// Both are series in w², w = (12·`area`)^⅓: sinφ = wP(w²), cosφ = Q(w²), fitted to 2.0e−8 and 1.1e−8; in double precision refined by
-/// two steps of Newton's.
-#[inline(always)]
-fn invert_segment<R: Real>(area: R) -> (R, R) {
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let w = (area * R::lit(12.0)).cbrt();
-    let square = w * w;
-    let s = w * polynomial(
-        square,
-        [
-            0.500_000_009_931_523_5,
-            -0.012_500_255_289_766,
-            -4.230_223_999_96e-4,
-            -2.379_496_922_54e-5,
-            1.383_191_848_72e-7,
-            -7.832_574_102_47e-7,
-            1.875_718_478_73e-7,
-            -3.250_715_830_96e-8,
-            2.903_164_908_64e-9,
-            -1.209_365_723_01e-10,
-        ],
-    );
-    let c = polynomial(
-        square,
-        [
-            1.000_000_011_322_127,
-            -0.125_000_298_255_369,
-            -1.561_205_631_04e-3,
-            -6.355_213_900_01e-5,
-            -1.361_557_694_34e-6,
-            -1.061_289_853_71e-6,
-            2.346_930_727_66e-7,
-            -4.226_810_935_78e-8,
-            3.797_874_220_48e-9,
-            -1.627_831_372_74e-10,
-        ],
-    );
-    let (s, c) = (s.min(one), c.clamp(zero, one));
-    if !double::<R>() {
-        return (s, c);
-    }
-    let turns = R::lit(0.5 * FRAC_1_PI);
-    let mut phi = s.atan2(c);
-    for _ in 0..2 {
-        let (s, c) = (phi * turns).sin_cos_turns();
-        let off = segment(phi) - area;
-        let slope = (s * s) * (s + s) - off * c;
-        phi = (phi - off * ratio(s, slope)).clamp(zero, R::lit(FRAC_PI_2));
-    }
-    (phi * turns).sin_cos_turns()
-}
-
-/// (C(x), C(x) − C(y) over 1 − x²/y²) for 0 ≤ x ≤ y, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds.
-///
-/// Up to 1 (2.5 in single precision) by Gauss and Legendre, where (C(x)−C(y))/(y²−x²) = ∫ s²(1−s²)/((1+x²s²)(1+y²s²)) ds; beyond in closed form.
-#[inline]
-fn arcs<R: Real>(x: R, y: R) -> (R, R) {
-    // s² and weight · (1−s²)
-    const NARROW: [(f64, f64); 5] = [
-        (0.022_163_568_807_217_638, 0.288_974_353_226_087_8),
-        (0.187_831_567_652_445_52, 0.218_689_929_305_368_82),
-        (0.461_597_361_496_266_73, 0.117_956_675_638_790_13),
-        (0.748_334_627_387_280_5, 0.037_611_729_322_003_11),
-        (0.948_493_926_288_368_7, 0.003_433_979_174_416_841),
-    ];
-    const WIDE: [(f64, f64); 10] = [
-        (0.005_856_308_436_795_614_6, 0.151_858_816_180_923_5),
-        (0.051_886_393_980_323_686, 0.141_432_938_125_265_2),
-        (0.139_656_240_742_977, 0.122_251_500_866_774),
-        (0.260_985_093_682_225_4, 0.097_319_866_806_633_61),
-        (0.404_564_284_765_747_5, 0.070_377_245_675_284_54),
-        (0.557_011_314_600_443_3, 0.045_153_889_780_458_76),
-        (0.704_117_292_400_090_4, 0.024_640_147_777_813_36),
-        (0.832_171_652_087_023_6, 0.010_518_146_332_235_684),
-        (0.929_241_876_579_895_5, 0.002_872_880_980_848_451),
-        (0.986_304_414_519_349_03, 0.000_241_234_140_431_037_57),
-    ];
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let quadrature = |nodes: &[(f64, f64)], reach: R| {
-        let (x, y) = (x.min(reach), y.min(reach));
-        let (x2, y2) = (x * x, y * y);
-        let (mut first, mut both) = (zero, zero);
-        for &(s2, weight) in nodes {
-            let s2 = R::lit(s2);
-            let (dx, dy) = (x2.mul_add(s2, one), y2.mul_add(s2, one));
-            let term = R::lit(weight) / (dx * dy);
-            first = term.mul_add(dy, first);
-            both = term.mul_add(s2, both);
-        }
-        (first, both * y2)
-    };
-    let far = y.gt(one);
-    let (first, difference) = quadrature(if double::<R>() { &WIDE } else { &NARROW }, one);
-    if !far.any() {
-        return (first, difference);
-    }
-    // in single precision the difference has too few digits up to 2.5, and twice as many nodes still do
-    let reach = R::lit(if double::<R>() { 1.0 } else { 2.5 });
-    let wide = if double::<R>() { (first, difference) } else { quadrature(&WIDE, reach) };
-    let closed = |x: R| {
-        // ((1+x²) atan x − x)/x³, in terms of 1/x
-        let inverse = one / x.max(one);
-        let square = inverse * inverse;
-        (one + square) * inverse * one.atan2(inverse) - square
-    };
-    let far_first = R::select(x.gt(reach), closed(x), wide.0);
-    let q = x / y.max(one);
-    let beyond = ratio(far_first - closed(y), (one - q) * (one + q));
-    let far_difference = R::select(y.gt(reach), beyond, wide.1);
-    (R::select(far, far_first, first), R::select(far, far_difference, difference))
-}
-
-/// A slice of the lune at ±t: its half-area up to t and its width, in common units.
-struct Slice<R> {
-    area: R,
-    width: R,
-    /// d width/dt over width
-    slope: R,
 }
 
 impl<R: Real> ProjectedCap<R> {
@@ -436,121 +267,6 @@ impl<R: Real> ProjectedCap<R> {
         let high = self.sin_sigma * s;
         let (ellipse, far) = self.over_the_ellipse(-c, high * v, high * high * inward);
         (Vec3::select(on_circle, circle, ellipse), R::select(on_circle, near, far))
-    }
-
-    /// Cut, with the axis below the horizon: the lune.
-    #[inline]
-    fn lune(&self, u: Vec2<R>) -> (Vec3<R>, R) {
-        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let side = two.mul_add(u.x, -one);
-        let t = self.invert_lune(two * u.x.min(one - u.x));
-        let width = self.width(t);
-        let y = (self.sin_theta * t).copysign(side);
-        let arc = ((one - y) * (one + y)).max(zero).sqrt();
-        let inward = width * u.y;
-        let x = arc - inward;
-        let z = (inward * (arc + x)).max(zero).sqrt();
-        // from the rim, at the same y
-        let (rim_x, rim_z) = (arc - width, (width * (arc + arc - width)).max(zero).sqrt());
-        let beyond = width * (one - u.y) * (self.sin_omega - self.cos_omega * ratio(x + rim_x, z + rim_z));
-        (Vec3::new(x, y, z), beyond)
-    }
-    /// Width of the lune at ±t, on the unit disk.
-    #[inline(always)]
-    fn width(&self, t: R) -> R {
-        self.sin_theta * self.tan_theta * self.sin_omega * self.sin_omega * self.slice(t, false).width
-    }
-    /// The slice at t; without its area, `area` is 0.
-    #[inline]
-    fn slice(&self, t: R, with_area: bool) -> Slice<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let (a, beta) = (self.tan_theta, self.beta);
-        let m = ((one - t) * (one + t)).max(zero);
-        let p = (a * a).mul_add(m, one).sqrt();
-        let q = beta.mul_add(beta, m).sqrt();
-        let (p1, q1, pq) = (one + p, beta + q, beta.mul_add(p, q));
-        // two divisions for all the quotients below: P ≥ 1, and Q ≥ β ≥ 1e−9
-        let (a_pair, a_triple) = (one / (p * q), one / (p1 * q1 * pq));
-        let (by_p, by_q, by_pq) = (q * a_pair, p * a_pair, p1 * q1 * a_triple);
-        let width = m * m * a_triple;
-        let mut area = zero;
-        if with_area {
-            let (x, y) = (t * a * by_p, t * by_q);
-            let (c, difference) = arcs(x.min(y), y);
-            let tail = R::lit(0.5) * t * t * t * a_pair;
-            area = t.mul_add(width, tail * (c * m * by_pq + beta * difference * by_p));
-        }
-        // of log m² − log(1+P) − log(β+Q) − log(βP+Q), by m, times dm/dt = −2t
-        let (dp, dq) = (R::lit(0.5) * a * a * by_p, R::lit(0.5) * by_q);
-        let by_m = ratio(R::lit(2.0), m) - (dp * q1 + dq * p1) * pq * a_triple - beta.mul_add(dp, dq) * by_pq;
-        Slice { area, width, slope: -(t + t) * by_m }
-    }
-    /// The half-lune's area beyond t, in the units of a slice: what is left after a difference would have few digits.
-    #[inline]
-    fn tail(&self, t: R) -> R {
-        let one = R::lit(1.0);
-        let rest = one - t;
-        let mut sum = R::lit(0.0);
-        for (x, weight) in [
-            (0.0198550717512319, 0.0506142681451885),
-            (0.1016667612931866, 0.1111905172266872),
-            (0.2372337950418355, 0.1568533229389434),
-            (0.4082826787521751, 0.1813418916891808),
-            (0.5917173212478248, 0.1813418916891808),
-            (0.7627662049581645, 0.1568533229389434),
-            (0.8983332387068134, 0.1111905172266872),
-            (0.9801449282487681, 0.0506142681451885),
-        ] {
-            // in √(1−t), of which P and Q have no steep root
-            sum = R::lit(2.0 * weight * x).mul_add(self.slice(rest.mul_add(R::lit(-x * x), one), false).width, sum);
-        }
-        sum * rest
-    }
-    /// Where single precision would leave an area beyond t of few digits: that is less than a share of 1/8 of the half.
-    #[inline(always)]
-    fn ends(share: R) -> R::Mask {
-        share.lt(R::lit(if double::<R>() { -1.0 } else { 0.125 }))
-    }
-    /// t in [0, 1] beyond which lies the share `left` of the half-lune.
-    #[inline]
-    fn invert_lune(&self, left: R) -> R {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let v = one - left;
-        let target = v * self.half;
-        let ends = Self::ends(left);
-        let start = self.slice(zero, false);
-        // from the two ends: area ≈ width · t; and at P = 1 and t ≈ 1, with r = Q − β, the rest of it is r⁴/8 + βr³/6
-        let near = v * ratio(self.half, start.width);
-        let rest = left.max(zero) * self.half;
-        let mut r = (R::lit(8.0) * rest).sqrt().sqrt().min((R::lit(6.0) * ratio(rest, self.beta)).cbrt());
-        for _ in 0..2 {
-            let (cube, sum) = (r * r * r, R::lit(0.5) * (r + self.beta));
-            let off = cube.mul_add(R::lit(0.125).mul_add(r, R::lit(1.0 / 6.0) * self.beta), -rest);
-            r -= ratio(off, r * r * sum);
-        }
-        let far = (one - r * (r + self.beta + self.beta)).max(zero).sqrt();
-        let mut t = R::select(v.lt(R::lit(0.5)), near, near.max(far)).clamp(zero, one);
-        // a step takes the error to its third power: after one of so many parts of what is left there is nothing more to do
-        let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 256.0) };
-        let mut open = R::Mask::splat(true);
-        for _ in 0..steps {
-            let slice = self.slice(t, true);
-            let mut off = slice.area - target;
-            if (ends & open).any() {
-                off = R::select(ends, left * self.half - self.tail(t), off);
-            }
-            let newton = ratio(off, slice.width);
-            // Halley: off/(1 − ½ off f′/f)
-            let halley = one - R::lit(0.5) * newton * slice.slope;
-            let step = newton / halley.max(R::lit(0.5));
-            // a lane that is done stays as it is, whatever its neighbours need
-            t = R::select(open, (t - step).clamp(zero, one), t);
-            open = open & (step.abs()).gt(R::lit(enough) * (one - t));
-            if !open.any() {
-                break;
-            }
-        }
-        t
     }
 
     /// The direction for `u` and the distance to the sphere along it.

@@ -2,10 +2,10 @@ mod horizon;
 mod piece;
 mod sector;
 
-use super::projected_cap::{exact_dot_pair, ratio};
-use super::triangle::{SLACK, to_unit};
-use super::{Sighting, exact_cross, exact_height, exact_height_pair, exact_sum, lanewise};
-use crate::math::{rsqrt, two_sum};
+use super::exact::{exact_cross, exact_dot_pair, exact_height, exact_height_pair, exact_sum};
+use super::triangle::SLACK;
+use super::{Sighting, lanewise, to_unit};
+use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
@@ -103,8 +103,14 @@ struct Given<R> {
 /// a − b as a sum of two.
 #[inline(always)]
 fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
-    let ((x, ex), (y, ey), (z, ez)) = (two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z));
-    [Vec3::new(x, y, z), Vec3::new(ex, ey, ez)]
+    exact_sum([a, Vec3::default()], [-b, Vec3::default()])
+}
+
+/// What `v`, the rounded p + e, lacks.
+#[inline(always)]
+fn lack<R: Real>(v: Vec3<R>, p: Vec3<R>, e: [Vec3<R>; 2]) -> Vec3<R> {
+    let [sum, rest] = exact_sum([p, Vec3::default()], e);
+    (sum - v) + rest
 }
 
 /// n + a×b of a sum of two, for a small a×b.
@@ -133,14 +139,11 @@ impl<R: Real> ProjectedTriangle<R> {
     #[inline]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
         let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
-        let rest = |v: Vec3<R>, e: Vec3<R>| {
-            let [sum, rest] = exact_sum([v0, Vec3::default()], [e, Vec3::default()]);
-            (sum - v) + rest
-        };
+        let none = Vec3::default();
         Self::with_sides(
             [v0, v1, v2],
-            [rest(v1, e1), rest(v2, e2)],
-            [[e1, Vec3::default()], difference(e2, e1), [-e2, Vec3::default()]],
+            [lack(v1, v0, [e1, none]), lack(v2, v0, [e2, none])],
+            [[e1, none], difference(e2, e1), [-e2, none]],
             [e1, e2],
             normal,
             scale,
@@ -363,11 +366,7 @@ impl<R: Real> ProjectedPolygon<R, 4> {
         let none = Vec3::default();
         let ([p, u, v, a, b, c], scale) = to_unit([p, u, v, p + u, p + v, p + u + v]);
         let both = exact_sum([u, none], [v, none]);
-        let rest = |v: Vec3<R>, e: [Vec3<R>; 2]| {
-            let [sum, rest] = exact_sum([p, none], e);
-            (sum - v) + rest
-        };
-        let (at_a, at_b, at_c) = (rest(a, [u, none]), rest(b, [v, none]), rest(c, both));
+        let (at_a, at_b, at_c) = (lack(a, p, [u, none]), lack(b, p, [v, none]), lack(c, p, both));
         let mut fan = [ProjectedTriangle::default(); 4];
         let sides = [[u, none], [v, none], both.map(|e| -e)];
         fan[0] = ProjectedTriangle::with_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);

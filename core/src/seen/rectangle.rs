@@ -1,6 +1,6 @@
-use super::projected_cap::exact_dot_pair;
-use super::{Sighting, exact_cross, exact_height, lanewise};
-use crate::math::{rsqrt, two_sum};
+use super::exact::{exact_cross, exact_dot_pair, exact_height, rounded_sum};
+use super::{Sighting, lanewise};
+use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
@@ -69,22 +69,11 @@ lanewise! {
         near_above_p: R,
         near_above_s: R,
         half: R,
-        /// Q = (2cosw₁+k)q₀ + q₁q₂(q₂±k), + where y₀ < 0
         solid_angle: R,
         /// of the rectangle's normal: −1 where the point is on the side to which u×v points
         side: R,
         unit: R,
     }
-}
-
-/// Unit vector and length at any scale.
-#[inline(always)]
-pub(super) fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
-    let scale = v.max_abs().exponent_reciprocal();
-    let v = v * scale;
-    let squared = v.length_squared();
-    let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
-    (v * inverse, squared * inverse / scale)
 }
 
 /// Unit normal of the plane through `p` along `u` and `v`, and p·normal: from a far corner the height is a small difference, and it is formed
@@ -93,16 +82,9 @@ pub(super) fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
 fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
     let (u, v) = (u * u.max_abs().exponent_reciprocal(), v * v.max_abs().exponent_reciprocal());
     let cross = exact_cross(u, v);
-    let (normal, length) = unit_and_length(cross[0] + cross[1]);
+    let (normal, length) = (cross[0] + cross[1]).unit_and_length();
     let some = length.gt(R::lit(0.0));
     (normal, (exact_height(p, cross) / R::select(some, length, R::lit(1.0))).keep(some))
-}
-
-/// `a/b`, 0 where b is not positive.
-#[inline(always)]
-fn ratio<R: Real>(a: R, b: R) -> R {
-    let some = b.gt(R::lit(0.0));
-    (a / R::select(some, b, R::lit(1.0))).keep(some)
 }
 
 /// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
@@ -157,7 +139,7 @@ impl<R: Real> SphericalRectangle<R> {
         let scale = reach.exponent_reciprocal();
         let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
         let (p, u, v) = (scaled(p), scaled(u), scaled(v));
-        let ((x_axis, dx), (y_axis, dy)) = (unit_and_length(u), unit_and_length(v));
+        let ((x_axis, dx), (y_axis, dy)) = (u.unit_and_length(), v.unit_and_length());
         let (z_axis, signed) = normal_and_height(p, u, v);
         let corners = [p, p + u, p + u + v, p + v];
 
@@ -168,9 +150,8 @@ impl<R: Real> SphericalRectangle<R> {
             let unit = edge * edge.max_abs().exponent_reciprocal();
             let squared = unit.length_squared();
             let inverse = rsqrt(squared).keep(squared.gt(zero));
-            let ([low, low_rest], [reach, reach_rest]) = (exact_dot_pair(p, unit), exact_dot_pair(edge, unit));
-            let (high, high_rest) = two_sum(low, reach);
-            let (low, high) = ((low + low_rest) * inverse, (high + (high_rest + (low_rest + reach_rest))) * inverse);
+            let (from, reach) = (exact_dot_pair(p, unit), exact_dot_pair(edge, unit));
+            let (low, high) = ((from[0] + from[1]) * inverse, rounded_sum(from, reach) * inverse);
             // a tiny size may be lost in both; the near end is the smaller number
             let flip = (low + high).lt(zero);
             let near = R::select(flip, -high, low).max(R::lit(-0.5) * size);
@@ -229,7 +210,7 @@ impl<R: Real> SphericalRectangle<R> {
 
         // planes of the sides
         let plane = |a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>| {
-            let (unit, length) = unit_and_length(a.cross(edge));
+            let (unit, length) = a.cross(edge).unit_and_length();
             (turn(unit, side.lt(zero)), ratio(-a.dot(b), length).max(one).min(R::lit(1e18)) * R::lit(SLACK))
         };
         let (low_x, slack_low_x) = plane(corners[0], corners[3], -v);
@@ -313,9 +294,10 @@ impl<R: Real> SphericalRectangle<R> {
         let above_p = k + R::select(near, self.near_above_p, self.above_p);
         let above_s = k + R::select(near, self.near_above_s, self.above_s);
         let root = (above_p * above_s).max(zero).sqrt();
-        // of the far end; where cosw₁ < 0 the difference leaves half of the first term and more
+        // where cosw₁ < 0 the difference leaves half of the first term and more
         let (far_p, far_s) = (self.above_p, self.above_s);
-        let q = (sin_w1 * sin_w1).mul_add(far_p + far_s + k, (cos_w1 + cos_w1 + k) * (far_p * far_s));
+        let square = self.sin_w1 * self.sin_w1;
+        let q = square.mul_add(far_p + far_s + k, (self.cos_w1 + self.cos_w1 + k) * (far_p * far_s));
         let from_far = (sin_d + sin_d) * self.inv_sin_w1 * (sin_e * self.inv_sin_w1) * q * x1 * x1;
         let foot = (z * sin_w).negate_where(near);
         let anchored = self.anchor.x.gt(zero);

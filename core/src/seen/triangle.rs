@@ -1,4 +1,5 @@
-use super::{Sighting, exact_cross, exact_height, exact_sum, lanewise};
+use super::exact::{exact_cross, exact_height, exact_sum};
+use super::{Sighting, lanewise, to_unit};
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
@@ -81,18 +82,14 @@ lanewise! {
     }
 }
 
-/// What is known better than from the rounded vertices: V₀×V₁, V₀×V₂, the normal E₁×E₂, its product with any vertex, and v2−v1.
+/// What is known better than from the rounded vertices: V₀×V₁, V₀×V₂, V₁×V₂, the normal E₁×E₂, its product with any vertex, and v2−v1.
 pub(super) struct Planes<R> {
     pub(super) n01: Vec3<R>,
     pub(super) n02: Vec3<R>,
+    pub(super) n12: Vec3<R>,
     pub(super) normal: Vec3<R>,
     pub(super) volume: R,
     pub(super) edge: Vec3<R>,
-}
-
-#[inline(always)]
-fn zero<R: Real>() -> Vec3<R> {
-    Vec3::splat(Vec3::default())
 }
 
 /// Va/lₐ + Vb/l_b for a and b more than 90° apart, given their product: with h the foot of the perpendicular on the line through both, good to
@@ -116,16 +113,6 @@ fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> 
     Vec3::select(opposite & some, sum, plain)
 }
 
-/// In a unit in which no coordinate exceeds 2, and 1 over it; zeros where a sum overflowed: a triangle of no extent.
-#[inline(always)]
-pub(super) fn to_unit<R: Real, const N: usize>(vectors: [Vec3<R>; N]) -> ([Vec3<R>; N], R) {
-    let reach = vectors.iter().fold(R::lit(0.0), |most, v| most.max(v.max_abs()));
-    let finite = reach.lt(R::lit(f64::INFINITY));
-    let scale = reach.exponent_reciprocal();
-    let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
-    (vectors.map(scaled), scale)
-}
-
 /// The arc from `v1` to the point P of the far edge.
 struct Arc<R> {
     /// P in stereographic projection from opposite `v1`: tan(θ/2) times the cosine and the sine of the angle turned by
@@ -142,12 +129,13 @@ impl<R: Real> SphericalTriangle<R> {
     #[inline(always)]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
         let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
-        let ([e1, d1], [e2, d2]) = (exact_sum([v1, zero()], [-v0, zero()]), exact_sum([v2, zero()], [-v0, zero()]));
+        let none = Vec3::default();
+        let ([e1, d1], [e2, d2]) = (exact_sum([v1, none], [-v0, none]), exact_sum([v2, none], [-v0, none]));
         let [normal, rest] = exact_cross(e1, e2);
         let rest = rest + (d1.cross(e2) + e1.cross(d2));
         let volume = exact_height(v0, [normal, rest]);
-        let planes = Planes { n01: v0.cross(v1), n02: v0.cross(v2), normal: normal + rest, volume, edge: v2 - v1 };
-        Self::prepare([v0, v1, v2], &planes, || v1.cross(v2), scale)
+        let (n01, n02, n12) = (v0.cross(v1), v0.cross(v2), v1.cross(v2));
+        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 }, scale)
     }
 
     /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
@@ -158,19 +146,16 @@ impl<R: Real> SphericalTriangle<R> {
         let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
         let exact = exact_cross(e1, e2);
         let (normal, volume) = (exact[0] + exact[1], exact_height(v0, exact));
-        let planes = Planes { n01: v0.cross(e1), n02: v0.cross(e2), normal, volume, edge: e2 - e1 };
         // v1×v2 = (v0+e1)×(v0+e2)
-        let n12 = || {
-            let [n, rest] = exact_sum(exact, exact_sum(exact_cross(v0, e2), exact_cross(e1, v0)));
-            n + rest
-        };
-        Self::prepare([v0, v1, v2], &planes, n12, scale)
+        let [n12, rest] = exact_sum(exact, exact_sum(exact_cross(v0, e2), exact_cross(e1, v0)));
+        let (n01, n02, n12) = (v0.cross(e1), v0.cross(e2), n12 + rest);
+        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal, volume, edge: e2 - e1 }, scale)
     }
 
-    /// With all lengths below 4. `n12` = V₁×V₂ is asked for where it is needed.
+    /// With all lengths below 4.
     #[inline(always)]
-    pub(super) fn prepare([v0, v1, v2]: [Vec3<R>; 3], planes: &Planes<R>, n12: impl Fn() -> Vec3<R>, scale: R) -> Self {
-        let Planes { n01, n02, normal, volume, edge } = *planes;
+    pub(super) fn prepare([v0, v1, v2]: [Vec3<R>; 3], planes: &Planes<R>, scale: R) -> Self {
+        let Planes { n01, n02, n12, normal, volume, edge } = *planes;
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let squared = [v0, v1, v2].map(Vec3::length_squared);
         let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
@@ -204,7 +189,6 @@ impl<R: Real> SphericalTriangle<R> {
         // a side of more than 120° is rare: the work is done where there is one
         let wide = d01.min(d02).min(d12).lt(R::lit(-0.5));
         if wide.any() {
-            let n12 = n12();
             let sums = [
                 sum_of_units([v0, v1], [i0, i1], n01),
                 sum_of_units([v0, v2], [i0, i2], n02),
@@ -248,7 +232,6 @@ impl<R: Real> SphericalTriangle<R> {
         // than −cos : sin of their angle; to the one through v1 and v2 the map comes along the one from v0 to v2
         let start = -d01 / R::select(sin_side.gt(zero), sin_side, one);
         let inwards = |n: Vec3<R>| Vec3::select(towards, -n, n);
-        let n12 = n12();
         let start = start.max(one).min(R::lit(1e18));
         let far = start.max(-d02 * rsqrt(sin02.max(R::lit(1e-7))));
         let slack = |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).max(-a.dot(b)) * R::lit(BEYOND);

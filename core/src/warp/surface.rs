@@ -1,5 +1,5 @@
 use super::{Bilinear, ConcentricDisk, UniformSphere, Warp, unit_interval};
-use crate::math::{atan2_turns, rsqrt};
+use crate::math::atan2_turns;
 use crate::real::Real;
 use crate::seen::lanewise;
 use crate::vector::{Frame, Vec2, Vec3};
@@ -9,15 +9,6 @@ use crate::vector::{Frame, Vec2, Vec3};
 fn reciprocal<R: Real>(area: R) -> R {
     let some = area.gt(R::lit(1e-37));
     (R::lit(1.0) / R::select(some, area, R::lit(1.0))).keep(some & area.lt(R::lit(1e37)))
-}
-/// Unit vector and length at any scale.
-#[inline(always)]
-fn unit_and_length<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
-    let scale = v.max_abs().exponent_reciprocal();
-    let v = v * scale;
-    let squared = v.length_squared();
-    let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
-    (v * inverse, squared * inverse / scale)
 }
 /// A point that does not fit its numbers ends at the largest one.
 #[inline(always)]
@@ -106,7 +97,7 @@ impl<R: Real> CylinderSide<R> {
     /// The unit normal, outwards, at the point for `u`.
     #[inline(always)]
     pub fn normal(&self, u: Vec2<R>) -> Vec3<R> {
-        let frame = Frame::new(unit_and_length(self.axis).0);
+        let frame = Frame::new(self.axis.unit_and_length().0);
         let (sin, cos) = u.y.sin_cos_turns();
         frame.s.mul_add(cos, frame.t * sin)
     }
@@ -119,7 +110,7 @@ impl<R: Real> Warp<R> for CylinderSide<R> {
     }
     #[inline(always)]
     fn pdf(&self, point: Vec3<R>) -> R {
-        let (along, length) = unit_and_length(self.axis);
+        let (along, length) = self.axis.unit_and_length();
         let height = (point - self.p).dot(along);
         let slack = R::lit(SLACK) * (self.p.max_abs() + self.radius + length);
         let inside = height.ge(-slack) & height.le(length + slack);
@@ -127,7 +118,7 @@ impl<R: Real> Warp<R> for CylinderSide<R> {
     }
     #[inline(always)]
     fn invert(&self, point: Vec3<R>) -> Vec2<R> {
-        let (along, length) = unit_and_length(self.axis);
+        let (along, length) = self.axis.unit_and_length();
         let (frame, offset) = (Frame::new(along), point - self.p);
         let some = length.gt(R::lit(0.0));
         let height = offset.dot(along) / R::select(some, length, R::lit(1.0));
@@ -164,7 +155,7 @@ impl<R: Real> Warp<R> for SphereSurface<R> {
     }
     #[inline(always)]
     fn invert(&self, point: Vec3<R>) -> Vec2<R> {
-        UniformSphere.invert(unit_and_length(point - self.center).0)
+        UniformSphere.invert((point - self.center).unit_and_length().0)
     }
 }
 
@@ -175,7 +166,7 @@ const SLACK: f64 = 4.0 / 16_777_216.0;
 /// the unit normal there; 0 edge-on, or where it is not finite.
 #[inline(always)]
 pub fn per_steradian<R: Real>(pdf: R, point: Vec3<R>, normal: Vec3<R>) -> R {
-    let (direction, distance) = unit_and_length(point);
+    let (direction, distance) = point.unit_and_length();
     let cos = direction.dot(normal).abs();
     let some = cos.gt(R::lit(0.0));
     let density = pdf * distance * (distance / R::select(some, cos, R::lit(1.0)));

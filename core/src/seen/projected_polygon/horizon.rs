@@ -1,8 +1,7 @@
 //! A triangle that the horizon cuts.
 
-use super::super::projected_cap::ratio;
 use super::piece::Corners;
-use crate::math::{difference_of_products, rsqrt};
+use crate::math::{difference_of_products, ratio, rsqrt};
 use crate::real::Real;
 use crate::vector::Vec3;
 

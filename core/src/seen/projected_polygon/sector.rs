@@ -2,8 +2,7 @@
 #![expect(unreachable_pub, reason = "of the macro")]
 
 use super::super::lanewise;
-use super::super::projected_cap::{double, ratio};
-use crate::math::rsqrt;
+use crate::math::{double, ratio, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::unit_interval;
