@@ -5,6 +5,7 @@
 
 pub mod curves;
 pub mod double_double;
+pub mod flat;
 pub mod methods;
 pub mod page;
 pub mod pose;

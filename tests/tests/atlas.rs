@@ -3,8 +3,9 @@
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use etendue_render::atlas::curves::{Arc, Ellipse};
 use etendue_render::atlas::double_double::{Dd, Dd3, above_horizon, lambert};
+use etendue_render::atlas::flat::Fan;
 use etendue_render::atlas::pose::{Kind, Pose, Shape, V3, sweeps};
-use etendue_render::atlas::truth::{self, Fan, Truth};
+use etendue_render::atlas::truth::{self, Truth};
 use etendue_render::atlas::{Detail, methods, survey};
 use etendue_tests::domain::Random;
 use etendue_tests::oracle::{self, cross, dot, length};

@@ -53,6 +53,24 @@ pub(super) struct Pending {
     pub(super) near: f32,
 }
 
+/// Puts `child` on a stack of `height` below those above `floor` that are nearer.
+#[inline(always)]
+pub(super) fn push_in_order<T: Copy>(
+    stack: &mut [T; STACK],
+    height: &mut usize,
+    floor: usize,
+    child: T,
+    near: impl Fn(&T) -> f32,
+) {
+    let mut at = *height;
+    while at > floor && near(&stack[at - 1]) < near(&child) {
+        stack[at] = stack[at - 1];
+        at -= 1;
+    }
+    stack[at] = child;
+    *height += 1;
+}
+
 /// A group of packets on its way through a tree: as one shaft that holds them all, or as the one packet that it is.
 struct Traversal<'a, const COMMON: bool> {
     rays: &'a [Rays],
@@ -144,13 +162,7 @@ impl<P: Primitives> Tree<P> {
             let floor = height;
             each_bit(bits, |slot| {
                 let child = Pending { parent: place as u32, slot: slot as u32, near: near[slot] };
-                let mut at = height;
-                while at > floor && stack[at - 1].near < child.near {
-                    stack[at] = stack[at - 1];
-                    at -= 1;
-                }
-                stack[at] = child;
-                height += 1;
+                push_in_order(stack, &mut height, floor, child, |c| c.near);
             });
             place = loop {
                 if height == 0 {

@@ -1,6 +1,6 @@
 //! One ray on its way through a tree: all children of a node at once, then all triangles of a leaf.
 
-use super::packets::{Pending, Stack, each_bit};
+use super::packets::{Pending, Stack, each_bit, push_in_order};
 use super::tree::{Node, Tree};
 use super::{Hits, M8, Rays, V8, X8, max, min};
 use etendue::{Mask, Real, Vec3};
@@ -129,13 +129,7 @@ impl<P: Leaves> Tree<P> {
                     if other.near < next.near {
                         (next, other) = (other, next);
                     }
-                    let mut at = height;
-                    while at > floor && stack[at - 1].near < other.near {
-                        stack[at] = stack[at - 1];
-                        at -= 1;
-                    }
-                    stack[at] = other;
-                    height += 1;
+                    push_in_order(stack, &mut height, floor, other, |c| c.near);
                 }
                 if next.slot == 0 {
                     place = next.parent as usize;

@@ -1,6 +1,6 @@
 //! The rays of a group on their way through a tree together: each node is visited once, with the rays that enter it.
 
-use super::packets::{Stack, common_sign, each_bit, slabs};
+use super::packets::{Stack, common_sign, each_bit, push_in_order, slabs};
 use super::single::{Leaves, Single};
 use super::tree::{Node, Primitives, Tree};
 use super::{GROUP, Hits, M8, NOTHING, Rays, WIDTH, X8, max, min, select};
@@ -169,13 +169,7 @@ impl<P: Primitives + Leaves> Tree<P> {
                 let inner = node.count[slot] == 0;
                 let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
                 let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
-                let mut at = height;
-                while at > floor && stack.visits[at - 1].near < child.near {
-                    stack.visits[at] = stack.visits[at - 1];
-                    at -= 1;
-                }
-                stack.visits[at] = child;
-                height += 1;
+                push_in_order(&mut stack.visits, &mut height, floor, child, |c| c.near);
             }
         }
     }

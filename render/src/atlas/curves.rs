@@ -1,9 +1,33 @@
 //! The maps of disks and line segments, from their definitions: set up in 106 bits, integrated and inverted in f64.
 
-use super::double_double::{Dd, Dd3, cross, dot};
+use super::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
 use super::pose::V3;
-use super::truth::{add, dd, length, narrow, normalized, root, times};
 use core::f64::consts::FRAC_PI_2;
+
+/// Where an increasing function with f(0) = 0 and f(`end`) = `top` is `target`: false position (Illinois), and halves where that is slow.
+pub(super) fn root(end: f64, top: f64, target: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, end);
+    let (mut f_low, mut f_high) = (-target, top - target);
+    if f_high <= 0.0 {
+        return end;
+    }
+    for step in 0..80 {
+        let width = high - low;
+        let x = if step % 4 == 3 { low + 0.5 * width } else { low + width * (f_low / (f_low - f_high)) };
+        let value = f(x) - target;
+        if value.abs() <= 1e-15 * target || width <= 1e-15 * high {
+            return x;
+        }
+        if value < 0.0 {
+            (low, f_low) = (x, value);
+            f_high *= 0.5;
+        } else {
+            (high, f_high) = (x, value);
+            f_low *= 0.5;
+        }
+    }
+    0.5 * (low + high)
+}
 
 /// Nodes and weights of Gauss and Legendre on [0, 1], 16 of them.
 fn nodes() -> [(f64, f64); 16] {

@@ -106,6 +106,43 @@ impl Div for Dd {
 /// Three of them.
 pub type Dd3 = [Dd; 3];
 
+/// With rests of nothing.
+#[must_use]
+pub fn dd(a: [f64; 3]) -> Dd3 {
+    a.map(Dd::from)
+}
+
+/// a + b.
+#[must_use]
+pub fn add(a: Dd3, b: Dd3) -> Dd3 {
+    core::array::from_fn(|i| a[i] + b[i])
+}
+
+/// sa.
+#[must_use]
+pub fn times(a: Dd3, s: Dd) -> Dd3 {
+    a.map(|x| x * s)
+}
+
+/// |a|.
+#[must_use]
+pub fn length(a: Dd3) -> Dd {
+    dot(a, a).sqrt()
+}
+
+/// a/|a|; as it is if that is 0.
+#[must_use]
+pub fn normalized(a: Dd3) -> Dd3 {
+    let l = length(a);
+    if l.to_f64() > 0.0 { a.map(|x| x / l) } else { a }
+}
+
+/// Rounded.
+#[must_use]
+pub fn narrow(a: Dd3) -> [f64; 3] {
+    a.map(Dd::to_f64)
+}
+
 /// Inner product.
 #[must_use]
 pub fn dot(a: Dd3, b: Dd3) -> Dd {

@@ -1,7 +1,7 @@
 //! The techniques of each kind of shape: ours, and the textbook's.
 
 use super::pose::{Kind, Pose, Shape};
-use super::textbook::{self, Excess};
+use super::textbook::{self, Excess, add};
 use etendue::light::Polygon;
 use etendue::seen::{
     ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, Sighting, SphereCap, SphericalDisk,
@@ -115,9 +115,6 @@ type V = [f32; 3];
 
 fn vector(v: V) -> Vec3<f32> {
     Vec3::new(v[0], v[1], v[2])
-}
-fn add(a: V, b: V) -> V {
-    core::array::from_fn(|i| a[i] + b[i])
 }
 fn sphere(pose: &Pose) -> (V, f32, V) {
     match pose.shape {

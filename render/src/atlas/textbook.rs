@@ -12,7 +12,7 @@ fn dot(a: V, b: V) -> f32 {
 fn cross(a: V, b: V) -> V {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
-fn add(a: V, b: V) -> V {
+pub(super) fn add(a: V, b: V) -> V {
     core::array::from_fn(|i| a[i] + b[i])
 }
 fn sub(a: V, b: V) -> V {
