@@ -64,24 +64,29 @@ fn threads_do_not_matter() {
     assert_eq!(one, on(3));
 }
 
-/// Error against the images that come with the program, less their own.
+/// Error against the images that come with the program, less their own. Of 32 samples the lower edge of the triangle takes its toll: it
+/// covers a sixteenth of its pixels, and by the nearest neighbours alone some that it passes through are left to the pilot.
 #[test]
 fn errs_less_than_as_many_samples_everywhere() {
-    for (name, error, least) in [("sphere-light", 4.8e-9, 4.0), ("triangle-light", 2.6e-8, 4.0), ("quads", 1.9e-8, 1.8)]
-    {
+    for (name, spp, error, least) in [
+        ("sphere-light", 64, 4.8e-9, 4.0),
+        ("triangle-light", 64, 2.6e-8, 4.0),
+        ("triangle-light", 32, 2.6e-8, 4.0),
+        ("quads", 64, 1.9e-8, 1.8),
+    ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/references/{name}.exr"));
         let reference = image::read_exr(&path).unwrap();
         let world = world(name);
         let measured = |sampler| {
             let of = |seed| {
-                let film = render(&world, &Settings { width: 256, height: 256, sampler, seed, ..SETTINGS }).0;
+                let film = render(&world, &Settings { width: 256, height: 256, spp, sampler, seed, ..SETTINGS }).0;
                 Comparison::new(&reference, &Picture::from(&film), error).unwrap().mse
             };
             (1..4).map(of).sum::<f64>()
         };
         let gain = measured(Sampler::Sobol) / measured(Sampler::Adaptive);
-        println!("{name}: {gain:.2} times less error than sobol");
-        assert!(gain > least, "{name}: {gain}");
+        println!("{name}, {spp} samples: {gain:.2} times less error than sobol");
+        assert!(gain > least, "{name}, {spp} samples: {gain}");
     }
 }
 

@@ -16,7 +16,10 @@ use etendue::{Mask, Real, u32x8};
 /// with nᵢ in proportion to cᵢ^0.4.
 const POWER: f64 = 0.4;
 /// Neighbours are pixels up to so many rows and columns away.
-const REACH: u32 = 2;
+const NEAR: usize = 2;
+/// Those that are farther have a little weight: the near ones may all have missed an edge that passes through the pixel.
+const FAR: usize = 6;
+const WEIGHT_FAR: f64 = 0.003;
 
 /// Numbers of samples of an image: of each set of a pixel, in packets of eight.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +34,9 @@ pub(super) struct Effort {
 impl Effort {
     pub(super) fn new(spp: u32, sets: u32) -> Self {
         let packets = f64::from(spp) / f64::from(8 * sets);
-        // a quarter
-        Self { pilot: ((packets / 4.0).round() as u32).max(1), packets, sets }
+        // a quarter, in a power of two; of so few that it would be one packet, half: eight points miss too much
+        let pilot = (packets / 4.0).log2().floor().exp2().max(if packets < 4.0 { 1.0 } else { 2.0 });
+        Self { pilot: pilot as u32, packets, sets }
     }
 }
 
@@ -75,36 +79,23 @@ impl Part {
 /// Of every pixel, the packets of each set, from the variance that the pilot has found; and what samples of each light are worth, where they
 /// are allocated and the pilot can tell.
 pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, Option<Weights>) {
-    let (columns, rows) = (width as usize, parts.len() / width as usize);
-    let near = |i: usize, most: usize| i.saturating_sub(REACH as usize)..(i + REACH as usize + 1).min(most);
-    let neighbours = |i: usize| {
-        let (x, y) = (i % columns, i / columns);
-        let all = near(y, rows).flat_map(move |row| near(x, columns).map(move |column| row * columns + column));
-        all.filter(move |&other| other != i).map(|other| &parts[other])
-    };
-    let lights = parts[0].lights;
+    let (columns, lights) = (width as usize, parts[0].lights);
     let mut weights = None;
     let wanted: Vec<f64> = if lights == 0 {
-        let mean = |i: usize| {
-            let (sum, count) = neighbours(i).fold((0.0, 0), |(sum, count), part| (sum + part.variance, count + 1));
-            sum / f64::from(count.max(1))
-        };
-        (0..parts.len()).map(|i| mean(i).powf(POWER)).collect()
+        let variance: Vec<_> = parts.iter().map(|part| part.variance).collect();
+        mean_around(&variance, &vec![1.0; parts.len()], columns).into_iter().map(|v| v.powf(POWER)).collect()
     } else {
         // each light's part of the error falls with its own samples: Σ over the lights of cᵢ nᵢ^−1.5 is (Σ cᵢ^0.4)^2.5 n^−1.5 at its least
-        let mut of = Vec::with_capacity(parts.len() * lights);
-        for i in 0..parts.len() {
-            let (mut sum, mut count) = ([0.0; APART], [0; APART]);
-            for part in neighbours(i) {
-                for k in 0..lights {
-                    sum[k] += f64::from(part.spread[k]);
-                    count[k] += (1 << part.taken[k]) >> 1;
-                }
+        let mut of = vec![0.0; parts.len() * lights];
+        for k in 0..lights {
+            let spread: Vec<_> = parts.iter().map(|part| f64::from(part.spread[k])).collect();
+            let pairs: Vec<_> = parts.iter().map(|part| f64::from((1_u32 << part.taken[k]) >> 1)).collect();
+            for (of, mean) in of.chunks_mut(lights).zip(mean_around(&spread, &pairs, columns)) {
+                of[k] = mean.powf(POWER) as f32;
             }
-            of.extend((0..lights).map(|k| (sum[k] / f64::from(count[k].max(1))).powf(POWER) as f32));
         }
         let sums = of.chunks(lights).map(|each| each.iter().map(|&w| f64::from(w)).sum()).collect();
-        let area = [0, 0, width, rows as u32];
+        let area = [0, 0, width, (parts.len() / columns) as u32];
         weights = Some(Weights { lights, of, area, begun: parts.iter().map(|part| part.taken).collect() });
         sums
     };
@@ -131,6 +122,35 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, O
         (if up { 2.0 * below } else { below }) as u32
     };
     (wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect(), weights)
+}
+
+/// At each pixel Σ `sums` / Σ `counts` over the pixels around it, without its own.
+fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
+    let weighted = |values: &[f64]| {
+        let (near, far) = (sums_around(values, columns, NEAR), sums_around(values, columns, FAR));
+        near.into_iter().zip(far).map(|(near, far)| near + WEIGHT_FAR * far)
+    };
+    weighted(sums).zip(weighted(counts)).map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect()
+}
+
+/// At each pixel the sum over those up to `reach` rows and columns away, without its own: none of it is taken off again, so that not even
+/// rounding tells of it.
+fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
+    let near = |i: usize, most: usize| i.saturating_sub(reach)..(i + reach + 1).min(most);
+    let (mut beside, mut across) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
+    for row in values.chunks(columns) {
+        for x in 0..columns {
+            let range = near(x, columns);
+            let others = row[range.start..x].iter().sum::<f64>() + row[x + 1..range.end].iter().sum::<f64>();
+            beside.push(others);
+            across.push(others + row[x]);
+        }
+    }
+    let rows = values.len() / columns;
+    let other_rows = |x: usize, y: usize| near(y, rows).filter(move |&r| r != y).map(move |r| r * columns + x);
+    (0..values.len())
+        .map(|i| beside[i] + other_rows(i % columns, i / columns).map(|j| across[j]).sum::<f64>())
+        .collect()
 }
 
 impl Work<'_> {
