@@ -29,6 +29,7 @@ mod shaft;
 mod shape;
 mod single;
 mod stream;
+mod together;
 mod tree;
 mod triangle;
 

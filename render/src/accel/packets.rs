@@ -1,6 +1,7 @@
 //! Groups of packets on their way through a tree.
 
 use super::stream::Visit;
+use super::together::{Later, TOGETHER, Walk};
 use super::tree::{DEPTH, Node, Primitives, Tree};
 use super::{Hits, M8, Rays, Shaft, WIDTH, X8, max, min};
 use etendue::{Mask, Real, u32x8};
@@ -35,11 +36,18 @@ pub(super) fn slabs<const COMMON: bool>(node: &Node, slot: usize, rays: &Rays, s
 pub struct Stack {
     pub(super) pending: Box<[Pending; STACK]>,
     pub(super) visits: Box<[Visit; STACK]>,
+    pub(super) walks: [Walk; TOGETHER],
+    pub(super) later: Later,
 }
 
 impl Default for Stack {
     fn default() -> Self {
-        Self { pending: Box::new([Pending::default(); STACK]), visits: Box::new([Visit::default(); STACK]) }
+        Self {
+            pending: Box::new([Pending::default(); STACK]),
+            visits: Box::new([Visit::default(); STACK]),
+            walks: Default::default(),
+            later: Later::default(),
+        }
     }
 }
 
@@ -56,7 +64,7 @@ pub(super) struct Pending {
 /// Puts `child` on a stack of `height` below those above `floor` that are nearer.
 #[inline(always)]
 pub(super) fn push_in_order<T: Copy>(
-    stack: &mut [T; STACK],
+    stack: &mut [T],
     height: &mut usize,
     floor: usize,
     child: T,
@@ -162,7 +170,7 @@ impl<P: Primitives> Tree<P> {
             let floor = height;
             each_bit(bits, |slot| {
                 let child = Pending { parent: place as u32, slot: slot as u32, near: near[slot] };
-                push_in_order(stack, &mut height, floor, child, |c| c.near);
+                push_in_order(&mut stack[..], &mut height, floor, child, |c| c.near);
             });
             place = loop {
                 if height == 0 {

@@ -7,7 +7,7 @@ use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
 
 /// One of eight rays, in every lane: the same numbers as in the packet, so that boxes and triangles are hit or missed alike.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Single {
     pub(super) origin: V8,
     pub(super) direction: V8,
@@ -19,7 +19,7 @@ pub(super) struct Single {
 }
 
 /// What one ray has hit first.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Nearest {
     pub(super) distance: f32,
     pub(super) place: u32,
@@ -46,10 +46,11 @@ impl Single {
         }
     }
 
-    /// Where the ray enters the children's boxes, and which of them it does enter before the limit.
+    /// Where the ray enters the children's boxes, and which of them it does enter before the limit: in the octant that is told, or its own (8).
     #[inline(always)]
-    fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
-        let side = |last: bool, k: usize| usize::from((OCTANT >> k & 1 == 1) != last);
+    pub(super) fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
+        let octant = if OCTANT < 8 { OCTANT } else { self.octant };
+        let side = |last: bool, k: usize| usize::from((octant >> k & 1 == 1) != last);
         let plane = |last: bool, k: usize, inverse: X8| {
             let Vec3 { x, y, z } = self.offset[side(last, k)];
             X8::from(node.planes[side(last, k)][k]).mul_add(inverse, [x, y, z][k])
@@ -65,6 +66,8 @@ impl Single {
 pub(super) trait Leaves {
     /// Takes a nearer hit of one ray among the primitives of a leaf, whose box it enters at `near`.
     fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest);
+    /// Asks for the memory of a leaf.
+    fn prefetch(&self, leaf: Range<usize>);
     /// Does one of them lie on one ray before `limit`?
     fn leaf_hides(&self, leaf: Range<usize>, ray: &Single, near: X8, limit: f32) -> bool;
 }
@@ -129,7 +132,7 @@ impl<P: Leaves> Tree<P> {
                     if other.near < next.near {
                         (next, other) = (other, next);
                     }
-                    push_in_order(stack, &mut height, floor, other, |c| c.near);
+                    push_in_order(&mut stack[..], &mut height, floor, other, |c| c.near);
                 }
                 if next.slot == 0 {
                     place = next.parent as usize;

@@ -2,6 +2,7 @@
 
 use super::packets::{Stack, common_sign, each_bit, push_in_order, slabs};
 use super::single::{Leaves, Single};
+use super::together::each_ray;
 use super::tree::{Node, Primitives, Tree};
 use super::{GROUP, Hits, M8, NOTHING, Rays, WIDTH, X8, max, min, select};
 use etendue::{Mask, Real, u32x8};
@@ -22,16 +23,6 @@ pub(super) struct Visit {
     /// Slot of the leaf; that of an inner node is [`INNER`].
     slot: u32,
     near: f32,
-}
-
-/// Calls `f` with the packet and the lane of each set bit.
-#[inline(always)]
-fn each_ray(mut bits: u64, mut f: impl FnMut(usize, usize)) {
-    while bits != 0 {
-        let i = bits.trailing_zeros() as usize & 63;
-        f(i >> 3, i & 7);
-        bits &= bits - 1;
-    }
 }
 
 /// Bit k of the octant is set if all rays run towards − along axis k; 8 if they do not agree.
@@ -151,11 +142,17 @@ impl<P: Primitives + Leaves> Tree<P> {
                 continue;
             }
             if among.count_ones() < FEW {
-                each_ray(among, |p, lane| {
-                    let mut nearest = hits[p].nearest(lane);
-                    self.closest_single(place, &Single::new(&rays[p], lane), &mut nearest, stack);
-                    hits[p].put(lane, &nearest);
-                });
+                if OCTANT < 8 {
+                    each_ray(among, |i| {
+                        let (p, lane) = (i >> 3, i & 7);
+                        let mut nearest = hits[p].nearest(lane);
+                        self.closest_single(place, &Single::new(&rays[p], lane), &mut nearest, stack);
+                        hits[p].put(lane, &nearest);
+                    });
+                } else if !stack.later.add(among, place, stack.visits[height].near) {
+                    self.closest_together(rays, hits, stack);
+                    stack.later.add(among, place, stack.visits[height].near);
+                }
                 continue;
             }
             let (entered, near) = stream.enter::<true>(node, among, |p| hits[p].distance);
@@ -169,8 +166,11 @@ impl<P: Primitives + Leaves> Tree<P> {
                 let inner = node.count[slot] == 0;
                 let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
                 let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
-                push_in_order(&mut stack.visits, &mut height, floor, child, |c| c.near);
+                push_in_order(&mut stack.visits[..], &mut height, floor, child, |c| c.near);
             }
+        }
+        if OCTANT == 8 {
+            self.closest_together(rays, hits, stack);
         }
     }
 
@@ -198,11 +198,17 @@ impl<P: Primitives + Leaves> Tree<P> {
             let Visit { rays: among, node: place, .. } = stack.visits[height];
             let among = among & open;
             if among.count_ones() < FEW {
-                each_ray(among, |p, lane| {
-                    let ray = Single::new(&rays[p], lane);
-                    let hidden = self.hides_single(place, &ray, limit[p].as_array()[lane], stack);
-                    open &= !(u64::from(hidden) << (8 * p + lane));
-                });
+                if OCTANT < 8 {
+                    each_ray(among, |i| {
+                        let (p, lane) = (i >> 3, i & 7);
+                        let hides =
+                            self.hides_single(place, &Single::new(&rays[p], lane), limit[p].as_array()[lane], stack);
+                        open &= !(u64::from(hides) << i);
+                    });
+                } else if !stack.later.add(among, place, 0.0) {
+                    open &= !self.hidden_together(rays, open, limit, stack);
+                    stack.later.add(among & open, place, 0.0);
+                }
                 continue;
             }
             let node = &self.nodes[place as usize];
@@ -239,6 +245,9 @@ impl<P: Primitives + Leaves> Tree<P> {
                     });
                 }
             }
+        }
+        if OCTANT == 8 {
+            open &= !self.hidden_together(rays, open, limit, stack);
         }
         for (p, active) in active.iter_mut().enumerate() {
             *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);

@@ -78,6 +78,19 @@ impl Node {
     }
 }
 
+/// Asks for the memory of what will be read soon.
+#[inline(always)]
+pub(super) fn prefetch<T>(items: &[T]) {
+    #[cfg(target_arch = "x86_64")]
+    for line in (0..size_of_val(items)).step_by(64) {
+        use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a hint, and an address within `items`
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(items.as_ptr().cast::<i8>().add(line)) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = items;
+}
+
 /// A tree over primitives of one kind.
 #[derive(Debug)]
 pub(crate) struct Tree<P> {

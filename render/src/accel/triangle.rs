@@ -198,6 +198,10 @@ impl Primitives for Soup {
 
 impl Leaves for Soup {
     #[inline(always)]
+    fn prefetch(&self, leaf: Range<usize>) {
+        super::tree::prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
+    }
+    #[inline(always)]
     fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest) {
         let projected = project(self.all(&leaf), ray.origin, ray.frame);
         let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
