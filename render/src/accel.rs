@@ -210,7 +210,8 @@ pub enum Way {
     /// As one where they have a narrow shaft in common, else as a stream.
     #[default]
     Choose,
-    /// As a stream: each node is visited once, by the rays that enter it, and rays that are left alone go on one by one.
+    /// As a stream: each node is visited once, by the rays that enter it. Rays that are left alone go on one by one, or, where the rays of the
+    /// group have no octant in common, a step of each in turn.
     Stream,
     /// Ray by ray.
     Single,
