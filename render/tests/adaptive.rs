@@ -65,13 +65,13 @@ fn threads_do_not_matter() {
 }
 
 /// Error against the images that come with the program, less their own. Of 32 samples the lower edge of the triangle takes its toll: it
-/// covers a sixteenth of its pixels, and by the nearest neighbours alone some that it passes through are left to the pilot.
+/// covers a sixteenth of its pixels, and by a pilot of eight samples some that it passes through would be left at that (5.3 times less).
 #[test]
 fn errs_less_than_as_many_samples_everywhere() {
     for (name, spp, error, least) in [
         ("sphere-light", 64, 4.8e-9, 4.0),
         ("triangle-light", 64, 2.6e-8, 4.0),
-        ("triangle-light", 32, 2.6e-8, 4.0),
+        ("triangle-light", 32, 2.6e-8, 6.5),
         ("quads", 64, 1.9e-8, 1.8),
     ] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/references/{name}.exr"));

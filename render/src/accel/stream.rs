@@ -142,16 +142,13 @@ impl<P: Primitives + Leaves> Tree<P> {
                 continue;
             }
             if among.count_ones() < FEW {
-                if OCTANT < 8 {
+                if OCTANT < 8 || !stack.later.add(among, place, stack.visits[height].near) {
                     each_ray(among, |i| {
                         let (p, lane) = (i >> 3, i & 7);
                         let mut nearest = hits[p].nearest(lane);
                         self.closest_single(place, &Single::new(&rays[p], lane), &mut nearest, stack);
                         hits[p].put(lane, &nearest);
                     });
-                } else if !stack.later.add(among, place, stack.visits[height].near) {
-                    self.closest_together(rays, hits, stack);
-                    stack.later.add(among, place, stack.visits[height].near);
                 }
                 continue;
             }
@@ -198,16 +195,13 @@ impl<P: Primitives + Leaves> Tree<P> {
             let Visit { rays: among, node: place, .. } = stack.visits[height];
             let among = among & open;
             if among.count_ones() < FEW {
-                if OCTANT < 8 {
+                if OCTANT < 8 || !stack.later.add(among, place, 0.0) {
                     each_ray(among, |i| {
                         let (p, lane) = (i >> 3, i & 7);
                         let hides =
                             self.hides_single(place, &Single::new(&rays[p], lane), limit[p].as_array()[lane], stack);
                         open &= !(u64::from(hides) << i);
                     });
-                } else if !stack.later.add(among, place, 0.0) {
-                    open &= !self.hidden_together(rays, open, limit, stack);
-                    stack.later.add(among & open, place, 0.0);
                 }
                 continue;
             }

@@ -219,3 +219,27 @@ impl<P: Leaves> Tree<P> {
         self.walk::<true>(rays, &mut nearest, stack)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Later, MOST};
+
+    /// Rays for which there is no room are left as they were, all of them; those that are forgotten or taken have room again.
+    #[test]
+    fn later_is_all_or_nothing() {
+        let mut later = Later::default();
+        for node in 0..MOST as u32 {
+            assert!(later.add(0b10, node, 0.5));
+        }
+        assert!(!later.add(0b11, 99, 0.5));
+        assert_eq!(later.rays, 0b10);
+        assert_eq!(later.next(), Some(1));
+        let nodes: Vec<u32> = later.take(1).iter().map(|child| child.first).collect();
+        assert_eq!(nodes, (0..MOST as u32).collect::<Vec<_>>());
+        assert_eq!(later.next(), None);
+        assert!(later.add(0b11, 7, 0.5));
+        later.keep(0b01);
+        assert!(later.take(1).is_empty());
+        assert_eq!(later.take(0).len(), 1);
+    }
+}
