@@ -1,12 +1,12 @@
 //! Techniques by projected solid angle, on an unoccluded diffuse surface under constant light: no variance, and the mean is the closed form.
 
 use core::f64::consts::PI;
-use etendue::seen::ProjectedTriangle;
+use etendue::seen::{ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 use etendue_tests::domain::{self, Random};
 use etendue_tests::laws::Subject;
 use etendue_tests::oracle::{
-    V3, above_horizon, along, basis, cross, exact_sum, lambert, length, projected_cap_by_rings, unit, wide,
+    V3, above_horizon, along, basis, cross, dot, exact_sum, lambert, length, projected_cap_by_rings, unit, wide,
 };
 use etendue_tests::tolerances::{PROJECTED_POLYGON, ULP};
 
@@ -225,4 +225,52 @@ fn inverse_beside_an_upright_edge() {
     let w = vector([-0.504_813, 0.341_584_47, 0.792_769_7]);
     let off = (seen.sample(seen.invert(w)) - w).length();
     assert!(off < 1e-4, "{off:e}");
+}
+
+/// The irradiance of a segment by both precisions, in units of what is documented; near the horizon, and from next to the line.
+#[test]
+fn irradiance_of_segments() {
+    const KINDS: [&str; 6] =
+        ["any", "short", "from above the horizon", "next to the horizon", "through the point", "both"];
+    let mut random = Random::new(31);
+    let mut greatest = [0.0_f64; KINDS.len()];
+    for i in 0..600_000 {
+        let kind = i % KINDS.len();
+        let mut vector = || core::array::from_fn(|_| 2.0 * random.unit() - 1.0);
+        let [mut a, mut edge, normal, off]: [[f32; 3]; 4] = [(); 4].map(|()| vector());
+        let small = 10.0_f64.powf(-9.0 * random.unit_f64());
+        let lowered = |v: [f32; 3], part: f64| {
+            let n = unit(wide(normal));
+            narrow(along(wide(v), n, (part - 1.0) * dot(wide(v), n)))
+        };
+        match kind {
+            1 => edge = edge.map(|x| x * small as f32),
+            2 => a = lowered(a, small),
+            3 => [a, edge] = [a, edge].map(|v| lowered(v, small)),
+            4 | 5 => {
+                let past = 1.0 + random.unit();
+                edge = core::array::from_fn(|k| off[k] * small as f32 - a[k] * past);
+                if kind == 5 {
+                    [a, edge] = [a, edge].map(|v| lowered(v, small));
+                }
+            }
+            _ => {}
+        }
+        let seen = |[a, edge, normal]: [Vec3<f64>; 3]| ProjectedSegment::new(a, edge, normal).irradiance();
+        let truth = seen([a, edge, normal].map(|v| Vec3::from(wide(v))));
+        let found = f64::from(ProjectedSegment::<f32>::new(a.into(), edge.into(), normal.into()).irradiance());
+        let [a, e, n] = [a, edge, normal].map(wide);
+        let b = along(a, e, 1.0);
+        let sine = |v: V3| (length(cross(a, e)) / (length(v) * length(e))).min(1.0);
+        let elevation = |v: V3| dot(v, n) / (length(v) * length(n));
+        let highest = elevation(a).max(elevation(b));
+        if truth > 1e-25 && highest > 0.0 {
+            let known = 1.1e-6 / sine(a).min(sine(b)) + 2e-14 / highest;
+            greatest[kind] = greatest[kind].max((found / truth - 1.0).abs() / known);
+        }
+    }
+    for (kind, greatest) in KINDS.into_iter().zip(greatest) {
+        println!("segments, {kind}: ∫p off by {greatest:.2} of what is allowed");
+        assert!(greatest <= 1.0, "{kind}: {greatest}");
+    }
 }

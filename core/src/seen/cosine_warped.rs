@@ -17,7 +17,8 @@ const FLOOR: f64 = 0.01;
 ///   [`SphericalRectangle`](super::SphericalRectangle).
 /// - Density: the shape's times the bilinear density at v, which `pdf` finds by the shape's inverse: the same factor.
 /// - Degenerate input: as the shape.
-/// - Greatest error: that of the shape; of the density, 8 ulp more, and the bilinear density's change by an error of v.
+/// - Greatest error: that of the shape; of the density, 8 ulp more, the bilinear density's change by an error of v, and the rounding
+///   of the cosines at the corners over their mean.
 /// - Source: Hart, Pharr, Müller, Lopes, McGuire and Shirley, "Practical Product Sampling by Fitting and Composing Warps", EGSR 2020, 4.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CosineWarped<S, R> {

@@ -1,7 +1,7 @@
 //! Products and sums of vectors in twice the working precision, as unevaluated sums of two: what is a small difference of them keeps its
 //! digits. By TwoSum and the error of a product (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot Product", algorithm 5.3).
 
-use crate::math::two_sum;
+use crate::math::{rsqrt, two_sum};
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -63,4 +63,16 @@ pub(super) fn exact_cross<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
 pub(super) fn exact_sum<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
     let ((x, ex), (y, ey), (z, ez)) = (two_sum(a.x, b.x), two_sum(a.y, b.y), two_sum(a.z, b.z));
     [Vec3::new(x, y, z), Vec3::new(ex, ey, ez) + (ra + rb)]
+}
+
+/// A normal of any length to length 1, and without rounding, times a power of two, with one over its length then; z for none.
+#[inline(always)]
+pub(super) fn unit_normal<R: Real>(normal: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let scaled = normal * normal.max_abs().exponent_reciprocal();
+    let squared = scaled.length_squared();
+    let flat = squared.le(zero);
+    let scaled = Vec3::new(scaled.x, scaled.y, R::select(flat, one, scaled.z));
+    let shrink = rsqrt(R::select(flat, one, squared));
+    (scaled * shrink, scaled, shrink)
 }

@@ -2,7 +2,7 @@ mod horizon;
 mod piece;
 mod sector;
 
-use super::exact::{exact_cross, exact_dot_pair, exact_height, exact_height_pair, exact_sum};
+use super::exact::{exact_cross, exact_dot_pair, exact_height, exact_height_pair, exact_sum, unit_normal};
 use super::triangle::SLACK;
 use super::{Sighting, lanewise, to_unit};
 use crate::math::{ratio, rsqrt};
@@ -10,7 +10,7 @@ use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Warp, unit_interval};
 use horizon::{Exact, clip};
-use piece::{Corners, Piece};
+use piece::{Corners, Piece, narrowest};
 use sector::Sector;
 
 /// In units of the greatest coordinate: what is nearer to the horizon is on it.
@@ -76,18 +76,6 @@ lanewise! {
         unit: R,
         projected: R,
     }
-}
-
-/// A normal of any length to length 1; z for none.
-#[inline(always)]
-fn unit_normal<R: Real>(normal: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let scaled = normal * normal.max_abs().exponent_reciprocal();
-    let squared = scaled.length_squared();
-    let flat = squared.le(zero);
-    let scaled = Vec3::new(scaled.x, scaled.y, R::select(flat, one, scaled.z));
-    let shrink = rsqrt(R::select(flat, one, squared));
-    (scaled * shrink, scaled, shrink)
 }
 
 /// A triangle: vertices, what the second and third lack if they are rounded, edges from each to the next, products of each vertex and the
@@ -214,7 +202,12 @@ impl<R: Real> ProjectedTriangle<R> {
                 second = Piece::new(&rest, normal);
             }
         }
-        let first = Piece::new(&corners, normal);
+        let mut first = Piece::new(&corners, normal);
+        // what the horizon has left next to nothing of: no `u` but 0 falls into it
+        let least = narrowest::<R>() * (first.area + second.area);
+        for piece in [&mut first, &mut second] {
+            piece.area = piece.area.keep(piece.area.gt(least));
+        }
 
         let side = |i: usize| {
             // the plane of vertices that lie nearly opposite is known no better than −cos : sin of their angle: by so much shorter
@@ -282,12 +275,12 @@ impl<R: Real> ProjectedTriangle<R> {
         let direction = self.sample(u);
         Sighting { direction, distance: self.distance(direction) }
     }
-    /// Is the direction inside, give or take the rounding of the direction itself?
+    /// With its sides' inner faces as those of a triangle that is seen from the front, or not.
     #[inline(always)]
-    fn contains(&self, w: Vec3<R>) -> R::Mask {
-        let least = w.dot(self.pole0).min(w.dot(self.pole1)).min(w.dot(self.pole2));
-        let ahead = w.dot(self.plane).negate_where(self.in_front());
-        least.ge(R::lit(-SLACK)) & ahead.ge(-(self.plane.length() * R::lit(SLACK)))
+    fn faced(self, front: R::Mask) -> Self {
+        let turn = R::lit(1.0).negate_where(front ^ self.in_front());
+        let [pole0, pole1, pole2] = [self.pole0, self.pole1, self.pole2].map(|pole| pole * turn);
+        Self { pole0, pole1, pole2, ..self }
     }
     /// The area before a direction of the triangle, and `u` across; `edge`: what a jump of the map is kept away from.
     #[inline(always)]
@@ -306,6 +299,17 @@ impl<R: Real> ProjectedTriangle<R> {
     }
 }
 
+/// Inside of all sides, given the least sine over them, give or take the rounding of the direction itself?
+#[inline(always)]
+fn within<R: Real>(least: R) -> R::Mask {
+    least.ge(R::lit(-SLACK))
+}
+/// Does the direction not lead away from the plane with that normal, likewise?
+#[inline(always)]
+fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
+    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(SLACK)))
+}
+
 /// Two steps of u₀: from one part to the next the map may jump, and u₀Ω⊥ is known to so much.
 #[inline(always)]
 fn edge<R: Real>(whole: R) -> R {
@@ -322,7 +326,8 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.density(w.dot(self.normal)).keep(self.contains(w))
+        let least = w.dot(self.pole0).min(w.dot(self.pole1)).min(w.dot(self.pole2));
+        self.density(w.dot(self.normal)).keep(within(least) & ahead(w, self.plane, self.in_front()))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -349,12 +354,16 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
 pub struct ProjectedPolygon<R, const N: usize> {
     /// The last two are empty.
     fan: [ProjectedTriangle<R>; N],
+    /// sums of those of the triangles
+    plane: Vec3<R>,
+    volume: R,
     projected: R,
 }
 
 impl<R: Real, const N: usize> Default for ProjectedPolygon<R, N> {
     fn default() -> Self {
-        Self { fan: [ProjectedTriangle::default(); N], projected: R::lit(0.0) }
+        let zero = R::lit(0.0);
+        Self { fan: [ProjectedTriangle::default(); N], plane: Vec3::default(), volume: zero, projected: zero }
     }
 }
 
@@ -372,7 +381,7 @@ impl<R: Real> ProjectedPolygon<R, 4> {
         fan[0] = ProjectedTriangle::with_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
         let sides = [both, [-u, none], [-v, none]];
         fan[1] = ProjectedTriangle::with_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
-        Self { projected: fan[0].projected + fan[1].projected, fan }
+        Self::of(fan)
     }
 }
 
@@ -385,17 +394,36 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
         let mut fan = [ProjectedTriangle::default(); N];
-        let mut projected = R::lit(0.0);
         for i in 0..Self::TRIANGLES {
             fan[i] = ProjectedTriangle::new(corners[0], corners[i + 1], corners[i + 2], normal);
-            projected += fan[i].projected;
         }
-        Self { fan, projected }
+        Self::of(fan)
+    }
+    #[inline(always)]
+    fn of(mut fan: [ProjectedTriangle<R>; N]) -> Self {
+        let mut this = Self { fan: [ProjectedTriangle::default(); N], ..Self::default() };
+        for triangle in &fan[..Self::TRIANGLES] {
+            this.plane = this.plane + triangle.plane;
+            this.volume += triangle.volume;
+            this.projected += triangle.projected;
+        }
+        let least = narrowest::<R>() * this.projected;
+        for triangle in &mut fan[..Self::TRIANGLES] {
+            triangle.projected = triangle.projected.keep(triangle.projected.gt(least));
+        }
+        // of a triangle between corners in line rounding tells the side
+        let front = this.in_front();
+        Self { fan: fan.map(|triangle| triangle.faced(front)), ..this }
     }
     /// Prepared for one point: the same in every lane.
     #[inline(always)]
     pub fn splat(s: ProjectedPolygon<R::Scalar, N>) -> Self {
-        Self { fan: s.fan.map(ProjectedTriangle::splat), projected: R::splat(s.projected) }
+        Self {
+            fan: s.fan.map(ProjectedTriangle::splat),
+            plane: Vec3::splat(s.plane),
+            volume: R::splat(s.volume),
+            projected: R::splat(s.projected),
+        }
     }
     /// Projected solid angle in [0, π]: irradiance per unit of radiance.
     #[inline(always)]
@@ -410,11 +438,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// True where the point is on the side from which the corners run counterclockwise.
     #[inline(always)]
     pub fn in_front(&self) -> R::Mask {
-        let mut front = R::Mask::splat(false);
-        for triangle in &self.fan[..Self::TRIANGLES] {
-            front = front | triangle.in_front();
-        }
-        front
+        self.volume.lt(R::lit(0.0))
     }
     /// The direction for `u` and the distance to the polygon along it.
     #[inline(always)]
@@ -465,10 +489,12 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        let mut inside = R::Mask::splat(false);
+        // the outer sides: those between triangles would meet in sharper corners than the polygon has, and what is allowed beside each is more there
+        let mut least = w.dot(self.fan[0].pole0).min(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
         for triangle in &self.fan[..Self::TRIANGLES] {
-            inside = inside | (triangle.contains(w) & !triangle.volume.abs().le(R::lit(0.0)));
+            least = least.min(w.dot(triangle.pole1));
         }
+        let inside = within(least) & ahead(w, self.plane, self.in_front());
         self.density(w.dot(self.fan[0].normal)).keep(inside)
     }
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use super::{Input, scalable};
 use crate::laws;
-use crate::oracle::{cross, dot, length, wide};
+use crate::oracle::{V3, cross, dot, length, sub, wide};
 use crate::techniques::{self, AreaLight, By, Shape, Technique};
 use etendue::{ConstantEnvironment, Directional, LightSample, Point, Real, Spot, Sun, Vec2, Vec3};
 
@@ -25,12 +25,16 @@ pub(super) fn area_lights(input: &mut Input<'_>) {
     techniques::measure(&light, u);
     let AreaLight { p, a, b, c, n, radius, .. } = light;
     // areas are squares of lengths, and smaller than these if the shape is slim
-    let [e, f] = [b, c].map(wide);
-    let area = length(cross(e, f));
-    if scalable(&[p, a, b, c, n].concat(), 1e6)
-        && scalable(&[radius], 1e6)
-        && (area == 0.0 || area > 1e-18 + 1e-4 * length(e) * length(f))
-    {
+    let [e, f, g] = [b, c, n].map(wide);
+    let roomy = |e: V3, f: V3| length(cross(e, f)) > 1e-18 + 1e-4 * length(e) * length(f);
+    let spread = if shape == Shape::Patch {
+        // at its four corners
+        let [x, y] = [sub(g, e), sub(g, f)];
+        roomy(e, f) && roomy(e, x) && roomy(f, y) && roomy(x, y)
+    } else {
+        length(cross(e, f)) == 0.0 || roomy(e, f)
+    };
+    if scalable(&[p, a, b, c, n].concat(), 1e6) && scalable(&[radius], 1e6) && spread {
         techniques::scale(&light, u);
     }
     // more is known of the sizes of rooms

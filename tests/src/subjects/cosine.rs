@@ -3,12 +3,16 @@
 use super::{Rectangle, Triangle};
 use crate::domain::Random;
 use crate::laws::{Coordinates, Subject, vectors_of};
-use crate::oracle::V3;
+use crate::oracle::{V3, along, cross, length, unit};
 use crate::tolerances::{Tolerance, ULP};
+use core::f64::consts::PI;
 use core::fmt::Debug;
 use etendue::seen::{CosineWarped, SphericalRectangle, SphericalTriangle};
 use etendue::warp::Bilinear;
 use etendue::{Real, Vec3, Warp};
+
+/// Units to which the cosine of a corner is known, of a unit vector's.
+const CORNERS: f64 = 6.0;
 
 macro_rules! warped {
     ($name:ident, $shape:ident, $seen:ident) => {
@@ -21,14 +25,26 @@ macro_rules! warped {
             pub normal: [f32; 3],
         }
         impl $name {
-            /// The weights of the square by the formula, in double precision; the shape's own inverse has laws of its own.
-            fn weight(&self, point: V3) -> (f64, f64) {
-                let warp = Self::prepare::<f64>(&[*self]);
+            /// The weight of the square by the formula, in double precision, the greatest one, and what one is per cosine at a corner; the shape's own inverse has laws of its own.
+            fn weight(&self, warp: &CosineWarped<$seen<f64>, f64>, point: V3) -> (f64, f64, f64) {
                 let [x, y, _] = warp.shape.invert(Vec3::gather(&[point])).at(0);
                 let [a, b, c, d] = warp.weights.corners;
                 let value = (a * (1.0 - x) + b * x) * (1.0 - y) + (c * (1.0 - x) + d * x) * y;
-                let spread = a.max(b).max(c.max(d)) - a.min(b).min(c.min(d));
-                (4.0 * value / (a + b + c + d), 4.0 * spread / (a + b + c + d))
+                let scale = 4.0 / (a + b + c + d);
+                (scale * value, scale * a.max(b).max(c.max(d)), scale)
+            }
+            /// By how much the weight changes per turn of the direction, at the most within `step`.
+            fn steepness(&self, warp: &CosineWarped<$seen<f64>, f64>, w: V3, step: f64) -> f64 {
+                let here = self.weight(warp, w).0;
+                let axis = cross(w, unit(self.normal.map(f64::from)));
+                let axis = if length(axis) > 0.0 { unit(axis) } else { [1.0, 0.0, 0.0] };
+                let other = cross(w, axis);
+                let turns = [0.0, 0.25, 0.5, 0.75].map(|t: f64| (PI * t).sin_cos());
+                let change = |(s, c): (f64, f64), step: f64| {
+                    let w = along(along(w, axis, step * c), other, step * s);
+                    (self.weight(warp, unit(w)).0 - here).abs() / step.abs()
+                };
+                turns.map(|turn| change(turn, step).max(change(turn, -step))).into_iter().fold(0.0, f64::max)
             }
         }
         impl Subject for $name {
@@ -53,7 +69,7 @@ macro_rules! warped {
                 Self { shape: self.shape.scaled(factor), ..*self }
             }
             fn density(&self, point: V3) -> f64 {
-                self.shape.density(point) * self.weight(point).0
+                self.shape.density(point) * self.weight(&Self::prepare(&[*self]), point).0
             }
             fn chart(&self, s: f64, t: f64) -> (V3, f64) {
                 self.shape.chart(s, t)
@@ -73,12 +89,15 @@ macro_rules! warped {
             fn condition(&self) -> f64 {
                 self.shape.condition()
             }
-            /// An error of the inverse, a direction's rounding over the extent, moves the density along the bilinear one.
+            /// What the inverse is known to, moves the density along the bilinear one; and the weights at the corners are rounded.
             fn density_slack(&self, point: V3) -> f64 {
-                // fuzzing has seen 4.3 times what the inverse and the weights are known to, of a triangle that fills half of the directions
-                let known =
-                    6.0 * (self.shape.tolerance().round_trip * self.shape.granularity() / self.extent()[1] + 8.0);
-                self.shape.density(point) * self.weight(point).1 * known.min(1.0 / ULP) / self.tolerance().density
+                let warp = Self::prepare(&[*self]);
+                let known = self.shape.tolerance().round_trip * self.shape.granularity();
+                let (_, greatest, scale) = self.weight(&warp, point);
+                let steps = known * self.steepness(&warp, point, known * ULP)
+                    + greatest * self.shape.inverse_units([0.5; 2])
+                    + scale * CORNERS;
+                self.shape.density(point) * steps.min(greatest / ULP) / self.tolerance().density
             }
             fn gradient(&self) -> f64 {
                 f64::MIN_POSITIVE

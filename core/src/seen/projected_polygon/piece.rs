@@ -12,6 +12,11 @@ use crate::warp::unit_interval;
 const NARROWEST: f64 = 1.0 / 4_294_967_296.0;
 const NARROWEST_F64: f64 = 1e-16;
 
+#[inline(always)]
+pub(super) fn narrowest<R: Real>() -> R {
+    R::lit(if double::<R>() { NARROWEST_F64 } else { NARROWEST })
+}
+
 lanewise! {
     /// By azimuth: from the first vertex to the middle one, from there to the last; about the zenith on to the first.
     Piece {
@@ -118,8 +123,7 @@ impl<R: Real> Piece<R> {
             third.area = third.area.keep(central & some);
         }
         // beside an upright edge there are sectors of no width, in which a direction is all rounding: no `u` but 0 falls into them
-        let least =
-            R::lit(if double::<R>() { NARROWEST_F64 } else { NARROWEST }) * (first.area + second.area + third.area);
+        let least = narrowest::<R>() * (first.area + second.area + third.area);
         for sector in [&mut first, &mut second, &mut third] {
             sector.area = sector.area.keep(sector.area.gt(least));
         }
