@@ -42,7 +42,7 @@ lanewise! {
     ///   aspect ratio), and in its plane's normal where it covers all but 1e−4 of a hemisphere.
     ///   Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; from next to the plane of a triangle that surrounds the point a step is worth 1/sin of the
     ///   elevation, since so much do the areas of the sectors differ. Distance as `SphericalTriangle`. The inverse is that of a
-    ///   direction 1.4e−6 away, times how much longer than wide the triangle is seen. In a corner a sweep begins like √u₀ (on the
+    ///   direction 1.4e−6 away, times how much longer than wide the triangle is seen, besides as many steps. In a corner a sweep begins like √u₀ (on the
     ///   horizon ∛u₀): the share counts from the nearer end; within 2⁻²⁴ of the whole its inverse is the nearest `u` below 1, and if the
     ///   horizon has cut the triangle in two, u₀ near the join belongs to one or the other. About the zenith the inverse of the azimuth at
     ///   which the sweep begins may be 0 or 1.

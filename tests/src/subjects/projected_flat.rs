@@ -214,9 +214,9 @@ macro_rules! subject {
             fn condition(&self) -> f64 {
                 self.truth.condition
             }
-            // of three sectors' areas one is inverted, and two are rounded
+            // areas before a direction are known as those are by which it is drawn
             fn inverse_steps(&self) -> f64 {
-                3.0
+                self.tolerance().steps
             }
             fn gradient(&self) -> f64 {
                 1.0 / self.truth.projected
