@@ -513,9 +513,7 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        // from the apex, across its direction: along it w is known no better than to a unit, beside which a small triangle is nothing
-        let away = w - self.apex;
-        let (x, y) = (away.dot(self.along), away.dot(self.across).max(zero));
+        let (x, y) = (w.dot(self.along), w.dot(self.across).max(zero));
         let squared = x.mul_add(x, y * y);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
         let (x, y) = (x * inverse, y * inverse);
@@ -525,10 +523,11 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
         // tan(swept/2) from two sides and the angle between them
         let both = self.sin_side * sin;
         let swept = two * (both * y).atan2(self.g2.mul_add(plus, both * x));
-        // 1 − cos of the way
-        let ahead = w.dot(self.apex);
+        // 1 − cos of the way from the apex, across it where that is ahead: along it w is known to a unit, beside which a small triangle is nothing
+        let (away, ahead) = (w - self.apex, w.dot(self.apex));
         let near = ahead.gt(zero);
-        let by_sine = squared / (one + ahead.keep(near));
+        let (x, y) = (away.dot(self.along), away.dot(self.across));
+        let by_sine = x.mul_add(x, y * y) / (one + ahead.keep(near));
         let moved = R::select(near, by_sine, away.length_squared() * R::lit(0.5));
         Vec2 {
             x: unit_interval(swept / self.solid_angle.max(R::lit(1e-37))),
