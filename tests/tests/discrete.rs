@@ -135,6 +135,20 @@ fn piecewise_constant_2d_counts() {
 }
 
 /// Over all 2²⁴ values of u: counts within what the grid allows, the left-over uniform.
+/// Cells off the image have no probability, however far off.
+#[test]
+fn beyond_the_image() {
+    let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(3, 2)];
+    let table = PiecewiseConstant2d::build(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 3, &mut buffer).unwrap();
+    for far in [2, 3, 4, 1 << 24, u32::MAX] {
+        assert_eq!(table.probability::<f32>(1, far), 0.0, "row {far}");
+        if far > 2 {
+            assert_eq!(table.probability::<f32>(far, 1), 0.0, "column {far}");
+        }
+    }
+    assert!((table.probability::<f32>(2, 1) - 6.0 / 21.0).abs() < 1e-6);
+}
+
 #[test]
 fn alias_table_counts() {
     for n in [1_usize, 2, 3, 7, 64, 1000] {

@@ -1,7 +1,7 @@
 //! Techniques by projected solid angle, on an unoccluded diffuse surface under constant light: no variance, and the mean is the closed form.
 
 use core::f64::consts::PI;
-use etendue::seen::{ProjectedSegment, ProjectedTriangle};
+use etendue::seen::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 use etendue_tests::domain::{self, Random};
 use etendue_tests::laws::Subject;
@@ -225,6 +225,33 @@ fn inverse_beside_an_upright_edge() {
     let w = vector([-0.504_813, 0.341_584_47, 0.792_769_7]);
     let off = (seen.sample(seen.invert(w)) - w).length();
     assert!(off < 1e-4, "{off:e}");
+}
+
+/// Spheres below the horizon that reach over it by some units of their radius, in units of what is documented.
+#[test]
+fn caps_that_just_reach_over_the_horizon() {
+    let mut random = Random::new(37);
+    let (mut greatest, mut cases) = (0.0_f64, 0);
+    for i in 0..200_000 {
+        let mut vector = || core::array::from_fn(|_| 2.0 * random.unit() - 1.0);
+        let [center, normal]: [[f32; 3]; 2] = [vector(), vector()];
+        let (c, n) = (wide(center), wide(normal));
+        let height = dot(c, n) / length(n);
+        let mut radius = height.abs() as f32;
+        for _ in 0..i % 5 {
+            radius = radius.next_up();
+        }
+        let reach = (f64::from(radius) + height) / length(c);
+        if height >= 0.0 || reach <= 0.0 {
+            continue;
+        }
+        let found = f64::from(ProjectedCap::<f32>::new(center.into(), radius, normal.into()).projected_solid_angle());
+        let double = ProjectedCap::<f64>::new(c.into(), f64::from(radius), n.into()).projected_solid_angle();
+        cases += 1;
+        greatest = greatest.max((found / double - 1.0).abs() / (1.6e-6 + 4e-14 / reach));
+    }
+    println!("{cases} caps that just reach over the horizon: Ω⊥ off by {greatest:.2} of what is allowed");
+    assert!(cases > 50_000 && greatest <= 1.0, "{greatest} of {cases}");
 }
 
 /// The irradiance of a segment by both precisions, in units of what is documented; near the horizon, and from next to the line.

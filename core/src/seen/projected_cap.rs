@@ -35,7 +35,8 @@ lanewise! {
     /// - Density: cosθ/Ω⊥ per steradian within the cone (and within 10 ulp beyond) and above the horizon, 0 elsewhere. From inside the
     ///   sphere: the whole hemisphere, cosθ/π.
     /// - Degenerate: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` gives some unit vector.
-    /// - Greatest error: Ω⊥ 3e−7 relative, however thin the part that the horizon leaves; of a cap of more than 80° whose centre is below the
+    /// - Greatest error: Ω⊥ 3e−7 relative; of a sphere below the horizon that reaches over it by less than 1e−6 of its distance 1.6e−6,
+    ///   and 4e−14 over that part; of a cap of more than 80° whose centre is below the
     ///   horizon, times 1/sin²ω: it is then a ring about the nadir, and circle and ellipse are alike. Direction 4e−7, besides 4 steps of
     ///   2⁻²⁴ in u, times the same; where the horizon touches the cap it has a square root's slope, and may be off by 1e−3 of the size.
     ///   A cap of less than 1e−6 on the horizon has cosines below the rounding of its directions, and some are lost.
