@@ -403,7 +403,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     fn of(mut fan: [ProjectedTriangle<R>; N]) -> Self {
         let mut this = Self { fan: [ProjectedTriangle::default(); N], ..Self::default() };
         for triangle in &fan[..Self::TRIANGLES] {
-            this.plane = this.plane + triangle.plane;
+            this.plane += triangle.plane;
             this.volume += triangle.volume;
             this.projected += triangle.projected;
         }
