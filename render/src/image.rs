@@ -2,6 +2,7 @@
 //! and the image crate.
 
 use crate::film::{Film, Pixel};
+use exr::block::chunk::CompressedBlock;
 use exr::prelude::{
     AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
     ReadChannels, ReadLayers, WritableImage,
@@ -228,6 +229,22 @@ pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
         // channels may be subsampled, which R, G and B are not here: four bytes are the least that is of use
         let full = header.channels.list.iter().all(|c| c.sampling == exr::math::Vec2(1, 1));
         believe(path, size, 8 * if full { samples.sum() } else { 4 }, bytes.len())?;
+    }
+    // chunks are found by a table, and say themselves what they are: the reader takes them by the one and stores them by the other
+    let full_size = exr::math::Vec2(0, 0);
+    let chunks = exr::block::read(Cursor::new(bytes), false)
+        .and_then(|reader| reader.filter_chunks(false, |_, tile, _| tile.level_index == full_size))
+        .map_err(not_one)?;
+    for chunk in chunks {
+        if let CompressedBlock::Tile(tile) = chunk.map_err(not_one)?.compressed_block {
+            let level = tile.coordinates.level_index;
+            if level != full_size {
+                return Err(failed(
+                    path,
+                    format!("a tile of full size says that it is of level {}, {}", level.x(), level.y()),
+                ));
+            }
+        }
     }
     let image = exr::prelude::read()
         .no_deep_data()
