@@ -134,7 +134,6 @@ fn piecewise_constant_2d_counts() {
     }
 }
 
-/// Over all 2²⁴ values of u: counts within what the grid allows, the left-over uniform.
 /// Cells off the image have no probability, however far off.
 #[test]
 fn beyond_the_image() {
@@ -149,6 +148,7 @@ fn beyond_the_image() {
     assert!((table.probability::<f32>(2, 1) - 6.0 / 21.0).abs() < 1e-6);
 }
 
+/// Over all 2²⁴ values of u: counts within what the grid allows, the left-over uniform.
 #[test]
 fn alias_table_counts() {
     for n in [1_usize, 2, 3, 7, 64, 1000] {

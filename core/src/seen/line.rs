@@ -206,8 +206,8 @@ lanewise! {
     /// - Density: sinγ cosθ/∫p per radian of the plane of point and segment between the ends and above the horizon (and within 4 ulp
     ///   beyond), 0 elsewhere. A direction off that plane stands for its projection on it.
     /// - Degenerate: the point on the line of the segment, all of it below the horizon or at it, a length of 0: pdf 0.
-    /// - Greatest error: direction 4e−7, besides 4 steps of 2⁻²⁴ in u; ∫p 1.1e−6 relative, over the sine of the angle between the line and its direction at either end,
-    ///   and 2e−14 over the sine of the higher end's elevation.
+    /// - Greatest error: direction 4e−7, besides 4 steps of 2⁻²⁴ in u; ∫p 1.1e−6 relative, over the lesser sine of the angles
+    ///   between the line and the directions of its ends, and 2e−14 over the sine of the higher end's elevation.
     /// - Source: Peters, "BRDF Importance Sampling for Linear Lights", HPG 2021, for the density; the integral from an end and its
     ///   inverse are derived here.
     ProjectedSegment {
@@ -240,7 +240,7 @@ impl<R: Real> ProjectedSegment<R> {
         let [low, rise, high] = heights.map(|z| z * shrink);
         let (enters, leaves) = (low.lt(zero), high.lt(zero));
         let (level, sine) = normal.cross(across).unit_and_length();
-        // the end on the horizon: its place, and where the line passes near the point, of which that is a small difference, by the angles to the ends
+        // the end on the horizon: its place; where the line passes near the point that is a small difference, and the angles to the ends tell
         let height = ratio(area, length);
         let farthest = a_distance.max(b_distance);
         let (place, there) = edge.mul_add(ratio(low.abs(), rise.abs()).min(one), a).unit_and_length();
