@@ -2,12 +2,12 @@
 
 use etendue::discrete::{AliasTable, PiecewiseConstant2d};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
-use etendue::seen::{
-    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphereCap, SphericalDisk,
-    SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
-};
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
+};
+use etendue::spherical::{
+    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
+    SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, Exponential,
@@ -141,7 +141,7 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.line("normal", Normal { mean: R::lit(0.5), sigma: R::lit(2.0) });
 
     let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
-    list.warp("sphere cap", SphereCap::new(a, R::lit(0.7)));
+    list.warp("spherical cap", SphericalCap::new(a, R::lit(0.7)));
     list.warp("projected cap, whole", ProjectedCap::new(a, R::lit(0.7), vector([0.0, 1.0, 0.0])));
     list.warp("projected cap, cut", ProjectedCap::new(a, R::lit(0.7), vector([0.8, 0.6, 0.0])));
     list.warp("projected cap, lune", ProjectedCap::new(a, R::lit(0.7), vector([0.96, 0.28, 0.0])));
@@ -157,7 +157,7 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     }
     // a loaded value each time, so that nothing of the preparation is moved out of the loop
     let (radius, corners) = (black_box(R::lit(0.7)), black_box([a, b, c]));
-    list.prepared("sphere cap new + sample", move |p, u| SphereCap::new(corners[0] - p, radius).sample(u));
+    list.prepared("spherical cap new + sample", move |p, u| SphericalCap::new(corners[0] - p, radius).sample(u));
     list.prepared("projected cap new + sample", move |p, u| {
         ProjectedCap::new(corners[0] - p, radius, Vec3::new(R::lit(0.0), R::lit(1.0), R::lit(0.0))).sample(u)
     });

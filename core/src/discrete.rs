@@ -17,7 +17,7 @@
 //! let mut cdf = [0.0; 4];
 //! let table = PiecewiseConstant1d::build(&[1.0, 0.0, 2.0, 1.0], &mut cdf).unwrap();
 //! let cell = table.cell(0.5_f32);
-//! assert_eq!((cell.index, cell.offset, cell.probability), (2, 0.5, 0.5));
+//! assert_eq!((cell.index, cell.offset, cell.pmf), (2, 0.5, 0.5));
 //! assert_eq!(table.invert_cell(2, 0.5_f32), 0.5);
 //! ```
 
@@ -58,7 +58,7 @@ pub struct Cell<R: Real> {
     /// Position in the cell, in [0, 1): what is left of `u`, uniform.
     pub offset: R,
     /// Probability of the cell; times the number of cells, the density on [0, 1).
-    pub probability: R,
+    pub pmf: R,
 }
 
 /// A cell of an image that was drawn.
@@ -71,7 +71,7 @@ pub struct Cell2d<R: Real> {
     /// Position in the cell, in [0, 1)².
     pub offset: Vec2<R>,
     /// Probability of the cell; times the number of cells, the density per unit area of the unit square.
-    pub probability: R,
+    pub pmf: R,
 }
 
 /// Rounding of one operation, doubled.
@@ -87,7 +87,7 @@ pub(crate) fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
     let x = (i + offset) / n;
     // xn − i, exactly but for the last rounding, whose sign and whose excess over 1 are true
     let scaled = x * n;
-    let position = (scaled - i) + R::product_error(x, n, scaled);
+    let position = (scaled - i) + R::two_prod_error(x, n, scaled);
     let x = R::select(position.lt(R::lit(0.0)), x + x * epsilon(), x);
     R::select(position.ge(R::lit(1.0)), x - x * (epsilon::<R>() * R::lit(0.5)), x)
 }
@@ -98,7 +98,7 @@ pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
     let scaled = x * n;
     let i = R::from_uint(scaled.to_uint());
-    let position = (scaled - i) + R::product_error(x, n, scaled);
+    let position = (scaled - i) + R::two_prod_error(x, n, scaled);
     let (below, above) = (position.lt(zero), position.ge(one));
     let i = R::select(below, i - one, R::select(above, i + one, i));
     let position = R::select(below, position + one, R::select(above, position - one, position));
@@ -156,10 +156,10 @@ fn draw<'a, R: Real>(u: R, row: impl Fn(usize) -> &'a [f32]) -> Cell<R> {
         let (cdf, u) = (row(lane), u.lane_f64(lane));
         cdf.partition_point(|&end| f64::from(end) <= u).min(cdf.len() - 1) as u32
     });
-    let (start, probability) = bounds::<R>(index, row);
-    let some = probability.gt(R::lit(0.0));
-    let offset = unit_interval((u - start) / R::select(some, probability, R::lit(1.0)));
-    Cell { index, offset, probability }
+    let (start, pmf) = bounds::<R>(index, row);
+    let some = pmf.gt(R::lit(0.0));
+    let offset = unit_interval((u - start) / R::select(some, pmf, R::lit(1.0)));
+    Cell { index, offset, pmf }
 }
 
 /// Start and width of a cell; 0 and 0 past the last one.
@@ -216,7 +216,7 @@ impl<'a> PiecewiseConstant1d<'a> {
     }
     /// Probability of a cell; 0 past the last one.
     #[inline(always)]
-    pub fn probability<R: Real>(&self, index: R::Uint) -> R {
+    pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
         bounds::<R>(index, |_| self.cdf).1
     }
     /// The `u` of a position in a cell.
@@ -241,7 +241,7 @@ impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
     fn pdf(&self, x: R) -> R {
         let inside = x.ge(R::lit(0.0)) & x.lt(R::lit(1.0));
         let (index, _) = locate(unit_interval(x), self.count::<R>());
-        (self.probability::<R>(index) * self.count()).keep(inside)
+        (self.pmf::<R>(index) * self.count()).keep(inside)
     }
     #[inline(always)]
     fn invert(&self, x: R) -> R {
@@ -319,7 +319,7 @@ impl<'a> PiecewiseConstant2d<'a> {
     ///
     /// # Errors
     /// If no table of so many columns has a buffer of this length.
-    pub fn built(buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
+    pub fn from_buffer(buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
         let height = buffer.len() / width.saturating_add(1);
         if width == 0 || height == 0 || buffer.len() != Self::buffer(width, height) {
             return Err(TableError::Length);
@@ -347,13 +347,13 @@ impl<'a> PiecewiseConstant2d<'a> {
             x: column.index,
             y: row.index,
             offset: Vec2::new(column.offset, row.offset),
-            probability: row.probability * column.probability,
+            pmf: row.pmf * column.pmf,
         }
     }
     /// Probability of a cell; 0 off the image.
     #[inline(always)]
-    pub fn probability<R: Real>(&self, x: R::Uint, y: R::Uint) -> R {
-        self.marginal.probability::<R>(y) * bounds::<R>(x, |lane| self.row(y.lane(lane))).1
+    pub fn pmf<R: Real>(&self, x: R::Uint, y: R::Uint) -> R {
+        self.marginal.pmf::<R>(y) * bounds::<R>(x, |lane| self.row(y.lane(lane))).1
     }
     /// The `u` of a position in a cell.
     #[inline(always)]
@@ -377,7 +377,7 @@ impl<R: Real> Warp<R> for PiecewiseConstant2d<'_> {
         let inside = p.x.ge(zero) & p.x.lt(one) & p.y.ge(zero) & p.y.lt(one);
         let [w, h] = self.size().map(|n| R::lit(n as f64));
         let (x, y) = (locate(unit_interval(p.x), w).0, locate(unit_interval(p.y), h).0);
-        (self.probability::<R>(x, y) * (w * h)).keep(inside)
+        (self.pmf::<R>(x, y) * (w * h)).keep(inside)
     }
     #[inline(always)]
     fn invert(&self, p: Vec2<R>) -> Vec2<R> {
@@ -407,7 +407,7 @@ impl<R: Real> Warp<R> for PiecewiseConstant2d<'_> {
 /// let table = AliasTable::build(&[1.0, 0.0, 2.0, 1.0], &mut thresholds, &mut aliases).unwrap();
 /// let drawn = table.cell(0.375_f32);
 /// // the second bucket is all alias
-/// assert_eq!((drawn.index, drawn.offset, drawn.probability), (2, 0.5, 0.5));
+/// assert_eq!((drawn.index, drawn.offset, drawn.pmf), (2, 0.5, 0.5));
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct AliasTable<'a> {
@@ -489,11 +489,11 @@ impl<'a> AliasTable<'a> {
         let one = R::lit(1.0);
         let range = R::select(own, threshold, one - threshold);
         let offset = unit_interval(R::select(own, fraction, fraction - threshold) / range.max(R::lit(1e-30)));
-        Cell { index, offset, probability: self.probability(index) }
+        Cell { index, offset, pmf: self.pmf(index) }
     }
     /// Probability of an item; 0 past the last one.
     #[inline(always)]
-    pub fn probability<R: Real>(&self, index: R::Uint) -> R {
+    pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
         R::from_fn(|lane| {
             let weight = self.weights.get(index.lane(lane) as usize).copied().unwrap_or(0.0);
             R::Scalar::lit(f64::from(weight) * self.inverse_total)

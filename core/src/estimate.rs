@@ -3,14 +3,14 @@
 //! | | what |
 //! |---|---|
 //! | [`Welford`] | mean and variance of a stream |
-//! | [`Heuristic`], [`density`] | multiple importance sampling |
+//! | [`Heuristic`], [`technique_pdf`] | multiple importance sampling |
 //! | [`Measured`], [`log_variance_error`] | efficiency: variance against cost |
 //! | [`Reservoir`] | one of a stream in proportion to weights: choice among lights, resampling |
 
 mod mis;
 mod reservoir;
 
-pub use mis::{Heuristic, Measured, density, log_variance_error};
+pub use mis::{Heuristic, Measured, log_variance_error, technique_pdf};
 pub use reservoir::Reservoir;
 
 use crate::real::Real;

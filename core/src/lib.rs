@@ -44,15 +44,15 @@ mod interop;
 pub mod light;
 pub mod math;
 pub mod real;
-pub mod seen;
 pub mod select;
 pub mod sequence;
+pub mod spherical;
 pub mod vector;
 pub mod warp;
 
 pub use light::{
-    BilinearPatch, ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Line, Parallelogram, Point, Polygon,
-    Rectangle, Sphere, Spot, Sun, Triangle,
+    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, Line, Parallelogram, PointLight,
+    Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,
 };
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};

@@ -19,7 +19,7 @@
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle), or by the cosine | |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
-//! | [`Point`], [`Spot`], [`Directional`] | one direction: `delta` holds | | |
+//! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | one direction: `delta` holds | | |
 
 mod delta;
 mod distant;
@@ -29,7 +29,7 @@ mod patch;
 mod polygon;
 mod round;
 
-pub use delta::{Directional, Point, Spot};
+pub use delta::{DirectionalLight, PointLight, SpotLight};
 pub use distant::{ConstantEnvironment, Sun};
 pub use environment::{EnvironmentMap, EnvironmentSample, ImageEnvironment, Texel};
 pub use line::Line;
@@ -39,9 +39,9 @@ pub use round::{Cylinder, Disk};
 
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
-use crate::seen::{
-    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedTriangle, Sighting, SphereCap, SphericalParallelogram,
-    SphericalRectangle, SphericalTriangle, lanewise,
+use crate::spherical::{
+    CosineWarped, DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedTriangle, SphericalCap,
+    SphericalParallelogram, SphericalRectangle, SphericalTriangle, lanewise,
 };
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, UniformSphere, Warp};
@@ -57,7 +57,7 @@ pub struct LightSample<R: Real> {
     pub pdf: R,
     /// True where the point sees the side of the light that emits if the light is one-sided: the side of the normal.
     pub emits: R::Mask,
-    /// True where no direction drawn otherwise can hit the light ([`Point`], [`Spot`], [`Directional`], [`Line`]). Then `pdf` is no density per
+    /// True where no direction drawn otherwise can hit the light ([`PointLight`], [`SpotLight`], [`DirectionalLight`], [`Line`]). Then `pdf` is no density per
     /// steradian: it is what the estimator divides by, and multiple importance sampling must give the sample the weight 1.
     pub delta: R::Mask,
 }
@@ -76,16 +76,16 @@ fn solid_angle_pdf<R: Real>(distance: R, along: R) -> R {
 
 /// Direction and distance of a point relative to the viewpoint, at any scale; zeros where either is beyond the largest number.
 #[inline(always)]
-fn sighting<R: Real>(point: Vec3<R>) -> Sighting<R> {
+fn direction_to<R: Real>(point: Vec3<R>) -> DirectionSample<R> {
     let (zero, infinity) = (R::lit(0.0), R::lit(f64::INFINITY));
     let reach = point.max_abs();
     let finite = reach.lt(infinity);
-    let scale = reach.keep(finite).exponent_reciprocal();
+    let scale = reach.keep(finite).pow2_scale();
     let scaled = Vec3::new(point.x.keep(finite), point.y.keep(finite), point.z.keep(finite)) * scale;
     let squared = scaled.length_squared();
     let inverse = rsqrt(squared).keep(squared.gt(zero));
     let distance = squared * inverse / scale;
-    Sighting { direction: scaled * inverse, distance: distance.keep(distance.lt(infinity)) }
+    DirectionSample { direction: scaled * inverse, distance: distance.keep(distance.lt(infinity)) }
 }
 
 lanewise! {
@@ -103,18 +103,18 @@ impl<R: Real> Sphere<R> {
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let normal: Vec3<R> = UniformSphere.sample(u);
-        let Sighting { direction, distance } = sighting((self.center - p) + normal * self.radius);
+        let DirectionSample { direction, distance } = direction_to((self.center - p) + normal * self.radius);
         let cos = direction.dot(normal);
         let area = self.radius * self.radius * R::lit(4.0 * core::f64::consts::PI);
         let pdf = solid_angle_pdf(distance, cos.abs() * area);
         LightSample { direction, distance, pdf, emits: cos.lt(R::lit(0.0)), delta: R::Mask::splat(false) }
     }
-    /// Uniform over the cone of directions, [`SphereCap`]: every sample hits the near side.
+    /// Uniform over the cone of directions, [`SphericalCap`]: every sample hits the near side.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
-        let cap = SphereCap::new(self.center - p, self.radius);
-        let Sighting { direction, distance } = cap.sight(u);
-        LightSample { direction, distance, pdf: cap.density(), emits: !cap.inside(), delta: R::Mask::splat(false) }
+        let cap = SphericalCap::new(self.center - p, self.radius);
+        let DirectionSample { direction, distance } = cap.sample_direction(u);
+        LightSample { direction, distance, pdf: cap.uniform_pdf(), emits: !cap.inside(), delta: R::Mask::splat(false) }
     }
 }
 
@@ -124,11 +124,11 @@ impl<R: Real> Sphere<R> {
     #[inline]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let cap = ProjectedCap::new(self.center - p, self.radius, normal);
-        let Sighting { direction, distance } = cap.sight(u);
+        let DirectionSample { direction, distance } = cap.sample_direction(u);
         LightSample {
             direction,
             distance,
-            pdf: cap.density(direction.dot(normal)),
+            pdf: cap.pdf_at_cosine(direction.dot(normal)),
             emits: !cap.inside(),
             delta: R::Mask::splat(false),
         }
@@ -160,8 +160,14 @@ impl<R: Real> Triangle<R> {
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let v0 = self.v0 - p;
         let seen = SphericalTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2);
-        let Sighting { direction, distance } = seen.sight(u);
-        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: seen.uniform_pdf(),
+            emits: seen.in_front(),
+            delta: R::Mask::splat(false),
+        }
     }
     /// Uniform over the projected solid angle above the horizon of `normal`, [`ProjectedTriangle`]: on an unoccluded diffuse surface
     /// every sample is worth the same. pdf 0 where nothing of the triangle is above the horizon.
@@ -169,11 +175,11 @@ impl<R: Real> Triangle<R> {
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let v0 = self.v0 - p;
         let seen = ProjectedTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2, normal);
-        let Sighting { direction, distance } = seen.sight(u);
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
         LightSample {
             direction,
             distance,
-            pdf: seen.density(direction.dot(normal)),
+            pdf: seen.pdf_at_cosine(direction.dot(normal)),
             emits: seen.in_front(),
             delta: R::Mask::splat(false),
         }
@@ -188,12 +194,12 @@ impl<R: Real> Triangle<R> {
         let v0 = self.v0 - p;
         let (v1, v2) = (v0 + self.e1, v0 + self.e2);
         let seen = SphericalTriangle::with_edges(v0, v1, v2, self.e1, self.e2);
-        let [a, b, c] = [v0, v1, v2].map(|v| sighting(v).direction.dot(normal));
+        let [a, b, c] = [v0, v1, v2].map(|v| direction_to(v).direction.dot(normal));
         // the map sweeps about v1, from v0 to v2
         let warped = CosineWarped::with_cosines(seen, [b, b, a, c]);
         let v = warped.weights.sample(u);
-        let Sighting { direction, distance } = seen.sight(v);
-        let pdf = seen.density() * warped.weights.pdf(v);
+        let DirectionSample { direction, distance } = seen.sample_direction(v);
+        let pdf = seen.uniform_pdf() * warped.weights.pdf(v);
         LightSample { direction, distance, pdf, emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }
@@ -221,19 +227,25 @@ impl<R: Real> Parallelogram<R> {
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = SphericalParallelogram::new(self.p - p, self.u, self.v);
-        let Sighting { direction, distance } = seen.sight(u);
-        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: seen.uniform_pdf(),
+            emits: seen.in_front(),
+            delta: R::Mask::splat(false),
+        }
     }
     /// Uniform over the projected solid angle above the horizon of `normal`, [`ProjectedPolygon`]: on an unoccluded diffuse surface
     /// every sample is worth the same. pdf 0 where nothing of the parallelogram is above the horizon.
     #[inline]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = ProjectedPolygon::parallelogram(self.p - p, self.u, self.v, normal);
-        let Sighting { direction, distance } = seen.sight(u);
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
         LightSample {
             direction,
             distance,
-            pdf: seen.density(direction.dot(normal)),
+            pdf: seen.pdf_at_cosine(direction.dot(normal)),
             emits: seen.in_front(),
             delta: R::Mask::splat(false),
         }
@@ -262,8 +274,14 @@ impl<R: Real> Rectangle<R> {
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = SphericalRectangle::new(self.p - p, self.u, self.v);
-        let Sighting { direction, distance } = seen.sight(u);
-        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: seen.uniform_pdf(),
+            emits: seen.in_front(),
+            delta: R::Mask::splat(false),
+        }
     }
 }
 
@@ -274,10 +292,10 @@ impl<R: Real> Rectangle<R> {
         let corner = self.p - p;
         let seen = SphericalRectangle::new(corner, self.u, self.v);
         let corners = [corner, corner + self.u, corner + self.v, corner + self.u + self.v];
-        let warped = CosineWarped::with_cosines(seen, corners.map(|v| sighting(v).direction.dot(normal)));
+        let warped = CosineWarped::with_cosines(seen, corners.map(|v| direction_to(v).direction.dot(normal)));
         let v = warped.weights.sample(u);
-        let Sighting { direction, distance } = seen.sight(v);
-        let pdf = seen.density() * warped.weights.pdf(v);
+        let DirectionSample { direction, distance } = seen.sample_direction(v);
+        let pdf = seen.uniform_pdf() * warped.weights.pdf(v);
         LightSample { direction, distance, pdf, emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }
@@ -285,7 +303,7 @@ impl<R: Real> Rectangle<R> {
 /// The sample at a point of a flat shape, uniform over the area |normal|.
 #[inline(always)]
 fn flat_by_area<R: Real>(point: Vec3<R>, normal: Vec3<R>) -> LightSample<R> {
-    let Sighting { direction, distance } = sighting(point);
+    let DirectionSample { direction, distance } = direction_to(point);
     let along = direction.dot(normal);
     LightSample {
         direction,

@@ -39,12 +39,12 @@ pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
 #[inline(always)]
 pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
     let cd = c * d;
-    let error = R::product_error(c, d, cd);
+    let error = R::two_prod_error(c, d, cd);
     if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
         a.mul_add(b, -cd) - error
     } else {
         let ab = a * b;
-        (ab - cd) + (R::product_error(a, b, ab) - error)
+        (ab - cd) + (R::two_prod_error(a, b, ab) - error)
     }
 }
 
@@ -75,7 +75,7 @@ pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
     let turns = y.atan2(x) * R::lit(0.5 / core::f64::consts::PI);
     let turns = R::select(turns.lt(R::lit(0.0)), turns + R::lit(1.0), turns);
     // of infinite numbers, too
-    turns.clamp(R::lit(0.0), R::below_one())
+    turns.clamp(R::lit(0.0), R::ONE_MINUS_EPSILON)
 }
 
 /// Horner's rule with `mul_add`, coefficients from the constant term up.
@@ -239,7 +239,7 @@ pub(crate) fn cbrt_f32<R: Real>(x: R, guess: R) -> R {
 #[inline(always)]
 pub(crate) fn exp_minus_half_square<R: Real>(z: R, less: R) -> R {
     let square = z * z;
-    let error = R::product_error(z, z, square) + less;
+    let error = R::two_prod_error(z, z, square) + less;
     let value = (square * R::lit(-0.5)).exp();
     (error * R::lit(-0.5)).mul_add(value, value)
 }

@@ -97,6 +97,8 @@ pub trait Real:
     type Uint: Uint;
     /// Number of lanes.
     const LANES: usize;
+    /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
+    const ONE_MINUS_EPSILON: Self;
 
     /// The same value in every lane.
     fn splat(value: Self::Scalar) -> Self;
@@ -151,19 +153,14 @@ pub trait Real:
     /// `self * a + b`: rounded once where the target has fused multiply-add (on all widths alike), twice elsewhere.
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// `a * b - rounded(a * b)`, exactly, barring overflow and underflow (TwoProd).
-    fn product_error(a: Self, b: Self, product: Self) -> Self;
+    fn two_prod_error(a: Self, b: Self, product: Self) -> Self;
     /// 2⁻ᵉ where e is the exponent of `self`: a power of two that brings a finite number to [1, 4) (a subnormal one below
     /// that) and has a finite reciprocal.
-    fn exponent_reciprocal(self) -> Self;
+    fn pow2_scale(self) -> Self;
     /// floor(log₂ self) of a positive normal number.
     fn exponent(self) -> Self;
     /// 2ⁿ where `self` is the integer n, from −126 (−1022 in double precision) to 127 (1023).
     fn power_of_two(self) -> Self;
-    /// The largest number below 1 on the grid of [`unit`](Real::unit): 1 − 2⁻²⁴ at every precision.
-    #[inline(always)]
-    fn below_one() -> Self {
-        Self::lit(1.0 - 1.0 / 16_777_216.0)
-    }
     /// A number in [0, 1 − 2⁻²⁴] from the 24 high bits, on the same grid at every precision.
     fn unit(bits: Self::Uint) -> Self;
     /// The integers as reals: exact below 2²⁴.

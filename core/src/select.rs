@@ -21,7 +21,7 @@ pub struct Choice<R: Real> {
     /// Which.
     pub index: R::Uint,
     /// With which probability; 0 in lanes that have none to choose.
-    pub probability: R,
+    pub pmf: R,
     /// Uniform in [0, 1), independent of the index: what was left of the number that chose.
     pub u: R,
 }
@@ -45,7 +45,7 @@ impl UniformLights {
         let last = R::Uint::splat(self.count.saturating_sub(1));
         // the product may have been rounded up to the count: all ones are −1
         let index = index.wrapping_add(last.lt(index));
-        Choice { index, probability: self.pmf(index), u: unit_interval(place - R::from_uint(index)) }
+        Choice { index, pmf: self.pmf(index), u: unit_interval(place - R::from_uint(index)) }
     }
     /// Probability of a light; 0 for an index that is none.
     #[inline]
@@ -68,7 +68,7 @@ impl UniformLights {
 /// let mut sums = [0.0; 3];
 /// let lights = PowerLights::new(&[1.0, 0.0, 3.0], &mut sums);
 /// let choice = lights.choose(0.625_f32);
-/// assert_eq!((choice.index, choice.probability, choice.u), (2, 0.75, 0.5));
+/// assert_eq!((choice.index, choice.pmf, choice.u), (2, 0.75, 0.5));
 /// assert_eq!(lights.pmf::<f32>(1), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -106,7 +106,7 @@ impl<'a> PowerLights<'a> {
             let [before, width] = self.interval(index);
             R::Scalar::lit(if width > 0.0 { (place - before) / width } else { 0.0 })
         });
-        Choice { index, probability: self.pmf(index), u: unit_interval(left) }
+        Choice { index, pmf: self.pmf(index), u: unit_interval(left) }
     }
     /// Probability of a light; 0 for an index that is none.
     #[inline]
@@ -153,7 +153,7 @@ pub struct LightBound {
 /// let far = LightBound { center: [0.0, 0.0, -2.0], radius: 0.1, power: 4.0 };
 /// let both = [near, far];
 /// let choice = SpatialLights { lights: &both }.choose([0.0, 0.0, 0.0].into(), 0.25_f32);
-/// assert_eq!(choice.probability, 0.5);
+/// assert_eq!(choice.pmf, 0.5);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SpatialLights<'a> {
@@ -170,7 +170,7 @@ impl SpatialLights<'_> {
         let [x, y, z] = light.center.map(lit);
         // halves do not overflow
         let offset = Vec3::new(x * half - p.x * half, y * half - p.y * half, z * half - p.z * half);
-        let scale = offset.max_abs().exponent_reciprocal();
+        let scale = offset.max_abs().pow2_scale();
         let length = (offset * scale).length_squared().sqrt() / scale;
         length.max(lit(light.radius) * half).min(lit(f32::MAX))
     }
@@ -203,7 +203,7 @@ impl SpatialLights<'_> {
         for (index, light) in self.lights.iter().enumerate() {
             u = reservoir.push(R::Uint::splat(index as u32), Self::weight(light, least, p), u);
         }
-        Choice { index: reservoir.held, probability: reservoir.probability(), u }
+        Choice { index: reservoir.held, pmf: reservoir.pmf(), u }
     }
     /// Probability with which `choose` gives the light from `p`; 0 for an index that is none.
     #[inline]

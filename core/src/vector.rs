@@ -107,7 +107,7 @@ impl<R: Real> Vec3<R> {
     pub fn dot(self, o: Self) -> R {
         self.x.mul_add(o.x, self.y.mul_add(o.y, self.z * o.z))
     }
-    /// Outer product; each component is good to 1.5 ulp of itself, however nearly parallel the factors are.
+    /// Cross product; each component is good to 1.5 ulp of itself, however nearly parallel the factors are.
     #[inline(always)]
     pub fn cross(self, o: Self) -> Self {
         Self {
@@ -125,7 +125,7 @@ impl<R: Real> Vec3<R> {
     /// Unit vector and length at any scale; 0 for 0.
     #[inline(always)]
     pub(crate) fn unit_and_length(self) -> (Self, R) {
-        let scale = self.max_abs().exponent_reciprocal();
+        let scale = self.max_abs().pow2_scale();
         let v = self * scale;
         let squared = v.length_squared();
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(0.0)));
@@ -136,7 +136,7 @@ impl<R: Real> Vec3<R> {
     pub fn length_squared_minus_square(self, r: R) -> R {
         let square = |a: R| {
             let p = a * a;
-            (p, R::product_error(a, a, p))
+            (p, R::two_prod_error(a, a, p))
         };
         let ((x, ex), (y, ey), (z, ez), (q, eq)) = (square(self.x), square(self.y), square(self.z), square(r));
         let (s, e1) = two_sum(x, -q);

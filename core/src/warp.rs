@@ -57,7 +57,7 @@ use crate::vector::Vec2;
 
 /// A bijection between the unit square and a shape (up to sets of measure 0), together with its density.
 ///
-/// What holds for everything that implements it, and is tested by one suite of laws:
+/// What holds for everything that implements it, and is tested by one suite of properties:
 /// `invert(sample(u)) = u`; the integral of `pdf` over the shape is 1; samples of uniform `u` have that density;
 /// scalars and packets give the same bits; no finite input gives NaN, infinity or a panic.
 pub trait Warp<R: Real> {
@@ -72,7 +72,7 @@ pub trait Warp<R: Real> {
 }
 
 /// A monotone bijection between the unit interval and a part of the line, together with its density: [`Warp`] in one dimension,
-/// under the same laws.
+/// under the same properties.
 pub trait Warp1<R: Real> {
     /// The point for `u` in [0, 1); `u` up to and including 1 is tolerated.
     fn sample(&self, u: R) -> R;
@@ -88,5 +88,5 @@ pub(crate) const GREATEST: f64 = f32::MAX as f64;
 /// Into [0, 1 − 2⁻²⁴], the range of `u`; NaN becomes 0.
 #[inline]
 pub(crate) fn unit_interval<R: Real>(x: R) -> R {
-    x.clamp(R::lit(0.0), R::below_one())
+    x.clamp(R::lit(0.0), R::ONE_MINUS_EPSILON)
 }

@@ -121,7 +121,7 @@ impl Figures {
 
 /// One technique over one sweep.
 #[derive(Clone, Debug)]
-pub struct Chart {
+pub struct ErrorMap {
     /// Of the shape.
     pub kind: Kind,
     /// The axes.
@@ -135,7 +135,7 @@ pub struct Chart {
     /// The same by area.
     pub area_cost: f64,
 }
-impl Chart {
+impl ErrorMap {
     /// 1/(variance × cost) over that of area sampling.
     #[must_use]
     pub fn efficiency(&self, cell: &Figures) -> f64 {
@@ -175,7 +175,7 @@ pub fn cells(kinds: &[Kind], detail: Detail) -> usize {
 }
 
 /// Measures kinds of shapes; calls `tick` after each cell.
-pub fn survey(kinds: &[Kind], detail: Detail, tick: impl Fn() + Sync) -> Vec<Chart> {
+pub fn survey(kinds: &[Kind], detail: Detail, tick: impl Fn() + Sync) -> Vec<ErrorMap> {
     let mut charts = Vec::new();
     for &kind in kinds {
         let methods = methods::methods(kind);
@@ -194,7 +194,7 @@ pub fn survey(kinds: &[Kind], detail: Detail, tick: impl Fn() + Sync) -> Vec<Cha
             let area_cost = methods.iter().position(|m| m.name == "by area").map_or(f64::NAN, |i| costs[i]);
             for (i, &method) in methods.iter().enumerate() {
                 let cells = rows.iter().map(|row| row[i]).collect();
-                charts.push(Chart { kind, sweep: sweep.clone(), method, cells, cost: costs[i], area_cost });
+                charts.push(ErrorMap { kind, sweep: sweep.clone(), method, cells, cost: costs[i], area_cost });
             }
         }
     }
@@ -329,7 +329,7 @@ fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> 
         .map(|u| {
             let w = truth.direction(u.map(f64::from));
             // a projected one is worth the same wherever it is, on the horizon too
-            if kind.projected() { truth.measure } else { value_of(w, truth.density(w)[0]) }
+            if kind.projected() { truth.measure } else { value_of(w, truth.pdf(w)[0]) }
         })
         .collect();
     let exact_by_area: Vec<f64> = us
@@ -416,7 +416,7 @@ impl Tally {
             }
             (w, [pdf, 0.0])
         } else {
-            (reference.direction, truth.density(w))
+            (reference.direction, truth.pdf(w))
         };
         if !sample.finite() {
             self.invalid += 1.0;
@@ -424,7 +424,7 @@ impl Tally {
         }
         if sample.pdf <= 0.0 {
             // on the horizon, to what a direction resolves, the density may be 0
-            let there = if sample.by_area { density } else { truth.density(reference.direction) };
+            let there = if sample.by_area { density } else { truth.pdf(reference.direction) };
             self.invalid += f64::from(u8::from(there[0] > there[1] * 2.0 * DIRECTION_ULP));
             return;
         }

@@ -15,7 +15,7 @@ pub struct Pinhole {
 
 impl Pinhole {
     /// For an image of `width` × `height` pixels.
-    pub fn new(camera: &scene::Camera, width: u32, height: u32) -> Self {
+    pub fn new(camera: &scene::CameraSettings, width: u32, height: u32) -> Self {
         let [kx, ky] = camera.tan_half(width, height);
         let (f, r, u) = (camera.forward, camera.right, camera.up);
         let vector = |f: &dyn Fn(usize) -> f64| std::array::from_fn(|k| f(k) as f32);

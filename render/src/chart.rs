@@ -14,7 +14,7 @@ pub mod warps;
 use crate::{Sampler, Settings, Technique, World, image, scene, selftest};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use measure::{Key, Plan, Subject, Table};
+use measure::{ChartedScene, Key, Plan, Table};
 use reference::Reference;
 use std::error::Error;
 use std::io::Write;
@@ -137,7 +137,7 @@ fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
 }
 
 /// The techniques that apply to a scene and differ there; and why others do not.
-fn techniques(scene: &scene::Scene, subject: &Subject, asked: &[Technique]) -> (Vec<Technique>, Vec<String>) {
+fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique]) -> (Vec<Technique>, Vec<String>) {
     let (mut list, mut images, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for &technique in asked {
         let mut leave = |why: &str| notes.push(format!("{}: {} is left out: {why}", subject.name, name(technique)));
@@ -162,7 +162,7 @@ fn techniques(scene: &scene::Scene, subject: &Subject, asked: &[Technique]) -> (
 
 /// A scene that is ready to be measured, with the techniques to measure.
 struct Prepared {
-    subject: Subject,
+    subject: ChartedScene,
     techniques: Vec<Technique>,
     notes: Vec<String>,
 }
@@ -203,7 +203,7 @@ fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepare
     bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
     let lens = scene.camera.lens.is_some();
-    let subject = Subject { name: name.to_owned(), world, size, lens, settings: hash(&bytes), reference };
+    let subject = ChartedScene { name: name.to_owned(), world, size, lens, settings: hash(&bytes), reference };
     let (techniques, left_out) = techniques(&scene, &subject, &chosen(&options.techniques));
     notes.extend(left_out);
     Ok(Prepared { subject, techniques, notes })
@@ -277,15 +277,15 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
     let circumstances = format!("{kept:?}{:016x}", build());
     let mut notes = Vec::new();
-    let mut subjects: Vec<Subject> = Vec::new();
+    let mut scenes: Vec<ChartedScene> = Vec::new();
     let mut techniques = Vec::new();
     for scene in &options.scenes {
-        if subjects.iter().any(|s| s.name == *scene) {
+        if scenes.iter().any(|s| s.name == *scene) {
             continue;
         }
         let prepared = pool.install(|| prepare(options, scene, &circumstances).map_err(|e| e.to_string()))?;
         notes.extend(prepared.notes);
-        subjects.push(prepared.subject);
+        scenes.push(prepared.subject);
         techniques.push(prepared.techniques);
     }
     let default =
@@ -298,7 +298,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
         for &spp in &spps {
             for &sampler in &chosen(&options.samplers) {
                 for &technique in techniques {
-                    match inapplicable(sampler, spp, subjects[scene].lens) {
+                    match inapplicable(sampler, spp, scenes[scene].lens) {
                         Some(reason) if !notes.contains(&reason) => notes.push(reason),
                         Some(_) => (),
                         None => keys.push(Key { scene, technique, sampler, spp }),
@@ -311,7 +311,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
         return Err(format!("nothing to measure: {}", notes.join("; ")).into());
     }
     let replicates = options.replicates.unwrap_or(5);
-    let plan = Plan { subjects, keys, replicates, seed: options.seed };
+    let plan = Plan { scenes, keys, replicates, seed: options.seed };
 
     std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
     let file = options.output.join("measurements.csv");
@@ -335,7 +335,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
         notes.push(format!("stopped early: {done} of {all} measurements; run the same command again for the rest"));
     }
     let baseline = Way { technique: options.baseline, sampler: Sampler::Independent };
-    let summaries = (0..plan.subjects.len())
+    let summaries = (0..plan.scenes.len())
         .map(|scene| Summary::new(&plan, &rows, scene, baseline, options.target))
         .filter(|s| !s.series.is_empty())
         .collect();

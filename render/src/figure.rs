@@ -3,9 +3,9 @@
 mod convergence;
 mod images;
 mod integrals;
-mod pupil;
 mod shapes;
 mod sheet;
+mod vignetting;
 
 use crate::{Technique, image};
 use clap::{Args, ValueEnum};
@@ -58,7 +58,7 @@ pub enum Name {
     /// Pixel and light sampled apart, or together
     Padding,
     /// The lens as points of the film see it, in and out of focus, cut by its barrel
-    Pupil,
+    Vignetting,
     /// Pixel, lens and light sampled apart, or together
     Defocus,
     /// All of them
@@ -96,7 +96,7 @@ impl Studio<'_> {
             Name::QuadsConvergence => self.quads_convergence(),
             Name::Efficiency => self.efficiency(),
             Name::Padding => self.padding(),
-            Name::Pupil => self.pupil(),
+            Name::Vignetting => self.vignetting(),
             Name::Defocus => self.defocus(),
             Name::All => Err("all is not one figure".into()),
         }

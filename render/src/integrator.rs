@@ -9,10 +9,10 @@ mod surface;
 
 use crate::accel::{Accel, BuildError, GROUP, Hits, M8, Rays, ShapeSet, Stack, V8, X8};
 use crate::film::{Film, Pixel, PixelSum};
-use crate::lens::Eye;
+use crate::lens::Camera;
 use crate::lights::{Lights, Technique};
 use crate::sampler::{CHOICE, Packet, Sampler, Source};
-use crate::scene::{Camera, Material, Scene, Shape};
+use crate::scene::{CameraSettings, Material, Scene, Shape};
 use crate::sensor::{Exposure, Sensor};
 use crate::sky::Sky;
 use adaptive::Effort;
@@ -84,7 +84,7 @@ pub struct World {
     sky: Option<Arc<Sky>>,
     /// Is there no mirror and no rough metal?
     only_diffuse: bool,
-    camera: Camera,
+    camera: CameraSettings,
     /// Diagonal of the film in millimetres.
     diagonal: f64,
     sensor: Sensor,
@@ -172,16 +172,21 @@ impl World {
     ///
     /// The result depends on scene and settings alone, whatever the threads do.
     pub fn render(&self, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
-        self.render_through(&Eye::new(&self.camera, settings.width, settings.height), settings, progress)
+        self.render_through(&Camera::new(&self.camera, settings.width, settings.height), settings, progress)
     }
 
-    /// Renders an image of what an eye sees that is not the scene's own camera; one for an image of this size.
-    pub fn render_through(&self, eye: &Eye, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
+    /// Renders an image of what a camera sees that is not the scene's own camera; one for an image of this size.
+    pub fn render_through(
+        &self,
+        camera: &Camera,
+        settings: &Settings,
+        progress: impl Fn(u64) + Sync,
+    ) -> (Film, RayCount) {
         let (width, height) = (settings.width, settings.height);
         if settings.sampler == Sampler::Adaptive {
-            return self.render_adaptively(eye, settings, progress);
+            return self.render_adaptively(camera, settings, progress);
         }
-        let (tiles, rays) = self.tiles(eye, settings, |work, area| {
+        let (tiles, rays) = self.tiles(camera, settings, |work, area| {
             let pixels = work.tile(area);
             progress(pixels.len() as u64);
             pixels
@@ -190,14 +195,20 @@ impl World {
     }
 
     /// The pilot's samples, then the others.
-    fn render_adaptively(&self, eye: &Eye, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
+    fn render_adaptively(
+        &self,
+        camera: &Camera,
+        settings: &Settings,
+        progress: impl Fn(u64) + Sync,
+    ) -> (Film, RayCount) {
         let (width, height) = (settings.width, settings.height);
-        let sets = settings.sampler.sets(settings.spp, settings.sets, eye.has_lens());
+        let sets = settings.sampler.sets(settings.spp, settings.sets, camera.has_lens());
         let effort = Effort::new(settings.spp, sets);
         let pilot = effort.pilot;
-        let (first, rays) = self.tiles(eye, settings, |work, area| work.parts(area, &effort, None, |_, _| [0, pilot]));
+        let (first, rays) =
+            self.tiles(camera, settings, |work, area| work.parts(area, &effort, None, |_, _| [0, pilot]));
         let (packets, weights) = adaptive::allot(&first, width, &effort);
-        let (second, more) = self.tiles(eye, settings, |work, area| {
+        let (second, more) = self.tiles(camera, settings, |work, area| {
             let parts = work.parts(area, &effort, weights.as_ref(), |x, y| [pilot, packets[(y * width + x) as usize]]);
             progress(parts.len() as u64);
             parts
@@ -215,7 +226,7 @@ impl World {
     /// What is made of each tile, row by row of it, put together to an image.
     fn tiles<T: Copy + Default + Send>(
         &self,
-        eye: &Eye,
+        camera: &Camera,
         settings: &Settings,
         of: impl Fn(&mut Work, [u32; 4]) -> Vec<T> + Sync,
     ) -> (Vec<T>, RayCount) {
@@ -228,7 +239,7 @@ impl World {
                 let x = (tile as u32 % columns) * TILE;
                 let y = (tile as u32 / columns) * TILE;
                 let area = [x, y, (x + TILE).min(width), (y + TILE).min(height)];
-                let mut work = Work::new(self, settings, *eye);
+                let mut work = Work::new(self, settings, *camera);
                 let pixels = of(&mut work, area);
                 (area, pixels, work.count)
             })
@@ -254,7 +265,7 @@ impl World {
 struct Work<'a> {
     world: &'a World,
     settings: &'a Settings,
-    eye: Eye,
+    camera: Camera,
     exposure: Option<Exposure>,
     source: Source,
     count: RayCount,
@@ -273,13 +284,19 @@ fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
 }
 
 impl<'a> Work<'a> {
-    fn new(world: &'a World, settings: &'a Settings, eye: Eye) -> Self {
-        let source =
-            Source::new(settings.sampler, settings.seed, settings.spp, settings.sets, eye.has_lens(), settings.width);
+    fn new(world: &'a World, settings: &'a Settings, camera: Camera) -> Self {
+        let source = Source::new(
+            settings.sampler,
+            settings.seed,
+            settings.spp,
+            settings.sets,
+            camera.has_lens(),
+            settings.width,
+        );
         Self {
             world,
             settings,
-            eye,
+            camera,
             exposure: world.exposure(settings.width, settings.height),
             source,
             count: RayCount::default(),
@@ -366,7 +383,7 @@ impl<'a> Work<'a> {
         let plain = self.world.plain(self.settings.technique);
         let mut radiance = if plain { self.group(packets, allocated) } else { self.paths(packets) };
         for (radiance, packet) in radiance.iter_mut().zip(packets) {
-            if let Some(open) = self.eye.open(&self.source, packet) {
+            if let Some(open) = self.camera.open(&self.source, packet) {
                 *radiance = keep(*radiance, open);
             }
             if let Some(exposure) = &self.exposure {
@@ -389,7 +406,7 @@ impl<'a> Work<'a> {
                 Some(allocated) => self.source.film_and_light_of(packet, allocated.light, allocated.sample),
                 None => self.source.film_and_light(packet),
             };
-            let (origin, direction) = self.eye.through(&self.source, packet, film);
+            let (origin, direction) = self.camera.through(&self.source, packet, film);
             light[p] = second;
             rays[p] = world.accel.rays(origin, direction);
             active[p] = packet.active;

@@ -1,10 +1,10 @@
-//! The eye of an image: a pinhole, or a thin lens with its film.
+//! The camera of an image: a pinhole, or a thin lens with its film.
 
 use crate::accel::{M8, V8, X8};
 use crate::camera::Pinhole;
-use crate::pupil::{Barrel, Pupil};
 use crate::sampler::{FILM, LENS, Packet, Source};
 use crate::scene;
+use crate::vignetting::{Barrel, Pupil};
 use etendue::warp::ConcentricDisk;
 use etendue::{Real, Vec2, Warp};
 
@@ -23,7 +23,7 @@ pub struct ThinLens {
 
 impl ThinLens {
     /// For an image of `width` × `height` pixels.
-    pub fn new(camera: &scene::Camera, lens: &scene::Lens, width: u32, height: u32) -> Self {
+    pub fn new(camera: &scene::CameraSettings, lens: &scene::Lens, width: u32, height: u32) -> Self {
         let along = |length: f64| [camera.right, camera.up].map(|axis| axis.map(|x| (x * length) as f32));
         Self {
             center: Pinhole::new(camera, width, height),
@@ -55,7 +55,7 @@ pub struct Slopes {
 
 impl Slopes {
     /// For an image of `width` × `height` pixels.
-    pub fn new(camera: &scene::Camera, width: u32, height: u32) -> Self {
+    pub fn new(camera: &scene::CameraSettings, width: u32, height: u32) -> Self {
         let [across, down] = camera.tan_half(width, height);
         let step = [2.0 * across / f64::from(width), -2.0 * down / f64::from(height)];
         Self { corner: [-across, down], step }
@@ -70,7 +70,7 @@ impl Slopes {
 
 /// What rays leave the camera.
 #[derive(Clone, Copy, Debug)]
-pub enum Eye {
+pub enum Camera {
     /// All from one point.
     Pinhole(Pinhole),
     /// From the points of a lens.
@@ -81,9 +81,9 @@ pub enum Eye {
     Pupil(Pupil),
 }
 
-impl Eye {
+impl Camera {
     /// Of a scene's camera, for an image of `width` × `height` pixels.
-    pub fn new(camera: &scene::Camera, width: u32, height: u32) -> Self {
+    pub fn new(camera: &scene::CameraSettings, width: u32, height: u32) -> Self {
         match &camera.lens {
             None => Self::Pinhole(Pinhole::new(camera, width, height)),
             Some(lens) => Self::ThinLens(ThinLens::new(camera, lens, width, height)),

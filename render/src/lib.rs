@@ -11,12 +11,12 @@ pub mod image;
 pub mod integrator;
 pub mod lens;
 pub mod lights;
-pub mod pupil;
 pub mod sampler;
 pub mod scene;
 pub mod selftest;
 pub mod sensor;
 pub mod sky;
+pub mod vignetting;
 
 pub use integrator::{RayCount, Settings, World};
 pub use lights::Technique;

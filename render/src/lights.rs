@@ -3,8 +3,11 @@
 use crate::accel::{M8, NOTHING, V8, X8, select};
 use crate::scene::{DeltaLight, Geometry, Scene};
 use crate::sky::Sky;
-use etendue::seen::{SphereCap, SphericalParallelogram, SphericalTriangle};
-use etendue::{Directional, LightSample, Parallelogram, Point, Real, Sphere, Spot, Triangle, Vec2, Vec3, Warp, u32x8};
+use etendue::spherical::{SphericalCap, SphericalParallelogram, SphericalTriangle};
+use etendue::{
+    DirectionalLight, LightSample, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2, Vec3, Warp,
+    u32x8,
+};
 use std::sync::Arc;
 
 /// How a light is sampled.
@@ -121,7 +124,7 @@ pub struct Chosen {
     /// Radiance; of a delta light intensity or irradiance.
     pub radiance: V8,
     /// Probability with which it was chosen.
-    pub probability: X8,
+    pub pmf: X8,
     /// Of its interval of `u`, where the choice is by power.
     start: X8,
     kind: u32x8,
@@ -235,7 +238,7 @@ impl Lights {
     }
     /// One light in every lane, not chosen by chance.
     pub fn one(&self, index: usize) -> Chosen {
-        Chosen { probability: X8::lit(1.0), ..Chosen::new(self.records[index].map(X8::splat)) }
+        Chosen { pmf: X8::lit(1.0), ..Chosen::new(self.records[index].map(X8::splat)) }
     }
     /// A light per lane for `u`, and `u` stretched over what its interval leaves.
     #[inline(always)]
@@ -253,7 +256,7 @@ impl Lights {
             passed.to_uint().to_array().map(|i| i as usize)
         };
         let chosen = self.gathered(index);
-        let rest = Real::clamp((u - chosen.start) / chosen.probability, X8::lit(0.0), X8::below_one());
+        let rest = Real::clamp((u - chosen.start) / chosen.pmf, X8::lit(0.0), X8::ONE_MINUS_EPSILON);
         (chosen, rest)
     }
     /// What each light can contribute to points of a surface, if they are few and more than one; nothing where the choice is by power.
@@ -284,7 +287,7 @@ impl Lights {
     /// The light that each lane is told to sample, with its share of the samples.
     #[inline(always)]
     pub fn told(&self, light: u32x8, share: X8) -> Chosen {
-        Chosen { probability: share, ..self.gathered(light.to_array().map(|i| i as usize)) }
+        Chosen { pmf: share, ..self.gathered(light.to_array().map(|i| i as usize)) }
     }
     /// A light per lane for `u`, and `u` stretched over what its interval leaves: by power, or by what is near.
     #[inline(always)]
@@ -304,8 +307,8 @@ impl Lights {
         let mut chosen = self.gathered(index.to_uint().to_array().map(|i| i as usize));
         let width = end - start;
         let some = width.gt(zero);
-        chosen.probability = (width / select(some, sum, one)).keep(some);
-        let rest = Real::clamp((target - start) / select(some, width, one), zero, X8::below_one());
+        chosen.pmf = (width / select(some, sum, one)).keep(some);
+        let rest = Real::clamp((target - start) / select(some, width, one), zero, X8::ONE_MINUS_EPSILON);
         (chosen, rest)
     }
     #[inline(always)]
@@ -343,9 +346,9 @@ impl Lights {
                 SPHERE => chosen.sphere(measure, p, normal, u),
                 TRIANGLE => chosen.triangle(measure, p, normal, u),
                 PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
-                POINT => Point { position: a }.sample(p),
-                SPOT => Spot { position: a, axis: b, cos_inner: c.x, cos_outer: c.y }.sample(p),
-                DISTANT => Directional { direction: a }.sample(),
+                POINT => PointLight { position: a }.sample(p),
+                SPOT => SpotLight { position: a, axis: b, cos_inner: c.x, cos_outer: c.y }.sample(p),
+                DISTANT => DirectionalLight { direction: a }.sample(),
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
                     let (sample, radiance) = sky.sample(measure, normal, u);
@@ -371,7 +374,7 @@ impl Lights {
     #[inline]
     pub fn shape_pdf(&self, near: Option<&Near>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         let pdf = match *geometry {
-            Geometry::Sphere { center, radius } => SphereCap::new(V8::from(center) - p, X8::splat(radius)).pdf(w),
+            Geometry::Sphere { center, radius } => SphericalCap::new(V8::from(center) - p, X8::splat(radius)).pdf(w),
             Geometry::Triangle([a, b, c]) => {
                 let edge = |to: [f32; 3]| V8::from(std::array::from_fn(|k| to[k] - a[k]));
                 let (v0, e1, e2) = (V8::from(a) - p, edge(b), edge(c));
@@ -528,7 +531,7 @@ impl Chosen {
         Self {
             geometry: std::array::from_fn(|k| r[k]),
             radiance: V8::new(r[9], r[10], r[11]),
-            probability: r[12],
+            pmf: r[12],
             start: r[13],
             kind: r[14].to_bits(),
             shape: r[15].to_bits(),

@@ -15,7 +15,7 @@ mod terrain;
 mod tests;
 mod transform;
 
-pub use lights::{DeltaLight, Environment, Sky};
+pub use lights::{DeltaLight, Environment, SkyRadiance};
 pub use materials::Material;
 use std::path::Path;
 use std::sync::Arc;
@@ -27,9 +27,9 @@ pub struct Scene {
     /// The name of a built-in scene, else the file's name without its extension.
     pub name: String,
     /// The one camera.
-    pub camera: Camera,
+    pub camera: CameraSettings,
     /// Image size and file name, as in the file.
-    pub film: Film,
+    pub film: FilmSettings,
     /// Samples per pixel; 16 if the file does not say.
     pub pixel_samples: u32,
     /// No two are equal.
@@ -50,7 +50,7 @@ pub struct Scene {
 
 /// The image to be written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Film {
+pub struct FilmSettings {
     /// Pixels across, 1 to 65,536.
     pub width: u32,
     /// Pixels down, 1 to 65,536; at most 2²⁸ pixels in all.
@@ -67,7 +67,7 @@ pub struct Film {
 /// direction `forward + (2x−1) t[0] right + (1−2y) t[1] up`. The three axes are orthonormal unless the file's
 /// camera transform is not a similarity; `forward` always has length 1.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Camera {
+pub struct CameraSettings {
     /// The pinhole, or the centre of the lens.
     pub origin: [f64; 3],
     /// Towards the middle of the image.
@@ -93,7 +93,7 @@ pub struct Lens {
     pub unit: f64,
 }
 
-impl Camera {
+impl CameraSettings {
     /// Tangents of half the angle of view across and down, for an image of this size (both at least 1).
     pub fn tan_half(&self, width: u32, height: u32) -> [f64; 2] {
         let shorter = (self.fov.to_radians() / 2.0).tan();

@@ -41,7 +41,12 @@ impl Exposure {
     /// For an image of `width` × `height` square pixels on a film of this diagonal in millimetres; nothing for radiance, which is not
     /// weighed. A pinhole lets nothing through.
     #[must_use]
-    pub fn new(sensor: Sensor, camera: &scene::Camera, diagonal: f64, [width, height]: [u32; 2]) -> Option<Self> {
+    pub fn new(
+        sensor: Sensor,
+        camera: &scene::CameraSettings,
+        diagonal: f64,
+        [width, height]: [u32; 2],
+    ) -> Option<Self> {
         let [across, _] = camera.tan_half(width, height);
         let [w, h] = [width, height].map(f64::from);
         let pitch = 1e-3 * diagonal / w.hypot(h);

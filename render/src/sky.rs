@@ -25,8 +25,8 @@ impl Sky {
     /// Builds the table.
     pub fn new(environment: &scene::Environment) -> Self {
         let kind = match &environment.sky {
-            scene::Sky::Constant(radiance) => Kind::Constant(*radiance),
-            scene::Sky::Image { width, map, texels } => {
+            scene::SkyRadiance::Constant(radiance) => Kind::Constant(*radiance),
+            scene::SkyRadiance::Image { width, map, texels } => {
                 let weights: Vec<f32> = texels.iter().map(|t| t.iter().sum()).collect();
                 let mut table = vec![0.0; ImageEnvironment::buffer(*width, texels.len() / width)];
                 ImageEnvironment::build(&weights, *width, *map, &mut table)
@@ -100,7 +100,7 @@ impl Sky {
     fn image(&self) -> ImageEnvironment<'_> {
         match &self.kind {
             Kind::Image { width, map, table, .. } => {
-                ImageEnvironment::built(table, *width, *map).expect("a table of its own size")
+                ImageEnvironment::from_buffer(table, *width, *map).expect("a table of its own size")
             }
             Kind::Constant(_) => unreachable!("a constant sky has no image"),
         }

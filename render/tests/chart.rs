@@ -286,7 +286,7 @@ fn the_references_own_error_is_taken_off() {
         let options =
             Options { reference_spp, spp: vec![64], replicates: Some(8), ..options(&output, "triangle-light") };
         let outcome = chart::measure(&options, &Arc::new(AtomicBool::new(false))).unwrap();
-        let error = outcome.plan.subjects[0].reference.error;
+        let error = outcome.plan.scenes[0].reference.error;
         let summary = outcome.summaries.into_iter().next().unwrap();
         let area = summary.series.into_iter().find(|s| s.way.technique == Technique::Area).unwrap();
         (area.points[0].mse, error)

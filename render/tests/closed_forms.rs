@@ -16,9 +16,9 @@ fn world(text: &str) -> World {
     World::new(&scene).unwrap()
 }
 
-/// A camera of so narrow a view that a pixel is a point: the origin seen from `eye`.
-fn narrow(eye: &str, scene: &str) -> World {
-    world(&format!("LookAt {eye} 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{scene}"))
+/// A camera of so narrow a view that a pixel is a point: the origin seen from `camera`.
+fn narrow(camera: &str, scene: &str) -> World {
+    world(&format!("LookAt {camera} 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{scene}"))
 }
 
 const PLANE: &str = "Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n\
@@ -140,9 +140,9 @@ fn half_a_sky() {
         if x == 0 { (1.0_f32, 1.0_f32, 1.0_f32) } else { (0.0, 0.0, 0.0) }
     })
     .unwrap();
-    let load = |eye: &str, transform: &str, rest: &str| {
+    let load = |camera: &str, transform: &str, rest: &str| {
         let text = format!(
-            "LookAt {eye} 0 0 0  0.1 0.2 1\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n\
+            "LookAt {camera} 0 0 0  0.1 0.2 1\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n\
              AttributeBegin {transform} LightSource \"infinite\" \"string filename\" \"half.exr\" AttributeEnd\n{rest}"
         );
         World::new(&scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|e| panic!("{e}"))).unwrap()
@@ -156,7 +156,7 @@ fn half_a_sky() {
         let truth = 0.8 * (1.0 - 0.5) / 2.0;
         assert!((mean[0] - truth).abs() < LIMIT * error[0] && error[0] < 0.02, "{technique:?}: {mean:?} ± {error:?}");
     }
-    let seen = |eye: &str, transform: &str| pixel(&load(eye, transform, ""), Technique::MisPower, 8).0[0];
+    let seen = |camera: &str, transform: &str| pixel(&load(camera, transform, ""), Technique::MisPower, 8).0[0];
     assert_eq!([seen("0 -5 1", ""), seen("0 5 1", "")], [1.0, 0.0]);
     // turned by a quarter about z: +y becomes −x
     assert_eq!([seen("5 0 1", "Rotate 90 0 0 1"), seen("-5 0 1", "Rotate 90 0 0 1")], [1.0, 0.0]);
@@ -181,7 +181,8 @@ fn a_mirror_shows_the_mirror_image() {
         AttributeBegin Translate .5 1 0 Material \"diffuse\" \"rgb reflectance\" [.7 .2 .7] Shape \"sphere\" \"float radius\" .6 AttributeEnd\n\
         LightSource \"point\" \"point3 from\" [-2 1 2] \"rgb I\" [3 3 9]\n\
         Shape \"trianglemesh\" \"point3 P\" [-1.5 .5 -.5  -.2 .5 -.5  -.8 2 .3]\n";
-    let view = |eye: &str, up: &str| format!("LookAt {eye} {up} Camera \"perspective\" \"float fov\" 40 WorldBegin\n");
+    let view =
+        |camera: &str, up: &str| format!("LookAt {camera} {up} Camera \"perspective\" \"float fov\" 40 WorldBegin\n");
     let floor = "Material \"mirror\" \"rgb Kr\" [1 1 1] Shape \"bilinearmesh\" \"point3 P\" [-90 0 90  90 0 90  -90 0 -90  90 0 -90]\n";
     let above = world(&format!("{}{objects}{floor}", view("0 2 5  0 -1.5 0", "0 1 0")));
     let below = world(&format!("{}{objects}", view("0 -2 5  0 1.5 0", "0 1 0")));

@@ -4,7 +4,7 @@ use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Vec2, f32x8, u32x8};
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
-use etendue_render::lens::Eye;
+use etendue_render::lens::Camera;
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -54,7 +54,7 @@ fn rays_meet_in_the_plane_of_focus() {
         ));
         let camera = &scene.camera;
         let (width, height) = (64, 48);
-        let Eye::ThinLens(lens) = Eye::new(camera, width, height) else { panic!("no lens") };
+        let Camera::ThinLens(lens) = Camera::new(camera, width, height) else { panic!("no lens") };
         let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
         let [tx, ty] = camera.tan_half(width, height);
         let mut moments = [0.0; 5];

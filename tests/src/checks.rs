@@ -1,6 +1,6 @@
 //! Checks of functions that are no warps, as functions of the function: what the tests run, and what planted defects are put through.
 
-use crate::domain::Random;
+use crate::generators::Random;
 use core::f64::consts::PI;
 use etendue::LightSample;
 use etendue::estimate::Heuristic;

@@ -11,7 +11,7 @@ pub type V3 = [f64; 3];
 pub fn dot(a: V3, b: V3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
-/// Outer product.
+/// Cross product.
 #[must_use]
 pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
@@ -61,7 +61,7 @@ pub fn triangle_solid_angle(v: [Dd3; 3]) -> f64 {
 
 /// `v + Σ eᵢ` without rounding.
 #[must_use]
-pub fn exact_sum(v: V3, e: &[V3]) -> Dd3 {
+pub fn sum_dw(v: V3, e: &[V3]) -> Dd3 {
     core::array::from_fn(|i| e.iter().fold(Dd::from(v[i]), |sum, e| sum + Dd::from(e[i])))
 }
 

@@ -1,27 +1,27 @@
-//! All laws over all regimes: what the tests of the warps run, and what planted defects are put through.
+//! All properties over all regimes: what the tests of the warps run, and what planted defects are put through.
 
-use crate::domain::{self, Case, Random};
-use crate::laws::{self, Subject};
+use crate::generators::{self, Case, Random};
+use crate::properties::{self, Fixture};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What became of one law in one regime.
+/// What became of one property in one regime.
 #[derive(Clone, Debug)]
 pub struct Regime {
     /// As the domain names it.
     pub name: &'static str,
-    /// Greatest figure that the law returned.
+    /// Greatest figure that the property returned.
     pub figure: f64,
-    /// In how many cases the law was broken.
+    /// In how many cases the property was broken.
     pub broken: usize,
     /// What the first of these said.
     pub first: String,
 }
 
-/// What became of one law.
+/// What became of one property.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Its name.
-    pub law: &'static str,
+    pub property: &'static str,
     /// In each regime.
     pub regimes: Vec<Regime>,
 }
@@ -31,14 +31,14 @@ impl Outcome {
     pub fn greatest(&self) -> f64 {
         self.regimes.iter().fold(0.0, |most, r| f64::max(most, r.figure))
     }
-    /// The regimes in which the law was broken.
+    /// The regimes in which the property was broken.
     pub fn broken(&self) -> impl Iterator<Item = &Regime> {
         self.regimes.iter().filter(|r| r.broken > 0)
     }
 }
 
-/// How many laws there are.
-pub const LAWS: usize = 11;
+/// How many properties there are.
+pub const PROPERTIES: usize = 11;
 
 /// What a panic said.
 #[must_use]
@@ -47,8 +47,8 @@ pub fn message(panic: &(dyn core::any::Any + Send)) -> String {
     text.unwrap_or("panic inside").to_owned()
 }
 
-/// Runs one law over the cases.
-fn each<S: Subject>(law: &'static str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> Outcome {
+/// Runs one property over the cases.
+fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> Outcome {
     let mut regimes: Vec<Regime> = Vec::new();
     for (i, (name, subject)) in cases.iter().enumerate() {
         let at = regimes.iter().position(|r| r.name == *name).unwrap_or_else(|| {
@@ -66,18 +66,18 @@ fn each<S: Subject>(law: &'static str, cases: &[Case<S>], run: impl Fn(&S, usize
             }
         }
     }
-    Outcome { law, regimes }
+    Outcome { property, regimes }
 }
 
-/// **Within reach**, by itself: also for shapes of which less is known than the other laws ask.
-pub fn within_reach<S: Subject>(cases: &[Case<S>]) -> Outcome {
-    let square = domain::square(20, 2);
-    each("reach", cases, |s, _| square.iter().map(|&u| laws::within_reach(s, u)).fold(0.0, f64::max))
+/// **Within reach**, by itself: also for shapes of which less is known than the other properties ask.
+pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> Outcome {
+    let square = generators::square(20, 2);
+    each("reach", cases, |s, _| square.iter().map(|&u| properties::within_reach(s, u)).fold(0.0, f64::max))
 }
 
-/// All laws over the cases, at the edges of the square and `random` points more.
-pub fn all<S: Subject>(cases: &[Case<S>], random: usize) -> [Outcome; LAWS] {
-    let square = domain::square(random, 1);
+/// All properties over the cases, at the edges of the square and `random` points more.
+pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES] {
+    let square = generators::square(random, 1);
     let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
         let square = &square;
         move |s: &S, seed: usize| {
@@ -86,13 +86,13 @@ pub fn all<S: Subject>(cases: &[Case<S>], random: usize) -> [Outcome; LAWS] {
         }
     };
     // the charts' own edges are where a density goes to 0
-    let chart = |r: &mut Random| [(); 2].map(|()| domain::unit_or_edge(r));
+    let chart = |r: &mut Random| [(); 2].map(|()| generators::unit_or_edge(r));
     [
         each(
             "total",
             cases,
             at(|s, u, _| {
-                laws::total(s, u);
+                properties::total(s, u);
                 0.0
             }),
         ),
@@ -100,34 +100,34 @@ pub fn all<S: Subject>(cases: &[Case<S>], random: usize) -> [Outcome; LAWS] {
             "scale",
             cases,
             at(|s, u, _| {
-                laws::scale(s, u);
+                properties::scale(s, u);
                 0.0
             }),
         ),
-        each("accurate", cases, at(|s, u, _| laws::accurate(s, u))),
-        each("closed", cases, at(|s, u, _| laws::closed(s, u))),
+        each("accurate", cases, at(|s, u, _| properties::accurate(s, u))),
+        each("closed", cases, at(|s, u, _| properties::closed(s, u))),
         each("density", cases, |s, seed| {
             let mut random = Random::new(seed as u64);
-            square.iter().map(|&u| laws::density(s, u, chart(&mut random))).fold(0.0, f64::max)
+            square.iter().map(|&u| properties::pdf(s, u, chart(&mut random))).fold(0.0, f64::max)
         }),
-        each("onto", cases, at(|s, _, r| laws::onto(s, [r.unit_f64(), r.unit_f64()]))),
-        each("jacobian", cases, at(|s, _, r| laws::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
+        each("onto", cases, at(|s, _, r| properties::onto(s, [r.unit_f64(), r.unit_f64()]))),
+        each("jacobian", cases, at(|s, _, r| properties::jacobian(s, [r.unit_f64(), r.unit_f64()]))),
         each(
             "outside",
             cases,
             at(|s, _, r| {
-                laws::outside(s, r);
+                properties::outside(s, r);
                 0.0
             }),
         ),
-        each("integral", cases, |s, _| laws::integral(s)),
-        each("chi-square", cases, |s, i| laws::chi_square(s, i as u64)),
+        each("integral", cases, |s, _| properties::integral(s)),
+        each("chi-square", cases, |s, i| properties::chi_square(s, i as u64)),
         each("lanes", cases, |_, i| {
             // each lane a different regime, each with its own u
             let kin: Vec<S> = cases.iter().map(|c| c.1).filter(|s| s.kin(&cases[i].1)).collect();
             let lanes = core::array::from_fn(|k| kin[(i + k * 3) % kin.len()]);
             for start in (0..square.len() - 8).step_by(5) {
-                laws::lanes(&lanes, &core::array::from_fn(|k| square[start + k]));
+                properties::lanes(&lanes, &core::array::from_fn(|k| square[start + k]));
             }
             0.0
         }),

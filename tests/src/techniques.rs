@@ -1,13 +1,13 @@
-//! Lights by one technique each, and the laws of their samples.
+//! Lights by one technique each, and the properties of their samples.
 
-use crate::laws::{Coordinates, lanes_of, squares_of, vectors_of};
 use crate::oracle::{V3, cross, dot, length, sub, wide};
+use crate::properties::{Coordinates, lanes_of, squares_of, vectors_of};
 use crate::tolerances::ULP;
 use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::light::{BilinearPatch, Line, Polygon};
-use etendue::seen::{
-    ProjectedCap, ProjectedPolygon, ProjectedTriangle, SphereCap, SphericalDisk, SphericalParallelogram,
+use etendue::spherical::{
+    ProjectedCap, ProjectedPolygon, ProjectedTriangle, SphericalCap, SphericalDisk, SphericalParallelogram,
     SphericalPolygon, SphericalRectangle, SphericalTriangle,
 };
 use etendue::{
@@ -40,7 +40,7 @@ pub trait Technique: Copy + Debug {
     fn scaled(&self, _factor: f32) -> Self {
         *self
     }
-    /// By what the density is multiplied then: lines have one per unit of width.
+    /// Measure what the density is multiplied then: lines have one per unit of width.
     fn density_scaled(&self, _factor: f32) -> f32 {
         1.0
     }
@@ -82,7 +82,7 @@ pub fn any_bits<T: Technique>(lights: &[T; 8], us: &[[f32; 2]; 8]) {
 }
 
 /// **One density**: that of a sample is that which is evaluated for its direction.
-pub fn one_density<T: Technique>(light: &T, u: [f32; 2]) {
+pub fn one_pdf<T: Technique>(light: &T, u: [f32; 2]) {
     let s = T::draw::<f32>(&[*light], squares_of(&[u]));
     if let (Some(evaluated), true) = (T::evaluate::<f32>(&[*light], s.direction), s.pdf > 0.0) {
         let off = (f64::from(evaluated) / f64::from(s.pdf) - 1.0).abs();
@@ -125,7 +125,7 @@ pub fn scale<T: Technique>(light: &T, u: [f32; 2]) {
 
 /// What is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum LightShape {
     /// About `a`, of the radius.
     Sphere,
     /// `a`, and edges `b` and `c`.
@@ -147,14 +147,14 @@ pub enum Shape {
 }
 /// How.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum By {
+pub enum Measure {
     /// Uniform by area; by length of a line.
     Area,
     /// Uniform by solid angle; by angle of a line.
     SolidAngle,
     /// Uniform by solid angle projected on `n` as a normal.
     ProjectedSolidAngle,
-    /// By solid angle, warped towards the cosine to `n`.
+    /// Measure solid angle, warped towards the cosine to `n`.
     CosineWarp,
 }
 
@@ -162,9 +162,9 @@ pub enum By {
 #[derive(Clone, Copy, Debug)]
 pub struct AreaLight {
     /// What.
-    pub shape: Shape,
+    pub shape: LightShape,
     /// How.
-    pub by: By,
+    pub by: Measure,
     /// The shading point.
     pub p: [f32; 3],
     /// Corner or centre.
@@ -181,30 +181,30 @@ pub struct AreaLight {
 
 impl AreaLight {
     /// All shapes by all techniques.
-    pub const KINDS: [(Shape, By); 23] = [
-        (Shape::Sphere, By::Area),
-        (Shape::Sphere, By::SolidAngle),
-        (Shape::Sphere, By::ProjectedSolidAngle),
-        (Shape::Triangle, By::Area),
-        (Shape::Triangle, By::SolidAngle),
-        (Shape::Triangle, By::ProjectedSolidAngle),
-        (Shape::Triangle, By::CosineWarp),
-        (Shape::Parallelogram, By::Area),
-        (Shape::Parallelogram, By::SolidAngle),
-        (Shape::Parallelogram, By::ProjectedSolidAngle),
-        (Shape::Rectangle, By::Area),
-        (Shape::Rectangle, By::SolidAngle),
-        (Shape::Rectangle, By::CosineWarp),
-        (Shape::Disk, By::Area),
-        (Shape::Disk, By::SolidAngle),
-        (Shape::Cylinder, By::Area),
-        (Shape::Polygon, By::Area),
-        (Shape::Polygon, By::SolidAngle),
-        (Shape::Polygon, By::ProjectedSolidAngle),
-        (Shape::Patch, By::Area),
-        (Shape::Line, By::Area),
-        (Shape::Line, By::SolidAngle),
-        (Shape::Line, By::ProjectedSolidAngle),
+    pub const KINDS: [(LightShape, Measure); 23] = [
+        (LightShape::Sphere, Measure::Area),
+        (LightShape::Sphere, Measure::SolidAngle),
+        (LightShape::Sphere, Measure::ProjectedSolidAngle),
+        (LightShape::Triangle, Measure::Area),
+        (LightShape::Triangle, Measure::SolidAngle),
+        (LightShape::Triangle, Measure::ProjectedSolidAngle),
+        (LightShape::Triangle, Measure::CosineWarp),
+        (LightShape::Parallelogram, Measure::Area),
+        (LightShape::Parallelogram, Measure::SolidAngle),
+        (LightShape::Parallelogram, Measure::ProjectedSolidAngle),
+        (LightShape::Rectangle, Measure::Area),
+        (LightShape::Rectangle, Measure::SolidAngle),
+        (LightShape::Rectangle, Measure::CosineWarp),
+        (LightShape::Disk, Measure::Area),
+        (LightShape::Disk, Measure::SolidAngle),
+        (LightShape::Cylinder, Measure::Area),
+        (LightShape::Polygon, Measure::Area),
+        (LightShape::Polygon, Measure::SolidAngle),
+        (LightShape::Polygon, Measure::ProjectedSolidAngle),
+        (LightShape::Patch, Measure::Area),
+        (LightShape::Line, Measure::Area),
+        (LightShape::Line, Measure::SolidAngle),
+        (LightShape::Line, Measure::ProjectedSolidAngle),
     ];
     fn vectors<R: Real>(lanes: &[Self]) -> ([Vec3<R>; 5], R) {
         let of = |i: usize| lanes[i % lanes.len()];
@@ -234,29 +234,31 @@ impl Technique for AreaLight {
         let polygon = Polygon { corners: [a, a + b, a + b + c, a + c] };
         let line = Line { p: a, edge: b };
         match (lanes[0].shape, lanes[0].by) {
-            (Shape::Sphere, By::SolidAngle) => sphere.by_solid_angle(p, u),
-            (Shape::Sphere, By::ProjectedSolidAngle) => sphere.by_projected_solid_angle(p, n, u),
-            (Shape::Sphere, _) => sphere.by_area(p, u),
-            (Shape::Triangle, By::SolidAngle) => triangle.by_solid_angle(p, u),
-            (Shape::Triangle, By::ProjectedSolidAngle) => triangle.by_projected_solid_angle(p, n, u),
-            (Shape::Triangle, By::CosineWarp) => triangle.by_cosine_warp(p, n, u),
-            (Shape::Triangle, By::Area) => triangle.by_area(p, u),
-            (Shape::Parallelogram, By::SolidAngle) => parallelogram.by_solid_angle(p, u),
-            (Shape::Parallelogram, By::ProjectedSolidAngle) => parallelogram.by_projected_solid_angle(p, n, u),
-            (Shape::Parallelogram, _) => parallelogram.by_area(p, u),
-            (Shape::Rectangle, By::SolidAngle) => rectangle.by_solid_angle(p, u),
-            (Shape::Rectangle, By::CosineWarp) => rectangle.by_cosine_warp(p, n, u),
-            (Shape::Rectangle, _) => rectangle.by_area(p, u),
-            (Shape::Disk, By::SolidAngle) => disk.by_solid_angle(p, u),
-            (Shape::Disk, _) => disk.by_area(p, u),
-            (Shape::Cylinder, _) => Cylinder { p: a, axis: b, radius }.by_area(p, u),
-            (Shape::Polygon, By::SolidAngle) => polygon.by_solid_angle(p, u),
-            (Shape::Polygon, By::ProjectedSolidAngle) => polygon.by_projected_solid_angle(p, n, u),
-            (Shape::Polygon, _) => polygon.by_area(p, u),
-            (Shape::Patch, _) => BilinearPatch { p: a, u: b, v: c, w: n }.by_area(p, u),
-            (Shape::Line, By::SolidAngle) => line.by_angle(p, u.x),
-            (Shape::Line, By::ProjectedSolidAngle) => line.by_projected_solid_angle(p, n, u.x),
-            (Shape::Line, _) => line.by_length(p, u.x),
+            (LightShape::Sphere, Measure::SolidAngle) => sphere.by_solid_angle(p, u),
+            (LightShape::Sphere, Measure::ProjectedSolidAngle) => sphere.by_projected_solid_angle(p, n, u),
+            (LightShape::Sphere, _) => sphere.by_area(p, u),
+            (LightShape::Triangle, Measure::SolidAngle) => triangle.by_solid_angle(p, u),
+            (LightShape::Triangle, Measure::ProjectedSolidAngle) => triangle.by_projected_solid_angle(p, n, u),
+            (LightShape::Triangle, Measure::CosineWarp) => triangle.by_cosine_warp(p, n, u),
+            (LightShape::Triangle, Measure::Area) => triangle.by_area(p, u),
+            (LightShape::Parallelogram, Measure::SolidAngle) => parallelogram.by_solid_angle(p, u),
+            (LightShape::Parallelogram, Measure::ProjectedSolidAngle) => {
+                parallelogram.by_projected_solid_angle(p, n, u)
+            }
+            (LightShape::Parallelogram, _) => parallelogram.by_area(p, u),
+            (LightShape::Rectangle, Measure::SolidAngle) => rectangle.by_solid_angle(p, u),
+            (LightShape::Rectangle, Measure::CosineWarp) => rectangle.by_cosine_warp(p, n, u),
+            (LightShape::Rectangle, _) => rectangle.by_area(p, u),
+            (LightShape::Disk, Measure::SolidAngle) => disk.by_solid_angle(p, u),
+            (LightShape::Disk, _) => disk.by_area(p, u),
+            (LightShape::Cylinder, _) => Cylinder { p: a, axis: b, radius }.by_area(p, u),
+            (LightShape::Polygon, Measure::SolidAngle) => polygon.by_solid_angle(p, u),
+            (LightShape::Polygon, Measure::ProjectedSolidAngle) => polygon.by_projected_solid_angle(p, n, u),
+            (LightShape::Polygon, _) => polygon.by_area(p, u),
+            (LightShape::Patch, _) => BilinearPatch { p: a, u: b, v: c, w: n }.by_area(p, u),
+            (LightShape::Line, Measure::SolidAngle) => line.by_angle(p, u.x),
+            (LightShape::Line, Measure::ProjectedSolidAngle) => line.by_projected_solid_angle(p, n, u.x),
+            (LightShape::Line, _) => line.by_length(p, u.x),
         }
     }
     fn evaluate<R: Real>(lanes: &[Self], w: Vec3<R>) -> Option<R> {
@@ -264,42 +266,46 @@ impl Technique for AreaLight {
         let v = a - p;
         let corners = || [v, (a + b) - p, (a + b + c) - p, (a + c) - p];
         match (lanes[0].shape, lanes[0].by) {
-            (Shape::Sphere, By::SolidAngle) => Some(SphereCap::new(v, radius).pdf(w)),
-            (Shape::Sphere, By::ProjectedSolidAngle) => Some(ProjectedCap::new(v, radius, n).pdf(w)),
-            (Shape::Triangle, By::SolidAngle) => Some(SphericalTriangle::with_edges(v, v + b, v + c, b, c).pdf(w)),
-            (Shape::Triangle, By::ProjectedSolidAngle) => {
+            (LightShape::Sphere, Measure::SolidAngle) => Some(SphericalCap::new(v, radius).pdf(w)),
+            (LightShape::Sphere, Measure::ProjectedSolidAngle) => Some(ProjectedCap::new(v, radius, n).pdf(w)),
+            (LightShape::Triangle, Measure::SolidAngle) => {
+                Some(SphericalTriangle::with_edges(v, v + b, v + c, b, c).pdf(w))
+            }
+            (LightShape::Triangle, Measure::ProjectedSolidAngle) => {
                 Some(ProjectedTriangle::with_edges(v, v + b, v + c, b, c, n).pdf(w))
             }
-            (Shape::Parallelogram, By::SolidAngle) => Some(SphericalParallelogram::new(v, b, c).pdf(w)),
-            (Shape::Parallelogram, By::ProjectedSolidAngle) => Some(ProjectedPolygon::parallelogram(v, b, c, n).pdf(w)),
-            (Shape::Rectangle, By::SolidAngle) => Some(SphericalRectangle::new(v, b, c).pdf(w)),
-            (Shape::Disk, By::SolidAngle) => Some(SphericalDisk::new(v, b, radius).pdf(w)),
-            (Shape::Polygon, By::SolidAngle) => Some(SphericalPolygon::new(corners()).pdf(w)),
-            (Shape::Polygon, By::ProjectedSolidAngle) => Some(ProjectedPolygon::new(corners(), n).pdf(w)),
+            (LightShape::Parallelogram, Measure::SolidAngle) => Some(SphericalParallelogram::new(v, b, c).pdf(w)),
+            (LightShape::Parallelogram, Measure::ProjectedSolidAngle) => {
+                Some(ProjectedPolygon::parallelogram(v, b, c, n).pdf(w))
+            }
+            (LightShape::Rectangle, Measure::SolidAngle) => Some(SphericalRectangle::new(v, b, c).pdf(w)),
+            (LightShape::Disk, Measure::SolidAngle) => Some(SphericalDisk::new(v, b, radius).pdf(w)),
+            (LightShape::Polygon, Measure::SolidAngle) => Some(SphericalPolygon::new(corners()).pdf(w)),
+            (LightShape::Polygon, Measure::ProjectedSolidAngle) => Some(ProjectedPolygon::new(corners(), n).pdf(w)),
             _ => None,
         }
     }
     fn truth(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
         // of a patch no density is known, and the corners of a polygon are rounded
-        if self.by != By::Area || matches!(self.shape, Shape::Patch | Shape::Polygon) {
+        if self.by != Measure::Area || matches!(self.shape, LightShape::Patch | LightShape::Polygon) {
             return None;
         }
         let (a, b, c, r) = (self.offset(), wide(self.b), wide(self.c), f64::from(self.radius));
         let from = |center: V3| sub(w.map(|x| x * distance), center);
         // normal, not of unit length, and the area; what a rounded point does to the normal
         let (normal, area, turned) = match self.shape {
-            Shape::Sphere => (from(a), 2.0 * TAU * r * r, distance / r.abs()),
-            Shape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
-            Shape::Parallelogram | Shape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
-            Shape::Disk => (b, PI * r * r, 0.0),
-            Shape::Cylinder => {
+            LightShape::Sphere => (from(a), 2.0 * TAU * r * r, distance / r.abs()),
+            LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
+            LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
+            LightShape::Disk => (b, PI * r * r, 0.0),
+            LightShape::Cylinder => {
                 let x = from(a);
                 let along = dot(x, b) / dot(b, b);
                 (core::array::from_fn(|k| x[k] - b[k] * along), TAU * r.abs() * length(b), distance / r.abs())
             }
             // what is across the direction
-            Shape::Line => (cross(b, cross(w, b)), length(b), 0.0),
-            Shape::Polygon | Shape::Patch => return None,
+            LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
+            LightShape::Polygon | LightShape::Patch => return None,
         };
         // what is subnormal has few digits
         if !(1e-36..1e36).contains(&area) {
@@ -308,34 +314,34 @@ impl Technique for AreaLight {
         let cos = dot(w, normal).abs() / length(normal);
         // a product that cancels is known no better than its factors
         let sine = length(cross(b, c)) / (length(b) * length(c));
-        let flat = matches!(self.shape, Shape::Triangle | Shape::Parallelogram | Shape::Rectangle);
+        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
         let slim = if flat { 8.0 / sine } else { 0.0 };
         Some((distance * distance / (cos * area), (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP))
     }
     /// The cosine is a sum of rounded products; a direction on the horizon may be moved onto it.
     fn evaluated_to(&self, w: V3) -> f64 {
         let cos = dot(w, wide(self.n)).abs();
-        if self.by == By::ProjectedSolidAngle { (4.0 + 512.0 / cos) * ULP } else { 4.0 * ULP }
+        if self.by == Measure::ProjectedSolidAngle { (4.0 + 512.0 / cos) * ULP } else { 4.0 * ULP }
     }
     /// Flat shapes by projected solid angle, seen from their own plane or a corner but for rounding, have directions of any length up to 1.
     fn unit_to(&self) -> f64 {
         let (v, normal) = (self.offset(), cross(wide(self.b), wide(self.c)));
-        let flat = matches!(self.shape, Shape::Triangle | Shape::Parallelogram | Shape::Polygon);
+        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon);
         let size = length(wide(self.b)) + length(wide(self.c));
         let edge_on = !(dot(v, normal).abs() > 1e-4 * length(v) * length(normal) && length(v) > 1e-4 * size);
         // what is subnormal has few digits
-        let touched = self.shape == Shape::Line && length(v) < 1e-4 * size || length(v) < 1e-37;
-        let coarse = flat && edge_on && self.by == By::ProjectedSolidAngle || touched;
+        let touched = self.shape == LightShape::Line && length(v) < 1e-4 * size || length(v) < 1e-37;
+        let coarse = flat && edge_on && self.by == Measure::ProjectedSolidAngle || touched;
         if coarse { 1.0 } else { 12.0 * ULP }
     }
     fn density_scaled(&self, factor: f32) -> f32 {
-        if self.shape == Shape::Line { factor } else { 1.0 }
+        if self.shape == LightShape::Line { factor } else { 1.0 }
     }
     fn scaled(&self, factor: f32) -> Self {
         let times = |v: [f32; 3]| v.map(|x| x * factor);
         // directions stay
-        let b = if self.shape == Shape::Disk { self.b } else { times(self.b) };
-        let n = if self.shape == Shape::Patch { times(self.n) } else { self.n };
+        let b = if self.shape == LightShape::Disk { self.b } else { times(self.b) };
+        let n = if self.shape == LightShape::Patch { times(self.n) } else { self.n };
         Self { p: times(self.p), a: times(self.a), b, c: times(self.c), n, radius: self.radius * factor, ..*self }
     }
 }

@@ -29,75 +29,73 @@ pub struct Tolerance {
     /// as the point may move by.
     pub distance: f64,
     /// Density against truth, relative; times the shape's condition.
-    pub density: f64,
+    pub pdf: f64,
     /// How far off a point may be for which the returned `u` is exact; times the granularity.
     pub round_trip: f64,
 }
 
 /// A product of a square root and a sine: 0.5 + 0.7 + 0.5 units, in two coordinates: √2 of that. Fuzzing has seen 2.43,
 /// and 1.02 of the inverse.
-pub const DISK: Tolerance = Tolerance { point: 2.5, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 1.2 };
+pub const DISK: Tolerance = Tolerance { point: 2.5, steps: 0.0, distance: 0.0, pdf: 1.0, round_trip: 1.2 };
 /// Two products; the inverse has a sum and a quotient.
-pub const AREA_TRIANGLE: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 1.0 };
+pub const AREA_TRIANGLE: Tolerance = Tolerance { point: 2.0, steps: 0.0, distance: 0.0, pdf: 1.0, round_trip: 1.0 };
 /// Two products with a root and a sum of sine and cosine each; the inverse has two roots and an arc tangent.
-pub const OCTAHEDRAL: Tolerance = Tolerance { point: 4.0, steps: 0.0, distance: 0.0, density: 1.0, round_trip: 4.0 };
+pub const OCTAHEDRAL: Tolerance = Tolerance { point: 4.0, steps: 0.0, distance: 0.0, pdf: 1.0, round_trip: 4.0 };
 /// As the disk, with a third coordinate. The inverse has 1−cosθ of rounded coordinates; fuzzing has seen 4.1 units, and 3.013 of the point.
-pub const CONE: Tolerance = Tolerance { point: 3.02, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 5.0 };
+pub const CONE: Tolerance = Tolerance { point: 3.02, steps: 0.0, distance: 0.0, pdf: 2.0, round_trip: 5.0 };
 /// A root of a sum of products, a sum and a quotient.
-pub const LINEAR: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 3.0 };
+pub const LINEAR: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 3.0 };
 /// A root, a sum and a quotient; the density has two quotients.
-pub const TENT: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 3.0 };
+pub const TENT: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 3.0 };
 /// A logarithm good to 1.3e−7 of up to 16.7 means; the exponential of the density takes back the rounding of its argument.
-pub const EXPONENTIAL: Tolerance = Tolerance { point: 40.0, steps: 0.0, distance: 0.0, density: 4.0, round_trip: 40.0 };
+pub const EXPONENTIAL: Tolerance = Tolerance { point: 40.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 40.0 };
 /// A quantile good to 3.3e−7 of up to 5.42σ, and a sum.
-pub const NORMAL: Tolerance = Tolerance { point: 30.0, steps: 0.0, distance: 0.0, density: 8.0, round_trip: 30.0 };
+pub const NORMAL: Tolerance = Tolerance { point: 30.0, steps: 0.0, distance: 0.0, pdf: 8.0, round_trip: 30.0 };
 /// Two linear densities; x is drawn from the one at the rounded y, so that it moves as if u had moved by so many steps.
-pub const BILINEAR: Tolerance = Tolerance { point: 6.0, steps: 4.0, distance: 0.0, density: 8.0, round_trip: 6.0 };
+pub const BILINEAR: Tolerance = Tolerance { point: 6.0, steps: 4.0, distance: 0.0, pdf: 8.0, round_trip: 6.0 };
 /// A cone, a sum that is short where a grazing view sees normals turned away from it (there a step of u turns the normal as much as
 /// rounding does), and a stretch.
-pub const VISIBLE_NORMALS: Tolerance =
-    Tolerance { point: 8.0, steps: 4.0, distance: 0.0, density: 8.0, round_trip: 8.0 };
+pub const VISIBLE_NORMALS: Tolerance = Tolerance { point: 8.0, steps: 4.0, distance: 0.0, pdf: 8.0, round_trip: 8.0 };
 /// As the cone.
-pub const COSINE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, density: 2.0, round_trip: 2.5 };
+pub const COSINE: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, pdf: 2.0, round_trip: 2.5 };
 /// A cone in a frame that is orthonormal to 4 units. The density has two squares, two quotients, a root and a sum. Fuzzing has
 /// seen 7.3 units of the point, 4.1 of the density and 7.1 of the inverse where the sphere is touched.
-pub const CAP: Tolerance = Tolerance { point: 8.0, steps: 0.0, distance: 6.0, density: 5.0, round_trip: 8.0 };
+pub const CAP: Tolerance = Tolerance { point: 8.0, steps: 0.0, distance: 6.0, pdf: 5.0, round_trip: 8.0 };
 /// As the cap, in a frame about the normal. An area that is inverted is a sum of a dozen rounded terms; near the horizon, where z is a
 /// square root, that is worth 4 steps of u. For a lune times 1/sin²ω: the segments of circle and ellipse of which it is the
 /// difference are alike when the axis is far below.
-pub const PROJECTED_CAP: Tolerance = Tolerance { point: 7.0, steps: 4.0, distance: 8.0, density: 5.0, round_trip: 8.0 };
+pub const PROJECTED_CAP: Tolerance = Tolerance { point: 7.0, steps: 4.0, distance: 8.0, pdf: 5.0, round_trip: 8.0 };
 /// A tangent and an arc of a dozen roundings each; times 1/sin of vertices that lie nearly opposite, and for inverses the aspect. The tests'
 /// regimes stay below 9 units; fuzzing has seen 12 at the far corner of a thin triangle and a distance off by 14 near a hemisphere: twice
 /// that, and a seventh of the 1e−5 of its size that a direction may be off by. The density has three reciprocal lengths of three roundings
 /// each, four products, an arc tangent and a quotient: √17 of them.
-pub const TRIANGLE: Tolerance = Tolerance { point: 24.0, steps: 0.0, distance: 28.0, density: 4.0, round_trip: 24.0 };
+pub const TRIANGLE: Tolerance = Tolerance { point: 24.0, steps: 0.0, distance: 28.0, pdf: 4.0, round_trip: 24.0 };
 /// As the triangle, of which it has two.
 pub const PARALLELOGRAM: Tolerance = TRIANGLE;
 /// As the triangle, but that x follows from u₀Ω, where both Ω and the product are rounded: everywhere, by so many steps. Ω has lengths for
 /// edges, which are roots. Fuzzing has seen 9.8 units of the point and 4.2 of the density.
-pub const RECTANGLE: Tolerance = Tolerance { point: 10.0, steps: 8.0, distance: 10.0, density: 5.0, round_trip: 10.0 };
+pub const RECTANGLE: Tolerance = Tolerance { point: 10.0, steps: 8.0, distance: 10.0, pdf: 5.0, round_trip: 10.0 };
 /// As the triangle, of which it has four; a sum is known as its terms are. u₀Ω less the sum of those before is known as two sums of solid
 /// angles are: in steps of u, twice the density's units.
-pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.0, density: 4.0, round_trip: 10.0 };
+pub const POLYGON: Tolerance = Tolerance { point: 10.0, steps: 0.0, distance: 9.0, pdf: 4.0, round_trip: 10.0 };
 /// As the triangle; the azimuth is found by Newton's method to 1e−7 of itself, from areas that are known to a few units times their
 /// condition: everywhere, by so many steps of u. Beside the triangle's roundings an area has two arc tangents and a quadrature. The tests'
 /// regimes stay below 7 units but for two at 10 (a sliver, and a light 30 times its distance across); fuzzing has seen 13.4.
 pub const PROJECTED_POLYGON: Tolerance =
-    Tolerance { point: 15.0, steps: 8.0, distance: 28.0, density: 12.0, round_trip: 24.0 };
+    Tolerance { point: 15.0, steps: 8.0, distance: 28.0, pdf: 12.0, round_trip: 24.0 };
 /// A cross product, an arc tangent, a sine and a frame; the point is the direction times up to 2. Fuzzing has seen 9.6 units of it, and 4.1 of
 /// the density.
-pub const SEGMENT: Tolerance = Tolerance { point: 9.7, steps: 0.0, distance: 8.0, density: 5.0, round_trip: 8.0 };
+pub const SEGMENT: Tolerance = Tolerance { point: 9.7, steps: 0.0, distance: 8.0, pdf: 5.0, round_trip: 8.0 };
 /// As that. An irradiance that is inverted is a sum of three terms: as for the projected cap, 4 steps.
 pub const PROJECTED_SEGMENT: Tolerance = Tolerance { steps: 4.0, ..SEGMENT };
 /// The half-angles are roots of a dozen roundings, the solid angle a product with a sum of 20 terms. The integral that is inverted is such a
 /// sum: 4 steps. Fuzzing has seen 6.4 units of the density and 8.1 of the inverse.
-pub const SPHERICAL_DISK: Tolerance =
-    Tolerance { point: 4.0, steps: 4.0, distance: 4.0, density: 7.0, round_trip: 9.0 };
+pub const SPHERICAL_DISK: Tolerance = Tolerance { point: 4.0, steps: 4.0, distance: 4.0, pdf: 7.0, round_trip: 9.0 };
 /// A frame and a sum; coordinates are rounded to their size: 3 ulp. Fuzzing has seen 5.1 units. The density has a length, two products and a
 /// quotient; fuzzing has seen 4.2.
-pub const SURFACE: Tolerance = Tolerance { point: 6.0, steps: 0.0, distance: 0.0, density: 5.0, round_trip: 8.0 };
+pub const SURFACE: Tolerance = Tolerance { point: 6.0, steps: 0.0, distance: 0.0, pdf: 5.0, round_trip: 8.0 };
 /// A bilinear density, with its steps, and a sum; the inverse is a quadratic equation's root.
-pub const PATCH: Tolerance = Tolerance { point: 4.0, steps: 6.0, distance: 0.0, density: 8.0, round_trip: 8.0 };
+pub const PATCH: Tolerance = Tolerance { point: 4.0, steps: 6.0, distance: 0.0, pdf: 8.0, round_trip: 8.0 };
 /// Steps where a flat shape covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is known to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;

@@ -7,7 +7,7 @@ use etendue_render::atlas::flat::Fan;
 use etendue_render::atlas::pose::{Kind, Pose, Shape, V3, sweeps};
 use etendue_render::atlas::truth::{self, Truth};
 use etendue_render::atlas::{Detail, methods, survey};
-use etendue_tests::domain::Random;
+use etendue_tests::generators::Random;
 use etendue_tests::oracle::{self, cross, dot, length};
 
 fn dd(v: V3) -> Dd3 {
@@ -151,7 +151,7 @@ fn density_holds(truth: &Truth, u: [f64; 2], pose: &Pose) -> bool {
     }
     let measure = if truth.line() { length(a) } else { length(cross(a, b)) };
     let w = truth.direction(u);
-    let [density, slope] = truth.density(w);
+    let [density, slope] = truth.pdf(w);
     let off = (measure * density - 1.0).abs();
     assert!(off < 3e-5 + 1e-14 * slope / density, "{pose:?} {u:?}: {off:e}");
     // the f64 body of a cap that touches the horizon has a root of a difference there
@@ -193,14 +193,14 @@ fn cells_within_the_contract() {
 }
 /// Greatest errors of direction, density and irradiance in any cell, of those that have a bound: grazing, slivers, touching and all.
 const MOST: [(&str, f64, f64, f64); 5] = [
-    ("SphereCap", 1e-5, 5e-7, 1e-6),
+    ("SphericalCap", 1e-5, 5e-7, 1e-6),
     ("SphericalTriangle", 2e-5, 1e-4, 1e-4),
     ("SphericalParallelogram", 0.1, 1e-6, 2e-6),
     ("SphericalDisk", 1e-5, 1e-6, 1e-6),
     ("SphericalSegment", 1e-5, 1e-6, 1e-6),
 ];
 const LEAST: [(&str, f64); 12] = [
-    ("SphereCap", 1.0),
+    ("SphericalCap", 1.0),
     ("ProjectedCap", 0.7),
     ("SphericalTriangle", 0.8),
     ("SphericalParallelogram", 0.7),

@@ -2,7 +2,7 @@
 
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::{Uint, Vec2, Warp, Warp1, f32x4, f32x8, u32x4, u32x8};
-use etendue_tests::domain::Random;
+use etendue_tests::generators::Random;
 
 const STEPS: u32 = 1 << 24;
 fn step(i: u32) -> f32 {
@@ -45,7 +45,7 @@ fn piecewise_constant_1d_counts() {
             let mut start = 0;
             let mut sum = 0.0;
             for (i, &w) in weights.iter().enumerate() {
-                let p: f32 = table.probability(i as u32);
+                let p: f32 = table.pmf(i as u32);
                 assert_eq!(p > 0.0, w > 0.0, "{name} {n}: cell {i}");
                 let share = f64::from(w) / total;
                 if least > 2.0 / f64::from(STEPS) {
@@ -55,7 +55,7 @@ fn piecewise_constant_1d_counts() {
                 if count > 0 {
                     for u in [start, start + count / 2, start + count - 1] {
                         let cell = table.cell(step(u));
-                        assert_eq!((cell.index, cell.probability), (i as u32, p), "{name} {n} at {u}");
+                        assert_eq!((cell.index, cell.pmf), (i as u32, p), "{name} {n} at {u}");
                         assert!((0.0..1.0).contains(&cell.offset));
                         let back: f32 = table.invert_cell(cell.index, cell.offset);
                         assert!((back - step(u)).abs() <= 1.0 / STEPS as f32, "{name} {n}: {} to {back}", step(u));
@@ -70,7 +70,7 @@ fn piecewise_constant_1d_counts() {
             }
             assert_eq!((start, sum), (STEPS, 1.0), "{name} {n}");
             assert_eq!(table.pdf(-1e-9_f32) + table.pdf(1.0_f32), 0.0);
-            assert!(table.cell(1.0_f32).probability > 0.0 && table.cell(f32::NAN).probability > 0.0);
+            assert!(table.cell(1.0_f32).pmf > 0.0 && table.cell(f32::NAN).pmf > 0.0);
         }
     }
 }
@@ -87,7 +87,7 @@ fn piecewise_constant_2d_counts() {
             let mut sum = 0.0;
             for y in 0..h {
                 for x in 0..w {
-                    let p: f32 = table.probability(x as u32, y as u32);
+                    let p: f32 = table.pmf(x as u32, y as u32);
                     assert_eq!(p > 0.0, weights[x + y * w] > 0.0, "{name} {w}×{h}: {x} {y}");
                     sum += f64::from(p);
                 }
@@ -103,10 +103,10 @@ fn piecewise_constant_2d_counts() {
                 let u = Vec2::new(axis(), axis());
                 let (cell, p) = (table.cell(u), table.sample(u));
                 let weight = weights[cell.x as usize + cell.y as usize * w];
-                assert!(weight > 0.0 && cell.probability > 0.0, "{name} {w}×{h}: {u:?} gives {cell:?}");
+                assert!(weight > 0.0 && cell.pmf > 0.0, "{name} {w}×{h}: {u:?} gives {cell:?}");
                 // the same product, in the same order or not
                 let pdf = table.pdf(p);
-                assert!((pdf / (cell.probability * (w * h) as f32) - 1.0).abs() < 3e-7, "{name}: {u:?} {pdf} {cell:?}");
+                assert!((pdf / (cell.pmf * (w * h) as f32) - 1.0).abs() < 3e-7, "{name}: {u:?} {pdf} {cell:?}");
                 let back = table.invert_cell(cell.x, cell.y, cell.offset);
                 assert!((back.x - u.x).abs().max((back.y - u.y).abs()) <= step(1), "{name} {w}×{h}: {u:?} {back:?}");
                 // through a point, whose rounding is one part in 2²⁴ of the whole and so n of the cell
@@ -140,12 +140,12 @@ fn beyond_the_image() {
     let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(3, 2)];
     let table = PiecewiseConstant2d::build(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 3, &mut buffer).unwrap();
     for far in [2, 3, 4, 1 << 24, u32::MAX] {
-        assert_eq!(table.probability::<f32>(1, far), 0.0, "row {far}");
+        assert_eq!(table.pmf::<f32>(1, far), 0.0, "row {far}");
         if far > 2 {
-            assert_eq!(table.probability::<f32>(far, 1), 0.0, "column {far}");
+            assert_eq!(table.pmf::<f32>(far, 1), 0.0, "column {far}");
         }
     }
-    assert!((table.probability::<f32>(2, 1) - 6.0 / 21.0).abs() < 1e-6);
+    assert!((table.pmf::<f32>(2, 1) - 6.0 / 21.0).abs() < 1e-6);
 }
 
 /// Over all 2²⁴ values of u: counts within what the grid allows, the left-over uniform.
@@ -168,7 +168,7 @@ fn alias_table_counts() {
                     offsets[i] += f64::from(offset);
                 }
             }
-            let probabilities: Vec<f32> = (0..n).map(|i| table.probability(i as u32)).collect();
+            let probabilities: Vec<f32> = (0..n).map(|i| table.pmf(i as u32)).collect();
             for i in 0..n {
                 let count = f64::from(counts[i]);
                 let expected = f64::from(probabilities[i]) * f64::from(STEPS);
@@ -201,7 +201,7 @@ fn lanes() {
         for (k, &u) in us.iter().enumerate() {
             for (cells, one) in [(a, line.cell(u)), (b, alias.cell(u))] {
                 assert_eq!((cells.index.lane(k), cells.offset.as_array()[k]), (one.index, one.offset));
-                assert_eq!(cells.probability.as_array()[k], one.probability);
+                assert_eq!(cells.pmf.as_array()[k], one.pmf);
             }
             let one = line.sample(u);
             let figures = [x, pdf, back].map(|f| f.as_array()[k]);
@@ -209,8 +209,8 @@ fn lanes() {
         }
     }
     // past the last cell there is nothing
-    assert_eq!(line.probability::<f32x4>(u32x4::splat(1000)), f32x4::splat(0.0));
-    assert_eq!(alias.probability::<f32x8>(u32x8::splat(u32::MAX)), f32x8::splat(0.0));
+    assert_eq!(line.pmf::<f32x4>(u32x4::splat(1000)), f32x4::splat(0.0));
+    assert_eq!(alias.pmf::<f32x8>(u32x8::splat(u32::MAX)), f32x8::splat(0.0));
 }
 
 #[test]

@@ -4,9 +4,9 @@ use core::f64::consts::{PI, TAU};
 use etendue::discrete::TableError;
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8};
-use etendue_tests::domain::{self, Random};
-use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
+use etendue_tests::generators::{self, Random};
 use etendue_tests::oracle::{V3, length, sub};
+use etendue_tests::properties::{Coordinates, squares_of, vectors_of};
 use etendue_tests::stats;
 use etendue_tests::tolerances::{SIGNIFICANCE, ULP};
 
@@ -284,11 +284,11 @@ fn any_bits_in_every_lane() {
         for image in images(map) {
             let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
             ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
-            let sky = ImageEnvironment::built(&buffer, image.width, map).unwrap();
+            let sky = ImageEnvironment::from_buffer(&buffer, image.width, map).unwrap();
             assert_eq!(sky.size(), [image.width, image.height]);
             for round in 0..60 {
                 let w: [[f32; 3]; 8] = std::array::from_fn(|_| {
-                    if round % 2 == 0 { domain::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+                    if round % 2 == 0 { generators::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
                 });
                 let u: [[f32; 2]; 8] = std::array::from_fn(|_| [random.unit(), random.unit()]);
                 for i in 0..8 {
@@ -342,6 +342,6 @@ fn faulty_images_are_refused() {
     assert_eq!(build(&[0.0; 4], 2), TableError::Empty);
     assert_eq!(build(&[1.0, f32::NAN, 0.0, 0.0], 2), TableError::Weight);
     for (length, width) in [(5, 2), (6, 0), (0, 3), (6, usize::MAX)] {
-        assert!(ImageEnvironment::built(&[0.0; 6][..length], width, EqualArea).is_err(), "{length} {width}");
+        assert!(ImageEnvironment::from_buffer(&[0.0; 6][..length], width, EqualArea).is_err(), "{length} {width}");
     }
 }

@@ -1,6 +1,6 @@
 //! Estimators: MIS weights, efficiency, reservoirs: sums, limits, and expectations by enumeration.
 
-use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, density, log_variance_error};
+use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, log_variance_error, technique_pdf};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8};
 use etendue_tests::checks::{self, EXTREMES, HEURISTICS};
@@ -59,13 +59,13 @@ fn weights_are_their_formula_at_every_scale_and_width() {
 #[test]
 fn deltas_take_all() {
     for heuristic in HEURISTICS {
-        assert_eq!(heuristic.weights([density(1.0_f32, 3.0, true), 1e38]), [1.0, 0.0]);
-        assert_eq!(heuristic.weights([density(0.0_f32, 0.0, true), f32::MAX]), [1.0, 0.0]);
+        assert_eq!(heuristic.weights([technique_pdf(1.0_f32, 3.0, true), 1e38]), [1.0, 0.0]);
+        assert_eq!(heuristic.weights([technique_pdf(0.0_f32, 0.0, true), f32::MAX]), [1.0, 0.0]);
         // a density that overflows is no delta
-        let [huge, delta] = heuristic.weights([density(16.0_f32, 1e38, false), density(1.0, 1.0, true)]);
+        let [huge, delta] = heuristic.weights([technique_pdf(16.0_f32, 1e38, false), technique_pdf(1.0, 1.0, true)]);
         assert_eq!([huge, delta], [0.0, 1.0]);
     }
-    assert_eq!(density(2.0_f32, 0.25, false), 0.5);
+    assert_eq!(technique_pdf(2.0_f32, 0.25, false), 0.5);
 }
 
 /// E Σᵢ wᵢ f/(nᵢ pᵢ) over points of a finite set, exactly.
@@ -77,7 +77,7 @@ fn combinations_are_unbiased() {
     for heuristic in HEURISTICS {
         let mut expectation = 0.0;
         for x in 0..f.len() {
-            let weights = heuristic.weights([0, 1].map(|t| density(samples[t], p[t][x], false)));
+            let weights = heuristic.weights([0, 1].map(|t| technique_pdf(samples[t], p[t][x], false)));
             for t in 0..2 {
                 if p[t][x] > 0.0 {
                     // n samples, each x with probability p, each worth w f/(n p)
@@ -181,7 +181,7 @@ fn reservoir_holds_in_proportion_and_leaves_a_uniform_number() {
             assert!((0.0..1.0).contains(&u));
             let held = reservoir.held as usize;
             let expected = f64::from(weights[held]) / total;
-            assert!((f64::from(reservoir.probability()) - expected).abs() < 2e-7 * expected);
+            assert!((f64::from(reservoir.pmf()) - expected).abs() < 2e-7 * expected);
             left[held].push(u);
         }
         for (k, left) in left.iter_mut().enumerate() {
@@ -198,12 +198,12 @@ fn reservoir_holds_in_proportion_and_leaves_a_uniform_number() {
     for weight in [0.0, f32::NAN, -1.0, f32::INFINITY] {
         none.push(etendue::u32x8::splat(3), f32x8::splat(weight), f32x8::splat(0.0));
     }
-    assert_eq!(none.probability(), f32x8::splat(0.0));
+    assert_eq!(none.pmf(), f32x8::splat(0.0));
     assert_eq!(none.contribution(f32x8::splat(0.0)), f32x8::splat(0.0));
     assert_eq!(none.held.lane(5), 0);
 }
 
-/// Resampling from M candidates, every outcome by its probability: E f(y)·contribution = Σf.
+/// Resampling from M candidates, every outcome by its pmf: E f(y)·contribution = Σf.
 #[test]
 fn resampling_is_unbiased() {
     let p = [0.1, 0.2, 0.3, 0.4];
@@ -221,7 +221,7 @@ fn resampling_is_unbiased() {
                     // below the chance of the second, or above
                     reservoir.push(second as u32, weights[1], if k == 1 { 0.0 } else { 1.0 - 1e-9 });
                     assert_eq!(reservoir.held as usize, x);
-                    assert!((reservoir.probability() - weights[k] / sum).abs() < 1e-15);
+                    assert!((reservoir.pmf() - weights[k] / sum).abs() < 1e-15);
                     let worth = f[x] * reservoir.contribution(target[x]);
                     expectation += p[first] * p[second] * weights[k] / sum * worth;
                 }

@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 use etendue::estimate::Welford;
 use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
-use etendue_tests::domain::Random;
-use etendue_tests::laws::Coordinates;
+use etendue_tests::generators::Random;
 use etendue_tests::oracle::{V3, along, cross, dot, length, projected_cap, projected_polygon, sub, unit, wide};
+use etendue_tests::properties::Coordinates;
 use etendue_tests::stats;
 use etendue_tests::tolerances::{GRID, GRID_AREA, ULP};
 

@@ -2,14 +2,14 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::{
-    ConstantEnvironment, Cylinder, Directional, Disk, LightSample, Line, Mask, Point, Real, Rectangle, Spot, Sun,
-    Triangle, Vec2, Vec3, f32x4, f32x8,
+    ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, Line, Mask, PointLight, Real, Rectangle,
+    SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
 };
-use etendue_tests::domain::{self, Random};
-use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
+use etendue_tests::generators::{self, Random};
 use etendue_tests::oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, perpendicular_disk, projected_polygon, sub, unit,
 };
+use etendue_tests::properties::{Coordinates, squares_of, vectors_of};
 
 /// Mean of f over an n × n grid of `u`.
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
@@ -246,13 +246,13 @@ fn sun_and_sky() {
 
 #[test]
 fn delta_lights() {
-    let point = Point { position: [0.0, 3.0, 4.0].into() };
+    let point = PointLight { position: [0.0, 3.0, 4.0].into() };
     let s = point.sample(origin());
     assert!(s.delta && s.emits && s.distance == 5.0 && (s.pdf - 25.0).abs() < 1e-13);
     assert_eq!(point.sample(point.position).pdf, 0.0);
     let (inner, outer) = (0.9, 0.7);
     let axis = [0.0, -0.6, -0.8];
-    let spot = Spot { position: point.position, axis: axis.into(), cos_inner: inner, cos_outer: outer };
+    let spot = SpotLight { position: point.position, axis: axis.into(), cos_inner: inner, cos_outer: outer };
     assert!((spot.sample(origin()).pdf - 25.0).abs() < 1e-12);
     let (side, _) = basis(axis);
     let at = |cos: f64| {
@@ -261,7 +261,7 @@ fn delta_lights() {
     };
     assert!((at(0.95).pdf - 4.0).abs() < 1e-12 && (at(0.8).pdf - 8.0).abs() < 1e-9);
     assert!(at(0.69).pdf == 0.0 && !at(0.69).emits && !at(-0.95).emits);
-    let s = Directional { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.sample();
+    let s = DirectionalLight { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.sample();
     assert!(s.delta && s.emits && s.pdf == 1.0 && s.distance.is_finite());
 }
 
@@ -275,10 +275,10 @@ fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [Li
         Line { p: a, edge: b }.by_length(p, u.x),
         Line { p: a, edge: b }.by_angle(p, u.x),
         Line { p: a, edge: b }.by_projected_solid_angle(p, n, u.x),
-        Point { position: a }.sample(p),
-        Spot { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.sample(p),
-        Spot { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.sample(p),
-        Directional { direction: n }.sample(),
+        PointLight { position: a }.sample(p),
+        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.sample(p),
+        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.sample(p),
+        DirectionalLight { direction: n }.sample(),
         Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle(u),
         ConstantEnvironment.by_solid_angle(u),
         ConstantEnvironment.by_projected_solid_angle(n, u),
@@ -296,7 +296,7 @@ fn any_bits_in_every_lane() {
     for round in 0..5000 {
         let mut vectors = || -> [[f32; 3]; 8] {
             core::array::from_fn(|_| {
-                if round % 3 == 0 { domain::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+                if round % 3 == 0 { generators::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
             })
         };
         let (p, a, b, r) = (vectors(), vectors(), vectors(), vectors());

@@ -5,8 +5,8 @@
 
 use core::f64::consts::PI;
 use etendue::light::Disk;
-use etendue::seen::SphereCap;
 use etendue::sequence::{Independent, Sequence};
+use etendue::spherical::SphericalCap;
 use etendue::warp::{UniformHemisphere, Warp};
 use etendue::{LightSample, Real, Sphere, Vec2, Vec3, f32x8, u32x8};
 use etendue_tests::stats;
@@ -87,9 +87,9 @@ fn cone() {
         [(0.5_f64, 0.0), (0.5, 0.9), (0.05, 1.2), (1.2, 0.3), (1e-3, 0.7)].into_iter().enumerate()
     {
         let axis = [f64::sin(omega), 0.0, f64::cos(omega)];
-        let cap = SphereCap::new(packet(axis), f32x8::splat(sigma.sin() as f32));
+        let cap = SphericalCap::new(packet(axis), f32x8::splat(sigma.sin() as f32));
         let up = packet([0.0, 0.0, 1.0]);
-        let measured = variance(i as u32, |u| cap.sample(u).dot(up) / cap.density());
+        let measured = variance(i as u32, |u| cap.sample(u).dot(up) / cap.uniform_pdf());
         let (c, s) = (sigma.cos(), sigma.sin());
         // 1 − c and 1 − c³ without cancellation
         let h = s * s / (1.0 + c);

@@ -1,9 +1,9 @@
 //! Polygons as lights: irradiance against Lambert's form, corners that coincide, lanes, arguments of any bits.
 
 use etendue::{LightSample, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8};
-use etendue_tests::domain::{self, Random};
-use etendue_tests::laws::{Coordinates, squares_of, vectors_of};
+use etendue_tests::generators::{self, Random};
 use etendue_tests::oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
+use etendue_tests::properties::{Coordinates, squares_of, vectors_of};
 
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
     let at = |i: usize| (i as f64 + 0.5) / n as f64;
@@ -99,7 +99,7 @@ fn any_bits_in_every_lane() {
     for round in 0..5000 {
         let corners: [[[f32; 3]; 8]; 5] = core::array::from_fn(|_| {
             core::array::from_fn(|_| {
-                if round % 3 == 0 { domain::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+                if round % 3 == 0 { generators::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
             })
         });
         let p: [[f32; 3]; 8] = core::array::from_fn(|_| random.direction().map(|x| x as f32));

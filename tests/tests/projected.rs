@@ -1,13 +1,13 @@
 //! Techniques by projected solid angle, on an unoccluded diffuse surface under constant light: no variance, and the mean is the closed form.
 
 use core::f64::consts::PI;
-use etendue::seen::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
+use etendue::spherical::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
-use etendue_tests::domain::{self, Random};
-use etendue_tests::laws::Subject;
+use etendue_tests::generators::{self, Random};
 use etendue_tests::oracle::{
-    V3, above_horizon, along, basis, cross, dot, exact_sum, lambert, length, projected_cap_by_rings, unit, wide,
+    V3, above_horizon, along, basis, cross, dot, lambert, length, projected_cap_by_rings, sum_dw, unit, wide,
 };
+use etendue_tests::properties::Fixture;
 use etendue_tests::tolerances::{PROJECTED_POLYGON, ULP};
 
 /// Greatest relative variance: that of a rounded quotient is 1e−14.
@@ -112,8 +112,8 @@ fn flats() {
                 let (u, v) = if etendue_tests::oracle::dot(facing, middle) < 0.0 { (u, v) } else { (v, u) };
                 let (s, _) = basis(middle);
                 let normal = narrow(along(middle.map(|x| x * omega.cos()), s, omega.sin()));
-                let n = exact_sum(wide(normal), &[]);
-                let corner = |edges: &[V3]| exact_sum(wide(p), edges);
+                let n = sum_dw(wide(normal), &[]);
+                let corner = |edges: &[V3]| sum_dw(wide(p), edges);
                 let (origin, up) = (packet([0.0; 3]), packet(normal));
                 let (pu, pv) = (packet(u), packet(v));
                 let triangle = Triangle { v0: packet(p), e1: pu, e2: pv };
@@ -159,12 +159,12 @@ fn flats() {
 #[test]
 fn projected_solid_angles() {
     let mut worst: Vec<(&str, f64)> = Vec::new();
-    for (name, triangle) in domain::projected_triangles(40, 23) {
-        let found = f64::from(Subject::prepare::<f32>(&[triangle]).projected_solid_angle());
+    for (name, triangle) in generators::projected_triangles(40, 23) {
+        let found = f64::from(Fixture::prepare::<f32>(&[triangle]).projected_solid_angle());
         let truth = triangle.projected_solid_angle();
         let units = (found / truth - 1.0).abs() / (ULP * triangle.conditioned());
-        assert!(units < PROJECTED_POLYGON.density, "{name}: {triangle:?}: {found} for {truth}, {units} units");
-        let double: f64 = Subject::prepare::<f64>(&[triangle]).projected_solid_angle();
+        assert!(units < PROJECTED_POLYGON.pdf, "{name}: {triangle:?}: {found} for {truth}, {units} units");
+        let double: f64 = Fixture::prepare::<f64>(&[triangle]).projected_solid_angle();
         let relative = (double / truth - 1.0).abs() / triangle.conditioned();
         assert!(relative < 1e-14, "{name}: {triangle:?}: {double} for {truth}, {relative:e}");
         match worst.iter_mut().find(|w| w.0 == name) {
@@ -192,7 +192,7 @@ fn nothing_to_be_seen() {
     ] {
         let light = Triangle { v0: splat(p), e1: splat(u), e2: splat(v) };
         let quad = Parallelogram { p: splat(p), u: splat(u), v: splat(v) };
-        for square in domain::square(20, 24) {
+        for square in generators::square(20, 24) {
             let at = Vec2::new(square[0], square[1]);
             for sample in [
                 light.by_projected_solid_angle(splat([0.0; 3]), splat(up), at),

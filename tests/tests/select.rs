@@ -27,15 +27,12 @@ fn check(
         let eight = packet(u.x);
         for k in 0..8 {
             let one = choose(u.x.lane(k));
-            assert_eq!(
-                (eight.index.lane(k), eight.probability.lane(k), eight.u.lane(k)),
-                (one.index, one.probability, one.u)
-            );
-            assert_eq!(one.probability, pmf(one.index), "{name}: light {}", one.index);
+            assert_eq!((eight.index.lane(k), eight.pmf.lane(k), eight.u.lane(k)), (one.index, one.pmf, one.u));
+            assert_eq!(one.pmf, pmf(one.index), "{name}: light {}", one.index);
             assert!((0.0..1.0).contains(&one.u));
             counts[one.index as usize] += 1;
             // of a light that few numbers choose, the number left has few values
-            if one.probability > 5e-4 {
+            if one.pmf > 5e-4 {
                 left[(one.u * 64.0) as usize] += 1;
                 pairs.push((f64::from(one.index), f64::from(one.u)));
             }
@@ -58,10 +55,10 @@ fn uniform() {
         check("uniform", count as usize, |u| lights.choose(u), |u| lights.choose(u), |k| lights.pmf(k));
     }
     for count in [1, 3, 4_000_000, 1 << 22] {
-        let last = UniformLights { count }.choose(f32::below_one());
+        let last = UniformLights { count }.choose(f32::ONE_MINUS_EPSILON);
         assert_eq!(last.index, count - 1);
     }
-    assert_eq!(UniformLights { count: 0 }.choose(0.5_f32).probability, 0.0);
+    assert_eq!(UniformLights { count: 0 }.choose(0.5_f32).pmf, 0.0);
 }
 
 #[test]
@@ -77,9 +74,9 @@ fn power() {
             let pmf = lights.pmf::<f32>(k as u32);
             assert_eq!(*power > 0.0, pmf > 0.0, "{powers:?}");
         }
-        for u in [0.0, f32::below_one(), 1.0] {
+        for u in [0.0, f32::ONE_MINUS_EPSILON, 1.0] {
             let choice = lights.choose(u);
-            assert!(powers[choice.index as usize] > 0.0 && choice.probability > 0.0);
+            assert!(powers[choice.index as usize] > 0.0 && choice.pmf > 0.0);
         }
     }
     // in proportion, where nothing is lifted
@@ -89,7 +86,7 @@ fn power() {
     for powers in [&[][..], &[0.0, 0.0], &[f32::NAN, -1.0]] {
         let mut sums = vec![7.0; powers.len()];
         let choice = PowerLights::new(powers, &mut sums).choose(0.3_f32);
-        assert_eq!((choice.probability, choice.u), (0.0, 0.0));
+        assert_eq!((choice.pmf, choice.u), (0.0, 0.0));
     }
 }
 
@@ -147,7 +144,7 @@ fn spatial() {
     assert!((inside - surface).abs() < 1e-2 && inside > 0.8, "{inside} {surface}");
     for none in [&[][..], &list[2..3]] {
         let choice = SpatialLights { lights: none }.choose([0.0, 1.0, 0.0].into(), 0.3_f32);
-        assert_eq!(choice.probability, 0.0);
+        assert_eq!(choice.pmf, 0.0);
     }
 }
 
@@ -172,7 +169,7 @@ fn spatial_choice_knows_no_unit() {
             let u = (k as f32 + 0.5) / 64.0;
             let one: Choice<f32> = SpatialLights { lights: &list }.choose(p.into(), u);
             let other: Choice<f32> = SpatialLights { lights: &scaled }.choose(p.map(|x| x * scale).into(), u);
-            assert_eq!((one.index, one.probability, one.u), (other.index, other.probability, other.u), "2^{exponent}");
+            assert_eq!((one.index, one.pmf, one.u), (other.index, other.pmf, other.u), "2^{exponent}");
         }
     }
     // limits of single precision: no NaN, no infinity, probabilities positive
@@ -180,7 +177,7 @@ fn spatial_choice_knows_no_unit() {
         let ends = [far, -far].map(|x| LightBound { center: [x, x, x], radius: 0.0, power: 1.0 });
         for p in [[0.0; 3], [far; 3], [1.0; 3]] {
             let choice: Choice<f32x4> = SpatialLights { lights: &ends }.choose(p.into(), f32x4::splat(0.7));
-            assert!(choice.probability.lane(2) > 0.0 && choice.probability.lane(2) <= 1.0, "{far} {p:?} {choice:?}");
+            assert!(choice.pmf.lane(2) > 0.0 && choice.pmf.lane(2) <= 1.0, "{far} {p:?} {choice:?}");
         }
     }
 }
@@ -194,7 +191,7 @@ fn a_dark_light_is_no_nearest() {
     for p in [[0.0_f32, 0.0, 0.0], [0.0, 0.0, 1e-30]] {
         let table = SpatialLights { lights: &lights };
         let choice = table.choose(p.into(), 0.5_f32);
-        assert_eq!((choice.index, choice.probability), (1, 1.0));
+        assert_eq!((choice.index, choice.pmf), (1, 1.0));
         assert_eq!([0, 1].map(|i| table.pmf::<f32>(p.into(), i)), [0.0, 1.0]);
     }
 }

@@ -1,13 +1,13 @@
-//! Every law for every warp in every regime, and how many there were. `-- --nocapture` prints the greatest figure of each (warp, regime, law).
+//! Every property for every warp in every regime, and how many there were. `-- --nocapture` prints the greatest figure of each (warp, regime, property).
 
-use etendue_tests::domain::{self, Case, Random};
-use etendue_tests::laws::{self, Subject};
-use etendue_tests::subjects::{
+use etendue_tests::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, Exponential, GgxVisibleNormals, Hexagon,
     Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap,
     ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle,
     UniformHemisphere, UniformSphere, nearest_hit,
 };
+use etendue_tests::generators::{self, Case, Random};
+use etendue_tests::properties::{self, Fixture};
 use etendue_tests::suite;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::sync::Mutex;
@@ -23,28 +23,28 @@ struct Checked {
 }
 static CHECKED: Mutex<Vec<Checked>> = Mutex::new(Vec::new());
 
-/// All laws over the cases; reports every regime that breaks one with the first message.
-fn all<S: Subject>(warp: &'static str, cases: &[Case<S>], random: usize) -> Result<(), Failed> {
+/// All properties over the cases; reports every regime that breaks one with the first message.
+fn all<S: Fixture>(warp: &'static str, cases: &[Case<S>], random: usize) -> Result<(), Failed> {
     let outcomes = suite::all(cases, random);
     if std::env::args().any(|a| a == "--nocapture") {
-        for (law, r) in outcomes.iter().flat_map(|o| o.regimes.iter().map(|r| (o.law, r))) {
-            println!("{law:10} {:28} {:9.3e} {}", r.name, r.figure, if r.broken > 0 { "BROKEN" } else { "" });
+        for (property, r) in outcomes.iter().flat_map(|o| o.regimes.iter().map(|r| (o.property, r))) {
+            println!("{property:10} {:28} {:9.3e} {}", r.name, r.figure, if r.broken > 0 { "BROKEN" } else { "" });
         }
     }
     let mut regimes: Vec<_> = cases.iter().map(|c| c.0).collect();
     regimes.sort_unstable();
     regimes.dedup();
     let greatest = ["accurate", "density"]
-        .map(|law| outcomes.iter().find(|o| o.law == law).map_or(f64::NAN, suite::Outcome::greatest));
+        .map(|property| outcomes.iter().find(|o| o.property == property).map_or(f64::NAN, suite::Outcome::greatest));
     CHECKED.lock().unwrap().push(Checked { warp, regimes: regimes.len(), cases: cases.len(), greatest });
     let broken: Vec<_> = outcomes
         .iter()
-        .flat_map(|o| o.broken().map(|r| format!("{} [{}] ×{}: {}", o.law, r.name, r.broken, r.first)))
+        .flat_map(|o| o.broken().map(|r| format!("{} [{}] ×{}: {}", o.property, r.name, r.broken, r.first)))
         .collect();
-    if broken.is_empty() { Ok(()) } else { Err(format!("broken laws:\n{}", broken.join("\n")).into()) }
+    if broken.is_empty() { Ok(()) } else { Err(format!("broken properties:\n{}", broken.join("\n")).into()) }
 }
 
-fn warp<S: Subject>(name: &'static str, cases: impl FnOnce() -> Vec<Case<S>> + Send + 'static, random: usize) -> Trial {
+fn warp<S: Fixture>(name: &'static str, cases: impl FnOnce() -> Vec<Case<S>> + Send + 'static, random: usize) -> Trial {
     Trial::test(name, move || all(name, &cases(), random))
 }
 fn other(name: &'static str, run: fn()) -> Trial {
@@ -55,7 +55,7 @@ fn other(name: &'static str, run: fn()) -> Trial {
 }
 
 fn main() {
-    // broken laws are reported together, with the warp that breaks them
+    // broken properties are reported together, with the warp that breaks them
     std::panic::set_hook(Box::new(|_| {}));
     let mut arguments = Arguments::from_args();
     arguments.test_threads =
@@ -67,35 +67,35 @@ fn main() {
             warp("polar_disk", || vec![("whole", PolarDisk)], 4000),
             warp("area_triangle", || vec![("whole", AreaTriangle)], 4000),
             warp("low_distortion_triangle", || vec![("whole", LowDistortionTriangle)], 4000),
-            warp("linear", domain::linears, 1000),
-            warp("tent", domain::tents, 1000),
-            warp("exponential", domain::exponentials, 1000),
-            warp("normal", domain::normals, 1000),
-            warp("bilinear", domain::bilinears, 1000),
-            warp("ggx_visible_normals", domain::microsurfaces, 500),
+            warp("linear", generators::linears, 1000),
+            warp("tent", generators::tents, 1000),
+            warp("exponential", generators::exponentials, 1000),
+            warp("normal", generators::normals, 1000),
+            warp("bilinear", generators::bilinears, 1000),
+            warp("ggx_visible_normals", generators::microsurfaces, 500),
             warp("cosine_hemisphere", || vec![("whole", CosineHemisphere)], 4000),
             warp("uniform_hemisphere", || vec![("whole", UniformHemisphere)], 4000),
             warp("uniform_sphere", || vec![("whole", UniformSphere)], 4000),
             warp("octahedral", || vec![("whole", Octahedral)], 4000),
-            warp("cone", domain::cones, 1000),
-            warp("sphere_cap", || domain::caps(3, 11), 200),
-            warp("spherical_polygon", || domain::hexagons(3, 15), 60),
-            warp("spherical_disk", || domain::disks(3, 31), 100),
-            warp("spherical_segment", || domain::segments(3, 21).0, 200),
-            warp("projected_segment", || domain::segments(1, 22).1, 60),
-            warp("disk_surface", || domain::disk_surfaces().to_vec(), 200),
-            warp("sphere_surface", || domain::sphere_surfaces().to_vec(), 200),
-            warp("cylinder_side", || domain::cylinder_sides().to_vec(), 200),
-            warp("patch_surface", domain::patch_surfaces, 200),
-            warp("cosine_triangle", || domain::cosine_triangles(2, 43), 60),
-            warp("cosine_rectangle", || domain::cosine_rectangles(2, 44), 60),
-            warp("projected_cap", || domain::projected_caps(3, 14), 100),
-            warp("projected_triangle", || domain::projected_triangles(3, 16), 60),
-            warp("projected_parallelogram", || domain::projected_parallelograms(1, 17), 40),
-            warp("projected_polygon", || domain::projected_pentagons(2, 18), 40),
-            warp("spherical_triangle", || domain::triangles(4, 12), 60),
-            warp("spherical_parallelogram", || domain::parallelograms(4, 13), 200),
-            warp("spherical_rectangle", || domain::rectangles(8, 14), 200),
+            warp("cone", generators::cones, 1000),
+            warp("spherical_cap", || generators::caps(3, 11), 200),
+            warp("spherical_polygon", || generators::hexagons(3, 15), 60),
+            warp("spherical_disk", || generators::disks(3, 31), 100),
+            warp("spherical_segment", || generators::segments(3, 21).0, 200),
+            warp("projected_segment", || generators::segments(1, 22).1, 60),
+            warp("disk_surface", || generators::disk_surfaces().to_vec(), 200),
+            warp("sphere_surface", || generators::sphere_surfaces().to_vec(), 200),
+            warp("cylinder_side", || generators::cylinder_sides().to_vec(), 200),
+            warp("patch_surface", generators::patch_surfaces, 200),
+            warp("cosine_triangle", || generators::cosine_triangles(2, 43), 60),
+            warp("cosine_rectangle", || generators::cosine_rectangles(2, 44), 60),
+            warp("projected_cap", || generators::projected_caps(3, 14), 100),
+            warp("projected_triangle", || generators::projected_triangles(3, 16), 60),
+            warp("projected_parallelogram", || generators::projected_parallelograms(1, 17), 40),
+            warp("projected_polygon", || generators::projected_pentagons(2, 18), 40),
+            warp("spherical_triangle", || generators::triangles(4, 12), 60),
+            warp("spherical_parallelogram", || generators::parallelograms(4, 13), 200),
+            warp("spherical_rectangle", || generators::rectangles(8, 14), 200),
             other("any_parameters_are_survived", any_parameters_are_survived),
             other("contact", contact),
             other("spheres_are_hit_in_front", spheres_are_hit_in_front),
@@ -117,7 +117,11 @@ fn main() {
             );
         }
         let pairs: usize = checked.iter().map(|c| c.regimes).sum();
-        println!("laws: {} warps, {pairs} (warp, regime) pairs, {} laws each", checked.len(), suite::LAWS);
+        println!(
+            "properties: {} warps, {pairs} (warp, regime) pairs, {} properties each",
+            checked.len(),
+            suite::PROPERTIES
+        );
     }
     conclusion.exit();
 }
@@ -125,10 +129,10 @@ fn main() {
 /// Any parameters at all: nasty numbers and random bits.
 fn any_parameters_are_survived() {
     let mut random = Random::new(99);
-    let square = domain::square(40, 5);
+    let square = generators::square(40, 5);
     for i in 0..20_000 {
         let mut vector = || {
-            if i % 2 == 0 { domain::nasty(&mut random) } else { core::array::from_fn(|_| random.any_f32()) }
+            if i % 2 == 0 { generators::nasty(&mut random) } else { core::array::from_fn(|_| random.any_f32()) }
         };
         let [a, b, c, d] = [vector(), vector(), vector(), vector()];
         let (b, c) = match i % 7 {
@@ -138,37 +142,37 @@ fn any_parameters_are_survived() {
             _ => (b, c),
         };
         let u = square[i % square.len()];
-        laws::any_bits(&Triangle::by_vertices(a, b, c), u);
-        laws::any_bits(&Triangle::by_edges(a, b, c), u);
-        laws::any_bits(&Parallelogram::new(a, b, c), u);
-        laws::any_bits(&Cap::new(a, b[0]), u);
-        laws::any_bits(&ProjectedCap::new(a, b[0], c), u);
-        laws::any_bits(&PatchSurface { p: d, u: a, v: b, w: c }, u);
+        properties::any_bits(&Triangle::by_vertices(a, b, c), u);
+        properties::any_bits(&Triangle::by_edges(a, b, c), u);
+        properties::any_bits(&Parallelogram::new(a, b, c), u);
+        properties::any_bits(&Cap::new(a, b[0]), u);
+        properties::any_bits(&ProjectedCap::new(a, b[0], c), u);
+        properties::any_bits(&PatchSurface { p: d, u: a, v: b, w: c }, u);
         if i % 4 < 2 {
-            laws::any_bits(&Disk::new(a, b, c[0]), u);
-            laws::any_bits(&Segment::new(a, b), u);
-            laws::any_bits(&ProjectedSegment::new(a, b, c), u);
+            properties::any_bits(&Disk::new(a, b, c[0]), u);
+            properties::any_bits(&Segment::new(a, b), u);
+            properties::any_bits(&ProjectedSegment::new(a, b, c), u);
         }
-        laws::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
-        laws::any_bits(&ProjectedTriangle::by_vertices(a, b, c, d), u);
-        laws::any_bits(&ProjectedTriangle::by_edges(a, b, c, d), u);
-        laws::any_bits(&ProjectedParallelogram::new(a, b, c, d), u);
-        laws::any_bits(&ProjectedPentagon::new([a, b, c, d, a], d), u);
-        laws::any_bits(&GgxVisibleNormals { alpha: [a[0], b[0]], wi: c }, u);
-        laws::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
-        laws::any_bits(&Linear { a: a[0], b: b[1] }, u);
-        laws::any_bits(&Tent { radius: a[0] }, u);
-        laws::any_bits(&Exponential { rate: a[0] }, u);
-        laws::any_bits(&Normal { mean: b[1], sigma: a[0] }, u);
-        laws::any_bits(&Bilinear { corners: [a[0], a[1], b[0], c[2]] }, u);
-        laws::any_bits(&Cone { one_minus_cos: b[0].clamp(0.0, 2.0) }, u);
+        properties::any_bits(&Hexagon::new([a, b, c, b, a, c]), u);
+        properties::any_bits(&ProjectedTriangle::by_vertices(a, b, c, d), u);
+        properties::any_bits(&ProjectedTriangle::by_edges(a, b, c, d), u);
+        properties::any_bits(&ProjectedParallelogram::new(a, b, c, d), u);
+        properties::any_bits(&ProjectedPentagon::new([a, b, c, d, a], d), u);
+        properties::any_bits(&GgxVisibleNormals { alpha: [a[0], b[0]], wi: c }, u);
+        properties::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
+        properties::any_bits(&Linear { a: a[0], b: b[1] }, u);
+        properties::any_bits(&Tent { radius: a[0] }, u);
+        properties::any_bits(&Exponential { rate: a[0] }, u);
+        properties::any_bits(&Normal { mean: b[1], sigma: a[0] }, u);
+        properties::any_bits(&Bilinear { corners: [a[0], a[1], b[0], c[2]] }, u);
+        properties::any_bits(&Cone { one_minus_cos: b[0].clamp(0.0, 2.0) }, u);
     }
 }
 
 /// Points on a vertex, an edge and the plane; on and in spheres; nothing seen means pdf 0.
 fn contact() {
     let (o, x, y) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
-    for u in domain::square(20, 6) {
+    for u in generators::square(20, 6) {
         // on a vertex, on an edge, in the plane outside and inside, no area
         for t in [
             Triangle::by_vertices(o, x, y),
@@ -178,15 +182,16 @@ fn contact() {
             Triangle::by_vertices([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], x),
             Triangle::by_vertices([0.0, 0.0, 1.0], [0.5, 0.0, 1.0], [1.0, 0.0, 1.0]),
         ] {
-            laws::any_bits(&t, u);
-            let seen = laws::observe::<Triangle, f32>(&Triangle::prepare::<f32>(&[t]), laws::squares_of(&[u]))[0];
+            properties::any_bits(&t, u);
+            let seen =
+                properties::observe::<Triangle, f32>(&Triangle::prepare::<f32>(&[t]), properties::squares_of(&[u]))[0];
             assert!(seen.pdf == 0.0, "{t:?} {seen:?}");
         }
         for (center, radius, omega) in
             [(o, 1.0, 4.0), (x, 1.0, 2.0), ([0.5, 0.0, 0.0], 1.0, 4.0), (x, 0.0, 0.0), (x, -1.0, 0.0)]
         {
             let cap = Cap::new(center, radius);
-            laws::any_bits(&cap, u);
+            properties::any_bits(&cap, u);
             let solid_angle = f64::from(Cap::prepare::<f32>(&[cap]).solid_angle());
             assert!((solid_angle - omega * core::f64::consts::PI).abs() < 1e-6, "{cap:?} {solid_angle}");
         }
@@ -195,38 +200,38 @@ fn contact() {
 
 /// The distance to a sphere is that of its near side.
 fn spheres_are_hit_in_front() {
-    let square = domain::square(200, 7);
-    for (_, cap) in domain::caps(3, 17) {
+    let square = generators::square(200, 7);
+    for (_, cap) in generators::caps(3, 17) {
         square.iter().for_each(|&u| nearest_hit(&cap, u));
     }
 }
 /// In every regime, and where the distance is least certain: nearly in a plane with the shape.
 fn nothing_is_beyond_its_shape() {
-    fn check<S: Subject>(cases: &[Case<S>]) {
+    fn check<S: Fixture>(cases: &[Case<S>]) {
         let outcome = suite::within_reach(cases);
         let broken: Vec<_> = outcome.broken().map(|r| format!("[{}] ×{}: {}", r.name, r.broken, r.first)).collect();
         assert!(broken.is_empty(), "{}", broken.join("\n"));
     }
-    let edge_on = domain::nearly_in_plane(50, 19);
+    let edge_on = generators::nearly_in_plane(50, 19);
     let cases = |name| edge_on.iter().map(move |&[v, a, b]| (name, [v, a, b]));
-    check(&domain::triangles(4, 12));
+    check(&generators::triangles(4, 12));
     check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Triangle::by_edges(v, a, b))).collect::<Vec<_>>());
-    check(&domain::parallelograms(4, 13));
+    check(&generators::parallelograms(4, 13));
     check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Parallelogram::new(v, a, b))).collect::<Vec<_>>());
-    check(&domain::rectangles(4, 14));
-    check(&domain::hexagons(4, 15));
+    check(&generators::rectangles(4, 14));
+    check(&generators::hexagons(4, 15));
 }
 fn nasty_rectangles() {
     let mut random = Random::new(15);
     for _ in 0..20_000 {
-        let mut vector = || domain::nasty(&mut random);
+        let mut vector = || generators::nasty(&mut random);
         let rectangle = Rectangle::new(vector(), vector(), vector());
-        laws::any_bits(&rectangle, [random.unit(), random.unit()]);
+        properties::any_bits(&rectangle, [random.unit(), random.unit()]);
     }
     // bits at random: mostly of no common scale at all
     for _ in 0..20_000 {
         let mut vector = || core::array::from_fn(|_| random.any_f32());
         let rectangle = Rectangle::new(vector(), vector(), vector());
-        laws::any_bits(&rectangle, [random.unit(), random.unit()]);
+        properties::any_bits(&rectangle, [random.unit(), random.unit()]);
     }
 }

@@ -7,17 +7,17 @@ use core::f32::consts::PI;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Reservoir, Welford};
 use etendue::light::{
-    BilinearPatch, ConstantEnvironment, Cylinder, Directional, Disk, EnvironmentMap, ImageEnvironment, Line, Point,
-    Polygon, Spot, Sun,
-};
-use etendue::seen::{
-    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphereCap, SphericalDisk,
-    SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
+    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment, Line,
+    PointLight, Polygon, SpotLight, Sun,
 };
 use etendue::select::{LightBound, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{
     CounterRng, Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified,
     ZOrder,
+};
+use etendue::spherical::{
+    CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
+    SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, Exponential,
@@ -172,7 +172,7 @@ fn seen(count: &mut Count) {
     let d = Vec3::from([0.5, 1.0, 0.5]);
     // of a face of a cube of side 2 half as far: 4 asin(1/5), and half of it
     let square = 4.0 * 0.201_357_92;
-    count.warp(SphereCap::new([0.0, 2.0, 0.0].into(), lit(1.0)), 2.0 * PI * 0.133_974_6);
+    count.warp(SphericalCap::new([0.0, 2.0, 0.0].into(), lit(1.0)), 2.0 * PI * 0.133_974_6);
     count.warp(SphericalTriangle::new(a, b, c), 0.5 * square);
     count.warp(SphericalParallelogram::new(a, b - a, c - a), square);
     count.warp(SphericalRectangle::new(a, b - a, c - a), square);
@@ -215,7 +215,7 @@ fn tables(count: &mut Count) {
     match AliasTable::build(&weights, &mut thresholds, &mut aliases) {
         Ok(table) => {
             let mut mean = lit(0.0);
-            squares().for_each(|u| mean += lit(1.0) / table.cell(u.x).probability);
+            squares().for_each(|u| mean += lit(1.0) / table.cell(u.x).pmf);
             count.check(near(sum(mean) / SAMPLES as f32, 6.0, 1e-2));
         }
         Err(_) => exit(253),
@@ -225,9 +225,9 @@ fn tables(count: &mut Count) {
     let (power, spatial) = (PowerLights::new(&weights, &mut sums), SpatialLights { lights: &lights });
     let mut means = [lit(0.0); 3];
     for u in squares() {
-        means[0] += lit(1.0) / UniformLights { count: 6 }.choose(u.x).probability;
-        means[1] += lit(1.0) / power.choose(u.x).probability;
-        means[2] += lit(1.0) / spatial.choose(ORIGIN.into(), u.x).probability;
+        means[0] += lit(1.0) / UniformLights { count: 6 }.choose(u.x).pmf;
+        means[1] += lit(1.0) / power.choose(u.x).pmf;
+        means[2] += lit(1.0) / spatial.choose(ORIGIN.into(), u.x).pmf;
     }
     for (mean, truth) in means.into_iter().zip([6.0, 6.0, 2.0]) {
         count.check(near(sum(mean) / SAMPLES as f32, truth, 1e-2));
@@ -277,10 +277,10 @@ fn lights(count: &mut Count) {
     count.light(0.507_279, |u| cylinder.by_area(o, u));
     // the lights without a density: radiant intensity, or irradiance, of 1
     let position = [0.0, 2.0, 0.0].into();
-    count.light(0.25, |_| Point { position }.sample(o));
-    let spot = Spot { position, axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
+    count.light(0.25, |_| PointLight { position }.sample(o));
+    let spot = SpotLight { position, axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
     count.light(0.25, |_| spot.sample(o));
-    count.light(1.0, |_| Directional { direction: UP.into() }.sample());
+    count.light(1.0, |_| DirectionalLight { direction: UP.into() }.sample());
     let sun = Sun { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
     count.light(0.25 * PI, |u| sun.by_solid_angle(u));
     count.light(PI, |u| ConstantEnvironment.by_solid_angle(u));
@@ -324,7 +324,7 @@ fn estimators(count: &mut Count) {
     // a lane has seen a column of the strata: their mean is 1/2, their variance 1/12
     count
         .check(near(sum(welford.mean) / 8.0, 0.5, 1e-2) && near(sum(welford.variance(lit(n))) / 8.0, 1.0 / 12.0, 5e-2));
-    count.check(reservoir.probability().gt(lit(0.0)).all());
+    count.check(reservoir.pmf().gt(lit(0.0)).all());
 }
 
 extern "C" fn main() -> ! {

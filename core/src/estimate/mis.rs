@@ -7,7 +7,7 @@ use crate::real::Real;
 /// - Domain: densities in [0, ∞]; a negative number or NaN counts as 0. Densities are divided by the largest before they are
 ///   raised to a power, so nothing over- or underflows that matters: any common factor of the densities changes nothing.
 /// - Delta distributions: a technique that alone can sample the point (a point light, a mirror) has density ∞, see
-///   [`density`]; it has weight 1 and the others 0. Several of them share equally.
+///   [`technique_pdf`]; it has weight 1 and the others 0. Several of them share equally.
 /// - Degenerate: all densities 0 give weights 0.
 /// - Greatest error: weights sum to 1 within 2⁻²³ for two techniques.
 /// - Source: Veach 1997, *Robust Monte Carlo Methods for Light Transport Simulation*, 9.2.
@@ -20,13 +20,13 @@ use crate::real::Real;
 /// | [`Maximum`](Heuristic::Maximum) | discontinuous weights; for comparison |
 ///
 /// ```
-/// use etendue::estimate::{Heuristic, density};
+/// use etendue::estimate::{Heuristic, technique_pdf};
 /// let [light, surface] = Heuristic::POWER.weights([3.0_f32, 1.0]);
 /// assert!((light - 0.9).abs() < 1e-6 && (surface - 0.1).abs() < 1e-6);
 /// // squares of these would overflow
 /// assert_eq!(Heuristic::POWER.weights([3e30_f32, 3e30]), [0.5, 0.5]);
 /// // a point light: a delta
-/// assert_eq!(Heuristic::POWER.weights([density(1.0_f32, 1.0, true), 7.0]), [1.0, 0.0]);
+/// assert_eq!(Heuristic::POWER.weights([technique_pdf(1.0_f32, 1.0, true), 7.0]), [1.0, 0.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Heuristic {
@@ -34,7 +34,7 @@ pub enum Heuristic {
     Balance,
     /// Any β from 0 (every technique alike, where its density is not 0).
     Power(u32),
-    /// β → ∞: all to the technique of the largest density, the first of equals.
+    /// β → ∞: all to the technique of the largest technique_pdf, the first of equals.
     Maximum,
 }
 
@@ -75,7 +75,7 @@ impl Heuristic {
 /// The density of a technique that takes `samples` samples with density `pdf`, for [`Heuristic::weights`]: their
 /// product, which saturates; ∞ where `delta` holds.
 #[inline]
-pub fn density<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
+pub fn technique_pdf<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
     let product = (samples * pdf).clamp(R::lit(0.0), R::lit(f64::from(f32::MAX)));
     R::select(delta, R::lit(f64::INFINITY), product)
 }

@@ -12,7 +12,7 @@ use crate::real::{Real, Uint};
 ///   the reuse of u; Wyman and Panteleev 2021.
 ///
 /// Two uses:
-/// 1. *Choice of a light* by a bound of its contribution: the weight is the bound, [`probability`](Reservoir::probability) is the
+/// 1. *Choice of a light* by a bound of its contribution: the weight is the bound, [`probability`](Reservoir::pmf) is the
 ///    probability of the one held, to divide by.
 /// 2. *Resampled importance sampling*: candidates xᵢ come from densities pᵢ, weights are mᵢ·p̂(xᵢ)/pᵢ with MIS weights mᵢ (1/M of M
 ///    candidates from one density); the sample held is worth f·[`contribution`](Reservoir::contribution)(p̂) without bias where p̂ > 0
@@ -26,7 +26,7 @@ use crate::real::{Real, Uint};
 ///     u = lights.push(light as u32, bound, u);
 /// }
 /// assert_ne!(lights.held, 1);
-/// assert_eq!(lights.probability(), [3.0, 0.0, 1.0, 4.0][lights.held as usize] / 8.0);
+/// assert_eq!(lights.pmf(), [3.0, 0.0, 1.0, 4.0][lights.held as usize] / 8.0);
 /// assert!((0.0..1.0).contains(&u));
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +66,7 @@ impl<R: Real> Reservoir<R> {
     /// Probability of the candidate held, weight/Σweights; 0 if there is none.
     #[inline]
     #[must_use]
-    pub fn probability(&self) -> R {
+    pub fn pmf(&self) -> R {
         self.weight / R::select(self.sum.gt(R::lit(0.0)), self.sum, R::lit(1.0))
     }
     /// What stands for 1/pdf of a resampled sample: Σweights/target, where `target` is p̂ of the sample held; 0 where

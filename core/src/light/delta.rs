@@ -1,9 +1,9 @@
 //! Lights in one direction only. They have no density, so their `pdf` is what the estimator divides by: f·I·cosθ/pdf with the
 //! intensity I (or the irradiance of a directional light) in the place of the radiance. It is no density and never part of MIS.
 
-use super::{FAR, LightSample, sighting};
+use super::{FAR, LightSample, direction_to};
 use crate::real::{Mask, Real};
-use crate::seen::{Sighting, lanewise};
+use crate::spherical::{DirectionSample, lanewise};
 use crate::vector::Vec3;
 
 /// Square of a distance, where it is finite and not 0.
@@ -15,17 +15,17 @@ fn inverse_square<R: Real>(distance: R) -> R {
 
 lanewise! {
     /// A point that emits the same intensity in all directions.
-    Point {
+    PointLight {
         /// Where.
         pub position: Vec3<R>,
     }
 }
 
-impl<R: Real> Point<R> {
+impl<R: Real> PointLight<R> {
     /// The one direction: with `pdf` = distance², f·I·cosθ/pdf is what arrives of the intensity I. At the point itself `pdf` is 0.
     #[inline(always)]
     pub fn sample(&self, p: Vec3<R>) -> LightSample<R> {
-        let Sighting { direction, distance } = sighting(self.position - p);
+        let DirectionSample { direction, distance } = direction_to(self.position - p);
         let pdf = inverse_square(distance);
         LightSample { direction, distance, pdf, emits: pdf.gt(R::lit(0.0)), delta: R::Mask::splat(true) }
     }
@@ -33,7 +33,7 @@ impl<R: Real> Point<R> {
 
 lanewise! {
     /// A point that emits into a cone, with full intensity near its axis.
-    Spot {
+    SpotLight {
         /// Where.
         pub position: Vec3<R>,
         /// Unit vector along which the light travels.
@@ -45,7 +45,7 @@ lanewise! {
     }
 }
 
-impl<R: Real> Spot<R> {
+impl<R: Real> SpotLight<R> {
     /// The intensity in the direction `w` away from the light, over that on the axis: t²(3−2t) with
     /// t = (cosθ − cosθₒ)/(cosθᵢ − cosθₒ), as in PBR 4th ed., 12.2.1; a step where the two cosines are equal.
     #[inline(always)]
@@ -61,7 +61,7 @@ impl<R: Real> Spot<R> {
     /// `emits` is false and `pdf` 0.
     #[inline(always)]
     pub fn sample(&self, p: Vec3<R>) -> LightSample<R> {
-        let Sighting { direction, distance } = sighting(self.position - p);
+        let DirectionSample { direction, distance } = direction_to(self.position - p);
         let falloff = self.falloff(-direction);
         let some = falloff.gt(R::lit(0.0));
         let pdf = inverse_square(distance) / R::select(some, falloff, R::lit(1.0));
@@ -72,13 +72,13 @@ impl<R: Real> Spot<R> {
 
 lanewise! {
     /// Parallel light from far away.
-    Directional {
+    DirectionalLight {
         /// Unit vector towards the light.
         pub direction: Vec3<R>,
     }
 }
 
-impl<R: Real> Directional<R> {
+impl<R: Real> DirectionalLight<R> {
     /// The one direction: with `pdf` = 1, f·E·cosθ/pdf is what arrives of the irradiance E on a receiver that faces the light.
     #[inline(always)]
     pub fn sample(&self) -> LightSample<R> {

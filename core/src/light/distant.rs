@@ -1,6 +1,6 @@
 use super::{FAR, LightSample};
 use crate::real::{Mask, Real};
-use crate::seen::lanewise;
+use crate::spherical::lanewise;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, CosineHemisphere, UniformSphere, Warp};
 
@@ -25,7 +25,7 @@ impl<R: Real> Sun<R> {
     #[inline(always)]
     pub fn by_solid_angle(&self, u: Vec2<R>) -> LightSample<R> {
         let cone = Cone { one_minus_cos: self.one_minus_cos };
-        distant(Frame::new(self.direction).to_world(cone.sample(u)), cone.density())
+        distant(Frame::new(self.direction).to_world(cone.sample(u)), cone.uniform_pdf())
     }
     /// The density of [`by_solid_angle`](Self::by_solid_angle) in the direction `w`: 0 off the cone.
     #[inline(always)]

@@ -122,8 +122,8 @@ impl<'a> ImageEnvironment<'a> {
     ///
     /// # Errors
     /// If the length of the buffer is not that of a table with so many columns.
-    pub fn built(buffer: &'a [f32], width: usize, map: EnvironmentMap) -> Result<Self, TableError> {
-        Ok(Self { table: PiecewiseConstant2d::built(buffer, width)?, map })
+    pub fn from_buffer(buffer: &'a [f32], width: usize, map: EnvironmentMap) -> Result<Self, TableError> {
+        Ok(Self { table: PiecewiseConstant2d::from_buffer(buffer, width)?, map })
     }
     /// Columns and rows.
     #[inline(always)]
@@ -141,7 +141,7 @@ impl<'a> ImageEnvironment<'a> {
     pub fn draw<R: Real>(&self, u: Vec2<R>) -> EnvironmentSample<R> {
         let cell = self.table.cell(u);
         let texel = Texel { x: cell.x, y: cell.y, offset: cell.offset };
-        let pdf = self.density(cell.probability, cell.y);
+        let pdf = self.texel_pdf(cell.pmf, cell.y);
         EnvironmentSample { light: distant(self.direction(&texel), pdf), x: cell.x, y: cell.y }
     }
     /// A direction in proportion to the weights.
@@ -216,13 +216,13 @@ impl<'a> ImageEnvironment<'a> {
     }
     /// Probability over solid angle.
     #[inline(always)]
-    fn density<R: Real>(&self, probability: R, y: R::Uint) -> R {
+    fn texel_pdf<R: Real>(&self, pmf: R, y: R::Uint) -> R {
         let [w, h] = self.counts::<R>();
         let per_steradian = match self.map {
             EnvironmentMap::EqualArea => w * h * R::lit(0.25 / PI),
             EnvironmentMap::Equirectangular => w * R::lit(0.5 / PI) / self.ring::<R>(y).height,
         };
-        (probability * per_steradian).min(R::lit(GREATEST))
+        (pmf * per_steradian).min(R::lit(GREATEST))
     }
 }
 
@@ -236,7 +236,7 @@ impl<R: Real> Warp<R> for ImageEnvironment<'_> {
     #[inline(always)]
     fn pdf(&self, direction: Vec3<R>) -> R {
         let texel = self.texel(direction);
-        self.density(self.table.probability(texel.x, texel.y), texel.y)
+        self.texel_pdf(self.table.pmf(texel.x, texel.y), texel.y)
     }
     #[inline(always)]
     fn invert(&self, direction: Vec3<R>) -> Vec2<R> {

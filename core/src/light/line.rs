@@ -1,6 +1,6 @@
-use super::{LightSample, sighting};
+use super::{LightSample, direction_to};
 use crate::real::{Mask, Real};
-use crate::seen::{ProjectedSegment, Sighting, SphericalSegment, lanewise};
+use crate::spherical::{DirectionSample, ProjectedSegment, SphericalSegment, lanewise};
 use crate::vector::Vec3;
 
 lanewise! {
@@ -23,31 +23,31 @@ impl<R: Real> Line<R> {
     /// Degenerate: a length of 0, a point on the line: pdf 0.
     #[inline(always)]
     pub fn by_length(&self, p: Vec3<R>, u: R) -> LightSample<R> {
-        let Sighting { direction, distance } = sighting(self.edge.mul_add(u, self.p - p));
-        let scale = self.edge.max_abs().exponent_reciprocal();
+        let DirectionSample { direction, distance } = direction_to(self.edge.mul_add(u, self.p - p));
+        let scale = self.edge.max_abs().pow2_scale();
         let across = direction.cross(self.edge * scale).length() / scale;
-        sample(Sighting { direction, distance }, super::solid_angle_pdf(distance, across))
+        sample(DirectionSample { direction, distance }, super::solid_angle_pdf(distance, across))
     }
     /// Uniform over the angle, [`SphericalSegment`]: better than by length wherever the point is near. pdf = r/α: density 1/α per
     /// radian.
     #[inline(always)]
     pub fn by_angle(&self, p: Vec3<R>, u: R) -> LightSample<R> {
         let seen = SphericalSegment::new(self.p - p, self.edge);
-        let sighting = seen.sight(u);
-        sample(sighting, seen.density() * sighting.distance)
+        let sighting = seen.sample_direction(u);
+        sample(sighting, seen.uniform_pdf() * sighting.distance)
     }
     /// By projected solid angle above the horizon of `normal`, [`ProjectedSegment`]: on an unoccluded diffuse surface every sample is
     /// worth the same. pdf 0 where nothing of the line is above the horizon.
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: R) -> LightSample<R> {
         let seen = ProjectedSegment::new(self.p - p, self.edge, normal);
-        let sighting = seen.sight(u);
+        let sighting = seen.sample_direction(u);
         sample(sighting, seen.pdf(sighting.direction) * sighting.distance)
     }
 }
 
 #[inline(always)]
-fn sample<R: Real>(Sighting { direction, distance }: Sighting<R>, pdf: R) -> LightSample<R> {
+fn sample<R: Real>(DirectionSample { direction, distance }: DirectionSample<R>, pdf: R) -> LightSample<R> {
     let pdf = pdf.keep(pdf.lt(R::lit(1e37)));
     LightSample { direction, distance, pdf, emits: pdf.gt(R::lit(0.0)), delta: R::Mask::splat(true) }
 }

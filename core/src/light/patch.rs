@@ -1,6 +1,6 @@
 use super::{LightSample, finite_by_area};
 use crate::real::Real;
-use crate::seen::lanewise;
+use crate::spherical::lanewise;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{PatchSurface, Warp};
 

@@ -1,6 +1,6 @@
 use super::{LightSample, finite_by_area};
 use crate::real::{Mask, Real};
-use crate::seen::{ProjectedPolygon, Sighting, SphericalPolygon};
+use crate::spherical::{DirectionSample, ProjectedPolygon, SphericalPolygon};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, Warp, unit_interval};
 
@@ -32,7 +32,7 @@ impl<R: Real, const N: usize> Polygon<R, N> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let origin = self.corners[0];
         let edge = |i: usize| self.corners[i] - origin;
-        let scale = (1..N).fold(zero, |most, i| most.max(edge(i).max_abs())).exponent_reciprocal();
+        let scale = (1..N).fold(zero, |most, i| most.max(edge(i).max_abs())).pow2_scale();
         // twice the area of a triangle, in units that neither over- nor underflow
         let size = |i: usize| (edge(i) * scale).cross(edge(i + 1) * scale).length();
         let mut whole = Vec3::default();
@@ -63,16 +63,22 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = SphericalPolygon::new(self.corners.map(|c| c - p));
-        let Sighting { direction, distance } = seen.sight(u);
-        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: seen.uniform_pdf(),
+            emits: seen.in_front(),
+            delta: R::Mask::splat(false),
+        }
     }
     /// Uniform over the projected solid angle on a surface with the unit normal `normal`, [`ProjectedPolygon`]: f·L·cosθ/pdf is then the
     /// same for every sample of a diffuse surface. pdf = cosθ/Ω⊥.
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = ProjectedPolygon::new(self.corners.map(|c| c - p), normal);
-        let Sighting { direction, distance } = seen.sight(u);
-        let pdf = seen.density(direction.dot(normal));
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
+        let pdf = seen.pdf_at_cosine(direction.dot(normal));
         LightSample { direction, distance, pdf, emits: seen.in_front(), delta: R::Mask::splat(false) }
     }
 }

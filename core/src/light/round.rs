@@ -1,6 +1,6 @@
-use super::{LightSample, flat_by_area, sighting, solid_angle_pdf};
+use super::{LightSample, direction_to, flat_by_area, solid_angle_pdf};
 use crate::real::{Mask, Real};
-use crate::seen::{Sighting, SphericalDisk, lanewise};
+use crate::spherical::{DirectionSample, SphericalDisk, lanewise};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{ConcentricDisk, Warp};
 
@@ -35,8 +35,14 @@ impl<R: Real> Disk<R> {
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
         let seen = SphericalDisk::new(self.center - p, self.normal, self.radius);
-        let Sighting { direction, distance } = seen.sight(u);
-        LightSample { direction, distance, pdf: seen.density(), emits: seen.in_front(), delta: R::Mask::splat(false) }
+        let DirectionSample { direction, distance } = seen.sample_direction(u);
+        LightSample {
+            direction,
+            distance,
+            pdf: seen.uniform_pdf(),
+            emits: seen.in_front(),
+            delta: R::Mask::splat(false),
+        }
     }
 }
 
@@ -61,12 +67,12 @@ impl<R: Real> Cylinder<R> {
     /// - Degenerate: a radius or axis of 0: pdf 0.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
-        let Sighting { direction: along, distance: length } = sighting(self.axis);
+        let DirectionSample { direction: along, distance: length } = direction_to(self.axis);
         let frame = Frame::new(along);
         let (sin, cos) = u.y.sin_cos_turns();
         let normal = frame.s * cos + frame.t * sin;
         let point = self.axis.mul_add(u.x, self.p - p) + normal * self.radius;
-        let Sighting { direction, distance } = sighting(point);
+        let DirectionSample { direction, distance } = direction_to(point);
         let cos = direction.dot(normal);
         let area = self.radius * length * R::lit(2.0 * core::f64::consts::PI);
         let pdf = solid_angle_pdf(distance, cos.abs() * area);

@@ -20,7 +20,7 @@ fn dekker<R: Real>(a: R, b: R, p: R, splitter: f64) -> R {
 macro_rules! shared {
     ($splitter:expr) => {
         #[inline(always)]
-        fn product_error(a: Self, b: Self, product: Self) -> Self {
+        fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
             #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
             return Real::mul_add(a, b, -product);
             #[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
@@ -150,6 +150,7 @@ macro_rules! scalar_real {
             type Mask = bool;
             type Uint = u32;
             const LANES: usize = 1;
+            const ONE_MINUS_EPSILON: Self = 1.0 - 1.0 / 16_777_216.0;
             #[inline(always)]
             fn splat(value: $scalar) -> Self {
                 value
@@ -224,7 +225,7 @@ macro_rules! scalar_real {
                 $packet::splat(self).mul_add($packet::splat(a), $packet::splat(b)).to_array()[0]
             }
             #[inline(always)]
-            fn exponent_reciprocal(self) -> Self {
+            fn pow2_scale(self) -> Self {
                 $scalar::from_bits($bits::wrapping_sub($reflected, self.to_bits() & $exponent))
                     .max($scalar::MIN_POSITIVE * 0.5)
             }
@@ -268,6 +269,7 @@ macro_rules! packet_real {
             type Mask = $mask;
             type Uint = $uint;
             const LANES: usize = $lanes;
+            const ONE_MINUS_EPSILON: Self = $packet::splat(1.0 - 1.0 / 16_777_216.0);
             #[inline(always)]
             fn splat(value: $scalar) -> Self {
                 $packet::splat(value)
@@ -351,7 +353,7 @@ macro_rules! packet_real {
                 $packet::mul_add(self, a, b)
             }
             #[inline(always)]
-            fn exponent_reciprocal(self) -> Self {
+            fn pow2_scale(self) -> Self {
                 $packet::from_bits($bits::splat($reflected) - (self.to_bits() & $bits::splat($exponent)))
                     .fast_max($packet::splat($scalar::MIN_POSITIVE * 0.5))
             }

@@ -27,7 +27,7 @@ impl<R: Real> Bilinear<R> {
     fn marginal(&self) -> (Linear<R>, [R; 4]) {
         let zero = R::lit(0.0);
         let [a, b, c, d] = self.corners.map(|w| w.max(zero));
-        let scale = a.max(b).max(c.max(d)).exponent_reciprocal();
+        let scale = a.max(b).max(c.max(d)).pow2_scale();
         let [a, b, c, d] = [a, b, c, d].map(|w| w * scale);
         (Linear { a: a + b, b: c + d }, [a, b, c, d])
     }

@@ -40,7 +40,7 @@ impl<R: Real> Cone<R> {
     }
     /// The density inside: 1/(2πh), or 0 for an empty cone.
     #[inline(always)]
-    pub fn density(&self) -> R {
+    pub fn uniform_pdf(&self) -> R {
         let h = self.height();
         // a subnormal h has no finite reciprocal
         let some = h.gt(R::lit(1e-37));
@@ -68,7 +68,7 @@ impl<R: Real> Cone<R> {
     /// The pdf of a direction that a frame has turned there and back.
     #[inline(always)]
     pub(crate) fn pdf_in_frame(&self, w: Vec3<R>) -> R {
-        self.density().keep(self.contains_turned(one_minus_z(w)))
+        self.uniform_pdf().keep(self.contains_turned(one_minus_z(w)))
     }
 }
 
@@ -95,7 +95,7 @@ impl<R: Real> Warp<R> for Cone<R> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        self.density().keep(self.contains(one_minus_z(w)))
+        self.uniform_pdf().keep(self.contains(one_minus_z(w)))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

@@ -40,7 +40,7 @@ impl<R: Real> Exponential<R> {
         let limit = R::lit(1000.0);
         let x = x.clamp(R::lit(0.0), R::lit(GREATEST)).min(limit / rate);
         let depth = rate * x;
-        (depth, R::product_error(rate, x, depth))
+        (depth, R::two_prod_error(rate, x, depth))
     }
 }
 

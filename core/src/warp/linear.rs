@@ -35,7 +35,7 @@ impl<R: Real> Linear<R> {
     fn scaled(&self) -> (R, R, R, R::Mask) {
         let zero = R::lit(0.0);
         let (a, b) = (self.a.max(zero), self.b.max(zero));
-        let scale = a.max(b).exponent_reciprocal();
+        let scale = a.max(b).pow2_scale();
         let (a, b) = (a * scale, b * scale);
         let some = (a + b).gt(zero);
         // without a density: uniform, so that the point is finite

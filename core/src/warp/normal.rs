@@ -43,7 +43,7 @@ impl<R: Real> Normal<R> {
         let d = d.clamp(-limit, limit);
         let z = (d * inverse).clamp(R::lit(-20.0), R::lit(20.0));
         let product = z * sigma;
-        let rest = (d - product) - (R::product_error(z, sigma, product) - lost);
+        let rest = (d - product) - (R::two_prod_error(z, sigma, product) - lost);
         // not a number where something overflowed, which takes |x|, |μ| or σ beyond 1e37
         (z, rest.keep(rest.abs().le(sigma)) * inverse, inverse)
     }

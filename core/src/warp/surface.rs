@@ -1,7 +1,7 @@
 use super::{Bilinear, ConcentricDisk, UniformSphere, Warp, unit_interval};
 use crate::math::atan2_turns;
 use crate::real::Real;
-use crate::seen::lanewise;
+use crate::spherical::lanewise;
 use crate::vector::{Frame, Vec2, Vec3};
 
 /// 1/area, where that is finite.
@@ -226,7 +226,7 @@ impl<R: Real> PatchSurface<R> {
     #[inline(always)]
     fn in_units(&self) -> (Self, R, R::Mask) {
         let reach = self.u.max_abs().max(self.v.max_abs()).max(self.w.max_abs());
-        let (scale, finite) = (reach.exponent_reciprocal(), reach.lt(R::lit(1e37)));
+        let (scale, finite) = (reach.pow2_scale(), reach.lt(R::lit(1e37)));
         let scaled = |e: Vec3<R>| Vec3::new(e.x.keep(finite), e.y.keep(finite), e.z.keep(finite)) * scale;
         let unit = Self { p: Vec3::default(), u: scaled(self.u), v: scaled(self.v), w: scaled(self.w) };
         (unit, scale, finite)
@@ -266,7 +266,7 @@ impl<R: Real> PatchSurface<R> {
     }
     /// The density per unit area at (s, t).
     #[inline(always)]
-    pub fn density(&self, st: Vec2<R>) -> R {
+    pub fn pdf_at(&self, st: Vec2<R>) -> R {
         let area = self.normal(st).length();
         self.parameters().pdf(st) * reciprocal(area)
     }
@@ -276,7 +276,7 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let (unit, scale, _) = self.in_units();
-        finite(self.p + unit.offset(self.parameters().sample(u)) * scale.exponent_reciprocal())
+        finite(self.p + unit.offset(self.parameters().sample(u)) * scale.pow2_scale())
     }
     #[inline(always)]
     fn pdf(&self, point: Vec3<R>) -> R {
@@ -288,8 +288,8 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
         let slack = R::lit(SLACK) * (self.p.max_abs() * scale + R::lit(2.0));
         let beyond = |x: R, side: Vec3<R>| (x - x.clamp(zero, one)).abs() * side.length();
         let inside = beyond(st.x, d.mul_add(st.y, unit.u)).le(slack) & beyond(st.y, d.mul_add(st.x, unit.v)).le(slack);
-        let st = Vec2 { x: st.x.clamp(zero, R::below_one()), y: st.y.clamp(zero, R::below_one()) };
-        self.density(st).keep(inside & finite)
+        let st = Vec2 { x: st.x.clamp(zero, R::ONE_MINUS_EPSILON), y: st.y.clamp(zero, R::ONE_MINUS_EPSILON) };
+        self.pdf_at(st).keep(inside & finite)
     }
     #[inline(always)]
     fn invert(&self, point: Vec3<R>) -> Vec2<R> {

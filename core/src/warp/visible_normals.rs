@@ -47,7 +47,7 @@ impl<R: Real> GgxVisibleNormals<R> {
     pub fn new(alpha_x: R, alpha_y: R, wi: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // to a length near 1, exactly, so that no square over- or underflows
-        let view = (wi * wi.max_abs().exponent_reciprocal()).normalize();
+        let view = (wi * wi.max_abs().pow2_scale()).normalize();
         let least = R::lit(1e-15);
         let rough = alpha_x.gt(least) & alpha_y.gt(least) & alpha_x.lt(R::lit(1e15)) & alpha_y.lt(R::lit(1e15));
         let alpha = Vec2::new(R::select(rough, alpha_x, one), R::select(rough, alpha_y, one));
@@ -116,7 +116,7 @@ impl<R: Real> Warp<R> for GgxVisibleNormals<R> {
         // (1 − u₀h) + (h − 1)
         let z = (self.height * (R::lit(1.0) - u.x)).max(R::lit(0.0));
         let m = Vec3::new(x, y, z);
-        let m = (m * m.max_abs().exponent_reciprocal()).normalize();
+        let m = (m * m.max_abs().pow2_scale()).normalize();
         let up = Vec3::new(R::lit(0.0), R::lit(0.0), R::lit(1.0));
         Vec3::select(m.length_squared().gt(R::lit(0.5)), m, up)
     }
@@ -127,7 +127,7 @@ impl<R: Real> Warp<R> for GgxVisibleNormals<R> {
     #[inline(always)]
     fn invert(&self, m: Vec3<R>) -> Vec2<R> {
         let h = Vec3::new(m.x * self.inverse_alpha.x, m.y * self.inverse_alpha.y, m.z);
-        let h = (h * h.max_abs().exponent_reciprocal()).normalize();
+        let h = (h * h.max_abs().pow2_scale()).normalize();
         let cos = self.stretched.dot(h);
         let c = h.mul_add(cos + cos, -self.stretched);
         let near = Cone { one_minus_cos: self.height }.invert(c);

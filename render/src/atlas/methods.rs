@@ -3,8 +3,8 @@
 use super::pose::{Kind, Pose, Shape};
 use super::textbook::{self, Excess, add};
 use etendue::light::Polygon;
-use etendue::seen::{
-    ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, Sighting, SphereCap, SphericalDisk,
+use etendue::spherical::{
+    DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::{Disk, LightSample, Line, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp};
@@ -197,9 +197,9 @@ pub fn methods(kind: Kind) -> Vec<Method> {
     });
     match kind {
         Kind::Sphere => vec![
-            ours("SphereCap", |pose, draw| {
+            ours("SphericalCap", |pose, draw| {
                 let (center, radius, _) = sphere(pose);
-                draw.warp(&SphereCap::new(vector(center), radius));
+                draw.warp(&SphericalCap::new(vector(center), radius));
             }),
             sphere_area,
             textbook("cone, 1-cos naive", |pose, draw| {
@@ -215,7 +215,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
             ours("ProjectedCap", |pose, draw| {
                 let (center, radius, normal) = sphere(pose);
                 let map = ProjectedCap::new(vector(center), radius, vector(normal));
-                draw.projected(&map, |cos| map.density(cos), vector(normal));
+                draw.projected(&map, |cos| map.pdf_at_cosine(cos), vector(normal));
             }),
             sphere_area,
             textbook("closed form of the density", |pose, draw| {
@@ -318,7 +318,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 let (p, u, v) = flat(pose);
                 let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
                 let map = ProjectedTriangle::with_edges(p, p + u, p + v, u, v, n);
-                draw.projected(&map, |cos| map.density(cos), n);
+                draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
             }),
             triangle_area,
             textbook("Lambert by arc cosines", |pose, draw| {
@@ -334,7 +334,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 let (p, u, v) = flat(pose);
                 let n = vector(pose.normal);
                 let map = ProjectedPolygon::parallelogram(vector(p), vector(u), vector(v), n);
-                draw.projected(&map, |cos| map.density(cos), n);
+                draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
             }),
             area,
             textbook("Lambert by arc cosines", |pose, draw| {
@@ -349,7 +349,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
             ours("ProjectedPolygon of 6", |pose, draw| {
                 let n = vector(pose.normal);
                 let map = ProjectedPolygon::new(corners(pose).map(vector), n);
-                draw.projected(&map, |cos| map.density(cos), n);
+                draw.projected(&map, |cos| map.pdf_at_cosine(cos), n);
             }),
             polygon_area,
             textbook("Lambert by arc cosines", |pose, draw| {
@@ -377,7 +377,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                     (1.0 - cos * cos).max(0.0).sqrt() * w.dot(n).max(0.0) / whole
                 };
                 draw.each(|u, _| {
-                    let Sighting { direction: w, distance } = map.sight(u[0]);
+                    let DirectionSample { direction: w, distance } = map.sample_direction(u[0]);
                     let pdf = pdf(w);
                     Sample { weight: pdf * distance, ..Sample::new([w.x, w.y, w.z], pdf, None) }
                 });

@@ -1,7 +1,7 @@
 //! The maps, the table, and the page that shows them.
 
 use super::pose::{Kind, Sweep};
-use super::{Chart, Figures, LIMIT};
+use super::{ErrorMap, Figures, LIMIT};
 use crate::image;
 use std::error::Error;
 use std::fmt::Write as _;
@@ -26,7 +26,7 @@ const MEASURES: [(Measure, &str); 6] = [
     (Measure::Efficiency, "efficiency : by area"),
 ];
 impl Measure {
-    fn of(self, chart: &Chart, cell: &Figures) -> f64 {
+    fn of(self, chart: &ErrorMap, cell: &Figures) -> f64 {
         match self {
             Self::Direction => cell.direction,
             Self::Pdf => cell.pdf,
@@ -107,7 +107,7 @@ const MARGIN: [f64; 2] = [62.0, 22.0];
 const STEP: [f64; 2] = [PLOT[0] + 14.0, PLOT[1] + 22.0];
 
 /// One map, its lower left corner of cells at the origin, in cells.
-fn map(chart: &Chart, measure: Measure, out: &mut String) {
+fn map(chart: &ErrorMap, measure: Measure, out: &mut String) {
     let (nx, ny) = (chart.sweep.x.len(), chart.sweep.y.len());
     let at = |i: usize, j: usize| &chart.cells[j * nx + i];
     let value = |i: usize, j: usize| measure.of(chart, at(i, j));
@@ -207,7 +207,7 @@ fn ticks(sweep: &Sweep, x_axis: bool, y_axis: bool, out: &mut String) {
 }
 
 /// All maps of one sweep: techniques across, measures down.
-fn sheet(charts: &[&Chart]) -> String {
+fn sheet(charts: &[&ErrorMap]) -> String {
     let sweep = &charts[0].sweep;
     let (columns, rows) = (charts.len() as f64, MEASURES.len() as f64);
     let (width, height) = (MARGIN[0] + STEP[0] * columns + 4.0, MARGIN[1] + STEP[1] * rows + 30.0);
@@ -273,7 +273,7 @@ impl Summary {
 
 /// Of each kind and technique, in order.
 #[must_use]
-pub fn summary(charts: &[Chart]) -> Vec<Summary> {
+pub fn summary(charts: &[ErrorMap]) -> Vec<Summary> {
     let mut all: Vec<Summary> = Vec::new();
     for chart in charts {
         let method = (chart.method.name, chart.method.ours);
@@ -310,7 +310,7 @@ fn figure(x: f64) -> String {
 
 /// The summary as text.
 #[must_use]
-pub fn table(charts: &[Chart]) -> String {
+pub fn table(charts: &[ErrorMap]) -> String {
     let mut out = format!(
         "{:23} {:40} {:>9} {:>8} {:>10} {:>8}  {:>11} {:>8} {:>8}\n",
         "shape", "technique", "direction", "pdf", "round trip", "bias", "within 1e-5", "unbiased", "invalid"
@@ -352,7 +352,7 @@ fn legend(stops: &[(f64, [u8; 3])], low: i32, high: i32, first: &str, last: &str
     out
 }
 
-fn html(charts: &[Chart], sheets: &[(Kind, Sweep, String)], quick: bool) -> String {
+fn html(charts: &[ErrorMap], sheets: &[(Kind, Sweep, String)], quick: bool) -> String {
     let mut rows = String::new();
     let mut last = None;
     for s in summary(charts) {
@@ -396,7 +396,7 @@ fn html(charts: &[Chart], sheets: &[(Kind, Sweep, String)], quick: bool) -> Stri
         .replace("{{MAPS}}", &maps)
 }
 
-fn table_of_cells(charts: &[Chart]) -> Result<Vec<u8>, Box<dyn Error>> {
+fn table_of_cells(charts: &[ErrorMap]) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut out = csv::Writer::from_writer(Vec::new());
     out.write_record([
         "shape",
@@ -445,11 +445,11 @@ fn table_of_cells(charts: &[Chart]) -> Result<Vec<u8>, Box<dyn Error>> {
 ///
 /// # Errors
 /// Where a file cannot be written.
-pub fn write(charts: &[Chart], directory: &Path, quick: bool) -> Result<(), Box<dyn Error>> {
+pub fn write(charts: &[ErrorMap], directory: &Path, quick: bool) -> Result<(), Box<dyn Error>> {
     let mut sheets: Vec<(Kind, Sweep, String)> = Vec::new();
     let mut rest = charts;
     while let Some(first) = rest.first() {
-        let same = |c: &&Chart| c.kind == first.kind && c.sweep.name == first.sweep.name;
+        let same = |c: &&ErrorMap| c.kind == first.kind && c.sweep.name == first.sweep.name;
         let n = rest.iter().take_while(same).count();
         let (these, others) = rest.split_at(n);
         sheets.push((first.kind, first.sweep.clone(), sheet(&these.iter().collect::<Vec<_>>())));

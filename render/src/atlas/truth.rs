@@ -6,7 +6,7 @@ use super::double_double::{Dd, Dd3, above_horizon, add, cross, dd, dot, lambert,
 use super::flat::{Fan, Window};
 use super::pose::{Kind, Pose, Shape, V3, unit, wide};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use etendue::seen::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
+use etendue::spherical::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
 use etendue::warp::ConcentricDisk;
 use etendue::{Frame, Vec2, Vec3, Warp};
 
@@ -53,7 +53,7 @@ enum Map {
     Disk(Box<Ellipse>),
     Line(Arc),
     Surface(Arc),
-    // the f64 bodies, whose laws the tests hold to closed forms
+    // the f64 bodies, whose properties the tests hold to closed forms
     Lune(Box<ProjectedCap<f64>>),
     Triangle(Box<ProjectedTriangle<f64>>),
     Quad(Box<ProjectedPolygon<f64, 4>>),
@@ -173,7 +173,7 @@ impl Truth {
     }
 
     /// The direction for `u`, computed from the map's definition; but of projected spheres, triangles, parallelograms and polygons it is
-    /// that of the f64 body, whose density the laws of the tests hold to the closed form.
+    /// that of the f64 body, whose density the properties of the tests hold to the closed form.
     #[must_use]
     pub fn direction(&self, u: [f64; 2]) -> V3 {
         match &self.map {
@@ -237,7 +237,7 @@ impl Truth {
 
     /// The density at a direction of the shape: its value, and by how much an error of the direction changes it, per radian.
     #[must_use]
-    pub fn density(&self, w: V3) -> [f64; 2] {
+    pub fn pdf(&self, w: V3) -> [f64; 2] {
         let cos: f64 = (0..3).map(|i| w[i] * self.normal[i]).sum();
         if let Map::Surface(arc) = &self.map {
             let sin: f64 = (0..3).map(|i| w[i] * arc.foot[i]).sum();

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 /// A scene to measure.
 #[derive(Debug)]
-pub struct Subject {
+pub struct ChartedScene {
     /// As the user named it.
     pub name: String,
     /// Ready to be rendered.
@@ -108,7 +108,7 @@ const REPEATS: u32 = 15;
 #[derive(Debug)]
 pub struct Plan {
     /// The scenes.
-    pub subjects: Vec<Subject>,
+    pub scenes: Vec<ChartedScene>,
     /// In the order in which they are rendered: neighbours take turns.
     pub keys: Vec<Key>,
     /// Images of each, of different seeds.
@@ -120,7 +120,7 @@ pub struct Plan {
 impl Plan {
     /// The seed of an image: one for each, so that all are independent.
     fn seed(&self, key: &Key, replicate: u32) -> u64 {
-        let subject = &self.subjects[key.scene].name;
+        let subject = &self.scenes[key.scene].name;
         let text = format!("{subject}/{}/{}/{}/{replicate}", name(key.technique), name(key.sampler), key.spp);
         self.seed.wrapping_add(hash(text.as_bytes()))
     }
@@ -128,7 +128,7 @@ impl Plan {
     #[must_use]
     pub fn work(&self, rows: &Rows) -> u64 {
         let samples = |key: &Key| {
-            let [width, height] = self.subjects[key.scene].size;
+            let [width, height] = self.scenes[key.scene].size;
             u64::from(width) * u64::from(height) * u64::from(key.spp)
         };
         let left = |key: &Key| u64::from(self.replicates) - rows.get(key).map_or(0, |r| r.len() as u64);
@@ -160,14 +160,14 @@ impl Plan {
                     return Ok(());
                 }
                 let row = self.render(key, replicate, &progress);
-                table.append(&self.subjects[key.scene], key, &row)?;
+                table.append(&self.scenes[key.scene], key, &row)?;
                 rows.entry(*key).or_default().push(row);
             }
         }
         Ok(())
     }
     fn render(&self, key: &Key, replicate: u32, progress: impl Fn(u64) + Sync) -> Row {
-        let subject = &self.subjects[key.scene];
+        let subject = &self.scenes[key.scene];
         let [width, height] = subject.size;
         let seed = self.seed(key, replicate);
         let settings = Settings {
@@ -246,7 +246,7 @@ impl Table {
         }
         Ok((Self { writer }, rows, others))
     }
-    fn append(&mut self, subject: &Subject, key: &Key, row: &Row) -> Result<(), Box<dyn Error>> {
+    fn append(&mut self, subject: &ChartedScene, key: &Key, row: &Row) -> Result<(), Box<dyn Error>> {
         let [width, height] = subject.size;
         self.writer.write_record([
             format!("{:016x}", subject.settings),
@@ -282,7 +282,7 @@ impl Plan {
             .keys
             .iter()
             .map(|key| {
-                let Subject { name: scene, settings, .. } = &self.subjects[key.scene];
+                let ChartedScene { name: scene, settings, .. } = &self.scenes[key.scene];
                 let [technique, sampler] = [name(key.technique), name(key.sampler)];
                 let line = [format!("{settings:016x}"), scene.clone(), technique, sampler, key.spp.to_string()];
                 (line, *key)

@@ -82,7 +82,7 @@ struct Spread {
 }
 
 fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
-    let subject = &plan.subjects[scene];
+    let subject = &plan.scenes[scene];
     let [width, height] = subject.size;
     let mut samples = Vec::new();
     let images: Vec<Vec<[f32; 3]>> = (0..u64::from(REPLICATES))
@@ -124,8 +124,8 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
 #[must_use]
 pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
     let plan = &outcome.plan;
-    let scene = plan.subjects.iter().position(|s| s.name == summary.scene).unwrap_or(0);
-    let subject = &plan.subjects[scene];
+    let scene = plan.scenes.iter().position(|s| s.name == summary.scene).unwrap_or(0);
+    let subject = &plan.scenes[scene];
     let size = subject.size;
     let truth = &subject.reference.picture.radiance;
     let of_series = summary.series.iter().flat_map(|s| s.points.iter().map(|p| p.spp));

@@ -147,7 +147,7 @@ pub fn page(
     for (key, value) in &facts {
         let _ = writeln!(rows, "<tr><td>{key}</td><td>{}</td></tr>", escape(value));
     }
-    for subject in &outcome.plan.subjects {
+    for subject in &outcome.plan.scenes {
         let [w, h] = subject.size;
         let _ = writeln!(
             rows,

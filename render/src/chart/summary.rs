@@ -40,7 +40,7 @@ pub struct Point {
 
 impl Point {
     fn new(spp: u32, rows: &[Row], plan: &Plan, key: &Key) -> Self {
-        let reference = &plan.subjects[key.scene].reference;
+        let reference = &plan.scenes[key.scene].reference;
         let costs: Vec<Cost> = rows.iter().map(|r| r.cost(reference)).collect();
         let mut mse = Estimate::of(&costs.iter().map(|c| c.mse).collect::<Vec<_>>());
         mse.half += KNOWN_TO * reference.error;
@@ -177,7 +177,7 @@ impl Summary {
             let errors = of_sampler.filter_map(|s| Some(s.at(spp)?.mse.value)).filter(|m| *m > 0.0);
             errors.fold(f64::INFINITY, f64::min)
         });
-        let scene = plan.subjects[scene].name.clone();
+        let scene = plan.scenes[scene].name.clone();
         Self { scene, series, baseline, spp, gains, target: target.unwrap_or(middle) }
     }
 }

@@ -3,8 +3,8 @@
 use super::charts::Figure;
 use super::plot::{Bar, Chart, Dot, Line, Scale, escape, short};
 use super::stats::Estimate;
-use etendue::seen::{ProjectedCap, SphereCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::sequence::{Independent, Sequence};
+use etendue::spherical::{ProjectedCap, SphericalCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::warp::{
     AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
     PolarDisk, UniformHemisphere, UniformSphere, Warp,
@@ -191,7 +191,7 @@ fn entries() -> Vec<Entry> {
     for (name, scale) in [("", 1.0), (", a thousandth", 1e-3)] {
         // a radius of 0.2 of the distance, and one of 2e-4
         let radius = 0.2 * scale;
-        prepared!(list, format!("sphere cap{name}"), R => SphereCap::new(vector([0.6, 0.0, 0.8]), number::<R>(radius)));
+        prepared!(list, format!("spherical cap{name}"), R => SphericalCap::new(vector([0.6, 0.0, 0.8]), number::<R>(radius)));
         let edges = [[1.0, 0.2, -0.3], [0.1, 0.9, 0.4]].map(|v| v.map(|x| x * scale));
         prepared!(list, format!("spherical triangle{name}"), R => {
             let (v0, e1, e2) = (vector::<R>([-0.3, -0.4, 2.0]), vector::<R>(edges[0]), vector::<R>(edges[1]));

@@ -4,7 +4,7 @@ use super::Finding;
 use super::sheet::Svg;
 use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, Chart, Dot, Line, Scale, short};
-use etendue::seen::{ProjectedCap, SphereCap};
+use etendue::spherical::{ProjectedCap, SphericalCap};
 use etendue::warp::Warp;
 use etendue::{LightSample, Mask, Real, Triangle, Vec2, Vec3, f32x8};
 
@@ -104,7 +104,7 @@ pub(super) fn cap_solid_angle_vs_projected() -> Finding {
     let center = [omega.sin(), omega.cos(), 0.0];
     let vector = |v: [f64; 3]| Vec3::<f32x8>::from(v.map(|x| x as f32));
     let radius = f32x8::splat(sigma.sin() as f32);
-    let cap = SphereCap::new(vector(center), radius);
+    let cap = SphericalCap::new(vector(center), radius);
     let projected = ProjectedCap::new(vector(center), radius, vector([0.0, 1.0, 0.0]));
     let dots = |sample: &dyn Fn(Vec2<f32x8>) -> Vec3<f32x8>, above: bool| -> Vec<Dot> {
         const SIDE: usize = 24;
@@ -160,10 +160,10 @@ pub(super) fn cap_solid_angle_vs_projected() -> Finding {
         delta: !all,
     };
     let up = [0.0, 1.0, 0.0];
-    let (mean, spread) = moments(up, |u| sample(cap.sample(u), cap.density()));
+    let (mean, spread) = moments(up, |u| sample(cap.sample(u), cap.uniform_pdf()));
     let (same, none) = moments(up, |u| {
         let w = projected.sample(u);
-        sample(w, projected.density(w.y))
+        sample(w, projected.pdf_at_cosine(w.y))
     });
     let headline = vec![
         format!("relative variance of one sample of the irradiance: {:.4} by solid angle", spread / (mean * mean)),

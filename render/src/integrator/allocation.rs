@@ -8,7 +8,7 @@
 
 use super::{TILE, Work};
 use crate::accel::{GROUP, Hits, M8, Rays, X8};
-use crate::lens::Eye;
+use crate::lens::Camera;
 use crate::lights::{FEW, Technique};
 use etendue::{Mask, Real, u32x8};
 
@@ -156,7 +156,7 @@ impl Work<'_> {
         let world = self.world;
         let by_light =
             matches!(self.settings.technique, Technique::Area | Technique::SolidAngle | Technique::ProjectedSolidAngle);
-        let Eye::Pinhole(eye) = self.eye else { return None };
+        let Camera::Pinhole(camera) = self.camera else { return None };
         let lights = world.lights.few()?;
         // each light takes a sample at the least, if it is worth it or not: of many, they take half the samples at the most
         let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
@@ -173,7 +173,7 @@ impl Work<'_> {
             for (p, ray) in rays[..count].iter_mut().enumerate() {
                 let at = |of: &dyn Fn(usize) -> u32| X8::from(std::array::from_fn(|lane| of(place(p, lane)) as f32));
                 let (x, y) = (at(&|i| x0 + (i % across) as u32), at(&|i| y0 + (i / across) as u32));
-                let (origin, direction) = eye.ray(x, y);
+                let (origin, direction) = camera.ray(x, y);
                 *ray = world.accel.rays(origin, direction);
             }
             let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];

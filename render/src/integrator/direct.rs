@@ -45,13 +45,13 @@ impl Work<'_> {
             };
             let sample = world.lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
-            let some = sample.pdf.gt(zero) & chosen.probability.gt(zero);
+            let some = sample.pdf.gt(zero) & chosen.pmf.gt(zero);
             lit[p] = surface.reflects & sample.emits & some & cos.gt(zero);
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[p] = world.accel.rays(surface.point, sample.direction);
             limit[p] = sample.distance * X8::lit(SPARED);
             target[p] = chosen.shape;
-            let density = select(lit[p], sample.pdf * chosen.probability, one);
+            let density = select(lit[p], sample.pdf * chosen.pmf, one);
             reflected[p] = product(surface.albedo, chosen.radiance) * (cos * X8::lit(INV_PI) / density);
         }
         world.accel.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);

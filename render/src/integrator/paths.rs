@@ -12,7 +12,7 @@ use super::{Technique, Work, World};
 use crate::accel::{GROUP, Hits, M8, NOTHING, Rays, SHAPE, V8, X8, pick, select};
 use crate::lights::Lights;
 use crate::sampler::{CHOICE, FILM, Packet, SURFACE};
-use etendue::estimate::{Heuristic, density};
+use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Where the paths of a packet end.
@@ -77,7 +77,7 @@ impl Work<'_> {
             } else {
                 self.source.pair(packet, FILM)
             };
-            let (origin, direction) = self.eye.through(&self.source, packet, film);
+            let (origin, direction) = self.camera.through(&self.source, packet, film);
             self.rays[0][p] = world.accel.rays(origin, direction);
             active[p] = packet.active;
             self.count.camera += u64::from(packet.active.bits().count_ones());
@@ -221,13 +221,13 @@ impl Work<'_> {
             };
             let sample = lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
-            let some = sample.pdf.gt(zero) & chosen.probability.gt(zero);
+            let some = sample.pdf.gt(zero) & chosen.pmf.gt(zero);
             lit[p] = surface.reflects & sample.emits & some & cos.gt(zero);
             let (value, surface_pdf) = bsdf.evaluate(sample.direction);
-            let pdf = select(lit[p], sample.pdf * chosen.probability, one);
+            let pdf = select(lit[p], sample.pdf * chosen.pmf, one);
             let weight = match heuristic {
                 None => one,
-                Some(heuristic) => heuristic.weights([density(one, pdf, sample.delta), surface_pdf])[0],
+                Some(heuristic) => heuristic.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0],
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[p] = world.accel.rays(surface.point, sample.direction);

@@ -45,12 +45,12 @@ pub struct Environment {
     /// Rows of the orthogonal matrix that takes a direction of the world to one of the light.
     pub to_light: [[f32; 3]; 3],
     /// Radiance.
-    pub sky: Sky,
+    pub sky: SkyRadiance,
 }
 
 /// Radiance of an [`Environment`], linear RGB.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Sky {
+pub enum SkyRadiance {
     /// The same from everywhere.
     Constant([f32; 3]),
     /// Constant in each texel.
@@ -124,7 +124,10 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
             .map_err(|_| params.error(format!("{name:?}: expected three numbers, found {}", p.len())))
     };
     if kind == "infinite" {
-        return Ok(Source::Environment(Environment { to_light: turned(params, ctm)?, sky: Sky::Constant(colour) }));
+        return Ok(Source::Environment(Environment {
+            to_light: turned(params, ctm)?,
+            sky: SkyRadiance::Constant(colour),
+        }));
     }
     let from = point("from", [0.0; 3])?;
     let position = ctm.point(from).map(|x| x as f32);
@@ -173,7 +176,7 @@ fn picture(
     open: &dyn Fn(&str) -> Result<Picture, ImageError>,
     scale: f64,
     warnings: &mut Vec<Message>,
-) -> Result<Option<Sky>, Message> {
+) -> Result<Option<SkyRadiance>, Message> {
     let image = open(name).map_err(|error| params.error(error.to_string()))?;
     let (width, height) = (image.width, image.height);
     let wrong = |what: String| params.error(format!("{}: {what}", shortened(name)));
@@ -204,5 +207,5 @@ fn picture(
         warnings.push(wrong(format!("{negative} texels have negative values, taken as 0")));
     }
     let black = texels.iter().all(|t| *t == [0.0; 3]);
-    Ok((!black).then_some(Sky::Image { width, map, texels }))
+    Ok((!black).then_some(SkyRadiance::Image { width, map, texels }))
 }

@@ -5,8 +5,8 @@ use super::params::Params;
 use super::shapes::{self, Output, Surface};
 use super::transform::{Transform, length, scaled};
 use super::{
-    BUILTIN_IMAGES, Camera, DeltaLight, Emission, Environment, Film, Lens, Material, Message, Place, Scene, lights,
-    materials, read_file, rounded, utf8,
+    BUILTIN_IMAGES, CameraSettings, DeltaLight, Emission, Environment, FilmSettings, Lens, Material, Message, Place,
+    Scene, lights, materials, read_file, rounded, utf8,
 };
 use crate::image;
 use std::collections::HashMap;
@@ -33,8 +33,8 @@ struct State {
 struct Reader<'a> {
     main_dir: &'a Path,
     is_builtin: bool,
-    camera: Option<Camera>,
-    film: Option<Film>,
+    camera: Option<CameraSettings>,
+    film: Option<FilmSettings>,
     pixel_samples: Option<u32>,
     delta_lights: Vec<DeltaLight>,
     environment: Option<Environment>,
@@ -92,7 +92,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
     Ok(Scene {
         name: name.unwrap_or_else(|| file.to_string()),
         camera,
-        film: reader.film.unwrap_or(Film { width: 1280, height: 720, diagonal: 35.0, filename: None }),
+        film: reader.film.unwrap_or(FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None }),
         pixel_samples: reader.pixel_samples.unwrap_or(16),
         materials: out.materials,
         triangles: out.triangles,
@@ -362,7 +362,7 @@ impl Reader<'_> {
                 params.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32"))
             );
         }
-        let camera = Camera {
+        let camera = CameraSettings {
             origin: world.shift,
             forward: axis([0.0, 0.0, 1.0]),
             right: axis([1.0, 0.0, 0.0]),
@@ -395,7 +395,7 @@ impl Reader<'_> {
             return Err(params.error(format!("\"diagonal\": {diagonal:e} mm is not within 1e-2 and 1e6")));
         }
         let filename = params.text("filename")?;
-        self.film = Some(Film { width: width as u32, height: height as u32, diagonal, filename });
+        self.film = Some(FilmSettings { width: width as u32, height: height as u32, diagonal, filename });
         Ok(())
     }
 

@@ -57,7 +57,10 @@ fn builtin_scenes_have_the_stated_sizes_and_no_warnings() {
         assert!(scene.shapes.iter().all(|shape| shape.emission.is_some_and(|e| !e.two_sided)), "{name}");
         assert!(scene.shapes.iter().all(|shape| scene.materials[shape.material as usize].is_black()), "{name}");
         assert_eq!(scene.pixel_samples, 64, "{name}");
-        assert_eq!(scene.film, Film { width: 256, height: 256, diagonal: 35.0, filename: Some(format!("{name}.exr")) });
+        assert_eq!(
+            scene.film,
+            FilmSettings { width: 256, height: 256, diagonal: 35.0, filename: Some(format!("{name}.exr")) }
+        );
         assert!(scene.triangle_materials.iter().all(|&m| (m as usize) < scene.materials.len()));
     }
 }
@@ -264,7 +267,7 @@ fn shapes_become_what_they_should() {
     assert!(matches!(scene.shapes[2].geometry, Geometry::Parallelogram { .. }));
     assert_eq!(scene.shapes[2].emission, Some(Emission { radiance: [1.0; 3], two_sided: false }));
     assert_eq!((scene.materials.len(), scene.pixel_samples), (1, 16));
-    assert_eq!(scene.film, Film { width: 1280, height: 720, diagonal: 35.0, filename: None });
+    assert_eq!(scene.film, FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None });
 }
 
 #[test]
@@ -287,6 +290,9 @@ fn strings_numbers_and_sizes() {
         "Film \"rgb\" \"string filename\" [\"a\\\\b \\\"c\\\".exr\"]\r\n \"integer xresolution\" 8 \"integer yresolution\" [ 4 ] \"float diagonal\" 5e1\r\n\
          Sampler \"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 5 Camera \"perspective\" \"float fov\" 3.5e1 WorldBegin",
     );
-    assert_eq!(scene.film, Film { width: 8, height: 4, diagonal: 50.0, filename: Some("a\\b \"c\".exr".into()) });
+    assert_eq!(
+        scene.film,
+        FilmSettings { width: 8, height: 4, diagonal: 50.0, filename: Some("a\\b \"c\".exr".into()) }
+    );
     assert_eq!((scene.pixel_samples, scene.camera.fov), (15, 35.0));
 }

@@ -54,7 +54,7 @@ fn infinite_lights_turn_with_their_transform() {
     let scene =
         read(&world("Rotate -90 1 0 0 Scale 3 3 3\nLightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 0.5"));
     let environment = scene.environment.unwrap();
-    assert_eq!(environment.sky, Sky::Constant([0.5, 1.0, 1.5]));
+    assert_eq!(environment.sky, SkyRadiance::Constant([0.5, 1.0, 1.5]));
     // up in the world is z of the light
     let up: [f32; 3] = environment.to_light.map(|row| row[1]);
     assert!(up[0].abs() < 1e-6 && up[1].abs() < 1e-6 && (up[2] - 1.0).abs() < 1e-6, "{up:?}");
@@ -96,8 +96,8 @@ fn images_of_the_sky() {
         parse(&text, "a.pbrt", &folder)
     };
     let texels = |name: &str| match load(name).unwrap_or_else(|e| panic!("{e}")).environment.unwrap().sky {
-        Sky::Image { width, map, texels } => (width, map, texels),
-        Sky::Constant(_) => panic!("not an image"),
+        SkyRadiance::Image { width, map, texels } => (width, map, texels),
+        SkyRadiance::Constant(_) => panic!("not an image"),
     };
     let (width, map, square) = texels("square.exr");
     assert_eq!((width, map, square.len()), (4, EnvironmentMap::EqualArea, 16));
@@ -194,7 +194,10 @@ fn new_builtin_scenes_are_sound() {
         let scene = load(name).unwrap();
         assert_eq!(warnings(&scene), [""; 0], "{name}");
         assert_eq!((scene.name.as_str(), scene.pixel_samples), (*name, 64));
-        assert_eq!(scene.film, Film { width: 256, height: 256, diagonal: 35.0, filename: Some(format!("{name}.exr")) });
+        assert_eq!(
+            scene.film,
+            FilmSettings { width: 256, height: 256, diagonal: 35.0, filename: Some(format!("{name}.exr")) }
+        );
     }
     let cornell = load("cornell-box").unwrap();
     assert_eq!((cornell.triangles.len(), cornell.shapes.len()), (30, 1));

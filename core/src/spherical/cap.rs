@@ -1,0 +1,113 @@
+use super::{DirectionSample, lanewise};
+use crate::real::Real;
+use crate::vector::{Frame, Vec2, Vec3};
+use crate::warp::{Cone, Warp};
+
+lanewise! {
+    /// The directions from a point to a sphere: a [`Cone`] about the direction to its centre.
+    ///
+    /// - Formula: sin²σ = R²/d², cos²σ = (d²−R²)/d² with d²−R² in twice the working precision, h = 1−cosσ = sin²σ/(1+cosσ); then the
+    ///   cone's map. From inside the sphere every direction hits it: h = 2.
+    /// - Domain: any centre and radius > 0, at any distance; on the surface, the half of the directions that look inwards.
+    /// - Density: 1/(2πh) per steradian within the cone (and within 10 ulp of the direction beyond), 0 off it.
+    /// - Degenerate: a radius ≤ 0 (or beyond the reach of f32: R/d < 1e−18) has pdf 0 and samples the direction to the centre.
+    /// - Greatest error: pdf 3.0e−7 relative; direction 4.8e−7; distance 3.6e−7 relative, but for the limb, where its slope is infinite.
+    /// - Source: PBR 4th ed., 6.2.4, in a form without its switch to a series for small spheres.
+    SphericalCap {
+        frame: Frame<R>,
+        cone: Cone<R>,
+        /// d and d²−R² in units of `unit`, the power of two that the lengths were divided by.
+        distance: R,
+        power: R,
+        unit: R,
+    }
+}
+
+impl<R: Real> SphericalCap<R> {
+    /// For a sphere whose centre lies at `center` relative to the point.
+    #[inline]
+    pub fn new(center: Vec3<R>, radius: R) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // a difference that overflowed: nothing to see
+        let finite = center.max_abs().lt(R::lit(f64::INFINITY));
+        let center = Vec3::new(center.x.keep(finite), center.y.keep(finite), center.z.keep(finite));
+        let radius = radius.keep(finite);
+        let scale = center.max_abs().max(radius.abs()).pow2_scale();
+        let (c, r) = (center * scale, radius * scale);
+        let power = c.length_squared_minus_square(r);
+        let squared = c.length_squared();
+        let some = squared.gt(zero);
+        let inverse = one / R::select(some, squared, one);
+        let outside = power.ge(zero) & some;
+        let sin_squared = (r * r * inverse).min(one);
+        let cos = (power.max(zero) * inverse).sqrt();
+        let h = R::select(outside, sin_squared / (one + cos), R::lit(2.0));
+        let distance = squared.sqrt();
+        // in units of its own: the centre may be as near as it likes to a point inside a large sphere
+        let axis = (center * center.max_abs().pow2_scale()).normalize();
+        let somewhere = axis.max_abs().gt(zero);
+        let axis = Vec3::new(axis.x, axis.y, R::select(somewhere, axis.z, one));
+        Self {
+            frame: Frame::new(axis),
+            cone: Cone { one_minus_cos: h.keep(r.gt(zero)) },
+            distance,
+            power,
+            unit: one / scale,
+        }
+    }
+
+    /// Solid angle in steradians; 4π from inside.
+    #[inline]
+    pub fn solid_angle(&self) -> R {
+        self.cone.solid_angle()
+    }
+
+    /// The density of every direction that hits the sphere, 1/Ω.
+    #[inline]
+    pub fn uniform_pdf(&self) -> R {
+        self.cone.uniform_pdf()
+    }
+
+    /// True where the point lies strictly inside the sphere, so that it sees the inner side.
+    #[inline]
+    pub fn inside(&self) -> R::Mask {
+        self.power.lt(R::lit(0.0))
+    }
+
+    /// The direction for `u` and the distance to the sphere along it, without cancellation at grazing or near contact.
+    ///
+    /// With k = 1−cosθ: from outside R²−d²sin²θ = d²(h−k)(2−h−k), and the near root is (d²−R²)/(d cosθ + √·).
+    #[inline]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let h = self.cone.one_minus_cos;
+        let k = u.x * h;
+        let along = self.distance * (one - k);
+        let across = (h * (one - u.x)) * (two - h * (one + u.x));
+        let outside = self.power.ge(zero);
+        let square = R::select(outside, self.distance * self.distance * across, along.mul_add(along, -self.power));
+        let sum = square.max(zero).sqrt() + along.abs();
+        let quotient = self.power.abs() / R::select(sum.gt(zero), sum, one);
+        let far = !outside & along.ge(zero);
+        DirectionSample {
+            direction: self.sample(u),
+            distance: (R::select(far, sum, quotient) * self.unit).min(R::lit(f64::from(f32::MAX))),
+        }
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalCap<R> {
+    type Point = Vec3<R>;
+    #[inline]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.frame.to_world(self.cone.sample(u))
+    }
+    #[inline]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.cone.pdf_in_frame(self.frame.to_local(w))
+    }
+    #[inline]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.cone.invert(self.frame.to_local(w))
+    }
+}

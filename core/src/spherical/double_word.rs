@@ -1,0 +1,78 @@
+//! Products and sums of vectors in twice the working precision, as unevaluated sums of two: what is a small difference of them keeps its
+//! digits. By TwoSum and the error of a product (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot Product", algorithm 5.3).
+
+use crate::math::{rsqrt, two_sum};
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// a·b, rounded once.
+#[inline(always)]
+pub(super) fn compensated_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
+    let [sum, rest] = dot_dw(a, b);
+    sum + rest
+}
+
+/// a·b.
+#[inline(always)]
+pub(super) fn dot_dw<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
+    let product = |a: R, b: R| {
+        let p = a * b;
+        (p, R::two_prod_error(a, b, p))
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
+    let (s, e1) = two_sum(x, y);
+    let (s, e2) = two_sum(s, z);
+    [s, (e1 + e2) + (ex + (ey + ez))]
+}
+
+/// The sum of two such numbers, rounded once.
+#[inline(always)]
+pub(super) fn rounded_sum<R: Real>([a, ra]: [R; 2], [b, rb]: [R; 2]) -> R {
+    let (sum, rest) = two_sum(a, b);
+    sum + (rest + (ra + rb))
+}
+
+/// p·n for an n that is a sum of two, rounded once: the height of a far point over a plane is a small difference.
+#[inline(always)]
+pub(super) fn compensated_height<R: Real>(p: Vec3<R>, n: [Vec3<R>; 2]) -> R {
+    let [sum, rest] = height_dw(p, n);
+    sum + rest
+}
+
+/// The same, not rounded.
+#[inline(always)]
+pub(super) fn height_dw<R: Real>(p: Vec3<R>, [n, more]: [Vec3<R>; 2]) -> [R; 2] {
+    let [sum, rest] = dot_dw(p, n);
+    [sum, rest + p.dot(more)]
+}
+
+/// u×v.
+#[inline(always)]
+pub(super) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
+    let cross = |a: R, b: R, c: R, d: R| {
+        let (ab, cd) = (a * b, c * d);
+        let (sum, error) = two_sum(ab, -cd);
+        (sum, error + (R::two_prod_error(a, b, ab) - R::two_prod_error(c, d, cd)))
+    };
+    let ((x, ex), (y, ey), (z, ez)) = (cross(u.y, v.z, u.z, v.y), cross(u.z, v.x, u.x, v.z), cross(u.x, v.y, u.y, v.x));
+    [Vec3::new(x, y, z), Vec3::new(ex, ey, ez)]
+}
+
+/// a + b of two such sums; of two vectors, with no rests.
+#[inline(always)]
+pub(super) fn sum_dw<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
+    let ((x, ex), (y, ey), (z, ez)) = (two_sum(a.x, b.x), two_sum(a.y, b.y), two_sum(a.z, b.z));
+    [Vec3::new(x, y, z), Vec3::new(ex, ey, ez) + (ra + rb)]
+}
+
+/// A normal of any length to length 1, and without rounding, times a power of two, with one over its length then; z for none.
+#[inline(always)]
+pub(super) fn unit_normal<R: Real>(normal: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let scaled = normal * normal.max_abs().pow2_scale();
+    let squared = scaled.length_squared();
+    let flat = squared.le(zero);
+    let scaled = Vec3::new(scaled.x, scaled.y, R::select(flat, one, scaled.z));
+    let shrink = rsqrt(R::select(flat, one, squared));
+    (scaled * shrink, scaled, shrink)
+}

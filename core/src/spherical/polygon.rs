@@ -1,0 +1,152 @@
+use super::{DirectionSample, SphericalTriangle};
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{Warp, unit_interval};
+
+/// The directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, uniform by solid angle.
+///
+/// A fan of N − 2 [`SphericalTriangle`]s about the first corner: u₀ sweeps about it from the second to the last, from one triangle into
+/// the next without a jump, so that strata of the square stay connected.
+///
+/// - Formula: Ω = ΣΩᵢ; the triangle i for which Ω₁ + … + Ωᵢ first exceeds u₀Ω, at the rest of u₀Ω over Ωᵢ. The triangle is selected
+///   per lane, and its map computed once.
+/// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
+/// - Density: 1/Ω per steradian inside (and within the triangle's slack beyond), 0 outside.
+/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, and source: as the triangle.
+/// - Greatest error: as the parallelogram, from points that are farther from the plane than the corners are by their rounding. From nearer the
+///   fan overlaps itself, and up to all of Ω may be wrong.
+///
+/// ```
+/// use etendue::spherical::SphericalPolygon;
+/// use etendue::{Vec2, Vec3, Warp};
+/// // half a unit above the point, counterclockwise as seen from it
+/// let corners = [[0.5, 0.5], [0.5, -0.5], [-0.5, -0.5], [-0.5, 0.5]].map(|[x, y]| Vec3::new(x, y, 0.5_f32));
+/// let face = SphericalPolygon::new(corners);
+/// // a face of a cube about the point: a sixth of all directions
+/// assert!((face.solid_angle() - 4.0 * std::f32::consts::PI / 6.0).abs() < 1e-6 && face.in_front());
+/// let w = face.sample(Vec2::new(0.3, 0.9));
+/// assert!(face.pdf(w) > 0.0 && face.pdf(Vec3::new(-w.x, -w.y, -w.z)) == 0.0);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct SphericalPolygon<R, const N: usize> {
+    /// The last two are empty.
+    fan: [SphericalTriangle<R>; N],
+    solid_angle: R,
+}
+
+impl<R: Real, const N: usize> SphericalPolygon<R, N> {
+    const TRIANGLES: usize = {
+        assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
+        N - 2
+    };
+    /// For corners relative to the point.
+    #[inline(always)]
+    pub fn new(corners: [Vec3<R>; N]) -> Self {
+        let mut fan = [SphericalTriangle::default(); N];
+        let mut solid_angle = R::lit(0.0);
+        let p = corners[0];
+        for i in 0..Self::TRIANGLES {
+            let (a, b) = (corners[i + 1], corners[i + 2]);
+            fan[i] = SphericalTriangle::new(a, p, b);
+            solid_angle += fan[i].solid_angle();
+        }
+        Self { fan, solid_angle }
+    }
+    /// Prepared for one point: the same in every lane.
+    #[inline(always)]
+    pub fn splat(s: SphericalPolygon<R::Scalar, N>) -> Self {
+        Self { fan: s.fan.map(SphericalTriangle::splat), solid_angle: R::splat(s.solid_angle) }
+    }
+    /// Solid angle in steradians, in [0, 2π].
+    #[inline(always)]
+    pub fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+    /// The density of every direction that hits the polygon, 1/Ω; 0 where Ω is 0.
+    #[inline(always)]
+    pub fn uniform_pdf(&self) -> R {
+        super::reciprocal_or_zero(self.solid_angle)
+    }
+    /// True where the point is on the side from which the corners run counterclockwise.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        // each triangle runs the other way round; one without area says nothing
+        let mut front = R::Mask::splat(false);
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            front = front | (!triangle.in_front() & triangle.solid_angle().gt(R::lit(0.0)));
+        }
+        front
+    }
+    /// Which triangle, `u` within it, and 1−u₀ there: each from the end of the fan that is nearer.
+    #[inline(always)]
+    fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>, R) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (swept, left) = (u.x * self.solid_angle, (one - u.x) * self.solid_angle);
+        // of those behind
+        let mut behind = [zero; N];
+        for i in (1..Self::TRIANGLES).rev() {
+            behind[i - 1] = behind[i] + self.fan[i].solid_angle();
+        }
+        let mut chosen = self.fan[0];
+        let (mut before, mut after, mut sum) = (zero, behind[0], self.fan[0].solid_angle());
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
+            let later = swept.ge(sum) & triangle.solid_angle().gt(zero);
+            chosen = SphericalTriangle::select(later, triangle, &chosen);
+            before = R::select(later, sum, before);
+            after = R::select(later, behind[i], after);
+            sum += triangle.solid_angle();
+        }
+        let whole = chosen.solid_angle();
+        let inverse = one / R::select(whole.gt(zero), whole, one);
+        let late = u.x.gt(R::lit(0.5));
+        let (from, to) = ((swept - before) * inverse, (left - after) * inverse);
+        let x = unit_interval(R::select(late, one - to, from));
+        (chosen, Vec2::new(x, u.y), R::select(late, to, one - from).clamp(zero, one))
+    }
+    /// The direction for `u` and the distance to the polygon along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let (triangle, u, rest) = self.branch(u);
+        triangle.sample_direction_from(u, rest)
+    }
+}
+
+impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let (triangle, u, rest) = self.branch(u);
+        triangle.sample_from(u, rest)
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let mut inside = R::Mask::splat(true);
+        // the sides at the first corner are those of the first and of the last triangle that has an area
+        let (mut begun, mut last) = (R::Mask::splat(false), R::Mask::splat(true));
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            let some = triangle.solid_angle().gt(R::lit(0.0));
+            let first = begun | triangle.within_v0_v1(w);
+            inside = inside & (!some | (first & triangle.within_v2_v0(w) & triangle.ahead(w)));
+            last = (some & triangle.within_v1_v2(w)) | (!some & last);
+            begun = begun | some;
+        }
+        self.uniform_pdf().keep(inside & last)
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let zero = R::lit(0.0);
+        let mut chosen = self.fan[0];
+        let (mut before, mut sum) = (zero, self.fan[0].solid_angle());
+        for triangle in &self.fan[1..Self::TRIANGLES] {
+            let some = triangle.solid_angle().gt(zero);
+            let later = some & (!triangle.beyond_v0_v1(w) | sum.le(zero));
+            chosen = SphericalTriangle::select(later, triangle, &chosen);
+            before = R::select(later, sum, before);
+            sum += triangle.solid_angle();
+        }
+        let u = chosen.invert(w);
+        let some = sum.gt(zero);
+        let swept = u.x.mul_add(chosen.solid_angle(), before);
+        Vec2 { x: unit_interval(swept / R::select(some, sum, R::lit(1.0))), y: u.y }
+    }
+}

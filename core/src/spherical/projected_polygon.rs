@@ -1,0 +1,518 @@
+mod horizon;
+mod piece;
+mod sector;
+
+use super::double_word::{compensated_height, cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
+use super::triangle::SLACK;
+use super::{DirectionSample, lanewise, to_unit};
+use crate::math::{ratio, rsqrt};
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{Warp, unit_interval};
+use horizon::{Exact, clip};
+use piece::{Corners, Piece, narrowest};
+use sector::Sector;
+
+/// In units of the greatest coordinate: what is nearer to the horizon is on it.
+const LEAST_HEIGHT: f64 = 1e-30;
+
+lanewise! {
+    /// The directions from a point to a triangle above the horizon of a surface normal, by projected solid angle: with density
+    /// proportional to the cosine to the normal.
+    ///
+    /// What the horizon leaves is a triangle, or two. Each is swept by azimuth about the normal, between its first and last vertex: up to
+    /// the azimuth of the middle one from the first, and from there on to the last (about the zenith, from each vertex to the next), so
+    /// that in every sector two edges meet in a vertex, an outer (lower) one and an inner one. u₀ is the share of the area on the unit
+    /// disk that is swept, u₁ goes from the inner edge to the outer, uniform in the squared radius.
+    ///
+    /// - Formula: at the angle θ from that vertex along the outer edge, let z = ζ cosθ + τ sinθ be the height, D = sinδ sinθ the distance
+    ///   from the inner edge's plane (δ: between the edges), c and k the cosines of both planes to the horizon, and y = D(2kz + D). Squared
+    ///   radii are as k² : k² + y; the area is ½c ∫ y/(k² + y) dθ = ½(cθ − k atan2(c sinθ, k cosθ + ζ sinδ sinθ)). Its difference of
+    ///   arcs is formed from c − k and the angle between their ends; up to tangents x, v of 0.7 as
+    ///   ½c (x²/B)(Zθ/x + x(G − Zx)(c/k + B)/B² · ∫₀¹ t²/((1+x²t²)(1+v²t²)) dt), Z = ζ sinδ/k, G = c/k − 1, B = 1 + Zx, which is good to
+    ///   parts of itself at any size. Newton's method inverts it in x², or in θ in a bracket, until a step is below 3e−4 of the angle. The
+    ///   direction is the point of the outer edge and a displacement. Ω⊥ is the sum of the areas.
+    /// - Domain: u in [0, 1)²; any triangle, from any side, in any position to the horizon; a normal of any length.
+    /// - Density: cosθ/Ω⊥ per steradian inside (and within 8 ulp of the direction beyond) and above the horizon, 0 elsewhere.
+    /// - Degenerate: the point in the plane (also inside the triangle), zero area, lengths whose sums overflow, or nothing above the
+    ///   horizon: Ω⊥ = 0 and pdf 0; `sample` gives some vector, of unit length or 0.
+    /// - Greatest error: Ω⊥ 4e−7 relative, and over the atlas at most 1e−5, also of slivers and from next to the triangle's plane, since products and heights that
+    ///   are small differences are formed in twice the working precision. Beyond: overhead 1e−15 over its size and over the sine of the
+    ///   elevation over its plane (that is, below sizes of 1e−6), from less than 1e−3 of its length beside slivers of over 1e3 (1e−9 times the
+    ///   aspect ratio), and in its plane's normal where it covers all but 1e−4 of a hemisphere.
+    ///   Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; from next to the plane of a triangle that surrounds the point a step is worth 1/sin of the
+    ///   elevation, since so much do the areas of the sectors differ. Distance as `SphericalTriangle`. The inverse is that of a
+    ///   direction 1.4e−6 away, times how much longer than wide the triangle is seen, besides as many steps. In a corner a sweep begins like √u₀ (on the
+    ///   horizon ∛u₀): the share counts from the nearer end; within 2⁻²⁴ of the whole its inverse is the nearest `u` below 1, and if the
+    ///   horizon has cut the triangle in two, u₀ near the join belongs to one or the other. About the zenith the inverse of the azimuth at
+    ///   which the sweep begins may be 0 or 1.
+    /// - Source: Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 4, for the sectors of the disk; Lambert for the
+    ///   areas. Sectors from vertices, not between sorted azimuths: where both edges meet every quantity is a length or a volume of the
+    ///   triangle and is small as the triangle is, and the zenith may lie on an edge. The forms without cancellation are derived here.
+    ///
+    /// ```
+    /// use etendue::spherical::ProjectedTriangle;
+    /// use etendue::{Vec2, Vec3, Warp};
+    /// // an eighth of the sphere, of which the horizon leaves all: seen on the floor it covers a quarter of the unit disk
+    /// let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0_f32]].map(|[x, y, z]| Vec3::new(x, y, z));
+    /// let seen = ProjectedTriangle::new(x, y, z, z);
+    /// assert!((seen.projected_solid_angle() - std::f32::consts::FRAC_PI_4).abs() < 1e-6);
+    /// let w = seen.sample(Vec2::new(0.3, 0.9));
+    /// assert!((seen.pdf(w) - w.z / std::f32::consts::FRAC_PI_4).abs() < 1e-6);
+    /// ```
+    ProjectedTriangle {
+        normal: Vec3<R>,
+        first: Piece<R>,
+        /// what else the horizon has left, beyond `diagonal`
+        second: Piece<R>,
+        diagonal: Vec3<R>,
+        /// inwards, as long as they are well known
+        pole0: Vec3<R>,
+        pole1: Vec3<R>,
+        pole2: Vec3<R>,
+        /// (v1−v0)×(v2−v0), and V₀· that
+        plane: Vec3<R>,
+        volume: R,
+        unit: R,
+        projected: R,
+    }
+}
+
+/// A triangle: vertices, what the second and third lack if they are rounded, edges from each to the next, products of each vertex and the
+/// next, and (v1−v0)×(v2−v0).
+struct Given<R> {
+    vertices: [Vec3<R>; 3],
+    rests: Option<[Vec3<R>; 2]>,
+    edges: [Vec3<R>; 3],
+    products: [[Vec3<R>; 2]; 3],
+    plane: [Vec3<R>; 2],
+}
+
+/// a − b as a sum of two.
+#[inline(always)]
+fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    sum_dw([a, Vec3::default()], [-b, Vec3::default()])
+}
+
+/// What `v`, the rounded p + e, lacks.
+#[inline(always)]
+fn lack<R: Real>(v: Vec3<R>, p: Vec3<R>, e: [Vec3<R>; 2]) -> Vec3<R> {
+    let [sum, rest] = sum_dw([p, Vec3::default()], e);
+    (sum - v) + rest
+}
+
+/// n + a×b of a sum of two, for a small a×b.
+#[inline(always)]
+fn with_rest<R: Real>([n, rest]: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    [n, rest + a.cross(b)]
+}
+
+impl<R: Real> ProjectedTriangle<R> {
+    /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point, on a surface with the normal `normal`.
+    #[inline]
+    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
+        let edges = [difference(v1, v0), difference(v2, v1), difference(v0, v2)];
+        let product = |v: Vec3<R>, [e, d]: [Vec3<R>; 2]| with_rest(cross_dw(v, e), v, d);
+        let products = [product(v0, edges[0]), product(v1, edges[1]), product(v2, edges[2])];
+        let ([e1, d1], [e2, d2]) = (edges[0], edges[2]);
+        let [plane, rest] = cross_dw(e2, e1);
+        let plane = [plane, rest + (d2.cross(e1) + e2.cross(d1))];
+        let corners = Given { vertices: [v0, v1, v2], rests: None, edges: edges.map(|e| e[0]), products, plane };
+        Self::prepare(&corners, normal, scale)
+    }
+
+    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
+    /// were moved to the point: for a small and far triangle they hold its shape.
+    #[inline]
+    pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
+        let none = Vec3::default();
+        Self::with_sides(
+            [v0, v1, v2],
+            [lack(v1, v0, [e1, none]), lack(v2, v0, [e2, none])],
+            [[e1, none], difference(e2, e1), [-e2, none]],
+            [e1, e2],
+            normal,
+            scale,
+        )
+    }
+
+    /// With all three edges, from each vertex to the next, as sums of two, what the rounded second and third vertex lack, and the plane's normal
+    /// as a product; all lengths below 4.
+    #[inline(always)]
+    fn with_sides(
+        vertices: [Vec3<R>; 3],
+        rests: [Vec3<R>; 2],
+        edges: [[Vec3<R>; 2]; 3],
+        factors: [Vec3<R>; 2],
+        normal: Vec3<R>,
+        scale: R,
+    ) -> Self {
+        let [v0, v1, _] = vertices;
+        let [e0, e1, e2] = edges;
+        let [n, rest] = cross_dw(v1, e1[0]);
+        let products = [
+            with_rest(cross_dw(v0, e0[0]), v0, e0[1]),
+            [n, rest + (v1.cross(e1[1]) + rests[0].cross(e1[0]))],
+            with_rest(cross_dw(v0, e2[0]), v0, e2[1]),
+        ];
+        let plane = cross_dw(factors[0], factors[1]);
+        let corners = Given { vertices, rests: Some(rests), edges: edges.map(|e| e[0]), products, plane };
+        Self::prepare(&corners, normal, scale)
+    }
+
+    #[inline]
+    fn prepare(given: &Given<R>, normal: Vec3<R>, scale: R) -> Self {
+        let zero = R::lit(0.0);
+        let Given { vertices: v, rests, edges: e, products, plane } = *given;
+        let volume = compensated_height(v[0], plane);
+        let plane = plane[0] + plane[1];
+        let (normal, long, shrink) = unit_normal(normal);
+        let over = |v: Vec3<R>, rest: Vec3<R>| {
+            let [z, more] = dot_dw(v, long);
+            [z, more + rest.dot(long)]
+        };
+        let heights = match rests {
+            Some([r1, r2]) => [dot_dw(v[0], long), over(v[1], r1), over(v[2], r2)],
+            None => v.map(|v| dot_dw(v, long)),
+        };
+        // below, the errors of products are subnormal, and the horizon's cut would be rounding
+        let heights = heights.map(|pair| {
+            let some = pair[0].abs().gt(R::lit(LEAST_HEIGHT));
+            pair.map(|x| x.keep(some))
+        });
+        let volumes = products.map(|n| height_dw(long, n));
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let (z, areas) = (heights.map(rounded), volumes.map(rounded));
+        let exact = Exact { edges: e, products, heights, volumes, shrink };
+        let products = products.map(|[n, rest]| n + rest);
+        let m_squared = products.map(Vec3::length_squared);
+        let inverses = m_squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
+        let lengths: [R; 3] = core::array::from_fn(|i| m_squared[i] * inverses[i]);
+        let poles: [Vec3<R>; 3] = core::array::from_fn(|i| products[i] * inverses[i]);
+        let below = z.map(|z| z.lt(zero));
+        let cut = below[0] | below[1] | below[2];
+        let mut corners = Corners { vertices: v, poles, lengths, areas, heights: z, volume };
+        let (mut second, mut diagonal) = (Piece::default(), Vec3::default());
+        if cut.any() {
+            let rest;
+            (corners, rest, diagonal) = clip(&corners, &exact, normal);
+            if rest.volume.abs().gt(zero).any() {
+                second = Piece::new(&rest, normal);
+            }
+        }
+        let mut first = Piece::new(&corners, normal);
+        // what the horizon has left next to nothing of: no `u` but 0 falls into it
+        let least = narrowest::<R>() * (first.area + second.area);
+        for piece in [&mut first, &mut second] {
+            piece.area = piece.area.keep(piece.area.gt(least));
+        }
+
+        let side = |i: usize| {
+            // the plane of vertices that lie nearly opposite is known no better than −cos : sin of their angle: by so much shorter
+            let length = lengths[i];
+            poles[i] * ratio(length, length.max(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
+        };
+        Self {
+            normal,
+            first,
+            second,
+            diagonal,
+            pole0: side(0),
+            pole1: side(1),
+            pole2: side(2),
+            plane,
+            volume,
+            unit: scale.pow2_scale(),
+            // from its plane there is nothing to see, whatever rounding makes of it
+            projected: (first.area + second.area).keep(volume.abs().gt(zero)),
+        }
+    }
+
+    /// Projected solid angle in [0, π]: irradiance per unit of radiance.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    /// The density of a direction that is known to hit the triangle, at a cosine to the normal: cosθ/Ω⊥.
+    #[inline(always)]
+    pub fn pdf_at_cosine(&self, cos: R) -> R {
+        cos.max(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
+    }
+    /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+
+    /// The sector that has the area `swept` before it and `left` behind, and the share of it that is before the azimuth, from its apex.
+    #[inline(always)]
+    fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
+        let (mut sector, mut share) = self.first.choose(swept, left - self.second.area);
+        let some = self.second.area.gt(R::lit(0.0));
+        if some.any() {
+            let later = some & swept.ge(self.first.area);
+            let (other, rest) = self.second.choose(swept - self.first.area, left);
+            sector = Sector::select(later, &other, &sector);
+            share = R::select(later, rest, share);
+        }
+        (sector, share)
+    }
+    /// The distance to the plane along a direction, and whether there is one.
+    #[inline(always)]
+    fn distance(&self, w: Vec3<R>) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let along = w.dot(self.plane).abs();
+        let some = along.gt(zero) & self.projected.gt(zero);
+        // a point of the triangle is within 4 units; what does not fit f32 ends at its largest number
+        let distance = (self.volume.abs() / R::select(some, along, one)).min(R::lit(4.0)) * self.unit;
+        distance.min(R::lit(f64::from(f32::MAX))).keep(some)
+    }
+    /// The direction for `u` and the distance to the triangle along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let direction = self.sample(u);
+        DirectionSample { direction, distance: self.distance(direction) }
+    }
+    /// With its sides' inner faces as those of a triangle that is seen from the front, or not.
+    #[inline(always)]
+    fn faced(self, front: R::Mask) -> Self {
+        let turn = R::lit(1.0).negate_where(front ^ self.in_front());
+        let [pole0, pole1, pole2] = [self.pole0, self.pole1, self.pole2].map(|pole| pole * turn);
+        Self { pole0, pole1, pole2, ..self }
+    }
+    /// The area before a direction of the triangle, and `u` across; `edge`: what a jump of the map is kept away from.
+    #[inline(always)]
+    fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
+        let zero = R::lit(0.0);
+        let mut found = self.first.locate(self.normal, w);
+        let some = self.second.area.gt(zero);
+        if some.any() {
+            let later = some & (w.dot(self.diagonal).gt(zero) | self.first.area.le(zero));
+            let other = self.second.locate(self.normal, w);
+            let before = found.x.min(R::select(some, self.first.area - edge, self.first.area)).max(zero);
+            found.x = R::select(later, self.first.area + other.x.max(edge), before);
+            found.y = R::select(later, other.y, found.y);
+        }
+        found
+    }
+}
+
+/// Inside of all sides, given the least sine over them, give or take the rounding of the direction itself?
+#[inline(always)]
+fn within<R: Real>(least: R) -> R::Mask {
+    least.ge(R::lit(-SLACK))
+}
+/// Does the direction not lead away from the plane with that normal, likewise?
+#[inline(always)]
+fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
+    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(SLACK)))
+}
+
+/// Two steps of u₀: from one part to the next the map may jump, and u₀Ω⊥ is known to so much.
+#[inline(always)]
+fn edge<R: Real>(whole: R) -> R {
+    let step = R::lit(1.0) - R::ONE_MINUS_EPSILON;
+    whole * (step + step)
+}
+
+impl<R: Real> Warp<R> for ProjectedTriangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let (sector, share) = self.choose(u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        sector.direction(self.normal, sector.sweep(share), u.y)
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let least = w.dot(self.pole0).min(w.dot(self.pole1)).min(w.dot(self.pole2));
+        self.pdf_at_cosine(w.dot(self.normal)).keep(within(least) & ahead(w, self.plane, self.in_front()))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let found = self.locate(w, edge(self.projected));
+        Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
+    }
+}
+
+/// The directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, above the horizon of a surface normal, by projected solid
+/// angle: with density proportional to the cosine to the normal.
+///
+/// A fan of N − 2 [`ProjectedTriangle`]s about the first corner, in turn for u₀: each is clipped to the horizon by itself, and there is no
+/// sorting by azimuth, whose order is noise where azimuths are near.
+///
+/// - Formula: Ω⊥ = ΣΩ⊥ᵢ; the triangle i for which Ω⊥₁ + … + Ω⊥ᵢ first exceeds u₀Ω⊥, at the rest of u₀Ω⊥ over Ω⊥ᵢ.
+/// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
+/// - Density: cosθ/Ω⊥ per steradian inside and above the horizon, 0 elsewhere.
+/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, error and source: as the triangle. From one triangle to the
+///   next the map jumps: within the rounding of the areas before, a `u₀` may belong to one or the other, and if the zenith lies on an edge
+///   between two of them to rounding, the direction of a `u` may be another after the last bit of the normal has changed, and its inverse
+///   that of the other triangle. Density and area do not know of that. As [`SphericalPolygon`](super::SphericalPolygon), from no nearer
+///   to the plane than the corners are by their rounding: up to all of Ω⊥ may be wrong there.
+#[derive(Clone, Copy, Debug)]
+pub struct ProjectedPolygon<R, const N: usize> {
+    /// The last two are empty.
+    fan: [ProjectedTriangle<R>; N],
+    /// sums of those of the triangles
+    plane: Vec3<R>,
+    volume: R,
+    projected: R,
+}
+
+impl<R: Real, const N: usize> Default for ProjectedPolygon<R, N> {
+    fn default() -> Self {
+        let zero = R::lit(0.0);
+        Self { fan: [ProjectedTriangle::default(); N], plane: Vec3::default(), volume: zero, projected: zero }
+    }
+}
+
+impl<R: Real> ProjectedPolygon<R, 4> {
+    /// For a parallelogram with the corner `p` relative to the point, and the edges `u` and `v`, on a surface with the normal
+    /// `normal`. Its shape is that of the edges, however small and far it is.
+    #[inline(always)]
+    pub fn parallelogram(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, normal: Vec3<R>) -> Self {
+        let none = Vec3::default();
+        let ([p, u, v, a, b, c], scale) = to_unit([p, u, v, p + u, p + v, p + u + v]);
+        let both = sum_dw([u, none], [v, none]);
+        let (at_a, at_b, at_c) = (lack(a, p, [u, none]), lack(b, p, [v, none]), lack(c, p, both));
+        let mut fan = [ProjectedTriangle::default(); 4];
+        let sides = [[u, none], [v, none], both.map(|e| -e)];
+        fan[0] = ProjectedTriangle::with_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
+        let sides = [both, [-u, none], [-v, none]];
+        fan[1] = ProjectedTriangle::with_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
+        Self::of(fan)
+    }
+}
+
+impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
+    const TRIANGLES: usize = {
+        assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
+        N - 2
+    };
+    /// For corners relative to the point, on a surface with the normal `normal`.
+    #[inline(always)]
+    pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
+        let mut fan = [ProjectedTriangle::default(); N];
+        for i in 0..Self::TRIANGLES {
+            fan[i] = ProjectedTriangle::new(corners[0], corners[i + 1], corners[i + 2], normal);
+        }
+        Self::of(fan)
+    }
+    #[inline(always)]
+    fn of(mut fan: [ProjectedTriangle<R>; N]) -> Self {
+        let mut this = Self { fan: [ProjectedTriangle::default(); N], ..Self::default() };
+        for triangle in &fan[..Self::TRIANGLES] {
+            this.plane += triangle.plane;
+            this.volume += triangle.volume;
+            this.projected += triangle.projected;
+        }
+        let least = narrowest::<R>() * this.projected;
+        for triangle in &mut fan[..Self::TRIANGLES] {
+            triangle.projected = triangle.projected.keep(triangle.projected.gt(least));
+        }
+        // of a triangle between corners in line rounding tells the side
+        let front = this.in_front();
+        Self { fan: fan.map(|triangle| triangle.faced(front)), ..this }
+    }
+    /// Prepared for one point: the same in every lane.
+    #[inline(always)]
+    pub fn splat(s: ProjectedPolygon<R::Scalar, N>) -> Self {
+        Self {
+            fan: s.fan.map(ProjectedTriangle::splat),
+            plane: Vec3::splat(s.plane),
+            volume: R::splat(s.volume),
+            projected: R::splat(s.projected),
+        }
+    }
+    /// Projected solid angle in [0, π]: irradiance per unit of radiance.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    /// The density of a direction that is known to hit the polygon, at a cosine to the normal: cosθ/Ω⊥.
+    #[inline(always)]
+    pub fn pdf_at_cosine(&self, cos: R) -> R {
+        cos.max(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
+    }
+    /// True where the point is on the side from which the corners run counterclockwise.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+    /// The direction for `u` and the distance to the polygon along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let (direction, distance) = self.draw(u, true);
+        DirectionSample { direction, distance }
+    }
+    #[inline]
+    fn draw(&self, u: Vec2<R>, far: bool) -> (Vec3<R>, R) {
+        let zero = R::lit(0.0);
+        let (swept, left) = (u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        // the areas of those behind
+        let mut behind = [zero; N];
+        for i in (1..Self::TRIANGLES).rev() {
+            behind[i - 1] = behind[i] + self.fan[i].projected;
+        }
+        let (mut sector, mut share) = self.fan[0].choose(swept, left - behind[0]);
+        let mut chosen = R::lit(0.0);
+        let mut sum = self.fan[0].projected;
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
+            let some = triangle.projected.gt(zero);
+            if some.any() {
+                let later = swept.ge(sum) & some | (sum.le(zero) & some);
+                let (other, rest) = triangle.choose(swept - sum, left - behind[i]);
+                sector = Sector::select(later, &other, &sector);
+                share = R::select(later, rest, share);
+                chosen = R::select(later, R::lit(i as f64), chosen);
+            }
+            sum += triangle.projected;
+        }
+        let w = sector.direction(self.fan[0].normal, sector.sweep(share), u.y);
+        let mut distance = zero;
+        if far {
+            for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate() {
+                let here = chosen.ge(R::lit(i as f64 - 0.5)) & chosen.lt(R::lit(i as f64 + 0.5));
+                distance = R::select(here, triangle.distance(w), distance);
+            }
+        }
+        (w, distance)
+    }
+}
+
+impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.draw(u, false).0
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        // the outer sides: those between triangles would meet in sharper corners than the polygon has, and what is allowed beside each is more there
+        let mut least = w.dot(self.fan[0].pole0).min(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            least = least.min(w.dot(triangle.pole1));
+        }
+        let inside = within(least) & ahead(w, self.plane, self.in_front());
+        self.pdf_at_cosine(w.dot(self.fan[0].normal)).keep(inside)
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let zero = R::lit(0.0);
+        let edge = edge(self.projected);
+        let mut found = self.fan[0].locate(w, edge);
+        let mut sum = self.fan[0].projected;
+        for triangle in &self.fan[1..Self::TRIANGLES] {
+            let some = triangle.projected.gt(zero);
+            // on the far side of the edge with which the triangle begins
+            let later = some & (w.dot(triangle.pole0).ge(zero) | sum.le(zero));
+            let other = triangle.locate(w, edge);
+            let before = found.x.min(R::select(some, sum - edge, found.x));
+            found.x = R::select(later, sum + other.x.max(edge), before.max(zero));
+            found.y = R::select(later, other.y, found.y);
+            sum += triangle.projected;
+        }
+        Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
+    }
+}

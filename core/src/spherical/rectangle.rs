@@ -1,0 +1,410 @@
+use super::double_word::{compensated_height, cross_dw, dot_dw, rounded_sum};
+use super::{DirectionSample, lanewise};
+use crate::math::{ratio, rsqrt};
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{Warp, unit_interval};
+
+/// Angle by which a sample may leave the rectangle through the rounding of its direction: 8 ulp of a component near 1.
+const SLACK: f64 = 8.0 / 16_777_216.0;
+const INV_FOUR_PI: f64 = 0.25 / core::f64::consts::PI;
+
+lanewise! {
+    /// The directions from a point to a rectangle, uniform by solid angle.
+    ///
+    /// The map is that of Ureña et al.: u₀ moves along `u` so that the area swept on the sphere is u₀Ω, and u₁ along `v` uniformly in
+    /// y/√(x²+y²+z²). Both coordinates are differences from the far edge, formed without cancellation, where the rectangle lies
+    /// to one side of the foot of the perpendicular; elsewhere they are distances from the foot. So a rectangle of 1e−9 of its
+    /// distance is sampled as well as one that fills the hemisphere.
+    ///
+    /// - Formula: x, y, z are coordinates along the edges and the normal, y₀, y₁ the ends in y, x₁ the far end in x, mᵢ² = yᵢ²+z²,
+    ///   ψᵢ = atan(yᵢ/z). The strip \[0, x\]×\[y₀, y₁\] has the solid angle w = asin(X sinψ₁) − asin(X sinψ₀), X = x/√(x²+z²); therefore
+    ///   x = z sinw/√M, M = (cosw−p)(cosw+s) with p = cos(ψ₁−ψ₀), s = cos(ψ₁+ψ₀). With w = w₁ − 2e, 2e = (1−u₀)Ω, and the
+    ///   difference k = cosw − cosw₁ = 2 sin(w₁−e) sin e, M is (k + (cosw₁−p))(k + (cosw₁+s)), and
+    ///   x₁−x = (x₁/sinw₁)² kQ/(√M(x₁√M + z sinw)), Q = sin²w₁(A+B+k) + (cosw+cosw₁)AB with A = cosw₁−p, B = cosw₁+s.
+    ///   With D² = x²+z², h = y/√(D²+y²) = h₁ − (1−u₁)(h₁−h₀): y = Dh/√(1−h²), 1−h² = (1−h₁²) + (h₁−h)(h₁+h).
+    /// - Domain: u in [0, 1)²; any rectangle, from any side. Edges that are not perpendicular are not sheared: use
+    ///   [`SphericalParallelogram`](super::SphericalParallelogram).
+    /// - Density: 1/Ω per steradian inside (and within 8 ulp of the direction beyond), 0 outside.
+    /// - Degenerate: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
+    /// - Greatest error over the atlas: direction 6e−7 (4e−5 of its size if that is 1e−6 and it is seen from 1e−7 over its plane), besides what
+    ///   8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded): u₀ counts from the nearer end where the rectangle lies on both sides of
+    ///   the foot. pdf 5e−7 relative: heights and coordinates are formed in twice the working precision.
+    ///   Next to the plane of a rectangle that surrounds the point nearly all of u₀ and u₁ lies within a direction's rounding: there the inverse
+    ///   is worth nothing.
+    /// - Source: Ureña, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"; the forms without
+    ///   cancellation are derived here from w = w₁ − 2e.
+    SphericalRectangle {
+        /// P = base + X·side_x + Y·side_y, X and Y from the foot or from the far edge
+        base: Vec3<R>,
+        side_x: Vec3<R>,
+        side_y: Vec3<R>,
+        /// planes through the viewpoint and the sides at x₀, x₁, y₀, y₁, pointing inwards, and how far a direction may be beyond
+        near_x: Vec3<R>,
+        far_x: Vec3<R>,
+        near_y: Vec3<R>,
+        far_y: Vec3<R>,
+        slack: Vec2<R>,
+        slack_far: Vec2<R>,
+        /// towards the rectangle's plane
+        normal: Vec3<R>,
+        /// ends, with |x₀| ≤ x₁ and |y₀| ≤ y₁: the sides point so
+        near: Vec2<R>,
+        far: Vec2<R>,
+        size: Vec2<R>,
+        height: R,
+        /// 1 where X or Y is measured from the far edge, 0 where from the foot
+        anchor: Vec2<R>,
+        /// 1 where the side points against the edge
+        flip: Vec2<R>,
+        sin_w1: R,
+        cos_w1: R,
+        inv_sin_w1: R,
+        /// cosw₁ − p, cosw₁ + s
+        above_p: R,
+        above_s: R,
+        /// these of the strip from the foot to x₀, from which the map counts where more than `half` of the area is beyond: ½ if x₀ < 0
+        near_sin: R,
+        near_cos: R,
+        near_above_p: R,
+        near_above_s: R,
+        half: R,
+        solid_angle: R,
+        /// of the rectangle's normal: −1 where the point is on the side to which u×v points
+        side: R,
+        unit: R,
+    }
+}
+
+/// Unit normal of the plane through `p` along `u` and `v`, and p·normal: from a far corner the height is a small difference, and it is formed
+/// in twice the working precision.
+#[inline(always)]
+fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
+    let (u, v) = (u * u.max_abs().pow2_scale(), v * v.max_abs().pow2_scale());
+    let cross = cross_dw(u, v);
+    let (normal, length) = (cross[0] + cross[1]).unit_and_length();
+    let some = length.gt(R::lit(0.0));
+    (normal, (compensated_height(p, cross) / R::select(some, length, R::lit(1.0))).keep(some))
+}
+
+/// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
+///
+/// Where the window lies in one quadrant, two triangles: tan(Ω/2) = zΔxΔy/(…), all terms positive. Elsewhere the two strips on
+/// either side of the foot: tan w = az(b₁r₀−b₀r₁)/(a²b₀b₁ + z²r₀r₁).
+#[inline(always)]
+fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let (across_x, across_y) = (near.x.lt(zero), near.y.lt(zero));
+    let straddles = across_x | across_y;
+    // the axis of the strips crosses the foot
+    let swap = across_y & !across_x;
+    let (a0, b0) = (R::select(swap, near.y, near.x), R::select(swap, near.x, near.y));
+    let (a1, b1) = (R::select(swap, far.y, far.x), R::select(swap, far.x, far.y));
+    let db = R::select(swap, size.x, size.y);
+    let zz = z * z;
+    let (d0, d1) = (a0.mul_add(a0, zz), a1.mul_add(a1, zz));
+    let length = |d: R, b: R| b.mul_add(b, d).sqrt();
+    let (r00, r01, r10, r11) = (length(d0, b0), length(d0, b1), length(d1, b0), length(d1, b1));
+    let bb = b0 * b1;
+    let one_sided = b0.ge(zero);
+    let strip = |a: R, d: R, r0: R, r1: R| {
+        // b₁r₀ − b₀r₁
+        let sum = b1.mul_add(r0, b0.abs() * r1);
+        let cross = R::select(one_sided, ratio(db * (b1 + b0) * d, sum), sum);
+        (a.abs() * z * cross, (a * a).mul_add(bb, zz * (r0 * r1)))
+    };
+    let (s1, c1) = strip(a1, d1, r10, r11);
+    let (s0, c0) = strip(a0, d0, r00, r01);
+    let volume = z * size.x * size.y;
+    let aa = a0 * a1;
+    // inner products of corners
+    let (b0b0, b1b1) = (b0.mul_add(b0, zz), b1.mul_add(b1, zz));
+    let diagonal = aa + bb + zz;
+    let t1 = (r00 * r10).mul_add(r11, (aa + b0b0).mul_add(r11, diagonal.mul_add(r10, (d1 + bb) * r00)));
+    let t0 = (r00 * r01).mul_add(r11, (aa + b1b1).mul_add(r00, diagonal.mul_add(r01, (d0 + bb) * r11)));
+    let first = R::select(straddles, s1, volume).atan2(R::select(straddles, c1, t1));
+    let second = R::select(straddles, s0, volume).atan2(R::select(straddles, c0, t0));
+    (first + second) * R::select(straddles, one, R::lit(2.0))
+}
+
+impl<R: Real> SphericalRectangle<R> {
+    /// For the corners p, p+u, p+u+v, p+v, with p relative to the point and u perpendicular to v.
+    #[inline(always)]
+    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let reach = p.max_abs().max(u.max_abs()).max(v.max_abs());
+        // every point of the rectangle has a finite distance
+        let sum = p.max_abs() + u.max_abs() + v.max_abs();
+        let finite = (sum + sum).lt(R::lit(f64::INFINITY));
+        let scale = reach.pow2_scale();
+        let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
+        let (p, u, v) = (scaled(p), scaled(u), scaled(v));
+        let ((x_axis, dx), (y_axis, dy)) = (u.unit_and_length(), v.unit_and_length());
+        let (z_axis, signed) = normal_and_height(p, u, v);
+        let corners = [p, p + u, p + u + v, p + v];
+
+        let (z, side) = (signed.abs(), one.copysign(signed));
+
+        // both axes point to the far end; of far corners the coordinates are small differences
+        let ends = |size: R, edge: Vec3<R>| {
+            let unit = edge * edge.max_abs().pow2_scale();
+            let squared = unit.length_squared();
+            let inverse = rsqrt(squared).keep(squared.gt(zero));
+            let (from, reach) = (dot_dw(p, unit), dot_dw(edge, unit));
+            let (low, high) = ((from[0] + from[1]) * inverse, rounded_sum(from, reach) * inverse);
+            // a tiny size may be lost in both; the near end is the smaller number
+            let flip = (low + high).lt(zero);
+            let near = R::select(flip, -high, low).max(R::lit(-0.5) * size);
+            (flip, near, near + size)
+        };
+        let (flip_x, x0, x1) = ends(dx, u);
+        let (flip_y, y0, y1) = ends(dy, v);
+        let turn = |v: Vec3<R>, m: R::Mask| Vec3::new(v.x.negate_where(m), v.y.negate_where(m), v.z.negate_where(m));
+        let (side_x, side_y) = (turn(x_axis, flip_x), turn(y_axis, flip_y));
+        let (anchored_x, anchored_y) = ((x0 + x0).ge(x1), (y0 + y0).ge(y1));
+        let far_corner = Vec3::select(
+            flip_x,
+            Vec3::select(flip_y, corners[0], corners[3]),
+            Vec3::select(flip_y, corners[1], corners[2]),
+        );
+        // the point from which X and Y count: from the far corner, or from the foot, whichever is less far
+        let (there_x, there_y) = (x1.keep(anchored_x), y1.keep(anchored_y));
+        let (gone_x, gone_y) = (x1 - there_x, y1 - there_y);
+        let from_corner = far_corner - side_x * gone_x - side_y * gone_y;
+        let from_foot = side_x.mul_add(there_x, side_y.mul_add(there_y, z_axis * signed));
+        let gone = gone_x.max(gone_y);
+        let base = Vec3::select(gone.le(there_x.max(there_y).max(z)), from_corner, from_foot);
+
+        let (zz, yy) = (z * z, y0 * y1);
+        let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
+        let im = ratio(one, (mm0 * mm1).sqrt());
+        let across = y0.lt(zero);
+        // sine and cosine of the strip from the foot to x, cosw − p and cosw + s
+        let strip = |x: R| {
+            let xx = x * x;
+            let d = xx + zz;
+            let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
+            let rr = r0 * r1;
+            let id = ratio(one, d);
+            let sum = y1.mul_add(r0, y0.abs() * r1);
+            let cross = R::select(across, sum * id, ratio(dy * (y1 + y0), sum));
+            // rr ∓ |y₀y₁|, over d where it is the difference
+            let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
+            (
+                x * z * cross * im,
+                xx.mul_add(yy, zz * rr) * id * im,
+                ratio(zz * dy * dy * im, R::select(across, d * (minus + one), plus + d)),
+                zz * im * R::select(across, (plus + d) * id, minus + one),
+            )
+        };
+        let (sin_w1, cos_w1, above_p, above_s) = strip(x1);
+        let straddles = x0.lt(zero);
+        let (near_sin, near_cos, near_above_p, near_above_s) =
+            if straddles.any() { strip(-x0) } else { (zero, zero, zero, zero) };
+        let solid_angle = window(Vec2::new(x0, y0), Vec2::new(x1, y1), Vec2::new(dx, dy), z);
+        let some = finite
+            & solid_angle.gt(R::lit(1e-36))
+            & solid_angle.lt(R::lit(7.0))
+            & sin_w1.gt(zero)
+            & z.gt(R::lit(1e-18));
+
+        // planes of the sides
+        let plane = |a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>| {
+            let (unit, length) = a.cross(edge).unit_and_length();
+            (turn(unit, side.lt(zero)), ratio(-a.dot(b), length).max(one).min(R::lit(1e18)) * R::lit(SLACK))
+        };
+        let (low_x, slack_low_x) = plane(corners[0], corners[3], -v);
+        let (high_x, slack_high_x) = plane(corners[1], corners[2], v);
+        let (low_y, slack_low_y) = plane(corners[0], corners[1], u);
+        let (high_y, slack_high_y) = plane(corners[3], corners[2], -u);
+        Self {
+            base,
+            side_x,
+            side_y,
+            near_x: Vec3::select(flip_x, high_x, low_x),
+            far_x: Vec3::select(flip_x, low_x, high_x),
+            near_y: Vec3::select(flip_y, high_y, low_y),
+            far_y: Vec3::select(flip_y, low_y, high_y),
+            slack: Vec2::new(
+                R::select(flip_x, slack_high_x, slack_low_x),
+                R::select(flip_y, slack_high_y, slack_low_y),
+            ),
+            slack_far: Vec2::new(
+                R::select(flip_x, slack_low_x, slack_high_x),
+                R::select(flip_y, slack_low_y, slack_high_y),
+            ),
+            normal: z_axis * side,
+            near: Vec2::new(x0, y0),
+            far: Vec2::new(x1, y1),
+            size: Vec2::new(dx, dy),
+            height: z,
+            anchor: Vec2::new(one.keep(anchored_x), one.keep(anchored_y)),
+            flip: Vec2::new(one.keep(flip_x), one.keep(flip_y)),
+            sin_w1,
+            cos_w1,
+            inv_sin_w1: ratio(one, sin_w1),
+            above_p,
+            above_s,
+            near_sin,
+            near_cos,
+            near_above_p,
+            near_above_s,
+            half: R::select(straddles, R::lit(0.5), R::lit(2.0)),
+            solid_angle: solid_angle.keep(some),
+            side,
+            unit: one / scale,
+        }
+    }
+
+    /// Solid angle in steradians, in [0, 2π].
+    #[inline(always)]
+    pub fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+    /// The density of every direction that hits the rectangle, 1/Ω; 0 where Ω is 0.
+    #[inline(always)]
+    pub fn uniform_pdf(&self) -> R {
+        ratio(R::lit(1.0), self.solid_angle)
+    }
+    /// True where the point is on the side to which the normal u×v points.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.side.lt(R::lit(0.0))
+    }
+
+    /// The point of the rectangle for `u`.
+    #[inline(always)]
+    fn point(&self, u: Vec2<R>) -> Vec3<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
+        let turned = |u: R, flip: R| R::select(flip.gt(zero), u, one - u);
+        let (left, swept) = (turned(u.x, self.flip.x), turned(one - u.x, self.flip.x));
+        let (v, rest) = (turned(u.y, self.flip.y), turned(one - u.y, self.flip.y));
+
+        // x: from k = cosw − cosw₁, from the nearer end on either side of the foot
+        let near = left.gt(self.half);
+        let part = R::select(near, swept, left);
+        let (sin_w1, cos_w1) =
+            (R::select(near, self.near_sin, self.sin_w1), R::select(near, self.near_cos, self.cos_w1));
+        let (sin_e, cos_e) = (part * (self.solid_angle * R::lit(INV_FOUR_PI))).sin_cos_turns();
+        let sin_d = sin_w1.mul_add(cos_e, -(cos_w1 * sin_e)).max(-one.keep(near));
+        let cos_d = cos_w1.mul_add(cos_e, sin_w1 * sin_e);
+        let sin_w = sin_d.mul_add(cos_e, -(cos_d * sin_e));
+        let k = (sin_d + sin_d) * sin_e;
+        let above_p = k + R::select(near, self.near_above_p, self.above_p);
+        let above_s = k + R::select(near, self.near_above_s, self.above_s);
+        let root = (above_p * above_s).max(zero).sqrt();
+        // where cosw₁ < 0 the difference leaves half of the first term and more
+        let (far_p, far_s) = (self.above_p, self.above_s);
+        let square = self.sin_w1 * self.sin_w1;
+        let q = square.mul_add(far_p + far_s + k, (self.cos_w1 + self.cos_w1 + k) * (far_p * far_s));
+        let from_far = (sin_d + sin_d) * self.inv_sin_w1 * (sin_e * self.inv_sin_w1) * q * x1 * x1;
+        let foot = (z * sin_w).negate_where(near);
+        let anchored = self.anchor.x.gt(zero);
+        let numerator = R::select(anchored, -from_far, foot);
+        let denominator = root * R::select(anchored, x1.mul_add(root, foot), one);
+        let some = denominator.gt(zero);
+        let x = numerator / R::select(some, denominator, one);
+        let x = x.clamp(R::select(anchored, -self.size.x, x0), R::select(anchored, zero, x1));
+        let d = {
+            let x = x + x1.keep(anchored);
+            x.mul_add(x, z * z)
+        };
+
+        // y: from h₁ − h
+        let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
+        let sum = y1.mul_add(r0, y0.abs() * r1);
+        let product = r0 * r1 * sum;
+        let inverse = (one / R::select(product.gt(zero), product, one)).keep(product.gt(zero));
+        let inverse_r = inverse * sum;
+        let inverse_r1 = r0 * inverse_r;
+        let h1 = y1 * inverse_r1;
+        let range = R::select(y0.ge(zero), self.size.y * (y1 + y0) * d * inverse, sum * inverse_r);
+        // before the foot from the near edge, so that both ends keep 1−h²
+        let (h0, down, up) = (y0 * r1 * inverse_r, v * range, rest * range);
+        let before = h0 + up;
+        let below = before.lt(zero);
+        let h = R::select(below, before, h1 - down);
+        let rise = R::select(below, -up, down) * (h + R::select(below, h0, h1));
+        let inverse_end = inverse_r * R::select(below, r1, r0);
+        // √(x²+z²)·√(1−h²)
+        let root = (d * (d * inverse_end).mul_add(inverse_end, rise)).max(zero).sqrt();
+        let anchored = self.anchor.y.gt(zero);
+        let numerator = d * R::select(anchored, -(r1 * rise), h);
+        let denominator = root * R::select(anchored, h1.mul_add(root, h * d * inverse_r1), one);
+        let some = denominator.gt(zero);
+        let y = numerator / R::select(some, denominator, one);
+        let y = y.clamp(R::select(anchored, -self.size.y, y0), R::select(anchored, zero, y1));
+        self.side_x.mul_add(x, self.side_y.mul_add(y, self.base))
+    }
+    /// The direction for `u` and the distance to the rectangle along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let point = self.point(u);
+        let squared = point.length_squared();
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-37)));
+        let distance = squared * inverse * self.unit;
+        DirectionSample { direction: point * inverse, distance: distance.keep(self.solid_angle.gt(R::lit(0.0))) }
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalRectangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let point = self.point(u);
+        let squared = point.length_squared();
+        point * rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let inside = w.dot(self.near_x).ge(-self.slack.x)
+            & w.dot(self.far_x).ge(-self.slack_far.x)
+            & w.dot(self.near_y).ge(-self.slack.y)
+            & w.dot(self.far_y).ge(-self.slack_far.y)
+            & w.dot(self.normal).ge(R::lit(-SLACK));
+        self.uniform_pdf().keep(inside)
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
+        let elevation = w.dot(self.normal).max(R::lit(1e-18));
+        // as in the map, from the far edge, where (x₁−x)/D₁ is the sine of the angle to its plane over that to the rectangle's, or
+        // from the foot: then a wrong elevation moves the point along the direction
+        let number = |side: Vec3<R>, plane: Vec3<R>, far: R, anchor: R| {
+            let anchored = anchor.gt(zero);
+            let distance = far.mul_add(far, z * z).sqrt();
+            R::select(anchored, distance, z) * w.dot(Vec3::select(anchored, plane, side)) / elevation
+        };
+        let along_x = number(self.side_x, self.far_x, x1, self.anchor.x);
+        let along_y = number(self.side_y, self.far_y, y1, self.anchor.y);
+        // where that is beyond an edge by more than its own rounding, the elevation is wrong: the point of the direction on the edge
+        let known = (one - R::ONE_MINUS_EPSILON) * R::lit(4.0) * z / elevation;
+        let within = |number: R, near: R, far: R, anchor: R| {
+            let bound = R::select(number.lt(zero), near, far).abs();
+            let least = number.abs() - known;
+            R::select(least.gt(bound) & anchor.le(zero), bound / least, one)
+        };
+        let scale = within(along_x, x0, x1, self.anchor.x).min(within(along_y, y0, y1, self.anchor.y));
+        let place = |number: R, near: R, far: R, size: R, anchor: R| {
+            let anchored = anchor.gt(zero);
+            let number = R::select(anchored, number, number * scale);
+            let gap = R::select(anchored, number, far - number.max(near)).clamp(zero, size);
+            (R::select(anchored, far - gap, number).clamp(near, far), gap)
+        };
+        let (x, dx) = place(along_x, x0, x1, self.size.x, self.anchor.x);
+        let (y, dy) = place(along_y, y0, y1, self.size.y, self.anchor.y);
+        let u = ratio(window(Vec2::new(x, y0), self.far, Vec2::new(dx, self.size.y), z), self.solid_angle);
+        let d = x.mul_add(x, z * z);
+        let fall = |low: R, gap: R| {
+            // h(y₁) − h(low) without the factor that they share
+            let (r0, r1) = (low.mul_add(low, d).sqrt(), y1.mul_add(y1, d).sqrt());
+            let sum = y1.mul_add(r0, low.abs() * r1);
+            ratio(R::select(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0)
+        };
+        let v = ratio(fall(y, dy), fall(y0, self.size.y));
+        let turned = |u: R, flip: R| R::select(flip.gt(zero), u, one - u);
+        Vec2 { x: unit_interval(turned(u, self.flip.x)), y: unit_interval(turned(v, self.flip.y)) }
+    }
+}

@@ -1,0 +1,537 @@
+use super::double_word::{compensated_height, cross_dw, sum_dw};
+use super::{DirectionSample, lanewise, to_unit};
+use crate::math::rsqrt;
+use crate::real::{Mask, Real};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{Warp, unit_interval};
+
+/// Angle by which a sample may leave a triangle through the error of its direction: 12 ulp of a component near 1.
+const BEYOND: f64 = 12.0 / 16_777_216.0;
+/// The same of one that is drawn by projected solid angle.
+pub(super) const SLACK: f64 = 8.0 / 16_777_216.0;
+const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
+
+lanewise! {
+    /// The directions from a point to a triangle, uniform by solid angle.
+    ///
+    /// The map is Arvo's: u₀ sweeps the great circle through the vertex `v1` from `v0` to `v2` so that the swept area is u₀Ω, and u₁
+    /// moves away from `v1` uniformly in 1−cos. Small differences come from the edges and never from unit vectors, so that a
+    /// triangle of 1e−9 of its distance is sampled as well as a large one; directions come from unit vectors and never from
+    /// points of the plane, so that the plane may be as near as it likes. The height over the plane is formed in twice the working
+    /// precision, so that the point may be as near to it as it likes.
+    ///
+    /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l, cosines d and sums s = Vᵢ/lᵢ + Vⱼ/lⱼ between the V:
+    ///   tan(Ω/2) = G₀/T, G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), T = 1 + d₀₁ + d₀₂ + d₁₂ = sᵢₖ·sⱼₖ for any vertex k (Van Oosterom and Strackee). Where
+    ///   an angle exceeds 120° T is that product, at the vertex of which the others are the least opposite, and a sum of nearly opposite unit vectors
+    ///   follows from the foot h of the perpendicular on their edge: h(1/lᵢ + 1/lⱼ), and along the edge h²(1/lᵢ(lᵢ+|a|) − 1/lⱼ(lⱼ+|b|)).
+    ///   With c the side v0 v1, α the angle at v0, η = u₀Ω/2 and k = tan(c/2), the point P of the far edge lies, in stereographic projection
+    ///   from opposite v1, at X = k − σ cos(α−η)/sinα, Y = σ sin(α−η)/sinα, σ = 2 sinη/sin c; α−η and η count from the end that is
+    ///   nearer. With M = X² + Y² = tan²(∠(V₁,P)/2) and g = 2u₁/(1+M) the direction is zV₁/l₁ + √(g(1+z)) (X, Y), z = 1 − gM, with X
+    ///   along the tangent towards v0. P = (r(r+2b) V₀/l₀ + 2b(r + b(1+d₀₂)) V₂/l₂)/|·|, r = sin(Ω/2−η)/sin(Ω/2), b = (1+d₀₁) sinη/G₀;
+    ///   the distance follows from it, and X and Y too where c is long and that is the better conditioned.
+    /// - Domain: u in [0, 1)²; any triangle, from any side.
+    /// - Density: 1/Ω per steradian inside (and within 12 ulp of the direction beyond), 0 outside.
+    /// - Degenerate: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
+    /// - Greatest error over the atlas (size, elevation, aspect ratio and distance): Ω 5e−7 relative, direction 5.4e−7 (1.4e−5 of π), for
+    ///   edges as they are given; but 7e−5 of Ω beside the middle of an edge that is a million times longer than the triangle is wide
+    ///   and than the point is far. Distance 5.4e−7 of itself over |cos| at the plane, and of the farthest vertex.
+    ///   The inverse is that of a direction 6e−7 away, times how much longer than wide the triangle is seen; from less than 1e−3 of its
+    ///   size over the plane of a triangle that surrounds the point, where most of u₀ belongs to a direction's rounding, it is worth nothing.
+    /// - Source: Arvo 1995, "Stratified Sampling of Spherical Triangles"; Van Oosterom and Strackee 1983 for Ω; Peters 2021,
+    ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry; here on edges.
+    SphericalTriangle {
+        /// planes through the viewpoint and two vertices, pointing inwards, and how far a direction may be beyond: v0 v1, v1 v2, v2 v0
+        side01: Vec3<R>,
+        side12: Vec3<R>,
+        side20: Vec3<R>,
+        slack: Vec3<R>,
+        normal: Vec3<R>,
+        l1: R,
+        /// distance of the farthest vertex: that of no point is more
+        farthest: R,
+        /// unit vector to `v1`, and tangents there: towards `v0`, and across towards `v2`
+        apex: Vec3<R>,
+        along: Vec3<R>,
+        across: Vec3<R>,
+        /// cotangent of the angle at `v0`; 2/sin(side v0 v1); tangent of half that side
+        cot_alpha: R,
+        stretch: R,
+        tan_half: R,
+        /// with H = Ω/2: sin and cos of H, sin and cos of α−H over sinα
+        half: Vec2<R>,
+        turned: Vec2<R>,
+        /// sine of the side v0 v1
+        sin_side: R,
+        inv_l0: R,
+        inv_l2: R,
+        /// (G₁+G₂)/G₀; 1/sin(Ω/2); G₂; G₂/G₀
+        total_over: R,
+        inv_half_sin: R,
+        g2: R,
+        g2_over: R,
+        /// 1+d₀₂; sin² of that side; V₂/l₂ along the tangents at v1; G₁
+        plus02: R,
+        sin02: R,
+        x2: R,
+        y2: R,
+        g1: R,
+        /// V₀·(E₁×E₂), signed: negative where the point is on the side of the normal (v1−v0)×(v2−v0)
+        volume: R,
+        solid_angle: R,
+        unit: R,
+    }
+}
+
+/// What is known better than from the rounded vertices: V₀×V₁, V₀×V₂, V₁×V₂, the normal E₁×E₂, its product with any vertex, and v2−v1.
+pub(super) struct Planes<R> {
+    pub(super) n01: Vec3<R>,
+    pub(super) n02: Vec3<R>,
+    pub(super) n12: Vec3<R>,
+    pub(super) normal: Vec3<R>,
+    pub(super) volume: R,
+    pub(super) edge: Vec3<R>,
+}
+
+/// Va/lₐ + Vb/l_b for a and b more than 90° apart, given their product: with h the foot of the perpendicular on the line through both, good to
+/// parts of itself.
+#[inline]
+fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> Vec3<R> {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let plain = a * ia + b * ib;
+    let opposite = a.dot(b).lt(zero);
+    let edge = b - a;
+    let squared = edge.length_squared();
+    let some = squared.gt(R::lit(1e-36));
+    let inverse = rsqrt(R::select(some, squared, one));
+    let by = inverse * inverse;
+    let foot = edge.cross(n) * by;
+    let height = n.length_squared() * by;
+    let along = edge * inverse;
+    // 1 − |a·along|/lₐ
+    let lack = |v: Vec3<R>, i: R| height * i * i / (one + v.dot(along).abs() * i);
+    let sum = foot.mul_add(ia + ib, along * (lack(a, ia) - lack(b, ib)));
+    Vec3::select(opposite & some, sum, plain)
+}
+
+/// The arc from `v1` to the point P of the far edge.
+struct Arc<R> {
+    /// P in stereographic projection from opposite `v1`: tan(θ/2) times the cosine and the sine of the angle turned by
+    x: R,
+    y: R,
+    /// tan²(θ/2)
+    m: R,
+    /// sine of the half of the area swept, and sine of that left over that of the whole
+    swept: [R; 2],
+}
+
+impl<R: Real> SphericalTriangle<R> {
+    /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point.
+    #[inline(always)]
+    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
+        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
+        let none = Vec3::default();
+        let ([e1, d1], [e2, d2]) = (sum_dw([v1, none], [-v0, none]), sum_dw([v2, none], [-v0, none]));
+        let [normal, rest] = cross_dw(e1, e2);
+        let rest = rest + (d1.cross(e2) + e1.cross(d2));
+        let volume = compensated_height(v0, [normal, rest]);
+        let (n01, n02, n12) = (v0.cross(v1), v0.cross(v2), v1.cross(v2));
+        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 }, scale)
+    }
+
+    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
+    /// were moved to the point: for a small and far triangle they hold its shape. The planes through the point are those of `v0` and the
+    /// edges.
+    #[inline(always)]
+    pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
+        let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
+        let exact = cross_dw(e1, e2);
+        let (normal, volume) = (exact[0] + exact[1], compensated_height(v0, exact));
+        // v1×v2 = (v0+e1)×(v0+e2)
+        let [n12, rest] = sum_dw(exact, sum_dw(cross_dw(v0, e2), cross_dw(e1, v0)));
+        let (n01, n02, n12) = (v0.cross(e1), v0.cross(e2), n12 + rest);
+        Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal, volume, edge: e2 - e1 }, scale)
+    }
+
+    /// With all lengths below 4.
+    #[inline(always)]
+    pub(super) fn prepare([v0, v1, v2]: [Vec3<R>; 3], planes: &Planes<R>, scale: R) -> Self {
+        let Planes { n01, n02, n12, normal, volume, edge } = *planes;
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let squared = [v0, v1, v2].map(Vec3::length_squared);
+        let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
+        let (d01, d02) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2);
+        let inverse = |n: Vec3<R>| {
+            let squared = n.length_squared();
+            rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
+        };
+        let i01 = inverse(n01);
+        let (l0, l1, l2) = (squared[0] * i0, squared[1] * i1, squared[2] * i2);
+        let sin_side = n01.length_squared() * i01 * i0 * i1;
+        let inv_sin_side = i01 * l0 * l1;
+        let stretch = R::lit(2.0) * inv_sin_side;
+        // 1−d₀₁ and 1+d₀₁, the small one from the sine
+        let small = sin_side * sin_side / (one + d01.abs());
+        let obtuse = d01.lt(zero);
+        let (minus, g2) = (R::select(obtuse, one - d01, small), R::select(obtuse, small, one + d01));
+        let tan_half = minus * inv_sin_side;
+        let g0 = volume.abs() * i0 * i1 * i2;
+        // (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
+        let apex = v1 * i1;
+        let mut total = (v0 * i0 + apex).dot(v2).mul_add(i2, g2);
+        let towards = volume.lt(zero);
+        let pole = n01 * i01;
+        let along = apex.cross(pole);
+        // V₂/l₂ along the tangents at v1, and 1+d₁₂
+        let d12 = apex.dot(v2) * i2;
+        let (mut x2, y2) = (along.dot(edge) * i2, volume.abs() * i01 * i2);
+        let (mut plus12, mut plus02) = (one + d12, one + d02);
+        let sin02 = n02.length_squared() * (i0 * i2) * (i0 * i2);
+        // a side of more than 120° is rare: the work is done where there is one
+        let wide = d01.min(d02).min(d12).lt(R::lit(-0.5));
+        if wide.any() {
+            let sums = [
+                sum_of_units([v0, v1], [i0, i1], n01),
+                sum_of_units([v0, v2], [i0, i2], n02),
+                sum_of_units([v1, v2], [i1, i2], n12),
+            ];
+            // 1 + d₀₁ + d₀₂ + d₁₂ at the vertex from which the others are not opposite
+            let at0 = sums[0].dot(sums[1]);
+            let at1 = sums[0].dot(sums[2]);
+            let at2 = sums[1].dot(sums[2]);
+            let sum = R::select(d01.gt(d02.max(d12)), at2, R::select(d02.gt(d12), at1, at0));
+            total = R::select(wide, sum, total);
+            x2 = R::select(wide, -(n01.dot(n12) * i01 * i1 * i2), x2);
+            let behind = x2.mul_add(x2, y2 * y2) / (one + d12.abs());
+            plus12 = R::select(wide & d12.lt(zero), behind, plus12);
+            plus02 = R::select(wide & d02.lt(zero), sin02 / (one + d02.abs()), plus02);
+        }
+        let across = Vec3::select(towards, -pole, pole);
+        // sinα : cosα = |volume| l₀ : n₀₁·n₀₂
+        let opposite = volume.abs() * l0;
+        let angle = opposite.gt(R::lit(1e-37));
+        let cot_alpha = (n01.dot(n02) / R::select(angle, opposite, one)).keep(angle);
+        // at a vertex all of them are 0, and so is the angle
+        let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
+        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(somewhere);
+        let inv_g0 = one / R::select(g0.gt(R::lit(1e-37)), g0, one);
+        // the same from v2, where the sweep ends: P there has the coordinates (X, Y) = (tanδ₂/2) (cosψ, sinψ)
+        let squared = g0.mul_add(g0, total * total).max(R::lit(1e-36));
+        let over = rsqrt(squared);
+        let half = Vec2::new(g0 * over, total * over);
+        let inv_half_sin = inv_g0 * squared * over;
+        let by_plus = one / plus12.max(R::lit(1e-30));
+        // over sin(Ω/2) · 2/sin c
+        let by_swept = R::lit(0.5) * sin_side * inv_half_sin;
+        let some = by_swept.lt(R::lit(1e30));
+        let most = R::lit(1e18);
+        let turned = Vec2::new(
+            (y2 * by_plus * by_swept).min(most).keep(some),
+            (x2.mul_add(-by_plus, tan_half) * by_swept).clamp(-most, most).keep(some),
+        );
+        // the great circles through v0 and v1, from which the map starts, or through vertices that lie nearly opposite are known no better
+        // than −cos : sin of their angle; to the one through v1 and v2 the map comes along the one from v0 to v2
+        let start = -d01 / R::select(sin_side.gt(zero), sin_side, one);
+        let inwards = |n: Vec3<R>| Vec3::select(towards, -n, n);
+        let start = start.max(one).min(R::lit(1e18));
+        let far = start.max(-d02 * rsqrt(sin02.max(R::lit(1e-7))));
+        let slack = |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).max(-a.dot(b)) * R::lit(BEYOND);
+        Self {
+            side01: inwards(n01),
+            side12: inwards(n12),
+            side20: inwards(-n02),
+            slack: Vec3::new(slack(n01, v0, v1, start), slack(n12, v1, v2, far), slack(n02, v2, v0, start)),
+            normal,
+            l1,
+            farthest: l0.max(l1).max(l2),
+            apex,
+            along,
+            across,
+            cot_alpha,
+            stretch,
+            tan_half,
+            half,
+            turned,
+            sin_side,
+            inv_l0: i0,
+            inv_l2: i2,
+            total_over: total * inv_g0,
+            inv_half_sin,
+            g2,
+            g2_over: g2 * inv_g0,
+            plus02,
+            sin02,
+            x2,
+            y2,
+            g1: total - g2,
+            volume,
+            solid_angle,
+            unit: scale.pow2_scale(),
+        }
+    }
+
+    /// `yes` where the mask is true, `no` elsewhere.
+    #[inline(always)]
+    pub(crate) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
+        let real = |a, b| R::select(mask, a, b);
+        let vector = |a, b| Vec3::select(mask, a, b);
+        Self {
+            side01: vector(yes.side01, no.side01),
+            side12: vector(yes.side12, no.side12),
+            side20: vector(yes.side20, no.side20),
+            slack: vector(yes.slack, no.slack),
+            normal: vector(yes.normal, no.normal),
+            l1: real(yes.l1, no.l1),
+            farthest: real(yes.farthest, no.farthest),
+            apex: vector(yes.apex, no.apex),
+            along: vector(yes.along, no.along),
+            across: vector(yes.across, no.across),
+            cot_alpha: real(yes.cot_alpha, no.cot_alpha),
+            stretch: real(yes.stretch, no.stretch),
+            tan_half: real(yes.tan_half, no.tan_half),
+            half: Vec2::new(real(yes.half.x, no.half.x), real(yes.half.y, no.half.y)),
+            turned: Vec2::new(real(yes.turned.x, no.turned.x), real(yes.turned.y, no.turned.y)),
+            sin_side: real(yes.sin_side, no.sin_side),
+            inv_l0: real(yes.inv_l0, no.inv_l0),
+            inv_l2: real(yes.inv_l2, no.inv_l2),
+            total_over: real(yes.total_over, no.total_over),
+            inv_half_sin: real(yes.inv_half_sin, no.inv_half_sin),
+            g2: real(yes.g2, no.g2),
+            g2_over: real(yes.g2_over, no.g2_over),
+            plus02: real(yes.plus02, no.plus02),
+            sin02: real(yes.sin02, no.sin02),
+            x2: real(yes.x2, no.x2),
+            y2: real(yes.y2, no.y2),
+            g1: real(yes.g1, no.g1),
+            volume: real(yes.volume, no.volume),
+            solid_angle: real(yes.solid_angle, no.solid_angle),
+            unit: real(yes.unit, no.unit),
+        }
+    }
+
+    /// Solid angle in steradians, in [0, 2π].
+    #[inline(always)]
+    pub fn solid_angle(&self) -> R {
+        self.solid_angle
+    }
+
+    /// The density of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
+    #[inline(always)]
+    pub fn uniform_pdf(&self) -> R {
+        super::reciprocal_or_zero(self.solid_angle)
+    }
+
+    /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+
+    /// The arc that cuts `u` of the area off, and leaves `rest` = 1−u of it.
+    #[inline(always)]
+    fn arc(&self, u: R, rest: R) -> Arc<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // from the end that is nearer: α−η and H−η are small differences near the other
+        let far = u.gt(R::lit(0.5));
+        let part = R::select(far, rest, u);
+        let (sin, cos) = (part * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
+        let s = R::select(far, self.half.x * cos - self.half.y * sin, sin);
+        // cos(α−η) and sin(α−η), over sinα
+        let from_sin = R::select(far, self.turned.x, one);
+        let from_cos = R::select(far, self.turned.y, -self.cot_alpha);
+        let turn_sin = from_sin.mul_add(cos, from_cos * sin);
+        let turn_cos = from_cos.mul_add(cos, -(from_sin * sin)).negate_where(!far);
+        let stretched = s * self.stretch;
+        // P opposite v1 would be at infinity; its square must fit
+        let most = R::lit(1e15);
+        let x = (-stretched).mul_add(turn_cos, self.tan_half).clamp(-most, most);
+        let y = (stretched * turn_sin).clamp(zero, most);
+        let left = R::select(far, sin * self.inv_half_sin, (-sin).mul_add(self.total_over, cos));
+        let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, left] };
+        // a side of more than 120° is rare: the work is done where there is one
+        let long = self.g2.lt(R::lit(0.5));
+        if long.any() { self.opposite_arc(arc, long) } else { arc }
+    }
+
+    /// Where v0 lies nearly opposite v1 the arc does not follow from its angle any more: then from P itself, where that is better.
+    #[inline]
+    fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let [w0, w2] = self.weights(arc.swept);
+        // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ small: 1 − P·V₀/l₀ from the sine
+        let along = w2.mul_add(self.plus02 - one, w0);
+        let apart = R::select(along.gt(zero), w2 * w2 * self.sin02 / (one + along.max(zero)), one - along);
+        let sum = w0.mul_add(self.g2, apart + w2 * self.g1.abs());
+        let plus = w0.mul_add(self.g2, apart + w2 * self.g1);
+        let inverse = one / plus.max(R::lit(1e-30));
+        let (first, second) = (w0 * self.sin_side * inverse, w2 * self.x2 * inverse);
+        // either X is a sum: of these two, or of tan(c/2) and the rest of it
+        // nor does P have fewer than two weights that sum up to 1: where v0 is opposite v1 to the last bit they are lost
+        let known = plus.gt(sum * R::lit(0.125))
+            & (w0 + w2).gt(R::lit(0.5))
+            & (first + second.abs()).lt(self.tan_half.max(arc.x.abs()));
+        let better = long & known;
+        let most = R::lit(1e15);
+        let x = R::select(better, (first + second).clamp(-most, most), arc.x);
+        let y = R::select(better, (w2 * self.y2 * inverse).min(most), arc.y);
+        Arc { x, y, m: x.mul_add(x, y * y), swept: arc.swept }
+    }
+
+    /// P as a sum of the unit vectors to v0 and v2.
+    #[inline(always)]
+    fn weights(&self, [s, left]: [R; 2]) -> [R; 2] {
+        let (zero, two) = (R::lit(0.0), R::lit(2.0));
+        // a − b = cosη − sinη (G₁+G₂)/G₀ = sin(H−η)/sin H
+        let b = s * self.g2_over;
+        let a = left + b;
+        let w0 = (left * (a + b)).max(zero);
+        // b d₀₂ + a, w₂ − w₀ and |P|²: where v0 and v2 lie nearly opposite these are small differences
+        let w2 = (two * b * b.mul_add(self.plus02, left)).max(zero);
+        let more = two * b * b * self.plus02 - left * left;
+        let squared = more.mul_add(more, two * self.plus02 * w0 * w2);
+        let inverse = rsqrt(squared.max(R::lit(1e-30)));
+        [w0 * inverse, w2 * inverse]
+    }
+
+    /// Sine and cosine of the angle at v0.
+    #[inline(always)]
+    fn alpha(&self) -> (R, R) {
+        // past 1e18 the cotangent's square would not fit, and the sine is 0 to all intents
+        let cot = self.cot_alpha.clamp(R::lit(-1e18), R::lit(1e18));
+        let sin = rsqrt(cot.mul_add(cot, R::lit(1.0)));
+        (sin, cot * sin)
+    }
+
+    /// The side from v1 to the far edge under the angle whose cosine and sine, in a unit of the given square, are `x` and `y`:
+    /// its sine over that unit, 1−|cos| and cos, by cotθ = (cosφ cos(side) + sinφ cotα)/sin(side).
+    #[inline(always)]
+    fn side(&self, x: R, y: R, unit_squared: R) -> (R, R, R) {
+        let one = R::lit(1.0);
+        let (sin_alpha, cos_alpha) = self.alpha();
+        let opposite = sin_alpha * self.sin_side;
+        let adjacent = (self.g2 - one).mul_add(x * sin_alpha, y * cos_alpha);
+        let squared = (opposite * opposite).mul_add(unit_squared, adjacent * adjacent);
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
+        let (sin, cos) = (opposite * inverse, adjacent * inverse);
+        (sin, sin * sin * unit_squared / (one + cos.abs()), cos)
+    }
+
+    /// The direction at `u` of the arc, and the cosine and the sine of its angle to v1.
+    #[inline]
+    fn along_arc(&self, arc: &Arc<R>, u: R) -> (Vec3<R>, R, R) {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        // 1−cosθ = 2M/(1+M), and the sine of the angle over √M
+        let over = u * (two / (one + arc.m));
+        let z = (-over).mul_add(arc.m, one);
+        // 1+z = 2(1 + (1−u)M)/(1+M): near the antipode of v1 z says nothing about the sine
+        let plus = (one - u).mul_add(arc.m, one) * (two / (one + arc.m));
+        let sin_over = (over * plus).max(zero).sqrt();
+        let tangent = self.along.mul_add(arc.x, self.across * arc.y);
+        let direction = self.apex.mul_add(z, tangent * sin_over);
+        // a unit vector but for rounding: one step of Newton's to 1/√
+        let unit = direction * direction.length_squared().mul_add(R::lit(-0.5), R::lit(1.5));
+        (unit, z, sin_over)
+    }
+
+    /// The direction for `u` and the distance to the triangle along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        self.sample_direction_from(u, R::lit(1.0) - u.x)
+    }
+    /// As `sight`, for a u₀ of which 1−u₀ is known better.
+    #[inline(always)]
+    pub(super) fn sample_direction_from(&self, u: Vec2<R>, rest: R) -> DirectionSample<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let arc = self.arc(u.x, rest);
+        let (direction, z, sin_over) = self.along_arc(&arc, u.y);
+        let [w0, w2] = self.weights(arc.swept);
+        let inv_p = w0.mul_add(self.inv_l0, w2 * self.inv_l2);
+        // direction = kV₁/l₁ + tP/|P| with t = sin/sin∠(V₁,P), k = z − t cos; so l₁/distance = k + tl₁/|P|, also at grazing
+        // sin∠(V₁,P) = 2√M/(1+M)
+        let t = sin_over * R::lit(0.5) * (one + arc.m);
+        let behind = arc.m.gt(one);
+        let cos_abs = (one - arc.m).abs() / (one + arc.m);
+        // k = (z² − t²c²)/(z + tc) = (1−u₁)(z+c)/((1+c)(z+tc))
+        let denominator = (one + cos_abs) * t.mul_add(cos_abs, z);
+        let k = (one - u.y) * (z + cos_abs) / R::select(denominator.gt(zero), denominator, one);
+        let reciprocal = t.mul_add(inv_p * self.l1, k);
+        // where P lies behind v1 that cancels; but then the triangle is large, and the plane will do
+        let numerator = R::select(behind, self.volume.abs(), self.l1);
+        let denominator = R::select(behind, direction.dot(self.normal).abs(), reciprocal);
+        let some = denominator.gt(zero) & self.solid_angle.gt(zero);
+        // what does not fit f32 ends at its largest number
+        let distance = (numerator / R::select(some, denominator, one)).min(self.farthest);
+        let distance = (distance * self.unit).min(R::lit(f64::from(f32::MAX)));
+        DirectionSample { direction, distance: distance.keep(some) }
+    }
+
+    /// As `sample`, for a u₀ of which 1−u₀ is known better.
+    #[inline(always)]
+    pub(super) fn sample_from(&self, u: Vec2<R>, rest: R) -> Vec3<R> {
+        self.along_arc(&self.arc(u.x, rest), u.y).0
+    }
+
+    /// Is the direction inside, give or take the rounding of the direction itself?
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w)
+    }
+    #[inline(always)]
+    pub(super) fn within_v1_v2(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.side12).ge(-self.slack.y)
+    }
+    #[inline(always)]
+    pub(super) fn within_v2_v0(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.side20).ge(-self.slack.z)
+    }
+    #[inline(always)]
+    pub(super) fn within_v0_v1(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.side01).ge(-self.slack.x)
+    }
+    /// Towards the plane of the triangle.
+    #[inline(always)]
+    pub(super) fn ahead(&self, w: Vec3<R>) -> R::Mask {
+        let slack = self.normal.length() * R::lit(BEYOND);
+        w.dot(self.normal).negate_where(self.in_front()).ge(-slack)
+    }
+    /// On the far side of the plane through the viewpoint, v0 and v1 from v2.
+    #[inline(always)]
+    pub(super) fn beyond_v0_v1(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.across).lt(R::lit(0.0))
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalTriangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.sample_from(u, R::lit(1.0) - u.x)
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.uniform_pdf().keep(self.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
+        let (x, y) = (w.dot(self.along), w.dot(self.across).max(zero));
+        let squared = x.mul_add(x, y * y);
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
+        let (x, y) = (x * inverse, y * inverse);
+        let (sin, small, cos) = self.side(x, y, one);
+        let acute = cos.gt(zero);
+        let (minus, plus) = (R::select(acute, small, two - small), R::select(acute, two - small, small));
+        // tan(swept/2) from two sides and the angle between them
+        let both = self.sin_side * sin;
+        let swept = two * (both * y).atan2(self.g2.mul_add(plus, both * x));
+        // 1 − cos of the way from the apex, across it where that is ahead: along it w is known to a unit, beside which a small triangle is nothing
+        let (away, ahead) = (w - self.apex, w.dot(self.apex));
+        let near = ahead.gt(zero);
+        let (x, y) = (away.dot(self.along), away.dot(self.across));
+        let by_sine = x.mul_add(x, y * y) / (one + ahead.keep(near));
+        let moved = R::select(near, by_sine, away.length_squared() * R::lit(0.5));
+        Vec2 {
+            x: unit_interval(swept / self.solid_angle.max(R::lit(1e-37))),
+            y: unit_interval(moved / minus.max(R::lit(1e-37))),
+        }
+    }
+}

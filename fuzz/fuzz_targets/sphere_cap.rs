@@ -1,4 +1,0 @@
-//! `campaign::sphere_cap` on any bytes.
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::campaign::sphere_cap(bytes));

@@ -1,0 +1,71 @@
+//! The lens of the scene `defocus` in a barrel: the image that it makes, and how it looks from three points of the film.
+
+use super::sheet::Svg;
+use super::{Finding, Studio};
+use crate::film::Film;
+use crate::lens::{Camera, ThinLens};
+use crate::vignetting::{Barrel, Pupil};
+use crate::{Sampler, Settings, Technique, World, image, scene};
+use std::error::Error;
+
+/// The image's size, of which a view of the lens is as high as.
+const IMAGE: [u32; 2] = [288, 192];
+const VIEW: u32 = IMAGE[1];
+/// What a view shows, in radii of the lens.
+const EXTENT: f64 = 1.1;
+const WHITE: f32 = 4.0;
+/// The front rim: how far before the lens, and how wide, in radii of the lens.
+const BARREL: [f64; 2] = [2.0, 1.15];
+/// The third sphere, on which the scene's camera is focused; the first lamp; the lower left corner.
+const POINTS: [(&str, [f64; 2]); 3] =
+    [("third sphere", [118.1, 132.7]), ("lamp", [83.8, 43.7]), ("corner", [9.0, 183.0])];
+/// Distance of that lamp along the axis.
+const LAMP: f64 = 1.381;
+
+fn panel(title: &str, film: &Film) -> Svg {
+    let pixels: Vec<_> = film.pixels.iter().map(|p| image::tone_map(p.mean)).collect();
+    Svg::image(title, [film.width, film.height], &pixels, f64::from(film.width))
+}
+
+/// A cross with an open middle around a point.
+fn mark(picture: &mut Film, [x, y]: [f64; 2]) {
+    for (dx, dy) in (3_i32..8).flat_map(|k| [(k, 0), (-k, 0), (0, k), (0, -k)]) {
+        let (x, y) = (x as i32 + dx, y as i32 + dy);
+        if (0..picture.width as i32).contains(&x) && (0..picture.height as i32).contains(&y) {
+            picture.pixels[(y * picture.width as i32 + x) as usize].mean = [WHITE; 3];
+        }
+    }
+}
+
+impl Studio<'_> {
+    pub(super) fn vignetting(&self) -> Result<Finding, Box<dyn Error>> {
+        let mut scene = scene::load("defocus")?;
+        let world = World::new(&scene)?;
+        let own = scene.camera.lens.ok_or("the scene has no lens")?;
+        let seen = |camera: &Camera, [width, height]: [u32; 2], sampler, spp| {
+            let (technique, seed) = (Technique::SolidAngle, self.options.seed);
+            let settings = Settings { width, height, spp, technique, sampler, sets: 0, seed, depth: 1 };
+            world.render_through(camera, &settings, |_| ()).0
+        };
+        let [width, height] = IMAGE;
+        let (mut rows, mut headline) = (Vec::new(), Vec::new());
+        for focus in [own.focus, LAMP] {
+            let lens = scene::Lens { focus, ..own };
+            scene.camera.lens = Some(lens);
+            let barrel = Barrel::new(&scene.camera, &lens, BARREL.map(|x| x * lens.radius), width, height);
+            let thin = ThinLens::new(&scene.camera, &lens, width, height);
+            let mut picture = seen(&Camera::Barrel(thin, barrel), IMAGE, Sampler::Sobol4d, 128);
+            let mut views = Vec::new();
+            for (name, film) in POINTS {
+                let camera = Camera::Pupil(Pupil::new(thin, Some(barrel), film, VIEW, EXTENT));
+                views.push(panel(&format!("from the {name}"), &seen(&camera, [VIEW; 2], Sampler::Sobol, 16)));
+                mark(&mut picture, film);
+                let open = 100.0 * barrel.open_part(film[0], film[1]);
+                headline.push(format!("focused at {focus} m, from the {name}: {open:.1} % of the lens is open"));
+            }
+            views.insert(0, panel(&format!("focused at {focus} m"), &picture));
+            rows.push(Svg::row(views));
+        }
+        Ok(Finding { svg: Svg::column(rows).captioned(&headline), headline })
+    }
+}

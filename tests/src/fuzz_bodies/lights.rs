@@ -1,0 +1,102 @@
+//! Lights.
+
+use super::{Input, scalable};
+use crate::oracle::{V3, cross, dot, length, sub, wide};
+use crate::properties;
+use crate::techniques::{self, AreaLight, LightShape, Measure, Technique};
+use etendue::{ConstantEnvironment, DirectionalLight, LightSample, PointLight, Real, SpotLight, Sun, Vec2, Vec3};
+
+/// Lights with a surface, eight different ones of a kind.
+pub(super) fn area_lights(input: &mut Input<'_>) {
+    let (shape, by) = AreaLight::KINDS[input.below(AreaLight::KINDS.len() as u8) as usize];
+    let mut one = || {
+        let p = input.vector(&[]);
+        let a = input.vector(&[p]);
+        // normals are unit vectors
+        let b = if shape == LightShape::Disk { input.direction() } else { input.vector(&[a, p]) };
+        let c = input.vector(&[a, b]);
+        let n = if shape == LightShape::Patch { input.vector(&[b, c]) } else { input.direction() };
+        (AreaLight { shape, by, p, a, b, c, n, radius: input.number() }, input.square())
+    };
+    let (first, second) = (one(), one());
+    let pick = |i: usize| if i % 3 == 1 { second } else { first };
+    techniques::any_bits(&core::array::from_fn(|i| pick(i).0), &core::array::from_fn(|i| pick(i).1));
+    let (light, u) = first;
+    techniques::measure(&light, u);
+    let AreaLight { p, a, b, c, n, radius, .. } = light;
+    // areas are squares of lengths, and smaller than these if the shape is slim
+    let [e, f, g] = [b, c, n].map(wide);
+    let roomy = |e: V3, f: V3| length(cross(e, f)) > 1e-18 + 1e-4 * length(e) * length(f);
+    let spread = if shape == LightShape::Patch {
+        // at its four corners
+        let [x, y] = [sub(g, e), sub(g, f)];
+        roomy(e, f) && roomy(e, x) && roomy(f, y) && roomy(x, y)
+    } else {
+        length(cross(e, f)) == 0.0 || roomy(e, f)
+    };
+    if scalable(&[p, a, b, c, n].concat(), 1e6) && scalable(&[radius], 1e6) && spread {
+        techniques::scale(&light, u);
+    }
+    // more is known of the sizes of rooms
+    let [p, a] = [[0.0; 3], input.vector(&[]).map(|x| x.clamp(-2.0, 2.0))];
+    let [b, c, n] = [(); 3].map(|()| input.direction());
+    let near = AreaLight { p, a, b, c, n, radius: input.unit(), ..light };
+    // the edges of a rectangle are perpendicular: these are not. A flat shape shall not be in the plane of the point but for rounding; least of
+    // all a polygon, whose corners are rounded, or one over a horizon
+    let [v, e, f] = [a, b, c].map(wide);
+    let normal = cross(e, f);
+    let elevation = dot(v, normal).abs() / (length(v) * length(normal));
+    let strict = by == Measure::ProjectedSolidAngle || shape == LightShape::Polygon;
+    let flat = matches!(shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon);
+    let lifted = elevation > 1e-3 && length(v) > 1e-3 && length(normal) > 1e-3;
+    let fair = !flat || lifted && (!strict || elevation > 0.05 && length(v) > 0.05 && length(normal) > 0.05);
+    if shape != LightShape::Rectangle && fair {
+        techniques::one_pdf(&near, u);
+    }
+}
+
+/// A light without a surface.
+#[derive(Clone, Copy, Debug)]
+struct Distant {
+    kind: u8,
+    p: [f32; 3],
+    a: [f32; 3],
+    n: [f32; 3],
+    x: f32,
+    y: f32,
+}
+impl Technique for Distant {
+    fn draw<R: Real>(lanes: &[Self], u: Vec2<R>) -> LightSample<R> {
+        let of = |i: usize| lanes[i % lanes.len()];
+        let vector = |pick: fn(&Self) -> [f32; 3]| -> Vec3<R> { properties::vectors_of(|i| pick(&of(i))) };
+        let number = |pick: fn(&Self) -> f32| -> R { properties::lanes_of(|i| f64::from(pick(&of(i)))) };
+        let (p, a, n) = (vector(|d| d.p), vector(|d| d.a), vector(|d| d.n));
+        match lanes[0].kind {
+            0 => PointLight { position: a }.sample(p),
+            1 => SpotLight { position: a, axis: n, cos_inner: number(|d| d.x), cos_outer: number(|d| d.y) }.sample(p),
+            2 => DirectionalLight { direction: n }.sample(),
+            3 => Sun { direction: n, one_minus_cos: number(|d| d.x) }.by_solid_angle(u),
+            4 => ConstantEnvironment.by_solid_angle(u),
+            _ => ConstantEnvironment.by_projected_solid_angle(n, u),
+        }
+    }
+    fn evaluate<R: Real>(lanes: &[Self], w: Vec3<R>) -> Option<R> {
+        let of = |i: usize| lanes[i % lanes.len()];
+        let direction = properties::vectors_of(|i| of(i).n);
+        (lanes[0].kind == 3)
+            .then(|| Sun { direction, one_minus_cos: properties::lanes_of(|i| f64::from(of(i).x)) }.pdf(w))
+    }
+}
+
+/// Lights without a surface, eight different ones of a kind.
+pub(super) fn distant_lights(input: &mut Input<'_>) {
+    let kind = input.below(6);
+    let mut one = || {
+        let (p, n) = (input.vector(&[]), input.direction());
+        (Distant { kind, p, a: input.vector(&[p]), n, x: input.number(), y: input.number() }, input.square())
+    };
+    let (first, second) = (one(), one());
+    let pick = |i: usize| if i % 3 == 1 { second } else { first };
+    techniques::any_bits(&core::array::from_fn(|i| pick(i).0), &core::array::from_fn(|i| pick(i).1));
+    techniques::one_pdf(&first.0, first.1);
+}

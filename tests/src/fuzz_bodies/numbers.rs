@@ -1,0 +1,353 @@
+//! Tables, choices of lights, functions and estimators.
+
+use super::Input;
+use crate::checks;
+use crate::properties::{lanes_of, squares_of, vectors_of};
+use core::f64::consts::PI;
+use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
+use etendue::estimate::{Heuristic, Reservoir, Welford};
+use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
+use etendue::select::{Choice, LightBound, PowerLights, SpatialLights, UniformLights};
+use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x8, u32x8};
+
+/// Weights of which some are 0; rarely one is invalid.
+fn weights(input: &mut Input<'_>, most: u8) -> (Vec<f32>, Option<TableError>) {
+    let mut weights = input.weights(most);
+    if input.below(16) == 0 {
+        let at = input.below(weights.len() as u8) as usize;
+        weights[at] = [-1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-45][input.below(5) as usize];
+    }
+    let error = if weights.iter().any(|w| !(0.0..=f32::MAX).contains(w)) {
+        Some(TableError::Weight)
+    } else if weights.iter().all(|w| *w == 0.0) {
+        Some(TableError::Empty)
+    } else {
+        None
+    };
+    (weights, error)
+}
+const STEP: f64 = 1.0 / 16_777_216.0;
+
+/// Tables of one and two dimensions: a cell is drawn with the probability that is told, and never without a weight.
+pub(super) fn piecewise_constant(input: &mut Input<'_>) {
+    let (weights, error) = weights(input, 40);
+    let n = weights.len();
+    let mut cdf = vec![0.0; n];
+    let table = PiecewiseConstant1d::build(&weights, &mut cdf);
+    assert_eq!(table.as_ref().err(), error.as_ref(), "{weights:?}");
+    let Ok(table) = table else { return };
+    let sum: f64 = (0..n as u32).map(|i| f64::from(table.pmf::<f32>(i))).sum();
+    assert!(sum == 1.0, "probabilities sum to {sum}: {weights:?}");
+    for _ in 0..8 {
+        let u = input.unit();
+        let cell = table.cell(u);
+        let i = cell.index as usize;
+        assert!(weights[i] > 0.0 && cell.pmf > 0.0, "{weights:?} at {u}: {cell:?}");
+        assert_eq!(cell.pmf, table.pmf::<f32>(cell.index), "{weights:?} at {u}");
+        assert!((0.0..1.0).contains(&cell.offset), "{weights:?} at {u}: {cell:?}");
+        let back = f64::from(table.invert_cell(cell.index, cell.offset));
+        assert!((back - f64::from(u)).abs() <= STEP, "{weights:?}: {u} to {back}");
+        let x = table.sample(u);
+        assert_eq!(table.pdf(x), cell.pmf * n as f32, "{weights:?} at {u}: {x}");
+        let packet = table.cell(f32x8::splat(u));
+        assert_eq!((packet.index.lane(5), packet.offset.lane(5)), (cell.index, cell.offset));
+    }
+    let width = 1 + input.below(n as u8) as usize;
+    let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(width, n / width)];
+    let image = PiecewiseConstant2d::build(&weights[..width * (n / width)], width, &mut buffer);
+    let Ok(image) = image else {
+        assert!(weights[..width * (n / width)].iter().all(|w| *w == 0.0), "{weights:?} of {width}");
+        return;
+    };
+    for _ in 0..4 {
+        let u: Vec2<f32> = squares_of(&[input.square()]);
+        let (cell, p) = (image.cell(u), image.sample(u));
+        let weight = weights[cell.x as usize + cell.y as usize * width];
+        assert!(weight > 0.0 && cell.pmf > 0.0, "{weights:?} of {width} at {u:?}: {cell:?}");
+        assert_eq!(cell.pmf, image.pmf::<f32>(cell.x, cell.y));
+        let expected = cell.pmf * (image.size()[0] * image.size()[1]) as f32;
+        let off = (image.pdf(p) / expected - 1.0).abs();
+        assert!(off < 3e-7, "{weights:?} of {width} at {u:?}: off by {off:e}");
+        let back = image.invert_cell(cell.x, cell.y, cell.offset);
+        let off = (back.x - u.x).abs().max((back.y - u.y).abs());
+        assert!(f64::from(off) <= STEP, "{weights:?} of {width} at {u:?}: {back:?}");
+    }
+}
+
+/// Vose's table: an item without a weight is never drawn; each is drawn as often as is told, as far as the grid of `u` allows.
+pub(super) fn alias_table(input: &mut Input<'_>) {
+    let (weights, error) = weights(input, 40);
+    let n = weights.len();
+    let (mut thresholds, mut aliases) = (vec![0.0; n], vec![0; n]);
+    let (total, told): (f64, _) = (weights.iter().map(|&w| f64::from(w)).sum(), error.is_none());
+    let table = AliasTable::build(&weights, &mut thresholds, &mut aliases);
+    assert_eq!(table.as_ref().err(), error.as_ref(), "{weights:?}");
+    let Ok(table) = table else { return };
+    assert!(told && table.cells() == n);
+    for _ in 0..8 {
+        let u = input.unit();
+        let cell = table.cell(u);
+        let weight = weights[cell.index as usize];
+        assert!(weight > 0.0 && (0.0..1.0).contains(&cell.offset), "{weights:?} at {u}: {cell:?}");
+        let share = f64::from(weight) / total;
+        assert!((f64::from(cell.pmf) - share).abs() <= 1e-7 * share + 1e-45, "{weights:?}: {cell:?}");
+        let packet = table.cell(f32x8::splat(u));
+        assert_eq!((packet.index.lane(5), packet.offset.lane(5)), (cell.index, cell.offset));
+    }
+    // what the buckets hold of an item is its share
+    let mut held = vec![0.0; n];
+    for (i, (&threshold, &alias)) in thresholds.iter().zip(&aliases).enumerate() {
+        assert!((0.0..=1.0).contains(&threshold), "{weights:?}: {threshold}");
+        held[i] += f64::from(threshold);
+        held[alias as usize] += 1.0 - f64::from(threshold);
+    }
+    for (i, held) in held.iter().enumerate() {
+        let share = f64::from(weights[i]) / total;
+        let off = (held / n as f64 - share).abs();
+        assert!(off <= STEP, "{weights:?}: item {i} is held {} for {share}", held / n as f64);
+    }
+}
+
+/// An image around the scene: what is drawn is what is reported, and is found again.
+pub(super) fn environment(input: &mut Input<'_>) {
+    let map = if input.below(2) == 0 { EnvironmentMap::EqualArea } else { EnvironmentMap::Equirectangular };
+    let (weights, error) = weights(input, 40);
+    let width = 1 + input.below(weights.len() as u8) as usize;
+    let height = weights.len() / width;
+    let weights = &weights[..width * height];
+    let mut buffer = vec![0.0; ImageEnvironment::buffer(width, height)];
+    let built = ImageEnvironment::build(weights, width, map, &mut buffer);
+    let Ok(image) = built else {
+        assert!(error.is_some() || weights.iter().all(|w| *w == 0.0), "{weights:?} of {width}");
+        return;
+    };
+    for _ in 0..4 {
+        let square = input.square();
+        let s = image.draw::<f32>(squares_of(&[square]));
+        let w = s.light.direction;
+        let off = (f64::from(w.length_squared()) - 1.0).abs();
+        assert!(off < 2e-6 && s.light.pdf > 0.0 && s.light.pdf.is_finite(), "{weights:?} of {width}: {s:?}");
+        assert!(weights[s.x as usize + s.y as usize * width] > 0.0, "{weights:?} of {width} at {square:?}: {s:?}");
+        let eight = image.draw::<f32x8>(squares_of(&[square]));
+        assert_eq!((eight.x.lane(3), eight.light.pdf.lane(3)), (s.x, s.light.pdf));
+        // the texel again, unless the direction is next to its edge
+        let texel = image.texel(w);
+        let inner = |x: f32| (1e-3..0.999).contains(&x);
+        if inner(texel.offset.x) && inner(texel.offset.y) {
+            assert_eq!((texel.x, texel.y), (s.x, s.y), "{map:?} {weights:?} of {width} at {square:?}");
+            let off = (image.pdf(w) / s.light.pdf - 1.0).abs();
+            assert!(off < 1e-6, "two densities, off by {off:e}: {map:?} {weights:?} of {width} at {square:?}");
+        }
+    }
+    let any = input.direction();
+    let any: Vec3<f32> = vectors_of(|_| any);
+    assert!(image.pdf(any) >= 0.0 && image.pdf(any).is_finite());
+    let back = image.invert(any);
+    assert!((0.0..1.0).contains(&back.x) && (0.0..1.0).contains(&back.y));
+}
+
+fn chosen(choice: Choice<f32>, pmf: impl Fn(u32) -> f32, packet: Choice<f32x8>, powers: &[f32]) {
+    assert_eq!(choice.pmf, pmf(choice.index), "{powers:?}: {choice:?}");
+    assert!((0.0..1.0).contains(&choice.u), "{powers:?}: {choice:?}");
+    assert_eq!(
+        (packet.index.lane(6), packet.pmf.lane(6), packet.u.lane(6)),
+        (choice.index, choice.pmf, choice.u),
+        "{powers:?}"
+    );
+    let some = powers.iter().any(|p| *p > 0.0 && *p < f32::INFINITY);
+    assert_eq!(some, choice.pmf > 0.0, "{powers:?}: {choice:?}");
+    if some {
+        assert!(powers[choice.index as usize] > 0.0, "a light of no power: {powers:?}: {choice:?}");
+    }
+    let sum: f64 = (0..powers.len() as u32).map(|k| f64::from(pmf(k))).sum();
+    assert!((sum - f64::from(u8::from(some))).abs() < 1e-5, "Σpmf = {sum}: {powers:?}");
+    assert_eq!([pmf(powers.len() as u32), pmf(u32::MAX)], [0.0; 2]);
+}
+
+/// Choices of lights of any powers and places.
+pub(super) fn light_choice(input: &mut Input<'_>) {
+    let u = input.unit();
+    let count = input.word() >> 10;
+    let uniform = UniformLights { count };
+    let choice = uniform.choose(u);
+    assert!(count == 0 || choice.index < count && choice.pmf > 0.0 && (0.0..1.0).contains(&choice.u));
+    let mut powers = input.weights(20);
+    let mut sums = vec![0.0; powers.len()];
+    let lights = PowerLights::new(&powers, &mut sums);
+    chosen(lights.choose(u), |k| lights.pmf(k), lights.choose(f32x8::splat(u)), &powers);
+    // as documented: powers from 1e−20 to 1e20
+    powers.iter_mut().for_each(|p| *p = if *p > 0.0 { p.clamp(1e-20, 1e20) } else { 0.0 });
+    let mut before = vec![[0.0; 3]];
+    let bounds: Vec<_> = powers
+        .iter()
+        .map(|&power| {
+            let center = input.vector(&before);
+            before.push(center);
+            LightBound { center, radius: input.weight(), power }
+        })
+        .collect();
+    let p = input.vector(&before);
+    let lights = SpatialLights { lights: &bounds };
+    let (one, eight): (Vec3<f32>, Vec3<f32x8>) = (p.into(), p.into());
+    chosen(lights.choose(one, u), |k| lights.pmf(one, k), lights.choose(eight, f32x8::splat(u)), &powers);
+}
+
+/// Elementary functions at any numbers: their documented errors in their documented domains, finite everywhere, lanes alike.
+pub(super) fn math(input: &mut Input<'_>) {
+    let (x, y, z, w) = (input.number(), input.number(), input.number(), input.number());
+    let (dx, dy) = (f64::from(x), f64::from(y));
+    let close = |name: &str, value: f32, truth: f64, relative: f64, absolute: f64| {
+        let off = (f64::from(value) - truth).abs();
+        assert!(off <= relative * truth.abs() + absolute, "{name} of {x:e}, {y:e}: {value:e} for {truth:e}");
+    };
+    let same = |name: &str, one: f32, eight: f32x8| {
+        assert!(one.to_bits() == eight.lane(7).to_bits(), "{name} of {x:e}, {y:e}: {one:e}, {:e}", eight.lane(7));
+    };
+    let (x8, y8): (f32x8, f32x8) = (f32x8::splat(x), f32x8::splat(y));
+    let angle = Real::atan2(y, x);
+    // an angle that is subnormal is rounded to what there is; where both numbers are some steps of 2⁻¹⁴⁹ so is the octant's bound
+    let largest = x.abs().max(y.abs());
+    if largest <= 1e30 {
+        let relative = if largest < 9e-44 { 5.2e-6 } else { 2.0e-7 };
+        close("atan2", angle, if x == 0.0 && y == 0.0 { 0.0 } else { dy.atan2(dx) }, relative, 3e-45);
+    }
+    same("atan2", angle, Real::atan2(y8, x8));
+    assert!(angle == 0.0 || angle.is_sign_negative() == y.is_sign_negative());
+    close("acos", Real::acos(x), dx.clamp(-1.0, 1.0).acos(), 2.1e-7, 0.0);
+    same("acos", Real::acos(x), Real::acos(x8));
+    if (-87.0..88.0).contains(&x) {
+        close("exp", Real::exp(x), dx.exp(), 8.2e-8, 0.0);
+        close("exp_m1", Real::exp_m1(x), dx.exp_m1(), 1.2e-7, 1e-45);
+    }
+    assert!(Real::exp(x).is_finite() && Real::exp(x) >= 0.0 && Real::exp_m1(x) >= -1.0);
+    same("exp", Real::exp(x), Real::exp(x8));
+    same("exp_m1", Real::exp_m1(x), Real::exp_m1(x8));
+    if x > -1.0 && x <= 1e30 {
+        close("ln_1p", Real::ln_1p(x), dx.ln_1p(), 1.3e-7, 1e-45);
+        same("ln_1p", Real::ln_1p(x), Real::ln_1p(x8));
+    }
+    if x == 0.0 || x > 8e-31 {
+        close("cbrt", Real::cbrt(x), dx.cbrt(), 7.9e-8, 0.0);
+        same("cbrt", Real::cbrt(x), Real::cbrt(x8));
+    }
+    let phi = Real::normal_cdf(x);
+    assert!((0.0..=1.0).contains(&phi), "Φ({x:e}) = {phi}");
+    same("normal_cdf", phi, Real::normal_cdf(x8));
+    let u = input.unit();
+    let quantile = Real::normal_quantile(u);
+    let truth: f64 = Real::normal_quantile(f64::from(u));
+    close("normal_quantile", quantile, truth, 3.3e-7, 0.0);
+    assert!(Real::normal_quantile(x).abs() < 5.43, "{x:e}");
+    let (sin, cos) = Real::sin_cos_turns(u);
+    let (s, c) = (2.0 * PI * f64::from(u)).sin_cos();
+    close("sin", sin, s, 0.0, 8.4e-8);
+    close("cos", cos, c, 0.0, 8.4e-8);
+    close("one_minus_cos", one_minus_cos(u), f64::from(u) / (1.0 + (1.0 - f64::from(u)).sqrt()), 1.1e-7, 0.0);
+    if (1e-30..1e30).contains(&x) {
+        close("rsqrt", rsqrt(x), 1.0 / dx.sqrt(), 9.0e-8, 0.0);
+        let unit = f64::from(x.pow2_scale());
+        assert!((1.0..4.0).contains(&(dx * unit)) && unit.log2().fract() == 0.0, "{x:e}: {unit:e}");
+    }
+    assert!(x.pow2_scale().is_finite() && x.pow2_scale() > 0.0);
+    let fair = |x: f32| x == 0.0 || (1e-9..1e9).contains(&x.abs());
+    if [x, y, z, w].into_iter().all(fair) {
+        let value = difference_of_products(x, y, z, w);
+        let (dz, dw) = (f64::from(z), f64::from(w));
+        // 48 bits each; their difference may have more
+        let truth = dx * dy - dz * dw;
+        let rest = (dx * dy).abs().max((dz * dw).abs()) * f64::EPSILON;
+        close("difference_of_products", value, truth, 1.5 / 8_388_608.0, rest);
+    }
+}
+
+/// Weights of techniques, reservoirs and running variances of any numbers.
+pub(super) fn estimate(input: &mut Input<'_>) {
+    let heuristic = match input.below(4) {
+        0 => Heuristic::Balance,
+        1 => Heuristic::Maximum,
+        2 => Heuristic::POWER,
+        _ => Heuristic::Power(u32::from(input.below(20))),
+    };
+    let mut density = || if input.below(12) == 0 { f32::INFINITY } else { input.weight() };
+    let (two, four) = ([(); 2].map(|()| density()), [(); 4].map(|()| density()));
+    checks::weights_sum_to_one(heuristic, &two, &heuristic.weights(two));
+    let weights = heuristic.weights(four);
+    // one rounding more for each technique
+    let sum: f64 = weights.iter().map(|&w| f64::from(w)).sum();
+    let some = four.iter().any(|d| *d > 0.0);
+    assert!((sum - f64::from(u8::from(some))).abs() < 4.8e-7, "{heuristic:?} {four:?}: {weights:?}");
+    let eight = heuristic.weights(four.map(f32x8::splat));
+    assert_eq!(eight.map(|w| w.lane(2).to_bits()), weights.map(f32::to_bits), "{heuristic:?} {four:?}");
+
+    let candidates = input.weights(20);
+    let (mut one, mut packet) = (Reservoir::<f32>::default(), Reservoir::<f32x8>::default());
+    let mut u = input.unit();
+    let mut wide: f32x8 = lanes_of(|_| f64::from(u));
+    for (k, &weight) in candidates.iter().enumerate() {
+        u = one.push(k as u32, weight, u);
+        wide = packet.push(u32x8::splat(k as u32), f32x8::splat(weight), wide);
+        assert!((0.0..1.0).contains(&u), "{candidates:?}: {u}");
+        assert_eq!((packet.held.lane(1), wide.lane(1)), (one.held, u), "{candidates:?}");
+    }
+    let some = candidates.iter().any(|w| *w > 0.0);
+    let p = one.pmf();
+    assert!(some == (p > 0.0) && p <= 1.0, "{candidates:?}: {one:?}");
+    assert!(!some || candidates[one.held as usize] > 0.0, "{candidates:?}: {one:?}");
+    assert!(one.contribution(p) >= 0.0);
+
+    let samples: Vec<f32> = (0..input.below(20)).map(|_| input.ordinary()).collect();
+    let mut welford = Welford::<f64>::default();
+    for (i, &x) in samples.iter().enumerate() {
+        welford.push(f64::from(x), 1.0 / (i + 1) as f64);
+    }
+    if samples.len() > 1 {
+        let (mean, variance) = crate::stats::mean_variance(&samples.iter().map(|&x| f64::from(x)).collect::<Vec<_>>());
+        let off = (welford.mean - mean).abs().max((welford.variance(samples.len() as f64) - variance).abs());
+        assert!(off < 1e-13, "{samples:?}: off by {off:e}");
+    }
+}
+
+/// Masks and counters: lanes are what scalars are.
+pub(super) fn bits(input: &mut Input<'_>) {
+    let words: [u32; 8] = core::array::from_fn(|_| input.word());
+    let others: [u32; 8] = core::array::from_fn(|_| input.word());
+    let shift = u32::from(input.below(32));
+    let (a, b) = (u32x8::from_fn(|k| words[k]), u32x8::from_fn(|k| others[k]));
+    let numbers: [f32; 8] = core::array::from_fn(|_| input.number());
+    let x = f32x8::from_fn(|k| numbers[k]);
+    let mask = <f32x8 as Real>::Mask::from_bits(words[0] & 255);
+    assert_eq!(mask.bits(), words[0] & 255);
+    assert_eq!((mask.any(), mask.all()), (words[0] & 255 != 0, words[0] & 255 == 255));
+    for k in 0..8 {
+        let (p, q) = (words[k], others[k]);
+        assert_eq!(Uint::wrapping_add(a, b).lane(k), p.wrapping_add(q));
+        assert_eq!(Uint::wrapping_sub(a, b).lane(k), p.wrapping_sub(q));
+        assert_eq!(Uint::wrapping_mul(a, b).lane(k), p.wrapping_mul(q));
+        assert_eq!((Uint::shl(a, shift).lane(k), Uint::shr(a, shift).lane(k)), (p << shift, p >> shift));
+        assert_eq!(Uint::reverse_bits(a).lane(k), p.reverse_bits());
+        assert_eq!(Uint::lt(a, b).lane(k), if p < q { u32::MAX } else { 0 });
+        let unit = <f32x8 as Real>::unit(a).lane(k);
+        assert_eq!(unit, (p >> 8) as f32 / 16_777_216.0);
+        let y = numbers[(k + 3) % 8];
+        let lane = numbers[k];
+        let y8 = f32x8::splat(y);
+        assert_eq!(Real::lt(x, y8).lane(k), lane < y);
+        assert_eq!(Real::le(x, y8).lane(k), lane <= y);
+        let pairs = [
+            (Real::min(x, y8).lane(k), Real::min(lane, y)),
+            (Real::max(x, y8).lane(k), Real::max(lane, y)),
+            (Real::abs(x).lane(k), lane.abs()),
+            (Real::copysign(x, y8).lane(k), lane.copysign(y)),
+            (Real::mul_add(x, y8, x).lane(k), Real::mul_add(lane, y, lane)),
+            (Real::keep(x, mask).lane(k), if mask.lane(k) { lane } else { 0.0 }),
+            (Real::negate_where(x, mask).lane(k), if mask.lane(k) { -lane } else { lane }),
+        ];
+        for (i, (eight, one)) in pairs.into_iter().enumerate() {
+            assert!(
+                eight.to_bits() == one.to_bits() || eight.is_nan() && one.is_nan(),
+                "{i}: {lane:e} {y:e}: {eight:e}"
+            );
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Of the maps of lines, squares and surfaces.
+
+use super::{Case, EPSILON};
+use crate::fixtures::{
+    Bilinear, Cone, CylinderSide, DiskSurface, Exponential, GgxVisibleNormals, Linear, Normal, PatchSurface,
+    SphereSurface, Tent,
+};
+
+/// Cones from 1e−6 to π, by half-angle.
+#[must_use]
+pub fn cones() -> Vec<Case<Cone>> {
+    let of = |sigma: f64| Cone { one_minus_cos: (2.0 * (sigma / 2.0).sin().powi(2)) as f32 };
+    let mut all: Vec<_> = [
+        ("1e-15", 1e-15),
+        ("1e-9", 1e-9),
+        ("1e-6", 1e-6),
+        ("1e-4", 1e-4),
+        ("series seam of others", 0.0262),
+        ("0.1", 0.1),
+        ("1", 1.0),
+        ("just below a hemisphere", 1.57),
+        ("beyond a hemisphere", 1.58),
+        ("2.5", 2.5),
+        ("near the sphere", 3.1),
+        ("nearer the sphere", 3.139),
+    ]
+    .map(|(name, sigma)| (name, of(sigma)))
+    .to_vec();
+    all.push(("hemisphere", Cone { one_minus_cos: 1.0 }));
+    all.push(("sphere", Cone { one_minus_cos: 2.0 }));
+    all.push(("sphere, all but a point", Cone { one_minus_cos: 2.0 - 2.0 * EPSILON }));
+    all
+}
+
+/// Linear densities: flat, rising, falling, nearly flat, from and to nothing; tiny and huge units.
+#[must_use]
+pub fn linears() -> Vec<Case<Linear>> {
+    [
+        ("flat", 1.0, 1.0),
+        ("ordinary", 1.0, 3.0),
+        ("falling", 5.0, 0.5),
+        ("nearly flat", 1.0, 1.0 + 2.0 * EPSILON),
+        ("from 0", 0.0, 2.0),
+        ("to 0", 2.0, 0.0),
+        ("from almost 0", 1e-7, 1.0),
+        ("to almost 0", 1.0, 1e-7),
+        ("tiny units", 1e-30, 3e-30),
+        ("huge units", 2e31, 1e31),
+    ]
+    .map(|(name, a, b)| (name, Linear { a, b }))
+    .to_vec()
+}
+
+/// Sizes of things on the line.
+const SIZES: [(&str, f32); 7] = [
+    ("1", 1.0),
+    ("ordinary", 0.37),
+    ("tiny 1e-6", 1e-6),
+    ("tiny 1e-20", 1.3e-20),
+    ("huge 1e6", 1.7e6),
+    ("huge 1e20", 1e20),
+    ("tiny 1e-30", 1e-30),
+];
+
+/// Tents of every size.
+#[must_use]
+pub fn tents() -> Vec<Case<Tent>> {
+    SIZES.map(|(name, radius)| (name, Tent { radius })).to_vec()
+}
+
+/// Exponentials of every rate.
+#[must_use]
+pub fn exponentials() -> Vec<Case<Exponential>> {
+    SIZES.map(|(name, size)| (name, Exponential { rate: 1.0 / size })).to_vec()
+}
+
+/// Normal distributions of every size, about 0 and about means that are large and small beside σ.
+#[must_use]
+pub fn normals() -> Vec<Case<Normal>> {
+    let mut all = SIZES.map(|(name, sigma)| (name, Normal { mean: 0.0, sigma })).to_vec();
+    all.push(("mean of 3σ", Normal { mean: 0.3, sigma: 0.1 }));
+    all.push(("mean of -100σ", Normal { mean: -100.0, sigma: 1.0 }));
+    all.push(("mean of 1e-3σ", Normal { mean: 1.0, sigma: 1e3 }));
+    all
+}
+
+/// Bilinear densities: flat, ordinary, with zero corners and sides, steep, in tiny and huge units.
+#[must_use]
+pub fn bilinears() -> Vec<Case<Bilinear>> {
+    [
+        ("flat", [1.0; 4]),
+        ("ordinary", [1.0, 2.0, 0.5, 4.0]),
+        ("one corner", [0.0, 0.0, 3.0, 0.0]),
+        ("opposite corners", [1.0, 0.0, 0.0, 1.0]),
+        ("one side", [1.0, 0.0, 2.0, 0.0]),
+        ("steep", [1e-3, 1.0, 0.03, 0.01]),
+        ("tiny units", [1e-30, 2e-30, 3e-30, 4e-30]),
+        ("huge units", [1e31, 2e31, 3e31, 1e30]),
+    ]
+    .map(|(name, corners)| (name, Bilinear { corners }))
+    .to_vec()
+}
+
+/// Microsurfaces: rough, smooth and anisotropic, from above, grazing and below.
+#[must_use]
+pub fn microsurfaces() -> Vec<Case<GgxVisibleNormals>> {
+    [
+        ("ordinary", [0.3, 0.3], [0.5, 0.2, 0.8]),
+        ("rough 1", [1.0, 1.0], [-0.3, 0.6, 0.4]),
+        ("from the normal", [0.2, 0.4], [0.0, 0.0, 1.0]),
+        ("anisotropic", [0.5, 0.1], [0.6, 0.3, 0.5]),
+        ("smooth 1e-3", [1e-3, 1e-3], [0.5, 0.2, 0.8]),
+        ("smooth 1e-6", [1e-6, 2e-6], [0.5, 0.2, 0.8]),
+        ("sliver 1e3", [1.0, 1e-3], [0.3, 0.6, 0.5]),
+        ("grazing 1e-2", [0.4, 0.4], [0.8, 0.6, 1e-2]),
+        ("grazing 1e-5", [0.4, 0.2], [0.8, -0.6, 1e-5]),
+        ("on the horizon", [0.5, 0.5], [0.0, 1.0, 0.0]),
+        ("below", [0.5, 0.4], [0.8, 0.3, -0.3]),
+        ("far below", [0.5, 0.5], [0.3, 0.0, -1.0]),
+        ("rough 10", [10.0, 5.0], [0.3, 0.2, 0.6]),
+    ]
+    .map(|(name, alpha, wi)| (name, GgxVisibleNormals { alpha, wi }))
+    .to_vec()
+}
+
+/// Distances and sizes of surfaces in space.
+const PLACES: [(&str, f32, f32); 5] = [
+    ("ordinary", 1.0, 0.7),
+    ("small 1e-3", 1.0, 1e-3),
+    ("large 1e3", 1.0, 1e3),
+    ("small units", 1e-9, 2e-10),
+    ("huge units", 1e9, 4e8),
+];
+
+const PLACE: [f32; 3] = [0.48, -0.64, 0.6];
+
+const AXIS: [f32; 3] = [0.36, 0.48, -0.8];
+
+fn times(v: [f32; 3], s: f32) -> [f32; 3] {
+    v.map(|x| x * s)
+}
+
+/// Disks in space.
+#[must_use]
+pub fn disk_surfaces() -> [Case<DiskSurface>; 5] {
+    PLACES.map(|(name, d, radius)| (name, DiskSurface { center: times(PLACE, d), normal: AXIS, radius }))
+}
+
+/// Spheres in space.
+#[must_use]
+pub fn sphere_surfaces() -> [Case<SphereSurface>; 5] {
+    PLACES.map(|(name, d, radius)| (name, SphereSurface { center: times(PLACE, d), radius }))
+}
+
+/// Sides of cylinders in space: of their own width, long and short.
+#[must_use]
+pub fn cylinder_sides() -> Vec<Case<CylinderSide>> {
+    let of = |(name, d, radius)| (name, CylinderSide { p: times(PLACE, d), axis: times(AXIS, 2.0 * radius), radius });
+    let mut all = PLACES.map(of).to_vec();
+    all.push(("long", CylinderSide { p: PLACE, axis: times(AXIS, 10.0), radius: 0.1 }));
+    all.push(("short", CylinderSide { p: PLACE, axis: times(AXIS, 0.1), radius: 1.0 }));
+    all
+}
+
+/// Bilinear patches in space: flat, twisted, a trapezium, long, and with two corners in one place.
+#[must_use]
+pub fn patch_surfaces() -> Vec<Case<PatchSurface>> {
+    let u = [0.8, 0.36, -0.2];
+    let v = [-0.3, 0.9, 0.5];
+    let sum = |s: f32, t: f32, lift: f32| -> [f32; 3] {
+        let n = [0.36, -0.34, 0.83];
+        core::array::from_fn(|k| s * u[k] + t * v[k] + lift * n[k])
+    };
+    let mut all: Vec<Case<PatchSurface>> = PLACES
+        .map(|(name, d, size)| {
+            let [u, v, w] = [u, v, sum(1.0, 1.0, 0.4)].map(|e| times(e, size));
+            (name, PatchSurface { p: times(PLACE, d), u, v, w })
+        })
+        .to_vec();
+    for (name, w) in [
+        ("flat", sum(1.0, 1.0, 0.0)),
+        ("trapezium", sum(0.6, 1.0, 0.0)),
+        ("kite", sum(2.0, 1.7, 0.0)),
+        ("strongly twisted", sum(1.0, 1.0, 1.5)),
+        ("nearly a triangle", sum(0.02, 1.0, 0.0)),
+    ] {
+        all.push((name, PatchSurface { p: PLACE, u, v, w }));
+    }
+    let long = times(u, 0.01);
+    let w = core::array::from_fn(|k| 1.5 * long[k] + v[k]);
+    all.push(("sliver 1e2", PatchSurface { p: PLACE, u: long, v, w }));
+    all
+}

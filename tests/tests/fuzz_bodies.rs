@@ -1,0 +1,89 @@
+//! The fuzz targets' bodies without a fuzzer: on the committed seeds and findings, and on bytes at random.
+
+use etendue_tests::fixtures::ProjectedTriangle;
+use etendue_tests::fuzz_bodies::{TARGETS, Target};
+use etendue_tests::generators::Random;
+use etendue_tests::properties;
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// Every file of `fuzz/seeds/<target>`, among them what fuzzing has found.
+#[test]
+fn seeds() {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/seeds");
+    for Target { name, body, .. } in TARGETS {
+        let mut files: Vec<_> = std::fs::read_dir(seeds.join(name))
+            .unwrap_or_else(|error| panic!("fuzz/seeds/{name}: {error}"))
+            .map(|file| file.unwrap().path())
+            .collect();
+        files.sort();
+        assert!(!files.is_empty(), "fuzz/seeds/{name} is empty");
+        for file in &files {
+            let bytes = std::fs::read(file).unwrap();
+            if std::panic::catch_unwind(|| body(&bytes)).is_err() {
+                panic!("{} breaks a property", file.display());
+            }
+        }
+        println!("{name:24} {} seeds", files.len());
+    }
+}
+
+/// What fuzzing has found in numbers of its own: a triangle whose edge stands upright over the horizon, and a direction beside that.
+#[test]
+fn inverse_beside_an_upright_edge() {
+    let triangle = ProjectedTriangle::by_edges(
+        [-1.0866929, 0.21072814, 0.14530581],
+        [0.5384565, 0.15991381, 0.8273404],
+        [-0.33004466, 0.755619, -0.5657831],
+        [0.09743712, -0.066804275, 0.15172845],
+    );
+    properties::inverse(&triangle, [-0.504813015, 0.341584474, 0.79276967]);
+}
+
+/// So many inputs of each target, of 8 to 263 bytes; targets in turn on all processors. An input that breaks a property is kept as a file.
+fn random(count: impl Fn(&Target) -> u64 + Sync) {
+    let (next, total, broken) = (AtomicUsize::new(0), Mutex::new(0), Mutex::new(Vec::new()));
+    let run = || {
+        while let Some(target) = TARGETS.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let (count, start) = (count(target), Instant::now());
+            let mut random = Random::new(count);
+            for i in 0..count {
+                let bytes: Vec<u8> = (0..8 + i % 256).map(|_| random.word() as u8).collect();
+                if std::panic::catch_unwind(|| (target.body)(&bytes)).is_err() {
+                    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(target.name);
+                    std::fs::write(&file, &bytes).unwrap();
+                    broken.lock().unwrap().push(format!(
+                        "{}: input {i} of {count}, kept as {}",
+                        target.name,
+                        file.display()
+                    ));
+                    break;
+                }
+            }
+            let each = start.elapsed().as_secs_f64() * 1e6 / count as f64;
+            println!("{:24} {count:7} inputs, {each:6.1} us each", target.name);
+            *total.lock().unwrap() += count;
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, Into::into) {
+            scope.spawn(run);
+        }
+    });
+    println!("{} inputs", total.lock().unwrap());
+    let broken = broken.into_inner().unwrap();
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
+fn a_million_random_inputs() {
+    let shares: u32 = TARGETS.iter().map(|t| t.share).sum();
+    random(|target| u64::from(target.share) * 1_000_000 / u64::from(shares) + 1);
+}
+#[test]
+#[ignore = "a million inputs for each target: half an hour"]
+fn a_million_random_inputs_each() {
+    random(|_| 1_000_000);
+}

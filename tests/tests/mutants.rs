@@ -1,0 +1,154 @@
+//! Thirteen defects of well-known renderers, put back: the properties notice each one, and notice nothing where it is left out.
+//! `-- --nocapture` prints which property noticed what, in which regimes.
+
+use etendue::Real;
+use etendue::estimate::Heuristic;
+use etendue_tests::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
+use etendue_tests::generators::{self, Case};
+use etendue_tests::mutants::{
+    AreaBetweenThresholds, ConeOverflow, CosineWarp, Defect, DroppedGrazing, ExcessInSample, FlatCentre,
+    NonZeroOffTheCone, PaddedDisk, SelfClampingBarycentrics, Sound, SoundDisk, UnguardedCap, UnitsInTheSwitch, plant,
+};
+use etendue_tests::{checks, suite, techniques};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What noticed a defect: a property and the regimes, or nothing.
+type Noticed = Vec<(String, String)>;
+
+/// The power heuristic with β = 2, whose squares overflow; where they underflow, the balance heuristic.
+fn squares<const N: usize>(densities: [f32; N]) -> [f32; N] {
+    let sum: f32 = densities.iter().map(|d| d * d).sum();
+    if sum > 1e-30 { densities.map(|d| d * d / sum) } else { Heuristic::Balance.weights(densities) }
+}
+
+/// All properties of warps.
+fn properties<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
+    noticed(&suite::all(&plant::<D>(cases), 8))
+}
+/// That points are on the shape.
+fn reach<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
+    noticed(&[suite::within_reach(&plant::<D>(cases))])
+}
+fn noticed(outcomes: &[suite::Outcome]) -> Noticed {
+    outcomes
+        .iter()
+        .filter(|outcome| outcome.broken().next().is_some())
+        .map(|outcome| {
+            let regimes: Vec<_> = outcome.broken().map(|r| r.name).collect();
+            let said = outcome.broken().next().map_or("", |r| &r.first);
+            (
+                outcome.property.to_owned(),
+                format!("in {}: {}", regimes.join(", "), said.chars().take(160).collect::<String>()),
+            )
+        })
+        .collect()
+}
+/// One check.
+fn check(name: &str, run: impl FnOnce()) -> Noticed {
+    match catch_unwind(AssertUnwindSafe(run)) {
+        Ok(()) => Vec::new(),
+        Err(panic) => vec![(name.to_owned(), suite::message(&*panic).chars().take(200).collect())],
+    }
+}
+
+struct Report {
+    number: u32,
+    noticed: Noticed,
+    falsely: Noticed,
+}
+/// One line for each property that noticed it.
+fn report(number: u32, what: &str, noticed: Noticed, falsely: Noticed) -> Report {
+    println!("{number:2} {what}: {}", if noticed.is_empty() { "NOT NOTICED" } else { "noticed" });
+    for (property, said) in &noticed {
+        println!("     {property} {said}");
+    }
+    for (property, said) in &falsely {
+        println!("     FALSELY, without the defect: {property} {said}");
+    }
+    Report { number, noticed, falsely }
+}
+#[test]
+fn each_is_noticed() {
+    std::panic::set_hook(Box::new(|_| {}));
+    let (caps, triangles): (Vec<Case<Cap>>, Vec<Case<Triangle>>) =
+        (generators::caps(1, 11), generators::triangles(1, 12));
+    let (cones, disk): (Vec<Case<Cone>>, _) = (generators::cones(), [("whole", ConcentricDisk)]);
+    let hemisphere = [("whole", CosineHemisphere)];
+
+    let panel = |p, u, v| (CosineWarp::<true> { p, u, v }, CosineWarp::<false> { p, u, v });
+    let (wrong, right) = panel([0.5, -0.4, 0.2], [0.0, 0.8, 0.0], [0.3, 0.0, 0.6]);
+    let square = generators::square(60, 3);
+
+    let flushed = |x: f32| if x.is_subnormal() { 0.0_f32.copysign(x) } else { x };
+    let power = Heuristic::POWER;
+
+    // a distance by barycentric coordinates is poor with the right clamp too; but that keeps the point on the triangle
+    let edge_on: Vec<_> = generators::nearly_in_plane(50, 19)
+        .into_iter()
+        .map(|[v, a, b]| ("nearly in plane", Triangle::by_edges(v, a, b)))
+        .collect();
+    // each right subject once
+    let (cap, triangle) = (properties::<Sound<Cap>>(&caps), properties::<Sound<Triangle>>(&triangles));
+    let all = [
+        report(1, "1−cosσ unguarded in the pdf", properties::<UnguardedCap>(&caps), cap.clone()),
+        report(2, "Ω by angle excess in the sample", properties::<ExcessInSample>(&triangles), triangle.clone()),
+        report(
+            3,
+            "cosine warp's factor missing in the evaluated pdf",
+            check("one density", || square.iter().for_each(|&u| techniques::one_pdf(&wrong, u))),
+            check("one density", || square.iter().for_each(|&u| techniques::one_pdf(&right, u))),
+        ),
+        report(4, "area-uniform point with pdf 1/Ω", properties::<AreaBetweenThresholds>(&triangles), triangle.clone()),
+        report(
+            5,
+            "switch of technique that depends on the units",
+            properties::<UnitsInTheSwitch>(&triangles),
+            triangle.clone(),
+        ),
+        report(
+            6,
+            "subnormal numbers flushed in atan2",
+            check("atan2", || checks::atan2(|y, x| flushed(Real::atan2(flushed(y), flushed(x))))),
+            check("atan2", || checks::atan2(Real::atan2)),
+        ),
+        report(
+            7,
+            "∞/∞ in the power heuristic",
+            check("weights", || checks::extreme_weights(power, squares, squares)),
+            check("weights", || checks::extreme_weights(power, |d| power.weights(d), |d| power.weights(d))),
+        ),
+        report(
+            8,
+            "0/0 at the centre of the concentric disk",
+            properties::<FlatCentre>(&disk),
+            properties::<Sound<ConcentricDisk>>(&disk),
+        ),
+        report(
+            9,
+            "barycentric clamp that divides by a changed sum",
+            reach::<SelfClampingBarycentrics<true>>(&edge_on),
+            reach::<SelfClampingBarycentrics<false>>(&edge_on),
+        ),
+        report(
+            10,
+            "directions below 1e−5 dropped",
+            properties::<DroppedGrazing>(&hemisphere),
+            properties::<Sound<CosineHemisphere>>(&hemisphere),
+        ),
+        report(
+            11,
+            "1e−4 added in a pdf",
+            check("form factor", || checks::disk_has_its_form_factor(200, PaddedDisk::draw)),
+            check("form factor", || checks::disk_has_its_form_factor(1500, SoundDisk::draw)),
+        ),
+        report(12, "√(1+z²) for √(1−z²)", properties::<ConeOverflow>(&cones), properties::<Sound<Cone>>(&cones)),
+        report(13, "pdf of a sphere off its cone", properties::<NonZeroOffTheCone>(&caps), cap.clone()),
+    ];
+    let _ = std::panic::take_hook();
+    let noticed = all.iter().filter(|r| !r.noticed.is_empty()).count();
+    println!("planted defects: {noticed} of {} noticed", all.len());
+    for r in &all {
+        assert!(!r.noticed.is_empty(), "defect {} goes unnoticed", r.number);
+        assert!(r.falsely.is_empty(), "without defect {}: {:?}", r.number, r.falsely);
+    }
+}
