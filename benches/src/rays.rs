@@ -229,7 +229,7 @@ impl Point {
             let c = accel.corners(hits.place.as_array()[lane]);
             let corner = |k: usize| V8::from([c[k], c[k + 1], c[k + 2]]);
             let n = (corner(3) - corner(0)).cross(corner(6) - corner(0)).normalize();
-            normal = V8::select(M8::from_bits(1 << lane), n, normal);
+            normal = V8::blend(M8::from_bits(1 << lane), n, normal);
         }
         let away = normal.dot(packet.direction).gt(X8::lit(0.0));
         let normal = V8::new(normal.x.negate_where(away), normal.y.negate_where(away), normal.z.negate_where(away));

@@ -21,9 +21,9 @@
 //! assert_eq!(table.invert_cell(2, 0.5_f32), 0.5);
 //! ```
 
-use crate::real::{Real, Uint};
+use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
-use crate::warp::{Warp, Warp1, unit_interval};
+use crate::warp::{Warp, Warp1};
 use core::fmt::{self, Display, Formatter};
 
 /// Steps of `u` in the unit interval, and the most cells that a table may have.
@@ -88,8 +88,8 @@ pub(crate) fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
     // xn − i, exactly but for the last rounding, whose sign and whose excess over 1 are true
     let scaled = x * n;
     let position = (scaled - i) + R::two_prod_error(x, n, scaled);
-    let x = R::select(position.lt(R::lit(0.0)), x + x * epsilon(), x);
-    R::select(position.ge(R::lit(1.0)), x - x * (epsilon::<R>() * R::lit(0.5)), x)
+    let x = R::blend(position.lt(R::lit(0.0)), x + x * epsilon(), x);
+    R::blend(position.ge(R::lit(1.0)), x - x * (epsilon::<R>() * R::lit(0.5)), x)
 }
 
 /// The inverse: cell and position, of x in [0, 1). The product is not rounded before its integer part is taken.
@@ -100,9 +100,9 @@ pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
     let i = R::from_uint(scaled.to_uint());
     let position = (scaled - i) + R::two_prod_error(x, n, scaled);
     let (below, above) = (position.lt(zero), position.ge(one));
-    let i = R::select(below, i - one, R::select(above, i + one, i));
-    let position = R::select(below, position + one, R::select(above, position - one, position));
-    (i.clamp(zero, n - one).to_uint(), unit_interval(position))
+    let i = R::blend(below, i - one, R::blend(above, i + one, i));
+    let position = R::blend(below, position + one, R::blend(above, position - one, position));
+    (i.clamped(zero, n - one).to_uint(), unit_interval(position))
 }
 
 /// Total of valid weights and number of those above 0.
@@ -137,7 +137,7 @@ fn accumulate(cdf: &mut [f32], weight: impl Fn(usize) -> f64) -> Result<(), Tabl
             some -= 1;
             // nearest step, but one at least for this cell and for each that follows
             let nearest = (running / sum * STEPS + 0.5) as u32;
-            steps = f64::from(nearest).max(steps + 1.0).min(STEPS - some as f64);
+            steps = f64::from(nearest).greater(steps + 1.0).lesser(STEPS - some as f64);
             if some == 0 {
                 steps = STEPS;
             }
@@ -158,7 +158,7 @@ fn draw<'a, R: Real>(u: R, row: impl Fn(usize) -> &'a [f32]) -> Cell<R> {
     });
     let (start, pmf) = bounds::<R>(index, row);
     let some = pmf.gt(R::lit(0.0));
-    let offset = unit_interval((u - start) / R::select(some, pmf, R::lit(1.0)));
+    let offset = unit_interval((u - start) / R::blend(some, pmf, R::lit(1.0)));
     Cell { index, offset, pmf }
 }
 
@@ -487,8 +487,8 @@ impl<'a> AliasTable<'a> {
             if own { bucket } else { self.aliases[bucket as usize] }
         });
         let one = R::lit(1.0);
-        let range = R::select(own, threshold, one - threshold);
-        let offset = unit_interval(R::select(own, fraction, fraction - threshold) / range.max(R::lit(1e-30)));
+        let range = R::blend(own, threshold, one - threshold);
+        let offset = unit_interval(R::blend(own, fraction, fraction - threshold) / range.greater(R::lit(1e-30)));
         Cell { index, offset, pmf: self.pmf(index) }
     }
     /// Probability of an item; 0 past the last one.

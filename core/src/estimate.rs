@@ -43,7 +43,7 @@ impl<R: Real> Welford<R> {
     pub fn merge(self, n: R, other: Self, m: R) -> Self {
         let total = n + m;
         let some = total.gt(R::lit(0.0));
-        let reciprocal = R::lit(1.0) / R::select(some, total, R::lit(1.0));
+        let reciprocal = R::lit(1.0) / R::blend(some, total, R::lit(1.0));
         let delta = other.mean - self.mean;
         Self {
             mean: (delta * m).mul_add(reciprocal, self.mean),
@@ -54,6 +54,6 @@ impl<R: Real> Welford<R> {
     #[inline]
     pub fn variance(self, n: R) -> R {
         let known = n.gt(R::lit(1.0));
-        R::select(known, self.m2 / R::select(known, n - R::lit(1.0), R::lit(1.0)), R::lit(f64::INFINITY))
+        R::blend(known, self.m2 / R::blend(known, n - R::lit(1.0), R::lit(1.0)), R::lit(f64::INFINITY))
     }
 }

@@ -41,6 +41,7 @@
 pub mod discrete;
 pub mod estimate;
 mod interop;
+mod lanewise;
 pub mod light;
 pub mod math;
 pub mod real;

@@ -37,11 +37,12 @@ pub use patch::BilinearPatch;
 pub use polygon::Polygon;
 pub use round::{Cylinder, Disk};
 
+use crate::lanewise::lanewise;
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::spherical::{
     CosineWarped, DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedTriangle, SphericalCap,
-    SphericalParallelogram, SphericalRectangle, SphericalTriangle, lanewise,
+    SphericalParallelogram, SphericalRectangle, SphericalTriangle,
 };
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, UniformSphere, Warp};
@@ -70,7 +71,7 @@ pub const FAR: f64 = f32::MAX as f64;
 /// `along` = |direction · N| for a normal N of length `area`.
 #[inline(always)]
 fn solid_angle_pdf<R: Real>(distance: R, along: R) -> R {
-    let pdf = distance * distance / R::select(along.gt(R::lit(0.0)), along, R::lit(1.0));
+    let pdf = distance * distance / R::blend(along.gt(R::lit(0.0)), along, R::lit(1.0));
     pdf.keep(along.gt(R::lit(0.0)) & pdf.lt(R::lit(1e37)) & distance.gt(R::lit(0.0)))
 }
 
@@ -90,7 +91,7 @@ fn direction_to<R: Real>(point: Vec3<R>) -> DirectionSample<R> {
 
 lanewise! {
     /// A sphere that emits outwards.
-    Sphere {
+    pub struct Sphere {
         /// Centre.
         pub center: Vec3<R>,
         /// Radius.
@@ -137,7 +138,7 @@ impl<R: Real> Sphere<R> {
 
 lanewise! {
     /// A triangle that emits on the side of (v1−v0)×(v2−v0).
-    Triangle {
+    pub struct Triangle {
         /// First vertex.
         pub v0: Vec3<R>,
         /// v1 − v0.
@@ -206,7 +207,7 @@ impl<R: Real> Triangle<R> {
 
 lanewise! {
     /// A parallelogram p + su + tv, s and t in [0, 1], that emits on the side of u×v.
-    Parallelogram {
+    pub struct Parallelogram {
         /// Corner.
         pub p: Vec3<R>,
         /// Edge.
@@ -254,7 +255,7 @@ impl<R: Real> Parallelogram<R> {
 
 lanewise! {
     /// A rectangle p + su + tv, s and t in [0, 1], u perpendicular to v, that emits on the side of u×v.
-    Rectangle {
+    pub struct Rectangle {
         /// Corner.
         pub p: Vec3<R>,
         /// Edge.

@@ -31,7 +31,7 @@ pub fn rsqrt<R: Real>(x: R) -> R {
 /// 1 − cosθ for θ in [0, π/2], from sin²θ in [0, 1]: `s²/(1 + √(1 − s²))`, free of cancellation at every size.
 #[inline(always)]
 pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
-    let cos = (R::lit(1.0) - sin_squared).max(R::lit(0.0)).sqrt();
+    let cos = (R::lit(1.0) - sin_squared).greater(R::lit(0.0)).sqrt();
     sin_squared / (R::lit(1.0) + cos)
 }
 
@@ -52,7 +52,7 @@ pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
 #[inline(always)]
 pub(crate) fn ratio<R: Real>(a: R, b: R) -> R {
     let some = b.gt(R::lit(0.0));
-    (a / R::select(some, b, R::lit(1.0))).keep(some)
+    (a / R::blend(some, b, R::lit(1.0))).keep(some)
 }
 
 /// Is this double precision? There, series are longer and steps more.
@@ -73,9 +73,9 @@ pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
 #[inline(always)]
 pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
     let turns = y.atan2(x) * R::lit(0.5 / core::f64::consts::PI);
-    let turns = R::select(turns.lt(R::lit(0.0)), turns + R::lit(1.0), turns);
+    let turns = R::blend(turns.lt(R::lit(0.0)), turns + R::lit(1.0), turns);
     // of infinite numbers, too
-    turns.clamp(R::lit(0.0), R::ONE_MINUS_EPSILON)
+    turns.clamped(R::lit(0.0), R::ONE_MINUS_EPSILON)
 }
 
 /// Horner's rule with `mul_add`, coefficients from the constant term up.
@@ -107,15 +107,15 @@ pub(crate) fn sin_cos_turns_f32<R: Real>(u: R) -> (R, R) {
     let q = q - R::lit(4.0) * (q * R::lit(0.25)).round_ties_even();
     let odd = (q.abs() - R::lit(1.0)).abs().lt(R::lit(0.5));
     let half = q.abs().gt(R::lit(1.5));
-    let sin = R::select(odd, c, s).negate_where(half | q.lt(R::lit(-0.5)));
-    let cos = R::select(odd, s, c).negate_where(half | q.gt(R::lit(0.5)));
+    let sin = R::blend(odd, c, s).negate_where(half | q.lt(R::lit(-0.5)));
+    let cos = R::blend(odd, s, c).negate_where(half | q.gt(R::lit(0.5)));
     (sin, cos)
 }
 
 /// `√(1−|x|)` times a minimax polynomial of degree 7, reflected for negative x.
 #[inline(always)]
 pub(crate) fn acos_f32<R: Real>(x: R) -> R {
-    let a = x.abs().min(R::lit(1.0));
+    let a = x.abs().lesser(R::lit(1.0));
     let p = polynomial(
         a,
         [
@@ -130,7 +130,7 @@ pub(crate) fn acos_f32<R: Real>(x: R) -> R {
         ],
     );
     let angle = (R::lit(1.0) - a).sqrt() * p;
-    R::select(x.lt(R::lit(0.0)), R::lit(core::f64::consts::PI) - angle, angle)
+    R::blend(x.lt(R::lit(0.0)), R::lit(core::f64::consts::PI) - angle, angle)
 }
 
 /// Reduced to |t| ≤ tan(π/8) by one division; relative accuracy is kept down to denormals, and 0/0 is 0.
@@ -138,19 +138,19 @@ pub(crate) fn acos_f32<R: Real>(x: R) -> R {
 pub(crate) fn atan2_f32<R: Real>(y: R, x: R) -> R {
     let (ay, ax) = (y.abs(), x.abs());
     let swap = ay.gt(ax);
-    let (small, large) = (ay.min(ax), ax.max(ay));
+    let (small, large) = (ay.lesser(ax), ax.greater(ay));
     let beyond = small.gt(large * R::lit(0.414_213_562_373));
-    let numerator = R::select(beyond, small - large, small);
-    let denominator = R::select(beyond, small + large, large);
-    let t = numerator / R::select(denominator.gt(R::lit(0.0)), denominator, R::lit(1.0));
+    let numerator = R::blend(beyond, small - large, small);
+    let denominator = R::blend(beyond, small + large, large);
+    let t = numerator / R::blend(denominator.gt(R::lit(0.0)), denominator, R::lit(1.0));
     let s = t * t;
     let q = polynomial(s, [-0.333_329_552_665, 0.199_779_264_785, -0.138_798_536_444, 0.080_603_193_725_4]);
     let angle = t.mul_add(q * s, t);
     let angle = angle + R::lit(core::f64::consts::FRAC_PI_4).keep(beyond);
-    let angle = R::select(swap, R::lit(core::f64::consts::FRAC_PI_2) - angle, angle);
+    let angle = R::blend(swap, R::lit(core::f64::consts::FRAC_PI_2) - angle, angle);
     // the sign bit of x decides, so that −0 counts as negative, as in IEEE 754
     let negative = R::lit(1.0).copysign(x).lt(R::lit(0.0)) & !(large.le(R::lit(0.0)));
-    let angle = R::select(negative, R::lit(core::f64::consts::PI) - angle, angle);
+    let angle = R::blend(negative, R::lit(core::f64::consts::PI) - angle, angle);
     angle.copysign(y)
 }
 
@@ -173,13 +173,13 @@ fn exp_parts<R: Real>(x: R) -> (R, R) {
 #[inline(always)]
 pub(crate) fn exp_f32<R: Real>(x: R) -> R {
     let least = R::lit(-87.3);
-    let (q, scale) = exp_parts(x.clamp(least, R::lit(88.3)));
+    let (q, scale) = exp_parts(x.clamped(least, R::lit(88.3)));
     q.mul_add(scale, scale).keep(x.ge(least))
 }
 
 #[inline(always)]
 pub(crate) fn exp_m1_f32<R: Real>(x: R) -> R {
-    let (q, scale) = exp_parts(x.clamp(R::lit(-87.3), R::lit(88.3)));
+    let (q, scale) = exp_parts(x.clamped(R::lit(-87.3), R::lit(88.3)));
     q.mul_add(scale, scale - R::lit(1.0))
 }
 
@@ -188,7 +188,7 @@ pub(crate) fn exp_m1_f32<R: Real>(x: R) -> R {
 pub(crate) fn ln_1p_f32<R: Real>(x: R) -> R {
     let one = R::lit(1.0);
     let y = x + one;
-    ln_sum(y, R::select(x.lt(one), x - (y - one), one - (y - x)))
+    ln_sum(y, R::blend(x.lt(one), x - (y - one), one - (y - x)))
 }
 
 /// ln(y + `lost`), where `lost` is less than an ulp of y: y = 2ᵏ(1 + f) with f in [√½ − 1, √2 − 1].
@@ -197,7 +197,7 @@ pub(crate) fn ln_1p_f32<R: Real>(x: R) -> R {
 /// positive counts as the least normal number.
 #[inline(always)]
 fn ln_sum<R: Real>(y: R, lost: R) -> R {
-    let y = y.max(R::lit(f64::from(f32::MIN_POSITIVE)));
+    let y = y.greater(R::lit(f64::from(f32::MIN_POSITIVE)));
     let k = (y * R::lit(core::f64::consts::SQRT_2)).exponent();
     let scale = (-k).power_of_two();
     let f = lost.mul_add(scale, y.mul_add(scale, R::lit(-1.0)));
@@ -249,7 +249,7 @@ pub(crate) fn exp_minus_half_square<R: Real>(z: R, less: R) -> R {
 #[inline(always)]
 pub(crate) fn normal_cdf_f32<R: Real>(z: R) -> R {
     let one = R::lit(1.0);
-    let a = z.abs().min(R::lit(14.0));
+    let a = z.abs().lesser(R::lit(14.0));
     let t = one / R::lit(0.3).mul_add(a, one);
     let p = polynomial(
         t,
@@ -267,7 +267,7 @@ pub(crate) fn normal_cdf_f32<R: Real>(z: R) -> R {
         ],
     );
     let tail = exp_minus_half_square(a, R::lit(0.0)) * (t * p);
-    R::select(z.gt(R::lit(0.0)), one - tail, tail)
+    R::blend(z.gt(R::lit(0.0)), one - tail, tail)
 }
 
 /// The least probability of a tail that [`Real::normal_quantile`] tells from 0: half a step of `u`.
@@ -301,18 +301,18 @@ pub(crate) fn normal_quantile_f32<R: Real>(u: R) -> R {
         -0.000_294_894_690_764,
     ];
     let (half, one) = (R::lit(0.5), R::lit(1.0));
-    let u = u.clamp(R::lit(0.0), one);
+    let u = u.clamped(R::lit(0.0), one);
     // the lower and upper tail: both exact where they are small
     let least = R::lit(LEAST_TAIL);
-    let (low, high) = (u.max(least), (one - u).max(least));
-    let x = (low.min(half) - half) + (half - high.min(half));
+    let (low, high) = (u.greater(least), (one - u).greater(least));
+    let x = (low.lesser(half) - half) + (half - high.lesser(half));
     // w = −ln(4u(1−u)) is at most 16, and P(w) flat: near the median, where w → 0, its absolute error is what counts
     let w = -ln_sum(R::lit(4.0) * low * high, R::lit(0.0));
     let central = w.lt(R::lit(5.0));
-    let v = R::select(central, w - R::lit(2.5), w.max(R::lit(0.0)).sqrt() - R::lit(3.0));
-    let mut sum = R::select(central, R::lit(CENTRAL[8]), R::lit(TAIL[8]));
+    let v = R::blend(central, w - R::lit(2.5), w.greater(R::lit(0.0)).sqrt() - R::lit(3.0));
+    let mut sum = R::blend(central, R::lit(CENTRAL[8]), R::lit(TAIL[8]));
     for i in (0..8).rev() {
-        sum = sum.mul_add(v, R::select(central, R::lit(CENTRAL[i]), R::lit(TAIL[i])));
+        sum = sum.mul_add(v, R::blend(central, R::lit(CENTRAL[i]), R::lit(TAIL[i])));
     }
     (x + x) * sum
 }

@@ -126,21 +126,21 @@ pub trait Real:
         other.le(self)
     }
     /// `yes` where the mask is true, `no` elsewhere.
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// [`select`](Real::select) for counters.
-    fn select_uint(mask: Self::Mask, yes: Self::Uint, no: Self::Uint) -> Self::Uint;
+    fn blend(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// [`select`](Real::blend) for counters.
+    fn blend_uint(mask: Self::Mask, yes: Self::Uint, no: Self::Uint) -> Self::Uint;
     /// `self` where the mask is true, +0 elsewhere.
     fn keep(self, mask: Self::Mask) -> Self;
     /// `-self` where the mask is true, `self` elsewhere.
     fn negate_where(self, mask: Self::Mask) -> Self;
     /// `self < other ? self : other`: the second where either is NaN.
-    fn min(self, other: Self) -> Self;
+    fn lesser(self, other: Self) -> Self;
     /// `self > other ? self : other`: the second where either is NaN.
-    fn max(self, other: Self) -> Self;
+    fn greater(self, other: Self) -> Self;
     /// Into [lo, hi]; a NaN becomes `lo`.
     #[inline(always)]
-    fn clamp(self, lo: Self, hi: Self) -> Self {
-        self.max(lo).min(hi)
+    fn clamped(self, lo: Self, hi: Self) -> Self {
+        self.greater(lo).lesser(hi)
     }
     /// Absolute value.
     fn abs(self) -> Self;
@@ -186,4 +186,13 @@ pub trait Real:
     fn normal_cdf(self) -> Self;
     /// Φ⁻¹ of the argument moved into [2⁻²⁵, 1 − 2⁻²⁵], so that the result is within ±5.42.
     fn normal_quantile(self) -> Self;
+}
+
+/// The greatest finite number of single precision: magnitudes are held below it at every precision.
+pub(crate) const GREATEST: f64 = f32::MAX as f64;
+
+/// Into [0, 1 − 2⁻²⁴], the range of `u`; NaN becomes 0.
+#[inline]
+pub(crate) fn unit_interval<R: Real>(x: R) -> R {
+    x.clamped(R::lit(0.0), R::ONE_MINUS_EPSILON)
 }

@@ -11,9 +11,8 @@
 //! probability 0, and none of zero power has another.
 
 use crate::estimate::Reservoir;
-use crate::real::{Real, Uint};
+use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec3;
-use crate::warp::unit_interval;
 
 /// A light that was chosen, per lane.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +84,7 @@ impl<'a> PowerLights<'a> {
         let mut sum = 0.0;
         for (to, &power) in sums.iter_mut().zip(powers) {
             let share = if power > 0.0 && total > 0.0 { clean(power) / total } else { 0.0 };
-            sum += if clean(power) > 0.0 { share.max(1.0 / 262_144.0) } else { 0.0 };
+            sum += if clean(power) > 0.0 { share.greater(1.0 / 262_144.0) } else { 0.0 };
             *to = sum as f32;
         }
         Self { sums: &sums[..count] }
@@ -172,7 +171,7 @@ impl SpatialLights<'_> {
         let offset = Vec3::new(x * half - p.x * half, y * half - p.y * half, z * half - p.z * half);
         let scale = offset.max_abs().pow2_scale();
         let length = (offset * scale).length_squared().sqrt() / scale;
-        length.max(lit(light.radius) * half).min(lit(f32::MAX))
+        length.greater(lit(light.radius) * half).lesser(lit(f32::MAX))
     }
     /// Smallest distance to a light of positive power.
     #[inline]
@@ -181,7 +180,7 @@ impl SpatialLights<'_> {
         self.lights
             .iter()
             .filter(lit)
-            .fold(R::lit(f64::from(f32::MAX)), |least, light| least.min(Self::distance(light, p)))
+            .fold(R::lit(f64::from(f32::MAX)), |least, light| least.lesser(Self::distance(light, p)))
     }
     #[inline]
     fn weight<R: Real>(light: &LightBound, least: R, p: Vec3<R>) -> R {
@@ -190,9 +189,9 @@ impl SpatialLights<'_> {
         // at the centre of a point light: the least distance is 0, and the ratio 1
         let one = R::lit(1.0);
         // only a light of no power is nearer than the least
-        let ratio = R::select(positive, least / R::select(positive, distance, one), one).min(one);
+        let ratio = R::blend(positive, least / R::blend(positive, distance, one), one).lesser(one);
         let power = if light.power > 0.0 && light.power < f32::INFINITY { light.power } else { 0.0 };
-        R::lit(f64::from(power)) * (ratio * ratio).max(R::lit(1.0 / 262_144.0))
+        R::lit(f64::from(power)) * (ratio * ratio).greater(R::lit(1.0 / 262_144.0))
     }
     /// Chooses for each shading point by `u` in [0, 1).
     #[inline]
@@ -219,6 +218,6 @@ impl SpatialLights<'_> {
             own += weight * here;
         }
         let some = reservoir.sum.gt(R::lit(0.0));
-        own / R::select(some, reservoir.sum, R::lit(1.0))
+        own / R::blend(some, reservoir.sum, R::lit(1.0))
     }
 }

@@ -61,34 +61,15 @@ pub struct DirectionSample<R> {
 #[inline(always)]
 pub(crate) fn reciprocal_or_zero<R: Real>(solid_angle: R) -> R {
     let some = solid_angle.gt(R::lit(1e-37));
-    (R::lit(1.0) / R::select(some, solid_angle, R::lit(1.0))).keep(some)
+    (R::lit(1.0) / R::blend(some, solid_angle, R::lit(1.0))).keep(some)
 }
 
 /// In a unit in which no coordinate exceeds 2, and 1 over it; zeros where a sum overflowed: a triangle of no extent.
 #[inline(always)]
 pub(crate) fn to_unit<R: Real, const N: usize>(vectors: [Vec3<R>; N]) -> ([Vec3<R>; N], R) {
-    let reach = vectors.iter().fold(R::lit(0.0), |most, v| most.max(v.max_abs()));
+    let reach = vectors.iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs()));
     let finite = reach.lt(R::lit(f64::INFINITY));
     let scale = reach.pow2_scale();
     let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
     (vectors.map(scaled), scale)
 }
-
-/// A struct whose fields are lanes, with the operations that go field by field.
-macro_rules! lanewise {
-    ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $vis:vis $field:ident: $kind:ty),+ $(,)? }) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, Default)]
-        pub struct $name<R> {
-            $($(#[$field_doc])* $vis $field: $kind,)+
-        }
-        impl<R: $crate::real::Real> $name<R> {
-            /// Prepared for one point: the same in every lane.
-            #[inline]
-            pub fn splat(s: $name<R::Scalar>) -> Self {
-                Self { $($field: <$kind>::splat(s.$field)),+ }
-            }
-        }
-    };
-}
-pub(crate) use lanewise;

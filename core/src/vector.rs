@@ -1,5 +1,6 @@
 //! Points, directions and orthonormal frames over scalars or packets.
 
+use crate::lanewise::lanewise;
 use crate::math::{difference_of_products, rsqrt, two_sum};
 use crate::real::Real;
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
@@ -29,8 +30,8 @@ macro_rules! vector {
             }
             /// `yes` where the mask is true, `no` elsewhere.
             #[inline(always)]
-            pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
-                Self { $($axis: R::select(mask, yes.$axis, no.$axis)),+ }
+            pub fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
+                Self { $($axis: R::blend(mask, yes.$axis, no.$axis)),+ }
             }
             /// `self * scale + other`.
             #[inline(always)]
@@ -147,19 +148,21 @@ impl<R: Real> Vec3<R> {
     /// Largest magnitude of a component.
     #[inline(always)]
     pub fn max_abs(self) -> R {
-        self.x.abs().max(self.y.abs()).max(self.z.abs())
+        self.x.abs().greater(self.y.abs()).greater(self.z.abs())
     }
 }
 
-/// A right-handed orthonormal frame: local z is the given direction.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Frame<R> {
-    /// Local x axis.
-    pub s: Vec3<R>,
-    /// Local y axis.
-    pub t: Vec3<R>,
-    /// Local z axis.
-    pub n: Vec3<R>,
+lanewise! {
+    /// A right-handed orthonormal frame: local z is the given direction.
+    #[derive(PartialEq)]
+    pub struct Frame {
+        /// Local x axis.
+        pub s: Vec3<R>,
+        /// Local y axis.
+        pub t: Vec3<R>,
+        /// Local z axis.
+        pub n: Vec3<R>,
+    }
 }
 
 impl<R: Real> Frame<R> {
@@ -177,11 +180,6 @@ impl<R: Real> Frame<R> {
             t: Vec3::new(b, (n.y * a).mul_add(n.y, sign), -n.y),
             n,
         }
-    }
-    /// One frame in every lane.
-    #[inline(always)]
-    pub fn splat(f: Frame<R::Scalar>) -> Self {
-        Self { s: Vec3::splat(f.s), t: Vec3::splat(f.t), n: Vec3::splat(f.n) }
     }
     /// From local coordinates to the frame's space.
     #[inline(always)]

@@ -81,12 +81,3 @@ pub trait Warp1<R: Real> {
     /// The `u` in [0, 1) that `sample` maps to the point; any value in [0, 1) for a point outside.
     fn invert(&self, x: R) -> R;
 }
-
-/// The greatest finite number of single precision: magnitudes are held below it at every precision.
-pub(crate) const GREATEST: f64 = f32::MAX as f64;
-
-/// Into [0, 1 − 2⁻²⁴], the range of `u`; NaN becomes 0.
-#[inline]
-pub(crate) fn unit_interval<R: Real>(x: R) -> R {
-    x.clamp(R::lit(0.0), R::ONE_MINUS_EPSILON)
-}

@@ -171,19 +171,19 @@ impl Hits {
 /// these names that would be found first, with other arguments or with checks for NaN.)
 #[inline]
 pub fn select(mask: M8, yes: X8, no: X8) -> X8 {
-    Real::select(mask, yes, no)
+    Real::blend(mask, yes, no)
 }
 
 /// The lesser; `b` where either is NaN.
 #[inline]
 pub fn min(a: X8, b: X8) -> X8 {
-    Real::min(a, b)
+    Real::lesser(a, b)
 }
 
 /// The greater; `b` where either is NaN.
 #[inline]
 pub fn max(a: X8, b: X8) -> X8 {
-    Real::max(a, b)
+    Real::greater(a, b)
 }
 
 /// `a == b` per lane.

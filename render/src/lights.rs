@@ -256,7 +256,7 @@ impl Lights {
             passed.to_uint().to_array().map(|i| i as usize)
         };
         let chosen = self.gathered(index);
-        let rest = Real::clamp((u - chosen.start) / chosen.pmf, X8::lit(0.0), X8::ONE_MINUS_EPSILON);
+        let rest = Real::clamped((u - chosen.start) / chosen.pmf, X8::lit(0.0), X8::ONE_MINUS_EPSILON);
         (chosen, rest)
     }
     /// What each light can contribute to points of a surface, if they are few and more than one; nothing where the choice is by power.
@@ -308,7 +308,7 @@ impl Lights {
         let width = end - start;
         let some = width.gt(zero);
         chosen.pmf = (width / select(some, sum, one)).keep(some);
-        let rest = Real::clamp((target - start) / select(some, width, one), zero, X8::ONE_MINUS_EPSILON);
+        let rest = Real::clamped((target - start) / select(some, width, one), zero, X8::ONE_MINUS_EPSILON);
         (chosen, rest)
     }
     #[inline(always)]
@@ -352,14 +352,14 @@ impl Lights {
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
                     let (sample, radiance) = sky.sample(measure, normal, u);
-                    chosen.radiance = V8::select(here, radiance, chosen.radiance);
+                    chosen.radiance = V8::blend(here, radiance, chosen.radiance);
                     sample
                 }
             };
             mixed = Some(match mixed {
                 None => sample,
                 Some(other) => LightSample {
-                    direction: V8::select(here, sample.direction, other.direction),
+                    direction: V8::blend(here, sample.direction, other.direction),
                     distance: select(here, sample.distance, other.distance),
                     pdf: select(here, sample.pdf, other.pdf),
                     emits: sample.emits & here | other.emits & !here,

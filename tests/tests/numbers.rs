@@ -35,8 +35,8 @@ fn variance(key: u32, estimate: impl Fn(Vec2<f32x8>) -> f32x8) -> [f64; 2] {
 fn worth(light: &LightSample<f32x8>, normal: Vec3<f32x8>) -> f32x8 {
     let cos = light.direction.dot(normal);
     let counts = light.emits & light.pdf.gt(f32x8::splat(0.0)) & cos.gt(f32x8::splat(0.0));
-    let pdf = Real::select(counts, light.pdf, f32x8::splat(1.0));
-    Real::select(counts, cos / pdf, f32x8::splat(0.0))
+    let pdf = Real::blend(counts, light.pdf, f32x8::splat(1.0));
+    Real::blend(counts, cos / pdf, f32x8::splat(0.0))
 }
 
 fn packet(v: [f64; 3]) -> Vec3<f32x8> {

@@ -46,8 +46,8 @@ impl Heuristic {
     #[inline]
     pub fn weights<R: Real, const N: usize>(self, densities: [R; N]) -> [R; N] {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let densities = densities.map(|d| d.max(zero));
-        let largest = densities.into_iter().fold(zero, R::max);
+        let densities = densities.map(|d| d.greater(zero));
+        let largest = densities.into_iter().fold(zero, R::greater);
         let some = largest.gt(zero);
         let Self::Power(exponent) = (if self == Self::Balance { Self::Power(1) } else { self }) else {
             let mut free = some;
@@ -58,9 +58,9 @@ impl Heuristic {
             });
         };
         // ∞/∞ is 1 here, and 0/0 is 0
-        let divisor = R::select(some, largest, one);
+        let divisor = R::blend(some, largest, one);
         let shares = densities.map(|d| {
-            let ratio = R::select(d.ge(largest), one, d / divisor).keep(some & d.gt(zero));
+            let ratio = R::blend(d.ge(largest), one, d / divisor).keep(some & d.gt(zero));
             match exponent {
                 0 => one.keep(ratio.gt(zero)),
                 _ => (1..exponent).fold(ratio, |power, _| power * ratio),
@@ -68,7 +68,7 @@ impl Heuristic {
         });
         // at least 1 where there is any
         let sum = shares.into_iter().fold(zero, |sum, share| sum + share);
-        shares.map(|share| share / R::select(some, sum, one))
+        shares.map(|share| share / R::blend(some, sum, one))
     }
 }
 
@@ -76,8 +76,8 @@ impl Heuristic {
 /// product, which saturates; ∞ where `delta` holds.
 #[inline]
 pub fn technique_pdf<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
-    let product = (samples * pdf).clamp(R::lit(0.0), R::lit(f64::from(f32::MAX)));
-    R::select(delta, R::lit(f64::INFINITY), product)
+    let product = (samples * pdf).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));
+    R::blend(delta, R::lit(f64::INFINITY), product)
 }
 
 /// Variance and cost of a technique, as measured.

@@ -53,21 +53,21 @@ impl<R: Real> Reservoir<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let largest = R::lit(f64::from(f32::MAX));
         let weight = weight.keep(weight.gt(zero) & weight.le(largest));
-        let sum = (self.sum + weight).min(largest);
-        let chance = weight / R::select(sum.gt(zero), sum, one);
+        let sum = (self.sum + weight).lesser(largest);
+        let chance = weight / R::blend(sum.gt(zero), sum, one);
         let take = u.lt(chance);
-        self.held = R::select_uint(take, candidate, self.held);
-        self.weight = R::select(take, weight, self.weight);
+        self.held = R::blend_uint(take, candidate, self.held);
+        self.weight = R::blend(take, weight, self.weight);
         self.sum = sum;
-        let (offset, width) = (R::select(take, zero, chance), R::select(take, chance, one - chance));
-        let rest = (u - offset) / R::select(width.gt(zero), width, one);
-        crate::warp::unit_interval(rest)
+        let (offset, width) = (R::blend(take, zero, chance), R::blend(take, chance, one - chance));
+        let rest = (u - offset) / R::blend(width.gt(zero), width, one);
+        crate::real::unit_interval(rest)
     }
     /// Probability of the candidate held, weight/Σweights; 0 if there is none.
     #[inline]
     #[must_use]
     pub fn pmf(&self) -> R {
-        self.weight / R::select(self.sum.gt(R::lit(0.0)), self.sum, R::lit(1.0))
+        self.weight / R::blend(self.sum.gt(R::lit(0.0)), self.sum, R::lit(1.0))
     }
     /// What stands for 1/pdf of a resampled sample: Σweights/target, where `target` is p̂ of the sample held; 0 where
     /// it is 0.
@@ -75,6 +75,6 @@ impl<R: Real> Reservoir<R> {
     #[must_use]
     pub fn contribution(&self, target: R) -> R {
         let some = target.gt(R::lit(0.0));
-        (self.sum / R::select(some, target, R::lit(1.0))).keep(some)
+        (self.sum / R::blend(some, target, R::lit(1.0))).keep(some)
     }
 }

@@ -2,8 +2,9 @@
 //! intensity I (or the irradiance of a directional light) in the place of the radiance. It is no density and never part of MIS.
 
 use super::{FAR, LightSample, direction_to};
+use crate::lanewise::lanewise;
 use crate::real::{Mask, Real};
-use crate::spherical::{DirectionSample, lanewise};
+use crate::spherical::DirectionSample;
 use crate::vector::Vec3;
 
 /// Square of a distance, where it is finite and not 0.
@@ -15,7 +16,7 @@ fn inverse_square<R: Real>(distance: R) -> R {
 
 lanewise! {
     /// A point that emits the same intensity in all directions.
-    PointLight {
+    pub struct PointLight {
         /// Where.
         pub position: Vec3<R>,
     }
@@ -33,7 +34,7 @@ impl<R: Real> PointLight<R> {
 
 lanewise! {
     /// A point that emits into a cone, with full intensity near its axis.
-    SpotLight {
+    pub struct SpotLight {
         /// Where.
         pub position: Vec3<R>,
         /// Unit vector along which the light travels.
@@ -54,8 +55,8 @@ impl<R: Real> SpotLight<R> {
         let cos = w.dot(self.axis);
         let width = self.cos_inner - self.cos_outer;
         let soft = width.gt(zero);
-        let t = ((cos - self.cos_outer) / R::select(soft, width, one)).clamp(zero, one);
-        R::select(soft, t * t * (R::lit(3.0) - (t + t)), one.keep(cos.ge(self.cos_inner)))
+        let t = ((cos - self.cos_outer) / R::blend(soft, width, one)).clamped(zero, one);
+        R::blend(soft, t * t * (R::lit(3.0) - (t + t)), one.keep(cos.ge(self.cos_inner)))
     }
     /// The one direction: with `pdf` = distance²/falloff, f·I·cosθ/pdf is what arrives of the intensity I on the axis. Outside the cone
     /// `emits` is false and `pdf` 0.
@@ -64,7 +65,7 @@ impl<R: Real> SpotLight<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         let falloff = self.falloff(-direction);
         let some = falloff.gt(R::lit(0.0));
-        let pdf = inverse_square(distance) / R::select(some, falloff, R::lit(1.0));
+        let pdf = inverse_square(distance) / R::blend(some, falloff, R::lit(1.0));
         let pdf = pdf.keep(some & pdf.lt(R::lit(1e37)));
         LightSample { direction, distance, pdf, emits: pdf.gt(R::lit(0.0)), delta: R::Mask::splat(true) }
     }
@@ -72,7 +73,7 @@ impl<R: Real> SpotLight<R> {
 
 lanewise! {
     /// Parallel light from far away.
-    DirectionalLight {
+    pub struct DirectionalLight {
         /// Unit vector towards the light.
         pub direction: Vec3<R>,
     }

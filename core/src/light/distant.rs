@@ -1,6 +1,6 @@
 use super::{FAR, LightSample};
+use crate::lanewise::lanewise;
 use crate::real::{Mask, Real};
-use crate::spherical::lanewise;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, CosineHemisphere, UniformSphere, Warp};
 
@@ -12,7 +12,7 @@ pub(super) fn distant<R: Real>(direction: Vec3<R>, pdf: R) -> LightSample<R> {
 
 lanewise! {
     /// A sun: constant radiance from the directions within an angle σ of one, [`Cone`], at the same place for all points.
-    Sun {
+    pub struct Sun {
         /// Unit vector towards its centre.
         pub direction: Vec3<R>,
         /// 1 − cosσ, in [0, 2]: 1.09e−5 for the sun from the earth.

@@ -3,9 +3,9 @@
 use super::{LightSample, distant::distant};
 use crate::discrete::{PiecewiseConstant2d, TableError, locate, place};
 use crate::math::atan2_turns;
-use crate::real::Real;
+use crate::real::{GREATEST, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{GREATEST, Octahedral, Warp, unit_interval};
+use crate::warp::{Octahedral, Warp};
 
 const PI: f64 = core::f64::consts::PI;
 
@@ -161,8 +161,8 @@ impl<'a> ImageEnvironment<'a> {
             EnvironmentMap::Equirectangular => {
                 let (one, two) = (R::lit(1.0), R::lit(2.0));
                 let ring = self.ring::<R>(texel.y);
-                let within = R::select(ring.lower, one - texel.offset.y, texel.offset.y);
-                let k = within.mul_add(ring.height, ring.start).min(two);
+                let within = R::blend(ring.lower, one - texel.offset.y, texel.offset.y);
+                let k = within.mul_add(ring.height, ring.start).lesser(two);
                 let sin = (k * (two - k)).sqrt();
                 let (s, c) = place(texel.x, texel.offset.x, w).sin_cos_turns();
                 Vec3 { x: sin * c, y: sin * s, z: (one - k).negate_where(ring.lower) }
@@ -187,13 +187,13 @@ impl<'a> ImageEnvironment<'a> {
                 // the angle to the nearer pole, in rows
                 let rows = square.sqrt().atan2(z.abs()) * R::lit(1.0 / PI) * h;
                 let last = R::lit(((self.table.size()[1] - 1) / 2) as f64);
-                let near = R::from_uint(rows.clamp(zero, last).to_uint());
-                let row = R::select(below, h - one - near, near).to_uint();
+                let near = R::from_uint(rows.clamped(zero, last).to_uint());
+                let row = R::blend(below, h - one - near, near).to_uint();
                 let ring = self.ring::<R>(row);
                 // a middle row belongs to the upper pole as a whole: then 1 − z exceeds 1
-                let tall = R::select(below & !ring.lower, one - z, square / (one + z.abs()));
+                let tall = R::blend(below & !ring.lower, one - z, square / (one + z.abs()));
                 let within = unit_interval((tall - ring.start) / ring.height);
-                let offset = unit_interval(R::select(ring.lower, one - within, within));
+                let offset = unit_interval(R::blend(ring.lower, one - within, within));
                 let (x, column) = locate(atan2_turns(y, x), w);
                 Texel { x, y: row, offset: Vec2::new(column, offset) }
             }
@@ -207,7 +207,7 @@ impl<'a> ImageEnvironment<'a> {
         let y = R::from_uint(y);
         let mirrored = R::lit(rows - 1.0) - y;
         let lower = mirrored.lt(y);
-        let near = y.min(mirrored);
+        let near = y.lesser(mirrored);
         let quarter = R::lit(0.25) / R::lit(rows);
         let (s, _) = (near * quarter).sin_cos_turns();
         let (middle, _) = ((near + near + R::lit(1.0)) * quarter).sin_cos_turns();
@@ -222,7 +222,7 @@ impl<'a> ImageEnvironment<'a> {
             EnvironmentMap::EqualArea => w * h * R::lit(0.25 / PI),
             EnvironmentMap::Equirectangular => w * R::lit(0.5 / PI) / self.ring::<R>(y).height,
         };
-        (pmf * per_steradian).min(R::lit(GREATEST))
+        (pmf * per_steradian).lesser(R::lit(GREATEST))
     }
 }
 

@@ -1,6 +1,7 @@
 use super::{LightSample, direction_to};
+use crate::lanewise::lanewise;
 use crate::real::{Mask, Real};
-use crate::spherical::{DirectionSample, ProjectedSegment, SphericalSegment, lanewise};
+use crate::spherical::{DirectionSample, ProjectedSegment, SphericalSegment};
 use crate::vector::Vec3;
 
 lanewise! {
@@ -9,7 +10,7 @@ lanewise! {
     /// Its samples take one number. `pdf` is the density in the measure of what a unit of width is seen under, sinγ ds/r² (γ from the
     /// line, s along it: steradians per unit of width), so that the estimator is `f · L · width · cosθ / pdf`. Techniques of this
     /// light compare by it. No direction drawn otherwise can hit the light, so `delta` holds.
-    Line {
+    pub struct Line {
         /// One end.
         pub p: Vec3<R>,
         /// From there to the other end.

@@ -1,12 +1,12 @@
 use super::{LightSample, finite_by_area};
+use crate::lanewise::lanewise;
 use crate::real::Real;
-use crate::spherical::lanewise;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{PatchSurface, Warp};
 
 lanewise! {
     /// A bilinear patch p + su + tv + st(w − u − v), s and t in [0, 1], that emits on the side of ∂s×∂t.
-    BilinearPatch {
+    pub struct BilinearPatch {
         /// Corner.
         pub p: Vec3<R>,
         /// From there to the next corner, s = 1.
@@ -28,7 +28,7 @@ impl<R: Real> BilinearPatch<R> {
         let st = parameters.sample(u);
         let density = parameters.pdf(st);
         let some = density.gt(zero);
-        let part = (one / R::select(some, density, one)).keep(some);
+        let part = (one / R::blend(some, density, one)).keep(some);
         // |∂s×∂t| over the density of (s, t) is what a flat light has for its area
         finite_by_area(surface.p + surface.offset(st), surface.normal(st) * part)
     }

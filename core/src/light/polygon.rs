@@ -1,8 +1,8 @@
 use super::{LightSample, finite_by_area};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::spherical::{DirectionSample, ProjectedPolygon, SphericalPolygon};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{AreaTriangle, Warp, unit_interval};
+use crate::warp::{AreaTriangle, Warp};
 
 /// A convex polygon of N corners, 3 ≤ N ≤ 8, that emits on the side from which they run counterclockwise.
 ///
@@ -32,7 +32,7 @@ impl<R: Real, const N: usize> Polygon<R, N> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let origin = self.corners[0];
         let edge = |i: usize| self.corners[i] - origin;
-        let scale = (1..N).fold(zero, |most, i| most.max(edge(i).max_abs())).pow2_scale();
+        let scale = (1..N).fold(zero, |most, i| most.greater(edge(i).max_abs())).pow2_scale();
         // twice the area of a triangle, in units that neither over- nor underflow
         let size = |i: usize| (edge(i) * scale).cross(edge(i + 1) * scale).length();
         let mut whole = Vec3::default();
@@ -48,13 +48,13 @@ impl<R: Real, const N: usize> Polygon<R, N> {
             let size = size(i);
             // the first that has an area, and each that begins before the place
             let here = size.gt(zero) & (place.ge(sum) | width.le(zero));
-            first = Vec3::select(here, edge(i), first);
-            second = Vec3::select(here, edge(i + 1), second);
-            before = R::select(here, sum, before);
-            width = R::select(here, size, width);
+            first = Vec3::blend(here, edge(i), first);
+            second = Vec3::blend(here, edge(i + 1), second);
+            before = R::blend(here, sum, before);
+            width = R::blend(here, size, width);
             sum += size;
         }
-        let x = unit_interval((place - before) / R::select(width.gt(zero), width, one));
+        let x = unit_interval((place - before) / R::blend(width.gt(zero), width, one));
         let b: Vec2<R> = AreaTriangle.sample(Vec2::new(x, u.y));
         let point = first.mul_add(b.x, second.mul_add(b.y, origin - p));
         finite_by_area(point, whole * R::lit(0.5))

@@ -1,12 +1,13 @@
 use super::{LightSample, direction_to, flat_by_area, solid_angle_pdf};
+use crate::lanewise::lanewise;
 use crate::real::{Mask, Real};
-use crate::spherical::{DirectionSample, SphericalDisk, lanewise};
+use crate::spherical::{DirectionSample, SphericalDisk};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{ConcentricDisk, Warp};
 
 lanewise! {
     /// A disk that emits on the side of its normal.
-    Disk {
+    pub struct Disk {
         /// Centre.
         pub center: Vec3<R>,
         /// Unit normal.
@@ -48,7 +49,7 @@ impl<R: Real> Disk<R> {
 
 lanewise! {
     /// The side of a cylinder, without its ends, that emits outwards.
-    Cylinder {
+    pub struct Cylinder {
         /// Centre of one end.
         pub p: Vec3<R>,
         /// From there to the centre of the other end.

@@ -95,7 +95,7 @@ macro_rules! lane_by_lane {
         }
         #[inline(always)]
         fn acos(self) -> Self {
-            Self::from_fn(|i| libm::acos(self.lane(i).clamp(-1.0, 1.0)))
+            Self::from_fn(|i| libm::acos(self.lane(i).clamped(-1.0, 1.0)))
         }
         #[inline(always)]
         fn atan2(self, other: Self) -> Self {
@@ -103,11 +103,11 @@ macro_rules! lane_by_lane {
         }
         #[inline(always)]
         fn exp(self) -> Self {
-            Self::from_fn(|i| libm::exp(self.lane(i).clamp(-745.0, 709.0)))
+            Self::from_fn(|i| libm::exp(self.lane(i).clamped(-745.0, 709.0)))
         }
         #[inline(always)]
         fn exp_m1(self) -> Self {
-            Self::from_fn(|i| libm::expm1(self.lane(i).clamp(-745.0, 709.0)))
+            Self::from_fn(|i| libm::expm1(self.lane(i).clamped(-745.0, 709.0)))
         }
         #[inline(always)]
         fn ln_1p(self) -> Self {
@@ -127,8 +127,8 @@ macro_rules! lane_by_lane {
             // Φ keeps its digits
             let half = Self::lit(0.5);
             let above = self.gt(half);
-            let lower = <Self as Real>::select(above, Self::lit(1.0) - self, self);
-            let lower = Real::clamp(lower, Self::lit(crate::math::LEAST_TAIL), half);
+            let lower = <Self as Real>::blend(above, Self::lit(1.0) - self, self);
+            let lower = Real::clamped(lower, Self::lit(crate::math::LEAST_TAIL), half);
             let z = crate::math::normal_quantile_f32(lower);
             let refined = Self::from_fn(|i| {
                 let z = z.lane(i);
@@ -180,11 +180,11 @@ macro_rules! scalar_real {
                 self <= other
             }
             #[inline(always)]
-            fn select(mask: bool, yes: Self, no: Self) -> Self {
+            fn blend(mask: bool, yes: Self, no: Self) -> Self {
                 if mask { yes } else { no }
             }
             #[inline(always)]
-            fn select_uint(mask: bool, yes: u32, no: u32) -> u32 {
+            fn blend_uint(mask: bool, yes: u32, no: u32) -> u32 {
                 if mask { yes } else { no }
             }
             #[inline(always)]
@@ -196,11 +196,11 @@ macro_rules! scalar_real {
                 if mask { -self } else { self }
             }
             #[inline(always)]
-            fn min(self, other: Self) -> Self {
+            fn lesser(self, other: Self) -> Self {
                 if self < other { self } else { other }
             }
             #[inline(always)]
-            fn max(self, other: Self) -> Self {
+            fn greater(self, other: Self) -> Self {
                 if self > other { self } else { other }
             }
             #[inline(always)]
@@ -227,7 +227,7 @@ macro_rules! scalar_real {
             #[inline(always)]
             fn pow2_scale(self) -> Self {
                 $scalar::from_bits($bits::wrapping_sub($reflected, self.to_bits() & $exponent))
-                    .max($scalar::MIN_POSITIVE * 0.5)
+                    .greater($scalar::MIN_POSITIVE * 0.5)
             }
             #[inline(always)]
             fn exponent(self) -> Self {
@@ -299,11 +299,11 @@ macro_rules! packet_real {
                 $mask(self.simd_le(other))
             }
             #[inline(always)]
-            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+            fn blend(mask: $mask, yes: Self, no: Self) -> Self {
                 mask.0.select(yes, no)
             }
             #[inline(always)]
-            fn select_uint(mask: $mask, yes: $uint, no: $uint) -> $uint {
+            fn blend_uint(mask: $mask, yes: $uint, no: $uint) -> $uint {
                 let bits: fn($mask) -> $uint = $mask_uint;
                 no ^ ((no ^ yes) & bits(mask))
             }
@@ -317,7 +317,7 @@ macro_rules! packet_real {
             }
             // On x86 `fast_min` is minps: `a < b ? a : b`, as the scalar; other targets differ for NaN and ±0.
             #[inline(always)]
-            fn min(self, other: Self) -> Self {
+            fn lesser(self, other: Self) -> Self {
                 if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
                     self.fast_min(other)
                 } else {
@@ -325,7 +325,7 @@ macro_rules! packet_real {
                 }
             }
             #[inline(always)]
-            fn max(self, other: Self) -> Self {
+            fn greater(self, other: Self) -> Self {
                 if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {
                     self.fast_max(other)
                 } else {

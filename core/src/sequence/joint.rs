@@ -1,9 +1,8 @@
 use super::owen_sobol::{pascal, scramble};
 use super::stratified::{divide, replicate};
 use super::{Independent, OwenSobol, Sequence};
-use crate::real::{Real, Uint};
+use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
-use crate::warp::unit_interval;
 
 /// Pairs that [`JointSobol`] joins to one point.
 const PAIRS: u32 = 4;

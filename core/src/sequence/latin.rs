@@ -1,9 +1,8 @@
 use super::independent::hash4;
 use super::stratified::{permute, replicate};
 use super::{Independent, Sequence};
-use crate::real::{Real, Uint};
+use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
-use crate::warp::unit_interval;
 
 /// Latin hypercube: each coordinate of each dimension is stratified into as many strata as there are samples, and all
 /// coordinates are associated at random.

@@ -1,8 +1,7 @@
 use super::independent::hash4;
 use super::{Independent, Sequence};
-use crate::real::{Real, Uint};
+use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
-use crate::warp::unit_interval;
 
 /// Jittered strata: the samples of a pixel are dealt to the cells of a grid, each pair of dimensions in its own random order
 /// (padding), and placed uniformly within their cells.

@@ -1,4 +1,5 @@
-use super::{DirectionSample, lanewise};
+use super::DirectionSample;
+use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp};
@@ -13,7 +14,7 @@ lanewise! {
     /// - Degenerate: a radius ≤ 0 (or beyond the reach of f32: R/d < 1e−18) has pdf 0 and samples the direction to the centre.
     /// - Greatest error: pdf 3.0e−7 relative; direction 4.8e−7; distance 3.6e−7 relative, but for the limb, where its slope is infinite.
     /// - Source: PBR 4th ed., 6.2.4, in a form without its switch to a series for small spheres.
-    SphericalCap {
+    pub struct SphericalCap {
         frame: Frame<R>,
         cone: Cone<R>,
         /// d and d²−R² in units of `unit`, the power of two that the lengths were divided by.
@@ -32,21 +33,21 @@ impl<R: Real> SphericalCap<R> {
         let finite = center.max_abs().lt(R::lit(f64::INFINITY));
         let center = Vec3::new(center.x.keep(finite), center.y.keep(finite), center.z.keep(finite));
         let radius = radius.keep(finite);
-        let scale = center.max_abs().max(radius.abs()).pow2_scale();
+        let scale = center.max_abs().greater(radius.abs()).pow2_scale();
         let (c, r) = (center * scale, radius * scale);
         let power = c.length_squared_minus_square(r);
         let squared = c.length_squared();
         let some = squared.gt(zero);
-        let inverse = one / R::select(some, squared, one);
+        let inverse = one / R::blend(some, squared, one);
         let outside = power.ge(zero) & some;
-        let sin_squared = (r * r * inverse).min(one);
-        let cos = (power.max(zero) * inverse).sqrt();
-        let h = R::select(outside, sin_squared / (one + cos), R::lit(2.0));
+        let sin_squared = (r * r * inverse).lesser(one);
+        let cos = (power.greater(zero) * inverse).sqrt();
+        let h = R::blend(outside, sin_squared / (one + cos), R::lit(2.0));
         let distance = squared.sqrt();
         // in units of its own: the centre may be as near as it likes to a point inside a large sphere
         let axis = (center * center.max_abs().pow2_scale()).normalize();
         let somewhere = axis.max_abs().gt(zero);
-        let axis = Vec3::new(axis.x, axis.y, R::select(somewhere, axis.z, one));
+        let axis = Vec3::new(axis.x, axis.y, R::blend(somewhere, axis.z, one));
         Self {
             frame: Frame::new(axis),
             cone: Cone { one_minus_cos: h.keep(r.gt(zero)) },
@@ -85,13 +86,13 @@ impl<R: Real> SphericalCap<R> {
         let along = self.distance * (one - k);
         let across = (h * (one - u.x)) * (two - h * (one + u.x));
         let outside = self.power.ge(zero);
-        let square = R::select(outside, self.distance * self.distance * across, along.mul_add(along, -self.power));
-        let sum = square.max(zero).sqrt() + along.abs();
-        let quotient = self.power.abs() / R::select(sum.gt(zero), sum, one);
+        let square = R::blend(outside, self.distance * self.distance * across, along.mul_add(along, -self.power));
+        let sum = square.greater(zero).sqrt() + along.abs();
+        let quotient = self.power.abs() / R::blend(sum.gt(zero), sum, one);
         let far = !outside & along.ge(zero);
         DirectionSample {
             direction: self.sample(u),
-            distance: (R::select(far, sum, quotient) * self.unit).min(R::lit(f64::from(f32::MAX))),
+            distance: (R::blend(far, sum, quotient) * self.unit).lesser(R::lit(f64::from(f32::MAX))),
         }
     }
 }

@@ -40,7 +40,7 @@ impl<R: Real, S: Warp<R, Point = Vec3<R>>> CosineWarped<S, R> {
     /// For known cosines in the directions of the corners (0, 0), (1, 0), (0, 1) and (1, 1).
     #[inline(always)]
     pub fn with_cosines(shape: S, cosines: [R; 4]) -> Self {
-        Self { shape, weights: Bilinear { corners: cosines.map(|c| c.max(R::lit(FLOOR))) } }
+        Self { shape, weights: Bilinear { corners: cosines.map(|c| c.greater(R::lit(FLOOR))) } }
     }
 }
 

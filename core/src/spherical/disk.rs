@@ -1,10 +1,11 @@
 use super::double_word::compensated_dot;
 use super::line::finite_or_zero;
-use super::{DirectionSample, lanewise, reciprocal_or_zero};
+use super::{DirectionSample, reciprocal_or_zero};
+use crate::lanewise::lanewise;
 use crate::math::{double, ratio, rsqrt};
-use crate::real::Real;
+use crate::real::{Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
-use crate::warp::{Linear, Warp, Warp1, unit_interval};
+use crate::warp::{Linear, Warp, Warp1};
 
 /// Angle by which a sample may leave the disk through the rounding of its direction and of the frame: 6 ulp of a component near 1.
 const SLACK: f64 = 6.0 / 16_777_216.0;
@@ -28,7 +29,7 @@ lanewise! {
     ///   cosine to the disk's normal.
     /// - Source: Guillén, Ureña, King, Fajardo, Georgiev, López-Moreno and Jarabo, "Area-Preserving Parameterizations for Spherical
     ///   Ellipses", CGF 36(4), 2017, for the polar map; the integral by the eccentric angle and its inverse are derived here.
-    SphericalDisk {
+    pub struct SphericalDisk {
         /// x along the minor axis, y along the major axis, z along the axis of the cone
         frame: Frame<R>,
         /// of the half-angles: α about y, β about x
@@ -56,6 +57,10 @@ impl<R: Real> Quarter<R> {
     #[inline(always)]
     fn splat(q: Quarter<R::Scalar>) -> Self {
         Self(q.0.map(R::splat))
+    }
+    #[inline(always)]
+    fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
+        Self(core::array::from_fn(|i| R::blend(mask, yes.0[i], no.0[i])))
     }
 }
 
@@ -94,14 +99,14 @@ impl<R: Real> SphericalDisk<R> {
     #[inline(always)]
     pub fn new(center: Vec3<R>, normal: Vec3<R>, radius: R) -> Self {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
-        let reach = center.max_abs().max(radius.abs());
+        let reach = center.max_abs().greater(radius.abs());
         let finite = reach.lt(R::lit(f64::INFINITY));
         let scale = reach.keep(finite).pow2_scale();
-        let (c, r) = (finite_or_zero(center, finite) * scale, radius.max(zero).keep(finite) * scale);
+        let (c, r) = (finite_or_zero(center, finite) * scale, radius.greater(zero).keep(finite) * scale);
         let normal = normal * normal.max_abs().pow2_scale();
         let squared = normal.length_squared();
         let some = squared.gt(zero);
-        let shrink = rsqrt(R::select(some, squared, one)).keep(some);
+        let shrink = rsqrt(R::blend(some, squared, one)).keep(some);
         let signed = compensated_dot(c, normal) * shrink;
         // before the normal is rounded: on the axis this tells the azimuth
         let across = normal.cross(c);
@@ -113,12 +118,12 @@ impl<R: Real> SphericalDisk<R> {
         let cross = r * z;
         let both = cross + cross;
         let h = power.mul_add(power, both * both).sqrt();
-        let (cos_2a, sin_2a) = (ratio(power.abs(), h).min(one), ratio(both, h));
+        let (cos_2a, sin_2a) = (ratio(power.abs(), h).lesser(one), ratio(both, h));
         // the larger of cosine and sine by the half-angle, the smaller from the sine of the whole
         let large = (half * (one + cos_2a)).sqrt();
         let small = sin_2a / (large + large);
         let outside = power.ge(zero);
-        let (cos_minor, sin_minor) = (R::select(outside, large, small), R::select(outside, small, large));
+        let (cos_minor, sin_minor) = (R::blend(outside, large, small), R::blend(outside, small, large));
         let hcc = h * cos_minor * cos_minor;
         let inverse = ratio(one, r.mul_add(r, hcc));
         let root = inverse.sqrt();
@@ -131,11 +136,11 @@ impl<R: Real> SphericalDisk<R> {
         let axis = (axis * axis.max_abs().pow2_scale()).normalize();
         let somewhere = axis.max_abs().gt(zero);
         // in the disk's plane: its normal, and any direction where it has none
-        let axis = Vec3::select(somewhere, axis, towards);
-        let axis = Vec3::new(axis.x, axis.y, R::select(axis.max_abs().gt(zero), axis.z, one));
+        let axis = Vec3::blend(somewhere, axis, towards);
+        let axis = Vec3::new(axis.x, axis.y, R::blend(axis.max_abs().gt(zero), axis.z, one));
         let across = (across * across.max_abs().pow2_scale()).normalize();
         let any = Frame::new(axis);
-        let y = Vec3::select(across.max_abs().gt(zero), across, any.t);
+        let y = Vec3::blend(across.max_abs().gt(zero), across, any.t);
         let x = y.cross(axis).normalize();
         let frame = Frame { s: x, t: axis.cross(x), n: axis };
 
@@ -191,7 +196,7 @@ impl<R: Real> SphericalDisk<R> {
     #[inline(always)]
     fn choose(&self, beyond: [R::Mask; 3]) -> (R, R, R, R) {
         let [a, b, c, d] = self.sums.0;
-        let pick = |v: [R; 4]| R::select(beyond[2], v[3], R::select(beyond[1], v[2], R::select(beyond[0], v[1], v[0])));
+        let pick = |v: [R; 4]| R::blend(beyond[2], v[3], R::blend(beyond[1], v[2], R::blend(beyond[0], v[1], v[0])));
         let edges = [0.0, 0.25, 0.5, 0.75, 1.0].map(R::lit);
         let low = pick([edges[0], edges[1], edges[2], edges[3]]);
         (low, low + R::lit(0.25), pick([R::lit(0.0), a, b, c]), pick([a, b - a, c - b, d - c]))
@@ -209,7 +214,7 @@ impl<R: Real> SphericalDisk<R> {
         let steps = if double::<R>() { 4 } else { 2 };
         for _ in 0..steps {
             let off = self.panel(low, t.sqrt().sqrt()) - share;
-            t = (t - off / self.integrand(t * t)).clamp(first, last);
+            t = (t - off / self.integrand(t * t)).clamped(first, last);
         }
         t
     }
@@ -249,8 +254,8 @@ impl<R: Real> SphericalDisk<R> {
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let direction = self.sample(u);
         let cos = direction.dot(self.normal);
-        let distance = ratio(self.height, cos).min(self.reach).max(self.height) * self.unit;
-        let distance = distance.min(R::lit(f64::from(f32::MAX)));
+        let distance = ratio(self.height, cos).lesser(self.reach).greater(self.height) * self.unit;
+        let distance = distance.lesser(R::lit(f64::from(f32::MAX)));
         DirectionSample { direction, distance: distance.keep(self.solid_angle.gt(R::lit(0.0))) }
     }
 }
@@ -265,10 +270,10 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
         let quadrant = [1.0, 2.0, 3.0].map(|k| turned.ge(R::lit(k)));
         let of = |values: [f64; 4]| {
             let v = values.map(R::lit);
-            let upper = R::select(quadrant[2], v[3], v[2]);
-            R::select(quadrant[1], upper, R::select(quadrant[0], v[1], v[0]))
+            let upper = R::blend(quadrant[2], v[3], v[2]);
+            R::blend(quadrant[1], upper, R::blend(quadrant[0], v[1], v[0]))
         };
-        let part = (turned - of([0.0, 2.0, 2.0, 4.0])).abs().min(one);
+        let part = (turned - of([0.0, 2.0, 2.0, 4.0])).abs().lesser(one);
         let t = self.invert_integral(part * self.sums.0[3]);
         let tt = t * t;
         let inverse = one / (one + tt);
@@ -277,7 +282,7 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
         // sinθ over that of the rim: k(2−k)/(h(2−h))
         let h = radius_squared / (one + d);
         let k = u.y * h;
-        let factor = (u.y.max(zero) * ratio(R::lit(2.0) - k, one + d)).sqrt();
+        let factor = (u.y.greater(zero) * ratio(R::lit(2.0) - k, one + d)).sqrt();
         let x = self.sin_minor * sin * factor * of([1.0, 1.0, -1.0, -1.0]);
         let y = self.sin_major * cos * factor * of([1.0, -1.0, -1.0, 1.0]);
         self.frame.to_world(Vec3::new(x, y, one - k))
@@ -295,12 +300,12 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         let at = self.locate(w);
-        let part = ratio(self.integral(at.t), self.sums.0[3]).min(one) * R::lit(0.25);
+        let part = ratio(self.integral(at.t), self.sums.0[3]).lesser(one) * R::lit(0.25);
         let upper = at.y.ge(zero);
-        let right = R::select(upper, part, half - part);
-        let left = R::select(upper, one - part, half + part);
+        let right = R::blend(upper, part, half - part);
+        let left = R::blend(upper, one - part, half + part);
         Vec2 {
-            x: unit_interval(R::select(at.x.lt(zero), left, right)),
+            x: unit_interval(R::blend(at.x.lt(zero), left, right)),
             y: unit_interval(ratio(at.one_minus_cos * (one + at.rim_cos), at.rim_squared)),
         }
     }
@@ -324,15 +329,15 @@ impl<R: Real> SphericalDisk<R> {
         let Vec3 { x, y, z } = self.frame.to_local(w);
         // a disk may be thinner than a direction is resolved: then back to it across, not towards the centre
         let rounding = R::lit(if double::<R>() { 8.0 / 9_007_199_254_740_992.0 } else { 8.0 / 16_777_216.0 });
-        let high = ratio(y.abs(), self.sin_major).min(one);
+        let high = ratio(y.abs(), self.sin_major).lesser(one);
         let wide = self.sin_minor * ((one - high) * (one + high)).sqrt();
-        let x = R::select((x.abs() - wide).le(rounding), x.clamp(-wide, wide), x);
+        let x = R::blend((x.abs() - wide).le(rounding), x.clamped(-wide, wide), x);
         let flat = x.mul_add(x, y * y);
-        let one_minus_cos = R::select(z.gt(R::lit(0.5)), flat / (one + z.max(zero)), one - z);
+        let one_minus_cos = R::blend(z.gt(R::lit(0.5)), flat / (one + z.greater(zero)), one - z);
         let (a, b) = (x.abs() * self.sin_major, y.abs() * self.sin_minor);
-        let scale = a.max(b).pow2_scale();
+        let scale = a.greater(b).pow2_scale();
         let (a, b) = (a * scale, b * scale);
-        let t = ratio(a, a.mul_add(a, b * b).sqrt() + b).min(one);
+        let t = ratio(a, a.mul_add(a, b * b).sqrt() + b).lesser(one);
         let inverse = one / t.mul_add(t, one);
         let (cos, sin) = ((one - t) * (one + t) * inverse, (t + t) * inverse);
         let (rim_cos, rim_squared) = self.rim(cos, sin);

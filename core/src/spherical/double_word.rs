@@ -72,7 +72,7 @@ pub(super) fn unit_normal<R: Real>(normal: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
     let scaled = normal * normal.max_abs().pow2_scale();
     let squared = scaled.length_squared();
     let flat = squared.le(zero);
-    let scaled = Vec3::new(scaled.x, scaled.y, R::select(flat, one, scaled.z));
-    let shrink = rsqrt(R::select(flat, one, squared));
+    let scaled = Vec3::new(scaled.x, scaled.y, R::blend(flat, one, scaled.z));
+    let shrink = rsqrt(R::blend(flat, one, squared));
     (scaled * shrink, scaled, shrink)
 }

@@ -1,10 +1,11 @@
+use super::DirectionSample;
 use super::double_word::{dot_dw, rounded_sum, unit_normal};
 use super::projected_cap::segment;
-use super::{DirectionSample, lanewise};
+use crate::lanewise::lanewise;
 use crate::math::{double, ratio};
-use crate::real::Real;
+use crate::real::{Real, unit_interval};
 use crate::vector::Vec3;
-use crate::warp::{Linear, Warp1, unit_interval};
+use crate::warp::{Linear, Warp1};
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Angle by which a sample may leave the segment through the rounding of its direction: 4 ulp of a component near 1.
@@ -14,7 +15,7 @@ const TURNS: f64 = 0.5 * FRAC_1_PI;
 /// Both times a power of two, and that; zeros where one is beyond the largest number.
 #[inline(always)]
 fn common_scale<R: Real>(a: Vec3<R>, edge: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
-    let reach = a.max_abs().max(edge.max_abs());
+    let reach = a.max_abs().greater(edge.max_abs());
     let finite = reach.lt(R::lit(f64::INFINITY));
     let scale = reach.keep(finite).pow2_scale();
     (finite_or_zero(a, finite) * scale, finite_or_zero(edge, finite) * scale, scale)
@@ -39,7 +40,7 @@ lanewise! {
     /// - Greatest error: direction 2.9e−7; pdf 3e−7 relative; distance 4e−7 relative, over sinγ.
     /// - Source: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012, 4.1, by angles
     ///   at the ends instead of the foot of the perpendicular.
-    SphericalSegment {
+    pub struct SphericalSegment {
         /// at the ends: direction, and direction of turning towards the other end
         from: Vec3<R>,
         from_turn: Vec3<R>,
@@ -99,15 +100,15 @@ impl<R: Real> SphericalSegment<R> {
         let turns = R::lit(TURNS);
         let ((s, c), (rest_s, rest_c)) = ((theta * turns).sin_cos_turns(), (rest * turns).sin_cos_turns());
         let sum = self.from_distance.mul_add(s, self.to_distance * rest_s);
-        let farthest = self.from_distance.max(self.to_distance);
-        let distance = ratio(self.area, sum).min(farthest) * self.unit;
+        let farthest = self.from_distance.greater(self.to_distance);
+        let distance = ratio(self.area, sum).lesser(farthest) * self.unit;
         // from the nearer end
         let near = theta.le(rest);
-        let along = Vec3::select(near, self.from, self.to) * R::select(near, c, rest_c);
-        let direction = Vec3::select(near, self.from_turn, self.to_turn).mul_add(R::select(near, s, rest_s), along);
+        let along = Vec3::blend(near, self.from, self.to) * R::blend(near, c, rest_c);
+        let direction = Vec3::blend(near, self.from_turn, self.to_turn).mul_add(R::blend(near, s, rest_s), along);
         DirectionSample {
             direction,
-            distance: distance.min(R::lit(f64::from(f32::MAX))).keep(self.angle.gt(R::lit(0.0))),
+            distance: distance.lesser(R::lit(f64::from(f32::MAX))).keep(self.angle.gt(R::lit(0.0))),
         }
     }
     /// The direction for `u` and the distance to the segment along it.
@@ -137,7 +138,7 @@ impl<R: Real> SphericalSegment<R> {
     #[inline(always)]
     fn angles(&self, w: Vec3<R>) -> (R, R) {
         let zero = R::lit(0.0);
-        let of = |turn: Vec3<R>, end: Vec3<R>| w.dot(turn).max(zero).atan2(w.dot(end)).min(self.angle);
+        let of = |turn: Vec3<R>, end: Vec3<R>| w.dot(turn).greater(zero).atan2(w.dot(end)).lesser(self.angle);
         (of(self.from_turn, self.from), of(self.to_turn, self.to))
     }
     /// The `u` in [0, 1) that [`sample`](Self::sample) maps to the direction; any value in [0, 1) for one beyond the ends.
@@ -145,27 +146,23 @@ impl<R: Real> SphericalSegment<R> {
     pub fn invert(&self, w: Vec3<R>) -> R {
         let (theta, rest) = self.angles(w);
         let (u, v) = (ratio(theta, self.angle), ratio(rest, self.angle));
-        unit_interval(R::select(theta.le(rest), u, R::lit(1.0) - v))
+        unit_interval(R::blend(theta.le(rest), u, R::lit(1.0) - v))
     }
 }
 
-/// One end of a [`ProjectedSegment`]: what the irradiance up to the angle x from it depends on.
-#[derive(Clone, Copy, Debug, Default)]
-struct End<R> {
-    /// p₀, p₀' and c
-    density: R,
-    slope: R,
-    bend: R,
-    /// of the half of the segment next to it
-    half: R,
+lanewise! {
+    /// One end of a [`ProjectedSegment`]: what the irradiance up to the angle x from it depends on.
+    struct End {
+        /// p₀, p₀' and c
+        density: R,
+        slope: R,
+        bend: R,
+        /// of the half of the segment next to it
+        half: R,
+    }
 }
 
 impl<R: Real> End<R> {
-    #[inline(always)]
-    fn splat(e: End<R::Scalar>) -> Self {
-        let End { density, slope, bend, half } = e;
-        Self { density: R::splat(density), slope: R::splat(slope), bend: R::splat(bend), half: R::splat(half) }
-    }
     /// Irradiance up to the angle x ≤ π/2, its derivative, and the derivative of that.
     #[inline(always)]
     fn irradiance(&self, x: R) -> (R, R, R) {
@@ -175,7 +172,7 @@ impl<R: Real> End<R> {
         let sum = self.density.mul_add(x, half * (self.slope * ss - self.bend * segment(x)));
         let value = self.density + (self.slope * sc - self.bend * ss);
         let slope = self.slope.mul_add((c - s) * (c + s), -(self.bend * (sc + sc)));
-        (sum, value.max(R::lit(0.0)), slope)
+        (sum, value.greater(R::lit(0.0)), slope)
     }
     /// The angle x ≤ `most` up to which the irradiance is `part`: Laguerre's method, from the density as if it were linear.
     #[inline(always)]
@@ -187,8 +184,8 @@ impl<R: Real> End<R> {
         for _ in 0..steps {
             let (sum, value, slope) = self.irradiance(x);
             let off = sum - part;
-            let root = (R::lit(4.0) * value * value - R::lit(6.0) * off * slope).max(zero).sqrt();
-            x = (x - ratio(off * R::lit(3.0), value + root)).clamp(zero, most);
+            let root = (R::lit(4.0) * value * value - R::lit(6.0) * off * slope).greater(zero).sqrt();
+            x = (x - ratio(off * R::lit(3.0), value + root)).clamped(zero, most);
         }
         x
     }
@@ -213,7 +210,7 @@ lanewise! {
     ///   between the line and the directions of its ends, and 2e−14 over the sine of the higher end's elevation.
     /// - Source: Peters, "BRDF Importance Sampling for Linear Lights", HPG 2021, for the density; the integral from an end and its
     ///   inverse are derived here.
-    ProjectedSegment {
+    pub struct ProjectedSegment {
         arc: SphericalSegment<R>,
         near: End<R>,
         far: End<R>,
@@ -245,41 +242,41 @@ impl<R: Real> ProjectedSegment<R> {
         let (level, sine) = normal.cross(across).unit_and_length();
         // the end on the horizon: its place; where the line passes near the point that is a small difference, and the angles to the ends tell
         let height = ratio(area, length);
-        let farthest = a_distance.max(b_distance);
-        let (place, there) = edge.mul_add(ratio(low.abs(), rise.abs()).min(one), a).unit_and_length();
+        let farthest = a_distance.greater(b_distance);
+        let (place, there) = edge.mul_add(ratio(low.abs(), rise.abs()).lesser(one), a).unit_and_length();
         let steep = (sine * farthest).ge(there);
         let clip = |below: R::Mask, way: Vec3<R>, distance: R, level: Vec3<R>| {
-            let level = Vec3::select(steep, level, place);
-            let sum = a_distance * level.dot(across.cross(a_way)).max(zero)
-                + b_distance * level.dot(b_way.cross(across)).max(zero);
-            let by_angles = ratio(area, sum).min(farthest);
-            let distance_there = R::select(height.le(R::lit(4.0) * there * there), there, by_angles);
-            (Vec3::select(below, level, way), R::select(below, distance_there, distance))
+            let level = Vec3::blend(steep, level, place);
+            let sum = a_distance * level.dot(across.cross(a_way)).greater(zero)
+                + b_distance * level.dot(b_way.cross(across)).greater(zero);
+            let by_angles = ratio(area, sum).lesser(farthest);
+            let distance_there = R::blend(height.le(R::lit(4.0) * there * there), there, by_angles);
+            (Vec3::blend(below, level, way), R::blend(below, distance_there, distance))
         };
         let (from, from_distance) = clip(enters, a_way, a_distance, level);
         let (to, to_distance) = clip(leaves, b_way, b_distance, -level);
         let lifted = !(enters & leaves);
-        let above = R::select(enters, high, low);
-        let part = R::select(enters | leaves, ratio(above.abs(), rise.abs()).min(one), one);
+        let above = R::blend(enters, high, low);
+        let part = R::blend(enters | leaves, ratio(above.abs(), rise.abs()).lesser(one), one);
         let arc = SphericalSegment::between([from, to], [from_distance, to_distance], across, area * part, one / scale);
 
-        let cos = |below: R::Mask, height: R, distance: R| ratio(height.max(zero), distance).keep(!below);
+        let cos = |below: R::Mask, height: R, distance: R| ratio(height.greater(zero), distance).keep(!below);
         let (from_cos, to_cos) = (cos(enters, low, from_distance), cos(leaves, high, to_distance));
         // near the horizon heights tell by how much a direction rises, elsewhere the normal does
         let (sin, level) = (ratio(area * part, from_distance * to_distance), from.dot(to));
         let flat = (from_cos + to_cos).lt(sin);
         // as far as the nearer end is known
-        let most = ratio(from_distance.min(to_distance), farthest);
+        let most = ratio(from_distance.lesser(to_distance), farthest);
         let end = |way: Vec3<R>, turn: Vec3<R>, along: Vec3<R>, distance: R, cos: R, other: R| {
-            let sine = ratio(height, distance).min(one);
+            let sine = ratio(height, distance).lesser(one);
             let cosine = along.dot(way);
             let rise = normal.dot(turn);
             let by_heights = ratio((-cos).mul_add(level, other), sin);
-            let rise = R::select(flat & rise.abs().lt(most), by_heights, rise);
+            let rise = R::blend(flat & rise.abs().lt(most), by_heights, rise);
             let density = sine * cos;
             let end = End { density, slope: sine * rise - cosine * cos, bend: density + cosine * rise, half: zero };
             let (half, ..) = end.irradiance(arc.angle * R::lit(0.5));
-            End { half: half.max(zero), ..end }
+            End { half: half.greater(zero), ..end }
         };
         let near = end(from, arc.from_turn, along, from_distance, from_cos, to_cos);
         let far = end(to, arc.to_turn, -along, to_distance, to_cos, from_cos);
@@ -306,7 +303,7 @@ impl<R: Real> ProjectedSegment<R> {
         let (one, half) = (R::lit(1.0), R::lit(0.5));
         let part = u * self.whole;
         let first = part.le(self.near.half);
-        let pick = |a: R, b: R| R::select(first, a, b);
+        let pick = |a: R, b: R| R::blend(first, a, b);
         let end = End {
             density: pick(self.near.density, self.far.density),
             slope: pick(self.near.slope, self.far.slope),
@@ -326,17 +323,17 @@ impl<R: Real> ProjectedSegment<R> {
     #[inline(always)]
     pub fn pdf(&self, w: Vec3<R>) -> R {
         let zero = R::lit(0.0);
-        let value = w.dot(self.foot).max(zero) * w.dot(self.normal).max(zero);
+        let value = w.dot(self.foot).greater(zero) * w.dot(self.normal).greater(zero);
         ratio(value, self.whole).keep(self.arc.between_ends(w))
     }
     /// The `u` in [0, 1) that [`sample`](Self::sample) maps to the direction; any value in [0, 1) for one beyond the ends.
     #[inline(always)]
     pub fn invert(&self, w: Vec3<R>) -> R {
         let (x, y) = self.arc.angles(w);
-        let most = (self.arc.angle * R::lit(0.5)).min(R::lit(FRAC_PI_2));
-        let (near, ..) = self.near.irradiance(x.min(most));
-        let (far, ..) = self.far.irradiance(y.min(most));
+        let most = (self.arc.angle * R::lit(0.5)).lesser(R::lit(FRAC_PI_2));
+        let (near, ..) = self.near.irradiance(x.lesser(most));
+        let (far, ..) = self.far.irradiance(y.lesser(most));
         let (u, v) = (ratio(near, self.whole), ratio(far, self.whole));
-        unit_interval(R::select(x.le(y), u, R::lit(1.0) - v))
+        unit_interval(R::blend(x.le(y), u, R::lit(1.0) - v))
     }
 }

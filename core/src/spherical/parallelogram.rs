@@ -1,9 +1,9 @@
 use super::double_word::{compensated_height, cross_dw, sum_dw};
 use super::triangle::Planes;
 use super::{DirectionSample, SphericalTriangle, to_unit};
-use crate::real::Real;
+use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{Warp, unit_interval};
+use crate::warp::Warp;
 
 /// The directions from a point to a parallelogram (a rectangle among them), uniform by solid angle.
 ///
@@ -70,11 +70,11 @@ impl<R: Real> SphericalParallelogram<R> {
         let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
         let (swept, left) = (u.x * (a + b), (one - u.x) * (a + b));
         let first = swept.lt(a);
-        let whole = R::select(first, a, b);
-        let inverse = one / R::select(whole.gt(zero), whole, one);
-        let x = unit_interval(R::select(first, swept, b - left) * inverse);
-        let rest = (R::select(first, a - swept, left) * inverse).clamp(zero, one);
-        (SphericalTriangle::select(first, &self.first, &self.second), Vec2::new(x, u.y), rest)
+        let whole = R::blend(first, a, b);
+        let inverse = one / R::blend(whole.gt(zero), whole, one);
+        let x = unit_interval(R::blend(first, swept, b - left) * inverse);
+        let rest = (R::blend(first, a - swept, left) * inverse).clamped(zero, one);
+        (SphericalTriangle::blend(first, self.first, self.second), Vec2::new(x, u.y), rest)
     }
     /// The direction for `u` and the distance to the parallelogram along it.
     #[inline(always)]
@@ -102,11 +102,8 @@ impl<R: Real> Warp<R> for SphericalParallelogram<R> {
         let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
         let first = self.second.beyond_v0_v1(w);
         let (u, v) = (self.first.invert(w), self.second.invert(w));
-        let swept = R::select(first, u.x * a, v.x.mul_add(b, a));
+        let swept = R::blend(first, u.x * a, v.x.mul_add(b, a));
         let sum = a + b;
-        Vec2 {
-            x: unit_interval(swept / R::select(sum.gt(R::lit(0.0)), sum, R::lit(1.0))),
-            y: R::select(first, u.y, v.y),
-        }
+        Vec2 { x: unit_interval(swept / R::blend(sum.gt(R::lit(0.0)), sum, R::lit(1.0))), y: R::blend(first, u.y, v.y) }
     }
 }

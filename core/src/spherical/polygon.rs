@@ -1,7 +1,7 @@
 use super::{DirectionSample, SphericalTriangle};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{Warp, unit_interval};
+use crate::warp::Warp;
 
 /// The directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, uniform by solid angle.
 ///
@@ -91,17 +91,17 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let (mut before, mut after, mut sum) = (zero, behind[0], self.fan[0].solid_angle());
         for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
             let later = swept.ge(sum) & triangle.solid_angle().gt(zero);
-            chosen = SphericalTriangle::select(later, triangle, &chosen);
-            before = R::select(later, sum, before);
-            after = R::select(later, behind[i], after);
+            chosen = SphericalTriangle::blend(later, *triangle, chosen);
+            before = R::blend(later, sum, before);
+            after = R::blend(later, behind[i], after);
             sum += triangle.solid_angle();
         }
         let whole = chosen.solid_angle();
-        let inverse = one / R::select(whole.gt(zero), whole, one);
+        let inverse = one / R::blend(whole.gt(zero), whole, one);
         let late = u.x.gt(R::lit(0.5));
         let (from, to) = ((swept - before) * inverse, (left - after) * inverse);
-        let x = unit_interval(R::select(late, one - to, from));
-        (chosen, Vec2::new(x, u.y), R::select(late, to, one - from).clamp(zero, one))
+        let x = unit_interval(R::blend(late, one - to, from));
+        (chosen, Vec2::new(x, u.y), R::blend(late, to, one - from).clamped(zero, one))
     }
     /// The direction for `u` and the distance to the polygon along it.
     #[inline(always)]
@@ -140,13 +140,13 @@ impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
         for triangle in &self.fan[1..Self::TRIANGLES] {
             let some = triangle.solid_angle().gt(zero);
             let later = some & (!triangle.beyond_v0_v1(w) | sum.le(zero));
-            chosen = SphericalTriangle::select(later, triangle, &chosen);
-            before = R::select(later, sum, before);
+            chosen = SphericalTriangle::blend(later, *triangle, chosen);
+            before = R::blend(later, sum, before);
             sum += triangle.solid_angle();
         }
         let u = chosen.invert(w);
         let some = sum.gt(zero);
         let swept = u.x.mul_add(chosen.solid_angle(), before);
-        Vec2 { x: unit_interval(swept / R::select(some, sum, R::lit(1.0))), y: u.y }
+        Vec2 { x: unit_interval(swept / R::blend(some, sum, R::lit(1.0))), y: u.y }
     }
 }

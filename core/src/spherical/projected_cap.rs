@@ -1,12 +1,13 @@
 mod lune;
 mod segment;
 
+use super::DirectionSample;
 use super::double_word::dot_dw;
-use super::{DirectionSample, lanewise};
+use crate::lanewise::lanewise;
 use crate::math::{double, ratio, rsqrt};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
-use crate::warp::{Cone, Warp, concentric, invert_concentric, unit_interval};
+use crate::warp::{Cone, Warp, concentric, invert_concentric};
 use core::f64::consts::{FRAC_PI_2, PI};
 use lune::arcs;
 use segment::invert_segment;
@@ -42,7 +43,7 @@ lanewise! {
     ///   A cap of less than 1e−6 on the horizon has cosines below the rounding of its directions, and some are lost.
     /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two maps of
     ///   the cut cap and the forms without cancellation are derived here.
-    ProjectedCap {
+    pub struct ProjectedCap {
         /// x: horizontal, towards the axis; z: the normal.
         frame: Frame<R>,
         axis: Vec3<R>,
@@ -75,10 +76,10 @@ lanewise! {
 fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
     let [squared, more] = dot_dw(n, n);
     let some = squared.gt(R::lit(0.0));
-    let length = squared * rsqrt(R::select(some, squared, R::lit(1.0)));
+    let length = squared * rsqrt(R::blend(some, squared, R::lit(1.0)));
     let again = length * length;
     let off = (squared - again) - (R::two_prod_error(length, length, again) - more);
-    let length_rest = off * R::lit(0.5) / R::select(some, length, R::lit(1.0));
+    let length_rest = off * R::lit(0.5) / R::blend(some, length, R::lit(1.0));
     let reach = r * length;
     let reach_rest = r.mul_add(length_rest, R::two_prod_error(r, length, reach));
     (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))))
@@ -89,64 +90,64 @@ impl<R: Real> ProjectedCap<R> {
     #[inline(always)]
     pub fn new(center: Vec3<R>, radius: R, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let scale = center.max_abs().max(radius.abs()).pow2_scale();
+        let scale = center.max_abs().greater(radius.abs()).pow2_scale();
         let (c, r) = (center * scale, radius * scale);
         let power = c.length_squared_minus_square(r);
         let squared = c.length_squared();
         let some = squared.gt(zero);
-        let inverse = rsqrt(R::select(some, squared, one)).keep(some);
+        let inverse = rsqrt(R::blend(some, squared, one)).keep(some);
         let outside = power.ge(zero) & some;
 
         // the normal to length 1, whatever it was
         let normal = normal * normal.max_abs().pow2_scale();
         let length_squared = normal.length_squared();
         let flat = length_squared.le(zero);
-        let shrink = rsqrt(R::select(flat, one, length_squared));
+        let shrink = rsqrt(R::blend(flat, one, length_squared));
         let heights = dot_dw(c, normal);
         let along_z = (heights[0] + heights[1]) * shrink;
         let margin = tangent_distance(r, normal, heights) * shrink;
         // y: horizontal, across the plane of normal and axis, before the normal is rounded
         let across = normal.cross(c) * shrink;
         let normal = normal * shrink;
-        let normal = Vec3::new(normal.x, normal.y, R::select(flat, one, normal.z));
+        let normal = Vec3::new(normal.x, normal.y, R::blend(flat, one, normal.z));
         let width_squared = across.length_squared();
         let oblique = width_squared.gt(R::lit(1e-36));
-        let inverse_width = rsqrt(R::select(oblique, width_squared, one));
-        let t = Vec3::select(oblique, across * inverse_width, Frame::new(normal).t);
+        let inverse_width = rsqrt(R::blend(oblique, width_squared, one));
+        let t = Vec3::blend(oblique, across * inverse_width, Frame::new(normal).t);
         let frame = Frame { s: t.cross(normal), t, n: normal };
         let along_x = (width_squared * inverse_width).keep(oblique);
 
         // seen from inside, the hemisphere is a cap about the normal
-        let pick = |yes: R, no: f64| R::select(outside, yes, R::lit(no));
-        let reciprocal = |square: R| rsqrt(R::select(square.gt(zero), square, one));
-        let by_radius = reciprocal(r.mul_add(r, power.max(zero)));
-        let sin_sigma = pick((r.max(zero) * by_radius).min(one), 1.0);
-        let cos_sigma = pick((power.max(zero).sqrt() * by_radius).min(one), 0.0);
+        let pick = |yes: R, no: f64| R::blend(outside, yes, R::lit(no));
+        let reciprocal = |square: R| rsqrt(R::blend(square.gt(zero), square, one));
+        let by_radius = reciprocal(r.mul_add(r, power.greater(zero)));
+        let sin_sigma = pick((r.greater(zero) * by_radius).lesser(one), 1.0);
+        let cos_sigma = pick((power.greater(zero).sqrt() * by_radius).lesser(one), 0.0);
         let by_height = reciprocal(along_x.mul_add(along_x, along_z * along_z));
-        let sin_omega = pick((along_x * by_height).min(one), 0.0);
-        let cos_omega = pick((along_z * by_height).clamp(-one, one), 1.0);
-        let height_squared = (margin * (r + along_z.abs())).max(zero) * inverse * inverse;
+        let sin_omega = pick((along_x * by_height).lesser(one), 0.0);
+        let cos_omega = pick((along_z * by_height).clamped(-one, one), 1.0);
+        let height_squared = (margin * (r + along_z.abs())).greater(zero) * inverse * inverse;
         let height = height_squared.sqrt().keep(outside);
         // seen from inside it is
         let whole = !outside | (margin.le(zero) & along_z.ge(zero));
-        let sin_theta = ratio(height, sin_omega).min(one);
+        let sin_theta = ratio(height, sin_omega).lesser(one);
         let floor = R::lit(1e-9);
-        let tan_theta = height / cos_sigma.max(floor);
-        let beta = ratio(cos_omega.abs(), tan_theta).max(floor);
+        let tan_theta = height / cos_sigma.greater(floor);
+        let beta = ratio(cos_omega.abs(), tan_theta).greater(floor);
 
         let area = sin_sigma * sin_sigma * cos_omega;
         let theta = height.atan2(cos_sigma);
         let psi = height.atan2(cos_sigma * cos_omega);
-        let theta_segment = segment(theta.min(R::lit(FRAC_PI_2)));
-        let above = theta_segment + area * (R::lit(PI) - segment(psi.min(R::lit(FRAC_PI_2))));
-        let (_, lune) = arcs(tan_theta.min(one / beta), one / beta);
+        let theta_segment = segment(theta.lesser(R::lit(FRAC_PI_2)));
+        let above = theta_segment + area * (R::lit(PI) - segment(psi.lesser(R::lit(FRAC_PI_2))));
+        let (_, lune) = arcs(tan_theta.lesser(one / beta), one / beta);
         let below = height * height * tan_theta * lune;
-        let projected = R::select(cos_omega.ge(zero), R::select(whole, R::lit(PI) * area, above), below);
+        let projected = R::blend(cos_omega.ge(zero), R::blend(whole, R::lit(PI) * area, above), below);
         let visible = (whole | margin.gt(zero)) & r.gt(zero);
         let axis = c * inverse;
         Self {
             frame,
-            axis: Vec3::new(axis.x, axis.y, R::select(some, axis.z, one)),
+            axis: Vec3::new(axis.x, axis.y, R::blend(some, axis.z, one)),
             cone: Cone { one_minus_cos: pick(sin_sigma * sin_sigma / (one + cos_sigma), 2.0).keep(r.gt(zero)) },
             sin_sigma,
             cos_sigma,
@@ -162,7 +163,7 @@ impl<R: Real> ProjectedCap<R> {
             along_z,
             distance: squared * inverse,
             power,
-            margin: R::select(outside, margin, -one),
+            margin: R::blend(outside, margin, -one),
             unit: one / scale,
         }
     }
@@ -184,7 +185,7 @@ impl<R: Real> ProjectedCap<R> {
     pub fn pdf_at_cosine(&self, cos: R) -> R {
         // a subnormal Ω⊥ has no finite reciprocal
         let some = self.projected.gt(R::lit(1e-37));
-        (cos.max(R::lit(0.0)) / R::select(some, self.projected, R::lit(1.0))).keep(some)
+        (cos.greater(R::lit(0.0)) / R::blend(some, self.projected, R::lit(1.0))).keep(some)
     }
 
     #[inline(always)]
@@ -215,11 +216,11 @@ impl<R: Real> ProjectedCap<R> {
         let cut = !whole & !below;
         if cut.any() {
             let (v, d) = self.slices(u);
-            (w, beyond) = (Vec3::select(cut, v, w), R::select(cut, d, beyond));
+            (w, beyond) = (Vec3::blend(cut, v, w), R::blend(cut, d, beyond));
         }
         if below.any() {
             let (v, d) = self.lune(u);
-            (w, beyond) = (Vec3::select(below, v, w), R::select(below, d, beyond));
+            (w, beyond) = (Vec3::blend(below, v, w), R::blend(below, d, beyond));
         }
         (w, beyond)
     }
@@ -231,7 +232,7 @@ impl<R: Real> ProjectedCap<R> {
         let (r, turned) = concentric(u);
         let disk = turned * r;
         let rest = (one - r.abs()) * (one + r.abs());
-        self.over_the_ellipse(disk.x, self.sin_sigma * disk.y, (self.sin_sigma * self.sin_sigma * rest).max(zero))
+        self.over_the_ellipse(disk.x, self.sin_sigma * disk.y, (self.sin_sigma * self.sin_sigma * rest).greater(zero))
     }
     /// At x on the ellipse's disk and height y on its rim or, by `inward` = the square of the rim's y − y², inside it.
     ///
@@ -239,7 +240,7 @@ impl<R: Real> ProjectedCap<R> {
     #[inline(always)]
     fn over_the_ellipse(&self, x: R, y: R, inward: R) -> (Vec3<R>, R) {
         let zero = R::lit(0.0);
-        let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * x).max(zero);
+        let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * x).greater(zero);
         let z = rim.mul_add(rim, inward).sqrt();
         let point = (self.sin_sigma * self.cos_omega).mul_add(x, self.sin_omega * self.cos_sigma);
         (Vec3::new(point, y, z), self.cos_omega * ratio(inward, z + rim))
@@ -252,22 +253,22 @@ impl<R: Real> ProjectedCap<R> {
         let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
         let from_right = u.x * self.projected;
         let on_circle = from_right.lt(self.segment);
-        let share = R::select(on_circle, from_right, ratio((one - u.x) * self.projected, area)).min(R::lit(PI));
+        let share = R::blend(on_circle, from_right, ratio((one - u.x) * self.projected, area)).lesser(R::lit(PI));
         let late = share.gt(R::lit(FRAC_PI_2));
-        let (s, c) = invert_segment(R::select(late, R::lit(PI) - share, share));
+        let (s, c) = invert_segment(R::blend(late, R::lit(PI) - share, share));
         let c = c.negate_where(late);
         let v = two.mul_add(u.y, -one);
-        let inward = (R::lit(4.0) * u.y * (one - u.y)).max(zero);
+        let inward = (R::lit(4.0) * u.y * (one - u.y)).greater(zero);
         // on the circle: x = cosφ, |y| ≤ sinφ
         let circle = Vec3::new(c, s * v, s * inward.sqrt());
-        let versine = s * s / (one + c.max(zero));
+        let versine = s * s / (one + c.greater(zero));
         let lift = self.cos_omega * self.cos_omega / (one + self.sin_omega);
         let (dx, dz) = (lift - versine, circle.z - self.cos_omega);
         let moved = R::lit(0.5) * dx.mul_add(dx, circle.y.mul_add(circle.y, dz * dz));
-        let near = (self.one_minus_cos_sigma() - moved).max(zero);
+        let near = (self.one_minus_cos_sigma() - moved).greater(zero);
         let high = self.sin_sigma * s;
         let (ellipse, far) = self.over_the_ellipse(-c, high * v, high * high * inward);
-        (Vec3::select(on_circle, circle, ellipse), R::select(on_circle, near, far))
+        (Vec3::blend(on_circle, circle, ellipse), R::blend(on_circle, near, far))
     }
 
     /// The direction for `u` and the distance to the sphere along it.
@@ -277,13 +278,13 @@ impl<R: Real> ProjectedCap<R> {
         let (w, beyond) = self.local(u);
         // from outside: with δ = cos∠(w, axis) − cosσ, R² − d² sin² = d² δ (2cosσ + δ)
         let cos = self.cos_sigma + beyond;
-        let across = (beyond * (self.cos_sigma + cos)).max(zero).sqrt();
+        let across = (beyond * (self.cos_sigma + cos)).greater(zero).sqrt();
         let near = self.distance * self.cos_sigma * ratio(self.cos_sigma, cos + across);
         let along = w.x.mul_add(self.along_x, w.z * self.along_z);
-        let root = (along * along - self.power).max(zero).sqrt();
-        let far = R::select(along.lt(zero), ratio(-self.power, root - along), root + along);
+        let root = (along * along - self.power).greater(zero).sqrt();
+        let far = R::blend(along.lt(zero), ratio(-self.power, root - along), root + along);
         let most = R::lit(if double::<R>() { f64::MAX } else { f64::from(f32::MAX) });
-        let distance = (R::select(self.inside(), far, near) * self.unit).min(most);
+        let distance = (R::blend(self.inside(), far, near) * self.unit).lesser(most);
         DirectionSample { direction: self.frame.to_world(w), distance }
     }
 }
@@ -303,13 +304,13 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         let w = self.frame.to_local(w);
-        let z = w.z.max(zero);
+        let z = w.z.greater(zero);
         let whole = self.whole();
         let below = self.cos_omega.lt(zero);
         let mut u = Vec2::default();
         // near the horizon z tells better than x how far in a direction is
         let round = w.y.mul_add(w.y, z * z);
-        let off_centre = R::select(
+        let off_centre = R::blend(
             w.x.gt(half),
             self.one_minus_centre() - round / (one + w.x.abs()),
             w.x - self.sin_omega * self.cos_sigma,
@@ -318,46 +319,46 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         if whole.any() {
             let p = Vec2::new(across, ratio(w.y, self.sin_sigma));
             // near the limb of a large cap z tells better than x and y how far out a direction is
-            let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * across).max(zero);
-            let rest = (z - rim) * (z + rim) / (self.sin_sigma * self.sin_sigma).max(R::lit(1e-37));
-            let r = R::select(z.le(self.sin_sigma) & rest.lt(half), (one - rest).max(zero).sqrt(), p.length());
-            u = invert_concentric(p, r.min(one));
+            let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * across).greater(zero);
+            let rest = (z - rim) * (z + rim) / (self.sin_sigma * self.sin_sigma).greater(R::lit(1e-37));
+            let r = R::blend(z.le(self.sin_sigma) & rest.lt(half), (one - rest).greater(zero).sqrt(), p.length());
+            u = invert_concentric(p, r.lesser(one));
         }
         let cut = !whole & !below;
         if cut.any() {
             let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
             let span = round.sqrt();
             let phi = span.atan2(w.x);
-            let in_segment = segment(phi.clamp(zero, R::lit(FRAC_PI_2)));
+            let in_segment = segment(phi.clamped(zero, R::lit(FRAC_PI_2)));
             let on_circle = span.le(self.sin_theta) & w.x.gt(zero);
-            let c = (-across).clamp(-one, one);
+            let c = (-across).clamped(-one, one);
             // sinφ from how far z is above the rim at the same x, and y
-            let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).max(zero);
-            let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).max(zero)).sqrt() / self.sin_sigma).min(one);
+            let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).greater(zero);
+            let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).greater(zero)).sqrt() / self.sin_sigma).lesser(one);
             let phi = s.atan2(c.abs());
             let from_left = segment(phi);
-            let from_left = R::select(c.lt(zero), R::lit(PI) - from_left, from_left) * area;
-            let from_right = R::select(on_circle, in_segment, self.projected - from_left);
-            let high = R::select(on_circle, span, self.sin_sigma * s);
+            let from_left = R::blend(c.lt(zero), R::lit(PI) - from_left, from_left) * area;
+            let from_right = R::blend(on_circle, in_segment, self.projected - from_left);
+            let high = R::blend(on_circle, span, self.sin_sigma * s);
             let found = Vec2 {
                 x: unit_interval(ratio(from_right, self.projected)),
                 y: unit_interval(half.mul_add(ratio(w.y, high), half)),
             };
-            u = Vec2 { x: R::select(cut, found.x, u.x), y: R::select(cut, found.y, u.y) };
+            u = Vec2 { x: R::blend(cut, found.x, u.x), y: R::blend(cut, found.y, u.y) };
         }
         if below.any() {
-            let t = ratio(w.y.abs(), self.sin_theta).min(one);
+            let t = ratio(w.y.abs(), self.sin_theta).lesser(one);
             let slice = self.slice(t, true);
             let mut left = half - half * ratio(slice.area, self.half);
             let ends = Self::ends(left + left);
             if ends.any() {
-                left = R::select(ends, half * ratio(self.tail(t), self.half), left);
+                left = R::blend(ends, half * ratio(self.tail(t), self.half), left);
             }
-            let arc = ((one - w.y) * (one + w.y)).max(zero).sqrt();
-            let inward = ratio(z * z, arc + w.x.max(zero));
-            let x = unit_interval(R::select(w.y.lt(zero), left, one - left));
+            let arc = ((one - w.y) * (one + w.y)).greater(zero).sqrt();
+            let inward = ratio(z * z, arc + w.x.greater(zero));
+            let x = unit_interval(R::blend(w.y.lt(zero), left, one - left));
             let y = unit_interval(ratio(inward, self.width(t)));
-            u = Vec2 { x: R::select(below, x, u.x), y: R::select(below, y, u.y) };
+            u = Vec2 { x: R::blend(below, x, u.x), y: R::blend(below, y, u.y) };
         }
         u
     }

@@ -4,11 +4,12 @@ mod sector;
 
 use super::double_word::{compensated_height, cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use super::triangle::SLACK;
-use super::{DirectionSample, lanewise, to_unit};
+use super::{DirectionSample, to_unit};
+use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{Warp, unit_interval};
+use crate::warp::Warp;
 use horizon::{Exact, clip};
 use piece::{Corners, Piece, narrowest};
 use sector::Sector;
@@ -60,7 +61,7 @@ lanewise! {
     /// let w = seen.sample(Vec2::new(0.3, 0.9));
     /// assert!((seen.pdf(w) - w.z / std::f32::consts::FRAC_PI_4).abs() < 1e-6);
     /// ```
-    ProjectedTriangle {
+    pub struct ProjectedTriangle {
         normal: Vec3<R>,
         first: Piece<R>,
         /// what else the horizon has left, beyond `diagonal`
@@ -212,7 +213,7 @@ impl<R: Real> ProjectedTriangle<R> {
         let side = |i: usize| {
             // the plane of vertices that lie nearly opposite is known no better than −cos : sin of their angle: by so much shorter
             let length = lengths[i];
-            poles[i] * ratio(length, length.max(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
+            poles[i] * ratio(length, length.greater(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
         };
         Self {
             normal,
@@ -238,7 +239,7 @@ impl<R: Real> ProjectedTriangle<R> {
     /// The density of a direction that is known to hit the triangle, at a cosine to the normal: cosθ/Ω⊥.
     #[inline(always)]
     pub fn pdf_at_cosine(&self, cos: R) -> R {
-        cos.max(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
+        cos.greater(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
     }
     /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
     #[inline(always)]
@@ -254,8 +255,8 @@ impl<R: Real> ProjectedTriangle<R> {
         if some.any() {
             let later = some & swept.ge(self.first.area);
             let (other, rest) = self.second.choose(swept - self.first.area, left);
-            sector = Sector::select(later, &other, &sector);
-            share = R::select(later, rest, share);
+            sector = Sector::blend(later, other, sector);
+            share = R::blend(later, rest, share);
         }
         (sector, share)
     }
@@ -266,8 +267,8 @@ impl<R: Real> ProjectedTriangle<R> {
         let along = w.dot(self.plane).abs();
         let some = along.gt(zero) & self.projected.gt(zero);
         // a point of the triangle is within 4 units; what does not fit f32 ends at its largest number
-        let distance = (self.volume.abs() / R::select(some, along, one)).min(R::lit(4.0)) * self.unit;
-        distance.min(R::lit(f64::from(f32::MAX))).keep(some)
+        let distance = (self.volume.abs() / R::blend(some, along, one)).lesser(R::lit(4.0)) * self.unit;
+        distance.lesser(R::lit(f64::from(f32::MAX))).keep(some)
     }
     /// The direction for `u` and the distance to the triangle along it.
     #[inline(always)]
@@ -291,9 +292,9 @@ impl<R: Real> ProjectedTriangle<R> {
         if some.any() {
             let later = some & (w.dot(self.diagonal).gt(zero) | self.first.area.le(zero));
             let other = self.second.locate(self.normal, w);
-            let before = found.x.min(R::select(some, self.first.area - edge, self.first.area)).max(zero);
-            found.x = R::select(later, self.first.area + other.x.max(edge), before);
-            found.y = R::select(later, other.y, found.y);
+            let before = found.x.lesser(R::blend(some, self.first.area - edge, self.first.area)).greater(zero);
+            found.x = R::blend(later, self.first.area + other.x.greater(edge), before);
+            found.y = R::blend(later, other.y, found.y);
         }
         found
     }
@@ -326,7 +327,7 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        let least = w.dot(self.pole0).min(w.dot(self.pole1)).min(w.dot(self.pole2));
+        let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
         self.pdf_at_cosine(w.dot(self.normal)).keep(within(least) & ahead(w, self.plane, self.in_front()))
     }
     #[inline(always)]
@@ -433,7 +434,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// The density of a direction that is known to hit the polygon, at a cosine to the normal: cosθ/Ω⊥.
     #[inline(always)]
     pub fn pdf_at_cosine(&self, cos: R) -> R {
-        cos.max(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
+        cos.greater(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
     }
     /// True where the point is on the side from which the corners run counterclockwise.
     #[inline(always)]
@@ -463,9 +464,9 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
             if some.any() {
                 let later = swept.ge(sum) & some | (sum.le(zero) & some);
                 let (other, rest) = triangle.choose(swept - sum, left - behind[i]);
-                sector = Sector::select(later, &other, &sector);
-                share = R::select(later, rest, share);
-                chosen = R::select(later, R::lit(i as f64), chosen);
+                sector = Sector::blend(later, other, sector);
+                share = R::blend(later, rest, share);
+                chosen = R::blend(later, R::lit(i as f64), chosen);
             }
             sum += triangle.projected;
         }
@@ -474,7 +475,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
         if far {
             for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate() {
                 let here = chosen.ge(R::lit(i as f64 - 0.5)) & chosen.lt(R::lit(i as f64 + 0.5));
-                distance = R::select(here, triangle.distance(w), distance);
+                distance = R::blend(here, triangle.distance(w), distance);
             }
         }
         (w, distance)
@@ -490,9 +491,9 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         // the outer sides: those between triangles would meet in sharper corners than the polygon has, and what is allowed beside each is more there
-        let mut least = w.dot(self.fan[0].pole0).min(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
+        let mut least = w.dot(self.fan[0].pole0).lesser(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
         for triangle in &self.fan[..Self::TRIANGLES] {
-            least = least.min(w.dot(triangle.pole1));
+            least = least.lesser(w.dot(triangle.pole1));
         }
         let inside = within(least) & ahead(w, self.plane, self.in_front());
         self.pdf_at_cosine(w.dot(self.fan[0].normal)).keep(inside)
@@ -508,9 +509,9 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
             // on the far side of the edge with which the triangle begins
             let later = some & (w.dot(triangle.pole0).ge(zero) | sum.le(zero));
             let other = triangle.locate(w, edge);
-            let before = found.x.min(R::select(some, sum - edge, found.x));
-            found.x = R::select(later, sum + other.x.max(edge), before.max(zero));
-            found.y = R::select(later, other.y, found.y);
+            let before = found.x.lesser(R::blend(some, sum - edge, found.x));
+            found.x = R::blend(later, sum + other.x.greater(edge), before.greater(zero));
+            found.y = R::blend(later, other.y, found.y);
             sum += triangle.projected;
         }
         Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }

@@ -1,9 +1,10 @@
+use super::DirectionSample;
 use super::double_word::{compensated_height, cross_dw, dot_dw, rounded_sum};
-use super::{DirectionSample, lanewise};
+use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{Warp, unit_interval};
+use crate::warp::Warp;
 
 /// Angle by which a sample may leave the rectangle through the rounding of its direction: 8 ulp of a component near 1.
 const SLACK: f64 = 8.0 / 16_777_216.0;
@@ -34,7 +35,7 @@ lanewise! {
     ///   is worth nothing.
     /// - Source: Ureña, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"; the forms without
     ///   cancellation are derived here from w = w₁ − 2e.
-    SphericalRectangle {
+    pub struct SphericalRectangle {
         /// P = base + X·side_x + Y·side_y, X and Y from the foot or from the far edge
         base: Vec3<R>,
         side_x: Vec3<R>,
@@ -84,7 +85,7 @@ fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R
     let cross = cross_dw(u, v);
     let (normal, length) = (cross[0] + cross[1]).unit_and_length();
     let some = length.gt(R::lit(0.0));
-    (normal, (compensated_height(p, cross) / R::select(some, length, R::lit(1.0))).keep(some))
+    (normal, (compensated_height(p, cross) / R::blend(some, length, R::lit(1.0))).keep(some))
 }
 
 /// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
@@ -98,9 +99,9 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let straddles = across_x | across_y;
     // the axis of the strips crosses the foot
     let swap = across_y & !across_x;
-    let (a0, b0) = (R::select(swap, near.y, near.x), R::select(swap, near.x, near.y));
-    let (a1, b1) = (R::select(swap, far.y, far.x), R::select(swap, far.x, far.y));
-    let db = R::select(swap, size.x, size.y);
+    let (a0, b0) = (R::blend(swap, near.y, near.x), R::blend(swap, near.x, near.y));
+    let (a1, b1) = (R::blend(swap, far.y, far.x), R::blend(swap, far.x, far.y));
+    let db = R::blend(swap, size.x, size.y);
     let zz = z * z;
     let (d0, d1) = (a0.mul_add(a0, zz), a1.mul_add(a1, zz));
     let length = |d: R, b: R| b.mul_add(b, d).sqrt();
@@ -110,7 +111,7 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let strip = |a: R, d: R, r0: R, r1: R| {
         // b₁r₀ − b₀r₁
         let sum = b1.mul_add(r0, b0.abs() * r1);
-        let cross = R::select(one_sided, ratio(db * (b1 + b0) * d, sum), sum);
+        let cross = R::blend(one_sided, ratio(db * (b1 + b0) * d, sum), sum);
         (a.abs() * z * cross, (a * a).mul_add(bb, zz * (r0 * r1)))
     };
     let (s1, c1) = strip(a1, d1, r10, r11);
@@ -122,9 +123,9 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let diagonal = aa + bb + zz;
     let t1 = (r00 * r10).mul_add(r11, (aa + b0b0).mul_add(r11, diagonal.mul_add(r10, (d1 + bb) * r00)));
     let t0 = (r00 * r01).mul_add(r11, (aa + b1b1).mul_add(r00, diagonal.mul_add(r01, (d0 + bb) * r11)));
-    let first = R::select(straddles, s1, volume).atan2(R::select(straddles, c1, t1));
-    let second = R::select(straddles, s0, volume).atan2(R::select(straddles, c0, t0));
-    (first + second) * R::select(straddles, one, R::lit(2.0))
+    let first = R::blend(straddles, s1, volume).atan2(R::blend(straddles, c1, t1));
+    let second = R::blend(straddles, s0, volume).atan2(R::blend(straddles, c0, t0));
+    (first + second) * R::blend(straddles, one, R::lit(2.0))
 }
 
 impl<R: Real> SphericalRectangle<R> {
@@ -132,7 +133,7 @@ impl<R: Real> SphericalRectangle<R> {
     #[inline(always)]
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let reach = p.max_abs().max(u.max_abs()).max(v.max_abs());
+        let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs());
         // every point of the rectangle has a finite distance
         let sum = p.max_abs() + u.max_abs() + v.max_abs();
         let finite = (sum + sum).lt(R::lit(f64::INFINITY));
@@ -154,7 +155,7 @@ impl<R: Real> SphericalRectangle<R> {
             let (low, high) = ((from[0] + from[1]) * inverse, rounded_sum(from, reach) * inverse);
             // a tiny size may be lost in both; the near end is the smaller number
             let flip = (low + high).lt(zero);
-            let near = R::select(flip, -high, low).max(R::lit(-0.5) * size);
+            let near = R::blend(flip, -high, low).greater(R::lit(-0.5) * size);
             (flip, near, near + size)
         };
         let (flip_x, x0, x1) = ends(dx, u);
@@ -162,18 +163,18 @@ impl<R: Real> SphericalRectangle<R> {
         let turn = |v: Vec3<R>, m: R::Mask| Vec3::new(v.x.negate_where(m), v.y.negate_where(m), v.z.negate_where(m));
         let (side_x, side_y) = (turn(x_axis, flip_x), turn(y_axis, flip_y));
         let (anchored_x, anchored_y) = ((x0 + x0).ge(x1), (y0 + y0).ge(y1));
-        let far_corner = Vec3::select(
+        let far_corner = Vec3::blend(
             flip_x,
-            Vec3::select(flip_y, corners[0], corners[3]),
-            Vec3::select(flip_y, corners[1], corners[2]),
+            Vec3::blend(flip_y, corners[0], corners[3]),
+            Vec3::blend(flip_y, corners[1], corners[2]),
         );
         // the point from which X and Y count: from the far corner, or from the foot, whichever is less far
         let (there_x, there_y) = (x1.keep(anchored_x), y1.keep(anchored_y));
         let (gone_x, gone_y) = (x1 - there_x, y1 - there_y);
         let from_corner = far_corner - side_x * gone_x - side_y * gone_y;
         let from_foot = side_x.mul_add(there_x, side_y.mul_add(there_y, z_axis * signed));
-        let gone = gone_x.max(gone_y);
-        let base = Vec3::select(gone.le(there_x.max(there_y).max(z)), from_corner, from_foot);
+        let gone = gone_x.greater(gone_y);
+        let base = Vec3::blend(gone.le(there_x.greater(there_y).greater(z)), from_corner, from_foot);
 
         let (zz, yy) = (z * z, y0 * y1);
         let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
@@ -187,14 +188,14 @@ impl<R: Real> SphericalRectangle<R> {
             let rr = r0 * r1;
             let id = ratio(one, d);
             let sum = y1.mul_add(r0, y0.abs() * r1);
-            let cross = R::select(across, sum * id, ratio(dy * (y1 + y0), sum));
+            let cross = R::blend(across, sum * id, ratio(dy * (y1 + y0), sum));
             // rr ∓ |y₀y₁|, over d where it is the difference
             let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
             (
                 x * z * cross * im,
                 xx.mul_add(yy, zz * rr) * id * im,
-                ratio(zz * dy * dy * im, R::select(across, d * (minus + one), plus + d)),
-                zz * im * R::select(across, (plus + d) * id, minus + one),
+                ratio(zz * dy * dy * im, R::blend(across, d * (minus + one), plus + d)),
+                zz * im * R::blend(across, (plus + d) * id, minus + one),
             )
         };
         let (sin_w1, cos_w1, above_p, above_s) = strip(x1);
@@ -211,7 +212,7 @@ impl<R: Real> SphericalRectangle<R> {
         // planes of the sides
         let plane = |a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>| {
             let (unit, length) = a.cross(edge).unit_and_length();
-            (turn(unit, side.lt(zero)), ratio(-a.dot(b), length).max(one).min(R::lit(1e18)) * R::lit(SLACK))
+            (turn(unit, side.lt(zero)), ratio(-a.dot(b), length).greater(one).lesser(R::lit(1e18)) * R::lit(SLACK))
         };
         let (low_x, slack_low_x) = plane(corners[0], corners[3], -v);
         let (high_x, slack_high_x) = plane(corners[1], corners[2], v);
@@ -221,17 +222,14 @@ impl<R: Real> SphericalRectangle<R> {
             base,
             side_x,
             side_y,
-            near_x: Vec3::select(flip_x, high_x, low_x),
-            far_x: Vec3::select(flip_x, low_x, high_x),
-            near_y: Vec3::select(flip_y, high_y, low_y),
-            far_y: Vec3::select(flip_y, low_y, high_y),
-            slack: Vec2::new(
-                R::select(flip_x, slack_high_x, slack_low_x),
-                R::select(flip_y, slack_high_y, slack_low_y),
-            ),
+            near_x: Vec3::blend(flip_x, high_x, low_x),
+            far_x: Vec3::blend(flip_x, low_x, high_x),
+            near_y: Vec3::blend(flip_y, high_y, low_y),
+            far_y: Vec3::blend(flip_y, low_y, high_y),
+            slack: Vec2::new(R::blend(flip_x, slack_high_x, slack_low_x), R::blend(flip_y, slack_high_y, slack_low_y)),
             slack_far: Vec2::new(
-                R::select(flip_x, slack_low_x, slack_high_x),
-                R::select(flip_y, slack_low_y, slack_high_y),
+                R::blend(flip_x, slack_low_x, slack_high_x),
+                R::blend(flip_y, slack_low_y, slack_high_y),
             ),
             normal: z_axis * side,
             near: Vec2::new(x0, y0),
@@ -249,7 +247,7 @@ impl<R: Real> SphericalRectangle<R> {
             near_cos,
             near_above_p,
             near_above_s,
-            half: R::select(straddles, R::lit(0.5), R::lit(2.0)),
+            half: R::blend(straddles, R::lit(0.5), R::lit(2.0)),
             solid_angle: solid_angle.keep(some),
             side,
             unit: one / scale,
@@ -277,23 +275,22 @@ impl<R: Real> SphericalRectangle<R> {
     fn point(&self, u: Vec2<R>) -> Vec3<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
-        let turned = |u: R, flip: R| R::select(flip.gt(zero), u, one - u);
+        let turned = |u: R, flip: R| R::blend(flip.gt(zero), u, one - u);
         let (left, swept) = (turned(u.x, self.flip.x), turned(one - u.x, self.flip.x));
         let (v, rest) = (turned(u.y, self.flip.y), turned(one - u.y, self.flip.y));
 
         // x: from k = cosw − cosw₁, from the nearer end on either side of the foot
         let near = left.gt(self.half);
-        let part = R::select(near, swept, left);
-        let (sin_w1, cos_w1) =
-            (R::select(near, self.near_sin, self.sin_w1), R::select(near, self.near_cos, self.cos_w1));
+        let part = R::blend(near, swept, left);
+        let (sin_w1, cos_w1) = (R::blend(near, self.near_sin, self.sin_w1), R::blend(near, self.near_cos, self.cos_w1));
         let (sin_e, cos_e) = (part * (self.solid_angle * R::lit(INV_FOUR_PI))).sin_cos_turns();
-        let sin_d = sin_w1.mul_add(cos_e, -(cos_w1 * sin_e)).max(-one.keep(near));
+        let sin_d = sin_w1.mul_add(cos_e, -(cos_w1 * sin_e)).greater(-one.keep(near));
         let cos_d = cos_w1.mul_add(cos_e, sin_w1 * sin_e);
         let sin_w = sin_d.mul_add(cos_e, -(cos_d * sin_e));
         let k = (sin_d + sin_d) * sin_e;
-        let above_p = k + R::select(near, self.near_above_p, self.above_p);
-        let above_s = k + R::select(near, self.near_above_s, self.above_s);
-        let root = (above_p * above_s).max(zero).sqrt();
+        let above_p = k + R::blend(near, self.near_above_p, self.above_p);
+        let above_s = k + R::blend(near, self.near_above_s, self.above_s);
+        let root = (above_p * above_s).greater(zero).sqrt();
         // where cosw₁ < 0 the difference leaves half of the first term and more
         let (far_p, far_s) = (self.above_p, self.above_s);
         let square = self.sin_w1 * self.sin_w1;
@@ -301,11 +298,11 @@ impl<R: Real> SphericalRectangle<R> {
         let from_far = (sin_d + sin_d) * self.inv_sin_w1 * (sin_e * self.inv_sin_w1) * q * x1 * x1;
         let foot = (z * sin_w).negate_where(near);
         let anchored = self.anchor.x.gt(zero);
-        let numerator = R::select(anchored, -from_far, foot);
-        let denominator = root * R::select(anchored, x1.mul_add(root, foot), one);
+        let numerator = R::blend(anchored, -from_far, foot);
+        let denominator = root * R::blend(anchored, x1.mul_add(root, foot), one);
         let some = denominator.gt(zero);
-        let x = numerator / R::select(some, denominator, one);
-        let x = x.clamp(R::select(anchored, -self.size.x, x0), R::select(anchored, zero, x1));
+        let x = numerator / R::blend(some, denominator, one);
+        let x = x.clamped(R::blend(anchored, -self.size.x, x0), R::blend(anchored, zero, x1));
         let d = {
             let x = x + x1.keep(anchored);
             x.mul_add(x, z * z)
@@ -315,26 +312,26 @@ impl<R: Real> SphericalRectangle<R> {
         let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
         let sum = y1.mul_add(r0, y0.abs() * r1);
         let product = r0 * r1 * sum;
-        let inverse = (one / R::select(product.gt(zero), product, one)).keep(product.gt(zero));
+        let inverse = (one / R::blend(product.gt(zero), product, one)).keep(product.gt(zero));
         let inverse_r = inverse * sum;
         let inverse_r1 = r0 * inverse_r;
         let h1 = y1 * inverse_r1;
-        let range = R::select(y0.ge(zero), self.size.y * (y1 + y0) * d * inverse, sum * inverse_r);
+        let range = R::blend(y0.ge(zero), self.size.y * (y1 + y0) * d * inverse, sum * inverse_r);
         // before the foot from the near edge, so that both ends keep 1−h²
         let (h0, down, up) = (y0 * r1 * inverse_r, v * range, rest * range);
         let before = h0 + up;
         let below = before.lt(zero);
-        let h = R::select(below, before, h1 - down);
-        let rise = R::select(below, -up, down) * (h + R::select(below, h0, h1));
-        let inverse_end = inverse_r * R::select(below, r1, r0);
+        let h = R::blend(below, before, h1 - down);
+        let rise = R::blend(below, -up, down) * (h + R::blend(below, h0, h1));
+        let inverse_end = inverse_r * R::blend(below, r1, r0);
         // √(x²+z²)·√(1−h²)
-        let root = (d * (d * inverse_end).mul_add(inverse_end, rise)).max(zero).sqrt();
+        let root = (d * (d * inverse_end).mul_add(inverse_end, rise)).greater(zero).sqrt();
         let anchored = self.anchor.y.gt(zero);
-        let numerator = d * R::select(anchored, -(r1 * rise), h);
-        let denominator = root * R::select(anchored, h1.mul_add(root, h * d * inverse_r1), one);
+        let numerator = d * R::blend(anchored, -(r1 * rise), h);
+        let denominator = root * R::blend(anchored, h1.mul_add(root, h * d * inverse_r1), one);
         let some = denominator.gt(zero);
-        let y = numerator / R::select(some, denominator, one);
-        let y = y.clamp(R::select(anchored, -self.size.y, y0), R::select(anchored, zero, y1));
+        let y = numerator / R::blend(some, denominator, one);
+        let y = y.clamped(R::blend(anchored, -self.size.y, y0), R::blend(anchored, zero, y1));
         self.side_x.mul_add(x, self.side_y.mul_add(y, self.base))
     }
     /// The direction for `u` and the distance to the rectangle along it.
@@ -369,29 +366,29 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
-        let elevation = w.dot(self.normal).max(R::lit(1e-18));
+        let elevation = w.dot(self.normal).greater(R::lit(1e-18));
         // as in the map, from the far edge, where (x₁−x)/D₁ is the sine of the angle to its plane over that to the rectangle's, or
         // from the foot: then a wrong elevation moves the point along the direction
         let number = |side: Vec3<R>, plane: Vec3<R>, far: R, anchor: R| {
             let anchored = anchor.gt(zero);
             let distance = far.mul_add(far, z * z).sqrt();
-            R::select(anchored, distance, z) * w.dot(Vec3::select(anchored, plane, side)) / elevation
+            R::blend(anchored, distance, z) * w.dot(Vec3::blend(anchored, plane, side)) / elevation
         };
         let along_x = number(self.side_x, self.far_x, x1, self.anchor.x);
         let along_y = number(self.side_y, self.far_y, y1, self.anchor.y);
         // where that is beyond an edge by more than its own rounding, the elevation is wrong: the point of the direction on the edge
         let known = (one - R::ONE_MINUS_EPSILON) * R::lit(4.0) * z / elevation;
         let within = |number: R, near: R, far: R, anchor: R| {
-            let bound = R::select(number.lt(zero), near, far).abs();
+            let bound = R::blend(number.lt(zero), near, far).abs();
             let least = number.abs() - known;
-            R::select(least.gt(bound) & anchor.le(zero), bound / least, one)
+            R::blend(least.gt(bound) & anchor.le(zero), bound / least, one)
         };
-        let scale = within(along_x, x0, x1, self.anchor.x).min(within(along_y, y0, y1, self.anchor.y));
+        let scale = within(along_x, x0, x1, self.anchor.x).lesser(within(along_y, y0, y1, self.anchor.y));
         let place = |number: R, near: R, far: R, size: R, anchor: R| {
             let anchored = anchor.gt(zero);
-            let number = R::select(anchored, number, number * scale);
-            let gap = R::select(anchored, number, far - number.max(near)).clamp(zero, size);
-            (R::select(anchored, far - gap, number).clamp(near, far), gap)
+            let number = R::blend(anchored, number, number * scale);
+            let gap = R::blend(anchored, number, far - number.greater(near)).clamped(zero, size);
+            (R::blend(anchored, far - gap, number).clamped(near, far), gap)
         };
         let (x, dx) = place(along_x, x0, x1, self.size.x, self.anchor.x);
         let (y, dy) = place(along_y, y0, y1, self.size.y, self.anchor.y);
@@ -401,10 +398,10 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
             // h(y₁) − h(low) without the factor that they share
             let (r0, r1) = (low.mul_add(low, d).sqrt(), y1.mul_add(y1, d).sqrt());
             let sum = y1.mul_add(r0, low.abs() * r1);
-            ratio(R::select(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0)
+            ratio(R::blend(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0)
         };
         let v = ratio(fall(y, dy), fall(y0, self.size.y));
-        let turned = |u: R, flip: R| R::select(flip.gt(zero), u, one - u);
+        let turned = |u: R, flip: R| R::blend(flip.gt(zero), u, one - u);
         Vec2 { x: unit_interval(turned(u, self.flip.x)), y: unit_interval(turned(v, self.flip.y)) }
     }
 }

@@ -1,9 +1,10 @@
 use super::double_word::{compensated_height, cross_dw, sum_dw};
-use super::{DirectionSample, lanewise, to_unit};
+use super::{DirectionSample, to_unit};
+use crate::lanewise::lanewise;
 use crate::math::rsqrt;
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{Warp, unit_interval};
+use crate::warp::Warp;
 
 /// Angle by which a sample may leave a triangle through the error of its direction: 12 ulp of a component near 1.
 const BEYOND: f64 = 12.0 / 16_777_216.0;
@@ -39,7 +40,7 @@ lanewise! {
     ///   size over the plane of a triangle that surrounds the point, where most of u₀ belongs to a direction's rounding, it is worth nothing.
     /// - Source: Arvo 1995, "Stratified Sampling of Spherical Triangles"; Van Oosterom and Strackee 1983 for Ω; Peters 2021,
     ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry; here on edges.
-    SphericalTriangle {
+    pub struct SphericalTriangle {
         /// planes through the viewpoint and two vertices, pointing inwards, and how far a direction may be beyond: v0 v1, v1 v2, v2 v0
         side01: Vec3<R>,
         side12: Vec3<R>,
@@ -102,7 +103,7 @@ fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> 
     let edge = b - a;
     let squared = edge.length_squared();
     let some = squared.gt(R::lit(1e-36));
-    let inverse = rsqrt(R::select(some, squared, one));
+    let inverse = rsqrt(R::blend(some, squared, one));
     let by = inverse * inverse;
     let foot = edge.cross(n) * by;
     let height = n.length_squared() * by;
@@ -110,7 +111,7 @@ fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> 
     // 1 − |a·along|/lₐ
     let lack = |v: Vec3<R>, i: R| height * i * i / (one + v.dot(along).abs() * i);
     let sum = foot.mul_add(ia + ib, along * (lack(a, ia) - lack(b, ib)));
-    Vec3::select(opposite & some, sum, plain)
+    Vec3::blend(opposite & some, sum, plain)
 }
 
 /// The arc from `v1` to the point P of the far edge.
@@ -172,7 +173,7 @@ impl<R: Real> SphericalTriangle<R> {
         // 1−d₀₁ and 1+d₀₁, the small one from the sine
         let small = sin_side * sin_side / (one + d01.abs());
         let obtuse = d01.lt(zero);
-        let (minus, g2) = (R::select(obtuse, one - d01, small), R::select(obtuse, small, one + d01));
+        let (minus, g2) = (R::blend(obtuse, one - d01, small), R::blend(obtuse, small, one + d01));
         let tan_half = minus * inv_sin_side;
         let g0 = volume.abs() * i0 * i1 * i2;
         // (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
@@ -187,7 +188,7 @@ impl<R: Real> SphericalTriangle<R> {
         let (mut plus12, mut plus02) = (one + d12, one + d02);
         let sin02 = n02.length_squared() * (i0 * i2) * (i0 * i2);
         // a side of more than 120° is rare: the work is done where there is one
-        let wide = d01.min(d02).min(d12).lt(R::lit(-0.5));
+        let wide = d01.lesser(d02).lesser(d12).lt(R::lit(-0.5));
         if wide.any() {
             let sums = [
                 sum_of_units([v0, v1], [i0, i1], n01),
@@ -198,43 +199,44 @@ impl<R: Real> SphericalTriangle<R> {
             let at0 = sums[0].dot(sums[1]);
             let at1 = sums[0].dot(sums[2]);
             let at2 = sums[1].dot(sums[2]);
-            let sum = R::select(d01.gt(d02.max(d12)), at2, R::select(d02.gt(d12), at1, at0));
-            total = R::select(wide, sum, total);
-            x2 = R::select(wide, -(n01.dot(n12) * i01 * i1 * i2), x2);
+            let sum = R::blend(d01.gt(d02.greater(d12)), at2, R::blend(d02.gt(d12), at1, at0));
+            total = R::blend(wide, sum, total);
+            x2 = R::blend(wide, -(n01.dot(n12) * i01 * i1 * i2), x2);
             let behind = x2.mul_add(x2, y2 * y2) / (one + d12.abs());
-            plus12 = R::select(wide & d12.lt(zero), behind, plus12);
-            plus02 = R::select(wide & d02.lt(zero), sin02 / (one + d02.abs()), plus02);
+            plus12 = R::blend(wide & d12.lt(zero), behind, plus12);
+            plus02 = R::blend(wide & d02.lt(zero), sin02 / (one + d02.abs()), plus02);
         }
-        let across = Vec3::select(towards, -pole, pole);
+        let across = Vec3::blend(towards, -pole, pole);
         // sinα : cosα = |volume| l₀ : n₀₁·n₀₂
         let opposite = volume.abs() * l0;
         let angle = opposite.gt(R::lit(1e-37));
-        let cot_alpha = (n01.dot(n02) / R::select(angle, opposite, one)).keep(angle);
+        let cot_alpha = (n01.dot(n02) / R::blend(angle, opposite, one)).keep(angle);
         // at a vertex all of them are 0, and so is the angle
         let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
         let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(somewhere);
-        let inv_g0 = one / R::select(g0.gt(R::lit(1e-37)), g0, one);
+        let inv_g0 = one / R::blend(g0.gt(R::lit(1e-37)), g0, one);
         // the same from v2, where the sweep ends: P there has the coordinates (X, Y) = (tanδ₂/2) (cosψ, sinψ)
-        let squared = g0.mul_add(g0, total * total).max(R::lit(1e-36));
+        let squared = g0.mul_add(g0, total * total).greater(R::lit(1e-36));
         let over = rsqrt(squared);
         let half = Vec2::new(g0 * over, total * over);
         let inv_half_sin = inv_g0 * squared * over;
-        let by_plus = one / plus12.max(R::lit(1e-30));
+        let by_plus = one / plus12.greater(R::lit(1e-30));
         // over sin(Ω/2) · 2/sin c
         let by_swept = R::lit(0.5) * sin_side * inv_half_sin;
         let some = by_swept.lt(R::lit(1e30));
         let most = R::lit(1e18);
         let turned = Vec2::new(
-            (y2 * by_plus * by_swept).min(most).keep(some),
-            (x2.mul_add(-by_plus, tan_half) * by_swept).clamp(-most, most).keep(some),
+            (y2 * by_plus * by_swept).lesser(most).keep(some),
+            (x2.mul_add(-by_plus, tan_half) * by_swept).clamped(-most, most).keep(some),
         );
         // the great circles through v0 and v1, from which the map starts, or through vertices that lie nearly opposite are known no better
         // than −cos : sin of their angle; to the one through v1 and v2 the map comes along the one from v0 to v2
-        let start = -d01 / R::select(sin_side.gt(zero), sin_side, one);
-        let inwards = |n: Vec3<R>| Vec3::select(towards, -n, n);
-        let start = start.max(one).min(R::lit(1e18));
-        let far = start.max(-d02 * rsqrt(sin02.max(R::lit(1e-7))));
-        let slack = |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).max(-a.dot(b)) * R::lit(BEYOND);
+        let start = -d01 / R::blend(sin_side.gt(zero), sin_side, one);
+        let inwards = |n: Vec3<R>| Vec3::blend(towards, -n, n);
+        let start = start.greater(one).lesser(R::lit(1e18));
+        let far = start.greater(-d02 * rsqrt(sin02.greater(R::lit(1e-7))));
+        let slack =
+            |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).greater(-a.dot(b)) * R::lit(BEYOND);
         Self {
             side01: inwards(n01),
             side12: inwards(n12),
@@ -242,7 +244,7 @@ impl<R: Real> SphericalTriangle<R> {
             slack: Vec3::new(slack(n01, v0, v1, start), slack(n12, v1, v2, far), slack(n02, v2, v0, start)),
             normal,
             l1,
-            farthest: l0.max(l1).max(l2),
+            farthest: l0.greater(l1).greater(l2),
             apex,
             along,
             across,
@@ -266,45 +268,6 @@ impl<R: Real> SphericalTriangle<R> {
             volume,
             solid_angle,
             unit: scale.pow2_scale(),
-        }
-    }
-
-    /// `yes` where the mask is true, `no` elsewhere.
-    #[inline(always)]
-    pub(crate) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
-        let real = |a, b| R::select(mask, a, b);
-        let vector = |a, b| Vec3::select(mask, a, b);
-        Self {
-            side01: vector(yes.side01, no.side01),
-            side12: vector(yes.side12, no.side12),
-            side20: vector(yes.side20, no.side20),
-            slack: vector(yes.slack, no.slack),
-            normal: vector(yes.normal, no.normal),
-            l1: real(yes.l1, no.l1),
-            farthest: real(yes.farthest, no.farthest),
-            apex: vector(yes.apex, no.apex),
-            along: vector(yes.along, no.along),
-            across: vector(yes.across, no.across),
-            cot_alpha: real(yes.cot_alpha, no.cot_alpha),
-            stretch: real(yes.stretch, no.stretch),
-            tan_half: real(yes.tan_half, no.tan_half),
-            half: Vec2::new(real(yes.half.x, no.half.x), real(yes.half.y, no.half.y)),
-            turned: Vec2::new(real(yes.turned.x, no.turned.x), real(yes.turned.y, no.turned.y)),
-            sin_side: real(yes.sin_side, no.sin_side),
-            inv_l0: real(yes.inv_l0, no.inv_l0),
-            inv_l2: real(yes.inv_l2, no.inv_l2),
-            total_over: real(yes.total_over, no.total_over),
-            inv_half_sin: real(yes.inv_half_sin, no.inv_half_sin),
-            g2: real(yes.g2, no.g2),
-            g2_over: real(yes.g2_over, no.g2_over),
-            plus02: real(yes.plus02, no.plus02),
-            sin02: real(yes.sin02, no.sin02),
-            x2: real(yes.x2, no.x2),
-            y2: real(yes.y2, no.y2),
-            g1: real(yes.g1, no.g1),
-            volume: real(yes.volume, no.volume),
-            solid_angle: real(yes.solid_angle, no.solid_angle),
-            unit: real(yes.unit, no.unit),
         }
     }
 
@@ -332,20 +295,20 @@ impl<R: Real> SphericalTriangle<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // from the end that is nearer: α−η and H−η are small differences near the other
         let far = u.gt(R::lit(0.5));
-        let part = R::select(far, rest, u);
+        let part = R::blend(far, rest, u);
         let (sin, cos) = (part * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
-        let s = R::select(far, self.half.x * cos - self.half.y * sin, sin);
+        let s = R::blend(far, self.half.x * cos - self.half.y * sin, sin);
         // cos(α−η) and sin(α−η), over sinα
-        let from_sin = R::select(far, self.turned.x, one);
-        let from_cos = R::select(far, self.turned.y, -self.cot_alpha);
+        let from_sin = R::blend(far, self.turned.x, one);
+        let from_cos = R::blend(far, self.turned.y, -self.cot_alpha);
         let turn_sin = from_sin.mul_add(cos, from_cos * sin);
         let turn_cos = from_cos.mul_add(cos, -(from_sin * sin)).negate_where(!far);
         let stretched = s * self.stretch;
         // P opposite v1 would be at infinity; its square must fit
         let most = R::lit(1e15);
-        let x = (-stretched).mul_add(turn_cos, self.tan_half).clamp(-most, most);
-        let y = (stretched * turn_sin).clamp(zero, most);
-        let left = R::select(far, sin * self.inv_half_sin, (-sin).mul_add(self.total_over, cos));
+        let x = (-stretched).mul_add(turn_cos, self.tan_half).clamped(-most, most);
+        let y = (stretched * turn_sin).clamped(zero, most);
+        let left = R::blend(far, sin * self.inv_half_sin, (-sin).mul_add(self.total_over, cos));
         let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, left] };
         // a side of more than 120° is rare: the work is done where there is one
         let long = self.g2.lt(R::lit(0.5));
@@ -359,20 +322,20 @@ impl<R: Real> SphericalTriangle<R> {
         let [w0, w2] = self.weights(arc.swept);
         // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ small: 1 − P·V₀/l₀ from the sine
         let along = w2.mul_add(self.plus02 - one, w0);
-        let apart = R::select(along.gt(zero), w2 * w2 * self.sin02 / (one + along.max(zero)), one - along);
+        let apart = R::blend(along.gt(zero), w2 * w2 * self.sin02 / (one + along.greater(zero)), one - along);
         let sum = w0.mul_add(self.g2, apart + w2 * self.g1.abs());
         let plus = w0.mul_add(self.g2, apart + w2 * self.g1);
-        let inverse = one / plus.max(R::lit(1e-30));
+        let inverse = one / plus.greater(R::lit(1e-30));
         let (first, second) = (w0 * self.sin_side * inverse, w2 * self.x2 * inverse);
         // either X is a sum: of these two, or of tan(c/2) and the rest of it
         // nor does P have fewer than two weights that sum up to 1: where v0 is opposite v1 to the last bit they are lost
         let known = plus.gt(sum * R::lit(0.125))
             & (w0 + w2).gt(R::lit(0.5))
-            & (first + second.abs()).lt(self.tan_half.max(arc.x.abs()));
+            & (first + second.abs()).lt(self.tan_half.greater(arc.x.abs()));
         let better = long & known;
         let most = R::lit(1e15);
-        let x = R::select(better, (first + second).clamp(-most, most), arc.x);
-        let y = R::select(better, (w2 * self.y2 * inverse).min(most), arc.y);
+        let x = R::blend(better, (first + second).clamped(-most, most), arc.x);
+        let y = R::blend(better, (w2 * self.y2 * inverse).lesser(most), arc.y);
         Arc { x, y, m: x.mul_add(x, y * y), swept: arc.swept }
     }
 
@@ -383,12 +346,12 @@ impl<R: Real> SphericalTriangle<R> {
         // a − b = cosη − sinη (G₁+G₂)/G₀ = sin(H−η)/sin H
         let b = s * self.g2_over;
         let a = left + b;
-        let w0 = (left * (a + b)).max(zero);
+        let w0 = (left * (a + b)).greater(zero);
         // b d₀₂ + a, w₂ − w₀ and |P|²: where v0 and v2 lie nearly opposite these are small differences
-        let w2 = (two * b * b.mul_add(self.plus02, left)).max(zero);
+        let w2 = (two * b * b.mul_add(self.plus02, left)).greater(zero);
         let more = two * b * b * self.plus02 - left * left;
         let squared = more.mul_add(more, two * self.plus02 * w0 * w2);
-        let inverse = rsqrt(squared.max(R::lit(1e-30)));
+        let inverse = rsqrt(squared.greater(R::lit(1e-30)));
         [w0 * inverse, w2 * inverse]
     }
 
@@ -396,7 +359,7 @@ impl<R: Real> SphericalTriangle<R> {
     #[inline(always)]
     fn alpha(&self) -> (R, R) {
         // past 1e18 the cotangent's square would not fit, and the sine is 0 to all intents
-        let cot = self.cot_alpha.clamp(R::lit(-1e18), R::lit(1e18));
+        let cot = self.cot_alpha.clamped(R::lit(-1e18), R::lit(1e18));
         let sin = rsqrt(cot.mul_add(cot, R::lit(1.0)));
         (sin, cot * sin)
     }
@@ -424,7 +387,7 @@ impl<R: Real> SphericalTriangle<R> {
         let z = (-over).mul_add(arc.m, one);
         // 1+z = 2(1 + (1−u)M)/(1+M): near the antipode of v1 z says nothing about the sine
         let plus = (one - u).mul_add(arc.m, one) * (two / (one + arc.m));
-        let sin_over = (over * plus).max(zero).sqrt();
+        let sin_over = (over * plus).greater(zero).sqrt();
         let tangent = self.along.mul_add(arc.x, self.across * arc.y);
         let direction = self.apex.mul_add(z, tangent * sin_over);
         // a unit vector but for rounding: one step of Newton's to 1/√
@@ -452,15 +415,15 @@ impl<R: Real> SphericalTriangle<R> {
         let cos_abs = (one - arc.m).abs() / (one + arc.m);
         // k = (z² − t²c²)/(z + tc) = (1−u₁)(z+c)/((1+c)(z+tc))
         let denominator = (one + cos_abs) * t.mul_add(cos_abs, z);
-        let k = (one - u.y) * (z + cos_abs) / R::select(denominator.gt(zero), denominator, one);
+        let k = (one - u.y) * (z + cos_abs) / R::blend(denominator.gt(zero), denominator, one);
         let reciprocal = t.mul_add(inv_p * self.l1, k);
         // where P lies behind v1 that cancels; but then the triangle is large, and the plane will do
-        let numerator = R::select(behind, self.volume.abs(), self.l1);
-        let denominator = R::select(behind, direction.dot(self.normal).abs(), reciprocal);
+        let numerator = R::blend(behind, self.volume.abs(), self.l1);
+        let denominator = R::blend(behind, direction.dot(self.normal).abs(), reciprocal);
         let some = denominator.gt(zero) & self.solid_angle.gt(zero);
         // what does not fit f32 ends at its largest number
-        let distance = (numerator / R::select(some, denominator, one)).min(self.farthest);
-        let distance = (distance * self.unit).min(R::lit(f64::from(f32::MAX)));
+        let distance = (numerator / R::blend(some, denominator, one)).lesser(self.farthest);
+        let distance = (distance * self.unit).lesser(R::lit(f64::from(f32::MAX)));
         DirectionSample { direction, distance: distance.keep(some) }
     }
 
@@ -513,13 +476,13 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let (x, y) = (w.dot(self.along), w.dot(self.across).max(zero));
+        let (x, y) = (w.dot(self.along), w.dot(self.across).greater(zero));
         let squared = x.mul_add(x, y * y);
         let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
         let (x, y) = (x * inverse, y * inverse);
         let (sin, small, cos) = self.side(x, y, one);
         let acute = cos.gt(zero);
-        let (minus, plus) = (R::select(acute, small, two - small), R::select(acute, two - small, small));
+        let (minus, plus) = (R::blend(acute, small, two - small), R::blend(acute, two - small, small));
         // tan(swept/2) from two sides and the angle between them
         let both = self.sin_side * sin;
         let swept = two * (both * y).atan2(self.g2.mul_add(plus, both * x));
@@ -528,10 +491,10 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
         let near = ahead.gt(zero);
         let (x, y) = (away.dot(self.along), away.dot(self.across));
         let by_sine = x.mul_add(x, y * y) / (one + ahead.keep(near));
-        let moved = R::select(near, by_sine, away.length_squared() * R::lit(0.5));
+        let moved = R::blend(near, by_sine, away.length_squared() * R::lit(0.5));
         Vec2 {
-            x: unit_interval(swept / self.solid_angle.max(R::lit(1e-37))),
-            y: unit_interval(moved / minus.max(R::lit(1e-37))),
+            x: unit_interval(swept / self.solid_angle.greater(R::lit(1e-37))),
+            y: unit_interval(moved / minus.greater(R::lit(1e-37))),
         }
     }
 }

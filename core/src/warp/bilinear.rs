@@ -26,15 +26,15 @@ impl<R: Real> Bilinear<R> {
     #[inline(always)]
     fn marginal(&self) -> (Linear<R>, [R; 4]) {
         let zero = R::lit(0.0);
-        let [a, b, c, d] = self.corners.map(|w| w.max(zero));
-        let scale = a.max(b).max(c.max(d)).pow2_scale();
+        let [a, b, c, d] = self.corners.map(|w| w.greater(zero));
+        let scale = a.greater(b).greater(c.greater(d)).pow2_scale();
         let [a, b, c, d] = [a, b, c, d].map(|w| w * scale);
         (Linear { a: a + b, b: c + d }, [a, b, c, d])
     }
     /// Density of x at y.
     #[inline(always)]
     fn conditional([a, b, c, d]: [R; 4], y: R) -> Linear<R> {
-        let y = y.clamp(R::lit(0.0), R::lit(1.0));
+        let y = y.clamped(R::lit(0.0), R::lit(1.0));
         let rest = R::lit(1.0) - y;
         Linear { a: a.mul_add(rest, c * y), b: b.mul_add(rest, d * y) }
     }

@@ -1,37 +1,34 @@
-use super::{Warp, unit_interval};
+use super::Warp;
+use crate::lanewise::lanewise;
 use crate::math::atan2_turns;
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 /// Angle by which a direction may have left its cone through rounding: 4 ulp of a component near 1.
 const SLACK: f64 = 4.0 / 16_777_216.0;
 
-/// Uniform over the directions within an angle σ of +z.
-///
-/// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h · ((2−h) + h(1−u₀))), φ = 2πu₁. No term cancels at any σ, nor near
-///   the far pole.
-/// - Domain: u in [0, 1)²; h in [0, 2], clamped to it.
-/// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
-/// - Degenerate: h = 0 gives +z and pdf 0.
-/// - Greatest error: pdf 1.2e−7 relative, direction 1.8e−7 of the cone's width, at every size.
-/// - Source: the inverse of the cap's distribution function, in terms of 1−cosθ.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Cone<R> {
-    /// 1 − cosσ, in [0, 2].
-    pub one_minus_cos: R,
+lanewise! {
+    /// Uniform over the directions within an angle σ of +z.
+    ///
+    /// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h · ((2−h) + h(1−u₀))), φ = 2πu₁. No term cancels at any σ, nor near
+    ///   the far pole.
+    /// - Domain: u in [0, 1)²; h in [0, 2], clamped to it.
+    /// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
+    /// - Degenerate: h = 0 gives +z and pdf 0.
+    /// - Greatest error: pdf 1.2e−7 relative, direction 1.8e−7 of the cone's width, at every size.
+    /// - Source: the inverse of the cap's distribution function, in terms of 1−cosθ.
+    pub struct Cone {
+        /// 1 − cosσ, in [0, 2].
+        pub one_minus_cos: R,
+    }
 }
 
 impl<R: Real> Cone<R> {
-    /// One cone in every lane.
-    #[inline(always)]
-    pub fn splat(c: Cone<R::Scalar>) -> Self {
-        Self { one_minus_cos: R::splat(c.one_minus_cos) }
-    }
     /// h where it is one, in [0, 2]; NaN counts as 0.
     #[inline(always)]
     fn height(&self) -> R {
-        self.one_minus_cos.clamp(R::lit(0.0), R::lit(2.0))
+        self.one_minus_cos.clamped(R::lit(0.0), R::lit(2.0))
     }
     /// Solid angle 2πh in steradians.
     #[inline(always)]
@@ -44,7 +41,7 @@ impl<R: Real> Cone<R> {
         let h = self.height();
         // a subnormal h has no finite reciprocal
         let some = h.gt(R::lit(1e-37));
-        (R::lit(INV_TWO_PI) / R::select(some, h, R::lit(1.0))).keep(some)
+        (R::lit(INV_TWO_PI) / R::blend(some, h, R::lit(1.0))).keep(some)
     }
     /// Is a direction at `one_minus_cos` from the axis inside, give or take the rounding of the direction?
     #[inline(always)]
@@ -57,7 +54,7 @@ impl<R: Real> Cone<R> {
         // 1−cos(σ + ε) = h + ε sinσ + ½ε² cosσ + …
         let sin = (h * (R::lit(2.0) - h)).sqrt();
         // behind, 1−cos is 1−z, of which the rounding counts
-        let slack = R::lit(slack).mul_add(sin.max(h - R::lit(1.0)), R::lit(0.5 * slack * slack));
+        let slack = R::lit(slack).mul_add(sin.greater(h - R::lit(1.0)), R::lit(0.5 * slack * slack));
         one_minus_cos.le(h + slack)
     }
     /// The same of a direction that a frame has turned there and back: 10 ulp.
@@ -78,7 +75,7 @@ impl<R: Real> Cone<R> {
 fn one_minus_z<R: Real>(w: Vec3<R>) -> R {
     let one = R::lit(1.0);
     let front = w.x.mul_add(w.x, w.y * w.y) / (one + w.z.abs());
-    R::select(w.z.gt(R::lit(0.5)), front, one - w.z)
+    R::blend(w.z.gt(R::lit(0.5)), front, one - w.z)
 }
 
 impl<R: Real> Warp<R> for Cone<R> {
@@ -89,7 +86,7 @@ impl<R: Real> Warp<R> for Cone<R> {
         let k = u.x * h;
         // 2 − k without cancellation: both terms are ≥ 0, and 2−h is exact where it matters
         let rest = h.mul_add(R::lit(1.0) - u.x, R::lit(2.0) - h);
-        let sin = (k * rest).max(R::lit(0.0)).sqrt();
+        let sin = (k * rest).greater(R::lit(0.0)).sqrt();
         let (s, c) = u.y.sin_cos_turns();
         Vec3::new(sin * c, sin * s, R::lit(1.0) - k)
     }
@@ -100,7 +97,7 @@ impl<R: Real> Warp<R> for Cone<R> {
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let h = self.height();
-        let u = one_minus_z(w) / R::select(h.gt(R::lit(0.0)), h, R::lit(1.0));
+        let u = one_minus_z(w) / R::blend(h.gt(R::lit(0.0)), h, R::lit(1.0));
         Vec2 { x: unit_interval(u), y: atan2_turns(w.y, w.x) }
     }
 }

@@ -1,6 +1,6 @@
-use super::{Warp, unit_interval};
+use super::Warp;
 use crate::math::{atan2_turns, sin_cos_quarter};
-use crate::real::Real;
+use crate::real::{Real, unit_interval};
 use crate::vector::Vec2;
 
 const INV_PI: f64 = core::f64::consts::FRAC_1_PI;
@@ -13,24 +13,24 @@ pub(crate) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
     let (one, two) = (R::lit(1.0), R::lit(2.0));
     let (a, b) = (two.mul_add(u.x, -one), two.mul_add(u.y, -one));
     let first = a.abs().gt(b.abs());
-    let (r, other) = (R::select(first, a, b), R::select(first, b, a));
+    let (r, other) = (R::blend(first, a, b), R::blend(first, b, a));
     // at the centre r = 0: any finite ratio will do
-    let quarters = other * R::lit(0.5) / R::select(r.abs().gt(R::lit(0.0)), r, one);
+    let quarters = other * R::lit(0.5) / R::blend(r.abs().gt(R::lit(0.0)), r, one);
     let (s, c) = sin_cos_quarter(quarters);
-    (r, Vec2 { x: R::select(first, c, s), y: R::select(first, s, c) })
+    (r, Vec2 { x: R::blend(first, c, s), y: R::blend(first, s, c) })
 }
 
 /// Inverse of the concentric map for the point (x, y) at radius r ≥ 0.
 #[inline(always)]
 pub(crate) fn invert_concentric<R: Real>(p: Vec2<R>, r: R) -> Vec2<R> {
     let first = p.x.abs().gt(p.y.abs());
-    let (major, minor) = (R::select(first, p.x, p.y), R::select(first, p.y, p.x));
+    let (major, minor) = (R::blend(first, p.x, p.y), R::blend(first, p.y, p.x));
     let signed = r.copysign(major);
     // angle from the major axis in units of π/4, in [−1, 1]
     let angle = minor.atan2(major.abs()) * R::lit(4.0 * INV_PI);
     let other = r * angle;
     let half = R::lit(0.5);
-    let (a, b) = (R::select(first, signed, other), R::select(first, other, signed));
+    let (a, b) = (R::blend(first, signed, other), R::blend(first, other, signed));
     Vec2 { x: unit_interval(a.mul_add(half, half)), y: unit_interval(b.mul_add(half, half)) }
 }
 
@@ -90,7 +90,7 @@ impl<R: Real> Warp<R> for PolarDisk {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
         let (s, c) = u.y.sin_cos_turns();
-        Vec2 { x: c, y: s } * u.x.max(R::lit(0.0)).sqrt()
+        Vec2 { x: c, y: s } * u.x.greater(R::lit(0.0)).sqrt()
     }
     #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {

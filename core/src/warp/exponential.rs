@@ -1,44 +1,41 @@
-use super::{GREATEST, Warp1, unit_interval};
-use crate::real::Real;
+use super::Warp1;
+use crate::lanewise::lanewise;
+use crate::real::{GREATEST, Real, unit_interval};
 
-/// Distances with the density of the exponential distribution: free flight in a medium of extinction λ.
-///
-/// - Formula: x = −ln(1−u)/λ, by `ln_1p`, so that small distances keep their digits.
-/// - Domain: u in [0, 1 − 2⁻²⁴], so that λx ≤ 16.7; λ > 0.
-/// - Density: λ exp(−λx) per unit length for x ≥ 0, 0 elsewhere (and where it would be below about 1e−38 λ).
-/// - Degenerate: λ ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = 0: such a medium is empty.
-/// - Greatest error: 2e−7 relative in x, 2e−7 relative in the pdf however large λx.
-/// - Source: the inverse of the distribution function.
-///
-/// ```
-/// use etendue::warp::{Exponential, Warp1};
-/// let medium = Exponential { rate: 2.0_f32 };
-/// let x = medium.sample(0.5);
-/// assert!((x - 0.34657359).abs() < 1e-7 && (medium.pdf(x) - 1.0).abs() < 1e-6 && (medium.invert(x) - 0.5).abs() < 1e-6);
-/// ```
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Exponential<R> {
-    /// λ: the reciprocal of the mean.
-    pub rate: R,
+lanewise! {
+    /// Distances with the density of the exponential distribution: free flight in a medium of extinction λ.
+    ///
+    /// - Formula: x = −ln(1−u)/λ, by `ln_1p`, so that small distances keep their digits.
+    /// - Domain: u in [0, 1 − 2⁻²⁴], so that λx ≤ 16.7; λ > 0.
+    /// - Density: λ exp(−λx) per unit length for x ≥ 0, 0 elsewhere (and where it would be below about 1e−38 λ).
+    /// - Degenerate: λ ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = 0: such a medium is empty.
+    /// - Greatest error: 2e−7 relative in x, 2e−7 relative in the pdf however large λx.
+    /// - Source: the inverse of the distribution function.
+    ///
+    /// ```
+    /// use etendue::warp::{Exponential, Warp1};
+    /// let medium = Exponential { rate: 2.0_f32 };
+    /// let x = medium.sample(0.5);
+    /// assert!((x - 0.34657359).abs() < 1e-7 && (medium.pdf(x) - 1.0).abs() < 1e-6 && (medium.invert(x) - 0.5).abs() < 1e-6);
+    /// ```
+    pub struct Exponential {
+        /// λ: the reciprocal of the mean.
+        pub rate: R,
+    }
 }
 
 impl<R: Real> Exponential<R> {
-    /// One rate in every lane.
-    #[inline(always)]
-    pub fn splat(e: Exponential<R::Scalar>) -> Self {
-        Self { rate: R::splat(e.rate) }
-    }
     /// λ, or 1 where it is degenerate.
     #[inline(always)]
     fn usable(&self) -> (R, R::Mask) {
         let some = self.rate.gt(R::lit(1e-37));
-        (R::select(some, self.rate, R::lit(1.0)), some)
+        (R::blend(some, self.rate, R::lit(1.0)), some)
     }
     /// λx for x ≥ 0, no more than any exponential survives.
     #[inline(always)]
     fn depth(rate: R, x: R) -> (R, R) {
         let limit = R::lit(1000.0);
-        let x = x.clamp(R::lit(0.0), R::lit(GREATEST)).min(limit / rate);
+        let x = x.clamped(R::lit(0.0), R::lit(GREATEST)).lesser(limit / rate);
         let depth = rate * x;
         (depth, R::two_prod_error(rate, x, depth))
     }
@@ -48,7 +45,7 @@ impl<R: Real> Warp1<R> for Exponential<R> {
     #[inline(always)]
     fn sample(&self, u: R) -> R {
         let (rate, some) = self.usable();
-        (-(-unit_interval(u)).ln_1p() / rate).min(R::lit(GREATEST)).keep(some)
+        (-(-unit_interval(u)).ln_1p() / rate).lesser(R::lit(GREATEST)).keep(some)
     }
     #[inline(always)]
     fn pdf(&self, x: R) -> R {

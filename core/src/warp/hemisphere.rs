@@ -21,14 +21,14 @@ impl<R: Real> Warp<R> for CosineHemisphere {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let (r, direction) = concentric(u);
         let one = R::lit(1.0);
-        let inset = u.x.min(one - u.x).min(u.y.min(one - u.y));
+        let inset = u.x.lesser(one - u.x).lesser(u.y.lesser(one - u.y));
         let m = inset + inset;
-        let z = (m * (R::lit(2.0) - m)).max(R::lit(0.0)).sqrt();
+        let z = (m * (R::lit(2.0) - m)).greater(R::lit(0.0)).sqrt();
         Vec3::new(direction.x * r, direction.y * r, z)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        w.z.max(R::lit(0.0)) * R::lit(core::f64::consts::FRAC_1_PI)
+        w.z.greater(R::lit(0.0)) * R::lit(core::f64::consts::FRAC_1_PI)
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

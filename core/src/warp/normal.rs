@@ -1,47 +1,44 @@
-use super::{GREATEST, Warp1, unit_interval};
+use super::Warp1;
+use crate::lanewise::lanewise;
 use crate::math::{exp_minus_half_square, two_sum};
-use crate::real::Real;
+use crate::real::{GREATEST, Real, unit_interval};
 
 const INV_SQRT_TWO_PI: f64 = 0.398_942_280_401_432_7;
 
-/// The normal distribution, through its own quantile: strata of `u` stay strata, and there is an inverse, which Box and Muller's pair
-/// of variables lacks.
-///
-/// - Formula: x = μ + σΦ⁻¹(u).
-/// - Domain: u in [0, 1), taken as no nearer to 0 and 1 than 2⁻²⁵, so that |x − μ| ≤ 5.42σ; σ > 0.
-/// - Density: exp(−z²/2)/(σ√(2π)) per unit length, z = (x−μ)/σ; 0 where |z| > 13.2.
-/// - Degenerate: σ ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = μ.
-/// - Greatest error: 3.6e−7 σz in x − μ, besides the rounding of the sum; 5e−7 relative in the pdf, in the tails too.
-/// - Source: the coefficients are our own; the shape of the approximation is Giles, "Approximating the erfinv function", GPU Computing
-///   Gems, 2011.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Normal<R> {
-    /// μ.
-    pub mean: R,
-    /// σ.
-    pub sigma: R,
+lanewise! {
+    /// The normal distribution, through its own quantile: strata of `u` stay strata, and there is an inverse, which Box and Muller's pair
+    /// of variables lacks.
+    ///
+    /// - Formula: x = μ + σΦ⁻¹(u).
+    /// - Domain: u in [0, 1), taken as no nearer to 0 and 1 than 2⁻²⁵, so that |x − μ| ≤ 5.42σ; σ > 0.
+    /// - Density: exp(−z²/2)/(σ√(2π)) per unit length, z = (x−μ)/σ; 0 where |z| > 13.2.
+    /// - Degenerate: σ ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = μ.
+    /// - Greatest error: 3.6e−7 σz in x − μ, besides the rounding of the sum; 5e−7 relative in the pdf, in the tails too.
+    /// - Source: the coefficients are our own; the shape of the approximation is Giles, "Approximating the erfinv function", GPU Computing
+    ///   Gems, 2011.
+    pub struct Normal {
+        /// μ.
+        pub mean: R,
+        /// σ.
+        pub sigma: R,
+    }
 }
 
 impl<R: Real> Normal<R> {
-    /// One distribution in every lane.
-    #[inline(always)]
-    pub fn splat(n: Normal<R::Scalar>) -> Self {
-        Self { mean: R::splat(n.mean), sigma: R::splat(n.sigma) }
-    }
     /// σ, or 1 where it is degenerate.
     #[inline(always)]
     fn usable(&self) -> (R, R::Mask) {
         let some = self.sigma.gt(R::lit(1e-37));
-        (R::select(some, self.sigma, R::lit(1.0)), some)
+        (R::blend(some, self.sigma, R::lit(1.0)), some)
     }
     /// z within ±20, its rounding error, and 1/σ.
     #[inline(always)]
     fn standard(&self, sigma: R, x: R) -> (R, R, R) {
         let inverse = R::lit(1.0) / sigma;
-        let limit = (R::lit(20.0) * sigma).min(R::lit(GREATEST));
+        let limit = (R::lit(20.0) * sigma).lesser(R::lit(GREATEST));
         let (d, lost) = two_sum(x, -self.mean);
-        let d = d.clamp(-limit, limit);
-        let z = (d * inverse).clamp(R::lit(-20.0), R::lit(20.0));
+        let d = d.clamped(-limit, limit);
+        let z = (d * inverse).clamped(R::lit(-20.0), R::lit(20.0));
         let product = z * sigma;
         let rest = (d - product) - (R::two_prod_error(z, sigma, product) - lost);
         // not a number where something overflowed, which takes |x|, |μ| or σ beyond 1e37
@@ -54,7 +51,7 @@ impl<R: Real> Warp1<R> for Normal<R> {
     fn sample(&self, u: R) -> R {
         let (sigma, some) = self.usable();
         let x = u.normal_quantile().mul_add(sigma.keep(some), self.mean);
-        x.clamp(R::lit(-GREATEST), R::lit(GREATEST))
+        x.clamped(R::lit(-GREATEST), R::lit(GREATEST))
     }
     #[inline(always)]
     fn pdf(&self, x: R) -> R {

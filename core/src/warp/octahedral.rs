@@ -1,6 +1,6 @@
-use super::{Warp, unit_interval};
+use super::Warp;
 use crate::math::sin_cos_quarter;
-use crate::real::Real;
+use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
 const HALF_ROOT: f64 = core::f64::consts::FRAC_1_SQRT_2;
@@ -33,19 +33,15 @@ impl<R: Real> Warp<R> for Octahedral {
         let sum = a + b;
         let upper = sum.le(one);
         // 2 − a − b from two differences that are exact where they matter
-        let r = R::select(upper, sum, (one - a) + (one - b));
+        let r = R::blend(upper, sum, (one - a) + (one - b));
         let some = r.gt(R::lit(0.0));
         // from the diagonal, in quarter turns
-        let turn = ((b - a) * R::lit(0.5) / R::select(some, r, one)).clamp(R::lit(-0.5), R::lit(0.5));
+        let turn = ((b - a) * R::lit(0.5) / R::blend(some, r, one)).clamped(R::lit(-0.5), R::lit(0.5));
         let (s, c) = sin_cos_quarter(turn);
         let square = r * r;
         let sin = r * (two - square).sqrt() * R::lit(HALF_ROOT);
         let z = one - square;
-        Vec3 {
-            x: (sin * (c - s)).copysign(signed_a),
-            y: (sin * (c + s)).copysign(signed_b),
-            z: R::select(upper, z, -z),
-        }
+        Vec3 { x: (sin * (c - s)).copysign(signed_a), y: (sin * (c + s)).copysign(signed_b), z: R::blend(upper, z, -z) }
     }
     #[inline(always)]
     fn pdf(&self, _: Vec3<R>) -> R {
@@ -59,12 +55,12 @@ impl<R: Real> Warp<R> for Octahedral {
         // 0 on the x axis, 1 on the y axis; from the nearer one
         let (x, y) = (w.x.abs(), w.y.abs());
         let steep = y.gt(x);
-        let (large, small) = (R::select(steep, y, x), R::select(steep, x, y));
+        let (large, small) = (R::blend(steep, y, x), R::blend(steep, x, y));
         let minor = r * (small.atan2(large) * R::lit(2.0 * core::f64::consts::FRAC_1_PI));
         let major = r - minor;
-        let (a, b) = (R::select(steep, minor, major), R::select(steep, major, minor));
+        let (a, b) = (R::blend(steep, minor, major), R::blend(steep, major, minor));
         let lower = w.z.lt(R::lit(0.0));
-        let (a, b) = (R::select(lower, one - b, a), R::select(lower, one - a, b));
+        let (a, b) = (R::blend(lower, one - b, a), R::blend(lower, one - a, b));
         let place = |x: R, sign: R| unit_interval(x.copysign(sign).mul_add(half, half));
         Vec2 { x: place(a, w.x), y: place(b, w.y) }
     }

@@ -1,20 +1,20 @@
-use super::{Bilinear, ConcentricDisk, UniformSphere, Warp, unit_interval};
+use super::{Bilinear, ConcentricDisk, UniformSphere, Warp};
+use crate::lanewise::lanewise;
 use crate::math::atan2_turns;
-use crate::real::Real;
-use crate::spherical::lanewise;
+use crate::real::{Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
 
 /// 1/area, where that is finite.
 #[inline(always)]
 fn reciprocal<R: Real>(area: R) -> R {
     let some = area.gt(R::lit(1e-37));
-    (R::lit(1.0) / R::select(some, area, R::lit(1.0))).keep(some & area.lt(R::lit(1e37)))
+    (R::lit(1.0) / R::blend(some, area, R::lit(1.0))).keep(some & area.lt(R::lit(1e37)))
 }
 /// A point that does not fit its numbers ends at the largest one.
 #[inline(always)]
 fn finite<R: Real>(point: Vec3<R>) -> Vec3<R> {
     let most = R::lit(f64::from(f32::MAX));
-    let within = |x: R| x.clamp(-most, most);
+    let within = |x: R| x.clamped(-most, most);
     Vec3::new(within(point.x), within(point.y), within(point.z))
 }
 
@@ -28,7 +28,7 @@ lanewise! {
     /// - Degenerate: πR² beyond 1e−37 … 1e37: pdf 0.
     /// - Greatest error: 2 ulp of the radius and half one of the coordinates; `invert` as much.
     /// - Source: as [`ConcentricDisk`].
-    DiskSurface {
+    pub struct DiskSurface {
         /// Centre.
         pub center: Vec3<R>,
         /// Unit normal.
@@ -43,10 +43,10 @@ impl<R: Real> DiskSurface<R> {
         let offset = point - self.center;
         let frame = Frame::new(self.normal);
         let some = self.radius.gt(R::lit(0.0));
-        let inverse = R::lit(1.0) / R::select(some, self.radius, R::lit(1.0));
+        let inverse = R::lit(1.0) / R::blend(some, self.radius, R::lit(1.0));
         // no further than its square is finite
         let most = R::lit(1e15);
-        let part = |x: R| (x * inverse).clamp(-most, most);
+        let part = |x: R| (x * inverse).clamped(-most, most);
         Vec2 { x: part(offset.dot(frame.s)), y: part(offset.dot(frame.t)) }
     }
 }
@@ -63,13 +63,13 @@ impl<R: Real> Warp<R> for DiskSurface<R> {
         let q = self.local(point);
         // coordinates are rounded: as much of the radius
         let slack = R::lit(SLACK) * (self.center.max_abs() + self.radius);
-        let most = self.radius.max(R::lit(0.0)) + slack;
+        let most = self.radius.greater(R::lit(0.0)) + slack;
         reciprocal(self.radius * self.radius * R::lit(core::f64::consts::PI)).keep((q.length() * self.radius).le(most))
     }
     #[inline(always)]
     fn invert(&self, point: Vec3<R>) -> Vec2<R> {
         let q = self.local(point);
-        let inside = R::lit(1.0) / q.length().max(R::lit(1.0));
+        let inside = R::lit(1.0) / q.length().greater(R::lit(1.0));
         ConcentricDisk.invert(q * inside)
     }
 }
@@ -84,7 +84,7 @@ lanewise! {
     /// - Degenerate: an area beyond 1e−37 … 1e37: pdf 0.
     /// - Greatest error: 3 ulp of the radius, one of the length, and half one of the coordinates; `invert` as much.
     /// - Source: cylindrical coordinates.
-    CylinderSide {
+    pub struct CylinderSide {
         /// Centre of one end.
         pub p: Vec3<R>,
         /// From there to the centre of the other end.
@@ -121,7 +121,7 @@ impl<R: Real> Warp<R> for CylinderSide<R> {
         let (along, length) = self.axis.unit_and_length();
         let (frame, offset) = (Frame::new(along), point - self.p);
         let some = length.gt(R::lit(0.0));
-        let height = offset.dot(along) / R::select(some, length, R::lit(1.0));
+        let height = offset.dot(along) / R::blend(some, length, R::lit(1.0));
         Vec2 { x: unit_interval(height.keep(some)), y: atan2_turns(offset.dot(frame.t), offset.dot(frame.s)) }
     }
 }
@@ -135,7 +135,7 @@ lanewise! {
     /// - Degenerate: 4πR² beyond 1e−37 … 1e37: pdf 0.
     /// - Greatest error: 3 ulp of the radius and half one of the coordinates; `invert` as much.
     /// - Source: as [`UniformSphere`].
-    SphereSurface {
+    pub struct SphereSurface {
         /// Centre.
         pub center: Vec3<R>,
         /// Radius.
@@ -169,7 +169,7 @@ pub fn per_steradian<R: Real>(pdf: R, point: Vec3<R>, normal: Vec3<R>) -> R {
     let (direction, distance) = point.unit_and_length();
     let cos = direction.dot(normal).abs();
     let some = cos.gt(R::lit(0.0));
-    let density = pdf * distance * (distance / R::select(some, cos, R::lit(1.0)));
+    let density = pdf * distance * (distance / R::blend(some, cos, R::lit(1.0)));
     density.keep(some & density.lt(R::lit(1e37)))
 }
 
@@ -187,7 +187,7 @@ lanewise! {
     ///   longest side is than the shortest. `invert` solves a quadratic equation for s and
     ///   takes two steps of Gauss and Newton's: as much.
     /// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., 6.6.
-    PatchSurface {
+    pub struct PatchSurface {
         /// Corner.
         pub p: Vec3<R>,
         /// From there to the next corner, s = 1.
@@ -225,7 +225,7 @@ impl<R: Real> PatchSurface<R> {
     /// With edges near 1 and p at the origin; the reciprocal of the unit; and finite at all.
     #[inline(always)]
     fn in_units(&self) -> (Self, R, R::Mask) {
-        let reach = self.u.max_abs().max(self.v.max_abs()).max(self.w.max_abs());
+        let reach = self.u.max_abs().greater(self.v.max_abs()).greater(self.w.max_abs());
         let (scale, finite) = (reach.pow2_scale(), reach.lt(R::lit(1e37)));
         let scaled = |e: Vec3<R>| Vec3::new(e.x.keep(finite), e.y.keep(finite), e.z.keep(finite)) * scale;
         let unit = Self { p: Vec3::default(), u: scaled(self.u), v: scaled(self.v), w: scaled(self.w) };
@@ -238,20 +238,20 @@ impl<R: Real> PatchSurface<R> {
         let (unit, scale, _) = self.in_units();
         let far = R::lit(64.0);
         let q = (point - self.p) * scale;
-        let q = Vec3::new(q.x.clamp(-far, far), q.y.clamp(-far, far), q.z.clamp(-far, far));
+        let q = Vec3::new(q.x.clamped(-far, far), q.y.clamped(-far, far), q.z.clamped(-far, far));
         let d = unit.twist();
         // (q − su)×(v + sd) = 0, seen along the middle normal
         let n = unit.normal(Vec2::new(half, half));
         let (a, b, c) = (-n.dot(unit.u.cross(d)), n.dot(q.cross(d) - unit.u.cross(unit.v)), n.dot(q.cross(unit.v)));
-        let root = (b * b - R::lit(4.0) * a * c).max(zero).sqrt();
+        let root = (b * b - R::lit(4.0) * a * c).greater(zero).sqrt();
         let sum = b + root.copysign(b);
         let quotient = |x: R, y: R| {
             let some = y.abs().gt(R::lit(1e-30));
-            (x / R::select(some, y, one)).keep(some).clamp(-most, most)
+            (x / R::blend(some, y, one)).keep(some).clamped(-most, most)
         };
         let (first, second) = (quotient(R::lit(-2.0) * c, sum), quotient(-half * sum, a));
         let nearer = (second - half).abs().lt((first - half).abs()) & a.abs().gt(R::lit(1e-6) * b.abs());
-        let s = R::select(nearer, second, first);
+        let s = R::blend(nearer, second, first);
         let line = d.mul_add(s, unit.v);
         let t = quotient((q - unit.u * s).dot(line), line.length_squared());
         let mut st = Vec2::new(s, t);
@@ -259,7 +259,7 @@ impl<R: Real> PatchSurface<R> {
             let (by_s, by_t) = (d.mul_add(st.y, unit.u), d.mul_add(st.x, unit.v));
             let (left, normal) = (q - unit.offset(st), by_s.cross(by_t));
             let square = normal.length_squared();
-            let step = |x: Vec3<R>| quotient(x.dot(normal), square).clamp(-half, half);
+            let step = |x: Vec3<R>| quotient(x.dot(normal), square).clamped(-half, half);
             st = Vec2 { x: st.x + step(left.cross(by_t)), y: st.y + step(by_s.cross(left)) };
         }
         st
@@ -286,15 +286,15 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
         let d = unit.twist();
         // coordinates are rounded: as much of the lengths of the sides
         let slack = R::lit(SLACK) * (self.p.max_abs() * scale + R::lit(2.0));
-        let beyond = |x: R, side: Vec3<R>| (x - x.clamp(zero, one)).abs() * side.length();
+        let beyond = |x: R, side: Vec3<R>| (x - x.clamped(zero, one)).abs() * side.length();
         let inside = beyond(st.x, d.mul_add(st.y, unit.u)).le(slack) & beyond(st.y, d.mul_add(st.x, unit.v)).le(slack);
-        let st = Vec2 { x: st.x.clamp(zero, R::ONE_MINUS_EPSILON), y: st.y.clamp(zero, R::ONE_MINUS_EPSILON) };
+        let st = Vec2 { x: st.x.clamped(zero, R::ONE_MINUS_EPSILON), y: st.y.clamped(zero, R::ONE_MINUS_EPSILON) };
         self.pdf_at(st).keep(inside & finite)
     }
     #[inline(always)]
     fn invert(&self, point: Vec3<R>) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let st = self.locate(point);
-        self.parameters().invert(Vec2 { x: st.x.clamp(zero, one), y: st.y.clamp(zero, one) })
+        self.parameters().invert(Vec2 { x: st.x.clamped(zero, one), y: st.y.clamped(zero, one) })
     }
 }

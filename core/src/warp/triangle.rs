@@ -1,5 +1,5 @@
-use super::{Warp, unit_interval};
-use crate::real::Real;
+use super::Warp;
+use crate::real::{Real, unit_interval};
 use crate::vector::Vec2;
 
 #[inline(always)]
@@ -23,7 +23,7 @@ impl<R: Real> Warp<R> for AreaTriangle {
     type Point = Vec2<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
-        let root = u.x.max(R::lit(0.0)).sqrt();
+        let root = u.x.greater(R::lit(0.0)).sqrt();
         let b2 = root * u.y;
         Vec2::new(root - b2, b2)
     }
@@ -35,7 +35,7 @@ impl<R: Real> Warp<R> for AreaTriangle {
     fn invert(&self, b: Vec2<R>) -> Vec2<R> {
         let root = b.x + b.y;
         let some = root.gt(R::lit(0.0));
-        Vec2 { x: unit_interval(root * root), y: unit_interval(b.y / R::select(some, root, R::lit(1.0))) }
+        Vec2 { x: unit_interval(root * root), y: unit_interval(b.y / R::blend(some, root, R::lit(1.0))) }
     }
 }
 
@@ -63,9 +63,9 @@ impl<R: Real> Warp<R> for LowDistortionTriangle {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
         // the smaller coordinate is halved, and the half taken from the other
-        let half = R::lit(0.5) * u.x.min(u.y);
+        let half = R::lit(0.5) * u.x.lesser(u.y);
         let upper = u.y.gt(u.x);
-        Vec2::new(R::select(upper, half, u.x - half), R::select(upper, u.y - half, half))
+        Vec2::new(R::blend(upper, half, u.x - half), R::blend(upper, u.y - half, half))
     }
     #[inline(always)]
     fn pdf(&self, b: Vec2<R>) -> R {
@@ -73,9 +73,9 @@ impl<R: Real> Warp<R> for LowDistortionTriangle {
     }
     #[inline(always)]
     fn invert(&self, b: Vec2<R>) -> Vec2<R> {
-        let small = b.x.min(b.y);
+        let small = b.x.lesser(b.y);
         let (double, sum) = (unit_interval(small + small), unit_interval(b.x + b.y));
         let upper = b.y.gt(b.x);
-        Vec2 { x: R::select(upper, double, sum), y: R::select(upper, sum, double) }
+        Vec2 { x: R::blend(upper, double, sum), y: R::blend(upper, sum, double) }
     }
 }

@@ -1,44 +1,46 @@
-use super::{Cone, Warp, unit_interval};
-use crate::real::Real;
+use super::{Cone, Warp};
+use crate::lanewise::lanewise;
+use crate::real::{GREATEST, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
-/// The normals of a GGX microsurface that are visible from a direction, by the spherical cap.
-///
-/// - Formula: with M = diag(αx, αy, 1) and the stretched view w = M·wi/|M·wi|, a direction c uniform over the cap z > −w.z
-///   ([`Cone`] with h = 1 + w.z) reflects w about c + w; the normal is M(c + w), normalised.
-/// - Domain: u in [0, 1)²; αx, αy > 0; wi of any direction and any length but 0. Grazing views have no special case; from below the
-///   horizon (wi.z < 0) it is the part of the microsurface that still faces wi.
-/// - Density: D_v(m) = 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal, l = |M⁻¹m|, for unit wi; 0 for
-///   m.z < 0 and for normals that face away. It is max(0, wi·m) D(m) G₁(wi)/wi.z without the quotient that fails at grazing.
-/// - Reflection: the density of the reflected direction, 2(wi·m)m − wi, per steradian is
-///   [`reflected_pdf`](Self::reflected_pdf): D_v/(4 wi·m).
-/// - Degenerate: α ≤ 1e−15 (a mirror), wi = 0 and wi = −z (nothing visible) give pdf 0, and +z or a normal of the horizon.
-/// - Greatest error, in units of 2⁻²⁴: 8 in the stretched normal, 8 in the pdf relative to its value and to D_v/(wi·m), and
-///   24/(1 + w.z) + 16/|c + w| in `invert(sample(u))`: most where a grazing view sees normals turned away from it, c → −w, which have
-///   next to no density. A normal there may be rounded to one that faces away, with pdf 0.
-/// - Source: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, listing 1; the density as in Heitz, "Sampling
-///   the GGX Distribution of Visible Normals", JCGT 7(4), 2018, equation 3, rearranged.
-///
-/// ```
-/// use etendue::{Vec2, Vec3, Warp, warp::GgxVisibleNormals};
-/// let rough = GgxVisibleNormals::new(0.5_f32, 0.25, Vec3::new(0.6, 0.0, 0.8));
-/// let u = Vec2::new(0.3, 0.7);
-/// let m = rough.sample(u);
-/// let back = rough.invert(m);
-/// assert!(rough.pdf(m) > 0.0 && (back.x - u.x).abs() < 1e-5 && (back.y - u.y).abs() < 1e-5);
-/// ```
-#[derive(Clone, Copy, Debug, Default)]
-pub struct GgxVisibleNormals<R> {
-    alpha: Vec2<R>,
-    inverse_alpha: Vec2<R>,
-    /// wi, of unit length.
-    view: Vec3<R>,
-    /// w.
-    stretched: Vec3<R>,
-    /// 1 + w.z.
-    height: R,
-    /// 2/(π αx αy |M·wi| h), or 0.
-    scale: R,
+lanewise! {
+    /// The normals of a GGX microsurface that are visible from a direction, by the spherical cap.
+    ///
+    /// - Formula: with M = diag(αx, αy, 1) and the stretched view w = M·wi/|M·wi|, a direction c uniform over the cap z > −w.z
+    ///   ([`Cone`] with h = 1 + w.z) reflects w about c + w; the normal is M(c + w), normalised.
+    /// - Domain: u in [0, 1)²; αx, αy > 0; wi of any direction and any length but 0. Grazing views have no special case; from below the
+    ///   horizon (wi.z < 0) it is the part of the microsurface that still faces wi.
+    /// - Density: D_v(m) = 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal, l = |M⁻¹m|, for unit wi; 0 for
+    ///   m.z < 0 and for normals that face away. It is max(0, wi·m) D(m) G₁(wi)/wi.z without the quotient that fails at grazing.
+    /// - Reflection: the density of the reflected direction, 2(wi·m)m − wi, per steradian is
+    ///   [`reflected_pdf`](Self::reflected_pdf): D_v/(4 wi·m).
+    /// - Degenerate: α ≤ 1e−15 (a mirror), wi = 0 and wi = −z (nothing visible) give pdf 0, and +z or a normal of the horizon.
+    /// - Greatest error, in units of 2⁻²⁴: 8 in the stretched normal, 8 in the pdf relative to its value and to D_v/(wi·m), and
+    ///   24/(1 + w.z) + 16/|c + w| in `invert(sample(u))`: most where a grazing view sees normals turned away from it, c → −w, which have
+    ///   next to no density. A normal there may be rounded to one that faces away, with pdf 0.
+    /// - Source: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, listing 1; the density as in Heitz, "Sampling
+    ///   the GGX Distribution of Visible Normals", JCGT 7(4), 2018, equation 3, rearranged.
+    ///
+    /// ```
+    /// use etendue::{Vec2, Vec3, Warp, warp::GgxVisibleNormals};
+    /// let rough = GgxVisibleNormals::new(0.5_f32, 0.25, Vec3::new(0.6, 0.0, 0.8));
+    /// let u = Vec2::new(0.3, 0.7);
+    /// let m = rough.sample(u);
+    /// let back = rough.invert(m);
+    /// assert!(rough.pdf(m) > 0.0 && (back.x - u.x).abs() < 1e-5 && (back.y - u.y).abs() < 1e-5);
+    /// ```
+    pub struct GgxVisibleNormals {
+        alpha: Vec2<R>,
+        inverse_alpha: Vec2<R>,
+        /// wi, of unit length.
+        view: Vec3<R>,
+        /// w.
+        stretched: Vec3<R>,
+        /// 1 + w.z.
+        height: R,
+        /// 2/(π αx αy |M·wi| h), or 0.
+        scale: R,
+    }
 }
 
 impl<R: Real> GgxVisibleNormals<R> {
@@ -50,38 +52,26 @@ impl<R: Real> GgxVisibleNormals<R> {
         let view = (wi * wi.max_abs().pow2_scale()).normalize();
         let least = R::lit(1e-15);
         let rough = alpha_x.gt(least) & alpha_y.gt(least) & alpha_x.lt(R::lit(1e15)) & alpha_y.lt(R::lit(1e15));
-        let alpha = Vec2::new(R::select(rough, alpha_x, one), R::select(rough, alpha_y, one));
+        let alpha = Vec2::new(R::blend(rough, alpha_x, one), R::blend(rough, alpha_y, one));
         let inverse_alpha = Vec2::new(one / alpha.x, one / alpha.y);
         let (x, y) = (alpha.x * view.x, alpha.y * view.y);
         let across = x.mul_add(x, y * y);
         let length = view.z.mul_add(view.z, across).sqrt();
         let some = length.gt(zero);
-        let inverse_length = one / R::select(some, length, one);
+        let inverse_length = one / R::blend(some, length, one);
         let stretched = Vec3::new(x, y, view.z) * inverse_length;
         // |M·wi| + wi.z, which cancels from below: there the difference of squares over the difference
-        let sum = R::select(view.z.lt(zero), across / (length + view.z.abs()).max(R::lit(1e-37)), length + view.z);
+        let sum = R::blend(view.z.lt(zero), across / (length + view.z.abs()).greater(R::lit(1e-37)), length + view.z);
         let visible = some & rough & sum.gt(R::lit(1e-33));
         let area = R::lit(core::f64::consts::PI) * alpha.x * alpha.y;
-        let scale = (R::lit(2.0) / (area * R::select(visible, sum, one))).keep(visible);
+        let scale = (R::lit(2.0) / (area * R::blend(visible, sum, one))).keep(visible);
         Self {
             alpha,
             inverse_alpha,
             view,
             stretched,
             height: sum * inverse_length,
-            scale: scale.min(R::lit(super::GREATEST)),
-        }
-    }
-    /// One microsurface and view in every lane.
-    #[inline(always)]
-    pub fn splat(g: GgxVisibleNormals<R::Scalar>) -> Self {
-        Self {
-            alpha: Vec2::splat(g.alpha),
-            inverse_alpha: Vec2::splat(g.inverse_alpha),
-            view: Vec3::splat(g.view),
-            stretched: Vec3::splat(g.stretched),
-            height: R::splat(g.height),
-            scale: R::splat(g.scale),
+            scale: scale.lesser(R::lit(GREATEST)),
         }
     }
     /// Direction in which the normal `m` reflects the view: 2(wi·m)m − wi.
@@ -102,8 +92,8 @@ impl<R: Real> GgxVisibleNormals<R> {
         let (x, y) = (m.x * self.inverse_alpha.x, m.y * self.inverse_alpha.y);
         let square = x.mul_add(x, y.mul_add(y, m.z * m.z));
         let some = m.z.ge(R::lit(0.0)) & square.gt(R::lit(0.0));
-        let inverse = R::lit(1.0) / R::select(some, square, R::lit(1.0));
-        (self.scale * inverse * inverse).min(R::lit(super::GREATEST)).keep(some)
+        let inverse = R::lit(1.0) / R::blend(some, square, R::lit(1.0));
+        (self.scale * inverse * inverse).lesser(R::lit(GREATEST)).keep(some)
     }
 }
 
@@ -114,15 +104,15 @@ impl<R: Real> Warp<R> for GgxVisibleNormals<R> {
         let c = Cone { one_minus_cos: self.height }.sample(u);
         let (x, y) = ((c.x + self.stretched.x) * self.alpha.x, (c.y + self.stretched.y) * self.alpha.y);
         // (1 − u₀h) + (h − 1)
-        let z = (self.height * (R::lit(1.0) - u.x)).max(R::lit(0.0));
+        let z = (self.height * (R::lit(1.0) - u.x)).greater(R::lit(0.0));
         let m = Vec3::new(x, y, z);
         let m = (m * m.max_abs().pow2_scale()).normalize();
         let up = Vec3::new(R::lit(0.0), R::lit(0.0), R::lit(1.0));
-        Vec3::select(m.length_squared().gt(R::lit(0.5)), m, up)
+        Vec3::blend(m.length_squared().gt(R::lit(0.5)), m, up)
     }
     #[inline(always)]
     fn pdf(&self, m: Vec3<R>) -> R {
-        (self.per_cosine(m) * self.view.dot(m).max(R::lit(0.0))).min(R::lit(super::GREATEST))
+        (self.per_cosine(m) * self.view.dot(m).greater(R::lit(0.0))).lesser(R::lit(GREATEST))
     }
     #[inline(always)]
     fn invert(&self, m: Vec3<R>) -> Vec2<R> {
@@ -133,8 +123,8 @@ impl<R: Real> Warp<R> for GgxVisibleNormals<R> {
         let near = Cone { one_minus_cos: self.height }.invert(c);
         // from the rim of the cap: c.z + w.z = 2(w·h)h.z = (1−u₀)h
         let some = self.height.gt(R::lit(0.0));
-        let rest = (cos + cos) * h.z / R::select(some, self.height, R::lit(1.0));
-        let far = unit_interval(R::lit(1.0) - rest.min(R::lit(1.0)));
-        Vec2 { x: R::select(near.x.lt(R::lit(0.5)), near.x, far), y: near.y }
+        let rest = (cos + cos) * h.z / R::blend(some, self.height, R::lit(1.0));
+        let far = unit_interval(R::lit(1.0) - rest.lesser(R::lit(1.0)));
+        Vec2 { x: R::blend(near.x.lt(R::lit(0.5)), near.x, far), y: near.y }
     }
 }

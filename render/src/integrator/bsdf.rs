@@ -53,8 +53,8 @@ impl Metal {
     pub(super) fn select(mask: M8, yes: &Self, no: &Self) -> Self {
         Self {
             alpha: select(mask, yes.alpha, no.alpha),
-            eta: V8::select(mask, yes.eta, no.eta),
-            k: V8::select(mask, yes.k, no.k),
+            eta: V8::blend(mask, yes.eta, no.eta),
+            k: V8::blend(mask, yes.k, no.k),
             kind: crate::accel::pick(mask, yes.kind, no.kind),
         }
     }
@@ -71,7 +71,7 @@ impl Metal {
     /// Share of the light that a perfect mirror reflects at the cosine.
     #[inline]
     pub(super) fn reflectance(&self, cos: X8) -> V8 {
-        V8::select(equal(self.kind, u32x8::splat(MIRROR)), self.eta, self.fresnel(cos))
+        V8::blend(equal(self.kind, u32x8::splat(MIRROR)), self.eta, self.fresnel(cos))
     }
     /// Reflectance of a smooth conductor for unpolarised light, per channel.
     #[inline]
@@ -140,7 +140,7 @@ impl Bsdf {
             let density = normals.reflected_pdf(m).keep(above);
             // f cosθ = F D G₂/(4 cosθᵢ) and the density is D G₁/(4 cosθᵢ): what remains is F G₂/G₁
             let share = density * shadowing(metal.alpha, view.z, local.z);
-            value = V8::select(*lanes, metal.fresnel(view.dot(m)) * share, value);
+            value = V8::blend(*lanes, metal.fresnel(view.dot(m)) * share, value);
             pdf = select(*lanes, density, pdf);
         }
         (value, pdf)
@@ -151,7 +151,7 @@ impl Bsdf {
         let mut local: V8 = CosineHemisphere.sample(u);
         if let Some((lanes, metal, view)) = &self.rough {
             let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
-            local = V8::select(*lanes, normals.reflect(normals.sample(u)), local);
+            local = V8::blend(*lanes, normals.reflect(normals.sample(u)), local);
         }
         self.frame.to_world(local)
     }

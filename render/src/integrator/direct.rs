@@ -91,7 +91,7 @@ impl Work<'_> {
             let mut found = V8::default();
             world.each_shape(&hits[p], met, &rays[p], |_, here, shape, outward| {
                 if let Some((radiance, here)) = emitted(here, shape, outward, rays[p].direction) {
-                    found = V8::select(here, radiance, found);
+                    found = V8::blend(here, radiance, found);
                     lit[p] = lit[p] | here;
                 }
             });

@@ -149,7 +149,7 @@ impl Work<'_> {
                 if let Some(sky) = &world.sky {
                     let missed = here & !hits[p].any();
                     if missed.any() {
-                        seen = V8::select(missed, sky.radiance(rays.direction), seen);
+                        seen = V8::blend(missed, sky.radiance(rays.direction), seen);
                     }
                 }
                 radiance[p] += keep(product(end.throughput, seen), here);
@@ -298,7 +298,7 @@ impl Work<'_> {
             lit[p] = M8::splat(false);
             world.each_shape(&hits[p], met, &rays[p], |index, here, shape, outward| {
                 if let Some((emitted, here)) = emitted(here, shape, outward, direction) {
-                    radiance = V8::select(here, emitted, radiance);
+                    radiance = V8::blend(here, emitted, radiance);
                     lit[p] = lit[p] | here;
                     if heuristic.is_some() && here.any() {
                         let pdf = world.lights.shape_pdf(near.as_ref(), index, &shape.geometry, point, direction);
@@ -311,7 +311,7 @@ impl Work<'_> {
             if let Some(sky) = &world.sky {
                 let missed = sent & !hits[p].any();
                 if missed.any() {
-                    radiance = V8::select(missed, sky.radiance(direction), radiance);
+                    radiance = V8::blend(missed, sky.radiance(direction), radiance);
                     lit[p] = lit[p] | missed;
                     if heuristic.is_some() {
                         let pdf = world.lights.sky_pdf(end.surface.normal, direction);
@@ -340,11 +340,11 @@ impl End {
             return;
         }
         let own = &mut self.surface;
-        own.point = V8::select(lanes, surface.point, own.point);
-        own.normal = V8::select(lanes, surface.normal, own.normal);
-        own.albedo = V8::select(lanes, surface.albedo, own.albedo);
+        own.point = V8::blend(lanes, surface.point, own.point);
+        own.normal = V8::blend(lanes, surface.normal, own.normal);
+        own.albedo = V8::blend(lanes, surface.albedo, own.albedo);
         own.reflects = own.reflects | lanes;
-        self.direction = V8::select(lanes, direction, self.direction);
+        self.direction = V8::blend(lanes, direction, self.direction);
         self.metal = Some(self.metal.map_or(metal, |other| Metal::select(lanes, &metal, &other)));
     }
     /// Rays that leave mirrors.
@@ -352,7 +352,7 @@ impl End {
     fn reflect(&mut self, surface: &Surface, metal: &Metal, lanes: M8, rays: &Rays, world: &World) -> Rays {
         let cos = -rays.direction.dot(surface.normal);
         let share = product(self.throughput, metal.reflectance(cos));
-        self.throughput = V8::select(lanes, share, self.throughput);
+        self.throughput = V8::blend(lanes, share, self.throughput);
         let direction = surface.normal.mul_add(cos + cos, rays.direction).normalize();
         world.accel.rays(surface.point, direction)
     }

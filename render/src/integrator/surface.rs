@@ -112,7 +112,7 @@ impl World {
     fn shapes(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
         self.each_shape(hits, lanes, rays, |_, here, shape, outward| {
             if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
-                surface.emission = V8::select(lit, radiance, surface.emission);
+                surface.emission = V8::blend(lit, radiance, surface.emission);
             }
             let albedo = self.albedos[shape.material as usize];
             if albedo != [0.0; 3] {
@@ -123,9 +123,9 @@ impl World {
                     _ => rays.direction.mul_add(hits.distance, rays.origin),
                 };
                 let point = lift(point, normal, X8::splat(self.accel.shapes.reach()));
-                surface.point = V8::select(here, point, surface.point);
-                surface.normal = V8::select(here, normal, surface.normal);
-                surface.albedo = V8::select(here, albedo.into(), surface.albedo);
+                surface.point = V8::blend(here, point, surface.point);
+                surface.normal = V8::blend(here, normal, surface.normal);
+                surface.albedo = V8::blend(here, albedo.into(), surface.albedo);
                 surface.reflects = surface.reflects | here;
             }
         });

@@ -335,8 +335,8 @@ pub(super) fn bits(input: &mut Input<'_>) {
         assert_eq!(Real::lt(x, y8).lane(k), lane < y);
         assert_eq!(Real::le(x, y8).lane(k), lane <= y);
         let pairs = [
-            (Real::min(x, y8).lane(k), Real::min(lane, y)),
-            (Real::max(x, y8).lane(k), Real::max(lane, y)),
+            (Real::lesser(x, y8).lane(k), Real::lesser(lane, y)),
+            (Real::greater(x, y8).lane(k), Real::greater(lane, y)),
             (Real::abs(x).lane(k), lane.abs()),
             (Real::copysign(x, y8).lane(k), lane.copysign(y)),
             (Real::mul_add(x, y8, x).lane(k), Real::mul_add(lane, y, lane)),

@@ -22,7 +22,7 @@ impl<const WRONG: bool> CosineWarp<WRONG> {
         let of = |i: usize| lanes[i % lanes.len()];
         let (p, u, v) = (vectors_of(|i| of(i).p), vectors_of(|i| of(i).u), vectors_of(|i| of(i).v));
         // the normal of the receiver is +z
-        let cos = |corner: Vec3<R>| corner.normalize().z.max(R::lit(0.01));
+        let cos = |corner: Vec3<R>| corner.normalize().z.greater(R::lit(0.01));
         let corners = [cos(p), cos(p + u), cos(p + v), cos(p + u + v)];
         (Rectangle { p, u, v }, SphericalRectangle::new(p, u, v), Bilinear { corners })
     }

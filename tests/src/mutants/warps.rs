@@ -34,10 +34,10 @@ impl Defect for UnguardedCap {
     }
     fn pdf<R: Real>(right: &SphericalCap<R>, data: &Data<R>, w: Vec3<R>) -> R {
         let [x, y, z, r, ..] = *data;
-        let cos = (one::<R>() - r * r / Vec3::new(x, y, z).length_squared()).max(R::lit(0.0)).sqrt();
+        let cos = (one::<R>() - r * r / Vec3::new(x, y, z).length_squared()).greater(R::lit(0.0)).sqrt();
         let density = one::<R>() / (R::lit(TAU) * (one::<R>() - cos));
         let inside = right.pdf(w).gt(R::lit(0.0));
-        R::select(right.inside(), right.pdf(w), density).keep(inside)
+        R::blend(right.inside(), right.pdf(w), density).keep(inside)
     }
 }
 
@@ -55,7 +55,7 @@ impl Defect for ExcessInSample {
         let [ab, bc, ca] = [a.cross(b), b.cross(c), c.cross(a)].map(Vec3::normalize);
         let angles = [ab.dot(-ca), bc.dot(-ab), ca.dot(-bc)].map(R::acos);
         let excess = (angles[0] + angles[1] + angles[2] - R::lit(PI)).abs();
-        let x = (u.x * excess / right.solid_angle().max(R::lit(1e-37))).clamp(R::lit(0.0), R::ONE_MINUS_EPSILON);
+        let x = (u.x * excess / right.solid_angle().greater(R::lit(1e-37))).clamped(R::lit(0.0), R::ONE_MINUS_EPSILON);
         right.sample(Vec2::new(x, u.y))
     }
 }
@@ -77,7 +77,7 @@ impl Defect for AreaBetweenThresholds {
     }
     fn sample<R: Real>(right: &SphericalTriangle<R>, data: &Data<R>, u: Vec2<R>) -> Vec3<R> {
         let small = right.solid_angle().lt(R::lit(3e-4));
-        Vec3::select(small, by_area(data, u).normalize(), right.sample(u))
+        Vec3::blend(small, by_area(data, u).normalize(), right.sample(u))
     }
 }
 
@@ -98,17 +98,17 @@ impl Defect for UnitsInTheSwitch {
         flat(lanes)
     }
     fn sample<R: Real>(right: &SphericalTriangle<R>, data: &Data<R>, u: Vec2<R>) -> Vec3<R> {
-        Vec3::select(Self::far(data), by_area(data, u).normalize(), right.sample(u))
+        Vec3::blend(Self::far(data), by_area(data, u).normalize(), right.sample(u))
     }
     fn pdf<R: Real>(right: &SphericalTriangle<R>, data: &Data<R>, w: Vec3<R>) -> R {
         let [v0, e1, e2] = vectors(data);
         let n = e1.cross(e2);
         let (height, cos) = (v0.dot(n), w.dot(n));
         let some = cos.abs().gt(R::lit(0.0));
-        let distance = height / R::select(some, cos, one());
-        let by_area = distance * distance * R::lit(2.0) / R::select(some, cos.abs(), one());
+        let distance = height / R::blend(some, cos, one());
+        let by_area = distance * distance * R::lit(2.0) / R::blend(some, cos.abs(), one());
         let inside = right.pdf(w).gt(R::lit(0.0));
-        R::select(Self::far(data), by_area.keep(some), right.pdf(w)).keep(inside)
+        R::blend(Self::far(data), by_area.keep(some), right.pdf(w)).keep(inside)
     }
 }
 
@@ -120,9 +120,9 @@ impl Defect for FlatCentre {
     fn sample<R: Real>(_: &warp::ConcentricDisk, _: &Data<R>, u: Vec2<R>) -> Vec2<R> {
         let (a, b) = (u.x + u.x - one(), u.y + u.y - one());
         let first = a.abs().gt(b.abs());
-        let (r, other) = (R::select(first, a, b), R::select(first, b, a));
+        let (r, other) = (R::blend(first, a, b), R::blend(first, b, a));
         let (s, c) = (other / r * R::lit(0.125)).sin_cos_turns();
-        Vec2::new(R::select(first, c, s), R::select(first, s, c)) * r
+        Vec2::new(R::blend(first, c, s), R::blend(first, s, c)) * r
     }
 }
 
@@ -146,14 +146,14 @@ impl<const WRONG: bool> Defect for SelfClampingBarycentrics<WRONG> {
         let across = w.cross(e2);
         let divisor = across.dot(e1);
         let some = divisor.abs().gt(R::lit(1e-30));
-        let divisor = R::select(some, divisor, one);
+        let divisor = R::blend(some, divisor, one);
         let third = R::lit(1.0 / 3.0);
-        let b1 = R::select(some, -v0.dot(across) / divisor, third).clamp(zero, one);
-        let b2 = R::select(some, w.dot((-v0).cross(e1)) / divisor, third).clamp(zero, one);
+        let b1 = R::blend(some, -v0.dot(across) / divisor, third).clamped(zero, one);
+        let b2 = R::blend(some, w.dot((-v0).cross(e1)) / divisor, third).clamped(zero, one);
         let sum = b1 + b2;
         let beyond = sum.gt(one);
-        let c1 = R::select(beyond, b1 / sum, b1);
-        let c2 = R::select(beyond, b2 / if WRONG { c1 + b2 } else { sum }, b2);
+        let c1 = R::blend(beyond, b1 / sum, b1);
+        let c2 = R::blend(beyond, b2 / if WRONG { c1 + b2 } else { sum }, b2);
         let point = v0 + e1 * c1 + e2 * c2;
         let distance = point.length();
         Some(DirectionSample { direction: w, distance })

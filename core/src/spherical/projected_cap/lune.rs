@@ -32,7 +32,7 @@ pub(super) fn arcs<R: Real>(x: R, y: R) -> (R, R) {
     ];
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
     let quadrature = |nodes: &[(f64, f64)], reach: R| {
-        let (x, y) = (x.min(reach), y.min(reach));
+        let (x, y) = (x.lesser(reach), y.lesser(reach));
         let (x2, y2) = (x * x, y * y);
         let (mut first, mut both) = (zero, zero);
         for &(s2, weight) in nodes {
@@ -54,15 +54,15 @@ pub(super) fn arcs<R: Real>(x: R, y: R) -> (R, R) {
     let wide = if double::<R>() { (first, difference) } else { quadrature(&WIDE, reach) };
     let closed = |x: R| {
         // ((1+x²) atan x − x)/x³, in terms of 1/x
-        let inverse = one / x.max(one);
+        let inverse = one / x.greater(one);
         let square = inverse * inverse;
         (one + square) * inverse * one.atan2(inverse) - square
     };
-    let far_first = R::select(x.gt(reach), closed(x), wide.0);
-    let q = x / y.max(one);
+    let far_first = R::blend(x.gt(reach), closed(x), wide.0);
+    let q = x / y.greater(one);
     let beyond = ratio(far_first - closed(y), (one - q) * (one + q));
-    let far_difference = R::select(y.gt(reach), beyond, wide.1);
-    (R::select(far, far_first, first), R::select(far, far_difference, difference))
+    let far_difference = R::blend(y.gt(reach), beyond, wide.1);
+    (R::blend(far, far_first, first), R::blend(far, far_difference, difference))
 }
 
 /// A slice of the lune at ±t: its half-area up to t and its width, in common units.
@@ -79,15 +79,15 @@ impl<R: Real> ProjectedCap<R> {
     pub(super) fn lune(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let side = two.mul_add(u.x, -one);
-        let t = self.invert_lune(two * u.x.min(one - u.x));
+        let t = self.invert_lune(two * u.x.lesser(one - u.x));
         let width = self.width(t);
         let y = (self.sin_theta * t).copysign(side);
-        let arc = ((one - y) * (one + y)).max(zero).sqrt();
+        let arc = ((one - y) * (one + y)).greater(zero).sqrt();
         let inward = width * u.y;
         let x = arc - inward;
-        let z = (inward * (arc + x)).max(zero).sqrt();
+        let z = (inward * (arc + x)).greater(zero).sqrt();
         // from the rim, at the same y
-        let (rim_x, rim_z) = (arc - width, (width * (arc + arc - width)).max(zero).sqrt());
+        let (rim_x, rim_z) = (arc - width, (width * (arc + arc - width)).greater(zero).sqrt());
         let beyond = width * (one - u.y) * (self.sin_omega - self.cos_omega * ratio(x + rim_x, z + rim_z));
         (Vec3::new(x, y, z), beyond)
     }
@@ -101,7 +101,7 @@ impl<R: Real> ProjectedCap<R> {
     pub(super) fn slice(&self, t: R, with_area: bool) -> Slice<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (a, beta) = (self.tan_theta, self.beta);
-        let m = ((one - t) * (one + t)).max(zero);
+        let m = ((one - t) * (one + t)).greater(zero);
         let p = (a * a).mul_add(m, one).sqrt();
         let q = beta.mul_add(beta, m).sqrt();
         let (p1, q1, pq) = (one + p, beta + q, beta.mul_add(p, q));
@@ -112,7 +112,7 @@ impl<R: Real> ProjectedCap<R> {
         let mut area = zero;
         if with_area {
             let (x, y) = (t * a * by_p, t * by_q);
-            let (c, difference) = arcs(x.min(y), y);
+            let (c, difference) = arcs(x.lesser(y), y);
             let tail = R::lit(0.5) * t * t * t * a_pair;
             area = t.mul_add(width, tail * (c * m * by_pq + beta * difference * by_p));
         }
@@ -157,15 +157,15 @@ impl<R: Real> ProjectedCap<R> {
         let start = self.slice(zero, false);
         // from the two ends: area ≈ width · t; and at P = 1 and t ≈ 1, with r = Q − β, the rest of it is r⁴/8 + βr³/6
         let near = v * ratio(self.half, start.width);
-        let rest = left.max(zero) * self.half;
-        let mut r = (R::lit(8.0) * rest).sqrt().sqrt().min((R::lit(6.0) * ratio(rest, self.beta)).cbrt());
+        let rest = left.greater(zero) * self.half;
+        let mut r = (R::lit(8.0) * rest).sqrt().sqrt().lesser((R::lit(6.0) * ratio(rest, self.beta)).cbrt());
         for _ in 0..2 {
             let (cube, sum) = (r * r * r, R::lit(0.5) * (r + self.beta));
             let off = cube.mul_add(R::lit(0.125).mul_add(r, R::lit(1.0 / 6.0) * self.beta), -rest);
             r -= ratio(off, r * r * sum);
         }
-        let far = (one - r * (r + self.beta + self.beta)).max(zero).sqrt();
-        let mut t = R::select(v.lt(R::lit(0.5)), near, near.max(far)).clamp(zero, one);
+        let far = (one - r * (r + self.beta + self.beta)).greater(zero).sqrt();
+        let mut t = R::blend(v.lt(R::lit(0.5)), near, near.greater(far)).clamped(zero, one);
         // a step takes the error to its third power: after one of so many parts of what is left there is nothing more to do
         let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 256.0) };
         let mut open = R::Mask::splat(true);
@@ -173,14 +173,14 @@ impl<R: Real> ProjectedCap<R> {
             let slice = self.slice(t, true);
             let mut off = slice.area - target;
             if (ends & open).any() {
-                off = R::select(ends, left * self.half - self.tail(t), off);
+                off = R::blend(ends, left * self.half - self.tail(t), off);
             }
             let newton = ratio(off, slice.width);
             // Halley: off/(1 − ½ off f′/f)
             let halley = one - R::lit(0.5) * newton * slice.slope;
-            let step = newton / halley.max(R::lit(0.5));
+            let step = newton / halley.greater(R::lit(0.5));
             // a lane that is done stays as it is, whatever its neighbours need
-            t = R::select(open, (t - step).clamp(zero, one), t);
+            t = R::blend(open, (t - step).clamped(zero, one), t);
             open = open & (step.abs()).gt(R::lit(enough) * (one - t));
             if !open.any() {
                 break;

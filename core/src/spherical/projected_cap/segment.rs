@@ -65,7 +65,7 @@ pub(super) fn invert_segment<R: Real>(area: R) -> (R, R) {
             -1.627_831_372_74e-10,
         ],
     );
-    let (s, c) = (s.min(one), c.clamp(zero, one));
+    let (s, c) = (s.lesser(one), c.clamped(zero, one));
     if !double::<R>() {
         return (s, c);
     }
@@ -75,7 +75,7 @@ pub(super) fn invert_segment<R: Real>(area: R) -> (R, R) {
         let (s, c) = (phi * turns).sin_cos_turns();
         let off = segment(phi) - area;
         let slope = (s * s) * (s + s) - off * c;
-        phi = (phi - off * ratio(s, slope)).clamp(zero, R::lit(FRAC_PI_2));
+        phi = (phi - off * ratio(s, slope)).clamped(zero, R::lit(FRAC_PI_2));
     }
     (phi * turns).sin_cos_turns()
 }

@@ -27,8 +27,8 @@ pub(super) fn clip<R: Real>(
     // turned so that the first vertex is above and the last below
     let (by1, by2) = (!below[1] & below[0], !below[2] & below[1]);
     let next = |i: usize, k: usize| (i + k) % 3;
-    let pick = |x: [R; 3], i: usize| R::select(by1, x[next(i, 1)], R::select(by2, x[next(i, 2)], x[i]));
-    let turned = |x: [Vec3<R>; 3], i: usize| Vec3::select(by1, x[next(i, 1)], Vec3::select(by2, x[next(i, 2)], x[i]));
+    let pick = |x: [R; 3], i: usize| R::blend(by1, x[next(i, 1)], R::blend(by2, x[next(i, 2)], x[i]));
+    let turned = |x: [Vec3<R>; 3], i: usize| Vec3::blend(by1, x[next(i, 1)], Vec3::blend(by2, x[next(i, 2)], x[i]));
     let [v0, v1, v2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(v, i));
     let [e0, e1, e2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(exact.edges, i));
     let [p0, p1, p2]: [Vec3<R>; 3] = core::array::from_fn(|i| turned(poles, i));
@@ -38,7 +38,7 @@ pub(super) fn clip<R: Real>(
     let whole = !(below[0] | below[1] | below[2]);
     let none = below[0] & below[1] & below[2];
     // where an edge from above meets the horizon
-    let part = |a: R, b: R| ratio(a.max(zero), a.max(zero) - b.min(zero));
+    let part = |a: R, b: R| ratio(a.greater(zero), a.greater(zero) - b.lesser(zero));
     let (t0, t1, t2) = (part(z0, z1), part(z1, z2), part(z0, z2));
     let r1 = part(-z2, -z1);
     let quad = z1.ge(zero);
@@ -48,18 +48,18 @@ pub(super) fn clip<R: Real>(
         let line = pole.cross(normal);
         let squared = line.length_squared();
         let better = (squared * v.length_squared()).gt(sum.length_squared());
-        Vec3::select(better, line * ratio(sum.dot(line), squared), sum)
+        Vec3::blend(better, line * ratio(sum.dot(line), squared), sum)
     };
     let (h0, h1, h2) = (meet(v0, e0, t0, p0), meet(v1, e1, t1, p1), meet(v0, -e2, t2, p2));
     let choose = |of_quad: Vec3<R>, of_triangle: Vec3<R>, all: Vec3<R>| {
-        Vec3::select(whole, all, Vec3::select(quad, of_quad, of_triangle))
+        Vec3::blend(whole, all, Vec3::blend(quad, of_quad, of_triangle))
     };
-    let of = |of_quad: R, of_triangle: R, all: R| R::select(whole, all, R::select(quad, of_quad, of_triangle));
+    let of = |of_quad: R, of_triangle: R, all: R| R::blend(whole, all, R::blend(quad, of_quad, of_triangle));
     // v0×h1, and of what lies on the horizon
     let pair = |x: [[R; 2]; 3], i: usize| [pick(x.map(|x| x[0]), i), pick(x.map(|x| x[1]), i)];
     let vectors = |i: usize| [0, 1].map(|k| turned(exact.products.map(|m| m[k]), i));
     let (high, low) = (pair(exact.heights, 1), pair(exact.heights, 2));
-    let share = ratio(one, (high[0] + high[1]) - (low[0] + low[1])).min(R::lit(1e37));
+    let share = ratio(one, (high[0] + high[1]) - (low[0] + low[1])).lesser(R::lit(1e37));
     // −(low·from + high·to)/(high − low): products of such sums
     let between = |from: [R; 2], to: [R; 2]| {
         let rest = low[0].mul_add(from[1], low[1] * from[0]) + high[0].mul_add(to[1], high[1] * to[0]);
@@ -72,9 +72,9 @@ pub(super) fn clip<R: Real>(
     let squared = diagonal.length_squared();
     let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
     let (diagonal, length) = (diagonal * inverse, squared * inverse);
-    let (first_volume, second_volume) = (volume * R::select(quad, t1, t0 * t2), volume * r1 * t2);
+    let (first_volume, second_volume) = (volume * R::blend(quad, t1, t0 * t2), volume * r1 * t2);
     // no more than the product of two lengths, however small the height of the vertex
-    let level = |volume: R| ratio(volume, z0).clamp(R::lit(-16.0), R::lit(16.0));
+    let level = |volume: R| ratio(volume, z0).clamped(R::lit(-16.0), R::lit(16.0));
     let (first_level, second_level) = (level(first_volume), level(second_volume));
     let turn = one.negate_where(volume.lt(zero));
     let horizon = normal * turn;
@@ -83,8 +83,8 @@ pub(super) fn clip<R: Real>(
         poles: [p0, choose(p1, horizon, p1), choose(-diagonal, p2, p2)],
         lengths: [of(l0, l0 * t0, l0), of(l1 * t1, first_level.abs(), l1), of(length, l2 * t2, l2)],
         areas: [of(a0, a0 * t0, a0), of(a1 * t1, first_level, a1), of(-area, a2 * t2, a2)],
-        heights: [z0, R::select(quad, z1, zero), z2.keep(whole)],
-        volume: R::select(whole, volume, first_volume.keep(!none)),
+        heights: [z0, R::blend(quad, z1, zero), z2.keep(whole)],
+        volume: R::blend(whole, volume, first_volume.keep(!none)),
     };
     let second = Corners {
         vertices: [v0, h1, h2],

@@ -1,12 +1,11 @@
 //! A triangle wholly above the horizon, in two sectors or, about the zenith, in three.
 #![expect(unreachable_pub, reason = "of the macro")]
 
-use super::super::lanewise;
 use super::sector::{Corner, Sector};
+use crate::lanewise::lanewise;
 use crate::math::{double, ratio, rsqrt};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::unit_interval;
 
 /// Share of the area below which a sector is left out: a small part of a step of 2⁻²⁴ in `u`, or of the precision.
 const NARROWEST: f64 = 1.0 / 4_294_967_296.0;
@@ -19,7 +18,7 @@ pub(super) fn narrowest<R: Real>() -> R {
 
 lanewise! {
     /// By azimuth: from the first vertex to the middle one, from there to the last; about the zenith on to the first.
-    Piece {
+    pub struct Piece {
         first: Sector<R>,
         /// told from its far end, the last vertex
         second: Sector<R>,
@@ -51,8 +50,8 @@ impl<R: Real> Piece<R> {
         let squared = v.map(Vec3::length_squared);
         let shrink = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
         let next = [1, 2, 0];
-        let m_inverse = length.map(|l| ratio(one, l).min(R::lit(1e37)));
-        let cosine: [R; 3] = core::array::from_fn(|i| (areas[i] * m_inverse[i]).clamp(-one, one));
+        let m_inverse = length.map(|l| ratio(one, l).lesser(R::lit(1e37)));
+        let cosine: [R; 3] = core::array::from_fn(|i| (areas[i] * m_inverse[i]).clamped(-one, one));
         let reversed = volume.lt(zero);
         let cosine = cosine.map(|c| c.negate_where(reversed));
         // one edge on the far side of the other two: inner if its plane lies over the triangle. None about the zenith
@@ -61,9 +60,9 @@ impl<R: Real> Piece<R> {
         let central = !(inner[0] | inner[1] | inner[2]);
         let (long0, long1) = (inner[0] ^ two, inner[1] ^ two);
         let cosine = cosine.map(R::abs);
-        let pick = |x: [R; 3], i: usize| R::select(long0, x[next[i]], R::select(long1, x[next[next[i]]], x[i]));
+        let pick = |x: [R; 3], i: usize| R::blend(long0, x[next[i]], R::blend(long1, x[next[next[i]]], x[i]));
         let turned =
-            |x: [Vec3<R>; 3], i: usize| Vec3::select(long0, x[next[i]], Vec3::select(long1, x[next[next[i]]], x[i]));
+            |x: [Vec3<R>; 3], i: usize| Vec3::blend(long0, x[next[i]], Vec3::blend(long1, x[next[next[i]]], x[i]));
         let dot: [R; 3] = core::array::from_fn(|i| v[i].dot(v[next[i]]));
         let unit: [Vec3<R>; 3] = core::array::from_fn(|i| v[i] * shrink[i]);
         let height: [R; 3] = core::array::from_fn(|i| z[i] * shrink[i]);
@@ -83,8 +82,8 @@ impl<R: Real> Piece<R> {
 
         let sector = |own: usize, away: R::Mask, apex: Vec3<R>, size: R, height: R, mine: R, other: R| {
             // away: the own edge runs towards the apex; the long one from the last vertex to the first
-            let over = Vec3::select(two, poles[2], poles[own]);
-            let over = Vec3::select(away ^ two, -over, over);
+            let over = Vec3::blend(two, poles[2], poles[own]);
+            let over = Vec3::blend(away ^ two, -over, over);
             let tangent = over.cross(apex);
             let far = [mine * lengths[2], (mine * dots[2]).mul_add(one, other * size * size)];
             let corner = Corner {
@@ -92,13 +91,13 @@ impl<R: Real> Piece<R> {
                 tangent,
                 height,
                 slope: tangent.dot(normal),
-                outer: R::select(two, cosines[2], cosines[own]),
-                inner: R::select(two, cosines[own], cosines[2]).keep(!central),
+                outer: R::blend(two, cosines[2], cosines[own]),
+                inner: R::blend(two, cosines[own], cosines[2]).keep(!central),
                 fold: [
-                    R::select(central, one, (volume_abs * size * inverses[own] * inverses[2]).min(one)),
+                    R::blend(central, one, (volume_abs * size * inverses[own] * inverses[2]).lesser(one)),
                     (-poles[own].dot(poles[2])).keep(!central),
                 ],
-                end: [R::select(two, far[0], lengths[own]), R::select(two, far[1], dots[own])],
+                end: [R::blend(two, far[0], lengths[own]), R::blend(two, far[1], dots[own])],
             };
             let mut sector = Sector::new(corner);
             sector.area = sector.area.keep(some);
@@ -145,15 +144,15 @@ impl<R: Real> Piece<R> {
     pub(super) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let later = swept.ge(self.first.area) & self.second.area.gt(zero);
-        let mut sector = Sector::select(later, &self.second, &self.first);
-        let mut part = R::select(later, left - self.third.area, swept);
+        let mut sector = Sector::blend(later, self.second, self.first);
+        let mut part = R::blend(later, left - self.third.area, swept);
         if self.third.area.gt(zero).any() {
             let before = self.first.area + self.second.area;
             let last = swept.ge(before) & self.third.area.gt(zero);
-            sector = Sector::select(last, &self.third, &sector);
-            part = R::select(last, swept - before, part);
+            sector = Sector::blend(last, self.third, sector);
+            part = R::blend(last, swept - before, part);
         }
-        let share = ratio(part, sector.area).clamp(zero, one);
+        let share = ratio(part, sector.area).clamped(zero, one);
         (sector, share)
     }
 
@@ -172,12 +171,12 @@ impl<R: Real> Piece<R> {
             last = about & past_c & !past_a;
             later = (about & !last & !(past_a & !beyond)) | (!about & later);
         }
-        let sector = Sector::select(later, &self.second, &self.first);
-        let sector = if last.any() { Sector::select(last, &self.third, &sector) } else { sector };
+        let sector = Sector::blend(later, self.second, self.first);
+        let sector = if last.any() { Sector::blend(last, self.third, sector) } else { sector };
         let found = sector.locate(normal, w);
-        let share = R::select(later, one - found.x, found.x);
-        let before = R::select(later, self.first.area, zero);
-        let before = R::select(last, self.first.area + self.second.area, before);
+        let share = R::blend(later, one - found.x, found.x);
+        let before = R::blend(later, self.first.area, zero);
+        let before = R::blend(last, self.first.area + self.second.area, before);
         Vec2 { x: share.mul_add(sector.area, before), y: unit_interval(found.y) }
     }
 }

@@ -1,11 +1,10 @@
 //! A part of a polygon between two half-planes of constant azimuth and two great circles that meet in a vertex.
 #![expect(unreachable_pub, reason = "of the macro")]
 
-use super::super::lanewise;
+use crate::lanewise::lanewise;
 use crate::math::{double, ratio, rsqrt};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
-use crate::warp::unit_interval;
 
 /// Up to this tangent of either arc an area is the form that keeps its digits at any size, beyond it the difference of arcs.
 const NEAR: f64 = 0.7;
@@ -19,7 +18,7 @@ lanewise! {
     /// At the angle θ along the outer arc, its height over the horizon is z = ζ cosθ + τ sinθ, and the plane of the inner one lies
     /// D = sinδ sinθ away (δ: angle between the arcs). With c, k the cosines of the two planes to the horizon, squared distances to the
     /// zenith's axis are in the ratio k²/(k² + y), y = D(2kz + D), so that the area is ½c ∫ y/(k² + y) dθ: an integral of positive terms.
-    Sector {
+    pub struct Sector {
         pub(super) apex: Vec3<R>,
         /// along the outer arc
         tangent: Vec3<R>,
@@ -104,8 +103,8 @@ impl<R: Real> Sector<R> {
         let Corner { apex, tangent, height, slope, outer, inner, fold: [sin, cos], end: [y, x] } = corner;
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         // c − k = c(1−cosδ) + τ sinδ; near the zenith both are small, and their difference is better
-        let versine = R::select(cos.gt(zero), sin * sin / (one + cos.max(zero)), one - cos);
-        let gap = R::select((outer + inner).lt(sin), outer - inner, outer.mul_add(versine, slope * sin));
+        let versine = R::blend(cos.gt(zero), sin * sin / (one + cos.greater(zero)), one - cos);
+        let gap = R::blend((outer + inner).lt(sin), outer - inner, outer.mul_add(versine, slope * sin));
         let (near, steep) = (R::lit(NEAR), R::lit(STEEP));
         let rise = height * sin * y;
         let tangent_inner = near * inner.mul_add(x, rise);
@@ -127,7 +126,7 @@ impl<R: Real> Sector<R> {
         };
         let (mut swept, mut end) = (Swept { area: zero, density: zero }, zero);
         if small.any() {
-            sector.near = (y / R::select(small, x, one)).keep(small);
+            sector.near = (y / R::blend(small, x, one)).keep(small);
             swept = sector.by_tangent(&sector.narrow(), sector.near);
             end = sector.near;
         }
@@ -135,34 +134,15 @@ impl<R: Real> Sector<R> {
             sector.wide = y.atan2(x).keep(!small);
             let (s, c) = (sector.wide * R::lit(INV_TWO_PI)).sin_cos_turns();
             let other = sector.by_angle(sector.wide, s, c);
-            swept.area = R::select(small, swept.area, other.area);
-            swept.density = R::select(small, swept.density, other.density);
-            end = R::select(small, end, sector.wide);
+            swept.area = R::blend(small, swept.area, other.area);
+            swept.density = R::blend(small, swept.density, other.density);
+            end = R::blend(small, end, sector.wide);
         }
-        let area = swept.area.max(zero);
+        let area = swept.area.greater(zero);
         sector.area = half * outer * area;
         let power = ratio(end * swept.density, area);
-        sector.power = power.clamp(R::lit(0.25), R::lit(4.0));
+        sector.power = power.clamped(R::lit(0.25), R::lit(4.0));
         sector
-    }
-
-    #[inline(always)]
-    pub(super) fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
-        let pick = |field: fn(&Self) -> R| R::select(mask, field(yes), field(no));
-        Self {
-            apex: Vec3::select(mask, yes.apex, no.apex),
-            tangent: Vec3::select(mask, yes.tangent, no.tangent),
-            height: pick(|s| s.height),
-            slope: pick(|s| s.slope),
-            outer: pick(|s| s.outer),
-            inner: pick(|s| s.inner),
-            gap: pick(|s| s.gap),
-            fold: pick(|s| s.fold),
-            near: pick(|s| s.near),
-            wide: pick(|s| s.wide),
-            power: pick(|s| s.power),
-            area: pick(|s| s.area),
-        }
     }
 
     /// Over k: c, c − k, ζ sinδ and sinδ.
@@ -188,7 +168,7 @@ impl<R: Real> Sector<R> {
         let second = x2 * (gap - lift * x) * (outer + b) * inverse * fall;
         let area = inverse * lift.mul_add(x * theta, x * second * inverse);
         let bend = fold * (self.slope + self.slope + fold);
-        let above = (x * bend.mul_add(x, lift + lift)).max(R::lit(0.0));
+        let above = (x * bend.mul_add(x, lift + lift)).greater(R::lit(0.0));
         let square = one + x2;
         Swept { area, density: above / (square * (square + above)) }
     }
@@ -198,11 +178,11 @@ impl<R: Real> Sector<R> {
     fn rise(&self, s: R, z: R) -> R {
         let away = self.fold * s;
         // of the zenith: 1, also where the outer arc begins
-        (away * (self.inner + self.inner).mul_add(z, away)).max(R::lit(1e-37))
+        (away * (self.inner + self.inner).mul_add(z, away)).greater(R::lit(1e-37))
     }
     #[inline(always)]
     fn height(&self, s: R, c: R) -> R {
-        self.height.mul_add(c, self.slope * s).max(R::lit(0.0))
+        self.height.mul_add(c, self.slope * s).greater(R::lit(0.0))
     }
 
     /// The area up to θ and its derivative by θ, over ½c: to parts of θ.
@@ -240,7 +220,7 @@ impl<R: Real> Sector<R> {
         if !small.all() {
             let theta = self.invert_angle(v);
             let (sin, cos) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
-            (s, c) = (R::select(small, s, sin), R::select(small, c, cos));
+            (s, c) = (R::blend(small, s, sin), R::blend(small, c, cos));
         }
         [s, c]
     }
@@ -258,8 +238,8 @@ impl<R: Real> Sector<R> {
             let swept = self.by_tangent(&narrow, x);
             let square = x * x;
             let step = two * x * ratio(target - swept.area, swept.density);
-            let moved = (square + step).clamp(square * R::lit(0.0625), most).sqrt();
-            x = R::select(going, moved, x);
+            let moved = (square + step).clamped(square * R::lit(0.0625), most).sqrt();
+            x = R::blend(going, moved, x);
             going = going & step.abs().gt(enough::<R>() * square);
             if !going.any() {
                 break;
@@ -274,7 +254,7 @@ impl<R: Real> Sector<R> {
         let (zero, two, half) = (R::lit(0.0), R::lit(2.0), R::lit(0.5));
         let target = v * ratio(two * self.area, self.outer);
         // about the zenith, the area is a multiple of θ
-        let mut theta = self.wide * R::select(self.inner.gt(zero), self.start(v), v);
+        let mut theta = self.wide * R::blend(self.inner.gt(zero), self.start(v), v);
         let mut going = theta.gt(zero) & self.inner.gt(zero);
         let (mut low, mut high) = (zero, self.wide);
         for _ in 0..24 {
@@ -284,16 +264,16 @@ impl<R: Real> Sector<R> {
             let (s, c) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
             let swept = self.by_angle(theta, s, c);
             let short = swept.area.lt(target);
-            low = R::select(short, theta, low);
-            high = R::select(short, high, theta);
+            low = R::blend(short, theta, low);
+            high = R::blend(short, high, theta);
             let step = ratio(target - swept.area, swept.density);
             let quadratic = (theta * swept.density).gt(R::lit(1.5) * swept.area);
             let square = theta * (theta + two * step);
-            let moved = R::select(quadratic, square.max(zero).sqrt(), theta + step);
+            let moved = R::blend(quadratic, square.greater(zero).sqrt(), theta + step);
             let inside = moved.ge(low) & moved.le(high);
-            let moved = R::select(inside, moved, half * (low + high));
+            let moved = R::blend(inside, moved, half * (low + high));
             let far = (moved - theta).abs().gt(enough::<R>() * theta);
-            theta = R::select(going, moved, theta);
+            theta = R::blend(going, moved, theta);
             going = going & far;
         }
         theta
@@ -318,7 +298,7 @@ impl<R: Real> Sector<R> {
         let w = arc + moved;
         // a unit vector but for rounding; from the triangle's own plane or corner its planes are all rounding
         let squared = w.length_squared();
-        w * rsqrt(R::select(squared.gt(R::lit(1e-30)), squared, one))
+        w * rsqrt(R::blend(squared.gt(R::lit(1e-30)), squared, one))
     }
 
     /// The share of the area before the azimuth of a direction, and `u` across.
@@ -333,22 +313,22 @@ impl<R: Real> Sector<R> {
         // per sine of the way from the vertex this is the cosine of a plane between those of both arcs, which bound it better than the
         // rounded direction does: along a steep arc a unit of azimuth is a long way
         let way = w.cross(self.apex).length();
-        let y = y.max(way * self.outer.min(self.inner));
-        let y = R::select(self.slope.ge(zero), y.min(way * self.outer), y);
+        let y = y.greater(way * self.outer.lesser(self.inner));
+        let y = R::blend(self.slope.ge(zero), y.lesser(way * self.outer), y);
         let small = self.near.gt(zero);
         let (mut s, mut c, mut area) = (zero, one, zero);
         if small.any() {
-            let tan = ratio(y, x).min(self.near);
+            let tan = ratio(y, x).lesser(self.near);
             area = self.by_tangent(&self.narrow(), tan).area;
             c = one / tan.mul_add(tan, one).sqrt();
             s = tan * c;
         }
         if !small.all() {
-            let theta = y.atan2(x).min(self.wide);
+            let theta = y.atan2(x).lesser(self.wide);
             let (sin, cos) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
             let other = self.by_angle(theta, sin, cos).area;
-            area = R::select(small, area, other);
-            (s, c) = (R::select(small, s, sin), R::select(small, c, cos));
+            area = R::blend(small, area, other);
+            (s, c) = (R::blend(small, s, sin), R::blend(small, c, cos));
         }
         let z = self.height(s, c);
         let rise = self.rise(s, z);
@@ -359,12 +339,12 @@ impl<R: Real> Sector<R> {
         let (out2, in2) = (out.length_squared(), inward.length_squared());
         let (r0, r) = (out2.sqrt(), in2.sqrt());
         let between = (w - arc).dot(out.cross(arc));
-        let sum = r0.mul_add(w.dot(normal).max(zero), z * r);
+        let sum = r0.mul_add(w.dot(normal).greater(zero), z * r);
         let nu = ratio(between, out2) * ratio(sum, r0);
         Vec2 {
             x: unit_interval(ratio(area * self.outer * R::lit(0.5), self.area)),
             // from the nearer of the two arcs
-            y: unit_interval(R::select(
+            y: unit_interval(R::blend(
                 nu.lt(R::lit(0.5)),
                 one - nu * whole / rise,
                 (ratio(in2, out2) * whole - self.inner * self.inner) / rise,
