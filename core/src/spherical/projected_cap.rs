@@ -188,6 +188,13 @@ impl<R: Real> ProjectedCap<R> {
         (cos.greater(R::lit(0.0)) / R::blend(some, self.projected, R::lit(1.0))).keep(some)
     }
 
+    /// True where a direction hits the sphere, to within the rounding of the direction. The horizon is not tested.
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        let moved = (w - self.axis).length_squared() * R::lit(0.5);
+        self.cone.contains_turned(moved) | self.inside()
+    }
+
     #[inline(always)]
     fn whole(&self) -> R::Mask {
         self.margin.le(R::lit(0.0)) & self.cos_omega.ge(R::lit(0.0))
@@ -297,8 +304,7 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        let moved = (w - self.axis).length_squared() * R::lit(0.5);
-        self.pdf_at_cosine(w.dot(self.frame.n)).keep(self.cone.contains_turned(moved) | self.inside())
+        self.pdf_at_cosine(w.dot(self.frame.n)).keep(self.contains(w))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {

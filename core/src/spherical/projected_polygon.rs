@@ -276,6 +276,12 @@ impl<R: Real> ProjectedTriangle<R> {
         let direction = self.sample(u);
         DirectionSample { direction, distance: self.distance(direction) }
     }
+    /// True where a direction hits the triangle, to within the rounding of the direction. The horizon is not tested.
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
+        within(least) & ahead(w, self.plane, self.in_front())
+    }
     /// With its sides' inner faces as those of a triangle that is seen from the front, or not.
     #[inline(always)]
     fn faced(self, front: R::Mask) -> Self {
@@ -327,8 +333,7 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
-        self.pdf_at_cosine(w.dot(self.normal)).keep(within(least) & ahead(w, self.plane, self.in_front()))
+        self.pdf_at_cosine(w.dot(self.normal)).keep(self.contains(w))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -480,6 +485,16 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
         }
         (w, distance)
     }
+    /// True where a direction hits the polygon, to within the rounding of the direction. The horizon is not tested.
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        // the outer sides: those between triangles would meet in sharper corners than the polygon has, and what is allowed beside each is more there
+        let mut least = w.dot(self.fan[0].pole0).lesser(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            least = least.lesser(w.dot(triangle.pole1));
+        }
+        within(least) & ahead(w, self.plane, self.in_front())
+    }
 }
 
 impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
@@ -490,13 +505,7 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        // the outer sides: those between triangles would meet in sharper corners than the polygon has, and what is allowed beside each is more there
-        let mut least = w.dot(self.fan[0].pole0).lesser(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
-        for triangle in &self.fan[..Self::TRIANGLES] {
-            least = least.lesser(w.dot(triangle.pole1));
-        }
-        let inside = within(least) & ahead(w, self.plane, self.in_front());
-        self.pdf_at_cosine(w.dot(self.fan[0].normal)).keep(inside)
+        self.pdf_at_cosine(w.dot(self.fan[0].normal)).keep(self.contains(w))
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
