@@ -1,4 +1,4 @@
-//! Hands the program what it was built by and how, for the reports that it writes.
+//! Passes the compiler version and build flags to the program, which prints them in its reports.
 
 use std::env;
 use std::process::Command;

@@ -1,4 +1,4 @@
-//! Rays of every kind, by every way: criterion's throughput is in rays per second, its time per ray.
+//! Rays of every kind, traced in every way. Criterion's throughput is in rays per second, its time per ray.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use etendue_benches::rays::{How, Kind, Workload};

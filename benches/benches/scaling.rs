@@ -1,8 +1,8 @@
-//! What a scene costs as it grows: hills of 10² … 10⁷ triangles under one light, and hills of 20,000 under 1 … 10⁵ lights.
+//! The cost of a scene as it grows: hills of 10² to 10⁷ triangles under one light, and hills of 20,000 triangles under 1 to 10⁵ lights.
 //!
-//! `cargo bench -p etendue-benches --bench scaling -- [MOST]` with MOST triangles at the most. "build" is all of preparing to render,
-//! on as many threads as there are; "peak" is all memory of the process from making the scene to its image; rendering is 256 × 256 pixels of
-//! 16 samples on one thread, by solid angle.
+//! `cargo bench -p etendue-benches --bench scaling -- [MOST]` omits scenes of more than MOST triangles. "build" is all the preparation for
+//! rendering, on as many threads as there are processors; "peak" is the peak memory of the process from making the scene to the image. The
+//! image has 256 × 256 pixels of 16 samples, by solid angle, rendered on one thread.
 
 use etendue_render::integrator::{Settings, World};
 use etendue_render::lights::Technique;
@@ -11,7 +11,7 @@ use etendue_render::scene::{self, Emission, Geometry, Scene, Shape};
 use std::path::Path;
 use std::time::Instant;
 
-/// A camera above the ground and a light of 2 × 2; the material of the ground is the first.
+/// A camera above the ground and a light of 2 × 2. The first material is the ground's.
 const EMPTY: &str = r#"
 Scale -1 1 1
 LookAt 0 6 7.5   0 0 -0.2   0 1 0
@@ -26,12 +26,12 @@ Shape "bilinearmesh" "point3 P" [ 1 5 -2   3 5 -2   1 5 0   3 5 0 ]
 
 fn empty() -> Scene {
     let mut scene = scene::parse(EMPTY, "empty.pbrt", Path::new(".")).expect("a scene");
-    // the sphere is there for its material
+    // the sphere only defines its material
     scene.shapes.remove(0);
     scene
 }
 
-/// A sheet over [−12, 12]² with about `count` triangles.
+/// A height field over [−12, 12]² with about `count` triangles.
 fn hills(scene: &mut Scene, count: usize) {
     let n = ((count as f64 / 2.0).sqrt().round() as usize).max(1);
     let at = |i: usize, j: usize| {
@@ -47,7 +47,7 @@ fn hills(scene: &mut Scene, count: usize) {
     scene.triangle_materials = vec![0; scene.triangles.len()];
 }
 
-/// `count` small panels on a lattice 5 above the ground, of the same power together.
+/// `count` small panels on a lattice 5 above the ground, with the same total power as the one light.
 fn panels(scene: &mut Scene, count: usize) {
     let model = scene.shapes[0].clone();
     let n = (count as f64).sqrt().ceil() as usize;
@@ -68,12 +68,12 @@ fn panels(scene: &mut Scene, count: usize) {
         .collect();
 }
 
-/// Forgets the peak so far, where the system can.
+/// Resets the peak, where the system supports it.
 fn start_peak() {
     let _ = std::fs::write("/proc/self/clear_refs", "5");
 }
 
-/// Peak memory of this process in MB since [`start_peak`], where the system tells.
+/// Peak memory of this process in MB since [`start_peak`]; NaN where the system does not report it.
 fn peak() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
@@ -83,7 +83,7 @@ fn peak() -> f64 {
 fn row(mut scene: Scene) {
     let (triangles, lights) = (scene.triangles.len(), scene.shapes.len());
     let start = Instant::now();
-    let world = World::taking(&mut scene).expect("few enough primitives");
+    let world = World::from_scene(&mut scene).expect("few enough primitives");
     let build = start.elapsed().as_secs_f64();
     let settings = Settings {
         width: 256,

@@ -1,11 +1,11 @@
-//! Time per sample of every routine in f32, f32x4 and f32x8. `cargo bench -p etendue-benches --bench warps -- "cone"` for some.
+//! Time per sample of every routine in f32, f32x4 and f32x8. `cargo bench -p etendue-benches --bench warps -- "cone"` selects by name.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etendue::{f32x4, f32x8};
 use etendue_benches::{Routine, SAMPLES, routines};
 use std::time::{Duration, Instant};
 
-/// One iteration is one sample, whatever the width: criterion's time is the time per sample.
+/// One iteration is one sample at every width, so that criterion's time is the time per sample.
 fn width(criterion: &mut Criterion, routines: Vec<Routine>, width: &str) {
     for mut routine in routines {
         criterion.bench_function(&format!("{}/{width}", routine.name), |bencher| {

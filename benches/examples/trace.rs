@@ -1,11 +1,11 @@
-//! Rays per second on triangles and rays from files, so that other programs can be run on the same ones.
+//! Rays per second for triangles and rays read from files, to compare with other programs on the same input.
 //!
 //! `cargo run --release -p etendue-benches --example trace -- TRIANGLES RAYS… [--repetitions 7] [--only obvhs,single,stream,groups] [--json FILE]`
 //!
-//! Little-endian f32: nine for a triangle, eight for a ray: origin, least distance (0), unit direction, greatest distance. Rays are
-//! taken 64 at a time in the order of the file, on one thread. A line gives the median, least and greatest of the repetitions, the
-//! hits and, for closest hits, the sum of their distances. "groups" is what the renderer does: 64 rays as one shaft where that is narrow, else as
-//! a "stream"; "single" is ray by ray.
+//! The files hold little-endian f32: nine per triangle; eight per ray, which are the origin, the least distance (0), the unit direction and
+//! the greatest distance. One thread traces the rays 64 at a time in file order. Each line gives the median, least and greatest speed of
+//! the repetitions, the number of hits and, for closest hits, the sum of their distances. "single" traces ray by ray; "stream" traces 64
+//! rays together; "groups" is what the renderer does: 64 rays as one shaft if that is narrow, else as a stream.
 
 use etendue::{Mask, u32x8};
 use etendue_benches::baseline::{self, Baseline};
@@ -23,7 +23,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The numbers of a file, `row` to a row.
+/// Reads a file of numbers, `row` per row, all finite; in rows of 8, infinity is allowed too.
 fn read(path: &str, row: usize) -> Result<Vec<f32>, String> {
     let bytes = std::fs::read(path).map_err(|e| format!("{path}: {e}"))?;
     if bytes.is_empty() || bytes.len() % (4 * row) != 0 {
@@ -58,7 +58,7 @@ fn read_rays(path: &str) -> Result<Vec<Ray>, String> {
     rays.collect()
 }
 
-/// Eight rays as a renderer has them before it traces them.
+/// Eight rays, before the preparation for tracing.
 #[derive(Clone, Copy)]
 struct Packet {
     origin: V8,
@@ -88,7 +88,7 @@ fn groups(rays: &[Ray]) -> Vec<Group> {
     rays.chunks(8 * GROUP).map(group).collect()
 }
 
-/// What a way of tracing found.
+/// The hits of one way of tracing.
 #[derive(Clone, Copy, PartialEq)]
 struct Found {
     hits: u64,
@@ -123,7 +123,7 @@ fn occluded(accel: &Accel, groups: &[Group], stack: &mut Stack) -> Found {
     Found { hits, distances: 0.0 }
 }
 
-/// Million rays per second: median, least, greatest; and what was found.
+/// Median, least and greatest speed in million rays per second, and the hits.
 fn measure(repetitions: usize, rays: usize, mut trace: impl FnMut() -> Found) -> ([f64; 3], Found) {
     let mut found = trace();
     let mut speeds: Vec<_> = (0..repetitions)
@@ -142,12 +142,15 @@ fn run() -> Result<(), String> {
     let (mut repetitions, mut only, mut json) = (7, String::new(), None);
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
-        let mut value = || arguments.next().ok_or(format!("{argument} wants a value"));
+        let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
         match argument.as_str() {
             "--repetitions" => {
                 let text = value()?;
-                repetitions =
-                    text.parse().ok().filter(|n| *n > 0).ok_or(format!("--repetitions {text}: not a number from 1"))?;
+                repetitions = text
+                    .parse()
+                    .ok()
+                    .filter(|n| *n > 0)
+                    .ok_or(format!("--repetitions {text}: not a positive integer"))?;
             }
             "--only" => only = value()?,
             "--json" => json = Some(value()?),
@@ -155,9 +158,9 @@ fn run() -> Result<(), String> {
             _ => files.push(argument),
         }
     }
-    let [triangles, rays @ ..] = &files[..] else { return Err("TRIANGLES RAYS… are wanted".to_owned()) };
+    let [triangles, rays @ ..] = &files[..] else { return Err("usage: trace TRIANGLES RAYS…".to_owned()) };
     if rays.is_empty() {
-        return Err("no file of rays".to_owned());
+        return Err("no ray file is given".to_owned());
     }
     let path = triangles;
     let triangles: Vec<[[f32; 3]; 3]> = read(path, 9)?

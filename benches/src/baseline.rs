@@ -1,4 +1,4 @@
-//! What the traversal is measured against: the one that comes with the builder, ray by ray.
+//! The baseline for the renderer's traversal: obvhs, ray by ray.
 
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
 use obvhs::ray::{Ray, RayHit};
@@ -6,23 +6,23 @@ use obvhs::rt_triangle::RtTriangle;
 use obvhs::{BvhBuildParams, triangle::Triangle};
 use std::time::Duration;
 
-/// A compressed tree of obvhs over triangles.
+/// A compressed wide BVH (CWBVH) of obvhs over triangles.
 pub struct Baseline {
     tree: CwBvh,
     triangles: Vec<RtTriangle>,
 }
 
-/// A ray of obvhs, made beforehand.
+/// A ray of obvhs, prepared in advance.
 pub type BaselineRay = Ray;
 
-/// A ray of unit `direction` up to `limit`. (A component −0 would make the tree miss everything.)
+/// A ray of unit `direction` up to `limit`. Components of −0 become 0, because obvhs would miss everything with them.
 #[must_use]
 pub fn ray(origin: [f32; 3], direction: [f32; 3], limit: f32) -> BaselineRay {
     Ray::new(origin.into(), direction.map(|x| x + 0.0).into(), 0.0, limit)
 }
 
 impl Baseline {
-    /// Builds at obvhs's medium quality.
+    /// Builds with obvhs's medium settings.
     #[must_use]
     pub fn new(triangles: &[[[f32; 3]; 3]]) -> Self {
         let triangles: Vec<_> =
@@ -31,13 +31,13 @@ impl Baseline {
         let triangles = tree.primitive_indices.iter().map(|&i| (&triangles[i as usize]).into()).collect();
         Self { tree, triangles }
     }
-    /// Distance of the nearest hit.
+    /// Distance of the closest hit.
     #[must_use]
     pub fn closest(&self, ray: BaselineRay) -> Option<f32> {
         let mut hit = RayHit::none();
         self.tree.ray_traverse(ray, &mut hit, |ray, i| self.triangles[i].intersect(ray)).then_some(hit.t)
     }
-    /// Is there any hit?
+    /// Whether the ray hits anything.
     #[must_use]
     pub fn occluded(&self, ray: BaselineRay) -> bool {
         !self.tree.ray_traverse_miss(ray, |ray, i| self.triangles[i].intersect(ray))

@@ -1,7 +1,7 @@
-//! What is measured: each routine of the core at each width, and rays through the scenes.
+//! Workloads of the benchmarks: every routine of the core at every width, and rays through scenes.
 //!
-//! A routine works on [`SAMPLES`] samples that fit the first-level cache, one packet after the other, and hands every result
-//! to `black_box`: what is measured is throughput, with neighbouring packets overlapping as they do in a renderer.
+//! A routine computes [`SAMPLES`] samples, which fit the first-level cache, packet after packet, and passes every result to `black_box`.
+//! This measures throughput: neighbouring packets overlap as they do in a renderer.
 
 pub mod baseline;
 pub mod rays;

@@ -1,4 +1,4 @@
-//! Rays as a renderer traces them through the triangles of a scene: from the camera, from what they meet to the lights, and about.
+//! Rays as a renderer traces them through the triangles of a scene: camera rays, shadow rays, and ambient occlusion.
 
 use crate::baseline::{self, Baseline, BaselineRay};
 use etendue::sequence::{Independent, Sequence};
@@ -11,28 +11,28 @@ use etendue_render::{
     scene,
 };
 
-/// Pixels across the image whose pixels are drawn from.
+/// Side of the image that pixels are taken from.
 const SIDE: u32 = 256;
 
-/// Which rays, in groups of 64.
+/// The kinds of rays, each in groups of 64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// From the camera through one pixel; what is nearest.
+    /// Camera rays through one pixel, closest hit.
     Pixel,
-    /// From the camera through 8 × 8 pixels; what is nearest.
+    /// Camera rays through 8 × 8 pixels, closest hit.
     Camera,
-    /// From the points seen in one pixel to a light: is it hidden?
+    /// Shadow rays from the hits of one pixel to lights, any hit.
     ShadowOfPoint,
-    /// From the points seen in 8 × 8 pixels to a light: is it hidden?
+    /// Shadow rays from the hits of 8 × 8 pixels to lights, any hit.
     ShadowOfPixels,
-    /// From the points seen in 8 × 8 pixels into the hemisphere, a unit far: is anything there?
+    /// Rays of length 1 from the hits of 8 × 8 pixels into the hemisphere, any hit.
     Ambient,
-    /// The shadow rays of all pixels in random order.
+    /// The shadow rays of 8 × 8 pixels from all groups, in random order.
     Shuffled,
 }
 
 impl Kind {
-    /// All of them, with names.
+    /// All kinds, with names.
     pub const ALL: [(Self, &'static str); 6] = [
         (Self::Pixel, "camera, a pixel"),
         (Self::Camera, "camera, 8x8 pixels"),
@@ -46,7 +46,7 @@ impl Kind {
     }
 }
 
-/// What traces them.
+/// The ways to trace rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
     /// obvhs, ray by ray.
@@ -58,12 +58,12 @@ pub enum How {
 }
 
 impl How {
-    /// All of them, with names.
+    /// All ways, with names.
     pub const ALL: [(Self, &'static str); 3] =
         [(Self::Obvhs, "obvhs, per ray"), (Self::Single, "single"), (Self::Groups, "groups")];
 }
 
-/// Eight rays, as far as a renderer has them before it traces them.
+/// Eight rays, before the preparation for tracing.
 #[derive(Clone, Copy)]
 struct Packet {
     origin: V8,
@@ -82,7 +82,7 @@ pub struct Workload {
     kinds: Vec<(Vec<Group>, Vec<BaselineRay>)>,
 }
 
-/// Rays that are alive, one by one.
+/// The active rays, one by one.
 fn each(groups: &[Group]) -> impl Iterator<Item = ([f32; 3], [f32; 3], f32)> {
     groups.iter().flatten().flat_map(|p| {
         (0..8)
@@ -92,10 +92,10 @@ fn each(groups: &[Group]) -> impl Iterator<Item = ([f32; 3], [f32; 3], f32)> {
 }
 
 impl Workload {
-    /// Of a built-in scene; `groups` groups of 64 rays of each kind, spread over the image.
+    /// Prepares `groups` groups of 64 rays of each kind, spread over the image of a built-in scene.
     ///
     /// # Panics
-    /// There is no such scene.
+    /// If there is no such scene.
     #[must_use]
     pub fn new(name: &str, groups: u32) -> Self {
         let scene = scene::load(name).expect("a built-in scene");
@@ -149,13 +149,13 @@ impl Workload {
         Self { single, groups: accel, baseline: Baseline::new(&scene.triangles), kinds: kinds.into() }
     }
 
-    /// How many rays there are of a kind.
+    /// The number of rays of a kind.
     #[must_use]
     pub fn rays(&self, kind: Kind) -> u64 {
         self.kinds[kind as usize].1.len() as u64
     }
 
-    /// Traces all rays of a kind: how many meet something.
+    /// Traces all rays of a kind and returns the number of hits.
     pub fn trace(&self, kind: Kind, how: How, stack: &mut Stack) -> u64 {
         let (groups, rays) = &self.kinds[kind as usize];
         let accel = match how {
@@ -182,7 +182,7 @@ impl Workload {
     }
 }
 
-/// The same rays in random order, without those that are not alive.
+/// The active rays of all groups in random order; an incomplete last group is dropped.
 fn shuffled(groups: &[Group]) -> Vec<Group> {
     let mut rays: Vec<_> = each(groups).collect();
     let random = Independent::new(2);
@@ -214,7 +214,7 @@ fn closest(accel: &Accel, group: &Group, stack: &mut Stack) -> [Hits; GROUP] {
     hits
 }
 
-/// Where mesh triangles are met.
+/// Points at which rays hit triangles.
 struct Point {
     met: M8,
     normal: V8,
@@ -236,7 +236,7 @@ impl Point {
         let place = packet.direction.mul_add(hits.distance.keep(met), packet.origin) + normal * X8::lit(1e-4);
         Self { met, normal, place }
     }
-    /// To a point of a light, by solid angle.
+    /// Rays to points on lights, sampled by solid angle.
     fn to_light(&self, lights: &Lights, u: etendue::Vec2<X8>) -> Packet {
         let zero = X8::lit(0.0);
         let (mut chosen, rest) = lights.choose(u.x);
@@ -246,7 +246,7 @@ impl Point {
         let limit = sample.distance * X8::lit(1.0 - 1.0 / 131_072.0);
         Packet { origin: self.place, direction: sample.direction, active, limit }
     }
-    /// Into the hemisphere, by the cosine.
+    /// Rays into the hemisphere, cosine-distributed.
     fn hemisphere(&self, u: etendue::Vec2<X8>) -> Packet {
         let direction = Frame::new(self.normal).to_world(CosineHemisphere.sample(u));
         Packet { origin: self.place, direction, active: self.met, limit: X8::lit(1.0) }

@@ -14,7 +14,9 @@ use etendue::warp::{
     GgxVisibleNormals, Linear, LowDistortionTriangle, Normal, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent,
     UniformHemisphere, UniformSphere, Warp, Warp1,
 };
-use etendue::{BilinearPatch, Cylinder, Disk, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Uint, Vec2, Vec3};
+use etendue::{
+    BilinearPatch, Cylinder, Disk, LightSampler, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Uint, Vec2, Vec3,
+};
 use std::hint::black_box;
 
 /// Samples per call of [`Routine::run`].
@@ -184,27 +186,31 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     });
 
     let sphere = Sphere { center: a, radius };
-    list.prepared("light sphere by area", move |p, u| sphere.by_area(p, u));
-    list.prepared("light sphere by solid angle", move |p, u| sphere.by_solid_angle(p, u));
+    list.prepared("light sphere by area", move |p, u| sphere.by_area(p).sample(u));
+    list.prepared("light sphere by solid angle", move |p, u| sphere.by_solid_angle(p).sample(u));
     let up = vector([0.0, 1.0, 0.0]);
-    list.prepared("light sphere by projected solid angle", move |p, u| sphere.by_projected_solid_angle(p, up, u));
+    list.prepared("light sphere by projected solid angle", move |p, u| {
+        sphere.by_projected_solid_angle(p, up).sample(u)
+    });
     let triangle = Triangle { v0: a, e1, e2 };
-    list.prepared("light triangle by area", move |p, u| triangle.by_area(p, u));
-    list.prepared("light triangle by solid angle", move |p, u| triangle.by_solid_angle(p, u));
-    list.prepared("light triangle by projected solid angle", move |p, u| triangle.by_projected_solid_angle(p, up, u));
+    list.prepared("light triangle by area", move |p, u| triangle.by_area(p).sample(u));
+    list.prepared("light triangle by solid angle", move |p, u| triangle.by_solid_angle(p).sample(u));
+    list.prepared("light triangle by projected solid angle", move |p, u| {
+        triangle.by_projected_solid_angle(p, up).sample(u)
+    });
     let quad = Parallelogram { p: a, u: e1, v: e2 };
-    list.prepared("light parallelogram by area", move |p, u| quad.by_area(p, u));
-    list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p, u));
+    list.prepared("light parallelogram by area", move |p, u| quad.by_area(p).sample(u));
+    list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p).sample(u));
     list.warp("cosine-warped triangle", CosineWarped::new(SphericalTriangle::new(a, b, c), up));
-    list.prepared("light triangle by cosine warp", move |p, u| triangle.by_cosine_warp(p, up, u));
+    list.prepared("light triangle by cosine warp", move |p, u| triangle.by_cosine_warp(p, up).sample(u));
     list.warp("spherical disk", SphericalDisk::new(a, up, radius));
     let disk = Disk { center: a, normal: up, radius };
-    list.prepared("light disk by area", move |p, u| disk.by_area(p, u));
-    list.prepared("light disk by solid angle", move |p, u| disk.by_solid_angle(p, u));
+    list.prepared("light disk by area", move |p, u| disk.by_area(p).sample(u));
+    list.prepared("light disk by solid angle", move |p, u| disk.by_solid_angle(p).sample(u));
     let line = Line { p: a, edge: e1 };
-    list.prepared("light line by length", move |p, u| line.by_length(p, u.x));
-    list.prepared("light line by angle", move |p, u| line.by_angle(p, u.x));
-    list.prepared("light line by projected solid angle", move |p, u| line.by_projected_solid_angle(p, up, u.x));
+    list.prepared("light line by length", move |p, u| line.by_length(p).sample(u));
+    list.prepared("light line by angle", move |p, u| line.by_angle(p).sample(u));
+    list.prepared("light line by projected solid angle", move |p, u| line.by_projected_solid_angle(p, up).sample(u));
     let arc = SphericalSegment::new(a, e1);
     list.prepared("spherical segment sample", move |_, u| arc.sample(u.x));
     list.prepared("spherical segment invert", move |p, _| arc.invert(p));
@@ -212,7 +218,9 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("projected segment sample", move |_, u| arc.sample(u.x));
     list.prepared("projected segment invert", move |p, _| arc.invert(p));
 
-    list.prepared("light parallelogram by projected solid angle", move |p, u| quad.by_projected_solid_angle(p, up, u));
+    list.prepared("light parallelogram by projected solid angle", move |p, u| {
+        quad.by_projected_solid_angle(p, up).sample(u)
+    });
 
     list.warp("disk surface", DiskSurface { center: a, normal: up, radius });
     list.warp("cylinder side", CylinderSide { p: a, axis: e1, radius });
@@ -220,12 +228,12 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let twisted = e1 + e2 + up * R::lit(0.3);
     list.warp("patch surface", PatchSurface { p: a, u: e1, v: e2, w: twisted });
     let patch = BilinearPatch { p: a, u: e1, v: e2, w: twisted };
-    list.prepared("light bilinear patch by area", move |p, u| patch.by_area(p, u));
+    list.prepared("light bilinear patch by area", move |p, u| patch.by_area(p).sample(u));
     let cylinder = Cylinder { p: a, axis: e1, radius };
-    list.prepared("light cylinder by area", move |p, u| cylinder.by_area(p, u));
+    list.prepared("light cylinder by area", move |p, u| cylinder.by_area(p).sample(u));
     let pentagon = Polygon { corners: [a, a + e1, a + e1 + e2 * half_of(), a + e1 * half_of() + e2, a + e2] };
-    list.prepared("light pentagon by area", move |p, u| pentagon.by_area(p, u));
-    list.prepared("light pentagon by solid angle", move |p, u| pentagon.by_solid_angle(p, u));
+    list.prepared("light pentagon by area", move |p, u| pentagon.by_area(p).sample(u));
+    list.prepared("light pentagon by solid angle", move |p, u| pentagon.by_solid_angle(p).sample(u));
     tables(&mut list);
 
     list.sequence("independent", Independent::new(1));

@@ -2,15 +2,9 @@
 //!
 //! | table | draws | cost | inverse |
 //! |---|---|---|---|
-//! | [`PiecewiseConstant1d`] | a cell of n, and a position in it | log₂ n steps | yes |
+//! | [`PiecewiseConstant1d`] | one of n cells, and a position in it | log₂ n steps | yes |
 //! | [`PiecewiseConstant2d`] | a cell of an image, and a position in it | log₂ w + log₂ h steps | yes |
-//! | [`AliasTable`] | one of n, and a left-over number | two look-ups | none: it maps many to one |
-//!
-//! The distribution functions hold multiples of 2⁻²⁴, the grid of `u`: the probability that is reported is the one with which a
-//! cell is drawn, exactly, with a million cells too. It differs from weight/total by up to 2⁻²⁴ for that; an estimator that divides by it
-//! is unbiased, since a cell with a weight keeps at least 2⁻²⁴, and one without is never drawn.
-//!
-//! Every routine takes a scalar or a packet; look-ups go lane by lane, with the same bits.
+//! | [`AliasTable`] | one of n items, and a fresh number | two look-ups | none: it maps many to one |
 //!
 //! ```
 //! use etendue::discrete::PiecewiseConstant1d;
@@ -20,79 +14,86 @@
 //! assert_eq!((cell.index, cell.offset, cell.pmf), (2, 0.5, 0.5));
 //! assert_eq!(table.invert_cell(2, 0.5_f32), 0.5);
 //! ```
+//!
+//! The distribution functions of the piecewise constant tables hold multiples of 2⁻²⁴, the grid of `u`, so the pmf that they
+//! report is exactly the probability with which a cell is drawn, even with a million cells. It may differ from weight/total by
+//! up to 2⁻²⁴; an estimator that divides by it stays unbiased, since a cell with a weight keeps at least 2⁻²⁴, and one without
+//! is never drawn.
+//!
+//! Every routine takes a scalar or a packet; look-ups go lane by lane, with the same bits.
 
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 use crate::warp::{Warp, Warp1};
 use core::fmt::{self, Display, Formatter};
 
-/// Steps of `u` in the unit interval, and the most cells that a table may have.
+/// Steps of `u` in the unit interval, and the greatest number of cells in a table.
 const STEPS: f64 = 16_777_216.0;
 
 /// Why a table cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableError {
-    /// The slices do not have the lengths that belong together, or there are no cells, or more than 2²⁴.
+    /// The lengths of the slices do not match, or there are no cells, or more than 2²⁴.
     Length,
-    /// A weight is negative, infinite or not a number.
+    /// A weight is negative, infinite or NaN.
     Weight,
-    /// All weights are 0: there is nothing to draw.
+    /// All weights are 0, so there is nothing to draw.
     Empty,
 }
 impl Display for TableError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Length => "slices of a table differ in length, or have no cells, or more than 2^24",
-            Self::Weight => "a weight is negative, infinite or not a number",
+            Self::Length => "slice lengths do not match, or the table has no cells or more than 2^24",
+            Self::Weight => "a weight is negative, infinite or NaN",
             Self::Empty => "all weights are 0",
         })
     }
 }
 impl core::error::Error for TableError {}
 
-/// A cell that was drawn.
+/// A cell (or item) drawn from a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell<R: Real> {
-    /// Its index.
+    /// Index of the cell, in [0, n).
     pub index: R::Uint,
     /// Position in the cell, in [0, 1): what is left of `u`, uniform.
     pub offset: R,
-    /// Probability of the cell; times the number of cells, the density on [0, 1).
+    /// Probability of the cell, in [0, 1]; times the number of cells, it is the pdf on [0, 1).
     pub pmf: R,
 }
 
-/// A cell of an image that was drawn.
+/// A cell of an image drawn from a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cell2d<R: Real> {
-    /// Column.
+    /// Column, in [0, w).
     pub x: R::Uint,
-    /// Row.
+    /// Row, in [0, h).
     pub y: R::Uint,
     /// Position in the cell, in [0, 1)².
     pub offset: Vec2<R>,
-    /// Probability of the cell; times the number of cells, the density per unit area of the unit square.
+    /// Probability of the cell, in [0, 1]; times the number of cells, it is the pdf per unit area of the unit square.
     pub pmf: R,
 }
 
-/// Rounding of one operation, doubled.
+/// Twice the relative rounding error of one operation.
 #[inline(always)]
 fn epsilon<R: Real>() -> R {
     R::lit(if size_of::<R::Scalar>() == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON })
 }
 
-/// The number of [0, 1) for a position in cell `index` of n: (index + offset)/n, moved by an ulp where rounding left the cell.
+/// The number in [0, 1) for a position in cell `index` of n: (index + offset)/n, moved by an ulp where rounding left the cell.
 #[inline(always)]
 pub(crate) fn place<R: Real>(index: R::Uint, offset: R, n: R) -> R {
     let i = R::from_uint(index);
     let x = (i + offset) / n;
-    // xn − i, exactly but for the last rounding, whose sign and whose excess over 1 are true
+    // xn − i, exact up to its last rounding, which keeps the sign and whether it reaches 1
     let scaled = x * n;
     let position = (scaled - i) + R::two_prod_error(x, n, scaled);
     let x = R::blend(position.lt(R::lit(0.0)), x + x * epsilon(), x);
     R::blend(position.ge(R::lit(1.0)), x - x * (epsilon::<R>() * R::lit(0.5)), x)
 }
 
-/// The inverse: cell and position, of x in [0, 1). The product is not rounded before its integer part is taken.
+/// The inverse: cell and position of x in [0, 1). The product is not rounded before its integer part is taken.
 #[inline(always)]
 pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -105,7 +106,7 @@ pub(crate) fn locate<R: Real>(x: R, n: R) -> (R::Uint, R) {
     (i.clamped(zero, n - one).to_uint(), unit_interval(position))
 }
 
-/// Total of valid weights and number of those above 0.
+/// Sum of the weights, if all are valid, and number of those above 0.
 fn total(n: usize, weight: impl Fn(usize) -> f64) -> Result<(f64, usize), TableError> {
     let (mut sum, mut some) = (0.0, 0);
     for i in 0..n {
@@ -119,8 +120,8 @@ fn total(n: usize, weight: impl Fn(usize) -> f64) -> Result<(f64, usize), TableE
     Ok((sum, some))
 }
 
-/// Fills `cdf[i]` with the sum of the weights up to and including i, over the total, on the grid of 2⁻²⁴; each weight above 0 has one step
-/// or more. Sums are in double precision: 1e6 cells are off by less than 1e−10.
+/// Fills `cdf[i]` with the sum of the weights up to and including i, over the total, on the grid of 2⁻²⁴; each weight above 0
+/// gets at least one step. Sums are in double precision: with 1e6 cells they are off by less than 1e−10.
 fn accumulate(cdf: &mut [f32], weight: impl Fn(usize) -> f64) -> Result<(), TableError> {
     if cdf.is_empty() || cdf.len() > STEPS as usize {
         return Err(TableError::Length);
@@ -135,7 +136,7 @@ fn accumulate(cdf: &mut [f32], weight: impl Fn(usize) -> f64) -> Result<(), Tabl
         if w > 0.0 {
             running += w;
             some -= 1;
-            // nearest step, but one at least for this cell and for each that follows
+            // the nearest step, but at least one for this cell and for each that follows
             let nearest = (running / sum * STEPS + 0.5) as u32;
             steps = f64::from(nearest).greater(steps + 1.0).lesser(STEPS - some as f64);
             if some == 0 {
@@ -147,7 +148,7 @@ fn accumulate(cdf: &mut [f32], weight: impl Fn(usize) -> f64) -> Result<(), Tabl
     Ok(())
 }
 
-/// Cell, position and probability of `u` in the distribution function that `row` picks for each lane.
+/// Cell, position and pmf of `u` in the distribution function that `row` picks for each lane.
 #[inline(always)]
 fn draw<'a, R: Real>(u: R, row: impl Fn(usize) -> &'a [f32]) -> Cell<R> {
     let u = unit_interval(u);
@@ -177,14 +178,18 @@ fn bounds<'a, R: Real>(index: R::Uint, row: impl Fn(usize) -> &'a [f32]) -> (R, 
     (start, end - start)
 }
 
-/// A density on [0, 1) that is constant in each of n cells.
+/// A distribution on [0, 1) whose pdf is constant in each of n equal cells: for tables and one-dimensional images.
 ///
-/// - Formula: the first cell whose cumulated weight exceeds u, by bisection; the rest of u over the cell's width is the position in it.
-/// - Domain: u in [0, 1); 1 to 2²⁴ cells with finite weights ≥ 0, of any unit.
-/// - Density: n × probability per unit length of [0, 1), 0 elsewhere. Cells without weight are never drawn.
-/// - Degenerate: no weight at all is an error when the table is built, [`TableError::Empty`].
-/// - Greatest error: probabilities are within n·2⁻²⁴ of weight/total (within 2⁻²⁴ where no weight is below 2⁻²⁴ of the
-///   total), and exact as to what is drawn; position × probability is off by 2⁻²⁴.
+/// Call `PiecewiseConstant1d::build(&weights, &mut cdf)`, then `cell` for a cell or `sample` for a point. Weights that are
+/// invalid or all 0 are an error when the table is built.
+///
+/// - Formula: bisection finds the first cell whose cumulative weight exceeds u; the rest of u over the cell's width is the
+///   position in it.
+/// - Domain: u in [0, 1); 1 to 2²⁴ cells with finite weights ≥ 0, in any unit.
+/// - Density: the pdf is n × the cell's pmf per unit length of [0, 1), 0 elsewhere. Cells without weight are never drawn.
+/// - Degenerate input: if all weights are 0, `build` returns [`TableError::Empty`].
+/// - Greatest error: each pmf is within n·2⁻²⁴ of weight/total (within 2⁻²⁴ where no weight is below 2⁻²⁴ of the total), and
+///   exactly the probability of the draw; position × pmf is off by up to 2⁻²⁴.
 /// - Source: the inverse of the distribution function.
 #[derive(Clone, Copy, Debug)]
 pub struct PiecewiseConstant1d<'a> {
@@ -192,10 +197,10 @@ pub struct PiecewiseConstant1d<'a> {
 }
 
 impl<'a> PiecewiseConstant1d<'a> {
-    /// Builds the distribution function in the caller's buffer, which is as long as the weights.
+    /// Builds the distribution function in the caller's buffer, which must be as long as the weights.
     ///
     /// # Errors
-    /// If the lengths differ, a weight is invalid, or all are 0.
+    /// Fails if the lengths differ, a weight is invalid, or all are 0.
     pub fn build(weights: &[f32], cdf: &'a mut [f32]) -> Result<Self, TableError> {
         if weights.len() != cdf.len() {
             return Err(TableError::Length);
@@ -209,7 +214,7 @@ impl<'a> PiecewiseConstant1d<'a> {
     pub fn cells(&self) -> usize {
         self.cdf.len()
     }
-    /// The cell for `u`.
+    /// Draws the cell for `u`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
         draw(u, |_| self.cdf)
@@ -219,7 +224,7 @@ impl<'a> PiecewiseConstant1d<'a> {
     pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
         bounds::<R>(index, |_| self.cdf).1
     }
-    /// The `u` of a position in a cell.
+    /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, index: R::Uint, offset: R) -> R {
         let (start, width) = bounds::<R>(index, |_| self.cdf);
@@ -237,6 +242,7 @@ impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
         let cell = self.cell(u);
         place(cell.index, cell.offset, self.count())
     }
+    /// The pdf per unit length of [0, 1).
     #[inline(always)]
     fn pdf(&self, x: R) -> R {
         let inside = x.ge(R::lit(0.0)) & x.lt(R::lit(1.0));
@@ -250,14 +256,11 @@ impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
     }
 }
 
-/// A density on the unit square that is constant in each cell of an image: the row by its sum, then the column within the row.
+/// A distribution on the unit square whose pdf is constant in each cell of an image: draws the row by its sum, then the column
+/// within the row.
 ///
-/// - Formula: u₁ draws the row, u₀ the column, each as [`PiecewiseConstant1d`].
-/// - Domain: u in [0, 1)²; w, h from 1 to 2²⁴; finite weights ≥ 0, of any unit, row by row.
-/// - Density: wh × probability per unit area of the unit square, 0 elsewhere. Cells without weight are never drawn.
-/// - Degenerate: no weight at all is an error when the table is built, [`TableError::Empty`].
-/// - Greatest error: both probabilities as in one dimension.
-/// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.4.
+/// Call `PiecewiseConstant2d::build(&weights, width, &mut buffer)`, then `cell` for a cell or `sample` for a point. Weights
+/// that are invalid or all 0 are an error when the table is built.
 ///
 /// ```
 /// use etendue::{Vec2, Warp, discrete::PiecewiseConstant2d};
@@ -268,6 +271,14 @@ impl<R: Real> Warp1<R> for PiecewiseConstant1d<'_> {
 /// assert_eq!(image.pdf(p), 1.0);
 /// assert_eq!(image.pdf(Vec2::new(0.25_f32, 0.75)), 3.0);
 /// ```
+///
+/// - Formula: u₁ draws the row, u₀ the column, each as in [`PiecewiseConstant1d`].
+/// - Domain: u in [0, 1)²; w, h from 1 to 2²⁴; finite weights ≥ 0, in any unit, row by row.
+/// - Density: the pdf is wh × the cell's pmf per unit area of the unit square, 0 elsewhere. Cells without weight are never
+///   drawn.
+/// - Degenerate input: if all weights are 0, `build` returns [`TableError::Empty`].
+/// - Greatest error: that of [`PiecewiseConstant1d`], for the row and for the column.
+/// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.4.
 #[derive(Clone, Copy, Debug)]
 pub struct PiecewiseConstant2d<'a> {
     marginal: PiecewiseConstant1d<'a>,
@@ -282,17 +293,18 @@ impl<'a> PiecewiseConstant2d<'a> {
     pub const fn buffer(width: usize, height: usize) -> usize {
         width * height + height
     }
-    /// Builds the distribution functions of the rows and of their sums in the caller's buffer, of [`buffer`](Self::buffer) entries.
+    /// Builds the distribution functions of the rows and of their sums in the caller's buffer of [`buffer`](Self::buffer)
+    /// entries.
     ///
     /// # Errors
-    /// If the lengths do not belong together, a weight is invalid, or all are 0.
+    /// Fails if the lengths do not match, a weight is invalid, or all are 0.
     pub fn build(weights: &[f32], width: usize, buffer: &'a mut [f32]) -> Result<Self, TableError> {
         Self::build_by_rows(weights, width, |_| 1.0, buffer)
     }
-    /// As [`build`](Self::build), with the weights of row y times `factor(y)`, which is finite and over 0.
+    /// As [`build`](Self::build), with the weights of row y times `factor(y)`, which must be finite and greater than 0.
     ///
     /// # Errors
-    /// As [`build`](Self::build).
+    /// As for [`build`](Self::build).
     pub fn build_by_rows(
         weights: &[f32],
         width: usize,
@@ -307,7 +319,7 @@ impl<'a> PiecewiseConstant2d<'a> {
         let row = |y: usize| &weights[y * width..(y + 1) * width];
         for (y, cdf) in rows.chunks_exact_mut(width).enumerate() {
             match accumulate(cdf, |x| f64::from(row(y)[x])) {
-                // never drawn
+                // this row is never drawn
                 Err(TableError::Empty) => cdf.fill(0.0),
                 other => other?,
             }
@@ -315,10 +327,11 @@ impl<'a> PiecewiseConstant2d<'a> {
         accumulate(marginal, |y| row(y).iter().map(|&w| f64::from(w)).sum::<f64>() * factor(y))?;
         Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
     }
-    /// The table that [`build`](Self::build) has left in a buffer. (What did not come from there draws nonsense, but does no harm.)
+    /// Reads the table that [`build`](Self::build) left in a buffer. The contents are not validated, but no contents cause a
+    /// panic.
     ///
     /// # Errors
-    /// If no table of so many columns has a buffer of this length.
+    /// Fails if no table with this width has a buffer of this length.
     pub fn from_buffer(buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
         let height = buffer.len() / width.saturating_add(1);
         if width == 0 || height == 0 || buffer.len() != Self::buffer(width, height) {
@@ -327,7 +340,7 @@ impl<'a> PiecewiseConstant2d<'a> {
         let (rows, marginal) = buffer.split_at(width * height);
         Ok(Self { marginal: PiecewiseConstant1d { cdf: marginal }, rows, width })
     }
-    /// Columns and rows.
+    /// Width and height in cells.
     #[inline(always)]
     #[must_use]
     pub fn size(&self) -> [usize; 2] {
@@ -338,7 +351,7 @@ impl<'a> PiecewiseConstant2d<'a> {
         let y = (y as usize).min(self.marginal.cells() - 1);
         &self.rows[y * self.width..(y + 1) * self.width]
     }
-    /// The cell for `u`.
+    /// Draws the cell for `u`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: Vec2<R>) -> Cell2d<R> {
         let row = self.marginal.cell(u.y);
@@ -350,12 +363,12 @@ impl<'a> PiecewiseConstant2d<'a> {
             pmf: row.pmf * column.pmf,
         }
     }
-    /// Probability of a cell; 0 off the image.
+    /// Probability of a cell; 0 outside the image.
     #[inline(always)]
     pub fn pmf<R: Real>(&self, x: R::Uint, y: R::Uint) -> R {
         self.marginal.pmf::<R>(y) * bounds::<R>(x, |lane| self.row(y.lane(lane))).1
     }
-    /// The `u` of a position in a cell.
+    /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, x: R::Uint, y: R::Uint, offset: Vec2<R>) -> Vec2<R> {
         let (start, width) = bounds::<R>(x, |lane| self.row(y.lane(lane)));
@@ -371,6 +384,7 @@ impl<R: Real> Warp<R> for PiecewiseConstant2d<'_> {
         let [w, h] = self.size().map(|n| R::lit(n as f64));
         Vec2::new(place(cell.x, cell.offset.x, w), place(cell.y, cell.offset.y, h))
     }
+    /// The pdf per unit area of the unit square.
     #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -387,28 +401,33 @@ impl<R: Real> Warp<R> for PiecewiseConstant2d<'_> {
     }
 }
 
-/// One of n by weight, in constant time: each of n equal buckets holds its own item up to a threshold and one other above it.
+/// Draws one of n items by weight in constant time: each of n equal buckets holds its own item up to a threshold, and one other
+/// item above it.
 ///
-/// - Formula: bucket ⌊un⌋; the fraction of un, against the threshold, picks the item, and its rest over its range is a fresh number.
-/// - Domain: u in [0, 1); 1 to 2²⁴ items with finite weights ≥ 0, of any unit.
-/// - Probability: weight/total. Items without weight are never drawn.
-/// - Degenerate: no weight at all is an error when the table is built, [`TableError::Empty`].
-/// - Greatest error: u has 2²⁴ values, each bucket gets 2²⁴/n of them or one more: an item of average weight is drawn with a
-///   probability that is off by up to n·2⁻²⁴, relative (6e−5 for a thousand). With many items prefer [`PiecewiseConstant1d`], which
-///   reports what it draws.
-/// - Inverse: none, since an item may lie in many buckets.
-/// - Source: Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", IEEE TSE 17(9), 1991; built by one
-///   sweep over light and heavy items, as by Hübschle-Schneider and Sanders, "Parallel Weighted Random Sampling", 2019, section 4:
-///   no stacks.
+/// Call `AliasTable::build(&weights, &mut thresholds, &mut aliases)`, then `cell`. Weights that are invalid or all 0 are an
+/// error when the table is built.
 ///
 /// ```
 /// use etendue::discrete::AliasTable;
 /// let (mut thresholds, mut aliases) = ([0.0; 4], [0; 4]);
 /// let table = AliasTable::build(&[1.0, 0.0, 2.0, 1.0], &mut thresholds, &mut aliases).unwrap();
 /// let drawn = table.cell(0.375_f32);
-/// // the second bucket is all alias
+/// // the second bucket holds only its alias
 /// assert_eq!((drawn.index, drawn.offset, drawn.pmf), (2, 0.5, 0.5));
 /// ```
+///
+/// - Formula: bucket ⌊un⌋; the fraction of un, against the threshold, picks the item, and its remainder over its range is a
+///   fresh number.
+/// - Domain: u in [0, 1); 1 to 2²⁴ items with finite weights ≥ 0, in any unit.
+/// - Density: the pmf is weight/total. Items without weight are never drawn. There is no inverse, since an item may lie in many
+///   buckets.
+/// - Degenerate input: if all weights are 0, `build` returns [`TableError::Empty`].
+/// - Greatest error: u has 2²⁴ values, and each bucket gets 2²⁴/n of them or one more, so the probability with which an item of
+///   average weight is drawn is off by up to n·2⁻²⁴ relative (6e−5 for a thousand items). With many items prefer
+///   [`PiecewiseConstant1d`], whose pmf is exactly the probability of the draw.
+/// - Source: Vose, "A Linear Algorithm for Generating Random Numbers with a Given Distribution", IEEE TSE 17(9), 1991; built
+///   without stacks, by one sweep over light and heavy items, as by Hübschle-Schneider and Sanders, "Parallel Weighted Random
+///   Sampling", 2019, section 4.
 #[derive(Clone, Copy, Debug)]
 pub struct AliasTable<'a> {
     weights: &'a [f32],
@@ -418,10 +437,10 @@ pub struct AliasTable<'a> {
 }
 
 impl<'a> AliasTable<'a> {
-    /// Builds the table in the caller's buffers, which are as long as the weights.
+    /// Builds the table in the caller's buffers, which must be as long as the weights.
     ///
     /// # Errors
-    /// If the lengths differ, a weight is invalid, or all are 0.
+    /// Fails if the lengths differ, a weight is invalid, or all are 0.
     pub fn build(weights: &'a [f32], thresholds: &'a mut [f32], aliases: &'a mut [u32]) -> Result<Self, TableError> {
         let n = weights.len();
         if n == 0 || n > STEPS as usize || thresholds.len() != n || aliases.len() != n {
@@ -438,7 +457,7 @@ impl<'a> AliasTable<'a> {
         }
         let (mut light, mut heavy) = (find(0, false), find(0, true));
         let mut rest = if heavy < n { share(heavy) } else { 0.0 };
-        // the heavy item fills the light buckets up, until it is light itself and the next heavy one fills its own
+        // the heavy item fills up light buckets until it is light itself; then the next heavy one fills its bucket
         while heavy < n {
             if rest > 1.0 {
                 if light == n {
@@ -459,7 +478,7 @@ impl<'a> AliasTable<'a> {
                 heavy = next;
             }
         }
-        // what rounding left over keeps its own bucket, unless it must not be drawn
+        // buckets left over by rounding keep their own item, unless it has no weight
         while light < n {
             if weights[light] <= 0.0 {
                 let heaviest = (0..n).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
@@ -475,7 +494,7 @@ impl<'a> AliasTable<'a> {
     pub fn cells(&self) -> usize {
         self.weights.len()
     }
-    /// The item for `u`, and a fresh number in [0, 1).
+    /// Draws the item for `u`, with a fresh number in [0, 1) as its `offset`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
         let (bucket, fraction) = locate(unit_interval(u), R::lit(self.weights.len() as f64));

@@ -1,6 +1,6 @@
-//! Conversions from and to `glam` and arrays. This is the one file that names `glam`.
+//! Conversions to and from `glam` and arrays. Only this file names `glam`.
 //!
-//! A single vector also converts to a packet: it fills every lane.
+//! A single vector also converts to a packet, whose lanes it fills.
 
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};

@@ -52,8 +52,8 @@ pub mod vector;
 pub mod warp;
 
 pub use light::{
-    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, Line, Parallelogram, PointLight,
-    Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,
+    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line,
+    Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,
 };
 pub use real::{Mask, Real, Uint};
 pub use vector::{Frame, Vec2, Vec3};

@@ -1,15 +1,15 @@
 //! Elementary functions of packets, with their errors, and the tools that keep small differences exact.
 //!
-//! Greatest errors in single precision, over every argument of the stated set, against `libm` in f64
+//! Greatest errors in single precision, over the whole stated domain, against `libm` in f64
 //! (`cargo test -p etendue-tests --test math -- --nocapture` prints them):
 //!
 //! | function | domain | greatest error |
 //! |---|---|---|
 //! | [`Real::sin_cos_turns`] | [0, 1), all 2²⁴ multiples of 2⁻²⁴ | 8.4e−8 absolute |
 //! | [`Real::acos`] | [−1, 1], 2²⁴ values | 2.1e−7 relative to the result; 4.0e−7 absolute |
-//! | [`Real::atan2`] | all octants, ratios 1e−30 … 1e30, numbers up to 2¹²⁷ (beyond, their sum may not fit: finite) | 2.0e−7 relative; both below 2⁻¹⁴³, on the grid of subnormal numbers: 5.2e−6 |
+//! | [`Real::atan2`] | all octants, ratios 1e−30 … 1e30, up to 2¹²⁷ (beyond: finite) | 2.0e−7 relative; 5.2e−6 if both are below 2⁻¹⁴³ |
 //! | [`Real::exp`] | [−87.3, 88.3] | 8.2e−8 relative |
-//! | [`Real::exp_m1`] | the same | 1.2e−7 relative |
+//! | [`Real::exp_m1`] | [−87.3, 88.3] | 1.2e−7 relative |
 //! | [`Real::ln_1p`] | (−1, 1e30] | 1.3e−7 relative |
 //! | [`Real::cbrt`] | 0, and [2⁻¹⁰⁰, 2¹²⁸) | 7.9e−8 relative |
 //! | [`Real::normal_cdf`] | [−12.8, ∞) | 3.9e−7 relative, in the lower tail too |
@@ -18,11 +18,11 @@
 //! | [`one_minus_cos`] | sin² in [0, 1] | 1.1e−7 relative |
 //! | [`difference_of_products`] | anything that does not under- or overflow | 1.5 ulp of the exact result |
 //!
-//! Double precision goes to `libm`.
+//! Double precision uses `libm`.
 
 use crate::real::Real;
 
-/// 1/√x: a division and a square root, both correctly rounded. 0 gives infinity; callers guard.
+/// 1/√x for x > 0, by a correctly rounded square root and division. 0 gives infinity; callers must guard against it.
 #[inline(always)]
 pub fn rsqrt<R: Real>(x: R) -> R {
     R::lit(1.0) / x.sqrt()
@@ -55,7 +55,7 @@ pub(crate) fn ratio<R: Real>(a: R, b: R) -> R {
     (a / R::blend(some, b, R::lit(1.0))).keep(some)
 }
 
-/// Is this double precision? There, series are longer and steps more.
+/// True in double precision, where series are longer and iterations take more steps.
 #[inline(always)]
 pub(crate) fn double<R: Real>() -> bool {
     size_of::<R::Scalar>() > 4
@@ -74,7 +74,7 @@ pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
 pub fn atan2_turns<R: Real>(y: R, x: R) -> R {
     let turns = y.atan2(x) * R::lit(0.5 / core::f64::consts::PI);
     let turns = R::blend(turns.lt(R::lit(0.0)), turns + R::lit(1.0), turns);
-    // of infinite numbers, too
+    // also guards against infinite arguments
     turns.clamped(R::lit(0.0), R::ONE_MINUS_EPSILON)
 }
 
@@ -97,7 +97,8 @@ pub(crate) fn sin_cos_quarter<R: Real>(r: R) -> (R, R) {
     (sin, cos)
 }
 
-/// Quadrant and remainder are exact in turns: q = round(4u), r = 4u − q; no argument of trigonometry is ever rounded.
+/// Sine and cosine of u turns. Quadrant q = round(4u) and remainder r = 4u − q are exact, so no trigonometric argument is ever
+/// rounded.
 #[inline(always)]
 pub(crate) fn sin_cos_turns_f32<R: Real>(u: R) -> (R, R) {
     let u4 = u * R::lit(4.0);
@@ -112,7 +113,7 @@ pub(crate) fn sin_cos_turns_f32<R: Real>(u: R) -> (R, R) {
     (sin, cos)
 }
 
-/// `√(1−|x|)` times a minimax polynomial of degree 7, reflected for negative x.
+/// Arc cosine of x clamped to [−1, 1]: `√(1−|x|)` times a minimax polynomial of degree 7, reflected for negative x.
 #[inline(always)]
 pub(crate) fn acos_f32<R: Real>(x: R) -> R {
     let a = x.abs().lesser(R::lit(1.0));
@@ -133,7 +134,7 @@ pub(crate) fn acos_f32<R: Real>(x: R) -> R {
     R::blend(x.lt(R::lit(0.0)), R::lit(core::f64::consts::PI) - angle, angle)
 }
 
-/// Reduced to |t| ≤ tan(π/8) by one division; relative accuracy is kept down to denormals, and 0/0 is 0.
+/// Angle of (x, y), reduced to |t| ≤ tan(π/8) by one division; relative accuracy holds down to subnormal numbers, and 0/0 is 0.
 #[inline(always)]
 pub(crate) fn atan2_f32<R: Real>(y: R, x: R) -> R {
     let (ay, ax) = (y.abs(), x.abs());
@@ -156,8 +157,8 @@ pub(crate) fn atan2_f32<R: Real>(y: R, x: R) -> R {
 
 /// eˣ = 2ⁿ(1 + q): returns (q, 2ⁿ) for x in [−87.3, 88.3], with q in [−0.30, 0.42].
 ///
-/// n = round(x/ln 2), and r = x − n ln 2 with ln 2 in two parts, the first of 15 bits so that its product with n is exact.
-/// q = eʳ − 1 = r + r²P(r), relative error of P's truncation 1.4e−8.
+/// n = round(x/ln 2), and r = x − n ln 2 with ln 2 in two parts, the first of 15 bits so that its product with n is exact. q =
+/// eʳ − 1 = r + r²P(r); the truncation of P has a relative error of 1.4e−8.
 #[inline(always)]
 fn exp_parts<R: Real>(x: R) -> (R, R) {
     let n = (x * R::lit(core::f64::consts::LOG2_E)).round_ties_even();
@@ -183,7 +184,7 @@ pub(crate) fn exp_m1_f32<R: Real>(x: R) -> R {
     q.mul_add(scale, scale - R::lit(1.0))
 }
 
-/// y = 1 + x, rounded; what rounding took is given back by [`ln_sum`].
+/// ln(1 + x), by [`ln_sum`] of the rounded y = 1 + x and its rounding error.
 #[inline(always)]
 pub(crate) fn ln_1p_f32<R: Real>(x: R) -> R {
     let one = R::lit(1.0);
@@ -193,8 +194,8 @@ pub(crate) fn ln_1p_f32<R: Real>(x: R) -> R {
 
 /// ln(y + `lost`), where `lost` is less than an ulp of y: y = 2ᵏ(1 + f) with f in [√½ − 1, √2 − 1].
 ///
-/// ln(1 + f) = f + f²P(f), relative error of the truncation 4e−9, plus k ln 2 in two parts. A y that is subnormal or not
-/// positive counts as the least normal number.
+/// ln(1 + f) = f + f²P(f), plus k ln 2 in two parts; the truncation of P has a relative error of 4e−9. A y that is subnormal or
+/// not positive counts as the least normal number.
 #[inline(always)]
 fn ln_sum<R: Real>(y: R, lost: R) -> R {
     let y = y.greater(R::lit(f64::from(f32::MIN_POSITIVE)));
@@ -219,8 +220,8 @@ fn ln_sum<R: Real>(y: R, lost: R) -> R {
     k.mul_add(R::lit(0.693_359_375), low + f)
 }
 
-/// x^⅓ from x^(−⅓) within 3.5 %: a step that takes the error to its fourth power, one that squares it, and one on the root itself,
-/// whose residue is exact but for one rounding.
+/// x^⅓ from an estimate of x^(−⅓) within 3.5 %: one step raises the error to its fourth power, one squares it, and one corrects
+/// the root itself, whose residue has a single rounding.
 #[inline(always)]
 pub(crate) fn cbrt_f32<R: Real>(x: R, guess: R) -> R {
     let one = R::lit(1.0);
@@ -235,7 +236,7 @@ pub(crate) fn cbrt_f32<R: Real>(x: R, guess: R) -> R {
     root.keep(x.ge(R::lit(f64::from(f32::MIN_POSITIVE))))
 }
 
-/// exp(−(z² + `less`)/2) with z² to twice the working precision: at 5σ its rounding alone would be 25 ulp.
+/// exp(−(z² + `less`)/2) with z² in twice the working precision: at 5σ its rounding alone would be 25 ulp.
 #[inline(always)]
 pub(crate) fn exp_minus_half_square<R: Real>(z: R, less: R) -> R {
     let square = z * z;
@@ -244,8 +245,8 @@ pub(crate) fn exp_minus_half_square<R: Real>(z: R, less: R) -> R {
     (error * R::lit(-0.5)).mul_add(value, value)
 }
 
-/// Φ(−|z|) = exp(−z²/2) t P(t) with t = 1/(1 + 0.3|z|), relative error of the truncation 3.4e−9 for |z| ≤ 13.3; the exponential is 0
-/// beyond.
+/// Φ(z), from Φ(−|z|) = exp(−z²/2) t P(t) with t = 1/(1 + 0.3|z|); the truncation of P has a relative error of 3.4e−9 for |z| ≤
+/// 13.3, and the exponential is 0 beyond.
 #[inline(always)]
 pub(crate) fn normal_cdf_f32<R: Real>(z: R) -> R {
     let one = R::lit(1.0);
@@ -270,12 +271,12 @@ pub(crate) fn normal_cdf_f32<R: Real>(z: R) -> R {
     R::blend(z.gt(R::lit(0.0)), one - tail, tail)
 }
 
-/// The least probability of a tail that [`Real::normal_quantile`] tells from 0: half a step of `u`.
+/// The least tail probability that [`Real::normal_quantile`] distinguishes from 0: half a step of `u`.
 pub(crate) const LEAST_TAIL: f64 = 1.0 / 33_554_432.0;
 
-/// Φ⁻¹(u) = (2u − 1)P(w) with w = −ln(4u(1−u)): one polynomial of degree 8 in w below 5, one in √w above, relative errors of
-/// the truncations 9.4e−8 and 5.6e−8. The split is that of Giles, "Approximating the erfinv function", GPU Computing Gems, 2011; the
-/// coefficients are fitted to this range of u.
+/// Φ⁻¹(u) = (2u − 1)P(w) with w = −ln(4u(1−u)): one polynomial of degree 8 in w below 5, one in √w above; their truncations
+/// have relative errors of 9.4e−8 and 5.6e−8. The split is that of Giles, "Approximating the erfinv function", GPU Computing
+/// Gems, 2011; the coefficients are fitted to this range of u.
 #[inline(always)]
 pub(crate) fn normal_quantile_f32<R: Real>(u: R) -> R {
     const CENTRAL: [f64; 9] = [
@@ -302,11 +303,11 @@ pub(crate) fn normal_quantile_f32<R: Real>(u: R) -> R {
     ];
     let (half, one) = (R::lit(0.5), R::lit(1.0));
     let u = u.clamped(R::lit(0.0), one);
-    // the lower and upper tail: both exact where they are small
+    // lower and upper tail: each is exact where it is small
     let least = R::lit(LEAST_TAIL);
     let (low, high) = (u.greater(least), (one - u).greater(least));
     let x = (low.lesser(half) - half) + (half - high.lesser(half));
-    // w = −ln(4u(1−u)) is at most 16, and P(w) flat: near the median, where w → 0, its absolute error is what counts
+    // w = −ln(4u(1−u)) is at most 16; P(w) is flat near the median, where w → 0, so only the absolute error of w counts
     let w = -ln_sum(R::lit(4.0) * low * high, R::lit(0.0));
     let central = w.lt(R::lit(5.0));
     let v = R::blend(central, w - R::lit(2.5), w.greater(R::lit(0.0)).sqrt() - R::lit(3.0));

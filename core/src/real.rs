@@ -1,8 +1,8 @@
-//! Scalars and packets under one trait. Nothing but this and the files below it names `wide` and `libm`.
+//! Scalars and packets under one trait. Only this module and its children name `wide` and `libm`.
 //!
-//! A scalar operation that could round differently from its packet twin (`mul_add`, `sqrt`, rounding) is computed as
-//! lane 0 of a packet; the compiler reduces that to the one scalar instruction. This is what makes a body written once
-//! over [`Real`] give the same bits at every width.
+//! A scalar operation that might round differently from its packet counterpart (`mul_add`, `sqrt`, rounding) is computed as
+//! lane 0 of a packet, which the compiler reduces to the scalar instruction. So code written once over [`Real`] gives the same
+//! bits at every width.
 
 mod mask;
 mod number;
@@ -18,24 +18,24 @@ use sealed::Sealed;
 
 pub use mask::{MaskF64X4, MaskX4, MaskX8};
 
-/// Truth per lane.
+/// A truth value per lane.
 pub trait Mask:
     Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>
 {
-    /// The same truth in every lane.
+    /// The same truth value in every lane.
     fn splat(value: bool) -> Self;
-    /// Lane `i` from bit `i`.
+    /// Lane `i` is bit `i`.
     fn from_bits(bits: u32) -> Self;
-    /// Lane `i` in bit `i`; bits past the last lane are 0.
+    /// Bit `i` is lane `i`; bits past the last lane are 0.
     fn bits(self) -> u32;
-    /// Is any lane true?
+    /// True if any lane is.
     #[inline(always)]
     fn any(self) -> bool {
         self.bits() != 0
     }
-    /// Are all lanes true?
+    /// True if all lanes are.
     fn all(self) -> bool;
-    /// Lane `i`; false past the last lane.
+    /// The truth value of lane `i`; false past the last lane.
     #[inline(always)]
     fn lane(self, i: usize) -> bool {
         i < 32 && self.bits() >> i & 1 == 1
@@ -50,7 +50,7 @@ pub trait Uint: Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = S
     fn splat(value: u32) -> Self;
     /// Lane `i` is `f(i)`.
     fn from_fn(f: impl FnMut(usize) -> u32) -> Self;
-    /// Lane `i`. Panics past the last lane.
+    /// The value of lane `i`. Panics past the last lane.
     fn lane(self, i: usize) -> u32;
     /// Sum modulo 2³².
     fn wrapping_add(self, other: Self) -> Self;
@@ -58,24 +58,25 @@ pub trait Uint: Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = S
     fn wrapping_sub(self, other: Self) -> Self;
     /// Product modulo 2³².
     fn wrapping_mul(self, other: Self) -> Self;
-    /// Shift towards the high bits, `bits` < 32.
+    /// Shifts towards the high bits; `bits` < 32.
     fn shl(self, bits: u32) -> Self;
-    /// Shift towards the low bits, `bits` < 32; zeros come in.
+    /// Shifts towards the low bits, filling with zeros; `bits` < 32.
     fn shr(self, bits: u32) -> Self;
-    /// Bit k becomes bit 31 − k.
+    /// Reverses the bits: bit k becomes bit 31 − k.
     fn reverse_bits(self) -> Self;
     /// All ones in the lanes where `self < other`, zeros elsewhere.
     fn lt(self, other: Self) -> Self;
-    /// Is any bit of any lane set?
+    /// True if any bit of any lane is set.
     fn any(self) -> bool;
 }
 
 /// A real number or a packet of them: everything that a warp needs, and no more.
 ///
-/// Implemented for `f32`, `f64`, [`f32x4`](wide::f32x4), [`f32x8`](wide::f32x8) and [`f64x4`](wide::f64x4).
-/// Comparisons with NaN are false, as for scalars.
+/// Implemented for `f32`, `f64`, [`f32x4`](wide::f32x4), [`f32x8`](wide::f32x8) and [`f64x4`](wide::f64x4). Comparisons with
+/// NaN are false, as for scalars.
 pub trait Real:
-    Sealed
+    'static
+    + Sealed
     + Copy
     + Debug
     + Default
@@ -89,11 +90,11 @@ pub trait Real:
     + SubAssign
     + MulAssign
 {
-    /// One lane.
+    /// The type of one lane.
     type Scalar: Real<Scalar = Self::Scalar> + PartialOrd;
-    /// Truth per lane.
+    /// A truth value per lane.
     type Mask: Mask;
-    /// 32-bit counters, as many lanes.
+    /// A 32-bit counter per lane.
     type Uint: Uint;
     /// Number of lanes.
     const LANES: usize;
@@ -106,9 +107,9 @@ pub trait Real:
     fn lit(value: f64) -> Self;
     /// Lane `i` is `f(i)`.
     fn from_fn(f: impl FnMut(usize) -> Self::Scalar) -> Self;
-    /// Lane `i`. Panics past the last lane.
+    /// The value of lane `i`. Panics past the last lane.
     fn lane(self, i: usize) -> Self::Scalar;
-    /// Lane `i` to f64, exactly. Panics past the last lane.
+    /// The value of lane `i`, converted to f64 exactly. Panics past the last lane.
     fn lane_f64(self, i: usize) -> f64;
 
     /// `self < other`, per lane.
@@ -125,73 +126,73 @@ pub trait Real:
     fn ge(self, other: Self) -> Self::Mask {
         other.le(self)
     }
-    /// `yes` where the mask is true, `no` elsewhere.
+    /// Takes the lanes of `yes` where the mask is true, and those of `no` elsewhere.
     fn blend(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// [`select`](Real::blend) for counters.
+    /// [`blend`](Real::blend) for counters.
     fn blend_uint(mask: Self::Mask, yes: Self::Uint, no: Self::Uint) -> Self::Uint;
     /// `self` where the mask is true, +0 elsewhere.
     fn keep(self, mask: Self::Mask) -> Self;
     /// `-self` where the mask is true, `self` elsewhere.
     fn negate_where(self, mask: Self::Mask) -> Self;
-    /// `self < other ? self : other`: the second where either is NaN.
+    /// `self < other ? self : other`: `other` where either is NaN.
     fn lesser(self, other: Self) -> Self;
-    /// `self > other ? self : other`: the second where either is NaN.
+    /// `self > other ? self : other`: `other` where either is NaN.
     fn greater(self, other: Self) -> Self;
-    /// Into [lo, hi]; a NaN becomes `lo`.
+    /// Clamps to [lo, hi]; a NaN becomes `lo`.
     #[inline(always)]
     fn clamped(self, lo: Self, hi: Self) -> Self {
         self.greater(lo).lesser(hi)
     }
     /// Absolute value.
     fn abs(self) -> Self;
-    /// Magnitude of `self`, sign bit of `sign`.
+    /// The magnitude of `self` with the sign bit of `sign`.
     fn copysign(self, sign: Self) -> Self;
     /// Square root, correctly rounded; NaN for negative numbers.
     fn sqrt(self) -> Self;
     /// Nearest integer, ties to even.
     fn round_ties_even(self) -> Self;
-    /// `self * a + b`: rounded once where the target has fused multiply-add (on all widths alike), twice elsewhere.
+    /// `self * a + b`: rounded once where the target has fused multiply-add (alike at every width), twice elsewhere.
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// `a * b - rounded(a * b)`, exactly, barring overflow and underflow (TwoProd).
     fn two_prod_error(a: Self, b: Self, product: Self) -> Self;
-    /// 2⁻ᵉ where e is the exponent of `self`: a power of two that brings a finite number to [1, 4) (a subnormal one below
-    /// that) and has a finite reciprocal.
+    /// 2⁻ᵉ, where e is the exponent of `self`: a power of two that scales a finite number to [1, 4) (a subnormal one to less),
+    /// and has a finite reciprocal.
     fn pow2_scale(self) -> Self;
     /// floor(log₂ self) of a positive normal number.
     fn exponent(self) -> Self;
-    /// 2ⁿ where `self` is the integer n, from −126 (−1022 in double precision) to 127 (1023).
+    /// 2ⁿ for an integer n = `self` from −126 (−1022 in double precision) to 127 (1023).
     fn power_of_two(self) -> Self;
     /// A number in [0, 1 − 2⁻²⁴] from the 24 high bits, on the same grid at every precision.
     fn unit(bits: Self::Uint) -> Self;
-    /// The integers as reals: exact below 2²⁴.
+    /// Converts counters to reals: exact below 2²⁴.
     fn from_uint(value: Self::Uint) -> Self;
     /// The integer part of reals in [0, 2²⁴].
     fn to_uint(self) -> Self::Uint;
 
-    /// (sin 2πu, cos 2πu); see [`math`](crate::math) for the errors.
+    /// (sin 2πu, cos 2πu) for u = `self`; see [`math`](crate::math) for the errors.
     fn sin_cos_turns(self) -> (Self, Self);
-    /// Arc cosine in radians, of the argument clamped to [−1, 1].
+    /// Arc cosine in radians of the argument clamped to [−1, 1].
     fn acos(self) -> Self;
     /// Angle of (x, y) = (`other`, `self`) in radians, in [−π, π]; 0 at the origin.
     fn atan2(self, other: Self) -> Self;
-    /// eˣ; 0 below −87.3, where it would be subnormal, and no more than e^88.3 (−708 and 709 in double precision).
+    /// eˣ; 0 below −87.3, where it would be subnormal, and at most e^88.3 (−708 and 709 in double precision).
     fn exp(self) -> Self;
-    /// eˣ − 1, free of cancellation; the same limits.
+    /// eˣ − 1, free of cancellation; with the limits of [`exp`](Real::exp).
     fn exp_m1(self) -> Self;
-    /// ln(1 + x), free of cancellation; −∞ for −1 and NaN below are not promised: callers guard.
+    /// ln(1 + x) for x > −1, free of cancellation. At and below −1 the result is unspecified; callers must guard against it.
     fn ln_1p(self) -> Self;
-    /// Cube root of a number that is not negative; 0 for a subnormal one.
+    /// Cube root of a number ≥ 0; 0 for a subnormal one.
     fn cbrt(self) -> Self;
-    /// Φ: the probability that a standard normal variable is below `self`. The lower tail keeps its relative accuracy.
+    /// Φ, the probability that a standard normal variable is below `self`. The lower tail keeps its relative accuracy.
     fn normal_cdf(self) -> Self;
-    /// Φ⁻¹ of the argument moved into [2⁻²⁵, 1 − 2⁻²⁵], so that the result is within ±5.42.
+    /// Φ⁻¹ of the argument clamped to [2⁻²⁵, 1 − 2⁻²⁵], so that the result is within ±5.42.
     fn normal_quantile(self) -> Self;
 }
 
-/// The greatest finite number of single precision: magnitudes are held below it at every precision.
+/// The greatest finite number of single precision; results stay within it at every precision.
 pub(crate) const GREATEST: f64 = f32::MAX as f64;
 
-/// Into [0, 1 − 2⁻²⁴], the range of `u`; NaN becomes 0.
+/// Clamps to [0, 1 − 2⁻²⁴], the range of `u`; NaN becomes 0.
 #[inline]
 pub(crate) fn unit_interval<R: Real>(x: R) -> R {
     x.clamped(R::lit(0.0), R::ONE_MINUS_EPSILON)

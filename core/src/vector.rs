@@ -13,22 +13,22 @@ macro_rules! vector {
             $(#[doc = concat!("Component ", stringify!($axis), ".")] pub $axis: R,)+
         }
         impl<R: Real> $name<R> {
-            /// From components.
+            /// The vector with these components.
             #[inline(always)]
             pub const fn new($($axis: R),+) -> Self {
                 Self { $($axis),+ }
             }
-            /// One vector in every lane.
+            /// Repeats one vector in every lane.
             #[inline(always)]
             pub fn splat(v: $name<R::Scalar>) -> Self {
                 Self { $($axis: R::splat(v.$axis)),+ }
             }
-            /// Lane `i`. Panics past the last lane.
+            /// The vector of lane `i`. Panics past the last lane.
             #[inline(always)]
             pub fn lane(self, i: usize) -> $name<R::Scalar> {
                 $name { $($axis: self.$axis.lane(i)),+ }
             }
-            /// `yes` where the mask is true, `no` elsewhere.
+            /// Takes the lanes of `yes` where the mask is true, and those of `no` elsewhere.
             #[inline(always)]
             pub fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
                 Self { $($axis: R::blend(mask, yes.$axis, no.$axis)),+ }
@@ -43,7 +43,7 @@ macro_rules! vector {
             pub fn length_squared(self) -> R {
                 self.dot(self)
             }
-            /// Length; 0 for vectors so short that the square underflows.
+            /// Length; 0 for a vector so short that its square underflows.
             #[inline(always)]
             pub fn length(self) -> R {
                 self.length_squared().sqrt()
@@ -86,15 +86,20 @@ macro_rules! vector {
     };
 }
 vector!(
-    /// A point of the plane, or of the unit square.
+    /// A point of a plane or of the unit square, over a scalar or a packet.
     Vec2 { x, y }
 );
 vector!(
-    /// A point or a direction in space.
+    /// A point or a direction in space, over a scalar or a packet.
     Vec3 { x, y, z }
 );
 
 impl<R: Real> Vec2<R> {
+    /// The constants nearest to these components, in every lane.
+    #[inline(always)]
+    pub fn lit([x, y]: [f64; 2]) -> Self {
+        Self { x: R::lit(x), y: R::lit(y) }
+    }
     /// Inner product.
     #[inline(always)]
     pub fn dot(self, o: Self) -> R {
@@ -108,7 +113,7 @@ impl<R: Real> Vec3<R> {
     pub fn dot(self, o: Self) -> R {
         self.x.mul_add(o.x, self.y.mul_add(o.y, self.z * o.z))
     }
-    /// Cross product; each component is good to 1.5 ulp of itself, however nearly parallel the factors are.
+    /// Cross product; each component is accurate to 1.5 ulp, however nearly parallel the factors are.
     #[inline(always)]
     pub fn cross(self, o: Self) -> Self {
         Self {
@@ -117,13 +122,13 @@ impl<R: Real> Vec3<R> {
             z: difference_of_products(self.x, o.y, self.y, o.x),
         }
     }
-    /// Unit vector; lanes whose squared length is 0 become the zero vector.
+    /// The unit vector in this direction; 0 in lanes whose squared length is 0.
     #[inline(always)]
     pub fn normalize(self) -> Self {
         let squared = self.length_squared();
         self * rsqrt(squared).keep(squared.gt(R::lit(0.0)))
     }
-    /// Unit vector and length at any scale; 0 for 0.
+    /// Unit vector and length, at any scale; 0 and 0 for the zero vector.
     #[inline(always)]
     pub(crate) fn unit_and_length(self) -> (Self, R) {
         let scale = self.max_abs().pow2_scale();
@@ -145,6 +150,16 @@ impl<R: Real> Vec3<R> {
         let (s, e3) = two_sum(s, z);
         s + ((e1 + e2 + e3) + ((ex - eq) + (ey + ez)))
     }
+    /// The vector where the mask is true, 0 elsewhere.
+    #[inline(always)]
+    pub fn keep(self, mask: R::Mask) -> Self {
+        Self { x: self.x.keep(mask), y: self.y.keep(mask), z: self.z.keep(mask) }
+    }
+    /// The constants nearest to these components, in every lane.
+    #[inline(always)]
+    pub fn lit([x, y, z]: [f64; 3]) -> Self {
+        Self { x: R::lit(x), y: R::lit(y), z: R::lit(z) }
+    }
     /// Largest magnitude of a component.
     #[inline(always)]
     pub fn max_abs(self) -> R {
@@ -153,22 +168,22 @@ impl<R: Real> Vec3<R> {
 }
 
 lanewise! {
-    /// A right-handed orthonormal frame: local z is the given direction.
+    /// A right-handed orthonormal frame whose local z axis is a given direction.
     #[derive(PartialEq)]
     pub struct Frame {
-        /// Local x axis.
+        /// Local x axis, a unit vector.
         pub s: Vec3<R>,
-        /// Local y axis.
+        /// Local y axis, a unit vector.
         pub t: Vec3<R>,
-        /// Local z axis.
+        /// Local z axis, a unit vector.
         pub n: Vec3<R>,
     }
 }
 
 impl<R: Real> Frame<R> {
-    /// Frame about the unit vector `n`, continuous but for a jump where `n.z` changes sign.
+    /// The frame about the unit vector `n`, continuous except for a jump where `n.z` changes sign.
     ///
-    /// Orthonormal to 2.4e−7 for any unit `n`, at `n.z = −1` too. Source: Duff et al., "Building an Orthonormal Basis,
+    /// It is orthonormal to 2.4e−7 for any unit `n`, including `n.z = −1`. Source: Duff et al., "Building an Orthonormal Basis,
     /// Revisited", JCGT 6(1), 2017, listing 3.
     #[inline(always)]
     pub fn new(n: Vec3<R>) -> Self {
@@ -181,12 +196,12 @@ impl<R: Real> Frame<R> {
             n,
         }
     }
-    /// From local coordinates to the frame's space.
+    /// Maps local coordinates to the space of the frame.
     #[inline(always)]
     pub fn to_world(&self, v: Vec3<R>) -> Vec3<R> {
         self.s.mul_add(v.x, self.t.mul_add(v.y, self.n * v.z))
     }
-    /// From the frame's space to local coordinates.
+    /// Maps a vector in the space of the frame to local coordinates.
     #[inline(always)]
     pub fn to_local(&self, v: Vec3<R>) -> Vec3<R> {
         Vec3::new(v.dot(self.s), v.dot(self.t), v.dot(self.n))

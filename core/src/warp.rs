@@ -1,31 +1,31 @@
-//! Maps from the unit square to a shape, with no viewpoint: the density and the inverse stand beside each map.
+//! Maps from the unit square to a shape that has no viewpoint, each with its pdf and its inverse.
 //!
-//! | warp | point | density | notes |
+//! | warp | point | pdf | notes |
 //! |---|---|---|---|
 //! | [`ConcentricDisk`] | unit disk | 1/π | keeps strata compact |
-//! | [`PolarDisk`] | unit disk | 1/π | cheaper; strata become long near the centre |
+//! | [`PolarDisk`] | unit disk | 1/π | strata grow long near the centre; no faster |
 //! | [`Cone`] | directions within σ of +z | 1/(2π(1−cosσ)) | any σ from 1e−19 to π |
 //! | [`UniformHemisphere`] | directions, z ≥ 0 | 1/(2π) | a cone |
 //! | [`UniformSphere`] | directions | 1/(4π) | a cone |
-//! | [`Octahedral`] | directions | 1/(4π) | nearly continuous: for images of the sphere |
+//! | [`Octahedral`] | directions | 1/(4π) | nearly continuous: suits images of the sphere |
 //! | [`CosineHemisphere`] | directions, z ≥ 0 | z/π | concentric |
 //! | [`AreaTriangle`] | barycentrics of a triangle | 2 | per unit of barycentric area |
-//! | [`LowDistortionTriangle`] | the same | 2 | keeps strata compact; cheaper |
-//! | [`GgxVisibleNormals`] | normals of a microsurface | D_v | anisotropic; reflected density too |
+//! | [`LowDistortionTriangle`] | barycentrics of a triangle | 2 | keeps strata compact; cheaper |
+//! | [`GgxVisibleNormals`] | normals of a microsurface | D_v | anisotropic; also gives the pdf of the reflected direction |
 //! | [`Bilinear`] | unit square | bilinear in the point | for textured or tilted emitters |
 //! | [`DiskSurface`] | points of a disk in space | 1/(πR²) | [`per_steradian`] converts |
-//! | [`CylinderSide`] | points of a cylinder's side | 1/(2πRL) | as that |
-//! | [`SphereSurface`] | points of a sphere | 1/(4πR²) | as that |
-//! | [`PatchSurface`] | points of a bilinear patch | nearly 1/area | as that |
+//! | [`CylinderSide`] | points of a cylinder's side | 1/(2πRL) | [`per_steradian`] converts |
+//! | [`SphereSurface`] | points of a sphere | 1/(4πR²) | [`per_steradian`] converts |
+//! | [`PatchSurface`] | points of a bilinear patch | nearly 1/area | [`per_steradian`] converts |
 //!
-//! On a line, as [`Warp1`]:
+//! One-dimensional maps implement [`Warp1`]:
 //!
-//! | warp | point | density | notes |
+//! | warp | point | pdf | notes |
 //! |---|---|---|---|
-//! | [`Linear`] | [0, 1) | linear between two end values | a = b too |
+//! | [`Linear`] | [0, 1) | linear between two end values | includes a = b |
 //! | [`Tent`] | [−r, r] | (r − \|x\|)/r² | pixel filters |
 //! | [`Exponential`] | [0, ∞) | λ exp(−λx) | distances in a medium |
-//! | [`Normal`] | the line | Gaussian | by inverse erf: keeps strata, has an inverse |
+//! | [`Normal`] | the line | Gaussian | by the quantile function: keeps strata, has an inverse |
 
 mod bilinear;
 mod cone;
@@ -55,29 +55,29 @@ pub use visible_normals::GgxVisibleNormals;
 use crate::real::Real;
 use crate::vector::Vec2;
 
-/// A bijection between the unit square and a shape (up to sets of measure 0), together with its density.
+/// A bijection between the unit square and a shape (up to sets of measure 0), together with its pdf.
 ///
-/// What holds for everything that implements it, and is tested by one suite of properties:
-/// `invert(sample(u)) = u`; the integral of `pdf` over the shape is 1; samples of uniform `u` have that density;
-/// scalars and packets give the same bits; no finite input gives NaN, infinity or a panic.
+/// Every implementation keeps these properties, and one test suite checks them all: `invert(sample(u)) = u`; `pdf` integrates
+/// to 1 over the shape; uniform `u` gives samples with that pdf; scalars and packets give the same bits; no finite input gives
+/// NaN, infinity or a panic.
 pub trait Warp<R: Real> {
-    /// [`Vec2`] on a plane, [`Vec3`](crate::Vec3) for a direction.
+    /// [`Vec2`] for a point of a plane, [`Vec3`](crate::Vec3) for a direction or a point in space.
     type Point;
-    /// The point for `u` in [0, 1)²; `u` up to and including 1 is tolerated.
+    /// Maps `u` in [0, 1)² to a point of the shape; also accepts a coordinate of exactly 1.
     fn sample(&self, u: Vec2<R>) -> Self::Point;
-    /// Density at a point, per unit area or per steradian; 0 outside the shape.
+    /// The pdf at a point, per unit area or per steradian as the implementation states; 0 outside the shape.
     fn pdf(&self, point: Self::Point) -> R;
-    /// The `u` in [0, 1)² that `sample` maps to the point; any value in [0, 1)² for a point outside the shape.
+    /// Returns the `u` in [0, 1)² that `sample` maps to the point; for a point outside the shape, some value in [0, 1)².
     fn invert(&self, point: Self::Point) -> Vec2<R>;
 }
 
-/// A monotone bijection between the unit interval and a part of the line, together with its density: [`Warp`] in one dimension,
-/// under the same properties.
+/// A monotone bijection between the unit interval and a part of the line, together with its pdf: [`Warp`] in one dimension,
+/// with the same properties.
 pub trait Warp1<R: Real> {
-    /// The point for `u` in [0, 1); `u` up to and including 1 is tolerated.
+    /// Maps `u` in [0, 1) to a point; also accepts exactly 1.
     fn sample(&self, u: R) -> R;
-    /// Density at a point, per unit length; 0 outside.
+    /// The pdf at `x`, per unit length; 0 outside the range.
     fn pdf(&self, x: R) -> R;
-    /// The `u` in [0, 1) that `sample` maps to the point; any value in [0, 1) for a point outside.
+    /// Returns the `u` in [0, 1) that `sample` maps to `x`; for an `x` outside the range, some value in [0, 1).
     fn invert(&self, x: R) -> R;
 }

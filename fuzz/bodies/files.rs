@@ -1,10 +1,10 @@
-//! Bodies of the fuzz targets of files, scenes and images. A test of the renderer runs the same functions: `render/tests/campaign.rs`.
+//! Bodies of the fuzz targets for files: scenes and images. `render/tests/fuzz_bodies.rs` runs the same functions.
 
 use etendue_render::compare::Comparison;
 use etendue_render::{World, image as images, scene};
 use std::path::Path;
 
-/// Any text as a scene: a scene or an error with file and line, never a panic; and a scene that is read can be built.
+/// Any text gives a scene, or an error with file and line, but never a panic; and a scene that was read can be built.
 pub(crate) fn scene(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
     match scene::parse(&text, "fuzz.pbrt", Path::new("no such folder")) {
@@ -13,7 +13,7 @@ pub(crate) fn scene(bytes: &[u8]) {
     }
 }
 
-/// Any bytes as an image: a picture or an error with the file's name, never a panic; and it equals itself.
+/// Any bytes give an image, or an error with the file's name, but never a panic; and the image equals itself.
 pub(crate) fn image(bytes: &[u8]) {
     match images::decode(Path::new("fuzz.exr"), bytes) {
         Ok(picture) => {

@@ -1,4 +1,4 @@
-//! `campaign::cone` on any bytes.
+//! Runs `fuzz_bodies::cone` on any bytes.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::fuzz_bodies::cone(bytes));

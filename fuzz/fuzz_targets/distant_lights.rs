@@ -1,4 +1,4 @@
-//! `campaign::distant_lights` on any bytes.
+//! Runs `fuzz_bodies::distant_lights` on any bytes.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::fuzz_bodies::distant_lights(bytes));

@@ -1,4 +1,4 @@
-//! Any bytes as an image.
+//! Reads any bytes as an image.
 #![no_main]
 
 #[path = "../bodies/files.rs"]

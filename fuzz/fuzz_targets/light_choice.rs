@@ -1,4 +1,4 @@
-//! `campaign::light_choice` on any bytes.
+//! Runs `fuzz_bodies::light_choice` on any bytes.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::fuzz_bodies::light_choice(bytes));

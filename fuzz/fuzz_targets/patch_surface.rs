@@ -1,4 +1,4 @@
-//! `campaign::patch_surface` on any bytes.
+//! Runs `fuzz_bodies::patch_surface` on any bytes.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::fuzz_bodies::patch_surface(bytes));

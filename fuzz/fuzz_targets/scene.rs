@@ -1,4 +1,4 @@
-//! Any bytes as a scene.
+//! Reads any bytes as a scene.
 #![no_main]
 
 #[path = "../bodies/files.rs"]

@@ -1,4 +1,4 @@
-//! `campaign::sphere_surface` on any bytes.
+//! Runs `fuzz_bodies::sphere_surface` on any bytes.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::fuzz_bodies::sphere_surface(bytes));

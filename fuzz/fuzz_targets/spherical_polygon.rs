@@ -1,4 +1,4 @@
-//! `campaign::spherical_polygon` on any bytes.
+//! Runs `fuzz_bodies::spherical_polygon` on any bytes.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_tests::fuzz_bodies::spherical_polygon(bytes));

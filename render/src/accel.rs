@@ -1,11 +1,11 @@
-//! Ray intersection in groups of up to 8 packets of 8: trees built by obvhs, traversed here.
+//! Ray intersection in groups of up to 8 packets of 8 rays, over trees that obvhs builds.
 //!
-//! Guarantees: the tree never loses a hit that the test of a triangle would report (slabs are widened by more than the error of the
-//! triangle test); neighbouring triangles leave no gap between them; zero components and −0 in directions are as good as others;
-//! nothing depends on the unit of length. A hit is nearer than its limit, never at it; ties of equal distance go to the triangle of
-//! lower index. So what a ray hits depends on neither its companions nor the way it takes through the tree, bit for bit.
+//! Guarantees: traversal never loses a hit that the triangle test would report, since slabs are widened by more than the error of
+//! that test. There are no gaps between adjacent triangles. Directions may have components 0 and −0. Nothing depends on the unit of
+//! length. A hit is strictly nearer than its limit, and of two hits at equal distance the triangle of lower index wins. What a ray
+//! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 
-/// Calls a function whose planes are in an order that depends on the octant of the rays alone.
+/// Calls a function that is specialised to the octant of the rays, or to `other` if there is none.
 macro_rules! by_octant {
     ($octant:expr, else $other:literal, $this:ident.$function:ident $arguments:tt) => {
         match $octant {
@@ -43,37 +43,37 @@ use tree::{Primitives, Tree};
 
 use etendue::{Frame, Mask, Real, Vec3, f32x8, u32x8};
 
-/// Eight lanes.
+/// Eight numbers, one per lane.
 pub type X8 = f32x8;
 /// Eight points or directions.
 pub type V8 = Vec3<f32x8>;
-/// Truth in eight lanes.
+/// A mask of eight lanes.
 pub type M8 = <f32x8 as Real>::Mask;
 
-/// Marks an id as one of a shape (sphere, emitter) and not of a mesh triangle.
+/// Bit of an id that marks a shape (sphere, emitter) instead of a mesh triangle.
 pub const SHAPE: u32 = 1 << 31;
-/// Children of a node of a tree.
+/// Greatest number of children of a node.
 pub(crate) const WIDTH: usize = 8;
-/// Packets that are traced together, at the most.
+/// Greatest number of packets in a group.
 pub const GROUP: usize = 8;
-/// The id where nothing was hit.
+/// The id of a miss.
 pub const NOTHING: u32 = u32::MAX;
 
-/// Eight rays in the form in which they are traversed.
+/// Eight rays, prepared for traversal.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays {
     /// Origins.
     pub origin: V8,
     /// Unit directions.
     pub direction: V8,
-    /// Two unit vectors that complete the direction to a frame: a vertex is projected along the ray onto them.
+    /// Two unit vectors that complete the direction to a frame; vertices are projected onto them along the ray.
     frame: [V8; 2],
     inverse: V8,
     /// −(origin ± pad)/direction, for the lower and the upper planes of boxes.
     offset: [V8; 2],
-    /// Per axis: do all rays run towards +, all towards −, or neither?
+    /// Whether the rays run towards − along each axis; `None` if they disagree along one.
     common_sign: Option<[bool; 3]>,
-    /// By how much boxes are widened, at the most.
+    /// Greatest distance by which boxes are widened.
     pad: f32,
 }
 
@@ -93,11 +93,11 @@ impl Default for Rays {
 }
 
 impl Rays {
-    /// Eight rays. `reach` is the greatest magnitude of a coordinate in the scene: slabs are widened in proportion to it.
+    /// Prepares eight rays. `reach` is the greatest magnitude of a coordinate in the scene; slabs are widened in proportion to it.
     #[inline(always)]
     pub fn new(origin: V8, direction: V8, reach: f32) -> Self {
         let frame = Frame::new(direction);
-        // a ray that is parallel to a plane to within 1e−18 of its length never reaches it
+        // components below 1e−18 count as 1e−18, with which a ray never reaches the planes across that axis
         let invert = |d: X8| X8::lit(1.0) / max(d.abs(), X8::lit(1e-18)).copysign(d);
         let inverse = Vec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
         // 2⁻²⁰ of the largest coordinate involved: 16 times the rounding of a vertex relative to the origin
@@ -120,26 +120,26 @@ impl Rays {
     }
 }
 
-/// What eight rays hit first.
+/// The nearest hits of eight rays.
 #[derive(Clone, Copy, Debug)]
 pub struct Hits {
-    /// Distance; the rays' limit where nothing was hit.
+    /// Distances; the rays' limits for misses.
     pub distance: X8,
-    /// Place of a triangle in the order of the leaves, or index of a shape with [`SHAPE`] set, or [`NOTHING`].
+    /// Index of a triangle in leaf order, index of a shape with the bit [`SHAPE`] set, or [`NOTHING`].
     pub place: u32x8,
-    /// Barycentric coordinates of the second vertex of a triangle.
+    /// Barycentric coordinates of the triangles' second vertices.
     pub b1: X8,
-    /// Barycentric coordinates of the third vertex of a triangle.
+    /// Barycentric coordinates of the triangles' third vertices.
     pub b2: X8,
 }
 
 impl Hits {
-    /// Nothing hit up to `limit`.
+    /// Misses, with hits to be searched nearer than `limit`.
     #[inline]
     pub fn none(limit: X8) -> Self {
         Self { distance: limit, place: u32x8::splat(NOTHING), b1: X8::lit(0.0), b2: X8::lit(0.0) }
     }
-    /// True where something was hit.
+    /// Lanes that hit something.
     #[inline]
     pub fn any(&self) -> M8 {
         !equal(self.place, u32x8::splat(NOTHING))
@@ -160,27 +160,27 @@ impl Hits {
         self.b1.as_mut_array()[lane] = nearest.b1;
         self.b2.as_mut_array()[lane] = nearest.b2;
     }
-    /// True where a shape was hit.
+    /// Lanes that hit a shape.
     #[inline]
     pub fn shapes(&self) -> M8 {
         self.any() & !below(self.place, u32x8::splat(SHAPE))
     }
 }
 
-/// `yes` where the mask is true, `no` elsewhere. (A free function, as are [`min`] and [`max`]: the packet type has methods of
-/// these names that would be found first, with other arguments or with checks for NaN.)
+/// `yes` where the mask is true, `no` elsewhere. (Free functions, like [`min`] and [`max`], because the packet type has methods of
+/// these names with other arguments or with checks for NaN.)
 #[inline]
 pub fn select(mask: M8, yes: X8, no: X8) -> X8 {
     Real::blend(mask, yes, no)
 }
 
-/// The lesser; `b` where either is NaN.
+/// The lesser per lane; `b` where either is NaN.
 #[inline]
 pub fn min(a: X8, b: X8) -> X8 {
     Real::lesser(a, b)
 }
 
-/// The greater; `b` where either is NaN.
+/// The greater per lane; `b` where either is NaN.
 #[inline]
 pub fn max(a: X8, b: X8) -> X8 {
     Real::greater(a, b)
@@ -204,22 +204,22 @@ pub fn pick(mask: M8, yes: u32x8, no: u32x8) -> u32x8 {
     select(mask, X8::from_bits(yes), X8::from_bits(no)).to_bits()
 }
 
-/// How groups of packets go through the tree of triangles. It makes no difference to what they hit.
+/// How groups of packets traverse the tree of triangles. The hits do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Way {
-    /// As one where they have a narrow shaft in common, else as a stream.
+    /// As one frustum if the group fits into a narrow shaft, otherwise as a stream.
     #[default]
     Choose,
-    /// As a stream: each node is visited once, by the rays that enter it. Rays that are left alone go on one by one, or, where the rays of the
-    /// group have no octant in common, a step of each in turn.
+    /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes alone; in
+    /// groups of mixed octants, these rays are interleaved.
     Stream,
     /// Ray by ray.
     Single,
-    /// Each leaf in turn, whatever else has been hit, without the tree above it: the oracle of the others.
+    /// Every leaf, regardless of other hits and without the tree above it: the oracle for the other traversals.
     Exhaustive,
 }
 
-/// All that rays can meet: mesh triangles in a tree, and the shapes that are intersected as they are.
+/// Everything rays can hit: mesh triangles in a tree, and shapes that are intersected as such.
 #[derive(Debug)]
 pub struct Accel {
     triangles: Tree<triangle::Soup>,
@@ -230,39 +230,39 @@ pub struct Accel {
 }
 
 impl Accel {
-    /// Builds over mesh triangles and shapes.
+    /// Builds the tree over mesh triangles.
     ///
     /// # Errors
-    /// More than 2³¹ − 1 triangles.
+    /// Fails if there are more than 2³¹ − 1 triangles.
     pub fn new(triangles: &[[[f32; 3]; 3]], shapes: ShapeSet) -> Result<Self, BuildError> {
-        // with room for what loads from the last leaf
+        // room for eight-lane loads beyond the last leaf
         let mut own = Vec::with_capacity(triangles.len() + 1);
         own.extend_from_slice(triangles);
         Self::taking(own, shapes)
     }
-    /// The same, in the memory of the triangles: it needs that of a few thousand of them besides what it holds in the end.
+    /// Like [`Accel::new`], but builds in the memory of the triangles. Beyond the finished tree, this takes the memory of a few
+    /// thousand triangles.
     ///
     /// # Errors
-    /// More than 2³¹ − 1 triangles.
+    /// Fails if there are more than 2³¹ − 1 triangles.
     pub fn taking(triangles: Vec<[[f32; 3]; 3]>, shapes: ShapeSet) -> Result<Self, BuildError> {
         let triangles = triangle::Soup::tree(triangles)?;
         let reach = triangles.reach().max(shapes.reach());
         Ok(Self { triangles, way: Way::default(), shapes, reach })
     }
-    /// The same, but rays go through it in another way: to compare them.
+    /// The same scene with another traversal, for comparisons.
     #[must_use]
     pub fn with_way(self, way: Way) -> Self {
         Self { way, ..self }
     }
-    /// Rays for this scene.
+    /// Prepares rays for this scene.
     #[inline(always)]
     pub fn rays(&self, origin: V8, direction: V8) -> Rays {
         Rays::new(origin, direction, self.reach)
     }
-    /// The nearest hits in the lanes of `active`, nearer than what `hits` holds, for a group of packets at once: best for
-    /// packets that have much in common.
+    /// Finds the nearest hits of the active lanes of a group of packets, if nearer than those in `hits`. Coherent groups are fastest.
     ///
-    /// All slices are of one length, up to [`GROUP`].
+    /// All slices must have the same length, at most [`GROUP`].
     #[inline]
     pub fn closest(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
         let shaft = self.shaft(rays, active);
@@ -279,13 +279,13 @@ impl Accel {
             (None, _) => self.triangles.closest_stream(rays, active, hits, stack),
         }
     }
-    /// The nearest hits of shapes alone.
+    /// Like [`Accel::closest`], for shapes only.
     #[inline]
     pub fn closest_shape(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
         let shaft = self.shaft(rays, active);
         self.closest_of_shapes(rays, active, shaft.as_ref(), hits, stack);
     }
-    /// Shapes are few: without a shaft packet by packet.
+    /// Nearest hits of shapes, packet by packet if there is no shaft, as shapes are few.
     #[inline]
     fn closest_of_shapes(
         &self,
@@ -302,12 +302,12 @@ impl Accel {
             self.shapes.tree().closest(&rays[p..=p], &active[p..=p], None, &mut hits[p..=p], stack);
         }
     }
-    /// Takes out of `active` the lanes in which something lies nearer than `limit`, other than shape `target`
-    /// (an index without [`SHAPE`], or [`NOTHING`]).
+    /// Clears the lanes of `active` that are occluded by something nearer than `limit`, other than the shape `target` (an index
+    /// without [`SHAPE`], or [`NOTHING`]).
     #[inline]
     pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], stack: &mut Stack) {
         let shaft = self.shaft(rays, active);
-        // the only shape does not hide itself
+        // a single shape does not occlude itself
         let own = |(&a, &t): (&M8, &u32x8)| !(a & !equal(t, u32x8::splat(0))).any();
         let none = match self.shapes.tree().count() {
             0 => true,
@@ -333,7 +333,7 @@ impl Accel {
             (None, _) => self.triangles.occluded_stream(rays, active, limit, stack),
         }
     }
-    /// As [`Self::closest_of_shapes`].
+    /// Occlusion by shapes, like [`Self::closest_of_shapes`].
     #[inline]
     fn occluded_by_shapes(
         &self,
@@ -354,7 +354,7 @@ impl Accel {
             }
         }
     }
-    /// A narrow shaft that the rays have in common.
+    /// The narrow shaft of the group, if there is one and the traversal may use it.
     #[inline]
     fn shaft(&self, rays: &[Rays], active: &[M8]) -> Option<Shaft> {
         if self.way == Way::Choose { Shaft::new(rays, active) } else { None }
@@ -364,11 +364,11 @@ impl Accel {
     pub fn corners(&self, place: u32) -> [f32; 9] {
         self.triangles.primitives().corners(place)
     }
-    /// For each place, the index of its triangle in the slice that the tree was built over.
+    /// The original index of each triangle, in leaf order.
     pub fn order(&self) -> &[u32] {
         self.triangles.primitives().ids()
     }
-    /// Bytes held by tree and triangles.
+    /// Size of tree and triangles in bytes.
     pub fn bytes(&self) -> usize {
         self.triangles.bytes()
     }

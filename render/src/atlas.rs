@@ -1,7 +1,8 @@
-//! Where methods fail: every technique of the core, and the textbook's beside it, over sweeps of size, elevation, aspect ratio and distance,
-//! against the truth in 106 bits.
+//! Maps where methods fail: compares every technique of the library, and textbook formulas, with the exact result in 106 bits, over
+//! sweeps of size, elevation, aspect ratio and distance.
 //!
-//! - [`pose`]: the sweeps; [`truth`]: what is true; [`methods`]: what is measured; [`textbook`]: the baselines; [`page`]: the maps.
+//! [`pose`] has the sweeps, [`truth`] the exact results, [`methods`] the measured techniques, [`textbook`] the baselines and [`page`]
+//! the maps.
 
 pub mod curves;
 pub mod double_double;
@@ -24,27 +25,27 @@ use std::path::PathBuf;
 use std::time::Instant;
 use truth::Truth;
 
-/// What `etendue atlas` is asked for.
+/// Options of `etendue atlas`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// The folder to write atlas.html, atlas.csv and a sheet of maps for each sweep to
+    /// Folder for atlas.html, atlas.csv and one SVG of maps per sweep
     #[arg(short, long, default_value = "atlas")]
     pub output: PathBuf,
-    /// Shapes; all of them if not given
+    /// Shapes to measure [default: all]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub shape: Vec<Kind>,
-    /// Coarse maps, in less than a minute
+    /// Measure coarse maps, in less than a minute
     #[arg(long)]
     pub quick: bool,
-    /// Threads; 0 is one per core
+    /// Number of threads; 0 means one per core
     #[arg(long, default_value_t = 0)]
     pub threads: usize,
 }
 
-/// Measures, writes the page, and says what it shows.
+/// Measures, writes the page and prints a summary.
 ///
 /// # Errors
-/// A file cannot be written.
+/// Fails if a file cannot be written.
 pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let mut kinds = Vec::new();
     for &kind in if options.shape.is_empty() { Kind::all() } else { &options.shape } {
@@ -53,7 +54,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         }
     }
     let folder = &options.output;
-    // before an hour's work, not after it
+    // fail before the measurements, not after them
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let detail = Detail::new(options.quick);
@@ -68,36 +69,37 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Greatest error that the contract allows: of a density, of a direction relative to the shape's angular size, of a round trip.
+/// Greatest error that the contract allows: of a pdf, of a direction relative to the shape's angular size, and of a round trip.
 pub const LIMIT: f64 = 1e-5;
-/// Or, of a direction, so much in each component: 2 ulp.
+/// The contract also allows this error in each component of a direction: 2 ulp.
 const DIRECTION_ULP: f64 = 2.0 * f32::EPSILON as f64;
-/// Between u whose directions give a slope.
+/// Step of u for the derivatives of directions.
 const STEP: f64 = 1.0 / 4_294_967_296.0;
-/// Solid angles below have no finite reciprocal, or nearly so.
+/// Smaller solid angles have a reciprocal close to overflow, and are not measured.
 const NOTHING: f64 = 1e-36;
 
-/// What is measured in a cell. NaN: nothing was to be measured.
+/// The measurements of a cell; NaN if there was nothing to measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Figures {
-    /// Greatest error of a direction in any component, relative to the angular size, or to 0.024 where that is greater: 2 ulp are then the
-    /// limit.
+    /// Greatest error of a direction in any component, relative to the angular size or to 0.024, whichever is greater. At 0.024 the
+    /// limit is 2 ulp.
     pub direction: f64,
-    /// Greatest relative error of a density, beyond what 2 ulp of its direction change it.
+    /// Greatest relative error of the pdf, in excess of the change that 2 ulp of the direction cause.
     pub pdf: f64,
-    /// Greatest error of u after there and back; where 4 ulp of a direction (2 of the sample, 2 of the inverse) are worth more of u than the
-    /// limit, relative to that, times the limit. Samples where they are worth more than 0.1 are not counted: there f32 has no inverse. At a
-    /// tear of the map (about the zenith, or from one part to the next) two u are as good: there it is how far the direction that the technique
-    /// has for the inverse is from the sample, relative to 6 ulp (2 of either, 2 of the inverse), times the limit.
+    /// Greatest error of u after sampling and inverting. If 4 ulp of the direction (2 of the sample, 2 of the inverse) change u by more
+    /// than the limit, the error is relative to that change, times the limit. Samples where they change u by more than 0.1 do not count,
+    /// as f32 has no inverse there. At a discontinuity of the map (about the zenith, or between two parts) two values of u are equally
+    /// good: there the error is the distance from the sample to the direction of the inverse, relative to 6 ulp (2 of each
+    /// direction, 2 of the inverse), times the limit.
     pub round_trip: f64,
-    /// Part of the samples that had an inverse in f32.
+    /// Fraction of the samples that have an inverse in f32.
     pub invertible: f64,
-    /// Part of the samples with a NaN, an infinity, or a density of 0 where there is light, or above 0 where there is none.
+    /// Fraction of the samples with a NaN, an infinity, a pdf of 0 where there is light, or a positive pdf where there is none.
     pub invalid: f64,
-    /// Variance of area sampling over that of the technique: irradiance of a diffuse receiver, without shadows.
+    /// Variance of area sampling over that of the technique, for the irradiance of a diffuse receiver without shadows.
     pub variance_ratio: f64,
-    /// Error of the mean of the estimator of that irradiance over a stratified set, relative to the closed form: what the same set leaves of
-    /// the exact estimator is not counted. The receiver is the pose's if the technique is for it; else it faces the light.
+    /// Error of the mean estimate of that irradiance over a stratified set, relative to the closed form and beyond the error of the
+    /// exact estimator on the same set. The receiver is the pose's for projected techniques; otherwise it faces the light.
     pub bias: f64,
 }
 impl Figures {
@@ -110,7 +112,7 @@ impl Figures {
         variance_ratio: f64::NAN,
         bias: f64::NAN,
     };
-    /// Does it keep the contract, as far as that was measured?
+    /// Whether all measured errors are within the contract.
     #[must_use]
     pub fn meets(&self) -> bool {
         let within = |x: f64| x.is_nan() || x <= LIMIT;
@@ -119,44 +121,44 @@ impl Figures {
     }
 }
 
-/// One technique over one sweep.
+/// The errors of one technique over one sweep.
 #[derive(Clone, Debug)]
 pub struct ErrorMap {
-    /// Of the shape.
+    /// Kind of shape.
     pub kind: Kind,
-    /// The axes.
+    /// Axes of the map.
     pub sweep: Sweep,
     /// The technique.
     pub method: Method,
-    /// Row by row, from below.
+    /// Cells row by row, from the bottom.
     pub cells: Vec<Figures>,
-    /// Nanoseconds to prepare for a point and draw one sample in scalars.
+    /// Nanoseconds to prepare for a point and draw one sample, in scalar code.
     pub cost: f64,
-    /// The same by area.
+    /// Nanoseconds for the same by area.
     pub area_cost: f64,
 }
 impl ErrorMap {
-    /// 1/(variance × cost) over that of area sampling.
+    /// Efficiency 1/(variance × cost), relative to area sampling.
     #[must_use]
     pub fn efficiency(&self, cell: &Figures) -> f64 {
         cell.variance_ratio * self.area_cost / self.cost
     }
 }
 
-/// How fine.
+/// How densely to measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Detail {
-    /// Rotations of each cell.
+    /// Number of rotated poses per cell.
     pub turns: u64,
-    /// Points of the square for each.
+    /// Number of samples per pose.
     pub samples: usize,
-    /// Strata on a side, for the bias.
+    /// Strata per dimension for the bias.
     pub strata: usize,
-    /// Coarse axes?
+    /// Whether the axes are coarse.
     pub quick: bool,
 }
 impl Detail {
-    /// Under a minute, or under 20.
+    /// Details for less than 1 minute (`quick`) or less than 20 minutes.
     #[must_use]
     pub fn new(quick: bool) -> Self {
         if quick {
@@ -167,14 +169,14 @@ impl Detail {
     }
 }
 
-/// How many cells there are.
+/// Number of cells of these kinds of shapes.
 #[must_use]
 pub fn cells(kinds: &[Kind], detail: Detail) -> usize {
     let of = |&kind: &Kind| pose::sweeps(kind, detail.quick).iter().map(|s| s.x.len() * s.y.len()).sum::<usize>();
     kinds.iter().map(of).sum()
 }
 
-/// Measures kinds of shapes; calls `tick` after each cell.
+/// Measures these kinds of shapes, and calls `tick` after each cell.
 pub fn survey(kinds: &[Kind], detail: Detail, tick: impl Fn() + Sync) -> Vec<ErrorMap> {
     let mut charts = Vec::new();
     for &kind in kinds {
@@ -221,10 +223,10 @@ fn cost(kind: Kind, sweep: &Sweep, method: &Method) -> f64 {
     best
 }
 
-/// What is true for one `u`.
+/// The exact result for one `u`.
 struct Reference {
     direction: V3,
-    /// Change of each coordinate of u per radian of the direction.
+    /// Greatest change of each coordinate of u per radian of the direction.
     sensitivity: [f64; 2],
 }
 
@@ -232,7 +234,7 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
     let u = u.map(f64::from);
     let direction = truth.direction(u);
     let slope = |axis: usize| -> V3 {
-        // far less than a step of u: at the ends of a sweep the slope is another after one
+        // far less than the spacing of u, within which the slope changes at the ends of a sweep
         let h = if u[axis] < 0.5 { STEP } else { -STEP };
         let mut moved = u;
         moved[axis] += h;
@@ -247,12 +249,12 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
     let (a, b) = (slope(0), slope(1));
     let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let area = length(cross);
-    // no derivative: nothing to be inverted
+    // without a derivative there is no inverse
     let per = |across: f64| if area > 0.0 { across / area } else { f64::INFINITY };
     Reference { direction, sensitivity: [per(length(b)), per(length(a))] }
 }
 
-/// Measures one cell by all methods.
+/// Measures one cell with all methods.
 #[must_use]
 pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], detail: Detail) -> Vec<Figures> {
     let mut tallies: Vec<_> = methods.iter().map(|_| Tally::default()).collect();
@@ -289,19 +291,19 @@ pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], det
         .collect()
 }
 
-/// The middle of each stratum of the square, moved so that none is at a power of two.
+/// One point in each stratum of the unit square.
 fn strata(side: usize) -> Vec<[f32; 2]> {
     let at = |k: usize, j: f64| ((k as f64 + j) / side as f64).min(1.0 - 1.0 / 16_777_216.0) as f32;
     (0..side * side)
         .map(|i| {
-            // a lattice in each stratum, so that edges along an axis do not line up
+            // jittered by a lattice, so that edges along an axis do not line up
             let jitter = [0.754_877_666, 0.569_840_291].map(|step| ((i as f64 + 0.5) * step).fract());
             [at(i % side, jitter[0]), at(i / side, jitter[1])]
         })
         .collect()
 }
 
-/// The bias of each method in a pose: the mean of (its estimate − the exact estimate for the same u), over the closed form.
+/// The bias of each method in a pose: the mean of (estimate − exact estimate for the same u), relative to the closed form.
 fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> {
     let truth = Truth::new(kind, pose);
     let normal = if kind.projected() { pose::unit(pose::wide(pose.normal)) } else { truth.towards() };
@@ -310,7 +312,7 @@ fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> 
         return vec![f64::NAN; methods.len()];
     }
     let us = strata(side);
-    // a line's weight is its density per radian times the distance
+    // the weight of a line is its pdf per radian times the distance
     let height = truth.height();
     let value = |w: V3, weight: f64| {
         let cos: f64 = (0..3).map(|i| w[i] * normal[i]).sum();
@@ -319,7 +321,7 @@ fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> 
     let [x, y, z] = pose.normal;
     let by_technique = |s: &Sample| {
         let [a, b, c] = s.direction;
-        // the cosine as a renderer has it, where the density holds it too
+        // the cosine in f32 as a renderer computes it, since the pdf contains it too
         let cos = Vec3::new(a, b, c).dot(Vec3::new(x, y, z));
         if s.weight > 0.0 && cos > 0.0 { f64::from(cos) * height / f64::from(s.weight) } else { 0.0 }
     };
@@ -328,7 +330,7 @@ fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> 
         .iter()
         .map(|u| {
             let w = truth.direction(u.map(f64::from));
-            // a projected one is worth the same wherever it is, on the horizon too
+            // projected techniques have a constant estimate, on the horizon too
             if kind.projected() { truth.measure } else { value_of(w, truth.pdf(w)[0]) }
         })
         .collect();
@@ -376,7 +378,7 @@ fn variance(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], method: &Method) -> f64
     let n = samples.len() as f64;
     let mean = samples.iter().map(value).sum::<f64>() / n;
     let square = samples.iter().map(|s| (value(s) - mean).powi(2)).sum::<f64>() / n;
-    // no variance at all: as much as f32 makes
+    // at least the variance that rounding to f32 causes
     if mean > 0.0 { (square / (mean * mean)).max(1e-13) } else { f64::NAN }
 }
 
@@ -394,11 +396,11 @@ struct Tally {
 impl Tally {
     fn add_unseen(&mut self, measure: f64, sample: &Sample) {
         self.all += 1.0;
-        // by area a point of the plane is seen from its edge; below the least measure either answer will do
+        // area sampling also works edge-on; below the least measure either answer is valid
         let right = sample.finite() && (sample.pdf == 0.0 || measure > 0.0 || sample.by_area);
         self.invalid += f64::from(u8::from(!right));
     }
-    /// `again`: the direction of the technique for another u.
+    /// Adds a sample; `again` returns the technique's direction for another u.
     fn add(
         &mut self,
         truth: &Truth,
@@ -423,7 +425,7 @@ impl Tally {
             return;
         }
         if sample.pdf <= 0.0 {
-            // on the horizon, to what a direction resolves, the density may be 0
+            // within the rounding of a direction from the horizon, the pdf may be 0
             let there = if sample.by_area { density } else { truth.pdf(reference.direction) };
             self.invalid += f64::from(u8::from(there[0] > there[1] * 2.0 * DIRECTION_ULP));
             return;

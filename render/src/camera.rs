@@ -1,20 +1,20 @@
-//! Camera rays in packets.
+//! The pinhole camera, in packets of eight rays.
 
 use crate::accel::{V8, X8};
 use crate::scene;
 
-/// A pinhole, ready for an image of a given size.
+/// A pinhole camera for an image of a given size.
 #[derive(Clone, Copy, Debug)]
 pub struct Pinhole {
     origin: [f32; 3],
-    /// Direction at the top left corner, and its change across and down the image.
+    /// Direction at the top left corner, and its change per pixel across and down the image.
     corner: [f32; 3],
     across: [f32; 3],
     down: [f32; 3],
 }
 
 impl Pinhole {
-    /// For an image of `width` × `height` pixels.
+    /// The pinhole of `camera` for an image of `width` × `height` pixels.
     pub fn new(camera: &scene::CameraSettings, width: u32, height: u32) -> Self {
         let [kx, ky] = camera.tan_half(width, height);
         let (f, r, u) = (camera.forward, camera.right, camera.up);
@@ -26,13 +26,13 @@ impl Pinhole {
             down: vector(&|k| -2.0 * ky * u[k] / f64::from(height)),
         }
     }
-    /// Origin and unit direction through a position in pixels from the top left.
+    /// Origin and unit direction of the rays through positions in pixels from the top left.
     #[inline]
     pub fn ray(&self, x: X8, y: X8) -> (V8, V8) {
         let (origin, direction) = self.through(x, y);
         (origin, direction.normalize())
     }
-    /// Origin and direction, of length 1 along the camera's axis.
+    /// Like [`Pinhole::ray`], with directions whose component along the camera's axis is 1.
     #[inline]
     pub fn through(&self, x: X8, y: X8) -> (V8, V8) {
         let direction = V8::from(self.down).mul_add(y, V8::from(self.across).mul_add(x, V8::from(self.corner)));

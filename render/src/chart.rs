@@ -1,4 +1,4 @@
-//! Speed against accuracy: measures techniques and samplers, and draws what comes of it.
+//! Measures the error and time of techniques and samplers, and writes a report with charts.
 
 pub mod charts;
 pub mod machine;
@@ -24,58 +24,58 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use summary::{Summary, Way};
 
-/// What `etendue chart` is asked for.
+/// Options of `etendue chart`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Built-in scenes' names, or pbrt-v4 files
+    /// Names of built-in scenes, or paths of pbrt-v4 files
     #[arg(default_values_t = ["quads", "sphere-light", "triangle-light"].map(String::from))]
     pub scenes: Vec<String>,
-    /// The folder for the report; measurements that it already holds are not repeated
+    /// Folder for the report; measurements it already holds are not repeated
     #[arg(short, long, default_value = "chart")]
     pub output: PathBuf,
-    /// How lights are sampled; all if not given
+    /// How to sample the lights [default: all techniques]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub techniques: Vec<Technique>,
-    /// Where random numbers come from; all if not given
+    /// How to generate the random numbers [default: all samplers]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub samplers: Vec<Sampler>,
     /// Samples per pixel [default: 1,2,4,…,1024; with --quick 1,4,16,64]
     #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
     pub spp: Vec<u32>,
-    /// Images of each, of different seeds [default: 5]
+    /// Number of images per measurement, with different seeds [default: 5]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub replicates: Option<u32>,
-    /// The image to compare with; else that of the built-in scene, else one that is rendered
+    /// Reference image [default: the built-in one of the scene, or else one rendered now]
     #[arg(long, value_name = "EXR")]
     pub reference: Option<PathBuf>,
-    /// Mean squared standard error of that image, if its file has no variance
+    /// Mean squared standard error of the reference, used if its file has no variance
     #[arg(long, value_name = "MSE", default_value_t = 0.0)]
     pub reference_error: f64,
-    /// Render the image to compare with, of so many samples per pixel [default where there is none: 4096; with --quick 1024]
+    /// Render the reference with this many samples per pixel [default without a built-in one: 4096; with --quick 1024]
     #[arg(long, value_name = "SPP", conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(32..=1 << 22))]
     pub reference_spp: Option<u32>,
-    /// Image size in pixels; else what the scene says, with --quick half of it
+    /// Image size in pixels [default: from the scene; with --quick half of that]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
-    /// Measurements of different seeds are independent
+    /// Seed of the random numbers; different seeds give independent measurements
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
-    /// Threads; 0 is one per core
+    /// Number of threads; 0 means one per core
     #[arg(long, default_value_t = 0)]
     pub threads: usize,
-    /// The technique that others are compared with
+    /// The technique that all others are compared with
     #[arg(long, value_enum, default_value = "area")]
     pub baseline: Technique,
-    /// The mean squared error to be reached; else what the best technique has at the middle of the samples
+    /// Mean squared error to reach [default: the error of the best technique at the median sample count]
     #[arg(long, value_name = "MSE")]
     pub target: Option<f64>,
-    /// Stop measuring after this long, and report what there is [default with --quick: 150]
+    /// Stop measuring after this many seconds and report what has been measured [default with --quick: 150]
     #[arg(long, value_name = "SECONDS")]
     pub time_limit: Option<u64>,
-    /// Also time each warp of the library, and look for its greatest error
+    /// Also measure the time and greatest error of each warp of the library
     #[arg(long)]
     pub warps: bool,
-    /// Few samples of small images: within three minutes
+    /// Measure small images with few samples, in less than three minutes
     #[arg(long)]
     pub quick: bool,
 }
@@ -83,16 +83,16 @@ pub struct Options {
 /// Parses `WxH`.
 ///
 /// # Errors
-/// It is not two numbers, or they are too small or large.
+/// Fails if the text is not two numbers joined by `x`, or if the size is out of range.
 pub fn size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once(['x', 'X']).ok_or("want WIDTHxHEIGHT, such as 640x480")?;
+    let sides = text.split_once(['x', 'X']).ok_or("must be WIDTHxHEIGHT, such as 640x480")?;
     let side = |s: &str| match s.parse::<u32>() {
         Ok(n) if (1..=65_536).contains(&n) => Ok(n),
-        _ => Err(format!("a side of {s:?} is not within 1 and 65536")),
+        _ => Err(format!("each side must be from 1 to 65536, not {s:?}")),
     };
     let (width, height) = (side(sides.0)?, side(sides.1)?);
     if u64::from(width) * u64::from(height) > 1 << 28 {
-        return Err(format!("{width}x{height} is more than 2^28 pixels"));
+        return Err(format!("at most 2^28 pixels are supported, not {width}x{height}"));
     }
     Ok((width, height))
 }
@@ -103,17 +103,17 @@ pub fn name(value: impl ValueEnum) -> String {
     value.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
 }
 
-/// FNV-1a, which will be the same tomorrow.
+/// FNV-1a: unlike the standard library's hasher, the same in every version.
 pub(crate) fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// Hash of the program itself: what another build has measured does not count.
+/// Hash of the executable: measurements of another build do not count.
 fn build() -> u64 {
     std::env::current_exe().and_then(std::fs::read).map_or(0, |bytes| hash(&bytes))
 }
 
-/// All of them, or those that were asked for, each once.
+/// The requested values without duplicates, or all values if none is requested.
 fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
     let all = if asked.is_empty() { T::value_variants() } else { asked };
     let mut list: Vec<T> = Vec::new();
@@ -125,24 +125,26 @@ fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
     list
 }
 
-/// Sets in a pixel: one, which has the least error, since errors are told from replicates of the image; those of stratified-4d have few
-/// sizes.
+/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image. Stratified-4d uses as many
+/// as its few sizes need.
 fn sets(sampler: Sampler) -> u32 {
     u32::from(sampler != Sampler::Stratified4d)
 }
 
-/// Why a sampler cannot take so many samples, if so.
+/// Why a sampler does not support this many samples; `None` if it does.
 fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
     sampler.check(spp, sets(sampler), lens).err()
 }
 
-/// The techniques that apply to a scene and differ there; and why others do not.
+/// The techniques that apply to a scene and differ from one another there, and notes on those that are left out.
 fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique]) -> (Vec<Technique>, Vec<String>) {
     let (mut list, mut images, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for &technique in asked {
         let mut leave = |why: &str| notes.push(format!("{}: {} is left out: {why}", subject.name, name(technique)));
         if !selftest::applies(technique, scene) {
-            leave("it finds the lights in this scene's rough metals too rarely for its error to be known");
+            leave(
+                "it finds reflections of lights in this scene's rough metals too rarely for its error to be measured",
+            );
             continue;
         }
         let [width, height] = subject.size.map(|side| side.min(64));
@@ -150,7 +152,7 @@ fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique])
         let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, sets: 1, seed: 1 };
         let pixels = subject.world.render(&settings, |_| ()).0.pixels;
         match images.iter().position(|other| *other == pixels) {
-            Some(first) => leave(&format!("it makes the same image as {} here", name(list[first]))),
+            Some(first) => leave(&format!("it gives the same image as {} in this scene", name(list[first]))),
             None => {
                 list.push(technique);
                 images.push(pixels);
@@ -160,14 +162,14 @@ fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique])
     (list, notes)
 }
 
-/// A scene that is ready to be measured, with the techniques to measure.
+/// A scene ready to be measured, the techniques to measure, and notes for the report.
 struct Prepared {
     subject: ChartedScene,
     techniques: Vec<Technique>,
     notes: Vec<String>,
 }
 
-/// A scene, ready to be measured.
+/// Loads a scene and its reference.
 fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepared, Box<dyn Error>> {
     let scene = scene::load(name)?;
     let mut notes: Vec<String> = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
@@ -196,7 +198,7 @@ fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepare
         reference
     };
     let mut bytes = Vec::new();
-    // every number of a scene that is not a mesh; the mesh as it is
+    // all settings of the scene as text; the mesh as bytes
     write!(bytes, "{:?}{:?}{:?}{circumstances}{}", scene.camera, scene.materials, scene.shapes, options.seed)?;
     bytes.extend(scene.triangles.iter().flatten().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));
@@ -209,16 +211,16 @@ fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepare
     Ok(Prepared { subject, techniques, notes })
 }
 
-/// indicatif draws nothing where stderr is not a terminal.
+/// A progress bar, which draws nothing unless stderr is a terminal.
 fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
     let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
     Ok(ProgressBar::new(total).with_style(style).with_message(what.to_owned()))
 }
 
-/// Set by Ctrl-C: what runs ends after its current image; a second one ends the program.
+/// A flag that Ctrl-C sets: measuring stops after the current image. A second Ctrl-C ends the program.
 ///
 /// # Errors
-/// The system does not let the program catch it.
+/// Fails if the signal handler cannot be installed.
 pub fn interrupt() -> Result<Arc<AtomicBool>, ctrlc::Error> {
     let flag = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&flag);
@@ -230,7 +232,7 @@ pub fn interrupt() -> Result<Arc<AtomicBool>, ctrlc::Error> {
     Ok(flag)
 }
 
-/// Sets `stop` when the time is over.
+/// Sets `stop` after this many seconds.
 fn alarm(stop: &Arc<AtomicBool>, seconds: Option<u64>) {
     if let Some(seconds) = seconds {
         let stop = Arc::clone(stop);
@@ -241,39 +243,39 @@ fn alarm(stop: &Arc<AtomicBool>, seconds: Option<u64>) {
     }
 }
 
-/// All that a report is made of.
+/// Everything a report is made of.
 #[derive(Debug)]
 pub struct Outcome {
-    /// What was to be measured.
+    /// The planned measurements.
     pub plan: Plan,
-    /// What was.
+    /// The finished measurements.
     pub rows: measure::Rows,
-    /// For each scene.
+    /// One summary per scene.
     pub summaries: Vec<Summary>,
-    /// Name and value of what the figures depend on.
+    /// Names and values of the circumstances that the measurements depend on, such as the machine.
     pub facts: Vec<(&'static str, String)>,
-    /// What the reader should know besides.
+    /// Warnings and remarks for the reader.
     pub notes: Vec<String>,
 }
 
-/// Measures, and summarises.
+/// Runs and summarises the measurements.
 ///
 /// # Errors
-/// A scene or reference cannot be read, or the table not be written.
+/// Fails if a scene or reference cannot be read, or the table cannot be written.
 pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box<dyn Error>> {
     let start = Instant::now();
     if options.reference.is_some() && options.scenes.len() != 1 {
-        return Err("--reference is of one scene: name that scene alone".into());
+        return Err("--reference needs exactly one scene".into());
     }
     if !(0.0..f64::INFINITY).contains(&options.reference_error) {
-        return Err(format!("--reference-error {}: want a number from 0 on", options.reference_error).into());
+        return Err(format!("--reference-error {}: must be finite and at least 0", options.reference_error).into());
     }
     if options.target.is_some_and(|t| !t.is_finite() || t <= 0.0) {
-        return Err("--target: want a number over 0".into());
+        return Err("--target: must be finite and greater than 0".into());
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let facts = machine::facts(pool.current_num_threads());
-    // the commit may move on, as long as the program stays
+    // a new commit does not matter as long as the executable stays the same
     let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
     let circumstances = format!("{kept:?}{:016x}", build());
     let mut notes = Vec::new();
@@ -317,11 +319,11 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let file = options.output.join("measurements.csv");
     let (mut table, mut rows, others) = Table::open(&file, &plan)?;
     if others > 0 {
-        notes.push(format!("{}: {others} measurements of other settings are kept but not shown", file.display()));
+        notes.push(format!("{}: {others} measurements with other settings are kept but not shown", file.display()));
     }
     let found: usize = rows.values().map(Vec::len).sum();
     if found > 0 {
-        notes.push(format!("{found} measurements were made by an earlier run"));
+        notes.push(format!("{found} measurements come from an earlier run"));
     }
     let limit = options.time_limit.or(options.quick.then_some(150));
     alarm(stop, limit.map(|l| l.saturating_sub(start.elapsed().as_secs())));
@@ -342,7 +344,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     Ok(Outcome { plan, rows, summaries, facts, notes })
 }
 
-/// How the files of a scene begin: its name without what a path may not hold, and a number where two have the same.
+/// Prefix of a scene's file names: its name with special characters replaced, and a number if two scenes share it.
 fn stem(summaries: &[Summary], scene: &str) -> String {
     let of = |name: &str| -> String {
         let stem = Path::new(name).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
@@ -352,7 +354,7 @@ fn stem(summaries: &[Summary], scene: &str) -> String {
     if before == 0 { of(scene) } else { format!("{}-{}", of(scene), before + 1) }
 }
 
-/// Times the warps and looks for their errors; writes what it finds.
+/// Measures the time and error of the warps and writes warps.svg and warps.csv.
 fn measure_warps(folder: &Path, stop: &AtomicBool) -> Result<(charts::Figure, String), Box<dyn Error>> {
     let bar = bar(0, "warps")?;
     let measured = warps::measure(stop, |done, all| {
@@ -366,10 +368,10 @@ fn measure_warps(folder: &Path, stop: &AtomicBool) -> Result<(charts::Figure, St
     Ok((figure, warps::table(&measured)))
 }
 
-/// Measures, writes the report, and says where and what.
+/// Measures, writes the report and prints a summary.
 ///
 /// # Errors
-/// A scene or reference cannot be read, or a file not be written.
+/// Fails if a scene or reference cannot be read, or a file cannot be written.
 pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     let stop = interrupt()?;
     let outcome = measure(options, &stop)?;

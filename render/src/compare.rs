@@ -1,50 +1,50 @@
-//! How far two images are apart, and whether the one's variance accounts for it.
+//! The difference of two images, and whether their variance accounts for it.
 
 use crate::image::Picture;
 use serde_json::{Value, json};
 
-/// The difference IMAGE − REFERENCE.
+/// The difference image − reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Mean over pixels and channels of the squared difference.
+    /// Mean squared difference over pixels and channels.
     pub mse: f64,
     /// Mean difference per channel.
     pub mean: [f64; 3],
-    /// The difference of largest magnitude, and its pixel and channel.
+    /// The difference of largest magnitude, its pixel (column, row) and its channel (0 to 2).
     pub largest: (f64, [usize; 2], usize),
-    /// What the variances foretell; nothing if the image has no finite variance.
+    /// What the variances predict; `None` if the image has no finite variance.
     pub predicted: Option<Prediction>,
 }
 
-/// What the difference should be if both images estimate the same.
+/// The difference expected of two images that estimate the same values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prediction {
-    /// Expected mean squared difference: mean variance of the image and of the reference.
+    /// Expected mean squared difference: the mean variance of the image plus that of the reference.
     pub mse: f64,
-    /// Mean difference per channel in its standard deviations.
+    /// Mean difference per channel, in standard deviations.
     pub z: [f64; 3],
-    /// `mse − predicted mse` in standard deviations, which are taken from the spread over pixels. Both signs are a fault: a
-    /// variance layer that claims too much precision, or too little.
+    /// `mse − predicted mse` in standard deviations, which come from the spread over pixels. A large value of either sign is a
+    /// fault: the variance layer claims too much precision, or too little.
     pub z_mse: f64,
 }
 
 impl Comparison {
-    /// Of two pictures of one size. `reference_error` is the mean squared standard error of the reference, used where it has no
-    /// variance of its own.
+    /// Compares two pictures of one size. `reference_error` is the mean squared standard error of the reference, used if it has
+    /// no variance of its own.
     ///
     /// # Errors
-    /// The sizes differ, or a radiance is not finite.
+    /// Fails if the sizes differ or a radiance is not finite.
     pub fn new(reference: &Picture, image: &Picture, reference_error: f64) -> Result<Self, String> {
         if (reference.width, reference.height) != (image.width, image.height) {
             return Err(format!(
-                "the reference is {}x{}, the image {}x{}",
+                "the reference is {}x{} pixels, the image {}x{}",
                 reference.width, reference.height, image.width, image.height
             ));
         }
         for (name, picture) in [("reference", reference), ("image", image)] {
             if let Some(i) = picture.radiance.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
                 let (x, y, p) = (i % picture.width, i / picture.width, picture.radiance[i]);
-                return Err(format!("the {name} holds {p:?} at pixel ({x}, {y})"));
+                return Err(format!("pixel ({x}, {y}) of the {name} is not finite: {p:?}"));
             }
         }
         let count = image.radiance.len() as f64;
@@ -70,7 +70,7 @@ impl Comparison {
                 |i: usize, k: usize| reference.variance.as_ref().map_or(reference_error, |v| f64::from(v[i][k]));
             let total = |k: usize| (0..variance.len()).map(|i| own(i, k) + other(i, k)).sum::<f64>();
             let totals = [total(0), total(1), total(2)];
-            // channels of a pixel come from the same samples: the pixel is the unit that is independent
+            // the channels of a pixel share their samples, so only pixels are independent
             let excess =
                 |i: usize| (0..3).map(|k| difference(i, k).powi(2) - own(i, k) - other(i, k)).sum::<f64>() / 3.0;
             let bias = (0..variance.len()).map(excess).sum::<f64>() / count;
@@ -84,7 +84,7 @@ impl Comparison {
         Ok(Self { mse, mean, largest: (largest.0, at, largest.2), predicted })
     }
 
-    /// As JSON.
+    /// The comparison as a JSON object.
     pub fn to_json(&self) -> Value {
         let (value, pixel, channel) = self.largest;
         let mut object = json!({
@@ -102,7 +102,7 @@ impl Comparison {
     }
 }
 
-/// 0 where both vanish: equal images of no variance agree.
+/// The quotient, or 0 if the difference is 0: equal images without variance agree.
 fn ratio(difference: f64, deviation: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / deviation }
 }
@@ -119,14 +119,14 @@ impl std::fmt::Display for Comparison {
                 let [r, g, b] = p.z;
                 writeln!(
                     f,
-                    "predicted mse      {:.6e} (measured is {:.4} of it, z {:+.2})",
+                    "predicted mse      {:.6e} (measured/predicted {:.4}, z {:+.2})",
                     p.mse,
                     self.mse / p.mse,
                     p.z_mse
                 )?;
                 write!(f, "z of the mean      {r:+.2} {g:+.2} {b:+.2}")
             }
-            None => write!(f, "the image has no variance to judge this by"),
+            None => write!(f, "the image has no variance, so the difference cannot be judged"),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Figures that a lecture on sampling lights would show, each with the number that it stands for.
+//! Figures for a lecture on light sampling, each with the numbers it illustrates.
 
 mod convergence;
 mod images;
@@ -15,19 +15,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What `etendue figure` is asked for.
+/// Options of `etendue figure`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Which figure
+    /// The figure to draw
     #[arg(value_enum)]
     pub name: Name,
-    /// The folder to write NAME.svg to
+    /// Folder for NAME.svg
     #[arg(short, long, default_value = "figures")]
     pub output: PathBuf,
-    /// Threads; 0 is one per core
+    /// Number of threads; 0 means one per core
     #[arg(long, default_value_t = 0)]
     pub threads: usize,
-    /// Figures of different seeds are independent
+    /// Seed of the random numbers; different seeds give independent figures
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
 }
@@ -35,49 +35,49 @@ pub struct Options {
 /// The figures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Name {
-    /// 16 shadow rays into the hemisphere, or to the lights
+    /// 16 shadow rays over the hemisphere, or towards the lights
     HemisphereVsArea,
-    /// A sphere light by its area, or by the cone that it covers
+    /// A sphere light sampled by area, or by the cone it subtends
     SphereAreaVsCone,
-    /// A triangle light by its area, its solid angle, and its projected solid angle
+    /// A triangle light sampled by area, solid angle and projected solid angle
     TriangleAreaVsSolidAngle,
-    /// What the integrand over a triangle's area is made of
+    /// The factors of the integrand over a triangle light
     AreaFactors,
-    /// A cap that the horizon cuts, by solid angle and by projected solid angle
+    /// A cap cut by the horizon, sampled by solid angle and by projected solid angle
     CapSolidAngleVsProjected,
-    /// What four samples know of their variance
+    /// How well four samples estimate their own variance
     SampleVariance,
-    /// Independent and stratified samples, 1 to 1024 in a pixel
+    /// Independent and stratified samples, 1 to 1024 per pixel
     QuadsConvergence,
-    /// A density like the integrand, and one unlike it
+    /// Importance sampling with a pdf that matches the integrand, and with one that does not
     Importance,
-    /// The rates of strata, with their integrands
+    /// Convergence rates of stratified sampling for three integrands
     Stratification,
     /// Variance and cost of each technique in each scene
     Efficiency,
-    /// Pixel and light sampled apart, or together
+    /// Pixel and light sampled separately, or jointly
     Padding,
-    /// The lens as points of the film see it, in and out of focus, cut by its barrel
+    /// The lens as seen from points of the film, in and out of focus, vignetted by its barrel
     Vignetting,
-    /// Pixel, lens and light sampled apart, or together
+    /// Pixel, lens and light sampled separately, or jointly
     Defocus,
-    /// All of them
+    /// All figures
     All,
 }
 
-/// A figure and what it shows.
+/// A figure and the lines of text that it illustrates.
 struct Finding {
     svg: sheet::Svg,
     headline: Vec<String>,
 }
 
-/// What figures are made with.
+/// The context in which figures are drawn.
 struct Studio<'a> {
     options: &'a Options,
     stop: &'a Arc<AtomicBool>,
 }
 
-/// The technique of this name, if this program has it.
+/// The technique of this name, if there is one.
 fn technique(name: &str) -> Option<Technique> {
     Technique::from_str(name, false).ok()
 }
@@ -103,10 +103,10 @@ impl Studio<'_> {
     }
 }
 
-/// Draws a figure or all of them, and says what they show.
+/// Draws one figure or all figures, and prints their numbers.
 ///
 /// # Errors
-/// A file cannot be written.
+/// Fails if a file cannot be written, or if Ctrl-C stops it.
 pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let stop = crate::chart::interrupt()?;
     std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
@@ -120,7 +120,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let title = crate::chart::name(name);
         let finding = pool.install(|| studio.draw(name).map_err(|e| e.to_string()))?;
         if stop.load(Ordering::Relaxed) {
-            return Err(format!("stopped in the figure {title}").into());
+            return Err(format!("interrupted while drawing {title}").into());
         }
         let path = options.output.join(format!("{title}.svg"));
         image::replace(&path, finding.svg.file().as_bytes())?;

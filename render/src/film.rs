@@ -1,16 +1,16 @@
-//! Mean and variance of a pixel, and the image they make.
+//! Accumulates the mean and variance of pixels into an image.
 
 use crate::accel::{V8, X8};
 use etendue::{Real, estimate::Welford};
 
-/// One pixel's finished estimate.
+/// The finished estimate of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pixel {
-    /// Mean radiance.
+    /// Mean value per channel, by default radiance.
     pub mean: [f32; 3],
-    /// Variance of that mean; infinite if the samples cannot tell.
+    /// Variance of the mean; infinite if it cannot be estimated.
     pub variance: [f32; 3],
-    /// How many samples it is the mean of.
+    /// Number of samples.
     pub samples: u32,
 }
 
@@ -21,12 +21,12 @@ pub struct Film {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Row by row from the top left.
+    /// Pixels row by row from the top left.
     pub pixels: Vec<Pixel>,
 }
 
 impl Film {
-    /// All values times `factor`.
+    /// The image with all values multiplied by `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let times = |x: f32, factor: f64| (f64::from(x) * factor) as f32;
@@ -44,13 +44,13 @@ impl Film {
     }
 }
 
-/// Packets that one set of lanes takes before it is merged: keeps single precision from piling up error.
+/// Packets accumulated in f32 before they are merged into f64, which bounds the rounding error.
 const BLOCK: u32 = 64;
 
-/// Samples of one pixel on their way to a [`Pixel`].
+/// Accumulates the samples of one pixel.
 ///
-/// Samples of one replicate are independent of those of another. Where each sample is its own replicate the variance
-/// comes from the samples; else from the replicates' means.
+/// Replicates are independent of one another. If each sample is its own replicate, the variance comes from the samples, otherwise
+/// from the means of the replicates.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PixelSum {
     lanes: [Welford<X8>; 3],
@@ -59,12 +59,12 @@ pub struct PixelSum {
     count: f64,
     replicates: [Welford<f64>; 3],
     finished: f64,
-    /// In all replicates.
+    /// Number of samples in all replicates.
     taken: u32,
 }
 
 impl PixelSum {
-    /// Eight samples of this pixel and replicate.
+    /// Adds eight samples of this pixel and replicate.
     #[inline]
     pub fn push_packet(&mut self, radiance: V8) {
         self.packets += 1;
@@ -77,7 +77,7 @@ impl PixelSum {
             self.flush();
         }
     }
-    /// One sample.
+    /// Adds one sample.
     #[inline]
     pub fn push(&mut self, radiance: [f32; 3]) {
         self.count += 1.0;
@@ -111,7 +111,7 @@ impl PixelSum {
         self.samples = Default::default();
         self.count = 0.0;
     }
-    /// The pixel, and a clean slate.
+    /// Returns the pixel and resets the sum.
     pub fn finish(&mut self) -> Pixel {
         self.flush();
         let (sums, n) = if self.finished > 0.0 { (self.replicates, self.finished) } else { (self.samples, self.count) };
@@ -123,7 +123,7 @@ impl PixelSum {
         *self = Self::default();
         pixel
     }
-    /// The mean of what there is of a replicate, the number of its samples, and a clean slate.
+    /// Returns the mean and sample count of an unfinished replicate, and resets the sum.
     pub fn take(&mut self) -> ([f64; 3], u32) {
         self.flush();
         let taken = (self.samples.map(|s| s.mean), self.taken);

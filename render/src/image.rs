@@ -1,5 +1,4 @@
-//! Image files: EXR with the estimate's variance, a PNG to look at, and the comparison of two images. The one file that names exr
-//! and the image crate.
+//! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and image crates.
 
 use crate::film::{Film, Pixel};
 use exr::block::chunk::CompressedBlock;
@@ -30,7 +29,7 @@ fn failed(path: &Path, what: impl fmt::Display) -> ImageError {
     ImageError { path: path.to_owned(), what: what.to_string() }
 }
 
-/// Writes all of the bytes or leaves the file as it was: beside it first, then in its place.
+/// Replaces a file atomically: writes a temporary file beside it, then renames it.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
     let mut name = path.file_name().ok_or_else(|| failed(path, "not a file name"))?.to_owned();
     name.push(format!(".{}.part", std::process::id()));
@@ -42,34 +41,34 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
         std::fs::rename(&part, path)
     };
     write().map_err(|error| {
-        // the write's own error says more than that of tidying up after it
+        // the error of the write says more than that of the clean-up
         let _ = std::fs::remove_file(&part);
         failed(path, format!("cannot write: {error}"))
     })
 }
 
-/// Fails early where an image could not be written in the end.
+/// Checks before rendering that an image can be written.
 ///
 /// # Errors
-/// The folder does not exist, or the name is one of a folder.
+/// Fails if the folder does not exist, or if `path` is itself a folder.
 pub fn check_writable(path: &Path) -> Result<(), ImageError> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if path.file_name().is_none() || path.is_dir() {
-        return Err(failed(path, "is a folder, not a file to write to"));
+        return Err(failed(path, "cannot write: this is a folder"));
     }
     if !folder.is_dir() {
-        return Err(failed(path, format!("the folder {} does not exist", folder.display())));
+        return Err(failed(path, format!("cannot write: the folder {} does not exist", folder.display())));
     }
     Ok(())
 }
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
-/// Writes radiance (R, G, B), the variance of the mean (variance.R, …) and the sample count (samples.N), the same
-/// bytes for the same film.
+/// Writes an EXR file with the channels R, G, B, the variance of the mean (`variance.R`, …) and the sample count (`samples.N`).
+/// Equal films give equal bytes.
 ///
 /// # Errors
-/// The file cannot be written; what was there before stays.
+/// Fails if the file cannot be written; an existing file then remains unchanged.
 pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
     let plane = |f: &dyn Fn(&Pixel) -> f32| FlatSamples::F32(film.pixels.iter().map(f).collect());
     let mut channels = Vec::new();
@@ -78,7 +77,7 @@ pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
         channels.push(AnyChannel::new(format!("variance.{name}").as_str(), plane(&|p| p.variance[k])));
     }
     channels.push(AnyChannel::new("samples.N", FlatSamples::U32(film.pixels.iter().map(|p| p.samples).collect())));
-    // an increasing line order makes the bytes independent of the threads that compress
+    // increasing line order makes the bytes independent of the number of compressing threads
     let encoding =
         Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
     let size = (film.width as usize, film.height as usize);
@@ -89,20 +88,20 @@ pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
     replace(path, bytes.get_ref())
 }
 
-/// Writes the picture for the eye: Reinhard's curve (extended, white at radiance 4) on luminance, then sRGB, 8 bits.
+/// Writes a tone-mapped PNG: Reinhard's extended curve on luminance, white at radiance 4, then 8-bit sRGB.
 ///
 /// # Errors
-/// The file cannot be written; what was there before stays.
+/// Fails if the file cannot be written; an existing file then remains unchanged.
 pub fn write_png(path: &Path, film: &Film) -> Result<(), ImageError> {
     let data: Vec<[u8; 3]> = film.pixels.iter().map(|p| tone_map(p.mean)).collect();
     let bytes = encode_png([film.width, film.height], &data).map_err(|error| failed(path, error))?;
     replace(path, &bytes)
 }
 
-/// A PNG file of sRGB pixels, row by row.
+/// Encodes sRGB pixels, row by row, as a PNG file.
 ///
 /// # Errors
-/// There are not as many pixels as the size says.
+/// Fails if the number of pixels does not match the size.
 pub fn encode_png([width, height]: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(BufWriter::new(&mut bytes), width, height);
@@ -115,7 +114,7 @@ pub fn encode_png([width, height]: [u32; 2], pixels: &[[u8; 3]]) -> Result<Vec<u
     Ok(bytes)
 }
 
-/// What a pixel of this radiance looks like in a PNG.
+/// The tone-mapped sRGB value of a radiance, as in [`write_png`].
 pub fn tone_map(radiance: [f32; 3]) -> [u8; 3] {
     let [r, g, b] = radiance;
     let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -127,24 +126,24 @@ pub fn tone_map(radiance: [f32; 3]) -> [u8; 3] {
     })
 }
 
-/// Most pixels of an image that is read, as of films.
+/// Greatest number of pixels of an image, the same as for films.
 const MOST_PIXELS: u128 = 1 << 28;
-/// Most bytes of pixels for each byte of the file: deflate, the densest of the compressions, has 1,032.
+/// Greatest plausible ratio of decoded to encoded bytes: deflate, the densest compression in use, reaches 1,032.
 const MOST_EXPANSION: u128 = 2048;
 
-/// A header may claim any size: whether there is something, and a file of that length can hold it, before memory is taken for it.
+/// Checks that an image is not empty, and that a file of this length can hold it, before memory is allocated: a header may claim any
+/// size.
 fn believe(path: &Path, [width, height]: [u128; 2], bits_per_pixel: u128, file: usize) -> Result<(), ImageError> {
     let pixels = width.saturating_mul(height);
     if pixels == 0 {
-        return Err(failed(path, format!("{width} × {height} pixels: there is nothing in it")));
+        return Err(failed(path, format!("the image is empty: {width} × {height} pixels")));
     }
     if pixels > MOST_PIXELS {
-        return Err(failed(path, format!("{width} × {height} pixels: no more than {MOST_PIXELS} are read")));
+        return Err(failed(path, format!("{width} × {height} pixels: at most {MOST_PIXELS} are supported")));
     }
     let bytes = pixels.saturating_mul(bits_per_pixel) / 8;
     if bytes / MOST_EXPANSION > file as u128 {
-        let what =
-            format!("{width} × {height} pixels, {bytes} bytes, cannot be in a file of {file} bytes: it is damaged");
+        let what = format!("damaged: {width} × {height} pixels, {bytes} bytes, do not fit into a file of {file} bytes");
         return Err(failed(path, what));
     }
     Ok(())
@@ -157,36 +156,35 @@ pub struct Picture {
     pub width: usize,
     /// Pixels down.
     pub height: usize,
-    /// R, G, B of each pixel, row by row.
+    /// R, G, B of each pixel, row by row from the top left.
     pub radiance: Vec<[f32; 3]>,
-    /// Variance of the mean, if the file has it.
+    /// Variance of the mean of each pixel, if the file has it.
     pub variance: Option<Vec<[f32; 3]>>,
 }
 
-/// Reads a picture of radiance: OpenEXR or Radiance HDR, or a PNG whose values are decoded from sRGB.
+/// Reads a picture from an OpenEXR or Radiance HDR file, or from a PNG file, whose values are decoded from sRGB.
 ///
 /// # Errors
-/// The file is missing or damaged, of another kind, or has more than 2²⁸ pixels.
+/// Fails if the file is missing, damaged or of another format, or has more than 2²⁸ pixels.
 pub fn read(path: &Path) -> Result<Picture, ImageError> {
     let bytes = crate::scene::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode(path, &bytes)
 }
 
-/// As [`read`], from the bytes of the file; messages name `path`.
+/// Like [`read`], from the bytes of a file that messages call `path`.
 ///
 /// # Errors
-/// The bytes are damaged, or of another kind.
+/// Fails if the bytes are damaged or of another format, or hold more than 2²⁸ pixels.
 pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
     // OpenEXR's magic number
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
         return decode_exr(bytes, path);
     }
-    let not_one =
-        |error: &dyn fmt::Display| failed(path, format!("not an EXR, HDR or PNG image that can be read: {error}"));
+    let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR or PNG image: {error}"));
     let format = image_files::guess_format(bytes).map_err(|error| not_one(&error))?;
     let reader = || image_files::ImageReader::with_format(Cursor::new(bytes), format);
     let (width, height) = reader().into_dimensions().map_err(|error| not_one(&error))?;
-    // a PNG may have one bit to a pixel
+    // a PNG may have one bit per pixel
     believe(path, [width.into(), height.into()], 1, bytes.len())?;
     let image = reader().decode().map_err(|error| not_one(&error))?;
     let (width, height) = (image.width() as usize, image.height() as usize);
@@ -207,30 +205,30 @@ impl From<&Film> for Picture {
     }
 }
 
-/// Reads R, G, B and, where they are, variance.R, variance.G, variance.B.
+/// Reads the channels R, G, B and, if present, `variance.R`, `variance.G`, `variance.B`.
 ///
 /// # Errors
-/// The file is missing, damaged, or has no R, G, B.
+/// Fails if the file is missing or damaged, has no R, G, B, or has more than 2²⁸ pixels.
 pub fn read_exr(path: &Path) -> Result<Picture, ImageError> {
     let bytes = std::fs::read(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode_exr(&bytes, path)
 }
 
-/// As [`read_exr`], from a file's bytes; messages call it `path`.
+/// Like [`read_exr`], from the bytes of a file that messages call `path`.
 ///
 /// # Errors
-/// It is damaged, has no R, G, B, or more than 2²⁸ pixels.
+/// Fails if the file is damaged, has no R, G, B, or has more than 2²⁸ pixels.
 pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
-    let not_one = |error: exr::error::Error| failed(path, format!("not an EXR image that can be read: {error}"));
+    let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {error}"));
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(not_one)?;
     for header in &meta.headers {
         let samples = header.channels.list.iter().map(|c| c.sample_type.bytes_per_sample() as u128);
         let size = [header.layer_size.width() as u128, header.layer_size.height() as u128];
-        // channels may be subsampled, which R, G and B are not here: four bytes are the least that is of use
+        // other channels may be subsampled, but R, G and B must not be: a pixel takes at least four bytes
         let full = header.channels.list.iter().all(|c| c.sampling == exr::math::Vec2(1, 1));
         believe(path, size, 8 * if full { samples.sum() } else { 4 }, bytes.len())?;
     }
-    // chunks are found by a table, and say themselves what they are: the reader takes them by the one and stores them by the other
+    // the reader selects chunks by the offset table but stores them by their own coordinates: both must agree
     let full_size = exr::math::Vec2(0, 0);
     let chunks = exr::block::read(Cursor::new(bytes), false)
         .and_then(|reader| reader.filter_chunks(false, |_, tile, _| tile.level_index == full_size))
@@ -241,7 +239,7 @@ pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
             if level != full_size {
                 return Err(failed(
                     path,
-                    format!("a tile of full size says that it is of level {}, {}", level.x(), level.y()),
+                    format!("damaged: a tile listed at full size claims to be of level {}, {}", level.x(), level.y()),
                 ));
             }
         }
@@ -266,6 +264,7 @@ pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
         let (r, g, b) = (r?, g?, b?);
         Some((0..width * height).map(|i| [r[i], g[i], b[i]]).collect())
     };
-    let radiance = three("").ok_or_else(|| failed(path, "has no channels R, G and B of full resolution"))?;
+    let radiance =
+        three("").ok_or_else(|| failed(path, "the channels R, G and B are missing or not of full resolution"))?;
     Ok(Picture { width, height, radiance, variance: three("variance.") })
 }

@@ -1,4 +1,4 @@
-//! Direct light, in packets: camera rays, light samples, shadow rays.
+//! Integrates direct light in packets: camera rays, light samples and shadow rays.
 
 mod adaptive;
 mod allocation;
@@ -24,43 +24,43 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use surface::{Surface, normal_of};
 
-/// All that an image depends on, beside the scene.
+/// Everything an image depends on besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// Pixels across, at least 1.
     pub width: u32,
     /// Pixels down, at least 1.
     pub height: u32,
-    /// Samples in each pixel, at least 1.
+    /// Samples per pixel, at least 1.
     pub spp: u32,
-    /// How lights are sampled.
+    /// How to sample the lights.
     pub technique: Technique,
-    /// Mirrors that a ray from the camera is followed through, at the most.
+    /// Greatest number of perfect mirrors along a camera ray.
     pub depth: u32,
-    /// Where the random numbers come from.
+    /// How to generate the random numbers.
     pub sampler: Sampler,
-    /// Independent sets of samples in each pixel, 1, 2 or 4: its variance is that of their means, infinite of one. 0 is as few as can
-    /// tell it; see [`Sampler::sets`].
+    /// Independent sets of samples per pixel: 1, 2 or 4, or 0 for as few as give a variance, see [`Sampler::sets`]. The variance of
+    /// a pixel is that of the means of its sets; with 1 set it is infinite.
     pub sets: u32,
-    /// Images of different seeds are independent.
+    /// Seed of the random numbers; different seeds give independent images.
     pub seed: u64,
 }
 
 impl Settings {
-    /// The depth unless another is asked for.
+    /// The default depth.
     pub const DEPTH: u32 = 8;
 }
 
-/// Rays traced for an image.
+/// Numbers of rays traced for an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCount {
-    /// From the camera.
+    /// Rays from the camera.
     pub camera: u64,
-    /// From mirrors.
+    /// Rays reflected by mirrors.
     pub mirror: u64,
-    /// Towards a light, or into the hemisphere to find one.
+    /// Rays towards a light, or over the hemisphere to find one.
     pub shadow: u64,
-    /// Through the corners of pixels, to see which lights matter there.
+    /// Rays through the corners of pixels, which find the lights that matter there.
     pub corner: u64,
 }
 
@@ -69,20 +69,20 @@ pub struct RayCount {
 pub struct World {
     accel: Accel,
     shapes: Vec<Shape>,
-    /// Of the flat ones among the shapes.
+    /// Normals of the shapes; 0 for spheres.
     normals: Vec<[f32; 3]>,
-    /// Of each material; white where it is no diffuse one.
+    /// Albedos of the materials; white for metals and mirrors that are not black.
     albedos: Vec<[f32; 3]>,
     finishes: Vec<Finish>,
-    /// Material of each place of the tree; empty where there is but one.
+    /// Material of each triangle in tree order; empty if all have the same.
     place_materials: Vec<u32>,
-    /// That one.
+    /// Material of all triangles if `place_materials` is empty.
     one_material: u32,
     lights: Lights,
-    /// The delta lights among them.
+    /// The delta lights among `lights`.
     deltas: Lights,
     sky: Option<Arc<Sky>>,
-    /// Is there no mirror and no rough metal?
+    /// Whether all materials are diffuse.
     only_diffuse: bool,
     camera: CameraSettings,
     /// Diagonal of the film in millimetres.
@@ -90,24 +90,24 @@ pub struct World {
     sensor: Sensor,
 }
 
-/// A side of a square of pixels that one thread renders at a time.
+/// Side of the square of pixels that a thread renders at a time.
 const TILE: u32 = 16;
 
 impl World {
-    /// Builds trees and tables.
+    /// Builds the trees and tables of a scene.
     ///
     /// # Errors
-    /// More primitives than a tree can index.
+    /// Fails if there are more primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
         let accel = Accel::new(&scene.triangles, ShapeSet::new(&scene.shapes)?)?;
         Ok(Self::with(scene, accel))
     }
 
-    /// The same, in the memory of the scene's triangles, of which it leaves none there.
+    /// Like [`World::new`], but takes the triangles out of the scene and builds the tree in their memory.
     ///
     /// # Errors
-    /// More primitives than a tree can index.
-    pub fn taking(scene: &mut Scene) -> Result<Self, BuildError> {
+    /// Fails if there are more primitives than a tree can index.
+    pub fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
         let shapes = ShapeSet::new(&scene.shapes)?;
         let accel = Accel::taking(std::mem::take(&mut scene.triangles), shapes)?;
         let world = Self::with(scene, accel);
@@ -146,36 +146,36 @@ impl World {
         }
     }
 
-    /// Bytes held by the tree and its triangles.
+    /// Size of the trees and their primitives in bytes.
     pub fn bytes(&self) -> usize {
         self.accel.bytes()
     }
 
-    /// Does the plain path do: diffuse surfaces and emitters, sampled by one technique?
+    /// Whether the plain integrator suffices: diffuse surfaces and area lights, sampled by a single technique.
     fn plain(&self, technique: Technique) -> bool {
         let one = !matches!(technique, Technique::MisBalance | Technique::MisPower);
         one && self.only_diffuse && self.deltas.is_empty() && self.sky.is_none()
     }
 
-    /// The same world, of which images measure something else than radiance.
+    /// The same world, with another sensor.
     #[must_use]
     pub fn with_sensor(self, sensor: Sensor) -> Self {
         Self { sensor, ..self }
     }
 
-    /// How the radiance of an image of this size is weighed; nothing if it is not.
+    /// The weights of radiance in an image of this size; `None` if the sensor measures radiance itself.
     pub fn exposure(&self, width: u32, height: u32) -> Option<Exposure> {
         Exposure::new(self.sensor, &self.camera, self.diagonal, [width, height])
     }
 
-    /// Renders an image; `progress` is told of pixels as they are finished.
+    /// Renders an image; calls `progress` with the number of newly finished pixels.
     ///
-    /// The result depends on scene and settings alone, whatever the threads do.
+    /// The result depends only on scene and settings, not on the threads.
     pub fn render(&self, settings: &Settings, progress: impl Fn(u64) + Sync) -> (Film, RayCount) {
         self.render_through(&Camera::new(&self.camera, settings.width, settings.height), settings, progress)
     }
 
-    /// Renders an image of what a camera sees that is not the scene's own camera; one for an image of this size.
+    /// Like [`World::render`], with a camera other than the scene's, made for an image of this size.
     pub fn render_through(
         &self,
         camera: &Camera,
@@ -194,7 +194,7 @@ impl World {
         (Film { width, height, pixels: tiles }, rays)
     }
 
-    /// The pilot's samples, then the others.
+    /// Renders the pilot, then the adaptive samples.
     fn render_adaptively(
         &self,
         camera: &Camera,
@@ -223,7 +223,7 @@ impl World {
         (Film { width, height, pixels }, rays)
     }
 
-    /// What is made of each tile, row by row of it, put together to an image.
+    /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.
     fn tiles<T: Copy + Default + Send>(
         &self,
         camera: &Camera,
@@ -270,13 +270,13 @@ struct Work<'a> {
     source: Source,
     count: RayCount,
     stack: Stack,
-    /// Camera rays of a group, and their shadow rays.
+    /// Camera rays and shadow rays of a group.
     rays: Box<[[Rays; GROUP]; 2]>,
-    /// What the camera rays of a group meet.
+    /// Surfaces hit by the camera rays of a group.
     surfaces: Vec<Surface>,
 }
 
-/// The pixels of an area [x0, y0, x1, y1) along a Z-order curve: neighbours in the list are neighbours in the image.
+/// The pixels of an area [x0, y0, x1, y1) along a Z-order curve, so that successive pixels are close in the image.
 fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
     let even = |i: u32| (0..4).fold(0, |n, bit| n | (i >> (2 * bit) & 1) << bit);
     let all = (0..TILE * TILE).map(|i| [x0 + even(i), y0 + even(i >> 1)]);
@@ -306,7 +306,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The pixels of an area [x0, y0, x1, y1), row by row.
+    /// Renders the pixels of an area [x0, y0, x1, y1), row by row.
     fn tile(&mut self, area: [u32; 4]) -> Vec<Pixel> {
         let [x0, y0, x1, _] = area;
         let spp = self.settings.spp;
@@ -315,7 +315,7 @@ impl<'a> Work<'a> {
         let total = pixels.len() as u64 * u64::from(spp);
         let replicate = self.source.span();
         let span = if replicate == 0 { spp } else { replicate };
-        // packets that hold samples of one pixel and replicate are summed in lanes, else sample by sample
+        // packets of a single pixel and replicate are summed in lanes, others sample by sample
         let whole = span.is_multiple_of(8);
         let replicate_of = |sample: u32| sample.checked_div(replicate).unwrap_or(0);
         let place = |item: u64| ((item / u64::from(spp)) as usize, (item % u64::from(spp)) as u32);
@@ -378,7 +378,7 @@ impl<'a> Work<'a> {
         rows
     }
 
-    /// What the samples of a group of packets add to their pixels, by the lights that they are allocated to if they are.
+    /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
     fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated]) -> [V8; GROUP] {
         let plain = self.world.plain(self.settings.technique);
         let mut radiance = if plain { self.group(packets, allocated) } else { self.paths(packets) };
@@ -393,7 +393,7 @@ impl<'a> Work<'a> {
         radiance
     }
 
-    /// Radiance of the samples of a group of packets.
+    /// Radiance of the samples of a group of packets by the plain integrator.
     fn group(&mut self, packets: &[Packet], allocated: &[Allocated]) -> [V8; GROUP] {
         let world = self.world;
         let count = packets.len();
@@ -437,7 +437,9 @@ impl<'a> Work<'a> {
             }
             Technique::UniformHemisphere => self.hemisphere(&surfaces, light, false),
             Technique::CosineHemisphere | Technique::Brdf => self.hemisphere(&surfaces, light, true),
-            Technique::MisBalance | Technique::MisPower => unreachable!("these are not for the plain path"),
+            Technique::MisBalance | Technique::MisPower => {
+                unreachable!("the plain integrator does not combine techniques")
+            }
         };
         for p in 0..count {
             radiance[p] += reflected[p];

@@ -1,4 +1,4 @@
-//! A direct-lighting renderer that measures techniques of light sampling: scenes in, images with their variance out.
+//! A direct-lighting renderer that measures light sampling techniques: it reads scenes and writes images with their variance.
 
 pub mod accel;
 pub mod atlas;

@@ -3,10 +3,9 @@
 use crate::accel::{M8, NOTHING, V8, X8, select};
 use crate::scene::{DeltaLight, Geometry, Scene};
 use crate::sky::Sky;
-use etendue::spherical::{SphericalCap, SphericalParallelogram, SphericalTriangle};
 use etendue::{
-    DirectionalLight, LightSample, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2, Vec3, Warp,
-    u32x8,
+    DirectionalLight, LightSample, LightSampler, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2,
+    Vec3, u32x8,
 };
 use std::sync::Arc;
 
@@ -115,6 +114,29 @@ impl Near {
     /// Of each light.
     pub fn parts(&self, lights: usize) -> impl Iterator<Item = X8> {
         (0..lights).map(|k| if k == 0 { self.ends[0] } else { self.ends[k] - self.ends[k - 1] })
+    }
+}
+
+/// A direction to a light in each lane: the part of a [`LightSample`] that direct lighting needs.
+#[derive(Clone, Copy)]
+pub struct Drawn {
+    /// Unit direction to the light.
+    pub direction: V8,
+    /// Distance to the light along it.
+    pub distance: X8,
+    /// Pdf per steradian, without the choice of the light; 0 where there is no sample.
+    pub pdf: X8,
+    /// True where the light emits towards the point.
+    pub emits: M8,
+    /// True where no other technique can hit the light.
+    pub delta: M8,
+}
+
+impl From<LightSample<X8>> for Drawn {
+    #[inline(always)]
+    fn from(s: LightSample<X8>) -> Self {
+        let LightSample { direction, distance, pdf, emits, delta, .. } = s;
+        Self { direction, distance, pdf, emits, delta }
     }
 }
 
@@ -323,7 +345,7 @@ impl Lights {
     /// A sample of the chosen lights from points `p` on surfaces with this normal; `emits` already takes account of lights with two
     /// sides, and `radiance` of `chosen` of where in the sky the sample lies.
     #[inline(always)]
-    pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
+    pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         const ONLY_SPHERES: u32 = 1 << SPHERE;
         const ONLY_TRIANGLES: u32 = 1 << TRIANGLE;
         const ONLY_PARALLELOGRAMS: u32 = 1 << PARALLELOGRAM;
@@ -337,8 +359,8 @@ impl Lights {
         sample
     }
     /// Every kind that there is, each in its lanes.
-    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
-        let mut mixed: Option<LightSample<X8>> = None;
+    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+        let mut mixed: Option<Drawn> = None;
         for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
             let here = crate::accel::equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
             let [a, b, c] = chosen.vectors();
@@ -346,19 +368,19 @@ impl Lights {
                 SPHERE => chosen.sphere(measure, p, normal, u),
                 TRIANGLE => chosen.triangle(measure, p, normal, u),
                 PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
-                POINT => PointLight { position: a }.sample(p),
-                SPOT => SpotLight { position: a, axis: b, cos_inner: c.x, cos_outer: c.y }.sample(p),
-                DISTANT => DirectionalLight { direction: a }.sample(),
+                POINT => PointLight::new(a).prepare(p).sample(u).into(),
+                SPOT => SpotLight { position: a, axis: b, cos_inner: c.x, cos_outer: c.y }.prepare(p).sample(u).into(),
+                DISTANT => DirectionalLight::new(a).prepare(p).sample(u).into(),
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
                     let (sample, radiance) = sky.sample(measure, normal, u);
                     chosen.radiance = V8::blend(here, radiance, chosen.radiance);
-                    sample
+                    sample.into()
                 }
             };
             mixed = Some(match mixed {
                 None => sample,
-                Some(other) => LightSample {
+                Some(other) => Drawn {
                     direction: V8::blend(here, sample.direction, other.direction),
                     distance: select(here, sample.distance, other.distance),
                     pdf: select(here, sample.pdf, other.pdf),
@@ -374,14 +396,16 @@ impl Lights {
     #[inline]
     pub fn shape_pdf(&self, near: Option<&Near>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         let pdf = match *geometry {
-            Geometry::Sphere { center, radius } => SphericalCap::new(V8::from(center) - p, X8::splat(radius)).pdf(w),
+            Geometry::Sphere { center, radius } => {
+                Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf(w)
+            }
             Geometry::Triangle([a, b, c]) => {
+                // the edges as the light's record has them
                 let edge = |to: [f32; 3]| V8::from(std::array::from_fn(|k| to[k] - a[k]));
-                let (v0, e1, e2) = (V8::from(a) - p, edge(b), edge(c));
-                SphericalTriangle::with_edges(v0, v0 + e1, v0 + e2, e1, e2).pdf(w)
+                Triangle { v0: a.into(), e1: edge(b), e2: edge(c) }.by_solid_angle(p).pdf(w)
             }
             Geometry::Parallelogram { p: corner, u, v } => {
-                SphericalParallelogram::new(V8::from(corner) - p, V8::from(u), V8::from(v)).pdf(w)
+                Parallelogram::new(corner.into(), u.into(), v.into()).by_solid_angle(p).pdf(w)
             }
         };
         pdf * match near {
@@ -521,7 +545,7 @@ fn reach((record, power): (&Record, &f64)) -> Reach {
 
 /// Keeps the long way out of the short ones' registers.
 #[inline(never)]
-fn projected(sample: impl Fn() -> LightSample<X8>) -> LightSample<X8> {
+fn projected(sample: impl Fn() -> Drawn) -> Drawn {
     sample()
 }
 
@@ -543,33 +567,33 @@ impl Chosen {
         [V8::new(a, b, c), V8::new(d, e, f), V8::new(g, h, i)]
     }
     #[inline]
-    fn sphere(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
+    fn sphere(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let [center, b, _] = self.vectors();
         let light = Sphere { center, radius: b.x };
         match measure {
-            Measure::Area => light.by_area(p, u),
-            Measure::SolidAngle => light.by_solid_angle(p, u),
-            Measure::Projected => light.by_projected_solid_angle(p, normal, u),
+            Measure::Area => light.by_area(p).sample(u).into(),
+            Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
+            Measure::Projected => light.by_projected_solid_angle(p, normal).sample(u).into(),
         }
     }
     #[inline]
-    fn triangle(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
+    fn triangle(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let [v0, e1, e2] = self.vectors();
         let light = Triangle { v0, e1, e2 };
         match measure {
-            Measure::Area => light.by_area(p, u),
-            Measure::SolidAngle => light.by_solid_angle(p, u),
-            Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal, u)),
+            Measure::Area => light.by_area(p).sample(u).into(),
+            Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
+            Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal).sample(u).into()),
         }
     }
     #[inline]
-    fn parallelogram(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
+    fn parallelogram(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let [corner, u_edge, v_edge] = self.vectors();
         let light = Parallelogram { p: corner, u: u_edge, v: v_edge };
         match measure {
-            Measure::Area => light.by_area(p, u),
-            Measure::SolidAngle => light.by_solid_angle(p, u),
-            Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal, u)),
+            Measure::Area => light.by_area(p).sample(u).into(),
+            Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
+            Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal).sample(u).into()),
         }
     }
     #[inline]

@@ -1,4 +1,4 @@
-//! The command line of the renderer.
+//! The renderer's command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_render::chart::{self, name, size};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Direct lighting, and how well it is sampled
+/// A direct-lighting renderer that measures how well lights are sampled
 #[derive(Parser)]
 #[command(name = "etendue", version)]
 struct Cli {
@@ -25,98 +25,98 @@ struct Cli {
 enum Command {
     /// Render a scene to an EXR file, with a PNG beside it
     Render(Render),
-    /// Compare an image with a reference
+    /// Compare an image with a reference of the same size
     Compare(Compare),
-    /// Render scenes by every technique and sampler that applies, and see whether they agree
+    /// Render scenes with every applicable technique and sampler, and check that the images agree
     Selftest(Selftest),
-    /// Measure error and time of techniques and samplers, and draw them
+    /// Measure the error and time of techniques and samplers, and write a report with charts
     Chart(chart::Options),
-    /// Draw a figure of a lecture on sampling lights
+    /// Draw a figure about light sampling and print the numbers behind it
     Figure(figure::Options),
-    /// Where methods fail: maps of the error of every technique, beside the textbook's
+    /// Map where each technique of the library loses accuracy, beside the textbook formulas
     Atlas(atlas::Options),
-    /// List built-in scenes, techniques and samplers
+    /// List the built-in scenes, techniques, samplers and sensors
     List,
 }
 
 #[derive(Args)]
 struct Render {
-    /// A built-in scene's name, or a pbrt-v4 file
+    /// Name of a built-in scene, or path of a pbrt-v4 file
     scene: String,
-    /// Where to write; else what the scene says, else SCENE.exr
+    /// EXR file to write [default: the scene's film filename, or SCENE.exr]
     #[arg(short, long)]
     output: Option<PathBuf>,
-    /// Samples per pixel; else what the scene says
+    /// Samples per pixel [default: from the scene]
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
     spp: Option<u32>,
-    /// How lights are sampled
+    /// How to sample the lights
     #[arg(long, value_enum, default_value = "solid-angle")]
     technique: Technique,
-    /// Perfect mirrors that a ray is followed through, at the most
+    /// Greatest number of perfect mirrors along a camera ray
     #[arg(long, default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
     depth: u32,
-    /// Where random numbers come from
+    /// How to generate the random numbers
     #[arg(long, value_enum, default_value = "independent")]
     sampler: Sampler,
-    /// What pixels measure; for irradiance and power the scene needs a lens
+    /// What a pixel measures; irradiance and power need a camera with a lens
     #[arg(long, value_enum, default_value = "radiance")]
     sensor: Sensor,
-    /// Independent sets of samples in a pixel: one has the least error, but the image does not know its variance; else as few as can tell it
+    /// Independent replicates per pixel: with 1 the error is least and no variance is reported [default: 2 or 4, if --spp allows]
     #[arg(long, value_name = "1|2|4", value_parser = sets)]
     sets: Option<u32>,
-    /// Image size in pixels; else what the scene says
+    /// Image size in pixels [default: from the scene]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Images of different seeds are independent
+    /// Seed of the random numbers; different seeds give independent images
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Threads; 0 is one per core
+    /// Number of threads; 0 means one per core
     #[arg(long, default_value_t = 0)]
     threads: usize,
-    /// Render the same image this often, for timing
+    /// Render the same image this many times, for timing
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
-    /// Print one JSON object
+    /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
 }
 
 #[derive(Args)]
 struct Compare {
-    /// The reference
+    /// EXR file of the reference
     reference: PathBuf,
-    /// The image
+    /// EXR file of the image
     image: PathBuf,
-    /// Mean squared standard error of the reference, if its file has no variance
+    /// Mean squared standard error of the reference, used if its file has no variance
     #[arg(long, default_value_t = 0.0)]
     reference_error: f64,
-    /// Print one JSON object
+    /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
 }
 
 #[derive(Args)]
 struct Selftest {
-    /// Built-in scenes' names, or pbrt-v4 files; all built-in scenes if there are none
+    /// Names of built-in scenes, or paths of pbrt-v4 files [default: all built-in scenes]
     scenes: Vec<String>,
     /// Samples per pixel
     #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(2..=1 << 22))]
     spp: u32,
-    /// Pixels on a side
+    /// Width and height of the images in pixels
     #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=4096))]
     side: u32,
-    /// Images of different seeds are independent
+    /// Seed of the random numbers; different seeds give independent images
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Perfect mirrors that a ray is followed through, at the most
+    /// Greatest number of perfect mirrors along a camera ray
     #[arg(long, default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
     depth: u32,
-    /// Threads; 0 is one per core
+    /// Number of threads; 0 means one per core
     #[arg(long, default_value_t = 0)]
     threads: usize,
 }
 
-/// The instructions that this program was built with and this machine does not have.
+/// Instruction set extensions that the program was built for and this machine lacks.
 fn missing_features() -> Vec<&'static str> {
     let mut missing = Vec::new();
     #[cfg(target_arch = "x86_64")]
@@ -137,8 +137,8 @@ fn main() -> ExitCode {
     let missing = missing_features();
     if !missing.is_empty() {
         eprintln!(
-            "etendue: this program was built for a processor with {}, which this one lacks.\n\
-             Build it again here without that: CARGO_ENCODED_RUSTFLAGS= cargo build --release",
+            "etendue: this program was built for a processor with {}, which this machine lacks.\n\
+             Rebuild it without that requirement: CARGO_ENCODED_RUSTFLAGS= cargo build --release",
             missing.join(", ")
         );
         return ExitCode::from(3);
@@ -158,7 +158,7 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        // whoever reads our output has had enough of it
+        // the reader has closed the pipe, as `head` does
         Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
             ExitCode::SUCCESS
         }
@@ -169,7 +169,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The command as it was given, for the record.
+/// The command line, for the report.
 fn command_line() -> String {
     let arguments = std::env::args().skip(1).map(|a| if a.contains(' ') { format!("{a:?}") } else { a });
     std::iter::once("etendue".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
@@ -177,7 +177,7 @@ fn command_line() -> String {
 
 /// Parses `--sets`.
 fn sets(text: &str) -> Result<u32, String> {
-    [1, 2, 4].into_iter().find(|n| text == n.to_string()).ok_or_else(|| "want 1, 2 or 4".to_owned())
+    [1, 2, 4].into_iter().find(|n| text == n.to_string()).ok_or_else(|| "must be 1, 2 or 4".to_owned())
 }
 
 fn list() -> io::Result<()> {
@@ -220,7 +220,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
     if options.sensor != Sensor::Radiance && scene.camera.lens.is_none() {
         let (sensor, scene) = (name(options.sensor), &options.scene);
         return Err(format!(
-            "--sensor {sensor}: nothing gets through the pinhole of {scene}: its camera has no lensradius"
+            "--sensor {sensor}: the camera of {scene} is a pinhole: it needs a \"lensradius\" greater than 0"
         )
         .into());
     }
@@ -234,11 +234,11 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
 
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let start = Instant::now();
-    let world = pool.install(|| World::taking(&mut scene))?.with_sensor(options.sensor);
+    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(options.sensor);
     let build = start.elapsed().as_secs_f64();
 
     let pixels = u64::from(width) * u64::from(height);
-    // indicatif draws nothing where stderr is not a terminal
+    // indicatif draws nothing unless stderr is a terminal
     let bar = ProgressBar::new(pixels * u64::from(options.repeat))
         .with_style(ProgressStyle::with_template("{wide_bar} {percent:>3} %  {elapsed} of {duration}")?);
     let mut seconds = Vec::new();
@@ -254,7 +254,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
     let picture = output.with_extension("png");
     match world.exposure(width, height) {
         None => image::write_png(&picture, &film)?,
-        // exposed so that what is uniform looks alike by every sensor, in the middle
+        // a uniform scene looks the same with every sensor in the middle of the image
         Some(exposure) => image::write_png(&picture, &film.scaled(1.0 / exposure.on_axis()))?,
     }
 
@@ -284,7 +284,7 @@ fn render(options: &Render) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Prints the table; tells whether all agree.
+/// Prints the table; returns whether all images agree.
 fn run_selftest(options: &Selftest) -> Result<bool, Box<dyn Error>> {
     let mut names = options.scenes.clone();
     if names.is_empty() {
@@ -297,7 +297,7 @@ fn run_selftest(options: &Selftest) -> Result<bool, Box<dyn Error>> {
     let (mut worst, mut images) = (0.0_f64, 0);
     writeln!(
         io::stdout(),
-        "{side}x{side} pixels, {spp} samples per pixel, seed {seed}; z of each image against all others of its scene",
+        "{side}x{side} pixels, {spp} samples per pixel, seed {seed}; z compares each image with all others of its scene",
         side = options.side,
         spp = options.spp,
         seed = options.seed

@@ -1,11 +1,11 @@
-//! Where the random numbers of a pixel's samples come from.
+//! Generates the random numbers of a pixel's samples.
 //!
-//! A sample has a pair of numbers for each use: [`FILM`], [`LIGHT`], [`CHOICE`], [`LENS`], [`SURFACE`], then 5 and up for whatever else.
-//! *Padding* makes each pair a good point set of its own and associates the pairs at random; a *joint* set is good in all of
-//! its dimensions together.
+//! Each sample has a pair of numbers for each use: [`FILM`], [`LIGHT`], [`CHOICE`], [`LENS`], [`SURFACE`]; 5 and up are free.
+//! *Padding* makes each pair a well-distributed set of its own and combines the pairs at random; a *joint* set is well
+//! distributed in all of its dimensions together.
 //!
-//! Samples of a good set are not independent, and their spread says nothing of the error. So a pixel is made of a few
-//! *replicates*, sets that are independent of one another, and its variance is that of the mean of their means.
+//! The samples of a well-distributed set are not independent, so their spread does not measure the error. A pixel therefore
+//! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means.
 
 use crate::accel::{M8, X8};
 use etendue::sequence::{
@@ -18,21 +18,21 @@ use etendue::{Vec2, u32x8};
 pub enum Sampler {
     /// Independent random numbers
     Independent,
-    /// Jittered strata in the pixel and on the light, associated at random
+    /// Jittered strata in the pixel and on the light, paired at random
     Stratified,
-    /// Jittered strata of pixel × light (× lens): n⁴ (n⁶) samples, or 2 or 4 times as many
+    /// Jittered strata of pixel × light (× lens); takes n⁴ (n⁶) samples, or 2 or 4 times as many
     #[value(name = "stratified-4d")]
     Stratified4d,
-    /// Latin hypercube: each coordinate in strata, associated at random
+    /// Latin hypercube: strata of each coordinate, combined at random
     Latin,
-    /// Owen-scrambled Sobol pairs in the pixel and on the light, associated at random
+    /// Owen-scrambled Sobol pairs in the pixel and on the light, paired at random
     Sobol,
     /// Owen-scrambled Sobol points of pixel × light (× lens)
     #[value(name = "sobol-4d")]
     Sobol4d,
-    /// Owen-scrambled Sobol pairs dealt out along a Z-order curve of pixels: blue noise
+    /// Owen-scrambled Sobol pairs distributed along a Z-order curve of pixels: blue noise
     ZOrder,
-    /// Owen-scrambled Sobol pairs as sobol, more of them in pixels around which they vary
+    /// Like sobol, with more samples in pixels whose neighbours have more variance
     Adaptive,
 }
 
@@ -40,11 +40,11 @@ pub enum Sampler {
 pub const FILM: u32 = 0;
 /// The pair for the point on the light, or the direction.
 pub const LIGHT: u32 = 1;
-/// The number with which to choose among many lights.
+/// The pair whose first number chooses the light.
 pub const CHOICE: u32 = 2;
 /// The pair for the point on the lens.
 pub const LENS: u32 = 3;
-/// The pair for a direction in which the surface reflects, beside a point on the light.
+/// The pair for a direction sampled from the surface's BSDF, in addition to a point on the light.
 pub const SURFACE: u32 = 4;
 
 /// Eight samples to be taken.
@@ -54,15 +54,15 @@ pub struct Packet {
     pub x: u32x8,
     /// Rows of their pixels.
     pub y: u32x8,
-    /// Which of a pixel's samples they are.
+    /// Indices of the samples in their pixels.
     pub sample: u32x8,
-    /// Which replicates of their pixels they belong to: ⌊sample/span⌋, or 0 where each sample is one; see [`Source::span`].
+    /// Indices of the replicates in their pixels: ⌊sample/span⌋, or 0 if each sample is a replicate; see [`Source::span`].
     pub replicate: u32x8,
     /// Lanes that hold a sample.
     pub active: M8,
 }
 
-/// As few replicates of a pixel of `spp` samples as can tell their variance, four where that leaves eight samples or more to each.
+/// Replicates of a pixel of `spp` samples: the fewest that give a variance, or 4 if each then has at least 8 samples.
 const fn replicates(spp: u32) -> u32 {
     if spp.is_multiple_of(4) && spp >= 32 {
         4
@@ -73,7 +73,7 @@ const fn replicates(spp: u32) -> u32 {
     }
 }
 
-/// Fewest samples of a pixel in each replicate of [`Sampler::Adaptive`]: eight to tell how many more, and eight more.
+/// Fewest samples of a pixel in each replicate of [`Sampler::Adaptive`]: a packet of 8 for the pilot, and one more.
 const FEWEST: u32 = 16;
 
 /// The side of the greatest grid of `dimensions` with at most `count` cells.
@@ -81,32 +81,32 @@ fn side(count: u32, dimensions: u32) -> u32 {
     (1..).take_while(|&n: &u32| n.checked_pow(dimensions).is_some_and(|cells| cells <= count)).last().unwrap_or(1)
 }
 
-/// Dimensions that are sampled together.
+/// Dimensions of a joint set: pixel, light and, with a lens, the lens.
 const fn dimensions(lens: bool) -> u32 {
     if lens { 6 } else { 4 }
 }
 
-/// Replicates of a pixel of `spp` jittered samples of 4 or 6 dimensions: 4, 2 or 1, whichever leaves a power n⁴ or n⁶, or `sets` of
-/// them if it is not 0.
+/// Replicates of a pixel of `spp` jittered samples of 4 or 6 dimensions: the first of 4, 2 and 1 that leaves n⁴ or n⁶ samples to
+/// each. A `sets` other than 0 allows no other number.
 fn joint_replicates(spp: u32, dimensions: u32, sets: u32) -> Option<u32> {
     let fits = |r: u32| spp.is_multiple_of(r) && side(spp / r, dimensions).pow(dimensions) * r == spp;
     [4, 2, 1].into_iter().filter(|r| sets == 0 || *r == sets).find(|r| fits(*r))
 }
 
 impl Sampler {
-    /// Whether this sampler can take `spp` samples of each pixel as it should, in `sets` sets (see [`Settings::sets`](crate::Settings::sets)): for
-    /// [`Sampler::Stratified4d`], whether that is n⁴, 2n⁴ or 4n⁴ (n⁶ with a lens).
+    /// Checks that this sampler supports `spp` samples per pixel in `sets` sets (see [`Settings::sets`](crate::Settings::sets)).
+    /// [`Sampler::Stratified4d`] needs n⁴, 2n⁴ or 4n⁴ samples (n⁶ with a lens).
     ///
     /// # Errors
-    /// It is not, and what is.
+    /// Fails if `spp` is unsupported; the message names valid counts.
     pub fn check(self, spp: u32, sets: u32, lens: bool) -> Result<(), String> {
         if sets > 1 && !spp.is_multiple_of(sets) {
-            return Err(format!("{spp} samples per pixel are not {sets} sets alike"));
+            return Err(format!("{spp} samples per pixel cannot be split into {sets} equal sets"));
         }
         let d = dimensions(lens);
         match self {
             Self::Adaptive if spp < FEWEST * sets.max(1) => {
-                Err(format!("adaptive takes {} samples per pixel or more: {spp} are too few", FEWEST * sets.max(1)))
+                Err(format!("adaptive needs at least {} samples per pixel: {spp} is too few", FEWEST * sets.max(1)))
             }
             Self::Stratified4d if joint_replicates(spp, d, sets).is_none() => {
                 let power = if lens { "n⁶" } else { "n⁴" };
@@ -119,13 +119,13 @@ impl Sampler {
                 let below = (1..spp).rev().find(fits).unwrap_or(sets.max(1));
                 let above = (spp + 1..).find(fits).unwrap_or(u32::MAX);
                 Err(format!(
-                    "stratified-4d takes {powers} samples per pixel: {spp} is none of these; {below} and {above} are"
+                    "stratified-4d needs {powers} samples per pixel, not {spp}; the nearest valid counts are {below} and {above}"
                 ))
             }
             _ => Ok(()),
         }
     }
-    /// Independent sets of samples in a pixel where `asked` are asked for (0: as few as can tell the variance, if any can).
+    /// Independent sets of samples per pixel if `asked` sets are requested (0: as few as give a variance, if any number does).
     #[must_use]
     pub fn sets(self, spp: u32, asked: u32, lens: bool) -> u32 {
         match self {
@@ -152,14 +152,14 @@ enum Set {
 #[derive(Debug)]
 pub struct Source {
     set: Set,
-    /// Samples in a replicate; 0 where each sample is one.
+    /// Samples in a replicate; 0 if each sample is a replicate.
     span: u32,
-    /// By how much further apart the indices of two replicates are than `span`.
+    /// Distance of the first indices of two successive replicates, less `span`.
     gap: u32x8,
     width: u32x8,
 }
 
-/// A pair's place in a joint point: the lens comes before the choice of a light, which few scenes need.
+/// Index of a pair in a joint point. The lens comes before the choice of a light, which few scenes need.
 const fn joint(dimension: u32) -> u32 {
     match dimension {
         LENS => 2,
@@ -169,19 +169,20 @@ const fn joint(dimension: u32) -> u32 {
 }
 
 impl Source {
-    /// For `spp` samples, in `sets` sets, in each pixel of an image of this width; `lens` says whether they have a point on a lens.
+    /// Prepares `spp` samples per pixel, in `sets` sets, for an image of this width; `lens` says whether samples have a point on a
+    /// lens.
     ///
-    /// Any count will do. [`Sampler::Stratified4d`] fills the greatest grid that a replicate holds as often as it can, see
-    /// [`Sampler::check`]; Sobol's points are best where a set is a power of two.
+    /// Every count is valid. [`Sampler::Stratified4d`] repeats the greatest grid that fits into a replicate, see
+    /// [`Sampler::check`]; Sobol points are best if a set is a power of two.
     #[must_use]
     pub fn new(sampler: Sampler, seed: u64, spp: u32, sets: u32, lens: bool, width: u32) -> Self {
         let d = dimensions(lens);
         let span = match sampler {
-            // its replicates have no fixed length: samples are counted from the beginning of each
+            // its replicates have no fixed length, so samples are counted within each
             Sampler::Adaptive => 0,
             _ => spp / sampler.sets(spp, sets, lens),
         };
-        // a replicate begins with a set of its own
+        // each replicate starts a new set
         let (set, stride) = match sampler {
             Sampler::Independent => (Set::Independent(Independent::new(seed)), span),
             Sampler::Stratified => (Set::Stratified(Stratified::new(seed, span)), span),
@@ -200,7 +201,7 @@ impl Source {
         let span = if sampler == Sampler::Independent { 0 } else { span };
         Self { set, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width) }
     }
-    /// Samples in a replicate; 0 where each sample is one.
+    /// Samples in a replicate; 0 if each sample is a replicate.
     #[must_use]
     pub const fn span(&self) -> u32 {
         self.span
@@ -213,12 +214,13 @@ impl Source {
             _ => [self.pair(packet, FILM), self.pair(packet, LIGHT)],
         }
     }
-    /// Can samples be counted for each light by itself? Then each has a good set of its own.
+    /// Whether samples can be counted per light, so that each light gets a well-distributed set of its own.
     #[must_use]
     pub const fn allocates(&self) -> bool {
         matches!(self.set, Set::Sobol(_))
     }
-    /// The pairs [`FILM`], and [`LIGHT`] of samples that are counted for each light: `sample` those of the lane's `light`.
+    /// The pair [`FILM`], and the pair [`LIGHT`] of samples that are counted per light: `sample` is the index among those of the
+    /// lane's `light`.
     #[inline]
     pub fn film_and_light_of(&self, packet: &Packet, light: u32x8, sample: u32x8) -> [Vec2<X8>; 2] {
         let pixel = packet.y * self.width + packet.x;
@@ -232,7 +234,7 @@ impl Source {
     #[inline]
     pub fn pair(&self, packet: &Packet, dimension: u32) -> Vec2<X8> {
         let pixel = packet.y * self.width + packet.x;
-        // Sobol's points have no end: the replicate is part of the key
+        // the Sobol sequence does not end, so the replicate is part of the key
         let sobol = || {
             let first = packet.replicate * u32x8::splat(self.span);
             (pixel * u32x8::splat(4) + packet.replicate, packet.sample - first)

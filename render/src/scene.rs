@@ -1,7 +1,7 @@
-//! Scene files: reads the part of the pbrt-v4 format that direct lighting needs.
+//! Reads scene files: the part of the pbrt-v4 format that direct lighting needs.
 //!
-//! What the file asks for and this renderer cannot do is an error that names file and line; what does not change
-//! the image much, or only its noise, is a warning. Coordinates are transformed in f64 and rounded once to f32.
+//! An unsupported feature is an error that names file and line; a feature that changes the image little, or only its noise, is a
+//! warning. Coordinates are transformed in f64 and rounded once to f32.
 
 mod lexer;
 mod lights;
@@ -21,30 +21,30 @@ use std::path::Path;
 use std::sync::Arc;
 use std::{fmt, fs, io};
 
-/// All that a scene file says, in world space.
+/// The contents of a scene file, in world space.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The name of a built-in scene, else the file's name without its extension.
+    /// The name of a built-in scene, or the file's name without its extension.
     pub name: String,
-    /// The one camera.
+    /// The camera; a scene has exactly one.
     pub camera: CameraSettings,
-    /// Image size and file name, as in the file.
+    /// Image size and file name.
     pub film: FilmSettings,
-    /// Samples per pixel; 16 if the file does not say.
+    /// Samples per pixel; 16 by default.
     pub pixel_samples: u32,
-    /// No two are equal.
+    /// Materials, no two of which are equal.
     pub materials: Vec<Material>,
-    /// Triangles that do not emit. Their normal is (v1 − v0) × (v2 − v0); none has zero area.
+    /// Corners of the triangles that do not emit. The normal is (v1 − v0) × (v2 − v0); no area is zero.
     pub triangles: Vec<[[f32; 3]; 3]>,
     /// One index into `materials` per triangle.
     pub triangle_materials: Vec<u32>,
-    /// Every sphere, and every triangle and parallelogram that emits.
+    /// All spheres, and the triangles and parallelograms that emit.
     pub shapes: Vec<Shape>,
     /// Point, spot and distant lights.
     pub delta_lights: Vec<DeltaLight>,
-    /// What lies beyond all surfaces; black if there is none.
+    /// Light from infinitely far away, if there is any.
     pub environment: Option<Environment>,
-    /// What was read but not honoured, in the order of the file.
+    /// Warnings about ignored parts of the file, in the order of the file.
     pub warnings: Vec<Message>,
 }
 
@@ -55,17 +55,17 @@ pub struct FilmSettings {
     pub width: u32,
     /// Pixels down, 1 to 65,536; at most 2²⁸ pixels in all.
     pub height: u32,
-    /// Diagonal of the film in millimetres, over 0; 35 if the file does not say.
+    /// Diagonal of the film in millimetres, greater than 0; 35 by default.
     pub diagonal: f64,
-    /// Where the file wants its image written.
+    /// Name of the image file to write.
     pub filename: Option<String>,
 }
 
-/// A perspective camera, by a pinhole or a thin lens.
+/// A perspective camera: a pinhole or a thin lens.
 ///
-/// With `t = tan_half(width, height)`, the ray through image position (x, y) in \[0,1\]² from the top left has the
-/// direction `forward + (2x−1) t[0] right + (1−2y) t[1] up`. The three axes are orthonormal unless the file's
-/// camera transform is not a similarity; `forward` always has length 1.
+/// With `t = tan_half(width, height)`, the ray through image position (x, y) in \[0,1\]², from the top left, has direction
+/// `forward + (2x−1) t[0] right + (1−2y) t[1] up`. The three axes are orthonormal if the camera transform is a similarity;
+/// `forward` always has length 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CameraSettings {
     /// The pinhole, or the centre of the lens.
@@ -82,19 +82,20 @@ pub struct CameraSettings {
     pub lens: Option<Lens>,
 }
 
-/// A thin lens across the camera's axis: it takes each point of the film to one point of the plane of focus, on the line through its centre.
+/// A thin lens perpendicular to the camera's axis. It images each point of the film to the point of the plane of focus on the line
+/// through its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Its radius in camera space, over 0.
+    /// Radius in camera space, greater than 0.
     pub radius: f64,
-    /// Distance of the plane of focus in camera space, over 0.
+    /// Distance of the plane of focus in camera space, greater than 0.
     pub focus: f64,
-    /// Length of a unit of camera space in the scene.
+    /// Length of a unit of camera space in world space.
     pub unit: f64,
 }
 
 impl CameraSettings {
-    /// Tangents of half the angle of view across and down, for an image of this size (both at least 1).
+    /// Tangents of half the horizontal and vertical angle of view, for an image of this size (both sides at least 1).
     pub fn tan_half(&self, width: u32, height: u32) -> [f64; 2] {
         let shorter = (self.fov.to_radians() / 2.0).tan();
         let aspect = f64::from(width) / f64::from(height);
@@ -102,14 +103,14 @@ impl CameraSettings {
     }
 }
 
-/// A shape that rays meet as such, not as triangles.
+/// A shape that is intersected as such, not as triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Where it is.
+    /// Form and position in world space.
     pub geometry: Geometry,
-    /// Index into the materials.
+    /// Index into [`Scene::materials`].
     pub material: u32,
-    /// The light it gives off.
+    /// Emitted light; `None` if the shape is no light.
     pub emission: Option<Emission>,
 }
 
@@ -118,20 +119,20 @@ pub struct Shape {
 pub enum Geometry {
     /// A whole sphere; its normal points outwards.
     Sphere {
-        /// Its centre.
+        /// Centre.
         center: [f32; 3],
-        /// Its radius, over 0.
+        /// Radius, greater than 0.
         radius: f32,
     },
-    /// Three corners; the normal is (v1 − v0) × (v2 − v0).
+    /// The corners of a triangle; the normal is (v1 − v0) × (v2 − v0).
     Triangle([[f32; 3]; 3]),
-    /// `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.
+    /// The parallelogram `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.
     Parallelogram {
-        /// A corner.
+        /// One corner.
         p: [f32; 3],
-        /// One edge from that corner.
+        /// First edge from that corner.
         u: [f32; 3],
-        /// The other edge from that corner.
+        /// Second edge from that corner.
         v: [f32; 3],
     },
 }
@@ -139,20 +140,20 @@ pub enum Geometry {
 /// Constant emission of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
-    /// Radiance, linear RGB; at least one channel is over 0.
+    /// Radiance, linear RGB; at least one channel is greater than 0.
     pub radiance: [f32; 3],
-    /// Whether it emits on both sides, not on that of its normal only.
+    /// Whether both sides emit, or only the side of the normal.
     pub two_sided: bool,
 }
 
-/// Something to tell about a line of a scene file. Shown as `file:line: text`.
+/// An error or warning about a line of a scene file, shown as `file:line: text`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Message {
     /// The file as the user named it, or as its parent included it.
     pub file: String,
-    /// The line, from 1.
+    /// The line number, from 1.
     pub line: u32,
-    /// What is wrong there.
+    /// What is wrong with the line.
     pub text: String,
 }
 
@@ -165,13 +166,13 @@ impl fmt::Display for Message {
 /// Why a scene could not be read.
 #[derive(Debug)]
 pub enum SceneError {
-    /// A line that is wrong, or asks for what is not supported.
+    /// A line is invalid or asks for an unsupported feature.
     At(Message),
     /// The scene file itself could not be read.
     Io {
-        /// The path that was given.
+        /// The path as given by the user.
         path: String,
-        /// What the system said.
+        /// The system's error.
         error: io::Error,
     },
 }
@@ -207,7 +208,7 @@ impl From<Message> for SceneError {
     }
 }
 
-/// A line of a file, cheap to copy.
+/// A line of a file, cheap to clone.
 #[derive(Clone, Debug)]
 struct Place {
     file: Arc<str>,
@@ -221,16 +222,16 @@ impl Place {
 }
 
 const DESCRIBED: [(&str, &str); 10] = [
-    ("sphere-light", "two boxes under a sphere light out of view"),
-    ("triangle-light", "a box before a large triangle light in view"),
-    ("quads", "three boxes under five quadrilateral lights of very different size and power"),
-    ("terrain", "a height field and 25 bumpy spheres, a million triangles, under one square light"),
+    ("sphere-light", "two boxes under a sphere light outside the view"),
+    ("triangle-light", "a box in front of a large, visible triangle light"),
+    ("quads", "three boxes under five quadrilateral lights of very different sizes and powers"),
+    ("terrain", "a million triangles, a height field and 25 bumpy spheres, under one square light"),
     ("cornell-box", "the Cornell box from its published data"),
     ("mirror-room", "a room between two mirrors, with a mirror and a gold sphere"),
-    ("plates", "four plates from smooth to rough under four spheres from small to large"),
+    ("plates", "four metal plates, smooth to rough, under four sphere lights, small to large"),
     ("delta-lights", "boxes and a ball under a point, a spot and a distant light"),
-    ("sky", "a diffuse, a mirror and a rough ball under an image of a sky"),
-    ("defocus", "a row of spheres through a lens that is focused on the third"),
+    ("sky", "a diffuse, a mirror and a rough metal ball under an image of a sky"),
+    ("defocus", "a row of spheres seen through a lens focused on the third"),
 ];
 
 const BUILTIN: [(&str, &str); 10] = [
@@ -246,7 +247,7 @@ const BUILTIN: [(&str, &str); 10] = [
     (DESCRIBED[9].0, include_str!("../scenes/defocus.pbrt")),
 ];
 
-/// Images that built-in scenes name.
+/// Images that built-in scenes refer to.
 const BUILTIN_IMAGES: [(&str, &[u8]); 1] = [("sky.exr", include_bytes!("../scenes/sky.exr"))];
 
 /// Name and description of each built-in scene.
@@ -254,7 +255,7 @@ pub fn builtin() -> &'static [(&'static str, &'static str)] {
     &DESCRIBED
 }
 
-/// Reads the built-in scene of this name, else the file at this path.
+/// Reads the built-in scene of this name, or else the file at this path.
 pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
     if let Some((name, text)) = BUILTIN.iter().find(|(name, _)| *name == name_or_path) {
         return Ok(reader::read(text, &format!("{name}.pbrt"), Path::new("."), true)?);
@@ -268,18 +269,18 @@ pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
 
 /// Reads a scene from `text`. Messages call it `file`; file names in it are relative to `dir`.
 ///
-/// Total: any text gives a scene or an error, in bounded depth.
+/// Any text gives a scene or an error, with bounded recursion.
 pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
     Ok(reader::read(text, file, dir, false)?)
 }
 
-/// A colour in f32; `None` if a channel overflows.
+/// A colour rounded to f32; `None` if a channel overflows.
 fn rounded(rgb: [f64; 3]) -> Option<[f32; 3]> {
     let rgb = rgb.map(|x| x as f32);
     rgb.iter().all(|x| x.is_finite()).then_some(rgb)
 }
 
-/// The bytes of a regular file; never waits on a pipe or reads a device without end.
+/// Reads a regular file; refuses pipes and devices, which may block or never end.
 pub(crate) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));

@@ -1,4 +1,4 @@
-//! Every technique and sampler that applies to a scene, and whether they agree.
+//! Renders a scene with every applicable technique and sampler, and checks that the images agree.
 
 use crate::film::Film;
 use crate::scene::{Material, Scene};
@@ -14,36 +14,36 @@ pub struct Row {
     pub sampler: Sampler,
     /// Mean over pixels, per channel.
     pub mean: [f64; 3],
-    /// Standard error of that, from the variance of the pixels.
+    /// Standard error of the mean, from the variance of the pixels.
     pub error: [f64; 3],
-    /// Difference to what all the others say together, in standard deviations.
+    /// Difference from the combined mean of all other images, in standard deviations.
     pub z: [f64; 3],
 }
 
-/// A `z` from which on an image disagrees with the others.
+/// An image disagrees with the others if its |z| is at least this.
 pub const LIMIT: f64 = 4.0;
 
-/// Size, effort and seed of a self-test.
+/// Settings of a self-test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Effort {
-    /// Pixels on a side.
+    /// Width and height of the images in pixels.
     pub side: u32,
     /// Samples per pixel.
     pub spp: u32,
-    /// Images of different seeds are independent.
+    /// Seed of the random numbers; different seeds give independent images.
     pub seed: u64,
-    /// As in [`Settings`].
+    /// Greatest number of mirrors along a camera ray, as in [`Settings`].
     pub depth: u32,
 }
 
-/// Does the technique apply to the scene? All do, but that directions over the hemisphere find the reflection of a light in a rough metal
-/// so rarely that their own variance does not tell how wrong they are.
+/// Whether the technique applies to the scene: all do, except that directions over the hemisphere find the highlights of a rough
+/// metal so rarely that their sample variance does not reveal the error.
 pub fn applies(technique: Technique, scene: &Scene) -> bool {
     let blind = matches!(technique, Technique::UniformHemisphere | Technique::CosineHemisphere);
     !(blind && scene.materials.iter().any(Material::is_glossy))
 }
 
-/// Renders the scene by every technique and sampler that applies, and that can tell its variance with so many samples.
+/// Renders the scene with every applicable technique and sampler that can estimate its variance from this many samples.
 pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
     let mut rows = Vec::new();
     let mut images = 0;
@@ -51,13 +51,13 @@ pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
         let Effort { side, spp, seed, depth } = *effort;
         let lens = scene.camera.lens.is_some();
         for &sampler in Sampler::value_variants().iter().filter(|s| s.check(spp, 0, lens).is_ok()) {
-            // images that share a seed share noise
+            // images of one seed share their noise
             images += 1;
             let seed = seed.wrapping_mul(0x1_0000).wrapping_add(images);
             let settings = Settings { width: side, height: side, spp, technique, depth, sampler, sets: 0, seed };
             let (film, _) = world.render(&settings, |_| ());
             let error = error(&film);
-            // a pixel of one replicate knows no variance
+            // a single replicate has no variance estimate
             if error.iter().all(|e| e.is_finite()) {
                 rows.push(Row { technique, sampler, mean: film.mean(), error, z: [0.0; 3] });
             }
@@ -72,10 +72,10 @@ fn error(film: &Film) -> [f64; 3] {
     std::array::from_fn(|k| total(k).sqrt() / film.pixels.len() as f64)
 }
 
-/// Sets `z` of each row: its mean against that of all others, weighted by their precision.
+/// Sets `z` of each row by comparing its mean with the precision-weighted mean of all others.
 pub fn judge(rows: &mut [Row]) {
     for k in 0..3 {
-        // sums of single precision are not better known than this
+        // the rounding of sums in f32
         let variance = |row: &Row| (row.error[k].powi(2) + (row.mean[k] / 4_194_304.0).powi(2)).max(f64::MIN_POSITIVE);
         let z: Vec<f64> = (0..rows.len())
             .map(|i| {
@@ -97,7 +97,7 @@ pub fn judge(rows: &mut [Row]) {
     }
 }
 
-/// The greatest |z|; infinite where one is not a number.
+/// The greatest |z|; infinite if one is NaN.
 pub fn worst(rows: &[Row]) -> f64 {
     let size = |z: f64| if z.is_nan() { f64::INFINITY } else { z.abs() };
     rows.iter().flat_map(|row| row.z).map(size).fold(0.0, f64::max)

@@ -1,7 +1,7 @@
 //! What a pixel measures: radiance, irradiance or power.
 //!
-//! The film lies at the distance z behind the lens at which its shorter side spans the camera's field of view; its diagonal is
-//! stated by the scene (35 mm if not). Both are measured in camera space, whose unit is the metre, as in pbrt.
+//! The film lies at the distance z behind the lens where its shorter side spans the camera's field of view. The scene sets the
+//! film's diagonal (35 mm by default). Camera space is in metres, as in pbrt.
 
 use crate::accel::X8;
 use crate::lens::Slopes;
@@ -11,35 +11,35 @@ use etendue::warp::ConcentricDisk;
 use etendue::{Real, Warp};
 use std::f64::consts::PI;
 
-/// What a pixel measures.
+/// The quantity that a pixel measures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Sensor {
-    /// Radiance, W/(m² sr): the mean over pixel and lens
+    /// Mean radiance over pixel and lens, W/(m² sr)
     #[default]
     Radiance,
-    /// Irradiance of the film, W/m²: its mean over the pixel
+    /// Mean irradiance of the film over the pixel, W/m²
     Irradiance,
-    /// Power that falls on the pixel, W
+    /// Power incident on the pixel, W
     Power,
 }
 
-/// The measure of radiance that arrives at the film by a lens.
+/// The weight of radiance that arrives at the film through a lens.
 ///
-/// E(p) = ∫ L cosθ cosθ' / ‖p' − p‖² dA' over points p' of the exit pupil, which is the lens: film and lens are parallel, so it is
-/// z² ∫ L / ‖p' − p‖⁴ dA', z their distance. In units of z, with p' = k ℓ for ℓ in the unit disk, k = r/z, and p = −t: E = π k² times
-/// the mean of L / (1 + ‖k ℓ + t‖²)². Where k is small that is π k² L cos⁴θ.
+/// E(p) = ∫ L cosθ cosθ' / ‖p' − p‖² dA' over points p' of the exit pupil, which is the lens. Film and lens are parallel at distance
+/// z, so E(p) = z² ∫ L / ‖p' − p‖⁴ dA'. In units of z, with p' = k ℓ for ℓ in the unit disk, k = r/z, and p = −t, E is π k² times
+/// the mean of L / (1 + ‖k ℓ + t‖²)². For small k that is π k² L cos⁴θ.
 #[derive(Clone, Copy, Debug)]
 pub struct Exposure {
     /// Radius of the lens over its distance from the film.
     ratio: f64,
     slopes: Slopes,
-    /// Area over which irradiance is added up: 1 for irradiance itself.
+    /// Area over which irradiance is integrated: that of a pixel in m² for power, 1 for irradiance.
     area: f64,
 }
 
 impl Exposure {
-    /// For an image of `width` × `height` square pixels on a film of this diagonal in millimetres; nothing for radiance, which is not
-    /// weighed. A pinhole lets nothing through.
+    /// The exposure of an image of `width` × `height` square pixels on a film of this diagonal in millimetres; `None` for radiance,
+    /// which needs no weight. All weights of a pinhole are 0.
     #[must_use]
     pub fn new(
         sensor: Sensor,
@@ -59,12 +59,12 @@ impl Exposure {
         let ratio = camera.lens.map_or(0.0, |lens| lens.radius) / distance;
         Some(Self { ratio, slopes: Slopes::new(camera, width, height), area })
     }
-    /// What the middle of the film measures where all radiance is 1: π sin²α, tan α = k, over the pixel's area for power.
+    /// The value at the middle of the film if all radiance is 1: π sin²α with tan α = k, times the pixel's area for power.
     #[must_use]
     pub fn on_axis(&self) -> f64 {
         PI * self.ratio.powi(2) / (1.0 + self.ratio.powi(2)) * self.area
     }
-    /// The factor from the radiance of eight samples to their share of the measure.
+    /// The weights by which the radiance of eight samples contributes to the measurement.
     #[inline]
     pub fn weight(&self, source: &Source, packet: &Packet) -> X8 {
         let film = source.pair(packet, FILM);

@@ -4,8 +4,7 @@ use crate::accel::{V8, X8};
 use crate::lights::Measure;
 use crate::scene;
 use etendue::light::ImageEnvironment;
-use etendue::warp::{CosineHemisphere, UniformSphere};
-use etendue::{ConstantEnvironment, Frame, LightSample, Vec2, Vec3, Warp, u32x8};
+use etendue::{ConstantEnvironment, LightSample, LightSampler, Vec2, Vec3, Warp, u32x8};
 
 /// An environment and the table by which it is sampled.
 #[derive(Clone, Debug)]
@@ -75,8 +74,8 @@ impl Sky {
         match &self.kind {
             Kind::Constant(radiance) => {
                 let sample = match measure {
-                    Measure::Projected => ConstantEnvironment.by_projected_solid_angle(normal, u),
-                    _ => ConstantEnvironment.by_solid_angle(u),
+                    Measure::Projected => ConstantEnvironment.by_projected_solid_angle(normal).sample(u),
+                    _ => ConstantEnvironment.by_solid_angle().sample(u),
                 };
                 (sample, (*radiance).into())
             }
@@ -91,8 +90,10 @@ impl Sky {
     #[inline]
     pub fn pdf(&self, measure: Measure, normal: V8, direction: V8) -> X8 {
         match (&self.kind, measure) {
-            (Kind::Constant(_), Measure::Projected) => CosineHemisphere.pdf(Frame::new(normal).to_local(direction)),
-            (Kind::Constant(_), _) => UniformSphere.pdf(direction),
+            (Kind::Constant(_), Measure::Projected) => {
+                ConstantEnvironment.by_projected_solid_angle(normal).pdf(direction)
+            }
+            (Kind::Constant(_), _) => ConstantEnvironment.by_solid_angle().pdf(direction),
             (Kind::Image { .. }, _) => self.image().pdf(self.to_light(direction)),
         }
     }

@@ -1,4 +1,4 @@
-//! The measurements and figures as their user meets them.
+//! Runs `etendue chart` and `etendue figure` as a user would, and checks their measurements.
 
 use etendue_render::chart::measure::{Row, Rows};
 use etendue_render::chart::reference::Reference;
@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 use std::{env, fs, process, thread};
 
-/// A folder of its own for each test, gone when the test ends.
+/// A temporary folder for a test, removed when the test ends.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -29,12 +29,12 @@ impl Folder {
         command.current_dir(&self.0).args(arguments.split(' '));
         command
     }
-    /// Standard output, after success.
+    /// Runs the program, which must succeed, and returns its standard output.
     fn succeed(&self, arguments: &str) -> String {
         let output = self.command(arguments).output().unwrap();
         text(&output, 0).0
     }
-    /// The message, after exit code 2.
+    /// Runs the program, which must exit with code 2, and returns its message.
     fn fail(&self, arguments: &str) -> String {
         let output = self.command(arguments).output().unwrap();
         let error = text(&output, 2).1;
@@ -70,7 +70,7 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     );
     let table = folder.read("out/measurements.csv");
     assert_eq!(table.lines().count(), 1 + 2 * 2 * 2, "{table}");
-    // one after the other: no technique has its replicates in a row
+    // interleaved: no technique has successive replicates
     let order: Vec<_> = table.lines().skip(1).map(|l| l.split(',').nth(2).unwrap()).collect();
     assert_eq!(order, ["area", "solid-angle"].repeat(4));
 
@@ -97,25 +97,23 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
     }
 
-    // the same again: nothing is measured; one more replicate: four more lines, and a broken one is gone
+    // the same command measures nothing; one more replicate adds four lines and removes an incomplete one
     assert!(
-        folder
-            .succeed(&format!("{SMALL} --replicates 2 -o out"))
-            .contains("8 measurements were made by an earlier run")
+        folder.succeed(&format!("{SMALL} --replicates 2 -o out")).contains("8 measurements come from an earlier run")
     );
     assert_eq!(folder.read("out/measurements.csv"), table);
     fs::write(folder.0.join("out/measurements.csv"), format!("{table}0123,triangle-li")).unwrap();
     folder.succeed(&format!("{SMALL} --replicates 3 -o out"));
     let more = folder.read("out/measurements.csv");
     assert!(more.starts_with(&table) && more.lines().count() == 1 + 3 * 2 * 2, "{more}");
-    // a technique that is another one by another name is told, and left out
+    // a technique that equals another one in a scene is left out, with a note
     let out =
         folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers latin -o other");
-    assert!(out.contains("cosine-hemisphere is left out: it makes the same image as uniform-hemisphere"), "{out}");
+    assert!(out.contains("cosine-hemisphere is left out: it gives the same image as uniform-hemisphere"), "{out}");
     assert!(!folder.read("other/measurements.csv").contains("cosine-hemisphere"));
-    // other settings: measured anew, and those of before are kept
+    // other settings are measured anew, and the earlier measurements are kept
     let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
-    assert!(out.contains("12 measurements of other settings"), "{out}");
+    assert!(out.contains("12 measurements with other settings"), "{out}");
     assert!(folder.read("out/measurements.csv").starts_with(&more));
 }
 
@@ -134,7 +132,7 @@ fn faults_are_told() {
     says("chart quads --reference a.exr", &["a.exr"]);
     says("chart quads --spp 3 --samplers stratified-4d", &["nothing to measure", "stratified-4d"]);
     says("figure luck", &["luck"]);
-    // as one of rough metals by directions of the hemisphere
+    // hemisphere sampling does not apply to rough metals
     says(
         "chart plates --techniques uniform-hemisphere --reference-spp 32 --size 8x8",
         &["nothing to measure", "rough"],
@@ -150,7 +148,7 @@ fn faults_are_told() {
     fs::write(folder.0.join("file"), "").unwrap();
     says(&format!("{SMALL} -o file"), &["file"]);
     says("figure importance -o file", &["file"]);
-    // an image of another shape than the reference
+    // a reference whose size is not a multiple of the image's
     folder.succeed("render quads --size 9x9 --spp 4 -o a.exr");
     says("chart quads --reference a.exr --size 8x8", &["a.exr", "9x9", "8x8"]);
 }
@@ -167,7 +165,7 @@ fn an_interrupted_run_leaves_a_report() {
         assert!(start.elapsed() < Duration::from_secs(60), "nothing is measured");
         thread::sleep(Duration::from_millis(5));
     }
-    // a million samples of each pixel would take minutes: the second one ends it at once, the table stays
+    // a million samples per pixel would take minutes: the second signal ends the program at once, and the table remains
     for _ in 0..2 {
         let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
         assert!(killed.success());
@@ -178,7 +176,7 @@ fn an_interrupted_run_leaves_a_report() {
     }
     child.wait().unwrap();
     let before = fs::read_to_string(&table).unwrap();
-    // now with images that are soon done, and no end of them
+    // now with many quick images
     let command = command.replace(",1048576", "");
     let child = folder.command(&command).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     while fs::read_to_string(&table).unwrap().lines().count() < before.lines().count() + 3 {
@@ -187,7 +185,7 @@ fn an_interrupted_run_leaves_a_report() {
     }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let (out, _) = text(&child.wait_with_output().unwrap(), 0);
-    assert!(out.contains("stopped early") && out.contains("3 measurements were made by an earlier run"), "{out}");
+    assert!(out.contains("stopped early") && out.contains("3 measurements come from an earlier run"), "{out}");
     assert!(fs::read_to_string(&table).unwrap().starts_with(&before));
     assert!(folder.read("out/report.html").contains("stopped early"));
 }
@@ -218,7 +216,7 @@ fn all(rows: &Rows) -> impl Iterator<Item = &Row> {
     rows.values().flatten()
 }
 
-/// What the table says is what the renderer does: the error of the image of that seed, and what its own variance foretells.
+/// The table holds the error of the image of each seed, and the error is the one that the image's own variance predicts.
 #[test]
 fn errors_are_those_of_the_images() {
     let folder = Folder::new();
@@ -248,7 +246,7 @@ fn errors_are_those_of_the_images() {
     let summary = &outcome.summaries[0];
     for series in &summary.series {
         for point in &series.points {
-            // what the images' own variances foretell: mean over pixels of the variance of the mean
+            // predicted by the images' own variances: the mean over pixels of the variance of the mean
             let of = |seed| {
                 let (technique, sampler) = (series.way.technique, series.way.sampler);
                 let settings = Settings {
@@ -266,7 +264,7 @@ fn errors_are_those_of_the_images() {
             };
             let foretold = (100..103).map(of).sum::<f64>() / 3.0;
             let ratio = point.mse.value / foretold;
-            // one set of strata errs less than the two or four that can tell their variance
+            // one set of strata has less error than the two or four that provide a variance
             let range = if series.way.sampler == Sampler::Independent { 0.88..1.12 } else { 0.4..0.9 };
             assert!(range.contains(&ratio), "{} {}: {ratio}", series.way.title(), point.spp);
             assert!(point.bias.abs() < 4.5, "{} {}: bias {}", series.way.title(), point.spp, point.bias);
@@ -277,7 +275,7 @@ fn errors_are_those_of_the_images() {
     }
 }
 
-/// A reference of as few samples as the images themselves: its error is taken off.
+/// The error of a reference with as few samples as the images themselves is subtracted.
 #[test]
 fn the_references_own_error_is_taken_off() {
     let folder = Folder::new();
@@ -292,12 +290,12 @@ fn the_references_own_error_is_taken_off() {
         (area.points[0].mse, error)
     };
     let ((precise, none), (rough, some)) = (measured(None, "precise"), measured(Some(32), "rough"));
-    // the rough one's error is a good part of what is measured, and hardly any is left of it
+    // the rough reference's error is a good part of the measured one, and hardly any of it remains
     assert!(some > 0.05 * rough.value && none < 1e-3 * precise.value, "{some:e} {none:e} {precise:?}");
     assert!((rough.value / precise.value - 1.0).abs() < 0.05, "{rough:?} {precise:?}");
 }
 
-/// Every warp has a time at each width, more of it for one lane than for eight, and an error that is rounding.
+/// Every warp has a time at each width, takes longer with one lane than with eight, and has an error of rounding only.
 #[test]
 fn warps_are_fast_and_good() {
     let measured = chart::warps::measure(&AtomicBool::new(false), |_, _| ());
@@ -306,7 +304,7 @@ fn warps_are_fast_and_good() {
         let [one, _, eight] = m.nanoseconds.each_ref().map(|t| t.value);
         println!("{:50} {one:8.2} {eight:8.2} ns, {:.1e} {:.1e}", m.name, m.point, m.density);
         assert!(eight > 0.0 && one > eight, "{}: {one} {eight}", m.name);
-        // the map of visible normals is infinitely steep where normals lie on the horizon
+        // the map of visible normals is infinitely steep for normals on the horizon
         let limit = if m.name.starts_with("GGX") { 1e-2 } else { 4e-6 };
         assert!((1e-9..limit).contains(&m.point) && (0.0..1e-5).contains(&m.density), "{m:?}");
     }
@@ -315,7 +313,7 @@ fn warps_are_fast_and_good() {
     assert!(!chart::warps::figure(&measured).drawing.file().contains("NaN"));
 }
 
-/// The numbers in a line of a figure's headline.
+/// The numbers in a line of a figure's output.
 fn numbers(line: &str) -> Vec<f64> {
     let line = line.replace('−', "-");
     let words = line.split(|c: char| !(c.is_ascii_digit() || ".-e".contains(c)));

@@ -262,7 +262,7 @@ fn bad_arguments_are_told() {
             &[option, value],
         );
     }
-    for (spp, near) in [("100", "81 and 162 are"), ("3", "2 and 4 are"), ("4194303", "4170272 and 4194304 are")] {
+    for (spp, near) in [("100", "81 and 162"), ("3", "2 and 4"), ("4194303", "4170272 and 4194304")] {
         let arguments = ["render", "quads", "-o", "kept.exr", "--sampler", "stratified-4d", "--spp", spp];
         fails_untouched(&folder, &arguments, &["--sampler", spp, "n⁴", near]);
     }
@@ -358,10 +358,10 @@ fn selftest_prints_a_table() {
 #[test]
 fn the_pupil_is_drawn_by_one_command() {
     let folder = Folder::new();
-    let text = folder.succeed(&["figure", "pupil", "-o", "here"]);
+    let text = folder.succeed(&["figure", "vignetting", "-o", "here"]);
     assert_eq!(text.lines().filter(|line| line.contains("% of the lens is open")).count(), 6, "{text}");
     assert_eq!(folder.names(), ["here"]);
-    let drawing = fs::read_to_string(folder.path("here").join("pupil.svg")).unwrap();
+    let drawing = fs::read_to_string(folder.path("here").join("vignetting.svg")).unwrap();
     // an image and three views, twice
     assert_eq!(drawing.matches("<image ").count(), 8);
 }

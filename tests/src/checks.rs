@@ -1,4 +1,4 @@
-//! Checks of functions that are no warps, as functions of the function: what the tests run, and what planted defects are put through.
+//! Checks of functions that are not warps. Each takes the function as an argument, so that mutants can be put through it too.
 
 use crate::generators::Random;
 use core::f64::consts::PI;
@@ -6,32 +6,32 @@ use etendue::LightSample;
 use etendue::estimate::Heuristic;
 use etendue::{Disk, Vec2};
 
-/// The greatest error seen, where, and the figure that the documentation states.
+/// The greatest error found so far, and where.
 #[derive(Clone, Copy, Debug)]
 pub struct Greatest {
-    /// Of what.
+    /// What was measured.
     pub name: &'static str,
-    /// How much.
+    /// The greatest error.
     pub error: f64,
-    /// For which arguments.
+    /// The arguments at which it occurs.
     pub at: [f32; 2],
 }
 impl Greatest {
-    /// Nothing yet.
+    /// No error yet.
     #[must_use]
     pub fn of(name: &'static str) -> Self {
         Self { name, error: 0.0, at: [0.0; 2] }
     }
-    /// One more.
+    /// Takes one more error into account.
     pub fn take(&mut self, error: f64, at: [f32; 2]) {
-        // a NaN is the greatest error of all
+        // a NaN counts as infinite
         let error = if error.is_nan() { f64::INFINITY } else { error };
         if error > self.error {
             self.error = error;
             self.at = at;
         }
     }
-    /// No more than is documented, and no less than nine tenths of it.
+    /// Asserts that the error is at most `documented`, and at least nine tenths of it, so that the documentation stays tight.
     pub fn assert_below(&self, documented: f64) {
         println!("{:40} {:.3e} at {:?}, documented {documented:.2e}", self.name, self.error, self.at);
         assert!(self.error <= documented, "{}: {:e} at {:?}", self.name, self.error, self.at);
@@ -39,7 +39,7 @@ impl Greatest {
     }
 }
 
-/// An arc tangent of two arguments at every magnitude, the subnormal ones too, on the axes and for signed zeros.
+/// Checks a two-argument arc tangent at every magnitude including the subnormal ones, on the axes, and for signed zeros.
 pub fn atan2(atan2: impl Fn(f32, f32) -> f32) {
     let mut relative = Greatest::of("atan2, relative");
     let mut random = Random::new(2);
@@ -56,7 +56,7 @@ pub fn atan2(atan2: impl Fn(f32, f32) -> f32) {
         }
     }
     relative.assert_below(2.0e-7);
-    // both subnormal, all ratios on their grid, and an angle that is subnormal
+    // both arguments subnormal, at all ratios on their grid; then a subnormal angle
     let mut steps = [Greatest::of("atan2 below 64 steps of 2⁻¹⁴⁹"), Greatest::of("atan2 of subnormal numbers")];
     for (i, j, side) in (1..256_u32).flat_map(|i| (1..256).flat_map(move |j| [(i, j, 1.0), (i, j, -1.0)])) {
         let (y, x) = (f32::from_bits(i), side * f32::from_bits(j));
@@ -91,11 +91,11 @@ pub const HEURISTICS: [Heuristic; 6] = [
     Heuristic::Power(5),
     Heuristic::Maximum,
 ];
-/// Densities from nothing to a delta's.
+/// Densities from 0 to that of a delta.
 pub const EXTREMES: [f32; 13] =
     [0.0, 1e-45, 1e-40, f32::MIN_POSITIVE, 1e-30, 1e-10, 0.3, 1.0, 7.0, 1e20, 1e38, f32::MAX, f32::INFINITY];
 
-/// Weights of any densities are in [0, 1] and sum to 1, or are 0 where all densities are; a density of 0 has weight 0.
+/// Weights are in [0, 1] and sum to 1, or to 0 if all densities are 0; a density of 0 has weight 0.
 pub fn weights_sum_to_one(heuristic: Heuristic, densities: &[f32], weights: &[f32]) {
     let sum: f64 = weights.iter().copied().map(f64::from).sum();
     let expected = f64::from(u8::from(densities.iter().any(|d| *d > 0.0)));
@@ -105,7 +105,7 @@ pub fn weights_sum_to_one(heuristic: Heuristic, densities: &[f32], weights: &[f3
         assert!(*d > 0.0 || *w == 0.0, "{heuristic:?} {densities:?} {weights:?}");
     }
 }
-/// The weights of two and three techniques at all pairs and triples of [`EXTREMES`].
+/// Checks the weights of two and of three techniques at all pairs and triples of [`EXTREMES`].
 pub fn extreme_weights(heuristic: Heuristic, two: impl Fn([f32; 2]) -> [f32; 2], three: impl Fn([f32; 3]) -> [f32; 3]) {
     for a in EXTREMES {
         for b in EXTREMES {
@@ -122,14 +122,14 @@ pub fn grid_mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
     let at = |i: usize| (i as f64 + 0.5) / n as f64;
     (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
 }
-/// Irradiance of one sample, where the radiance is 1 on the emitting side.
+/// Irradiance estimated from one sample, for radiance 1 on the emitting side.
 #[must_use]
 pub fn irradiance(s: &LightSample<f64>, n: [f64; 3]) -> f64 {
     let cos = (s.direction.x * n[0] + s.direction.y * n[1] + s.direction.z * n[2]).max(0.0);
     if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
 }
 
-/// The irradiance from a disk on receivers that face it and that stand upright is that of its form factors; nothing comes from behind.
+/// The irradiance from a disk matches its form factor on receivers facing it and perpendicular to it; a disk facing away gives none.
 pub fn disk_has_its_form_factor(n: usize, draw: impl Fn(&Disk<f64>, Vec2<f64>) -> LightSample<f64>) {
     for (r, h, a) in
         [(0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (2.0, 0.3, 2.5), (1e-3, 1.0, 3.0), (0.0157, 1.0, 0.0), (30.0, 1.0, 31.0)]
@@ -143,7 +143,6 @@ pub fn disk_has_its_form_factor(n: usize, draw: impl Fn(&Disk<f64>, Vec2<f64>) -
             let truth = crate::oracle::perpendicular_disk(r, h, a);
             assert!((upright / truth - 1.0).abs() < 2e-4, "radius {r} at {h}, {a} aside: {upright} for {truth}");
         }
-        // from behind it is dark
         let behind = Disk { normal: -disk.normal, ..disk };
         assert!(grid_mean(50, |u| irradiance(&draw(&behind, u), [0.0, 0.0, 1.0])) == 0.0);
     }

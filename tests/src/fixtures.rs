@@ -1,4 +1,4 @@
-//! The warps under test, with what is known about each from elsewhere.
+//! The warps under test, each with independent knowledge about it.
 
 mod cosine;
 mod disk;

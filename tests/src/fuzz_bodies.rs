@@ -1,8 +1,8 @@
-//! Bodies of the fuzz targets: plain functions of bytes that assert properties. The fuzzer finds the bytes; a test runs the same functions on the
-//! committed seeds and on bytes at random.
+//! Bodies of the fuzz targets: plain functions of bytes that assert properties. The fuzzer supplies the bytes; a test runs the same
+//! functions on the committed seeds and on random bytes.
 //!
-//! Every input is turned into numbers that lie where methods break ([`Input`]): signed zeros, subnormal numbers, ulps about 1, the ends of
-//! f32; vectors that are equal, opposite, collinear, or a few ulps from that.
+//! Every body reads its bytes as numbers at which methods break ([`Input`]): signed zeros, subnormal numbers, ulps about 1, the ends of the
+//! f32 range; vectors that are equal, opposite, collinear, or a few ulps from that.
 
 mod lights;
 mod numbers;
@@ -16,11 +16,11 @@ use arbitrary::Unstructured;
 /// A fuzz target.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Its name: of the binary, and of the folder of its seeds.
+    /// Name of the binary and of the folder with its seeds.
     pub name: &'static str,
-    /// Its body.
+    /// The function that runs one input.
     pub body: fn(&[u8]),
-    /// How many in ten thousand of the random inputs of the stable test it gets: fewer where each is more work.
+    /// Weight of this target in the random test: the more work an input is, the lower.
     pub share: u32,
 }
 
@@ -35,18 +35,18 @@ macro_rules! targets {
                 $module::$name(&mut Input::new(bytes));
             }
         )+
-        /// All targets, but those of files, which are the renderer's.
+        /// All targets except those of files, which are the renderer's.
         pub const TARGETS: &[Target] = &[$(Target { name: stringify!($name), body: $name, share: $share }),+];
     };
 }
 targets! {
-    /// Any 1−cosσ.
+    /// Cones of any 1−cosσ.
     cone: shapes, 700;
     /// Warps without parameters: disks, hemispheres, the sphere, triangles in the plane, octahedral maps.
     fixed_warps: shapes, 700;
-    /// Densities on the line, and the bilinear one.
+    /// Densities on the line, and the bilinear density.
     line_warps: shapes, 700;
-    /// Microsurfaces of any roughness and view.
+    /// Microsurfaces of any roughness, viewed from anywhere.
     visible_normals: shapes, 400;
     /// Spheres by solid angle.
     spherical_cap: shapes, 400;
@@ -56,9 +56,9 @@ targets! {
     spherical_triangle: shapes, 150;
     /// Parallelograms by solid angle.
     spherical_parallelogram: shapes, 100;
-    /// Rectangles, and what are none, by solid angle.
+    /// Rectangles by solid angle, including malformed ones.
     spherical_rectangle: shapes, 150;
-    /// Polygons, and what are none, by solid angle.
+    /// Polygons by solid angle, including malformed ones.
     spherical_polygon: shapes, 100;
     /// Disks by solid angle.
     spherical_disk: shapes, 100;
@@ -80,41 +80,41 @@ targets! {
     cylinder_side: surfaces, 200;
     /// Bilinear patches, by area.
     patch_surface: surfaces, 20;
-    /// Lights with a surface, and lines, by all techniques.
+    /// Lights with a surface, and lines, by every technique.
     area_lights: lights, 700;
     /// Lights without a surface.
     distant_lights: lights, 700;
-    /// An image around the scene, of either map.
+    /// An environment image, in either mapping.
     environment: numbers, 300;
     /// Tables of one and two dimensions.
     piecewise_constant: numbers, 500;
-    /// Vose's table.
+    /// Vose's alias tables.
     alias_table: numbers, 600;
-    /// Choices of lights, of any powers and places.
+    /// Choices among lights of any power and place.
     light_choice: numbers, 500;
-    /// Every sequence, anywhere.
+    /// Every sequence, at any index.
     sequence: sequences, 500;
-    /// Strata and nets of each sequence, wherever they begin.
+    /// Strata and nets of each sequence, from any start.
     strata: sequences, 100;
     /// Elementary functions.
     math: numbers, 600;
-    /// Weights of techniques, reservoirs and running variances.
+    /// MIS weights, reservoirs and running variances.
     estimate: numbers, 600;
     /// Masks and counters.
     bits: numbers, 600;
 }
 
-/// Bytes, as numbers where methods break. Bytes that are used up are zeros.
+/// The fuzzer's bytes, read as numbers at which methods break. Missing bytes are zeros.
 #[derive(Debug)]
 pub struct Input<'a>(Unstructured<'a>);
 
 impl<'a> Input<'a> {
-    /// From the fuzzer's bytes.
+    /// Reads from `bytes`.
     #[must_use]
     pub fn new(bytes: &'a [u8]) -> Self {
         Self(Unstructured::new(bytes))
     }
-    /// Less than `n`.
+    /// An integer below `n`.
     fn below(&mut self, n: u8) -> u8 {
         self.0.arbitrary::<u8>().unwrap_or(0) % n
     }
@@ -134,15 +134,15 @@ impl<'a> Input<'a> {
             (self.word() >> 8) as f32 / 16_777_216.0
         }
     }
-    /// A point of the square.
+    /// A point of the unit square.
     fn square(&mut self) -> [f32; 2] {
         [self.unit(), self.unit()]
     }
-    /// In [−2, 2).
+    /// A number in [−2, 2).
     fn ordinary(&mut self) -> f32 {
         (self.word() >> 8) as f32 / 4_194_304.0 - 2.0
     }
-    /// Any finite number, biased.
+    /// Any finite number, biased towards those that break methods.
     fn number(&mut self) -> f32 {
         let sign = |word: u32, x: f32| if word & 1 == 1 { -x } else { x };
         match self.below(8) {
@@ -166,11 +166,11 @@ impl<'a> Input<'a> {
             _ => self.ordinary(),
         }
     }
-    /// A finite number ≥ 0, biased.
+    /// A finite number ≥ 0, biased in the same way.
     fn weight(&mut self) -> f32 {
         self.number().abs()
     }
-    /// A vector, often related to one that came before.
+    /// A vector, often related to one of `before`.
     fn vector(&mut self, before: &[[f32; 3]]) -> [f32; 3] {
         let kind = self.below(10);
         if let (true, false) = (kind < 5, before.is_empty()) {
@@ -198,32 +198,32 @@ impl<'a> Input<'a> {
                 v
             }
             2 | 7 => {
-                // far or tiny as a whole
+                // the whole vector is far or tiny
                 let scale = (2.0 * (f32::from(self.below(80)) - 40.0)).exp2();
                 [(); 3].map(|()| self.ordinary() * scale)
             }
             _ => [(); 3].map(|()| self.ordinary()),
         }
     }
-    /// A unit vector, to rounding.
+    /// A unit vector, up to rounding.
     fn direction(&mut self) -> [f32; 3] {
         let v = self.vector(&[]).map(f64::from);
         let length = crate::oracle::length(v);
         if length > 0.0 { v.map(|x| (x / length) as f32) } else { [0.0, 0.0, 1.0] }
     }
-    /// Some weights.
+    /// Between 1 and `most` weights.
     fn weights(&mut self, most: u8) -> Vec<f32> {
         let n = 1 + self.below(most);
         (0..n).map(|_| self.weight()).collect()
     }
-    /// One of the cases of a domain that holds for this seed.
+    /// One of the cases that a generator makes, from a seed in the input.
     fn case<S: Copy>(&mut self, cases: impl Fn(usize, u64) -> Vec<generators::Case<S>>) -> generators::Case<S> {
         let all = cases(1, self.seed());
         all[self.below(all.len() as u8) as usize]
     }
 }
 
-/// Are all lengths within this factor of 1, or 0? Then a factor of 2^±20 neither over- nor underflows.
+/// Whether all lengths are 0 or within this factor of 1, so that a factor of 2^±20 neither overflows nor underflows.
 fn scalable(lengths: &[f32], within: f32) -> bool {
     lengths.iter().all(|x| *x == 0.0 || (1.0 / within..within).contains(&x.abs()))
 }

@@ -1,4 +1,4 @@
-//! Arguments: points of the square biased to its edges, and shapes from each regime in which some method fails.
+//! Arguments: points of the unit square biased towards its edges, and shapes from each regime in which some method fails.
 
 mod flat;
 mod horizon;
@@ -12,17 +12,17 @@ pub use line::*;
 pub use round::*;
 pub use warps::*;
 
-/// SplitMix64: nothing of the generators under test.
+/// SplitMix64, independent of the generators under test.
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// A stream.
+    /// Starts a stream.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def0)
     }
-    /// 64 bits.
+    /// 64 random bits.
     pub fn word(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -38,21 +38,21 @@ impl Random {
     pub fn unit_f64(&mut self) -> f64 {
         (self.word() >> 11) as f64 / 9_007_199_254_740_992.0
     }
-    /// Uniform between the two.
+    /// Uniform from `low` to `high`.
     pub fn range(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit_f64()
     }
-    /// Uniform on a logarithmic scale between the two.
+    /// Log-uniform from `low` to `high`.
     pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         self.range(low.ln(), high.ln()).exp()
     }
-    /// A unit vector, uniform.
+    /// A uniform unit vector.
     pub fn direction(&mut self) -> [f64; 3] {
         let (z, phi) = (self.range(-1.0, 1.0), self.range(0.0, core::f64::consts::TAU));
         let r = (1.0 - z * z).sqrt();
         [r * phi.cos(), r * phi.sin(), z]
     }
-    /// Any finite f32: random bits.
+    /// A finite f32 from random bits.
     pub fn any_f32(&mut self) -> f32 {
         loop {
             let x = f32::from_bits(self.word() as u32);
@@ -65,7 +65,7 @@ impl Random {
 
 const EPSILON: f32 = 1.0 / 16_777_216.0;
 
-/// Numbers of [0, 1) at which maps break: the ends, the middle, their neighbours.
+/// Numbers in [0, 1) at which maps break: the ends, the middle, and their neighbours.
 pub const EDGES: [f32; 11] = [
     0.0,
     EPSILON,
@@ -80,7 +80,7 @@ pub const EDGES: [f32; 11] = [
     1.0 - EPSILON,
 ];
 
-/// All pairs of [`EDGES`] and `random` points more.
+/// All pairs of [`EDGES`], then `random` further points.
 #[must_use]
 pub fn square(random: usize, seed: u64) -> Vec<[f32; 2]> {
     let mut rng = Random::new(seed);
@@ -89,13 +89,13 @@ pub fn square(random: usize, seed: u64) -> Vec<[f32; 2]> {
     all
 }
 
-/// A number in [0, 1): in one of three from [`EDGES`].
+/// A number in [0, 1); one in three is from [`EDGES`].
 pub fn unit_or_edge(random: &mut Random) -> f64 {
     let word = random.word();
     if word.is_multiple_of(3) { f64::from(EDGES[(word >> 32) as usize % EDGES.len()]) } else { random.unit_f64() }
 }
 
-/// A shape and the regime that it stands for.
+/// A shape, with the name of the regime that it represents.
 pub type Case<S> = (&'static str, S);
 
 fn narrow(a: [f64; 3]) -> [f32; 3] {
@@ -132,7 +132,7 @@ pub const NASTY: [f32; 14] = [
     -f32::MAX,
 ];
 
-/// A vector of [`NASTY`] coordinates, often with equal ones.
+/// A vector of [`NASTY`] coordinates, some of which are often equal.
 pub fn nasty(random: &mut Random) -> [f32; 3] {
     let mut pick = || NASTY[(random.word() % NASTY.len() as u64) as usize];
     let (a, b, c) = (pick(), pick(), pick());

@@ -1,22 +1,23 @@
-//! Oracles, domains, tolerances, and the properties that every warp obeys.
+//! Oracles, generators, tolerances, and the properties that every warp has.
 //!
-//! A property is a plain function of a [`Fixture`](properties::Fixture) (a warp with its parameters) and perhaps a point of the unit square;
-//! it panics with the fixture, the argument and the figure when it is broken. The tests in `tests/` run the properties over
-//! the regimes of [`generators`]; fuzz targets run them over arbitrary bits. A new warp needs a `Fixture` and a line in a list.
+//! A property is a plain function of a [`Fixture`](properties::Fixture) (a warp with its parameters) and usually a point of the unit
+//! square. It panics when the property is broken, with the fixture, the argument and the figure. The tests in `tests/` run the properties
+//! over the regimes of [`generators`]; the fuzz targets run them over arbitrary bytes. `README.md` beside this crate says how to add a
+//! warp.
 //!
 //! - [`oracle`]: closed forms, double-double arithmetic and quadrature; nothing here calls the code under test.
-//! - [`generators`]: arguments biased to where methods fail.
+//! - [`generators`]: arguments biased towards the places where methods fail.
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
 //! - [`suite`]: all properties over all regimes.
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
-//! - [`checks`]: the same for functions that are no warps; [`techniques`]: for lights.
-//! - [`mutants`]: defects of well-known renderers, which the properties must notice.
-//! - [`stats`]: probabilities of what was observed.
+//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights.
+//! - [`mutants`]: well-known defects of renderers, which the properties must detect.
+//! - [`stats`]: p-values.
 
 pub mod checks;
 pub mod fuzz_bodies;
 pub mod generators;
-// the atlas's own file: this library does without the renderer, and so do the fuzz targets that call it
+// the atlas's file itself, so that neither this library nor the fuzz targets depend on the renderer
 #[path = "../../render/src/atlas/double_double.rs"]
 pub mod double_double;
 pub mod fixtures;
@@ -28,7 +29,7 @@ pub mod suite;
 pub mod techniques;
 pub mod tolerances;
 
-/// The README's example, compiled and run with the documentation's.
+/// The README's example, compiled and run as a doctest.
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 pub struct Readme;

@@ -1,7 +1,7 @@
-//! Planted defects: those of well-known renderers, put back on purpose. The properties must notice each one.
+//! Mutants: well-known defects of renderers, reintroduced on purpose. The properties must detect every one.
 //!
-//! A [`Defect`] replaces a part of a right warp; [`Planted`] is then a subject like any other, which goes through the same properties in
-//! the same regimes. [`Sound`] replaces nothing, so that what the wrapping itself does is known to be nothing.
+//! A [`Defect`] replaces one part of a correct warp. [`Planted`] is then a fixture like any other and goes through the same properties in
+//! the same regimes. [`Sound`] replaces nothing, which shows that the wrapper itself breaks no property.
 
 mod lights;
 mod warps;
@@ -21,26 +21,26 @@ use core::marker::PhantomData;
 use etendue::spherical::DirectionSample;
 use etendue::{Real, Vec2, Warp};
 
-/// The parameters of a subject, lane by lane; as many as it has.
+/// The parameters of a fixture, lane by lane; unused entries are 0.
 pub type Data<R> = [R; 9];
 
-/// What is wrong: a part of a warp that is replaced.
+/// A defect: replaces part of a correct warp.
 pub trait Defect: Copy + Debug {
-    /// The right subject.
+    /// The correct fixture.
     type Of: Fixture;
-    /// What the wrong part is computed from.
+    /// The numbers that the defective part needs.
     fn data<R: Real>(_lanes: &[Self::Of]) -> Data<R> {
         [R::lit(0.0); 9]
     }
-    /// `sample`.
+    /// Replaces `sample`.
     fn sample<R: Real>(right: &RightWarp<Self, R>, _data: &Data<R>, u: Vec2<R>) -> RightPoint<Self, R> {
         right.sample(u)
     }
-    /// `pdf`.
+    /// Replaces `pdf`.
     fn pdf<R: Real>(right: &RightWarp<Self, R>, _data: &Data<R>, point: RightPoint<Self, R>) -> R {
         right.pdf(point)
     }
-    /// `sight`.
+    /// Replaces `sample_direction`.
     fn sample_direction<R: Real>(
         right: &RightWarp<Self, R>,
         _data: &Data<R>,
@@ -52,7 +52,7 @@ pub trait Defect: Copy + Debug {
 type RightWarp<D, R> = <<D as Defect>::Of as Fixture>::Warp<R>;
 type RightPoint<D, R> = <<D as Defect>::Of as Fixture>::Point<R>;
 
-/// Nothing is replaced.
+/// No defect.
 #[derive(Clone, Copy, Debug)]
 pub struct Sound<S>(PhantomData<S>);
 impl<S: Fixture> Defect for Sound<S> {
@@ -77,11 +77,11 @@ impl<D: Defect, R: Real> Warp<R> for Wrong<D, R> {
     }
 }
 
-/// A subject with a defect: all that is known about it is what is known about the right one.
+/// A fixture with a defect, judged by what is known about the correct one.
 #[derive(Clone, Copy, Debug)]
 pub struct Planted<D: Defect>(pub D::Of);
 
-/// The same regimes for the defective subject.
+/// The same cases, with the defect.
 pub fn plant<D: Defect>(cases: &[(&'static str, D::Of)]) -> Vec<(&'static str, Planted<D>)> {
     cases.iter().map(|&(name, subject)| (name, Planted(subject))).collect()
 }

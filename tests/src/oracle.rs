@@ -6,7 +6,7 @@ use core::f64::consts::{FRAC_PI_2, PI};
 /// A vector in f64.
 pub type V3 = [f64; 3];
 
-/// Inner product.
+/// Dot product.
 #[must_use]
 pub fn dot(a: V3, b: V3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -26,18 +26,18 @@ pub fn along(a: V3, b: V3, s: f64) -> V3 {
 pub fn sub(a: V3, b: V3) -> V3 {
     along(a, b, -1.0)
 }
-/// Length, at any scale.
+/// Length, without overflow or underflow.
 #[must_use]
 pub fn length(a: V3) -> f64 {
     a[0].hypot(a[1]).hypot(a[2])
 }
-/// Unit vector; 0 stays 0.
+/// Unit vector; the zero vector stays zero.
 #[must_use]
 pub fn unit(a: V3) -> V3 {
     let l = length(a);
     if l > 0.0 { a.map(|x| x / l) } else { a }
 }
-/// f32 to f64.
+/// Converts f32 to f64.
 #[must_use]
 pub fn wide(a: [f32; 3]) -> V3 {
     a.map(f64::from)
@@ -50,7 +50,8 @@ pub fn basis(n: V3) -> (V3, V3) {
     (s, cross(n, s))
 }
 
-/// Solid angle of a triangle by Van Oosterom and Strackee on the vertices, in 106 bits: good to 1e−13 down to 1e−9 of the distance.
+/// Solid angle of a triangle by Van Oosterom and Strackee's formula on the vertices, in 106 bits: accurate to 1e−13 for shapes down to 1e−9
+/// of the distance.
 #[must_use]
 pub fn triangle_solid_angle(v: [Dd3; 3]) -> f64 {
     let [l0, l1, l2] = v.map(|v| dd_dot(v, v).sqrt());
@@ -59,13 +60,13 @@ pub fn triangle_solid_angle(v: [Dd3; 3]) -> f64 {
     2.0 * numerator.to_f64().atan2(denominator.to_f64())
 }
 
-/// `v + Σ eᵢ` without rounding.
+/// `v + Σ eᵢ`, unrounded.
 #[must_use]
 pub fn sum_dw(v: V3, e: &[V3]) -> Dd3 {
     core::array::from_fn(|i| e.iter().fold(Dd::from(v[i]), |sum, e| sum + Dd::from(e[i])))
 }
 
-/// 1 − cosσ and the half-angle σ of a sphere: by the half-angle formula, from an arc tangent.
+/// 1 − cosσ and the half-angle σ of a sphere, by the half-angle formula from an arc tangent.
 #[must_use]
 pub fn cap(center: V3, radius: f64) -> (f64, f64) {
     let square = |x: f64| Dd::from(x) * Dd::from(x);
@@ -77,7 +78,7 @@ pub fn cap(center: V3, radius: f64) -> (f64, f64) {
     (2.0 * (sigma / 2.0).sin().powi(2), sigma)
 }
 
-/// Projected solid angle of a cap of half-angle σ ≤ π/2 whose axis makes the angle ω with the normal: above, across or below the horizon.
+/// Projected solid angle of a cap of half-angle σ ≤ π/2 whose axis is at the angle ω to the normal: above, across or below the horizon.
 #[must_use]
 pub fn projected_cap(sigma: f64, omega: f64) -> f64 {
     let (s, c, cos) = (sigma.sin(), sigma.cos(), omega.cos());
@@ -91,7 +92,7 @@ pub fn projected_cap(sigma: f64, omega: f64) -> f64 {
     y.atan2(c) + s * s * cos * y.atan2(-c * cos) - y * c
 }
 
-/// The same by rings about the axis, for caps so small that the closed form cancels; from sinσ, σ and cosω.
+/// The same, integrated over rings about the axis, for caps so small that the closed form cancels; from σ and cosω.
 #[must_use]
 pub fn projected_cap_by_rings(sigma: f64, cos: f64) -> f64 {
     let sin = ((1.0 - cos) * (1.0 + cos)).sqrt();
@@ -101,7 +102,7 @@ pub fn projected_cap_by_rings(sigma: f64, cos: f64) -> f64 {
     if -cos >= sigma.sin() {
         return 0.0;
     }
-    // the least ring that the horizon touches; a ring beyond it is cut by a square root of the excess
+    // the first ring that touches the horizon; beyond it, the part of a ring above the horizon grows as a square root
     let first = cos.abs().asin();
     let inner = if cos > 0.0 { PI * first.sin().powi(2) * cos } else { 0.0 };
     let panels = 8;
@@ -112,7 +113,7 @@ pub fn projected_cap_by_rings(sigma: f64, cos: f64) -> f64 {
             let v = (f64::from(panel) + x) / f64::from(panels);
             let theta = first + (sigma - first) * v * v;
             let measure = theta.sin() * (sigma - first) * 2.0 * v / f64::from(panels);
-            // the ring is above the horizon where cosω cosθ + sinω sinθ cosφ ≥ 0
+            // a point of the ring is above the horizon where cosω cosθ + sinω sinθ cosφ ≥ 0
             let (a, b) = (cos * theta.cos(), sin * theta.sin());
             let root = ((theta - first).sin() * (theta + first).sin()).max(0.0).sqrt();
             let phi = root.atan2(-a);
@@ -122,7 +123,7 @@ pub fn projected_cap_by_rings(sigma: f64, cos: f64) -> f64 {
     inner + sum
 }
 
-/// Projected solid angle of a polygon: clipped to the horizon of `n`, then Lambert's sum over edges.
+/// Projected solid angle of a polygon: clipped to the horizon of `n`, then Lambert's sum over the edges.
 #[must_use]
 pub fn projected_polygon(vertices: &[V3], n: V3) -> f64 {
     let mut above = Vec::new();
@@ -149,21 +150,21 @@ pub fn projected_polygon(vertices: &[V3], n: V3) -> f64 {
 
 pub use crate::double_double::{above_horizon, lambert};
 
-/// Form factor from a point to a disk that faces it: radius r, height h, offset a of the axis.
+/// Form factor from a point to a disk facing it: radius r, height h, offset a of the axis.
 #[must_use]
 pub fn facing_disk(r: f64, h: f64, a: f64) -> f64 {
     let (s, d) = (h * h + a * a + r * r, h * h + a * a - r * r);
     0.5 * (1.0 - d / (s * s - 4.0 * r * r * a * a).sqrt())
 }
 
-/// The same for a receiver that is turned by a right angle towards the disk, r ≤ a.
+/// The same for a receiver whose normal is parallel to the disk's plane and points towards its axis, for r ≤ a.
 #[must_use]
 pub fn perpendicular_disk(r: f64, h: f64, a: f64) -> f64 {
     let s = h * h + a * a + r * r;
     h / (2.0 * a) * (s / (s * s - 4.0 * r * r * a * a).sqrt() - 1.0)
 }
 
-/// Nodes and weights of Gauss and Legendre on [0, 1].
+/// Gauss–Legendre nodes and weights on [0, 1].
 #[must_use]
 pub fn gauss_legendre<const N: usize>() -> [(f64, f64); N] {
     core::array::from_fn(|i| {
@@ -186,8 +187,8 @@ pub fn gauss_legendre<const N: usize>() -> [(f64, f64); N] {
     })
 }
 
-/// ∫ f over the rectangle [low, high], split until a split changes the sum by less than `tolerance` of the first estimate of it
-/// (or 20 times).
+/// ∫ f over the rectangle [low, high], split until a split changes the sum by less than `tolerance` times the first estimate (at most 20
+/// times).
 pub fn integrate(f: &mut impl FnMut(f64, f64) -> f64, low: [f64; 2], high: [f64; 2], tolerance: f64) -> f64 {
     let nodes = gauss_legendre::<8>();
     let whole = tensor(f, &nodes, low, high);
@@ -222,7 +223,7 @@ fn refine(
     };
     let parts: [f64; 4] = core::array::from_fn(|i| tensor(f, nodes, corners(i).0, corners(i).1));
     let sum: f64 = parts.iter().sum();
-    // what is not finite does not become so
+    // a sum that is not finite does not become so
     if depth == 0 || (sum - whole).abs() <= tolerance || !sum.is_finite() {
         return sum;
     }

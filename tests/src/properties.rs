@@ -8,23 +8,23 @@ use core::fmt::Debug;
 use etendue::spherical::DirectionSample;
 use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8, f64x4};
 
-/// Points of the plane or of space, lane by lane.
+/// Points of the plane or of space, one in each lane.
 pub trait Coordinates<R: Real>: Copy {
     /// Lane `i`, exactly; z = 0 on the plane.
     fn at(self, i: usize) -> V3;
-    /// Lane `i` is the rounded `points[i % points.len()]`.
+    /// A packet whose lane `i` is `points[i % points.len()]`, rounded.
     fn gather(points: &[V3]) -> Self;
 }
 /// A packet whose lane `i` is `f(i)`, rounded.
 pub fn lanes_of<R: Real>(f: impl Fn(usize) -> f64) -> R {
     R::from_fn(|i| R::Scalar::lit(f(i)))
 }
-/// A packet of vectors, lane `i` from `f(i)`.
+/// A packet of vectors whose lane `i` is `f(i)`.
 pub fn vectors_of<R: Real>(f: impl Fn(usize) -> [f32; 3]) -> Vec3<R> {
     let axis = |k: usize| lanes_of(|i| f64::from(f(i)[k]));
     Vec3::new(axis(0), axis(1), axis(2))
 }
-/// A packet of points of the square, lane `i` from `us[i % us.len()]`.
+/// A packet of points of the unit square whose lane `i` is `us[i % us.len()]`.
 #[must_use]
 pub fn squares_of<R: Real>(us: &[[f32; 2]]) -> Vec2<R> {
     Coordinates::gather(&us.iter().map(|u| [f64::from(u[0]), f64::from(u[1]), 0.0]).collect::<Vec<_>>())
@@ -48,77 +48,77 @@ impl<R: Real> Coordinates<R> for Vec3<R> {
     }
 }
 
-/// A warp with its parameters (held in f32, exact at every precision), and what is known about it independently.
+/// A warp with its parameters (held in f32, hence exact at every precision), and independent knowledge about it.
 pub trait Fixture: Copy + Debug {
     /// The warp at each precision and width.
     type Warp<R: Real>: Warp<R, Point = Self::Point<R>>;
-    /// What it samples.
+    /// The points that it samples.
     type Point<R: Real>: Coordinates<R>;
-    /// Lane `i` prepared from `lanes[i % lanes.len()]`.
+    /// The warp whose lane `i` is prepared from `lanes[i % lanes.len()]`.
     fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R>;
-    /// A scalar warp in every lane.
+    /// The scalar warp in every lane.
     fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R>;
-    /// Can the other one be a lane of the same packet?
+    /// Whether the two fit into one packet.
     fn kin(&self, _other: &Self) -> bool {
         true
     }
-    /// What is tolerated.
+    /// The errors that are tolerated.
     fn tolerance(&self) -> Tolerance;
-    /// All lengths times a power of two.
+    /// All lengths multiplied by a power of two.
     #[must_use]
     fn scaled(&self, _factor: f32) -> Self {
         *self
     }
-    /// Truth: the density at a point of the shape.
+    /// Truth: the pdf at a point of the shape.
     fn true_pdf(&self, point: V3) -> f64;
-    /// An independent parameterisation by the unit square: the point, and the measure per unit of the square.
+    /// An independent parameterisation of the shape by the unit square: the point, and the measure per unit of the square.
     fn chart(&self, s: f64, t: f64) -> (V3, f64);
-    /// Its inverse.
+    /// The inverse of [`Self::chart`].
     fn locate(&self, point: V3) -> [f64; 2];
-    /// Points beyond the boundary by a margin (a distance between points).
+    /// A point outside the shape, at the distance `margin` from its boundary.
     fn outside(&self, _margin: f64, _random: &mut Random) -> Option<V3> {
         None
     }
-    /// Greatest and least diameter: distances between points.
+    /// Greatest and least diameter of the shape, as distances between points.
     fn extent(&self) -> [f64; 2];
-    /// Greatest distance of a point from the origin.
+    /// Greatest distance of a point of the shape from the origin.
     fn radius(&self) -> f64 {
         1.0
     }
-    /// The point in coordinates that are all rounded alike: where they are not, and `distance` with it.
+    /// The point in coordinates that are all rounded alike; a shape that overrides this overrides `distance` too.
     fn metric(&self, point: V3) -> V3 {
         point
     }
-    /// Change of the density per absolute change of something of size 1 that it depends on, where it goes to 0 by cancellation.
+    /// Absolute change of the pdf per unit of rounding, for a pdf that tends to 0 by cancellation.
     fn pdf_slack(&self, _point: V3) -> f64 {
         0.0
     }
-    /// Units of rounding to which an inverse is known, besides those of the point.
+    /// Error of the inverse besides the point's own rounding, in units of rounding.
     fn inverse_units(&self, _u: [f64; 2]) -> f64 {
         2.0
     }
-    /// Steps of `u` by which an inverse may be off, besides what the point's rounding does.
+    /// Error of the inverse besides the point's own rounding, in steps of `u`.
     fn inverse_steps(&self) -> f64 {
         2.0
     }
-    /// Does some `u` of the grid map near the point? Not in tails of less than 2⁻²⁴.
+    /// Whether some `u` of the grid maps to somewhere near the point: not in tails of probability below 2⁻²⁴.
     fn reachable(&self, _point: V3) -> bool {
         true
     }
-    /// Does the map jump between `u` less and more by `step` of the first coordinate? What is one side is known to rounding only.
+    /// Whether the map jumps within `step` of `u` in the first coordinate: rounding decides on which side of the jump a point falls.
     fn torn(&self, _u: [f64; 2], _step: f64) -> bool {
         false
     }
-    /// Coordinates of a point are rounded in units of `ULP` × this: 1 in general, the extent where the shape lies about an axis.
+    /// Coordinates of a point are rounded in units of `ULP` × this: 1 in general, the extent for a shape on the z axis.
     fn granularity(&self) -> f64 {
         1.0
     }
-    /// Distance between two points; across the axis only, where the shape lies about it.
+    /// Distance between two points; for a shape on the z axis, only its component across the axis.
     fn distance(&self, a: V3, b: V3) -> f64 {
         let d = sub(a, b);
         if self.granularity() < 1.0 { d[0].hypot(d[1]) } else { length(d) }
     }
-    /// The length to whose rounding a distance is known, besides itself.
+    /// A distance is rounded relative to itself and to this length.
     fn reach(&self) -> f64 {
         0.0
     }
@@ -126,35 +126,35 @@ pub trait Fixture: Copy + Debug {
     fn farthest(&self) -> f64 {
         0.0
     }
-    /// Relative change of the distance per turn of the direction.
+    /// Relative change of the distance per radian that the direction turns.
     fn slant(&self, _w: V3) -> f64 {
         1.0
     }
-    /// Relative change of the density per relative change of a parameter.
+    /// Condition number: relative change of the pdf per relative change of a parameter.
     fn condition(&self) -> f64 {
         1.0
     }
-    /// Change of the density per unit of the point.
+    /// Change of the pdf per unit of distance that the point moves.
     fn gradient(&self) -> f64 {
         0.0
     }
-    /// To what part of the whole each cell is integrated: coarser where the parameterisation has a kink.
+    /// Tolerance of the integral over each cell, relative to the whole: coarser where the parameterisation has a kink.
     fn quadrature(&self) -> f64 {
         1e-9
     }
-    /// Is the second coordinate an azimuth?
+    /// Whether the second coordinate is an azimuth.
     const PERIODIC: bool = false;
-    /// Has the map two derivatives near `u`?
+    /// Whether the map has two derivatives near `u`.
     fn smooth(&self, _u: [f64; 2]) -> bool {
         true
     }
-    /// Direction and distance, for shapes that are seen.
+    /// Direction and distance, for shapes seen from a point.
     fn sample_direction<R: Real>(_warp: &Self::Warp<R>, _u: Vec2<R>) -> Option<DirectionSample<R>> {
         None
     }
 }
 
-/// All that a warp says about one `u`.
+/// All that a warp returns for one `u`.
 #[derive(Clone, Copy, Debug)]
 pub struct Observed {
     /// `sample(u)`.
@@ -163,7 +163,7 @@ pub struct Observed {
     pub pdf: f64,
     /// `invert(sample(u))`.
     pub inverse: [f64; 2],
-    /// `sight(u)`: direction and distance, or zeros.
+    /// Direction and distance of `sample_direction(u)`, or zeros.
     pub sighting: [f64; 4],
 }
 impl Observed {
@@ -173,7 +173,7 @@ impl Observed {
     }
 }
 
-/// Observes a prepared warp in every lane.
+/// Evaluates a prepared warp in every lane.
 pub fn observe<S: Fixture, R: Real>(warp: &S::Warp<R>, u: Vec2<R>) -> Vec<Observed> {
     let point = warp.sample(u);
     let (pdf, inverse, sighting) = (warp.pdf(point), warp.invert(point), S::sample_direction(warp, u));
@@ -198,7 +198,8 @@ fn sample_at<S: Fixture>(s: &S, u: [f64; 2]) -> V3 {
     S::prepare::<f64>(&[*s]).sample(Vec2::new(u[0], u[1])).at(0)
 }
 
-/// **Total**: finite for any parameters; pdf ≥ 0; points no further than the radius; the inverse in [0, 1)², of any finite direction.
+/// **Total**: results are finite for any parameters; pdf ≥ 0; no point lies beyond the radius; the inverse of any finite direction is in
+/// [0, 1)².
 pub fn total<S: Fixture>(s: &S, u: [f32; 2]) {
     total_at::<S, f32>(s, u);
     total_at::<S, f64>(s, u);
@@ -210,7 +211,7 @@ fn total_at<S: Fixture, R: Real>(s: &S, u: [f32; 2]) {
     let closed = |u: [f64; 2]| u.iter().all(|x| (0.0..1.0).contains(x));
     assert!(finite && seen.pdf >= 0.0 && closed(seen.inverse), "not total: {s:?} at {u:?}: {seen:?}");
     assert!(
-        // and what is subnormal is rounded to what there is
+        // a subnormal length is rounded to its grid
         length(seen.point) <= s.radius() * (1.0 + 8.0 * ULP) + 4e-45,
         "not a unit vector, or too far: {s:?} at {u:?}: {seen:?}"
     );
@@ -224,8 +225,8 @@ fn total_at<S: Fixture, R: Real>(s: &S, u: [f32; 2]) {
     }
 }
 
-/// **Lane-identical**: f32, f32x4 and f32x8 give the same bits, each lane with its own parameters, and so do a prepared scalar that
-/// is splatted, and f64 and f64x4.
+/// **Lane-identical**: f32, f32x4 and f32x8 give the same bits, with other parameters in each lane; so do a splatted scalar warp, and f64
+/// and f64x4.
 pub fn lanes<S: Fixture>(subjects: &[S; 8], us: &[[f32; 2]; 8]) {
     let scalars: Vec<_> =
         (0..8).map(|i| observe::<S, f32>(&S::prepare::<f32>(&subjects[i..=i]), squares_of(&us[i..=i]))[0]).collect();
@@ -263,7 +264,7 @@ fn same<S: Fixture>(subjects: &[S], us: &[[f32; 2]], expected: &[Observed], pack
     }
 }
 
-/// **Threshold-free**: lengths times 2^±20 (and some between) change no bit of a point or a density.
+/// **Threshold-free**: multiplying all lengths by 2^±20 (and by powers between) changes no bit of a point or a pdf.
 pub fn scale<S: Fixture>(s: &S, u: [f32; 2]) {
     let one = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
     for power in [-20, -7, 1, 20] {
@@ -278,16 +279,16 @@ pub fn scale<S: Fixture>(s: &S, u: [f32; 2]) {
     }
 }
 
-/// Rounding of a point's coordinates, per unit in the last place.
+/// Rounding error of a point's coordinates, for rounding by `ulp`.
 fn rounding<S: Fixture>(s: &S, ulp: f64) -> f64 {
     ulp * s.granularity()
 }
 
-/// **Closed**: `sample(invert(w)) = w` and `invert(sample(u)) = u`, as far as a rounded direction can tell, at both precisions.
+/// **Closed**: `sample(invert(w)) = w` and `invert(sample(u)) = u`, as far as a rounded direction allows, at both precisions.
 ///
-/// A direction is known to `round_trip` units of its rounding; that is an error in `u` of so much times the pseudo-inverse of
-/// the map's derivative. Where that exceeds 1 % of the square (azimuth near a pole, shapes below the resolution of a direction),
-/// only the first form is asked: the two points must agree, but for the steps of `u` itself, 2⁻²⁴.
+/// A direction is known to `round_trip` units of its rounding, which makes an error in `u` of that times the pseudo-inverse of the map's
+/// derivative. Where this exceeds 1 % of the square (the azimuth near a pole, shapes too small for a rounded direction), only the first
+/// form is tested: the two points must agree to within the steps of `u` itself, 2⁻²⁴.
 ///
 /// Returns the greatest error, in units of the rounding.
 pub fn closed<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
@@ -300,7 +301,7 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     let u = [f64::from(u[0]), f64::from(u[1])];
     let h = 1.0 / 4096.0;
     if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || s.torn(u, h) || s.torn(seen.inverse, h) {
-        // at the ends of the square derivatives vanish or grow without bound, and beside a tear the other side is as good
+        // at the ends of the square, derivatives vanish or grow without bound; beside a jump, either side is right
         return greatest / rounding(s, ulp);
     }
     let slope = |axis: usize| {
@@ -314,7 +315,7 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     let area = length(cross(a, b)).max(1e-300);
     let both = [(0, length(b)), (1, length(a))];
     if both.iter().any(|&(axis, across)| u[axis].min(1.0 - u[axis]) <= known * across / area) {
-        // over the end of the square a neighbouring triangle may begin
+        // beyond the end of the square, a neighbouring triangle may begin
         return greatest / rounding(s, ulp);
     }
     for (axis, across) in both {
@@ -336,11 +337,11 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     greatest / rounding(s, ulp)
 }
 
-/// `sample(invert(w)) = w` for points that did not come from `sample`.
+/// **Closed** for points that did not come from `sample`: `sample(invert(w)) = w` at the point `st` of the chart.
 pub fn onto<S: Fixture>(s: &S, st: [f64; 2]) -> f64 {
     inverse(s, s.chart(st[0], st[1]).0)
 }
-/// `sample(invert(w)) = w` for a given point.
+/// **Closed** at a given point: `sample(invert(w)) = w`.
 pub fn inverse<S: Fixture>(s: &S, w: V3) -> f64 {
     let warp = S::prepare::<f32>(&[*s]);
     let point = S::Point::<f32>::gather(&[w]);
@@ -356,7 +357,7 @@ fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> 
     let error = s.distance(again, point);
     let step = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         .map(|d| {
-            // up to 1: beyond the last step of the grid lies as much as before it
+            // up to 1 inclusive: the last step of the grid is as long as any other
             let u = [(inverse[0] + d[0]).clamp(0.0, 1.0), (inverse[1] + d[1]).clamp(0.0, 1.0)];
             s.distance(sample_at(s, u), again)
         })
@@ -365,16 +366,16 @@ fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> 
     let units = s.inverse_steps();
     assert!(
         error <= known + units * step,
-        "inverse: {s:?}: {point:?} inverts to {inverse:?}, which maps {error:e} away; allowed {known:e} + {units}·{step:e}"
+        "inverse: {s:?}: {point:?} inverts to {inverse:?}, which maps to a point {error:e} away; allowed {known:e} + {units}·{step:e}"
     );
     error - units * step
 }
 
-/// The pdf of a sample is the shape's density, and what is evaluated for any point of the shape that came otherwise.
+/// The pdf is the true one, at a sample and at a point of the chart.
 ///
-/// Returns the relative error in units in the last place, over the condition.
+/// Returns the relative error in units in the last place, divided by the condition.
 pub fn pdf<S: Fixture>(s: &S, u: [f32; 2], st: [f64; 2]) -> f64 {
-    // the oracles are good to 1e-13
+    // the oracles are accurate to 1e-13
     density_at::<S, f32>(s, u, st, ULP).max(density_at::<S, f64>(s, u, st, 1e-13))
 }
 fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -> f64 {
@@ -387,7 +388,7 @@ fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -
         let allowed = s.tolerance().pdf * ulp * truth * s.condition() + slack;
         assert!(
             (pdf - truth).abs() <= allowed && (pdf > 0.0 || truth <= slack),
-            "density: {s:?} at {u:?} or {st:?}: {pdf} for {truth}: relative {:e}, allowed {:e}",
+            "density: {s:?} at {u:?} or {st:?}: {pdf}, truth {truth}: relative {:e}, allowed {:e}",
             pdf / truth - 1.0,
             allowed / truth
         );
@@ -398,7 +399,7 @@ fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -
     greatest
 }
 
-/// The density is 0 off the shape: 16 units in the last place beyond its boundary, and further.
+/// The pdf is 0 outside the shape: 16 units in the last place beyond its boundary, and further away.
 pub fn outside<S: Fixture>(s: &S, random: &mut Random) {
     for margin in [16.0 * ULP, 1e-3, 0.1] {
         if let Some(w) = s.outside(margin, random) {
@@ -408,7 +409,7 @@ pub fn outside<S: Fixture>(s: &S, random: &mut Random) {
     }
 }
 
-/// The area of the image of du is du/pdf: the map's derivative by a five-point formula in f64.
+/// The map takes an area du to du/pdf: its derivative is a five-point formula in f64.
 ///
 /// Returns the relative error.
 pub fn jacobian<S: Fixture>(s: &S, u: [f64; 2]) -> f64 {
@@ -434,9 +435,9 @@ pub fn jacobian<S: Fixture>(s: &S, u: [f64; 2]) -> f64 {
     (product - 1.0).abs()
 }
 
-/// f32 against f64 of the same body: the point, and the distance where there is one.
+/// **Accurate**: f32 agrees with f64 in the same code, for the point and, if there is one, the distance.
 ///
-/// Returns the point's error in units of the rounding, or the distance's in units in the last place.
+/// Returns the point's error in units of its rounding or the distance's in units in the last place, whichever is greater.
 pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     let narrow = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
     let warp = S::prepare::<f64>(&[*s]);
@@ -444,7 +445,7 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     let u = u.map(f64::from);
     let wide = at(u);
     let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
-        // up to 1: what is rounded may go as far beyond the last step of the grid as before it
+        // up to 1 inclusive: rounding may go beyond the last step of the grid
         .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0), (u[1] + d[1]).clamp(0.0, 1.0)]));
     let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).fold(0.0, f64::max);
     let excess =
@@ -452,15 +453,16 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     let point = excess / rounding(s, ULP);
     assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.sighting[3], wide.sighting[3]);
-    // the distance is along the direction that was drawn: it moves by as many steps
+    // the distance belongs to the sampled direction, and moves by as many steps
     let steps = s.tolerance().steps.max(4.0);
     let excess = (d - e).abs() - steps * step(&|o| (o.sighting[3] - e).abs());
     let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
-    assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d} for {e}: {distance:e} units");
+    assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
     point.max(distance)
 }
 
-/// **Within reach**: no point is farther than the farthest vertex of a flat shape, however uncertain the distance is at grazing.
+/// **Within reach**: no sampled point lies farther than the farthest vertex of a flat shape, however ill-conditioned the distance at
+/// grazing angles.
 ///
 /// Returns the excess in units in the last place.
 pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
@@ -474,8 +476,8 @@ pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     excess.max(0.0)
 }
 
-/// ∫ pdf = 1, over the independent parameterisation; of the f64 body where the density varies and a rounded direction does not resolve
-/// the shape.
+/// ∫ pdf = 1 over the independent parameterisation. The f64 code is used where the pdf varies over a shape too small for a rounded
+/// direction.
 pub fn integral<S: Fixture>(s: &S) -> f64 {
     if s.extent()[1] > tolerances::RESOLVED * s.granularity() || s.gradient() == 0.0 {
         integral_of::<S, f32>(s, ULP)
@@ -491,12 +493,12 @@ fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
     };
     let sum = integrate(&mut pdf, [0.0; 2], [1.0; 2], s.quadrature());
     let allowed = s.tolerance().pdf * s.condition() * ulp + s.quadrature() * tolerances::QUADRATURE / 1e-9;
-    assert!((sum - 1.0).abs() <= allowed, "∫pdf = {sum}: {s:?}, allowed {allowed:e}");
+    assert!((sum - 1.0).abs() <= allowed, "∫pdf = {sum}: {s:?}, allowed error {allowed:e}");
     (sum - 1.0).abs()
 }
 
-/// χ² of 2²⁰ samples against the density, over 16 × 16 cells of the independent parameterisation. Where a rounded direction does
-/// not resolve the shape, the f64 body is drawn from instead.
+/// χ² of 2²⁰ samples against the true pdf, over 16 × 16 cells of the independent parameterisation. A shape too small for a rounded
+/// direction uses 2¹⁸ samples of the f64 code instead.
 ///
 /// Returns the p-value.
 pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
@@ -536,13 +538,13 @@ fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
     p
 }
 
-/// What a fuzz target asks of a warp with any parameters whatever.
+/// The properties that hold for any parameters whatever.
 pub fn any_bits<S: Fixture>(s: &S, u: [f32; 2]) {
     total(s, u);
     lanes(&[*s; 8], &core::array::from_fn(|i| [u[0], (u[1] + i as f32 / 8.0).fract()]));
 }
 
-/// What holds for parameters of the domain, at one `u`.
+/// The properties that hold in the regimes of [`generators`](crate::generators), at one `u`.
 pub fn pointwise<S: Fixture>(s: &S, u: [f32; 2], random: &mut Random) {
     total(s, u);
     scale(s, u);

@@ -1,7 +1,7 @@
 //! p-values. A test at [`SIGNIFICANCE`](crate::tolerances::SIGNIFICANCE) with a fixed seed either always passes or always fails.
 
-/// Probability of a χ² at least as large if `expected` holds. Cells that expect fewer than 10 are pooled into one; an observation where
-/// nothing is expected has probability 0.
+/// Probability of a χ² at least as large as the observed one, if `expected` holds. Cells whose expectation is below 10 are pooled into one;
+/// any observation in a cell of expectation 0 gives 0.
 #[must_use]
 pub fn chi_square(observed: &[u64], expected: &[f64]) -> f64 {
     assert_eq!(observed.len(), expected.len());
@@ -30,20 +30,20 @@ pub fn chi_square(observed: &[u64], expected: &[f64]) -> f64 {
     statrs::function::gamma::gamma_ur(f64::from(cells - 1) / 2.0, (sum / 2.0).max(0.0))
 }
 
-/// χ² against equal expectations.
+/// p-value of a χ² test against equal expectations.
 #[must_use]
 pub fn uniform(observed: &[u64]) -> f64 {
     let expected = observed.iter().sum::<u64>() as f64 / observed.len() as f64;
     chi_square(observed, &vec![expected; observed.len()])
 }
 
-/// Probability of a normal deviate beyond ±z.
+/// Probability that a normal deviate lies beyond ±z.
 #[must_use]
 pub fn two_sided(z: f64) -> f64 {
     statrs::function::erf::erfc(z.abs() / core::f64::consts::SQRT_2)
 }
 
-/// Pearson's correlation.
+/// Pearson's correlation coefficient.
 #[must_use]
 pub fn correlation(pairs: &[(f64, f64)]) -> f64 {
     let n = pairs.len() as f64;
@@ -56,7 +56,7 @@ pub fn correlation(pairs: &[(f64, f64)]) -> f64 {
     xy / (xx * yy).sqrt()
 }
 
-/// Mean and variance (n − 1), in two passes.
+/// Mean and variance (divisor n − 1), in two passes.
 #[must_use]
 pub fn mean_variance(x: &[f64]) -> (f64, f64) {
     let mean = x.iter().sum::<f64>() / x.len() as f64;

@@ -1,28 +1,28 @@
-//! All properties over all regimes: what the tests of the warps run, and what planted defects are put through.
+//! All properties over all regimes: the tests of the warps run this, and so do the mutants.
 
 use crate::generators::{self, Case, Random};
 use crate::properties::{self, Fixture};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What became of one property in one regime.
+/// The result of one property in one regime.
 #[derive(Clone, Debug)]
 pub struct Regime {
-    /// As the domain names it.
+    /// Its name, from [`generators`].
     pub name: &'static str,
     /// Greatest figure that the property returned.
     pub figure: f64,
-    /// In how many cases the property was broken.
+    /// Number of cases in which the property was broken.
     pub broken: usize,
-    /// What the first of these said.
+    /// Message of the first of them.
     pub first: String,
 }
 
-/// What became of one property.
+/// The result of one property.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// Its name.
     pub property: &'static str,
-    /// In each regime.
+    /// The result in each regime.
     pub regimes: Vec<Regime>,
 }
 impl Outcome {
@@ -40,7 +40,7 @@ impl Outcome {
 /// How many properties there are.
 pub const PROPERTIES: usize = 11;
 
-/// What a panic said.
+/// The message of a panic.
 #[must_use]
 pub fn message(panic: &(dyn core::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str).or_else(|| panic.downcast_ref::<&str>().copied());
@@ -69,13 +69,13 @@ fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, 
     Outcome { property, regimes }
 }
 
-/// **Within reach**, by itself: also for shapes of which less is known than the other properties ask.
+/// **Within reach**, alone: also for shapes that are too ill-conditioned for the other properties.
 pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> Outcome {
     let square = generators::square(20, 2);
     each("reach", cases, |s, _| square.iter().map(|&u| properties::within_reach(s, u)).fold(0.0, f64::max))
 }
 
-/// All properties over the cases, at the edges of the square and `random` points more.
+/// All properties over the cases, at the edges of the square and at `random` further points.
 pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES] {
     let square = generators::square(random, 1);
     let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
@@ -85,7 +85,7 @@ pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES
             square.iter().map(|&u| run(s, u, &mut random)).fold(0.0, f64::max)
         }
     };
-    // the charts' own edges are where a density goes to 0
+    // the edges of the chart are included: that is where a density falls to 0
     let chart = |r: &mut Random| [(); 2].map(|()| generators::unit_or_edge(r));
     [
         each(
@@ -123,7 +123,7 @@ pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES
         each("integral", cases, |s, _| properties::integral(s)),
         each("chi-square", cases, |s, i| properties::chi_square(s, i as u64)),
         each("lanes", cases, |_, i| {
-            // each lane a different regime, each with its own u
+            // each lane has another regime, and its own u
             let kin: Vec<S> = cases.iter().map(|c| c.1).filter(|s| s.kin(&cases[i].1)).collect();
             let lanes = core::array::from_fn(|k| kin[(i + k * 3) % kin.len()]);
             for start in (0..square.len() - 8).step_by(5) {

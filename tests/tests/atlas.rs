@@ -1,4 +1,4 @@
-//! The atlas: its truths against closed forms and against their own definitions, and what it says of every technique.
+//! The atlas: its truths against closed forms and against their own definitions, and bounds on the errors it finds in every technique.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 use etendue_render::atlas::curves::{Arc, Ellipse};
@@ -14,20 +14,20 @@ fn dd(v: V3) -> Dd3 {
     v.map(Dd::from)
 }
 fn close(a: f64, b: f64, tolerance: f64, what: &str) {
-    assert!((a / b - 1.0).abs() <= tolerance, "{what}: {a:e} for {b:e}, off by {:.1e}", a / b - 1.0);
+    assert!((a / b - 1.0).abs() <= tolerance, "{what}: {a:e}, expected {b:e}, off by {:.1e}", a / b - 1.0);
 }
 
 #[test]
 fn triangles() {
     let octant = Fan::new(dd([1.0, 0.0, 0.0]), dd([-1.0, 1.0, 0.0]), dd([-1.0, 0.0, 1.0]));
     close(octant.solid_angle(), FRAC_PI_2, 1e-15, "octant");
-    // facing and small: the area; seen edge-on: times the sine
+    // facing and small: the area; edge-on: times the sine
     for (size, sine) in [(1e-3, 1.0), (1e-9, 1.0), (1e-6, 1e-7), (1e-9, 1e-7)] {
         let level = f64::sqrt((1.0 - sine) * (1.0 + sine));
         let fan = Fan::new(dd([level, 0.0, sine]), dd([size, 0.0, 0.0]), dd([0.0, size, 0.0]));
         close(fan.solid_angle(), 0.5 * size * size * sine, 3.0 * size + 1e-13, "small triangle");
     }
-    // the point that the map gives cuts u₀ of the area off
+    // the mapped point cuts off u₀ of the area
     let mut random = Random::new(1);
     for i in 0..200 {
         let (v, a, b) = (random.direction(), random.direction(), random.direction());
@@ -50,10 +50,10 @@ fn caps() {
             if height >= 1.0 {
                 continue;
             }
-            // a normal whose length is 1 to 106 bits is (3, 4, 0)/5 times a power of two
+            // (3, 4, 0)/5 times a power of two is a normal whose length is 1 to 106 bits
             let level = ((1.0 - height) * (1.0 + height)).sqrt();
             let closed = truth::projected_cap([level, 0.0, height], sigma.sin(), [0.0, 0.0, 1.0]);
-            // the centre's own rounding: 1e−16, of the distance to the tangent plane
+            // the centre is rounded to 1e−16 relative to the distance to the tangent plane
             let room = 1e-9 + 1e-15 / (sigma.sin() - height.abs()).abs();
             let rings = oracle::projected_cap_by_rings(sigma, height);
             if rings > 0.0 && room < 1e-3 {
@@ -65,14 +65,14 @@ fn caps() {
 
 #[test]
 fn polygons_on_the_disk() {
-    // an eighth of the sphere, seen on the floor, is a quarter of the unit disk
+    // an eighth of the sphere, projected to the floor, is a quarter of the unit disk
     let octant = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(dd);
     close(lambert(&octant, dd([0.0, 0.0, 1.0])), FRAC_PI_4, 1e-15, "octant");
-    // half of a facing square, cut by the horizon
+    // half of a facing square, cut off by the horizon
     let square = [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [1.0, -1.0, 1.0]].map(dd);
     let up = dd([1.0, 0.0, 0.0]);
     let above = above_horizon(&square, up);
-    // a receiver at right angles: ½(atan(1/z) − z/√(1+z²) atan(1/√(1+z²))), z = 1, twice for both sides
+    // a perpendicular receiver: ½(atan(1/z) − z/√(1+z²) atan(1/√(1+z²))), z = 1, twice for both halves
     let root = 2.0_f64.sqrt();
     close(lambert(&above, up), FRAC_PI_4 - (1.0 / root) * (1.0 / root).atan(), 1e-14, "half a square");
     // tiny: area times cosine
@@ -91,19 +91,19 @@ fn disks_and_lines() {
         close(disk.solid_angle(), TAU * k * k * c * c / (1.0 + c), 1e-13, "facing disk");
     }
     let line = |a: V3, e: V3, n: V3| Arc::new(dd(a), dd(e), Some(dd(n)));
-    // across the zenith at height 1: ∫cos²x dx from −π/4 to π/4
+    // through the zenith at height 1: ∫cos²x dx from −π/4 to π/4
     let arc = line([-1.0, 0.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
     close(arc.angle, FRAC_PI_2, 1e-15, "angle");
     close(arc.whole, FRAC_PI_4 + 0.5, 1e-14, "irradiance");
     close(arc.angle_of(0.5), FRAC_PI_4, 1e-14, "half of it");
-    // upright on the horizon, from far below it: ∫ sinx cosx from 0 to π/4
+    // rising vertically from far below the horizon to above it: ∫ sinx cosx dx from 0 to π/4
     let arc = line([1.0, 0.0, -5.0], [0.0, 0.0, 6.0], [0.0, 0.0, 1.0]);
     close(arc.whole, 0.25, 1e-14, "upright");
 }
 
-/// ∂w/∂u₀ × ∂w/∂u₁ times the density is 1, for every kind of shape and sweep.
+/// The area element ∂w/∂u₀ × ∂w/∂u₁ times the pdf is 1, for every kind of shape and every sweep.
 #[test]
-fn maps_have_their_densities() {
+fn maps_match_their_pdf() {
     let mut checked = 0;
     for &kind in Kind::all() {
         for sweep in sweeps(kind, true) {
@@ -138,13 +138,13 @@ fn density_holds(truth: &Truth, u: [f64; 2], pose: &Pose) -> bool {
         core::array::from_fn(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * h))
     };
     let (a, b) = (slope(0, h), slope(1, h));
-    // not where the map has a kink: there the derivatives by a smaller step differ
+    // a kink of the map makes the derivatives depend on the step; skip it
     let (a2, b2) = (slope(0, 0.25 * h), slope(1, 0.25 * h));
     let differ = |a: V3, b: V3| length(oracle::sub(a, b)) > 1e-5 * length(a);
     if differ(a, a2) || (!truth.line() && differ(b, b2)) {
         return false;
     }
-    // a direction in f64 must resolve the step
+    // skip steps too small for a direction in f64
     let resolved = if truth.line() { length(a) } else { length(cross(a, b)) / length(a).max(length(b)) };
     if resolved * h < 1e-8 {
         return false;
@@ -154,12 +154,12 @@ fn density_holds(truth: &Truth, u: [f64; 2], pose: &Pose) -> bool {
     let [density, slope] = truth.pdf(w);
     let off = (measure * density - 1.0).abs();
     assert!(off < 3e-5 + 1e-14 * slope / density, "{pose:?} {u:?}: {off:e}");
-    // the f64 body of a cap that touches the horizon has a root of a difference there
+    // for a cap that touches the horizon, the f64 code takes the root of a difference here
     assert!((dot(w, w) - 1.0).abs() < 1e-9, "{pose:?} {u:?}: {:e}", dot(w, w) - 1.0);
     true
 }
 
-/// What the atlas finds, at the least: the part of the cells in which a technique of ours keeps the contract may not fall.
+/// The fraction of cells in which each technique keeps the contract must not fall.
 #[test]
 fn cells_within_the_contract() {
     let detail = Detail { turns: 1, samples: 16, strata: 4, quick: true };
@@ -169,10 +169,10 @@ fn cells_within_the_contract() {
         let part = summary.cells[0] as f64 / summary.cells[2] as f64;
         println!("{:24} {name:36} {part:.3}", summary.kind.name());
         if let (true, Some(&(_, least))) = (ours, LEAST.iter().find(|l| l.0 == name)) {
-            assert!(part >= least, "{}: {name} keeps the contract in {part:.3} of the cells", summary.kind.name());
+            assert!(part >= least, "{}: {name} keeps the contract in only {part:.3} of the cells", summary.kind.name());
         }
         if !ours {
-            assert!(part < 0.75, "{}: the textbook's {name} is no baseline: {part:.3}", summary.kind.name());
+            assert!(part < 0.75, "{}: the textbook {name} is too good for a baseline: {part:.3}", summary.kind.name());
         }
     }
     for &(name, direction, pdf, bias) in &MOST {
@@ -182,7 +182,7 @@ fn cells_within_the_contract() {
             assert!(all, "{name}: {cell:?}");
         }
     }
-    // cut caps, thin lunes and all, but for those that are nearly a hemisphere and below the horizon
+    // cut caps including thin lunes, except near-hemispheres below the horizon
     for chart in charts.iter().filter(|c| c.method.name == "ProjectedCap") {
         let columns = chart.sweep.x.iter().cycle();
         for (tick, cell) in columns.zip(&chart.cells).filter(|(tick, _)| tick.value <= 0.9) {
@@ -191,7 +191,7 @@ fn cells_within_the_contract() {
     }
     assert_eq!(LEAST.iter().filter(|l| charts.iter().any(|c| c.method.name == l.0)).count(), LEAST.len());
 }
-/// Greatest errors of direction, density and irradiance in any cell, of those that have a bound: grazing, slivers, touching and all.
+/// Bounds on the errors of direction, pdf and irradiance in every cell, for the techniques that have them.
 const MOST: [(&str, f64, f64, f64); 5] = [
     ("SphericalCap", 1e-5, 5e-7, 1e-6),
     ("SphericalTriangle", 2e-5, 1e-4, 1e-4),
@@ -214,7 +214,7 @@ const LEAST: [(&str, f64); 12] = [
     ("ProjectedSegment", 0.95),
 ];
 
-/// A shape of no size, a point inside of a sphere: methods say 0, or all directions.
+/// A shape without size has measure 0, and a sphere around the viewpoint covers all directions.
 #[test]
 fn degenerate() {
     let none = Pose { shape: Shape::Sphere { center: [0.0, 0.0, 1.0], radius: 0.0 }, normal: [0.0, 0.0, 1.0] };

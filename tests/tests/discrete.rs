@@ -1,4 +1,4 @@
-//! Tables over slices: what is drawn is what is reported, counted over every `u` there is.
+//! Tables over slices: the frequencies of the cells over every possible `u` match the reported pmf.
 
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::{Uint, Vec2, Warp, Warp1, f32x4, f32x8, u32x4, u32x8};
@@ -17,7 +17,7 @@ fn regimes(n: usize) -> Vec<(&'static str, Vec<f32>)> {
         ("flat", of(&mut |_, _| 1.0)),
         ("ordinary", of(&mut |_, r| r.range(0.1, 1.0))),
         (
-            "many zeros, first and last too",
+            "many zeros, also first and last",
             of(&mut |i, r| if i % 3 == 1 && i + 1 < n { r.unit_f64() + 0.1 } else { 0.0 }),
         ),
         ("twelve decades", of(&mut |_, r| r.magnitude(1e-6, 1e6))),
@@ -28,8 +28,8 @@ fn regimes(n: usize) -> Vec<(&'static str, Vec<f32>)> {
     ]
 }
 
-/// Over all 2²⁴ values of u each cell is drawn exactly as often as it says, never without weight, and within 2⁻²⁴ (or the one step
-/// that a weight is owed) of its share.
+/// Over all 2²⁴ values of u, each cell is drawn exactly as often as its pmf says, never without weight, and within 2⁻²⁴ of its share (or
+/// within the one step that any weight is guaranteed).
 #[test]
 fn piecewise_constant_1d_counts() {
     for n in [1, 2, 3, 7, 1000, 1_000_000] {
@@ -39,7 +39,7 @@ fn piecewise_constant_1d_counts() {
             }
             let mut cdf = vec![0.0; n];
             let table = PiecewiseConstant1d::build(&weights, &mut cdf).unwrap();
-            // the counts follow from the first and last u of each cell, if cells come in order
+            // cells come in order, so their first and last u give the counts
             let total: f64 = weights.iter().map(|&w| f64::from(w)).sum();
             let least = weights.iter().filter(|w| **w > 0.0).fold(f64::MAX, |m, &w| m.min(w.into())) / total;
             let mut start = 0;
@@ -49,7 +49,10 @@ fn piecewise_constant_1d_counts() {
                 assert_eq!(p > 0.0, w > 0.0, "{name} {n}: cell {i}");
                 let share = f64::from(w) / total;
                 if least > 2.0 / f64::from(STEPS) {
-                    assert!((f64::from(p) - share).abs() <= 1.0 / f64::from(STEPS), "{name} {n}: {p} for {share}");
+                    assert!(
+                        (f64::from(p) - share).abs() <= 1.0 / f64::from(STEPS),
+                        "{name} {n}: {p}, expected {share}"
+                    );
                 }
                 let count = (p * STEPS as f32) as u32;
                 if count > 0 {
@@ -59,7 +62,7 @@ fn piecewise_constant_1d_counts() {
                         assert!((0.0..1.0).contains(&cell.offset));
                         let back: f32 = table.invert_cell(cell.index, cell.offset);
                         assert!((back - step(u)).abs() <= 1.0 / STEPS as f32, "{name} {n}: {} to {back}", step(u));
-                        // the point of the line stays in its cell, and so has its density
+                        // the point on the line stays in its cell, which has this pdf
                         let x = table.sample(step(u));
                         let pdf: f32 = table.pdf(x);
                         assert_eq!(pdf, p * n as f32, "{name} {n}: {x} at {u}");
@@ -104,19 +107,19 @@ fn piecewise_constant_2d_counts() {
                 let (cell, p) = (table.cell(u), table.sample(u));
                 let weight = weights[cell.x as usize + cell.y as usize * w];
                 assert!(weight > 0.0 && cell.pmf > 0.0, "{name} {w}×{h}: {u:?} gives {cell:?}");
-                // the same product, in the same order or not
+                // the same product, perhaps in another order
                 let pdf = table.pdf(p);
                 assert!((pdf / (cell.pmf * (w * h) as f32) - 1.0).abs() < 3e-7, "{name}: {u:?} {pdf} {cell:?}");
                 let back = table.invert_cell(cell.x, cell.y, cell.offset);
                 assert!((back.x - u.x).abs().max((back.y - u.y).abs()) <= step(1), "{name} {w}×{h}: {u:?} {back:?}");
-                // through a point, whose rounding is one part in 2²⁴ of the whole and so n of the cell
+                // the point is rounded to 2⁻²⁴ of the whole, which is n times as much of a cell
                 let back = table.invert(p);
                 let allowed = [(w as f32, cell.x), (h as f32, cell.y)].map(|(n, _)| step(2) * (1.0 + n));
                 assert!(
                     (back.x - u.x).abs() <= allowed[0] && (back.y - u.y).abs() <= allowed[1],
                     "{name}: {u:?} {back:?}"
                 );
-                // lanes
+                // every lane gives the scalar result
                 if i % 16 == 0 {
                     let us: [Vec2<f32>; 8] = core::array::from_fn(|_| Vec2::new(random.unit(), random.unit()));
                     let u8: Vec2<f32x8> = Vec2::new(us.map(|u| u.x).into(), us.map(|u| u.y).into());
@@ -134,9 +137,9 @@ fn piecewise_constant_2d_counts() {
     }
 }
 
-/// Cells off the image have no probability, however far off.
+/// Cells outside the image have pmf 0, however far outside.
 #[test]
-fn beyond_the_image() {
+fn cells_outside_the_image() {
     let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(3, 2)];
     let table = PiecewiseConstant2d::build(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 3, &mut buffer).unwrap();
     for far in [2, 3, 4, 1 << 24, u32::MAX] {
@@ -148,7 +151,7 @@ fn beyond_the_image() {
     assert!((table.pmf::<f32>(2, 1) - 6.0 / 21.0).abs() < 1e-6);
 }
 
-/// Over all 2²⁴ values of u: counts within what the grid allows, the left-over uniform.
+/// Over all 2²⁴ values of u: the counts are as exact as the grid allows, and the remaining `offset` is uniform.
 #[test]
 fn alias_table_counts() {
     for n in [1_usize, 2, 3, 7, 64, 1000] {
@@ -173,9 +176,12 @@ fn alias_table_counts() {
                 let count = f64::from(counts[i]);
                 let expected = f64::from(probabilities[i]) * f64::from(STEPS);
                 assert!(weights[i] > 0.0 || counts[i] == 0, "{name} {n}: item {i} has no weight");
-                // each bucket in which the item lies may be off by a step at either end
+                // each bucket that holds the item may be off by a step at either end
                 let buckets = 2.0 + aliases.iter().filter(|a| **a as usize == i).count() as f64;
-                assert!((count - expected).abs() <= 2.0 * buckets, "{name} {n}: item {i}: {count} for {expected}");
+                assert!(
+                    (count - expected).abs() <= 2.0 * buckets,
+                    "{name} {n}: item {i}: {count}, expected {expected}"
+                );
                 if count > 1e4 {
                     let mean = offsets[i] / count;
                     assert!((mean - 0.5).abs() < 2.0 * buckets / count + 1e-6, "{name} {n}: item {i}: mean {mean}");
@@ -185,7 +191,7 @@ fn alias_table_counts() {
     }
 }
 
-/// The tables in one dimension give the same bits at every width.
+/// One-dimensional tables give the same bits at every width.
 #[test]
 fn lanes() {
     let (_, weights) = regimes(1000).swap_remove(3);
@@ -208,13 +214,13 @@ fn lanes() {
             assert_eq!(figures, [one, line.pdf(one), line.invert(one)]);
         }
     }
-    // past the last cell there is nothing
+    // there is nothing beyond the last cell
     assert_eq!(line.pmf::<f32x4>(u32x4::splat(1000)), f32x4::splat(0.0));
     assert_eq!(alias.pmf::<f32x8>(u32x8::splat(u32::MAX)), f32x8::splat(0.0));
 }
 
 #[test]
-fn tables_that_cannot_be() {
+fn invalid_tables_are_errors() {
     let built = |weights: &[f32], n: usize| PiecewiseConstant1d::build(weights, &mut vec![0.0; n]).err();
     let alias = |weights: &[f32], n: usize| AliasTable::build(weights, &mut vec![0.0; n], &mut vec![0; n]).err();
     let image = |weights: &[f32], n: usize| PiecewiseConstant2d::build(weights, n, &mut vec![0.0; n * n + n]).err();

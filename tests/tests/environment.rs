@@ -1,4 +1,4 @@
-//! Environments from images against brute-force tables: density, texels, inverses, counts, lanes.
+//! Environment images against brute-force tables: pdf, texels, inverses, frequencies, lanes.
 
 use core::f64::consts::{PI, TAU};
 use etendue::discrete::TableError;
@@ -23,7 +23,7 @@ struct Image {
 fn images(map: EnvironmentMap) -> Vec<Image> {
     let sizes: &[[usize; 2]] = match map {
         EqualArea => &[[1, 1], [2, 2], [7, 7], [64, 64]],
-        // odd heights have a row that holds the horizon
+        // with odd heights, the horizon passes through a row
         Equirectangular => &[[1, 1], [2, 1], [4, 2], [6, 3], [13, 7], [128, 64], [16, 301]],
     };
     let mut random = Random::new(11);
@@ -53,13 +53,13 @@ impl Image {
             Equirectangular => TAU / w * ((PI * y as f64 / h).cos() - (PI * (y + 1) as f64 / h).cos()),
         }
     }
-    /// Column and row, as real numbers, of a direction: from the definition of the map.
+    /// Column and row of a direction, as real numbers, by the definition of the map.
     fn place(&self, map: EnvironmentMap, d: V3) -> [f64; 2] {
         let (w, h) = (self.width as f64, self.height as f64);
         match map {
             Equirectangular => [(d[1].atan2(d[0]) / TAU).rem_euclid(1.0) * w, d[0].hypot(d[1]).atan2(d[2]) / PI * h],
             EqualArea => {
-                // upper half: the disk of radius √(1−|z|) as a diamond; lower half: folded out over its sides
+                // upper half: the disk of radius √(1−|z|), mapped to a diamond; lower half: folded outwards over its sides
                 let r = ((d[0] * d[0] + d[1] * d[1]) / (1.0 + d[2].abs())).sqrt();
                 let b = r * d[1].abs().atan2(d[0].abs()) / (PI / 2.0);
                 let (a, b) = if d[2] < 0.0 { (1.0 - b, 1.0 - (r - b)) } else { (r - b, b) };
@@ -67,13 +67,13 @@ impl Image {
             }
         }
     }
-    /// The densities that are right for a direction: of its texel, and of those that lie within the rounding of the direction.
+    /// The correct pdfs of a direction: that of its texel, and those of the texels within its rounding.
     fn densities(&self, map: EnvironmentMap, d: V3, rounding: f64) -> Vec<f64> {
         let total: f64 =
             (0..self.weights.len()).map(|i| f64::from(self.weights[i]) * self.solid_angle(map, i / self.width)).sum();
         let (w, h) = (self.width as f64, self.height as f64);
         let [x, y] = self.place(map, d);
-        // a turn of the azimuth is larger near a pole
+        // near a pole the same rounding turns the azimuth further
         let across = d[0].hypot(d[1]).max(1e-300);
         let (slack_x, slack_y) = match map {
             EqualArea => (rounding * w, rounding * h),
@@ -99,13 +99,13 @@ impl Image {
 }
 
 fn near(pdf: f64, truths: &[f64], texels: usize) -> bool {
-    // probabilities of rows and columns are multiples of 2⁻²⁴, and a texel with a weight keeps one
+    // the pmf of rows and columns is a multiple of 2⁻²⁴, and a texel with a weight has at least one step
     truths.iter().any(|t| (pdf - t).abs() <= 2e-6 * t + (texels as f64).max(8.0) * ULP)
 }
 
-/// At directions anywhere, poles and seams among them, and at samples: density, texel and inverse.
+/// pdf, texel and inverse are right at any direction, also at poles and seams, and at samples.
 #[test]
-fn density_is_that_of_the_table() {
+fn pdf_matches_the_table() {
     let mut random = Random::new(1);
     for map in MAPS {
         for image in images(map) {
@@ -134,20 +134,20 @@ fn density_is_that_of_the_table() {
                 let w: Vec3<f32> = Coordinates::gather(&[d]);
                 let truths = image.densities(map, d, 5e-7);
                 let pdf = f64::from(sky.pdf(w));
-                assert!(near(pdf, &truths, texels), "{name}: {pdf} at {d:?}, not {truths:?}");
+                assert!(near(pdf, &truths, texels), "{name}: {pdf} at {d:?}, expected one of {truths:?}");
                 let double = Vec3::<f64>::new(d[0], d[1], d[2]);
                 let (truths, pdf) = (image.densities(map, d, 1e-14), sky.pdf(double));
-                assert!(near(pdf, &truths, texels), "{name}: {pdf} at {d:?}, not {truths:?}");
-                // and back: an inverse samples its own direction, where there is light
+                assert!(near(pdf, &truths, texels), "{name}: {pdf} at {d:?}, expected one of {truths:?}");
+                // where there is light, the inverse maps back to the direction
                 if pdf > 1e-3 {
                     let back = sky.sample(sky.invert(w)).at(0);
                     let off = length(sub(back, d));
-                    // the inverse is a multiple of 2⁻²⁴ or so: of a dark texel few remain
+                    // the inverse is about a multiple of 2⁻²⁴, and few of these fall into a dark texel
                     let (w, h) = (image.width as f64, image.height as f64);
                     let steps = 2.0 * ULP * (TAU / (pdf * image.solid_angle(map, 0)).min(1.0)).max(w.max(h));
-                    // a step of a cosine is a root of it in the angle to the pole
+                    // near a pole, a step of the cosine is its square root in the angle
                     let angle = if d[0].hypot(d[1]) < 1e-2 { (2.0 * steps).sqrt() } else { 0.0 };
-                    assert!(off < 1e-6 + 8.0 * steps + angle, "{name}: {d:?} comes back as {back:?}, off by {off:e}");
+                    assert!(off < 1e-6 + 8.0 * steps + angle, "{name}: {d:?} maps back to {back:?}, off by {off:e}");
                 }
             }
             for i in 0..300 {
@@ -159,8 +159,8 @@ fn density_is_that_of_the_table() {
                 let weight = image.weights[s.y as usize * image.width + s.x as usize];
                 assert!(weight > 0.0 && s.light.pdf > 0.0, "{name}: a black texel at {u:?}");
                 let truths = image.densities(map, d, 5e-7);
-                assert!(near(s.light.pdf.into(), &truths, texels), "{name}: {s:?} not {truths:?}");
-                // the pdf that comes with it is the pdf evaluated, but at the edge of a texel
+                assert!(near(s.light.pdf.into(), &truths, texels), "{name}: {s:?}, expected one of {truths:?}");
+                // the sample's pdf is the evaluated one, except at the edge of a texel
                 let texel = sky.texel(s.light.direction);
                 if (texel.x, texel.y) == (s.x, s.y) {
                     assert_eq!(sky.pdf(s.light.direction), s.light.pdf);
@@ -170,25 +170,25 @@ fn density_is_that_of_the_table() {
                     let across = if map == EqualArea { 1.0 } else { d[0].hypot(d[1]) };
                     assert!(
                         x * across < 4e-7 * w.max(2.0) && y * across < 4e-7 * h.max(2.0),
-                        "{name}: {again:?} for {u:?}"
+                        "{name}: {again:?}, expected {u:?}"
                     );
                 } else {
-                    assert!(truths.len() > 1, "{name}: {texel:?} for {s:?}");
+                    assert!(truths.len() > 1, "{name}: {texel:?}, expected that of {s:?}");
                 }
             }
         }
     }
 }
 
-/// ∫pdf = 1 by a sum over directions that knows nothing of texels, and counts of samples in bins that do not either.
+/// ∫pdf = 1 by a sum over directions, and samples match the pdf in bins; neither refers to texels.
 #[test]
-fn samples_have_the_density() {
+fn samples_follow_the_pdf() {
     for map in MAPS {
         for image in images(map).iter().filter(|i| [49, 18, 91].contains(&i.weights.len())) {
             let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
             let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
             let name = format!("{map:?} {}x{} {}", image.width, image.height, image.name);
-            // bins of equal solid angle: 8 heights, 16 azimuths; edges of texels are missed by half a step
+            // bins of equal solid angle: 8 heights, 16 azimuths; the sum locates edges of texels to half a step
             let n = 720;
             let mut expected = vec![0.0; 128];
             for i in 0..n {
@@ -201,10 +201,10 @@ fn samples_have_the_density() {
                 }
             }
             let sum: f64 = expected.iter().sum();
-            assert!((sum - 1.0).abs() < 1e-2, "{name}: the density integrates to {sum}");
+            assert!((sum - 1.0).abs() < 1e-2, "{name}: the pdf integrates to {sum}");
             let mut observed = vec![0_u64; 128];
             let mut random = Random::new(3);
-            // few enough that the quadrature's own error does not show
+            // few enough samples that the error of the quadrature does not matter
             let count = 20_000;
             for _ in 0..count {
                 let d = sky.sample(Vec2::new(random.unit(), random.unit())).at(0);
@@ -212,7 +212,7 @@ fn samples_have_the_density() {
                 let column = ((d[1].atan2(d[0]) / TAU).rem_euclid(1.0) * 16.0) as usize;
                 observed[row * 16 + column.min(15)] += 1;
             }
-            // an empty bin may be touched at its edge
+            // a sample may fall on the edge of a bin that is otherwise empty
             let expected: Vec<_> = expected.iter().map(|e| (e / sum).max(1e-9) * f64::from(count)).collect();
             let p = stats::chi_square(&observed, &expected);
             assert!(p > SIGNIFICANCE, "{name}: {p}");
@@ -220,9 +220,9 @@ fn samples_have_the_density() {
     }
 }
 
-/// The mean of radiance over density is the integral of the radiance, with no variance if the weights are the radiance.
+/// If the weights are the radiance, radiance over pdf is its integral for every sample, without variance.
 #[test]
-fn every_sample_is_worth_the_same() {
+fn every_sample_has_the_same_value() {
     for map in MAPS {
         for image in images(map).iter().filter(|i| i.name != "six decades" && i.weights.len() < 5000) {
             let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
@@ -235,16 +235,16 @@ fn every_sample_is_worth_the_same() {
                 let s = sky.draw(Vec2::new(random.unit(), random.unit()));
                 let worth =
                     f64::from(image.weights[s.y as usize * image.width + s.x as usize]) / f64::from(s.light.pdf);
-                // a texel's probability is a product of multiples of 2⁻²⁴
+                // a texel's pmf is a product of multiples of 2⁻²⁴
                 let share = f64::from(s.light.pdf) * image.solid_angle(map, s.y as usize);
                 let grid = image.weights.len() as f64 * 2.0 * ULP / share.min(1.0);
-                assert!((worth / total - 1.0).abs() < 2e-6 + grid, "{map:?} {}: {worth} for {total}", image.name);
+                assert!((worth / total - 1.0).abs() < 2e-6 + grid, "{map:?} {}: {worth}, expected {total}", image.name);
             }
         }
     }
 }
 
-/// Single against double precision of the same body, at the same texel: the bounds that the documentation states.
+/// Single against double precision in the same code, at the same texel: within the documented bounds.
 #[test]
 fn accuracy() {
     let mut random = Random::new(6);
@@ -276,7 +276,7 @@ fn bits<R: Real>(sky: &ImageEnvironment<'_>, u: Vec2<R>, w: Vec3<R>, i: usize) -
     std::array::from_fn(|k| if k < 7 { float[k] } else { whole[k - 7] })
 }
 
-/// Any finite direction gives a texel, a finite density and an inverse in the square; all widths give the same bits.
+/// Any finite direction gives a texel, a finite pdf and an inverse in the square, identical at every width.
 #[test]
 fn any_bits_in_every_lane() {
     let mut random = Random::new(5);
@@ -307,7 +307,7 @@ fn any_bits_in_every_lane() {
     }
 }
 
-/// A texel at a pole of a very large image: nothing divides by its sine.
+/// A texel at the pole of a very large image: no division by the sine.
 #[test]
 fn poles_of_large_images() {
     let (width, height) = (4, 1 << 16);
@@ -320,19 +320,19 @@ fn poles_of_large_images() {
         let truth = 1.0 / image.solid_angle(Equirectangular, row);
         for u in [[0.1_f32, 0.2], [0.9, 0.01], [0.5, 0.99]] {
             let s = sky.draw(Vec2::new(u[0], u[1]));
-            // the oracle's own difference of cosines cancels: 1e−16 of 1e−10
-            assert!((f64::from(s.light.pdf) / truth - 1.0).abs() < 2e-6, "{row}: {} for {truth}", s.light.pdf);
+            // the oracle's difference of cosines cancels too: 1e−16 of 1e−10
+            assert!((f64::from(s.light.pdf) / truth - 1.0).abs() < 2e-6, "{row}: {}, expected {truth}", s.light.pdf);
             let d = s.light.direction.at(0);
             let rows = d[0].hypot(d[1]).atan2(d[2]) / PI * height as f64;
             let inside = if row + 2 < height && row > 1 { 1e-2 } else { 1e-4 };
             assert!(rows > row as f64 - inside && rows < (row + 1) as f64 + inside, "{row}: {rows}");
-            assert!(d[0] <= 1e-7 && d[1] >= -1e-7, "the second quarter turn: {d:?}");
+            assert!(d[0] <= 1e-7 && d[1] >= -1e-7, "not in the second quadrant: {d:?}");
         }
     }
 }
 
 #[test]
-fn faulty_images_are_refused() {
+fn invalid_images_are_errors() {
     let mut buffer = [0.0; 6];
     let mut build = |weights: &[f32], width| {
         ImageEnvironment::build(weights, width, EqualArea, &mut buffer[..]).map(|_| ()).unwrap_err()

@@ -1,4 +1,4 @@
-//! The fuzz targets' bodies without a fuzzer: on the committed seeds and findings, and on bytes at random.
+//! The bodies of the fuzz targets without a fuzzer: on the committed seeds, which include past findings, and on random bytes.
 
 use etendue_tests::fixtures::ProjectedTriangle;
 use etendue_tests::fuzz_bodies::{TARGETS, Target};
@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// Every file of `fuzz/seeds/<target>`, among them what fuzzing has found.
+/// Runs every file in `fuzz/seeds/<target>`.
 #[test]
 fn seeds() {
     let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/seeds");
@@ -30,7 +30,7 @@ fn seeds() {
     }
 }
 
-/// What fuzzing has found in numbers of its own: a triangle whose edge stands upright over the horizon, and a direction beside that.
+/// A past finding as plain numbers: a triangle with an edge that rises vertically above the horizon, and a direction next to that edge.
 #[test]
 fn inverse_beside_an_upright_edge() {
     let triangle = ProjectedTriangle::by_edges(
@@ -42,7 +42,8 @@ fn inverse_beside_an_upright_edge() {
     properties::inverse(&triangle, [-0.504813015, 0.341584474, 0.79276967]);
 }
 
-/// So many inputs of each target, of 8 to 263 bytes; targets in turn on all processors. An input that breaks a property is kept as a file.
+/// Runs `count` inputs of 8 to 263 bytes on each target, with the targets distributed over all processors. An input that breaks a property
+/// is kept as a file.
 fn random(count: impl Fn(&Target) -> u64 + Sync) {
     let (next, total, broken) = (AtomicUsize::new(0), Mutex::new(0), Mutex::new(Vec::new()));
     let run = || {

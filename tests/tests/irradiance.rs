@@ -2,14 +2,14 @@
 
 use core::f64::consts::PI;
 use etendue::estimate::Welford;
-use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
+use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
 use etendue_tests::generators::Random;
 use etendue_tests::oracle::{V3, along, cross, dot, length, projected_cap, projected_polygon, sub, unit, wide};
 use etendue_tests::properties::Coordinates;
 use etendue_tests::stats;
 use etendue_tests::tolerances::{GRID, GRID_AREA, ULP};
 
-/// Midpoints of a 1024 × 1024 grid: exact to 1/12n² where the integrand is smooth, to n^(−3/2) across kinks.
+/// Mean over the midpoints of a 1024 × 1024 grid: accurate to 1/12n² where the integrand is smooth, to n^(−3/2) across kinks.
 fn mean(n: V3, sample: impl Fn(Vec2<f32x8>) -> LightSample<f32x8>) -> f64 {
     const N: usize = 1024;
     let mut sum = 0.0;
@@ -33,7 +33,7 @@ fn packet(v: [f32; 3]) -> Vec3<f32x8> {
 }
 fn close(name: &str, value: f64, truth: f64, scale: f64, tolerance: f64) {
     println!("{name:40} {truth:.6e} off by {:.1e}", (value - truth) / scale);
-    assert!((value - truth).abs() <= tolerance * scale, "{name}: {value} for {truth}");
+    assert!((value - truth).abs() <= tolerance * scale, "{name}: {value}, expected {truth}");
 }
 
 #[test]
@@ -46,7 +46,7 @@ fn spheres() {
         (1e-4, 0.5),
         (0.9, 0.3),
         (0.999, 0.2),
-        // cut by the horizon: axis above, on and below it; then not seen
+        // cut by the horizon, with the axis above, on and below it; then wholly below
         (0.5, 1.3),
         (0.5, PI / 2.0),
         (0.7, 1.9),
@@ -60,14 +60,14 @@ fn spheres() {
         let (s, _) = etendue_tests::oracle::basis(unit(axis));
         let n = along(unit(axis).map(|x| x * f64::cos(omega)), s, f64::sin(omega));
         let truth = projected_cap(sigma, omega);
-        // what is compared with: the unclipped projected solid angle, so that a sliver above the horizon is not asked too much
+        // errors are relative to the unclipped projected solid angle, so that a sliver above the horizon may err as much as a whole sphere
         let scale = PI * sigma.sin().powi(2);
         let light = Sphere { center: packet(center), radius: f32x8::splat(radius) };
         let name = |by: &str| format!("sphere {by} {ratio} {omega:.2}");
-        close(&name("by solid angle"), mean(n, |u| light.by_solid_angle(packet(p), u)), truth, scale, GRID);
-        // the grid must resolve the part that is seen, and the peak of 1/d² of a sphere that nearly touches
+        close(&name("by solid angle"), mean(n, |u| light.by_solid_angle(packet(p)).sample(u)), truth, scale, GRID);
+        // the grid must resolve the visible part, and the peak of 1/d² on a sphere that nearly touches the point
         if (0.01..0.95).contains(&ratio) {
-            close(&name("by area"), mean(n, |u| light.by_area(packet(p), u)), truth, scale, GRID_AREA);
+            close(&name("by area"), mean(n, |u| light.by_area(packet(p)).sample(u)), truth, scale, GRID_AREA);
         }
     }
 }
@@ -81,7 +81,7 @@ fn flat_lights() {
         let p: [f32; 3] = core::array::from_fn(|k| (direction[k] * 2.0) as f32);
         let (u, v) = (random.direction(), random.direction());
         let (u, v) = (u.map(|x| (x * size) as f32), v.map(|x| (x * size) as f32));
-        // towards the light, then across, so that the horizon cuts some of them
+        // any normal, or one tilted from the direction to the light, so that the horizon cuts some lights
         let n = if i % 3 == 0 { random.direction() } else { unit(along(direction, random.direction(), 0.8)) };
         let (a, b, c) = (wide(p), wide(u), wide(v));
         let emits = dot(cross(b, c), a) < 0.0;
@@ -93,22 +93,37 @@ fn flat_lights() {
         let light = Triangle { v0: packet(p), e1: packet(u), e2: packet(v) };
         let truth = projected_polygon(&corners, n);
         let name = |shape: &str| format!("{shape} {i} of size {size}");
-        close(&name("triangle by area"), mean(n, |u| light.by_area(origin, u)), truth, scale, GRID_AREA);
-        close(&name("triangle by solid angle"), mean(n, |u| light.by_solid_angle(origin, u)), truth, scale, GRID);
+        close(&name("triangle by area"), mean(n, |u| light.by_area(origin).sample(u)), truth, scale, GRID_AREA);
+        close(
+            &name("triangle by solid angle"),
+            mean(n, |u| light.by_solid_angle(origin).sample(u)),
+            truth,
+            scale,
+            GRID,
+        );
 
         let corners = [a, along(a, b, 1.0), along(along(a, b, 1.0), c, 1.0), along(a, c, 1.0)];
         let light = Parallelogram { p: packet(p), u: packet(u), v: packet(v) };
         let truth = projected_polygon(&corners, n);
-        close(&name("parallelogram by area"), mean(n, |u| light.by_area(origin, u)), truth, scale, GRID_AREA);
-        close(&name("parallelogram by solid angle"), mean(n, |u| light.by_solid_angle(origin, u)), truth, scale, GRID);
+        close(&name("parallelogram by area"), mean(n, |u| light.by_area(origin).sample(u)), truth, scale, GRID_AREA);
+        close(
+            &name("parallelogram by solid angle"),
+            mean(n, |u| light.by_solid_angle(origin).sample(u)),
+            truth,
+            scale,
+            GRID,
+        );
 
-        // from behind nothing is emitted
+        // nothing is emitted backwards
         let back = Triangle { v0: packet(p), e1: packet(v), e2: packet(u) };
-        assert_eq!(mean(n, |u| back.by_solid_angle(origin, u)) + mean(n, |u| back.by_area(origin, u)), 0.0);
+        assert_eq!(
+            mean(n, |u| back.by_solid_angle(origin).sample(u)) + mean(n, |u| back.by_area(origin).sample(u)),
+            0.0
+        );
     }
 }
 
-/// A sample lies on its shape; a density by area is 1/area in the measure of solid angle.
+/// A sample lies on its shape, and the pdf by area is 1/area, converted to solid angle.
 #[test]
 fn samples_lie_on_their_shapes() {
     let mut random = Random::new(4);
@@ -123,7 +138,7 @@ fn samples_lie_on_their_shapes() {
             let w = light.direction.at(0);
             let point = w.map(|x| x * f64::from(light.distance));
             let slant = dot(w, unit(normal));
-            // off the plane by the rounding of the coordinates, 5 at most; edge-on a direction's rounding moves it far along
+            // rounding the coordinates, at most 5, moves the point off the plane; rounding the direction moves it along, far if edge-on
             let off = dot(sub(point, a), unit(normal));
             assert!(off.abs() <= 12.0 * 5.0 * ULP, "off the plane by {off:e}");
             if slant.abs() > 0.05 {
@@ -134,12 +149,12 @@ fn samples_lie_on_their_shapes() {
                 if let Some(area) = area {
                     let d = length(point);
                     let pdf = d * d / (area * slant.abs());
-                    // a direction's rounding over the slant, and a dozen roundings
+                    // the rounding of a direction over the slant, and a dozen more roundings
                     let relative = (f64::from(light.pdf) / pdf - 1.0).abs();
                     assert!(relative <= (12.0 + 8.0 / slant.abs()) * ULP, "area measure off by {relative:e}");
                 }
             }
-            assert_eq!(light.emits, slant < 0.0, "emits");
+            assert_eq!(light.emits, slant < 0.0, "emits on the wrong side");
         };
         let sine = length(normal) / (length(b) * length(c));
         if sine < 0.05 {
@@ -153,17 +168,17 @@ fn samples_lie_on_their_shapes() {
             continue;
         }
         let triangle = Triangle { v0: of(v0), e1: of(e1), e2: of(e2) };
-        check(triangle.by_area(of(p), u), Some(0.5 * length(normal)), &in_triangle);
-        check(triangle.by_solid_angle(of(p), u), None, &in_triangle);
+        check(triangle.by_area(of(p)).sample(u), Some(0.5 * length(normal)), &in_triangle);
+        check(triangle.by_solid_angle(of(p)).sample(u), None, &in_triangle);
         let panel = Parallelogram { p: of(v0), u: of(e1), v: of(e2) };
-        check(panel.by_area(of(p), u), Some(length(normal)), &in_square);
-        check(panel.by_solid_angle(of(p), u), None, &in_square);
+        check(panel.by_area(of(p)).sample(u), Some(length(normal)), &in_square);
+        check(panel.by_solid_angle(of(p)).sample(u), None, &in_square);
 
         let sphere = Sphere { center: of(v0), radius: 0.7_f32 };
-        for light in [sphere.by_area(of(p), u), sphere.by_solid_angle(of(p), u)] {
+        for light in [sphere.by_area(of(p)).sample(u), sphere.by_solid_angle(of(p)).sample(u)] {
             let point = light.direction.at(0).map(|x| x * f64::from(light.distance));
             let off = length(sub(point, a)) / f64::from(sphere.radius) - 1.0;
-            // at the limb the rounding of a direction, over 4 units of length, leaves the surface at right angles
+            // at the limb, the rounding of a direction moves a point 4 units away straight off the surface
             assert!(off.abs() <= 32.0 * ULP, "off the sphere by {off:e}");
         }
     }
@@ -180,7 +195,7 @@ fn welford() {
         w
     };
     let all = run(&samples);
-    // the samples' offset is 1e4 of their spread: its rounding, 1e4 × 2⁻⁵², over √n pushes
+    // the offset of the samples is 1e4 times their spread; its rounding, 1e4 × 2⁻⁵², accumulates over √n pushes
     let close = |w: Welford<f64>, what: &str| {
         assert!((w.mean / mean - 1.0).abs() < 1e-14, "{what}: mean {}", w.mean);
         assert!((w.variance(10_000.0) / variance - 1.0).abs() < 1e-10, "{what}: variance {}", w.variance(10_000.0));

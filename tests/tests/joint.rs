@@ -1,4 +1,4 @@
-//! Point sets of several pairs at once: that they are the nets and the strata that they claim to be.
+//! Sequences of several pairs at once: they are the nets and the strata that they claim to be.
 
 use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence};
 use etendue::{Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
@@ -14,7 +14,7 @@ fn point(sequence: &impl Sequence, pixel: u32, sample: u32) -> [f64; 8] {
     all
 }
 
-/// Every way to write `sum` as as many natural numbers as there are in `split`.
+/// Visits every way to write `sum` as `split.len()` natural numbers, until `visit` returns false.
 fn splits(sum: u32, split: &mut [u32], visit: &mut impl FnMut(&[u32]) -> bool) -> bool {
     fn rest(sum: u32, split: &mut [u32], at: usize, visit: &mut impl FnMut(&[u32]) -> bool) -> bool {
         if at + 1 == split.len() {
@@ -29,7 +29,7 @@ fn splits(sum: u32, split: &mut [u32], visit: &mut impl FnMut(&[u32]) -> bool) -
     rest(sum, split, 0, visit)
 }
 
-/// The least t for which the 2ᵐ points are a (t, m, s)-net in the dimensions named: each box of volume 2ᵗ⁻ᵐ has 2ᵗ of them.
+/// The least t for which the 2ᵐ points are a (t, m, s)-net in the given dimensions: each box of volume 2ᵗ⁻ᵐ holds 2ᵗ of them.
 fn quality(points: &[[f64; 8]], dimensions: &[usize]) -> u32 {
     let m = points.len().ilog2();
     assert_eq!(points.len(), 1 << m);
@@ -49,7 +49,7 @@ fn quality(points: &[[f64; 8]], dimensions: &[usize]) -> u32 {
     (0..=m).find(|&t| even(t)).unwrap()
 }
 
-/// Sum of the degrees of the polynomials, each less one: Sobol's own bound.
+/// Sobol's bound on t: the sum of the polynomials' degrees, each less one.
 const BOUND: [u32; 9] = [0, 0, 0, 1, 3, 5, 8, 11, 15];
 
 #[test]
@@ -71,9 +71,9 @@ fn joint_sobol_is_a_net() {
         }
     }
     let points: Vec<_> = (0..1 << 10).map(|i| point(&JointSobol::new(1), 0, i)).collect();
-    // as good as a sequence in three dimensions can be; in four this many points are better than the bound
+    // in three dimensions no sequence is better; in four, this many points are better than the bound
     assert_eq!([3, 4].map(|s| quality(&points, &(0..s).collect::<Vec<_>>())), [1, 2]);
-    // pairs by themselves: what is lost to the padded sequence, which has t = 0 in each
+    // each pair alone: unlike in the padded sequence, t is not always 0
     let pairs = [[0, 1], [2, 3], [4, 5], [6, 7]].map(|pair| quality(&points, &pair));
     println!("1024 points, t of the pairs: {pairs:?}");
     assert_eq!(pairs[0], 0);
@@ -81,18 +81,18 @@ fn joint_sobol_is_a_net() {
 }
 
 #[test]
-fn the_check_of_nets_can_fail() {
+fn net_check_can_fail() {
     let worst = |f: &dyn Fn(u32) -> [f64; 8]| quality(&(0..1024).map(f).collect::<Vec<_>>(), &[0, 1, 2, 3]);
     assert!(worst(&|i| point(&Independent::new(1), 0, i)) > 3);
-    assert!(worst(&|i| point(&OwenSobol::new(1), 0, i)) > 3, "padded pairs are no net together");
+    assert!(worst(&|i| point(&OwenSobol::new(1), 0, i)) > 3, "padded pairs together are no net");
     assert!(worst(&|i| point(&JointStratified::new(1, 5, 2), 0, i)) > 3);
-    assert!(worst(&|i| point(&JointSobol::new(1), 0, i + 512)) > 3, "not aligned");
-    assert!(worst(&|i| point(&JointSobol::new(1), i / 512, i % 512)) > 3, "of two pixels");
+    assert!(worst(&|i| point(&JointSobol::new(1), 0, i + 512)) > 3, "unaligned points are no net");
+    assert!(worst(&|i| point(&JointSobol::new(1), i / 512, i % 512)) > 3, "points of two pixels are no net");
     assert!(worst(&|i| point(&JointSobol::new(1), 0, i)) <= 3);
 }
 
 #[test]
-fn every_cell_once() {
+fn every_cell_has_one_sample() {
     for (side, pairs) in [(1, 2), (2, 2), (3, 2), (4, 2), (7, 2), (2, 3), (3, 3), (5, 3), (2, 4), (3, 4)] {
         let strata = JointStratified::new(5, side, pairs);
         let axes = 2 * pairs as usize;
@@ -100,19 +100,19 @@ fn every_cell_once() {
         for (pixel, replicate) in [(0, 0), (7, 0), (7, 1000), (u32::MAX, 3)] {
             let mut seen = vec![0_u32; strata.count() as usize];
             for i in 0..strata.count() {
-                // the jitter of one sample in f64 does not round across a boundary
+                // in f64, the jitter of a sample does not round across a boundary
                 let p = point(&strata, pixel, replicate * strata.count() + i);
                 seen[p[..axes].iter().fold(0, |cell, u| cell * side as usize + (u * f64::from(side)) as usize)] += 1;
             }
-            assert!(seen.iter().all(|&n| n == 1), "{side} to a side, {pairs} pairs: {seen:?}");
+            assert!(seen.iter().all(|&n| n == 1), "{side} per side, {pairs} pairs: {seen:?}");
         }
     }
-    // out of range is brought into it: no more than 2²² cells
+    // parameters out of range are clamped: no more than 2²² cells
     let counts = [(0, 0), (46, 2), (13, 3), (7, 4), (u32::MAX, u32::MAX)].map(|(s, p)| JointStratified::new(1, s, p));
     assert_eq!(counts.map(|s| s.count()), [1, 45_u32.pow(4), 12_u32.pow(6), 6_u32.pow(8), 6_u32.pow(8)]);
 }
 
-/// Any one sample of many pixels, or of many sets, is uniform in all pairs of coordinates.
+/// Any single sample is uniform over pixels and over sets, in all pairs of coordinates.
 #[test]
 fn each_point_is_uniform() {
     fn check(name: &str, point: impl Fn(u32) -> [f64; 8]) {
@@ -165,7 +165,7 @@ fn packets_are_scalars() {
     for (side, pairs) in [(1, 2), (2, 3), (45, 2), (6, 4)] {
         check("strata", &JointStratified::new(3, side, pairs));
     }
-    // beyond the joint pairs come padded ones
+    // padded pairs follow the joint ones
     let padded: Vec2<f32> = OwenSobol::new(3).pair(5, 6, 4);
     assert_eq!(JointSobol::new(3).pair::<f32>(5, 6, 4), padded);
 }

@@ -2,8 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::{
-    ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, Line, Mask, PointLight, Real, Rectangle,
-    SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
+    ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, PointLight, Real,
+    Rectangle, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
 };
 use etendue_tests::generators::{self, Random};
 use etendue_tests::oracle::{
@@ -29,7 +29,7 @@ fn origin() -> Vec3<f64> {
 fn disk_has_its_form_factor() {
     for (r, h, a) in [(0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (2.0, 0.3, 2.5), (1e-3, 1.0, 3.0), (30.0, 1.0, 31.0)] {
         let disk = Disk { center: [a, 0.0, h].into(), normal: [0.0, 0.0, -1.0].into(), radius: r };
-        let of = |n: V3| mean(1500, |u| irradiance(&disk.by_area(origin(), u), n));
+        let of = |n: V3| mean(1500, |u| irradiance(&disk.by_area(origin()).sample(u), n));
         let (facing, upright) = (of([0.0, 0.0, 1.0]) / PI, of([1.0, 0.0, 0.0]) / PI);
         let truth = facing_disk(r, h, a);
         assert!((facing / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {facing} for {truth}");
@@ -37,7 +37,7 @@ fn disk_has_its_form_factor() {
             let truth = perpendicular_disk(r, h, a);
             assert!((upright / truth - 1.0).abs() < 2e-4, "{r} {h} {a}: {upright} for {truth}");
         }
-        let by_solid_angle = |n: V3| mean(500, |u| irradiance(&disk.by_solid_angle(origin(), u), n));
+        let by_solid_angle = |n: V3| mean(500, |u| irradiance(&disk.by_solid_angle(origin()).sample(u), n));
         let (facing, upright) = (by_solid_angle([0.0, 0.0, 1.0]) / PI, by_solid_angle([1.0, 0.0, 0.0]) / PI);
         assert!((facing / truth - 1.0).abs() < 1e-5, "{r} {h} {a} by solid angle: {facing} for {truth}");
         if r <= a {
@@ -46,7 +46,7 @@ fn disk_has_its_form_factor() {
         }
         // from behind it is dark
         let behind = Disk { normal: -disk.normal, ..disk };
-        assert!(mean(50, |u| irradiance(&behind.by_area(origin(), u), [0.0, 0.0, 1.0])) == 0.0);
+        assert!(mean(50, |u| irradiance(&behind.by_area(origin()).sample(u), [0.0, 0.0, 1.0])) == 0.0);
     }
 }
 
@@ -63,20 +63,21 @@ fn rectangle_has_its_projected_solid_angle() {
         // the receiver faces the rectangle, or cuts it with its horizon
         for receiver in [n.map(|x| -x), unit(along(u, n, -0.3 * size))] {
             let light = Rectangle { p: p.into(), u: u.into(), v: v.into() };
-            let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin(), u), receiver));
+            let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin()).sample(u), receiver));
             let truth = projected_polygon(&corners, receiver);
             assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
-            let warped = mean(512, |u| irradiance(&light.by_cosine_warp(origin(), receiver.into(), u), receiver));
+            let warped =
+                mean(512, |u| irradiance(&light.by_cosine_warp(origin(), receiver.into()).sample(u), receiver));
             assert!((warped / truth - 1.0).abs() < 1e-4, "{size} {height} warped: {warped} for {truth}");
             let (a, b, c) = (p, along(p, u, 1.0), along(p, v, 1.0));
             let half = Triangle { v0: a.into(), e1: u.into(), e2: v.into() };
-            let warped = mean(512, |u| irradiance(&half.by_cosine_warp(origin(), receiver.into(), u), receiver));
+            let warped = mean(512, |u| irradiance(&half.by_cosine_warp(origin(), receiver.into()).sample(u), receiver));
             let half = projected_polygon(&[a, b, c], receiver);
             assert!((warped - half).abs() < 1e-4 * truth, "{size} {height} triangle, warped: {warped} for {half}");
-            let by_area = mean(1024, |u| irradiance(&light.by_area(origin(), u), receiver));
+            let by_area = mean(1024, |u| irradiance(&light.by_area(origin()).sample(u), receiver));
             assert!((by_area / truth - 1.0).abs() < 1e-3 || height < size, "{size} {height}: {by_area} for {truth}");
             let behind = Rectangle { u: light.v, v: light.u, ..light };
-            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin(), u), receiver)), 0.0);
+            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin()).sample(u), receiver)), 0.0);
         }
     }
 }
@@ -88,10 +89,10 @@ fn disk_has_its_variance() {
         let disk = Disk { center: [0.0, 0.0, 1.0].into(), normal: [0.0, 0.0, -1.0].into(), radius: k };
         let c = 1.0 / (1.0 + k * k).sqrt();
         let square = |s: LightSample<f64>| irradiance(&s, [0.0, 0.0, 1.0]).powi(2);
-        let by_area = mean(400, |u| square(disk.by_area(origin(), u)));
+        let by_area = mean(400, |u| square(disk.by_area(origin()).sample(u)));
         let truth = (PI * k).powi(2) / 3.0 * (1.0 - (1.0 + k * k).powi(-3));
         assert!((by_area / truth - 1.0).abs() < 1e-3, "{k}: {by_area} for {truth}");
-        let by_solid_angle = mean(400, |u| square(disk.by_solid_angle(origin(), u)));
+        let by_solid_angle = mean(400, |u| square(disk.by_solid_angle(origin()).sample(u)));
         let truth = 4.0 * PI * PI * (1.0 - c) * (1.0 - c * c * c) / 3.0;
         assert!((by_solid_angle / truth - 1.0).abs() < 1e-5, "{k}: {by_solid_angle} for {truth}");
     }
@@ -103,7 +104,7 @@ fn disk_points_lie_on_it() {
     for _ in 0..2000 {
         let (c, n, r) = (random.direction(), random.direction(), random.magnitude(1e-3, 10.0));
         let disk = Disk { center: c.into(), normal: n.into(), radius: r };
-        let s = disk.by_area(origin(), Vec2::new(random.unit_f64(), random.unit_f64()));
+        let s = disk.by_area(origin()).sample(Vec2::new(random.unit_f64(), random.unit_f64()));
         let x = sub(s.direction.at(0).map(|w| w * s.distance), c);
         assert!(dot(x, n).abs() < 1e-14 * (1.0 + r) && length(x) <= r * (1.0 + 1e-13) + 1e-15);
         let density = s.distance * s.distance / (dot(s.direction.at(0), n).abs() * PI * r * r);
@@ -124,7 +125,7 @@ fn cylinder_is_a_wedge() {
         let (u0, weight) =
             (0.5 + d * z.tan() / (2.0 * half), 2.0 * (half / d).atan() * d / (2.0 * half * z.cos().powi(2)));
         for j in 0..n {
-            let s = cylinder.by_area(origin(), Vec2::new(u0, (j as f64 + 0.5) / n as f64));
+            let s = cylinder.by_area(origin()).sample(Vec2::new(u0, (j as f64 + 0.5) / n as f64));
             sum += if s.emits { weight / s.pdf } else { 0.0 };
         }
     }
@@ -135,7 +136,7 @@ fn cylinder_is_a_wedge() {
     // far away it is seen as a rectangle 2R × length
     let far = Cylinder { p: [100.0, 0.0, -0.5].into(), axis: [0.0, 0.0, 1.0].into(), radius: 0.1 };
     let omega = mean(800, |u| {
-        let s = far.by_area(origin(), u);
+        let s = far.by_area(origin()).sample(u);
         if s.emits { 1.0 / s.pdf } else { 0.0 }
     });
     assert!((omega / (0.2 / 1e4) - 1.0).abs() < 1e-3, "{omega}");
@@ -148,7 +149,7 @@ fn cylinder_points_lie_on_it() {
         let (p, axis, r) = (random.direction(), random.direction(), random.magnitude(1e-3, 10.0));
         let cylinder = Cylinder { p: p.into(), axis: axis.into(), radius: r };
         let u = [random.unit_f64(), random.unit_f64()];
-        let s = cylinder.by_area(origin(), Vec2::new(u[0], u[1]));
+        let s = cylinder.by_area(origin()).sample(Vec2::new(u[0], u[1]));
         let x = sub(s.direction.at(0).map(|w| w * s.distance), p);
         let t = dot(x, axis);
         let radial = sub(x, axis.map(|a| a * t));
@@ -190,19 +191,23 @@ fn lines_have_their_irradiance() {
             (0..steps).map(|k| irradiance(&f((f64::from(k) + 0.5) / f64::from(steps)), n)).sum::<f64>()
                 / f64::from(steps)
         };
-        let by_length = mean(&|u| line.by_length(origin(), u));
+        let by_length = mean(&|u| line.by_length(origin()).sample(Vec2::new(u, 0.0)));
         assert!((by_length - truth).abs() < 1e-4 * total, "by length {i}: {by_length} for {truth}");
-        let by_angle = mean(&|u| line.by_angle(origin(), u));
+        let by_angle = mean(&|u| line.by_angle(origin()).sample(Vec2::new(u, 0.0)));
         assert!((by_angle - truth).abs() < 1e-6 * total, "by angle {i}: {by_angle} for {truth}");
         for k in 0..100 {
             let u = (f64::from(k) + random.unit_f64()) / 100.0;
-            let s = line.by_projected_solid_angle(origin(), n.into(), u);
+            let s = line.by_projected_solid_angle(origin(), n.into()).sample(Vec2::new(u, 0.0));
             let e = irradiance(&s, n);
             // at the ends of the range the cosine is a small difference
             let slack = 1e-12 / dot(s.direction.at(0), n).abs().max(1e-9);
             assert!((e - truth).abs() <= (1e-9 + slack) * truth, "projected {i}: {e} for {truth} at {u}");
             // on the line, and the number comes back
-            for s in [s, line.by_angle(origin(), u), line.by_length(origin(), u)] {
+            for s in [
+                s,
+                line.by_angle(origin()).sample(Vec2::new(u, 0.0)),
+                line.by_length(origin()).sample(Vec2::new(u, 0.0)),
+            ] {
                 let x = sub(s.direction.at(0).map(|w| w * s.distance), p);
                 let off = length(cross(x, unit(e_of(&line))));
                 assert!(s.pdf == 0.0 || off < 1e-11 * s.distance / sine(&s, &line), "off the line by {off}");
@@ -221,25 +226,25 @@ fn sine(s: &LightSample<f64>, line: &Line<f64>) -> f64 {
 fn sun_and_sky() {
     let h = 0.1;
     let sun = Sun { direction: [0.6, 0.0, 0.8].into(), one_minus_cos: h };
-    let e = mean(300, |u| irradiance(&sun.by_solid_angle(u), [0.0, 0.0, 1.0]));
+    let e = mean(300, |u| irradiance(&sun.by_solid_angle().sample(u), [0.0, 0.0, 1.0]));
     // π sin²σ cosω
     let truth = PI * h * (2.0 - h) * 0.8;
     assert!((e / truth - 1.0).abs() < 1e-9, "{e} for {truth}");
     for i in 0..100 {
         let u = Vec2::new(f64::from(i) / 100.0, 0.3);
-        let s = sun.by_solid_angle(u);
-        let again = sun.invert(s.direction);
+        let s = sun.by_solid_angle().sample(u);
+        let again = sun.by_solid_angle().invert(s.direction);
         assert!((again.x - u.x).abs() < 1e-13 && (again.y - u.y).abs() < 1e-13 || i == 0);
-        assert_eq!(sun.pdf(s.direction), s.pdf);
-        assert_eq!(sun.pdf(-s.direction), 0.0);
+        assert_eq!(sun.by_solid_angle().pdf(s.direction), s.pdf);
+        assert_eq!(sun.by_solid_angle().pdf(-s.direction), 0.0);
     }
     let n = unit([0.3, -0.5, 0.2]);
-    let uniform = mean(400, |u| irradiance(&ConstantEnvironment.by_solid_angle(u), n));
+    let uniform = mean(400, |u| irradiance(&ConstantEnvironment.by_solid_angle().sample(u), n));
     assert!((uniform / PI - 1.0).abs() < 1e-4, "{uniform}");
     // the first would lie on the horizon
     for i in 1..1000 {
         let u = Vec2::new((f64::from(i) * 0.618_033_988_7).fract(), (f64::from(i) * 0.754_877_666_2).fract());
-        let e = irradiance(&ConstantEnvironment.by_projected_solid_angle(n.into(), u), n);
+        let e = irradiance(&ConstantEnvironment.by_projected_solid_angle(n.into()).sample(u), n);
         assert!((e / PI - 1.0).abs() < 1e-12, "{e}");
     }
 }
@@ -247,21 +252,22 @@ fn sun_and_sky() {
 #[test]
 fn delta_lights() {
     let point = PointLight { position: [0.0, 3.0, 4.0].into() };
-    let s = point.sample(origin());
+    let s = point.prepare(origin()).sample(Vec2::default());
     assert!(s.delta && s.emits && s.distance == 5.0 && (s.pdf - 25.0).abs() < 1e-13);
-    assert_eq!(point.sample(point.position).pdf, 0.0);
+    assert_eq!(point.prepare(point.position).sample(Vec2::default()).pdf, 0.0);
     let (inner, outer) = (0.9, 0.7);
     let axis = [0.0, -0.6, -0.8];
     let spot = SpotLight { position: point.position, axis: axis.into(), cos_inner: inner, cos_outer: outer };
-    assert!((spot.sample(origin()).pdf - 25.0).abs() < 1e-12);
+    assert!((spot.prepare(origin()).sample(Vec2::default()).pdf - 25.0).abs() < 1e-12);
     let (side, _) = basis(axis);
     let at = |cos: f64| {
         let w: V3 = core::array::from_fn(|k| axis[k] * cos + side[k] * (1.0 - cos * cos).sqrt());
-        spot.sample(core::array::from_fn::<_, 3, _>(|k| [0.0, 3.0, 4.0][k] + 2.0 * w[k]).into())
+        spot.prepare(core::array::from_fn::<_, 3, _>(|k| [0.0, 3.0, 4.0][k] + 2.0 * w[k]).into())
+            .sample(Vec2::default())
     };
     assert!((at(0.95).pdf - 4.0).abs() < 1e-12 && (at(0.8).pdf - 8.0).abs() < 1e-9);
     assert!(at(0.69).pdf == 0.0 && !at(0.69).emits && !at(-0.95).emits);
-    let s = DirectionalLight { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.sample();
+    let s = DirectionalLight { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.prepare(origin()).sample(Vec2::default());
     assert!(s.delta && s.emits && s.pdf == 1.0 && s.distance.is_finite());
 }
 
@@ -269,19 +275,19 @@ fn delta_lights() {
 fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [LightSample<R>; 13] {
     let n = b.normalize();
     [
-        Disk { center: a, normal: n, radius: r }.by_area(p, u),
-        Disk { center: a, normal: n, radius: r }.by_solid_angle(p, u),
-        Cylinder { p: a, axis: b, radius: r }.by_area(p, u),
-        Line { p: a, edge: b }.by_length(p, u.x),
-        Line { p: a, edge: b }.by_angle(p, u.x),
-        Line { p: a, edge: b }.by_projected_solid_angle(p, n, u.x),
-        PointLight { position: a }.sample(p),
-        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.sample(p),
-        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.sample(p),
-        DirectionalLight { direction: n }.sample(),
-        Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle(u),
-        ConstantEnvironment.by_solid_angle(u),
-        ConstantEnvironment.by_projected_solid_angle(n, u),
+        Disk { center: a, normal: n, radius: r }.by_area(p).sample(u),
+        Disk { center: a, normal: n, radius: r }.by_solid_angle(p).sample(u),
+        Cylinder { p: a, axis: b, radius: r }.by_area(p).sample(u),
+        Line { p: a, edge: b }.by_length(p).sample(u),
+        Line { p: a, edge: b }.by_angle(p).sample(u),
+        Line { p: a, edge: b }.by_projected_solid_angle(p, n).sample(u),
+        PointLight { position: a }.prepare(p).sample(u),
+        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.prepare(p).sample(u),
+        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.prepare(p).sample(u),
+        DirectionalLight { direction: n }.prepare(p).sample(u),
+        Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle().sample(u),
+        ConstantEnvironment.by_solid_angle().sample(u),
+        ConstantEnvironment.by_projected_solid_angle(n).sample(u),
     ]
 }
 fn bits<R: Real>(s: &LightSample<R>, i: usize) -> [u64; 7] {
@@ -352,13 +358,19 @@ fn scale_changes_no_direction() {
             let times = |v: [f32; 3], f: f32| vectors_of::<f32>(|_| v.map(|x| x * f));
             let one = [
                 Disk { center: times(a, 1.0), normal: times(b, 1.0), radius: r }
-                    .by_area(times(p, 1.0), squares_of(&[u])),
-                Cylinder { p: times(a, 1.0), axis: times(b, 1.0), radius: r }.by_area(times(p, 1.0), squares_of(&[u])),
+                    .by_area(times(p, 1.0))
+                    .sample(squares_of(&[u])),
+                Cylinder { p: times(a, 1.0), axis: times(b, 1.0), radius: r }
+                    .by_area(times(p, 1.0))
+                    .sample(squares_of(&[u])),
             ];
             let other = [
                 Disk { center: times(a, f), normal: times(b, 1.0), radius: r * f }
-                    .by_area(times(p, f), squares_of(&[u])),
-                Cylinder { p: times(a, f), axis: times(b, f), radius: r * f }.by_area(times(p, f), squares_of(&[u])),
+                    .by_area(times(p, f))
+                    .sample(squares_of(&[u])),
+                Cylinder { p: times(a, f), axis: times(b, f), radius: r * f }
+                    .by_area(times(p, f))
+                    .sample(squares_of(&[u])),
             ];
             for (s, t) in one.iter().zip(&other) {
                 assert_eq!(s.direction, t.direction);

@@ -1,4 +1,4 @@
-//! Greatest errors of the elementary functions. `--nocapture` prints what the table in `core/src/math.rs` rounds up.
+//! Greatest errors of the elementary functions. `-- --nocapture` prints the figures that the table in `core/src/math.rs` rounds up.
 
 use core::f64::consts::PI;
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
@@ -45,7 +45,7 @@ fn acos() {
         (0..8).for_each(|k| check(x.lane(k), y.lane(k)));
     }
     for _ in 0..1 << 20 {
-        // next to ±1 and to 0
+        // close to ±1, and close to 0
         let x = 1.0 - random.magnitude(1e-7, 1.0) as f32;
         check(x, Real::acos(x));
         check(-x, Real::acos(-x));
@@ -76,14 +76,14 @@ fn roots_and_differences() {
         if sin_squared > 0.0 {
             let s = f64::from(sin_squared);
             let truth = s / (1.0 + (1.0 - s).sqrt());
-            // next to s = 1 the argument's own grid is coarse: √(1−s) has an infinite slope there, but s is exact
+            // close to s = 1, √(1−s) has infinite slope, but s is exact
             cosine.take((f64::from(one_minus_cos(sin_squared)) / truth - 1.0).abs(), [sin_squared, 0.0]);
         }
 
         // nearly equal products
         let [a, b, c] = core::array::from_fn(|_| random.range(-1.0, 1.0) as f32);
         let d = if i % 2 == 0 { a * b / c * (1.0 + random.range(-1e-6, 1e-6) as f32) } else { random.unit() };
-        // 48 bits each: their difference is rounded once in f64 where they are far apart, which does not matter
+        // both products have 48 bits; if they are far apart, f64 rounds their difference once, which does not matter
         let truth = f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d);
         let (value, rounded) = (difference_of_products(a, b, c, d), truth.abs() as f32);
         if d.is_finite() && rounded > 1e-30 {
@@ -97,7 +97,7 @@ fn roots_and_differences() {
     assert_eq!((one_minus_cos(0.0_f32), one_minus_cos(1.0_f32)), (0.0, 1.0));
 }
 
-/// Every mantissa at three exponents, which is all that matters, and some at any.
+/// Every mantissa at three exponents, which cover all cases, and random ones at any exponent.
 #[test]
 fn cube_root() {
     let mut cube = Greatest::of("cbrt, relative");
@@ -115,7 +115,7 @@ fn cube_root() {
     assert!(Real::cbrt(f32::MAX).is_finite() && Real::cbrt(f32::MIN_POSITIVE) > 0.0);
 }
 
-/// Relative errors, but for arguments where the result is 0 or 1.
+/// Relative errors, except where the result is 0 or 1.
 #[test]
 fn exponentials_and_logarithms() {
     let mut random = Random::new(4);
@@ -158,7 +158,7 @@ fn normal_distribution() {
     }
     cdf.assert_below(3.9e-7);
     assert_eq!([-1e30_f32, -30.0, 0.0, 30.0, 1e30].map(Real::normal_cdf), [0.0, 0.0, 0.5, 1.0, 1.0]);
-    // every u there is, in single precision against double, and double against its own integral
+    // every possible u: single precision against double, and double against its own integral
     let mut quantile = Greatest::of("normal_quantile, relative");
     let mut statrs = Greatest::of("the same by statrs");
     let mut double = Greatest::of("normal_quantile in double precision, Φ(z)/u − 1");
@@ -171,7 +171,7 @@ fn normal_distribution() {
             quantile.take(if truth == 0.0 { z.abs() } else { (z / truth - 1.0).abs() }, [u, z as f32]);
             if u > 0.0 && (i + k) % 16 == 0 {
                 let (tail, z) = if u > 0.5 { (1.0 - f64::from(u), -truth) } else { (f64::from(u), truth) };
-                // `libm`'s integral; that of `statrs` is good to 1e-10
+                // `libm`'s integral; that of `statrs` is only accurate to 1e-10
                 double.take((Real::normal_cdf(z) / tail - 1.0).abs(), [u, z as f32]);
                 statrs.take((phi(z) / tail - 1.0).abs(), [u, z as f32]);
             }

@@ -1,5 +1,5 @@
-//! Thirteen defects of well-known renderers, put back: the properties notice each one, and notice nothing where it is left out.
-//! `-- --nocapture` prints which property noticed what, in which regimes.
+//! Thirteen well-known defects of renderers, reintroduced: the properties detect every one, and report nothing without it. `-- --nocapture`
+//! prints which property detected what, in which regimes.
 
 use etendue::Real;
 use etendue::estimate::Heuristic;
@@ -12,20 +12,20 @@ use etendue_tests::mutants::{
 use etendue_tests::{checks, suite, techniques};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What noticed a defect: a property and the regimes, or nothing.
+/// The properties that detected a defect, each with its regimes; empty if none did.
 type Noticed = Vec<(String, String)>;
 
-/// The power heuristic with β = 2, whose squares overflow; where they underflow, the balance heuristic.
+/// The power heuristic with β = 2 as often written: its squares overflow; where they underflow, it is the balance heuristic.
 fn squares<const N: usize>(densities: [f32; N]) -> [f32; N] {
     let sum: f32 = densities.iter().map(|d| d * d).sum();
     if sum > 1e-30 { densities.map(|d| d * d / sum) } else { Heuristic::Balance.weights(densities) }
 }
 
-/// All properties of warps.
+/// Runs all properties of warps.
 fn properties<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
     noticed(&suite::all(&plant::<D>(cases), 8))
 }
-/// That points are on the shape.
+/// Runs only the property that points are on the shape.
 fn reach<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
     noticed(&[suite::within_reach(&plant::<D>(cases))])
 }
@@ -43,7 +43,7 @@ fn noticed(outcomes: &[suite::Outcome]) -> Noticed {
         })
         .collect()
 }
-/// One check.
+/// Runs one check.
 fn check(name: &str, run: impl FnOnce()) -> Noticed {
     match catch_unwind(AssertUnwindSafe(run)) {
         Ok(()) => Vec::new(),
@@ -56,9 +56,9 @@ struct Report {
     noticed: Noticed,
     falsely: Noticed,
 }
-/// One line for each property that noticed it.
+/// Prints one line for each property that detected the defect.
 fn report(number: u32, what: &str, noticed: Noticed, falsely: Noticed) -> Report {
-    println!("{number:2} {what}: {}", if noticed.is_empty() { "NOT NOTICED" } else { "noticed" });
+    println!("{number:2} {what}: {}", if noticed.is_empty() { "NOT DETECTED" } else { "detected" });
     for (property, said) in &noticed {
         println!("     {property} {said}");
     }
@@ -68,7 +68,7 @@ fn report(number: u32, what: &str, noticed: Noticed, falsely: Noticed) -> Report
     Report { number, noticed, falsely }
 }
 #[test]
-fn each_is_noticed() {
+fn every_mutant_is_detected() {
     std::panic::set_hook(Box::new(|_| {}));
     let (caps, triangles): (Vec<Case<Cap>>, Vec<Case<Triangle>>) =
         (generators::caps(1, 11), generators::triangles(1, 12));
@@ -82,12 +82,12 @@ fn each_is_noticed() {
     let flushed = |x: f32| if x.is_subnormal() { 0.0_f32.copysign(x) } else { x };
     let power = Heuristic::POWER;
 
-    // a distance by barycentric coordinates is poor with the right clamp too; but that keeps the point on the triangle
+    // with the correct clamp the distance is inaccurate too, but the point stays on the triangle
     let edge_on: Vec<_> = generators::nearly_in_plane(50, 19)
         .into_iter()
         .map(|[v, a, b]| ("nearly in plane", Triangle::by_edges(v, a, b)))
         .collect();
-    // each right subject once
+    // the correct fixtures, once each
     let (cap, triangle) = (properties::<Sound<Cap>>(&caps), properties::<Sound<Triangle>>(&triangles));
     let all = [
         report(1, "1−cosσ unguarded in the pdf", properties::<UnguardedCap>(&caps), cap.clone()),
@@ -95,8 +95,8 @@ fn each_is_noticed() {
         report(
             3,
             "cosine warp's factor missing in the evaluated pdf",
-            check("one density", || square.iter().for_each(|&u| techniques::one_pdf(&wrong, u))),
-            check("one density", || square.iter().for_each(|&u| techniques::one_pdf(&right, u))),
+            check("one pdf", || square.iter().for_each(|&u| techniques::one_pdf(&wrong, u))),
+            check("one pdf", || square.iter().for_each(|&u| techniques::one_pdf(&right, u))),
         ),
         report(4, "area-uniform point with pdf 1/Ω", properties::<AreaBetweenThresholds>(&triangles), triangle.clone()),
         report(
@@ -125,7 +125,7 @@ fn each_is_noticed() {
         ),
         report(
             9,
-            "barycentric clamp that divides by a changed sum",
+            "barycentric clamp that divides by a modified sum",
             reach::<SelfClampingBarycentrics<true>>(&edge_on),
             reach::<SelfClampingBarycentrics<false>>(&edge_on),
         ),
@@ -137,7 +137,7 @@ fn each_is_noticed() {
         ),
         report(
             11,
-            "1e−4 added in a pdf",
+            "1e−4 added to a pdf's divisor",
             check("form factor", || checks::disk_has_its_form_factor(200, PaddedDisk::draw)),
             check("form factor", || checks::disk_has_its_form_factor(1500, SoundDisk::draw)),
         ),
@@ -146,9 +146,9 @@ fn each_is_noticed() {
     ];
     let _ = std::panic::take_hook();
     let noticed = all.iter().filter(|r| !r.noticed.is_empty()).count();
-    println!("planted defects: {noticed} of {} noticed", all.len());
+    println!("mutants: {noticed} of {} detected", all.len());
     for r in &all {
-        assert!(!r.noticed.is_empty(), "defect {} goes unnoticed", r.number);
-        assert!(r.falsely.is_empty(), "without defect {}: {:?}", r.number, r.falsely);
+        assert!(!r.noticed.is_empty(), "mutant {} is not detected", r.number);
+        assert!(r.falsely.is_empty(), "without the defect of mutant {}: {:?}", r.number, r.falsely);
     }
 }

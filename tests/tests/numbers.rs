@@ -1,20 +1,20 @@
-//! Variances that are known in closed form, of lights in the open over a diffuse receiver.
+//! Variances of estimators against closed forms: unoccluded lights over a diffuse receiver.
 //!
-//! Each is measured from independent samples, in batches whose spread gives its standard error; it must lie within five of these of
-//! the truth, and these must be small. A technique that is exact has no variance but rounding.
+//! Each variance is measured from independent samples, in batches whose spread gives its standard error. It must lie within five standard
+//! errors of the truth, and the standard error must be small. An exact technique has no variance beyond rounding.
 
 use core::f64::consts::PI;
 use etendue::light::Disk;
 use etendue::sequence::{Independent, Sequence};
 use etendue::spherical::SphericalCap;
 use etendue::warp::{UniformHemisphere, Warp};
-use etendue::{LightSample, Real, Sphere, Vec2, Vec3, f32x8, u32x8};
+use etendue::{LightSample, LightSampler, Real, Sphere, Vec2, Vec3, f32x8, u32x8};
 use etendue_tests::stats;
 
 const BATCHES: u32 = 64;
 const PACKETS: u32 = 2048;
 
-/// Variance of a sample, from as many batches as make its standard error.
+/// Variance of a sample, and the standard error of that, from batches.
 fn variance(key: u32, estimate: impl Fn(Vec2<f32x8>) -> f32x8) -> [f64; 2] {
     let sequence = Independent::new(2024);
     let batch = |b: u32| {
@@ -31,7 +31,7 @@ fn variance(key: u32, estimate: impl Fn(Vec2<f32x8>) -> f32x8) -> [f64; 2] {
     [mean, (spread / f64::from(BATCHES)).sqrt()]
 }
 
-/// cosθ/pdf: irradiance by a light of radiance 1.
+/// cosθ/pdf: the irradiance estimated from one sample, for radiance 1.
 fn worth(light: &LightSample<f32x8>, normal: Vec3<f32x8>) -> f32x8 {
     let cos = light.direction.dot(normal);
     let counts = light.emits & light.pdf.gt(f32x8::splat(0.0)) & cos.gt(f32x8::splat(0.0));
@@ -43,14 +43,14 @@ fn packet(v: [f64; 3]) -> Vec3<f32x8> {
     v.map(|x| x as f32).into()
 }
 
-/// `what` is `truth`, where half a unit of its last digit is `digit`; and it is known to 2 %.
+/// Asserts that `what` is `truth` to 5 standard errors and `digit`, half a unit of the truth's last digit, and that it is measured to 2 %.
 fn is(what: &str, [value, error]: [f64; 2], truth: f64, digit: f64) {
     println!("{what:40} {value:.5e} ± {error:.1e}, in closed form {truth:.5e}");
-    assert!((value - truth).abs() <= 5.0 * error + digit, "{what}: {value} ± {error} is not {truth}");
-    assert!(error <= 0.02 * truth, "{what}: {value} ± {error} is too vague");
+    assert!((value - truth).abs() <= 5.0 * error + digit, "{what}: {value} ± {error}, expected {truth}");
+    assert!(error <= 0.02 * truth, "{what}: {value} ± {error} is too uncertain");
 }
 
-/// A disk of radius k at distance 1, which faces the receiver: variance by area over variance by solid angle.
+/// A facing disk of radius k at distance 1: the variance by area, by solid angle, and their ratio.
 #[test]
 fn facing_disk() {
     let up = packet([0.0, 0.0, 1.0]);
@@ -60,13 +60,13 @@ fn facing_disk() {
         let origin = packet([0.0; 3]);
         let c = 1.0 / f64::hypot(1.0, k);
         let (mean, omega) = (PI * k * k / (1.0 + k * k), 2.0 * PI * (1.0 - c));
-        let by_area = variance(2 * i as u32, |u| worth(&disk.by_area(origin, u), up));
+        let by_area = variance(2 * i as u32, |u| worth(&disk.by_area(origin).sample(u), up));
         let moment = PI * PI * k * k / 3.0 * (1.0 - (1.0 + k * k).powi(-3));
         is(&format!("disk by area, k = {k}"), by_area, moment - mean * mean, 0.0);
 
-        // the sphere that touches the cone of the same directions
+        // the sphere tangent to the disk's cone covers the same directions
         let sphere = Sphere { center: packet([0.0, 0.0, 1.0]), radius: f32x8::splat((k * c) as f32) };
-        let by_solid_angle = variance(2 * i as u32 + 1, |u| worth(&sphere.by_solid_angle(origin, u), up));
+        let by_solid_angle = variance(2 * i as u32 + 1, |u| worth(&sphere.by_solid_angle(origin).sample(u), up));
         let moment = omega * 2.0 * PI * (1.0 - c.powi(3)) / 3.0;
         is(&format!("disk by solid angle, k = {k}"), by_solid_angle, moment - mean * mean, 0.0);
 
@@ -75,12 +75,12 @@ fn facing_disk() {
         let digit = if known < 20.0 { 0.005 } else { 0.05 };
         is(&format!("area : solid angle, k = {k}"), [ratio, ratio * relative], known, digit);
 
-        let [none, _] = variance(0, |u| worth(&sphere.by_projected_solid_angle(origin, up, u), up));
+        let [none, _] = variance(0, |u| worth(&sphere.by_projected_solid_angle(origin, up).sample(u), up));
         assert!(none < 1e-11 * mean * mean, "projected, k = {k}: {none:e}");
     }
 }
 
-/// A cone of half-angle σ about an axis at ω from the normal, above the horizon: Ω I₂ − I₁².
+/// A cone of half-angle σ above the horizon, with its axis at ω to the normal: Ω I₂ − I₁².
 #[test]
 fn cone() {
     for (i, (sigma, omega)) in
@@ -91,7 +91,7 @@ fn cone() {
         let up = packet([0.0, 0.0, 1.0]);
         let measured = variance(i as u32, |u| cap.sample(u).dot(up) / cap.uniform_pdf());
         let (c, s) = (sigma.cos(), sigma.sin());
-        // 1 − c and 1 − c³ without cancellation
+        // 1 − c, and (1 − c³)/3, without cancellation
         let h = s * s / (1.0 + c);
         let third = h * (1.0 + c + c * c) / 3.0;
         let first = PI * s * s * omega.cos();

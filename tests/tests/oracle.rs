@@ -8,7 +8,7 @@ use etendue_tests::oracle::*;
 fn octant_and_facing_disk() {
     let octant = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|v| sum_dw(v, &[]));
     assert!((triangle_solid_angle(octant) - FRAC_PI_2).abs() < 1e-15);
-    // a facing disk on the axis subtends the projected solid angle of its cone
+    // the projected solid angle of a facing disk on the axis is that of its cone
     let (r, h) = (0.7, 1.3_f64);
     let sigma = (r / h).atan();
     assert!((PI * facing_disk(r, h, 0.0) - projected_cap(sigma, 0.0)).abs() < 1e-15);
@@ -65,7 +65,7 @@ fn clipped_polygon_is_its_integral() {
 
 #[test]
 fn tiny_solid_angles() {
-    // a facing right triangle at distance 1 tends to its area
+    // a facing right triangle at distance 1: its solid angle tends to its area
     let v = [0.0, 0.0, 1.0];
     for size in [1e-3, 1e-6, 1e-9] {
         let omega =

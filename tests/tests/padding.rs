@@ -1,10 +1,10 @@
-//! What padding costs: pairs of dimensions that are associated at random, against points that are good in all dimensions at once.
+//! What padding costs: pairs of dimensions associated at random, against points that are well distributed in all dimensions at once.
 //!
-//! An integrand of two pairs is f = μ + f₁(x) + f₂(y) + f₁₂(x, y), each part with mean 0 over any of its arguments, of variances
-//! σ₁², σ₂², σ₁₂². The parts' errors are not correlated (a scrambled or jittered point alone is uniform), so the variance of the
-//! mean of N samples is the sum of theirs. Here f₁ = g(x₀), f₂ = g(y₀), f₁₂ = g(x₀)g(y₀) with g(u) = √12 (u − ½): mean 0, variance 1.
+//! An integrand of two pairs is f = μ + f₁(x) + f₂(y) + f₁₂(x, y), each part with mean 0 over any of its arguments, of variances σ₁², σ₂²,
+//! σ₁₂². The parts' errors are uncorrelated (a scrambled or jittered point alone is uniform), so the variance of the mean of N samples is
+//! the sum of theirs. Here f₁ = g(x₀), f₂ = g(y₀), f₁₂ = g(x₀)g(y₀) with g(u) = √12 (u − ½): mean 0, variance 1.
 //!
-//! | | of g(x₀) alone: V | of the product g(x₀)g(y₀) |
+//! | | variance of g(x₀): V | of the product g(x₀)g(y₀) |
 //! |---|---|---|
 //! | independent | 1/N | 1/N |
 //! | padded strata, k × k = N | 1/N² | V² + (1 − V)²/(N − 1) |
@@ -12,30 +12,30 @@
 //! | padded Owen–Sobol, N = 2ᵐ | 1/N³ | V² + (49/31)(1 − 32⁻ᵐ)/N |
 //! | joint Owen–Sobol | 1/N³ | Σ Γ(k, l) σ²(k, l)/N |
 //!
-//! *Strata.* A cell of width w holds the share w² of g's variance, and Var = Σ Var(cell)/N². Random association: for values a_i, b_i and
-//! a permutation π that is uniform, E[(Σ a_i b_π(i))²] = N·M_a·M_b + N(N−1)·P_a·P_b, M the mean square and P the mean product of
-//! two that differ, E[P] = (N V − 1)/(N − 1). With more pairs there are more factors.
+//! *Strata.* A cell of width w holds the fraction w² of g's variance, and Var = Σ Var(cell)/N². Random association: for values a_i, b_i and
+//! a uniform permutation π, E[(Σ a_i b_π(i))²] = N·M_a·M_b + N(N−1)·P_a·P_b, with M the mean square and P the mean product of two different
+//! values, E[P] = (N V − 1)/(N − 1). More pairs give more factors.
 //!
-//! *Padded Sobol.* The association is a nested shuffle, uniform over the automorphisms of the binary tree of the indices. Differences
-//! between halves of its blocks of 2ᵇ⁺¹ indices, of which there are 2^(m−1−b), are an irreducible representation of that group. So the mean of
-//! products has the variance V² + Σ_b S_b²/(N²·2^(m−1−b)), S_b = E of g's sum of squares in these differences. The halves of such a block
-//! differ in digit b of x, in each of its 2ᵇ prefixes by an independent sign: D = (u − u')/2 with u, u' uniform in halves of width w = 2⁻ᵇ⁻¹,
-//! E[D²] = w²(1 + 2/12)/4; the mean of 2ᵇ of these squared, times 12 N, is S_b = (7/8) N 8⁻ᵇ. (All S_b and N V add up to N.)
-//! So a product is sampled worse than by independent numbers, by 49/31 = 1.58.
+//! *Padded Sobol.* The association is a nested shuffle, uniform over the automorphisms of the binary tree of the indices. The 2^(m−1−b)
+//! differences between the halves of the blocks of 2ᵇ⁺¹ indices are an irreducible representation of that group. So the mean of the
+//! products has the variance V² + Σ_b S_b²/(N²·2^(m−1−b)), where S_b is the expected sum of squares of g in these differences. The halves
+//! of such a block differ in digit b of x, in each of its 2ᵇ prefixes by an independent sign: D = (u − u')/2 with u, u' uniform in halves
+//! of width w = 2⁻ᵇ⁻¹, E[D²] = w²(1 + 2/12)/4; the mean of 2ᵇ of these squared, times 12 N, is S_b = (7/8) N 8⁻ᵇ. (All S_b and N V add up
+//! to N.) So a product is sampled worse than by independent numbers, by a factor of 49/31 = 1.58.
 //!
-//! *Joint Sobol.* Owen, "Monte Carlo Variance of Scrambled Net Quadrature", SIAM J. Numer. Anal. 34, 1997: σ²(k, l) is the variance of
-//! the part of f in digits k and l; the gain Γ = (1/N) Σ_ij Π_d (2·[i, j agree in k_d + 1 digits of dimension d] − [in k_d]) is a number of the net.
-//! Of g, digit k has ¾·4⁻ᵏ.
+//! *Joint Sobol.* Owen, "Monte Carlo Variance of Scrambled Net Quadrature", SIAM J. Numer. Anal. 34, 1997: σ²(k, l) is the variance of the
+//! part of f in digits k and l; the gain Γ = (1/N) Σ_ij Π_d (2·[i, j agree in k_d + 1 digits of dimension d] − [in k_d]) depends on the net
+//! alone. Digit k of g has the variance ¾·4⁻ᵏ.
 
 use etendue::Vec2;
 use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence, Stratified};
 
-/// Mean 0 and variance 1.
+/// An integrand of mean 0 and variance 1.
 fn g(u: f64) -> f64 {
     12.0_f64.sqrt() * (u - 0.5)
 }
 
-/// One coordinate of each pair.
+/// g of one coordinate of each pair.
 fn point<const PAIRS: usize>(sequence: &impl Sequence, pixel: u32, sample: u32) -> [f64; PAIRS] {
     std::array::from_fn(|dimension| {
         let u: Vec2<f64> = sequence.pair(pixel, sample, dimension as u32);
@@ -45,7 +45,7 @@ fn point<const PAIRS: usize>(sequence: &impl Sequence, pixel: u32, sample: u32) 
 
 const REPLICATES: u32 = 10_000;
 
-/// Mean square over pixels of the mean of `n` samples of `f`, whose integral is 0, and its standard error.
+/// Mean square over pixels of the mean of `n` samples of `f`, whose integral is 0, with its standard error.
 fn measured<const PAIRS: usize>(sequence: &impl Sequence, n: u32, f: impl Fn([f64; PAIRS]) -> f64) -> [f64; 2] {
     let squares: Vec<f64> = (0..REPLICATES)
         .map(|pixel| ((0..n).map(|i| f(point(sequence, pixel, i))).sum::<f64>() / f64::from(n)).powi(2))
@@ -54,7 +54,7 @@ fn measured<const PAIRS: usize>(sequence: &impl Sequence, n: u32, f: impl Fn([f6
     [mean, (variance / f64::from(REPLICATES)).sqrt()]
 }
 
-/// Variances of g(x₀), of g(x₀)g(y₀), and of g(x₀)g(y₀)g(z₀), as theory has them.
+/// Theoretical variances of g(x₀), of g(x₀)g(y₀), and of g(x₀)g(y₀)g(z₀).
 #[derive(Clone, Copy, Debug)]
 struct Theory {
     one: f64,
@@ -62,7 +62,8 @@ struct Theory {
     three: Option<f64>,
 }
 
-/// Measured variances of what does not couple the pairs, of what does nothing else, and of both.
+/// Compares measured variances with theory: of a sum, which does not couple the pairs, of a product, which does nothing else, and of both
+/// together.
 fn check(name: &str, sequence: &impl Sequence, n: u32, theory: Theory) {
     let sum = measured(sequence, n, |[x, y]: [f64; 2]| x + y);
     let product = measured(sequence, n, |[x, y]: [f64; 2]| x * y);
@@ -70,13 +71,13 @@ fn check(name: &str, sequence: &impl Sequence, n: u32, theory: Theory) {
     let Theory { one, two, three } = theory;
     let mut all = vec![("sum", sum, 2.0 * one), ("product", product, two), ("both", both, 4.25 * one + 9.0 * two)];
     if let Some(three) = three {
-        all.push(("of three", measured(sequence, n, |[x, y, z]: [f64; 3]| x * y * z), three));
+        all.push(("triple", measured(sequence, n, |[x, y, z]: [f64; 3]| x * y * z), three));
     }
     for (what, [value, error], truth) in all {
         let z = (value - truth) / error;
-        println!("{name:20} N = {n:3}, {what:8}: {value:.4e} for {truth:.4e}, z = {z:+.2}");
-        assert!(z.abs() < 5.0, "{name}, {n} samples, {what}: {value:e} ± {error:e} for {truth:e}");
-        // what the test can tell: a tenth more or less
+        println!("{name:20} N = {n:3}, {what:8}: {value:.4e}, expected {truth:.4e}, z = {z:+.2}");
+        assert!(z.abs() < 5.0, "{name}, {n} samples, {what}: {value:e} ± {error:e}, expected {truth:e}");
+        // small enough for the test to detect a deviation of a tenth
         assert!(
             error < 0.02 * truth,
             "{name}, {n} samples, {what}: the error {error:e} is too large to judge {truth:e}"
@@ -84,7 +85,7 @@ fn check(name: &str, sequence: &impl Sequence, n: u32, theory: Theory) {
     }
 }
 
-/// Variance of a product of `pairs` values, associated at random, whose means have the variance `v`.
+/// Variance of a product of `pairs` randomly associated values whose means have the variance `v`.
 fn associated_at_random(n: f64, v: f64, pairs: i32) -> f64 {
     (1.0 + (n - 1.0) * ((n * v - 1.0) / (n - 1.0)).powi(pairs)) / n
 }
@@ -126,7 +127,7 @@ fn padded_sobol() {
     for m in [2, 4, 6, 8] {
         let n = f64::from(1_u32 << m);
         let one = n.powi(-3);
-        // the sum over the levels of the tree, and what it adds up to
+        // the sum over the levels of the tree, compared with its closed form
         let energy = |b: i32| 7.0 / 8.0 * n * 8.0_f64.powi(-b);
         let levels: f64 = (0..m).map(|b| energy(b).powi(2) / (n * n * 2.0_f64.powi(m - 1 - b))).sum();
         assert!(((0..m).map(energy).sum::<f64>() / n + one - 1.0).abs() < 1e-12);
@@ -135,7 +136,7 @@ fn padded_sobol() {
     }
 }
 
-/// Owen's gain of the digits `k` of the first coordinates of pairs 0, 1, ….
+/// Owen's gain Γ for digits `k` of the first coordinates of pairs 0, 1, ….
 fn gain<const PAIRS: usize>(points: &[[f64; PAIRS]], k: [u32; PAIRS]) -> f64 {
     let agree = |a: f64, b: f64, digits: u32| {
         let cell = |u: f64| (u * f64::from(1_u32 << digits)) as u32;
@@ -159,14 +160,14 @@ fn joint_sobol() {
         let points: Vec<[f64; 3]> = (0..1 << m).map(first).collect();
         let pairs: Vec<[f64; 2]> = points.iter().map(|p| [p[0], p[1]]).collect();
         let digit = |k: u32| 0.75 * 0.25_f64.powi(k as i32);
-        // beyond the digits that the net knows of, the gain is 1
+        // for digits beyond those that the net resolves, the gain is 1
         let (mut two, mut three, mut known) = (0.0, 0.0, [0.0; 2]);
         for k in 0..m {
             for l in 0..m {
                 let share = digit(k) * digit(l);
                 two += gain(&pairs, [k, l]) * share;
                 known[0] += share;
-                // the gains of three at 256 points are 2²⁵ comparisons
+                // three dimensions at 256 points would take 2²⁵ comparisons for each gain
                 for j in (0..m).take_while(|_| m < 8) {
                     three += gain(&points, [k, l, j]) * share * digit(j);
                     known[1] += share * digit(j);
@@ -181,9 +182,9 @@ fn joint_sobol() {
     }
 }
 
-/// What the table says of the choice: padding wins on sums, joint points on products.
+/// The recommendation in the table: padding wins on sums, joint points on products.
 #[test]
-fn each_has_its_use() {
+fn padding_wins_on_sums_joint_points_on_products() {
     let n = 256;
     let [sum, product] = [|[x, y]: [f64; 2]| x + y, |[x, y]: [f64; 2]| x * y];
     let of = |f: fn([f64; 2]) -> f64| {

@@ -1,6 +1,6 @@
-//! Polygons as lights: irradiance against Lambert's form, corners that coincide, lanes, arguments of any bits.
+//! Polygons as lights: irradiance against Lambert's formula, coincident corners, lanes, arbitrary bits.
 
-use etendue::{LightSample, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8};
+use etendue::{LightSample, LightSampler, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8};
 use etendue_tests::generators::{self, Random};
 use etendue_tests::oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
 use etendue_tests::properties::{Coordinates, squares_of, vectors_of};
@@ -14,7 +14,8 @@ fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
     if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
 }
 
-/// N corners on an ellipse, `skip` of them twice, at a height over the origin; and the normal of their plane towards the origin.
+/// N corners on an ellipse at a height above the origin, corners 0 to `skip` coincident, and the unit vector from the origin to their
+/// plane.
 fn polygon<const N: usize>(size: f64, height: f64, skip: usize, random: &mut Random) -> ([V3; N], V3) {
     let (s, t) = basis(random.direction());
     let n = unit(cross(s, t));
@@ -32,34 +33,34 @@ fn agrees<const N: usize>(random: &mut Random) {
     for (size, height, skip) in [(1.0, 1.0, 0), (1e-3, 1.0, 0), (3.0, 1.0, 1), (1.0, 1.0, 1), (1.0, 0.3, 0)] {
         let (corners, n) = polygon::<N>(size, height, if N > 3 { skip } else { 0 }, random);
         let light = Polygon { corners: corners.map(Vec3::<f64>::from) };
-        // the receiver faces the polygon, or cuts it with its horizon
+        // the receiver faces the polygon, or its horizon cuts it
         for receiver in [n, unit(along(n, basis(n).0, 2.0))] {
             let truth = projected_polygon(&corners, receiver);
             let o = Vec3::default();
-            let by_solid_angle = mean(256, |u| irradiance(&light.by_solid_angle(o, u), receiver));
-            let by_area = mean(400, |u| irradiance(&light.by_area(o, u), receiver));
-            // a column of the grid in which one triangle ends and the next begins: up to 1/800 for each of the N − 3
+            let by_solid_angle = mean(256, |u| irradiance(&light.by_solid_angle(o).sample(u), receiver));
+            let by_area = mean(400, |u| irradiance(&light.by_area(o).sample(u), receiver));
+            // a column of the grid may straddle two triangles: up to 1/800 for each of the N − 3 boundaries
             let (one, other) = ((by_solid_angle / truth - 1.0).abs(), (by_area / truth - 1.0).abs());
-            assert!(one < 3e-4 && other < 3e-3, "{N} {size} {height}: {by_solid_angle}, {by_area} for {truth}");
-            // every sample is worth the same
+            assert!(one < 3e-4 && other < 3e-3, "{N} {size} {height}: {by_solid_angle}, {by_area}, expected {truth}");
+            // every sample gives the same estimate
             for u in [[0.1, 0.3], [0.5, 0.9], [0.97, 0.02]] {
-                let s = light.by_projected_solid_angle(o, receiver.into(), u.into());
+                let s = light.by_projected_solid_angle(o, receiver.into()).sample(u.into());
                 assert!(
                     (irradiance(&s, receiver) / truth - 1.0).abs() < 1e-9,
-                    "{N} {size} {height}: {s:?} for {truth}"
+                    "{N} {size} {height}: {s:?}, expected {truth}"
                 );
             }
             let mut corners = light.corners;
             corners.reverse();
             let behind = Polygon { corners };
-            assert_eq!(mean(20, |u| irradiance(&behind.by_area(o, u), receiver)), 0.0);
-            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(o, u), receiver)), 0.0);
+            assert_eq!(mean(20, |u| irradiance(&behind.by_area(o).sample(u), receiver)), 0.0);
+            assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(o).sample(u), receiver)), 0.0);
         }
     }
 }
 
 #[test]
-fn irradiance_is_lamberts() {
+fn irradiance_matches_lamberts_formula() {
     let mut random = Random::new(1);
     agrees::<3>(&mut random);
     agrees::<4>(&mut random);
@@ -67,12 +68,12 @@ fn irradiance_is_lamberts() {
     agrees::<8>(&mut random);
 }
 
-/// Every point is on the polygon, and as many on each part as it has area: the parallelogram says the same.
+/// The points of a parallelogram and of the same polygon have equal moments.
 #[test]
 fn a_parallelogram_is_a_polygon() {
     let (p, u, v) = (Vec3::new(0.3, 1.0, -0.2), Vec3::new(1.0, 0.2, 0.1), Vec3::new(-0.1, 0.3, 1.5_f64));
     let one = Parallelogram { p, u, v };
-    // from the side to which u×v points they run counterclockwise
+    // counterclockwise as seen from the side to which u×v points
     let other = Polygon { corners: [p, p + u, p + u + v, p + v] };
     let o = Vec3::default();
     let moment = |f: &dyn Fn(Vec2<f64>) -> LightSample<f64>| {
@@ -84,12 +85,12 @@ fn a_parallelogram_is_a_polygon() {
         };
         [at(0, 1), at(1, 1), at(2, 1), at(0, 2), at(2, 2)]
     };
-    let (a, b) = (moment(&|u| one.by_area(o, u)), moment(&|u| other.by_area(o, u)));
+    let (a, b) = (moment(&|u| one.by_area(o).sample(u)), moment(&|u| other.by_area(o).sample(u)));
     for (a, b) in a.into_iter().zip(b) {
-        // the root in the triangle's map leaves a grid of n² points with n^-1.5 = 1.3e-4
+        // the root in the triangle's map leaves n^-1.5 = 1.3e-4 on a grid of n² points
         assert!((a - b).abs() < 2e-4 * a.abs().max(0.1), "{a} {b}");
     }
-    let s = (one.by_area(o, Vec2::new(0.5, 0.5)).emits, other.by_area(o, Vec2::new(0.5, 0.5)).emits);
+    let s = (one.by_area(o).sample(Vec2::new(0.5, 0.5)).emits, other.by_area(o).sample(Vec2::new(0.5, 0.5)).emits);
     assert_eq!(s.0, s.1);
 }
 
@@ -106,19 +107,19 @@ fn any_bits_in_every_lane() {
         let us: [[f32; 2]; 8] = core::array::from_fn(|_| [random.unit(), random.unit()]);
         let eight = Polygon::<f32x8, 5> { corners: core::array::from_fn(|k| vectors_of(|i| corners[k][i])) };
         let eight = [
-            eight.by_area(vectors_of(|i| p[i]), squares_of(&us)),
-            eight.by_solid_angle(vectors_of(|i| p[i]), squares_of(&us)),
-            eight.by_projected_solid_angle(vectors_of(|i| p[i]), vectors_of(|i| p[7 - i]), squares_of(&us)),
+            eight.by_area(vectors_of(|i| p[i])).sample(squares_of(&us)),
+            eight.by_solid_angle(vectors_of(|i| p[i])).sample(squares_of(&us)),
+            eight.by_projected_solid_angle(vectors_of(|i| p[i]), vectors_of(|i| p[7 - i])).sample(squares_of(&us)),
         ];
         let four = Polygon::<f32x4, 5> { corners: core::array::from_fn(|k| vectors_of(|i| corners[k][i])) };
-        let four = four.by_area(vectors_of(|i| p[i]), squares_of(&us[..4]));
+        let four = four.by_area(vectors_of(|i| p[i])).sample(squares_of(&us[..4]));
         for i in 0..8 {
             let one = Polygon::<f32, 5> { corners: core::array::from_fn(|k| Vec3::from(corners[k][i])) };
             let u = squares_of(&us[i..=i]);
             let one = [
-                one.by_area(p[i].into(), u),
-                one.by_solid_angle(p[i].into(), u),
-                one.by_projected_solid_angle(p[i].into(), p[7 - i].into(), u),
+                one.by_area(p[i].into()).sample(u),
+                one.by_solid_angle(p[i].into()).sample(u),
+                one.by_projected_solid_angle(p[i].into(), p[7 - i].into()).sample(u),
             ];
             for (s, packet) in one.iter().zip(&eight) {
                 assert_eq!(

@@ -1,8 +1,9 @@
-//! Techniques by projected solid angle, on an unoccluded diffuse surface under constant light: no variance, and the mean is the closed form.
+//! Techniques by projected solid angle: on an unoccluded diffuse surface under constant light they have no variance, and the mean is the
+//! closed form.
 
 use core::f64::consts::PI;
 use etendue::spherical::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
-use etendue::{LightSample, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
+use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 use etendue_tests::generators::{self, Random};
 use etendue_tests::oracle::{
     V3, above_horizon, along, basis, cross, dot, lambert, length, projected_cap_by_rings, sum_dw, unit, wide,
@@ -10,10 +11,10 @@ use etendue_tests::oracle::{
 use etendue_tests::properties::Fixture;
 use etendue_tests::tolerances::{PROJECTED_POLYGON, ULP};
 
-/// Greatest relative variance: that of a rounded quotient is 1e−14.
+/// Bound on the relative variance; that of a rounded quotient is 1e−14.
 const VARIANCE: f64 = 1e-10;
 
-/// Mean and relative variance of cosθ/pdf over 4096 samples; the number of samples that are worth nothing.
+/// Mean and relative variance of cosθ/pdf over 4096 samples, and the number of samples of value 0.
 fn estimate(normal: Vec3<f32x8>, seed: u64, sample: impl Fn(Vec2<f32x8>) -> LightSample<f32x8>) -> (f64, f64, u64) {
     let mut random = Random::new(seed);
     let (mut n, mut mean, mut square, mut lost) = (0.0, 0.0, 0.0, 0);
@@ -27,7 +28,7 @@ fn estimate(normal: Vec3<f32x8>, seed: u64, sample: impl Fn(Vec2<f32x8>) -> Ligh
             if pdf <= 0.0 || !light.emits.lane(k) {
                 lost += 1;
             }
-            // as an integrator has it: nothing from a sample of density 0
+            // as in an integrator, a sample of pdf 0 contributes nothing
             let value = if pdf > 0.0 && light.emits.lane(k) { cos.max(0.0) / pdf } else { 0.0 };
             n += 1.0;
             let off = value - mean;
@@ -52,7 +53,7 @@ fn spheres() {
     for ratio in [1e-3, 0.01, 0.1, 0.3, 0.6, 0.9, 0.99, 1.5] {
         for distance in [1e-3, 1.0, 1e3] {
             for tilt in 0..=16 {
-                // up to 0.95 of the way from the axis along the normal to the whole sphere below the horizon
+                // up to ω = π/2 + 0.95σ; from π/2 + σ on, the whole sphere is below the horizon
                 let sigma = if ratio < 1.0 { f64::asin(ratio) } else { PI / 2.0 };
                 let omega = f64::from(tilt) / 16.0 * (PI / 2.0 + 0.95 * sigma);
                 let normal = narrow(random.direction());
@@ -70,26 +71,26 @@ fn spheres() {
                 let up = packet(normal);
                 let origin = packet([0.0; 3]);
                 let (mean, variance, lost) = estimate(up, cases, |u| {
-                    let mut light = light.by_projected_solid_angle(origin, up, u);
+                    let mut light = light.by_projected_solid_angle(origin, up).sample(u);
                     light.emits = light.emits | <f32x8 as Real>::Mask::splat(inside);
                     light
                 });
                 cases += 1;
-                // the cosine to the axis is known to a unit; a thin lune is worth so much of it
+                // the cosine to the axis is rounded, which matters more for a thin lune
                 let condition = 1.0 + 3.0 * cos.abs() / (sigma.sin() - cos.abs()).abs().max(1e-3 * sigma.sin());
                 let relative = (mean / truth - 1.0).abs() / condition;
                 greatest = greatest.max(variance);
                 off = off.max(relative);
                 let name = format!("ratio {ratio} distance {distance} omega {omega}");
                 assert!(variance < VARIANCE && lost == 0, "{name}: relative variance {variance:e}, {lost} lost");
-                assert!(relative < 1e-6, "{name}: mean {mean} for {truth}");
+                assert!(relative < 1e-6, "{name}: mean {mean}, expected {truth}");
             }
         }
     }
     println!("{cases} spheres: relative variance ≤ {greatest:.1e}, mean within {off:.1e} of the closed form");
 }
 
-/// Triangles and parallelograms of every size, distance and tilt, from overhead to two thirds below the horizon.
+/// Triangles and parallelograms of every size, distance and tilt, from overhead to middles below the horizon.
 #[test]
 fn flats() {
     let mut random = Random::new(22);
@@ -97,7 +98,7 @@ fn flats() {
     for size in [1e-6, 1e-3, 0.1, 1.0, 4.0, 30.0] {
         for distance in [1e-3, 1.0, 1e3] {
             for tilt in 0..=12 {
-                // of the normal from the direction of the middle; at the last the middle is below, by up to a sixth of the size
+                // angle from the normal to the middle, which is finally below the horizon by a sixth of the size
                 let below = f64::atan(size / 6.0);
                 let omega = f64::from(tilt) / 12.0 * (PI / 2.0 + below);
                 let axes = [random.direction(), random.direction()];
@@ -108,7 +109,7 @@ fn flats() {
                 if etendue_tests::oracle::dot(facing, middle).abs() < 0.2 || length(cross(axes[0], axes[1])) < 0.3 {
                     continue;
                 }
-                // light one-sided: towards the point
+                // make the light's emitting side face the point
                 let (u, v) = if etendue_tests::oracle::dot(facing, middle) < 0.0 { (u, v) } else { (v, u) };
                 let (s, _) = basis(middle);
                 let normal = narrow(along(middle.map(|x| x * omega.cos()), s, omega.sin()));
@@ -123,12 +124,12 @@ fn flats() {
                     (
                         "triangle",
                         lambert(&above_horizon(&[corners[0], corners[1], corners[3]], n), n),
-                        estimate(up, cases, |u| triangle.by_projected_solid_angle(origin, up, u)),
+                        estimate(up, cases, |u| triangle.by_projected_solid_angle(origin, up).sample(u)),
                     ),
                     (
                         "parallelogram",
                         lambert(&above_horizon(&corners, n), n),
-                        estimate(up, cases + 1, |u| quad.by_projected_solid_angle(origin, up, u)),
+                        estimate(up, cases + 1, |u| quad.by_projected_solid_angle(origin, up).sample(u)),
                     ),
                 ] {
                     let name = format!(
@@ -139,12 +140,12 @@ fn flats() {
                     }
                     cases += 1;
                     low += u64::from(omega > PI / 2.0);
-                    // the cosine has the length of the normal, a unit's rounding
+                    // the cosine depends on the length of the normal, which is rounded
                     let relative = (mean / truth - 1.0).abs();
                     greatest = greatest.max(variance);
                     off = off.max(relative);
                     assert!(variance < VARIANCE && lost == 0, "{name}: relative variance {variance:e}, {lost} lost");
-                    assert!(relative < 5e-6, "{name}: mean {mean} for {truth}");
+                    assert!(relative < 5e-6, "{name}: mean {mean}, expected {truth}");
                 }
             }
         }
@@ -155,7 +156,7 @@ fn flats() {
     );
 }
 
-/// Ω⊥ of the domain against Lambert's form in 106 bits, after clipping: units in the last place over the condition.
+/// Ω⊥ over all regimes against Lambert's formula on the clipped polygon in 106 bits, in units in the last place divided by the condition.
 #[test]
 fn projected_solid_angles() {
     let mut worst: Vec<(&str, f64)> = Vec::new();
@@ -163,10 +164,10 @@ fn projected_solid_angles() {
         let found = f64::from(Fixture::prepare::<f32>(&[triangle]).projected_solid_angle());
         let truth = triangle.projected_solid_angle();
         let units = (found / truth - 1.0).abs() / (ULP * triangle.conditioned());
-        assert!(units < PROJECTED_POLYGON.pdf, "{name}: {triangle:?}: {found} for {truth}, {units} units");
+        assert!(units < PROJECTED_POLYGON.pdf, "{name}: {triangle:?}: {found}, expected {truth}, {units} units");
         let double: f64 = Fixture::prepare::<f64>(&[triangle]).projected_solid_angle();
         let relative = (double / truth - 1.0).abs() / triangle.conditioned();
-        assert!(relative < 1e-14, "{name}: {triangle:?}: {double} for {truth}, {relative:e}");
+        assert!(relative < 1e-14, "{name}: {triangle:?}: {double}, expected {truth}, {relative:e}");
         match worst.iter_mut().find(|w| w.0 == name) {
             Some(w) => w.1 = w.1.max(units),
             None => worst.push((name, units)),
@@ -177,9 +178,9 @@ fn projected_solid_angles() {
     }
 }
 
-/// Wholly below the horizon, in the plane, without area: pdf 0.
+/// A shape below the horizon, in a plane with the point, or without area has pdf 0.
 #[test]
-fn nothing_to_be_seen() {
+fn invisible_shapes_have_pdf_0() {
     let splat = |v: [f32; 3]| Vec3::new(v[0], v[1], v[2]);
     let up = [0.0, 0.0, 1.0];
     for (p, u, v) in [
@@ -195,8 +196,8 @@ fn nothing_to_be_seen() {
         for square in generators::square(20, 24) {
             let at = Vec2::new(square[0], square[1]);
             for sample in [
-                light.by_projected_solid_angle(splat([0.0; 3]), splat(up), at),
-                quad.by_projected_solid_angle(splat([0.0; 3]), splat(up), at),
+                light.by_projected_solid_angle(splat([0.0; 3]), splat(up)).sample(at),
+                quad.by_projected_solid_angle(splat([0.0; 3]), splat(up)).sample(at),
             ] {
                 assert!(sample.pdf == 0.0 && sample.distance.is_finite() && sample.direction.max_abs() <= 1.001);
             }
@@ -213,8 +214,9 @@ fn nothing_to_be_seen() {
     }
 }
 
-/// Beside an edge that stands nearly upright on the horizon a unit of azimuth is a long way: by the rounded azimuth alone this direction,
-/// found by fuzzing, came back 3.7e−4 away. What is left are five units of u₀ in a sweep that is 1.1e−4 of the whole.
+/// Near an edge that rises almost vertically above the horizon, a rounding of the azimuth moves the direction a long way: from the rounded
+/// azimuth alone, this direction, found by fuzzing, came back 3.7e−4 away. What remains are five units of u₀ in a sweep that is 1.1e−4 of
+/// the whole.
 #[test]
 fn inverse_beside_an_upright_edge() {
     let vector = |v: [f32; 3]| Vec3::new(v[0], v[1], v[2]);
@@ -227,7 +229,8 @@ fn inverse_beside_an_upright_edge() {
     assert!(off < 1e-4, "{off:e}");
 }
 
-/// Spheres below the horizon that reach over it by some units of their radius, in units of what is documented.
+/// Spheres whose centre is below the horizon and that reach above it by a few units of their radius: errors relative to the documented
+/// ones.
 #[test]
 fn caps_that_just_reach_over_the_horizon() {
     let mut random = Random::new(37);
@@ -250,15 +253,15 @@ fn caps_that_just_reach_over_the_horizon() {
         cases += 1;
         greatest = greatest.max((found / double - 1.0).abs() / (1.6e-6 + 4e-14 / reach));
     }
-    println!("{cases} caps that just reach over the horizon: Ω⊥ off by {greatest:.2} of what is allowed");
-    assert!(cases > 50_000 && greatest <= 1.0, "{greatest} of {cases}");
+    println!("{cases} caps that just reach over the horizon: error of Ω⊥ {greatest:.2} of the allowed one");
+    assert!(cases > 50_000 && greatest <= 1.0, "{greatest} of the allowed error, {cases} cases");
 }
 
-/// The irradiance of a segment by both precisions, in units of what is documented; near the horizon, and from next to the line.
+/// The irradiance of a segment in both precisions, near the horizon and close to the line: errors relative to the documented ones.
 #[test]
 fn irradiance_of_segments() {
     const KINDS: [&str; 6] =
-        ["any", "short", "from above the horizon", "next to the horizon", "through the point", "both"];
+        ["any", "short", "from above the horizon", "next to the horizon", "line through the point", "both"];
     let mut random = Random::new(31);
     let mut greatest = [0.0_f64; KINDS.len()];
     for i in 0..600_000 {
@@ -297,7 +300,7 @@ fn irradiance_of_segments() {
         }
     }
     for (kind, greatest) in KINDS.into_iter().zip(greatest) {
-        println!("segments, {kind}: ∫p off by {greatest:.2} of what is allowed");
+        println!("segments, {kind}: error of ∫p {greatest:.2} of the allowed one");
         assert!(greatest <= 1.0, "{kind}: {greatest}");
     }
 }

@@ -1,11 +1,11 @@
-//! Sequences: marginals, independence, strata, permutations, and the variances that theory gives.
+//! Sequences: marginals, independence, strata, permutations, and the variances predicted by theory.
 
 use etendue::sequence::{CounterRng, Independent, Sequence, Stratified};
 use etendue::{Uint, Vec2, f32x8, u32x8};
 use etendue_tests::stats;
 use etendue_tests::tolerances::SIGNIFICANCE;
 
-/// What a counter counts, and what it leads to: one point; or two points or cells that it leads to.
+/// A name, and a function of a counter.
 type Counted<'a, T> = (&'a str, &'a dyn Fn(u32) -> T);
 type Neighbours<'a, T> = Counted<'a, (T, T)>;
 
@@ -31,7 +31,7 @@ fn packets_are_scalars() {
                     let one: Vec2<f32> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
                     let wide: Vec2<f64> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
                     assert_eq!(packet.lane(k), one);
-                    // f64 places the jitter without rounding
+                    // f64 does not round the jitter
                     let error = (wide.x - f64::from(one.x)).abs().max((wide.y - f64::from(one.y)).abs());
                     assert!(error < 2.4e-7, "{error:e}: {one:?} {wide:?} for sample {}", samples.lane(k));
                 }
@@ -69,7 +69,7 @@ fn independent_marginals() {
             last = u;
         }
         if name == "seeds" {
-            // some of these seeds are equal: only ask for the marginals
+            // some of these seeds are equal, so only the marginals are tested
             continue;
         }
         for (what, cells) in [("x", &x), ("y", &y), ("xy", &xy), ("serial", &serial), ("low bits", &low)] {
@@ -116,7 +116,7 @@ fn counter_rng() {
     assert_ne!(a.next_u64(), b.next_u64());
 }
 
-/// The cells of a replicate, per axis; a point within rounding of a boundary may belong to either side.
+/// The cells along one axis that may contain `u`, which may be rounded across a boundary.
 fn candidates(u: f64, n: u32) -> [u32; 2] {
     let place = u * f64::from(n);
     let step = f64::from(n) * 2.0_f64.powi(-23);
@@ -124,7 +124,7 @@ fn candidates(u: f64, n: u32) -> [u32; 2] {
 }
 
 #[test]
-fn every_stratum_once() {
+fn every_stratum_has_one_sample() {
     for count in [1, 2, 3, 5, 7, 12, 13, 16, 64, 100, 1024, 1 << 17] {
         let sequence = Stratified::new(11, count);
         let [columns, rows] = sequence.grid();
@@ -146,10 +146,10 @@ fn every_stratum_once() {
                     doubtful.push(cells);
                 }
             }
-            assert!(doubtful.len() as f64 <= 3.0 + f64::from(count) * 2e-3, "{} at boundaries", doubtful.len());
+            assert!(doubtful.len() as f64 <= 3.0 + f64::from(count) * 2e-3, "{} samples at boundaries", doubtful.len());
             for cells in doubtful {
                 let free = cells.into_iter().find(|&c| !taken[c as usize]);
-                taken[free.expect("a stratum twice, at its boundary") as usize] = true;
+                taken[free.expect("all strata beside a boundary sample are taken") as usize] = true;
             }
         }
     }
@@ -166,7 +166,7 @@ fn permutations_are_uniform_and_independent() {
             (u[0] * f64::from(columns)) as usize + columns as usize * (u[1] * f64::from(rows)) as usize
         };
         let n = 40_000;
-        // where the first index goes, and the last; over pixels, replicates and dimensions
+        // the cells of two samples, over pixels, replicates and dimensions
         let over: [Neighbours<'_, usize>; 4] = [
             ("pixels", &|i| (cell(i, 0, 0, 0), cell(i, 0, 0, count - 1))),
             ("replicates", &|i| (cell(3, i, 0, 0), cell(3, i, 0, 1 % count))),
@@ -185,7 +185,7 @@ fn permutations_are_uniform_and_independent() {
             likely(stats::uniform(&first), &format!("{count} {name}: first"));
             likely(stats::uniform(&second), &format!("{count} {name}: second"));
             if cells <= 16 {
-                // two indices of one permutation never meet; those of two permutations do
+                // two samples in one permutation are never in the same cell; in two permutations they may be
                 let same = name == "neighbouring dimensions";
                 let expected = f64::from(n) / f64::from(if same { cells * cells } else { cells * (cells - 1) });
                 let expected: Vec<f64> =
@@ -196,7 +196,7 @@ fn permutations_are_uniform_and_independent() {
     }
 }
 
-/// Variance of the mean of `f` over replicates, and its standard error as a fraction.
+/// Variance over replicates of the mean of `f`.
 fn variance(sequence: &Stratified, replicates: u32, f: impl Fn(f64, f64, u32) -> f64) -> f64 {
     let n = sequence.count();
     let means: Vec<f64> = (0..replicates)
@@ -216,26 +216,26 @@ fn variance(sequence: &Stratified, replicates: u32, f: impl Fn(f64, f64, u32) ->
 #[test]
 fn variances() {
     let replicates = 40_000;
-    // a variance of nearly normal means is known to √(2/n); 5 of these, as it is asked for 8 times
+    // the variance of nearly normal means has the relative standard error √(2/n); 5 of them, because it is tested 8 times
     let interval = 5.0 * (2.0 / f64::from(replicates)).sqrt();
     for count in [16, 64, 100] {
         let sequence = Stratified::new(21, count);
         let [columns, _] = sequence.grid();
         let n = f64::from(count);
-        // f = x: each of the N points jitters by 1/columns: variance 1/(12 columns² N)
+        // f = x: each of the N points is jittered by 1/columns, so the variance is 1/(12 columns² N)
         let measured = variance(&sequence, replicates, |x, _, _| x);
         let truth = 1.0 / (12.0 * f64::from(columns).powi(2) * n);
-        assert!((measured / truth - 1.0).abs() < interval, "f = x, {count}: {measured:e} for {truth:e}");
-        // a straight edge at a uniform offset: N^(−3/2)/6; a bimodal mean of kurtosis up to 6 has a wider interval
+        assert!((measured / truth - 1.0).abs() < interval, "f = x, {count}: {measured:e}, expected {truth:e}");
+        // a straight edge at a uniform offset: N^(−3/2)/6; the means are bimodal with kurtosis up to 6, so the interval is wider
         let offset = |r: u32| pair(&Independent::new(77), r, 0, 0)[0];
         let measured = variance(&sequence, replicates, |x, _, r| f64::from(x < offset(r)) - offset(r));
         let truth = n.powf(-1.5) / 6.0;
-        assert!((measured / truth - 1.0).abs() < 2.0 * interval, "edge, {count}: {measured:e} for {truth:e}");
+        assert!((measured / truth - 1.0).abs() < 2.0 * interval, "edge, {count}: {measured:e}, expected {truth:e}");
     }
-    // one stratum is independent sampling; N⁻² in one dimension: a column of strata for a pair has none of it for two
+    // a single stratum is independent sampling
     let measured = variance(&Stratified::new(22, 1), replicates, |x, _, _| x);
     assert!((measured * 12.0 - 1.0).abs() < interval, "one stratum: {measured:e}");
-    // what does not factor is still uniform: the mean is right
+    // with a count that does not factor, each point is still uniform
     for count in [7, 13] {
         let sequence = Stratified::new(23, count);
         let mut cells = vec![0_u64; 64];

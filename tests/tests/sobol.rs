@@ -1,4 +1,4 @@
-//! Point sets: that they are what they claim (nets, strata, lattices), at every width, and how much variance they save.
+//! Point sets: they are the nets, strata and lattices that they claim to be, at every width, and reduce the variance as expected.
 
 use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
@@ -10,7 +10,7 @@ fn point(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [
     [u.x, u.y]
 }
 
-/// Does every box of 2⁻ᵃ × 2ᵃ⁻ᵐ hold one of the 2ᵐ points? The first a where one does not.
+/// Whether every box of 2⁻ᵃ × 2ᵃ⁻ᵐ holds one of the 2ᵐ points: the first a for which one does not, or none.
 fn failed_shape(points: &[[f64; 2]]) -> Option<u32> {
     let m = points.len().ilog2();
     assert_eq!(points.len(), 1 << m);
@@ -29,20 +29,20 @@ fn owen_sobol_is_a_net() {
     for m in 0..=14 {
         for (scramble, pixel, dimension) in [(1, 0, 0), (1, 1, 0), (2, 12_345, 7), (3, u32::MAX, u32::MAX)] {
             let sobol = OwenSobol::new(scramble);
-            // the first block, one amid 2¹⁶ samples, one past them, the last of all
+            // the first block, one among the first 2¹⁶ samples, two beyond, and the last
             for first in [0, 3 << m, 65_536 + (5 << m), 0x8765_4000, u32::MAX - ((1 << m) - 1)] {
                 let points: Vec<_> = (0..1 << m).map(|i| point(&sobol, pixel, first + i, dimension)).collect();
                 assert_eq!(failed_shape(&points), None, "2^{m} points from {first}, pixel {pixel}");
             }
         }
     }
-    // as fine as the grid of u lets one see: 2²⁰ points in one scramble
+    // as fine as the grid of u resolves: 2²⁰ points in one scramble
     let points: Vec<_> = (0..1 << 20).map(|i| point(&OwenSobol::new(9), 4, i, 2)).collect();
     assert_eq!(failed_shape(&points), None, "2^20 points");
 }
 
 #[test]
-fn the_check_of_nets_can_fail() {
+fn net_check_can_fail() {
     for (name, points) in [
         ("independent", (0..16).map(|i| point(&Independent::new(1), 0, i, 0)).collect::<Vec<_>>()),
         ("jitter", (0..16).map(|i| point(&Stratified::new(1, 16), 0, i, 0)).collect()),
@@ -62,7 +62,7 @@ fn z_order_is_a_net_in_a_pixel_and_over_squares() {
         assert_eq!(held, samples.next_power_of_two());
         for dimension in [0, 1, 6] {
             for [x0, y0, side] in [[0, 0, 1], [3, 5, 1], [6, 4, 2], [24, 40, 8], [4096, 8192, 16]] {
-                // in the first net of a pixel and in later ones
+                // the first net of a pixel, and later ones
                 for replicate in [0, 1, 1000] {
                     let mut points = Vec::new();
                     for y in y0..y0 + side {
@@ -76,23 +76,23 @@ fn z_order_is_a_net_in_a_pixel_and_over_squares() {
             }
         }
     }
-    // 2³¹ samples in a pixel: no shift may be by 32
+    // 2³¹ samples in a pixel: the shift must not become 32
     let points: Vec<_> = (0..1024).map(|i| point(&ZOrder::new(5, u32::MAX), 7, (1 << 30) + i, 0)).collect();
     assert_eq!(failed_shape(&points), None);
-    // and one, where all 32 bits are the pixel's
+    // one sample in a pixel: all 32 bits belong to the pixel
     let points: Vec<_> = (0..1024).map(|i| point(&ZOrder::new(5, 0), (1 << 31) + i, 0, 0)).collect();
     assert_eq!(failed_shape(&points), None);
 }
 
-/// The base-4 digits take all 24 orders, nearly equally often: nested permutations in base 2 are 8 of them.
+/// The base-4 digits take all 24 orders, nearly equally often; nested permutations in base 2 would only take 8.
 #[test]
 fn z_order_permutes_digits_in_every_way() {
     for samples in [1, 2, 4] {
         let z = ZOrder::new(11, samples);
         let mut orders = std::collections::BTreeMap::new();
         for block in 0..24_000 {
-            // one sample of each of four neighbours: which quarter it is in was the last digit of its index if there is one sample,
-            // and the scramble of the first bits is the same everywhere
+            // one sample of each of four neighbours: with one sample per pixel, the quarter that contains it was the last digit of its
+            // index, and the scramble of the leading bits is the same for all four
             let x = [0, 1, 2, 3].map(|k| point(&z, block * 4 + k, 0, 3)[0]);
             let mut order = [0, 1, 2, 3];
             order.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
@@ -101,14 +101,14 @@ fn z_order_permutes_digits_in_every_way() {
         println!("{samples}: {:?}", orders.values().collect::<Vec<_>>());
         assert_eq!(orders.len(), 24, "{orders:?}");
         if samples == 1 {
-            // 0.344/8 and 0.656/16 for 1/24: 1031 and 984; five standard deviations of chance
+            // 0.344/8 and 0.656/16 instead of 1/24: 1031 and 984; the bounds are five standard deviations beyond
             assert!(orders.values().all(|n| (826..1190).contains(n)), "{orders:?}");
         }
     }
 }
 
-/// Power of the errors of an image of 64 × 64 pixels at frequencies below an eighth of the sampling rate, over that at all
-/// frequencies: 1 if errors of neighbours are independent.
+/// Power of the errors in an image of 64 × 64 pixels at frequencies below an eighth of the sampling rate, relative to the power at all
+/// frequencies: 1 if the errors of neighbours are independent.
 fn low_frequencies(sequence: impl Fn(u64) -> Box<dyn Fn([u32; 2], u32) -> [f64; 2]>, f: fn([f64; 2]) -> f64) -> f64 {
     const SIDE: usize = 64;
     const SAMPLES: u32 = 4;
@@ -123,7 +123,7 @@ fn low_frequencies(sequence: impl Fn(u64) -> Box<dyn Fn([u32; 2], u32) -> [f64; 
         }
         let mean = errors.as_flattened().iter().sum::<f64>() / (SIDE * SIDE) as f64;
         let wave = |k: usize, i: usize| (core::f64::consts::TAU * (k * i % SIDE) as f64 / SIDE as f64).sin_cos();
-        // a transform along the rows, then along the columns
+        // Fourier transform along the rows, then along the columns
         for kx in 0..SIDE {
             let rows: Vec<[f64; 2]> = errors
                 .iter()
@@ -152,7 +152,7 @@ fn low_frequencies(sequence: impl Fn(u64) -> Box<dyn Fn([u32; 2], u32) -> [f64; 
     low / (all * f64::from(count) / 32.0)
 }
 
-/// Errors of neighbours cancel: what is left is blue. The same points given to pixels independently leave white noise.
+/// Errors of neighbours cancel, which leaves blue noise; the same points assigned to pixels independently leave white noise.
 #[test]
 fn z_order_leaves_blue_noise() {
     let smooth = |[x, y]: [f64; 2]| (-3.0 * (x * x + y)).exp();
@@ -193,7 +193,7 @@ fn latin_hypercube_is_latin() {
             }
         }
     }
-    // the axes are permuted apart
+    // the axes have different permutations
     let points: Vec<_> =
         (0..4096).map(|i| point(&LatinHypercube::new(3, 4096), 2, i, 0)).map(|[x, y]| (x, y)).collect();
     assert!(stats::correlation(&points).abs() < 5.0 / 64.0);
@@ -212,7 +212,7 @@ fn lattice_is_exact_far_out() {
             }
         }
     }
-    // Fibonacci's lattice of 89: neighbours on the torus are at least 0.93/√89 apart
+    // the 89-point Fibonacci lattice: neighbours on the torus are at least 0.93/√89 apart
     let points: Vec<_> = (0..89).map(|i| point(&Lattice::fibonacci(2, 89), 3, i, 0)).collect();
     let mut least = f64::INFINITY;
     for (i, a) in points.iter().enumerate() {
@@ -236,7 +236,7 @@ fn lattice_is_exact_far_out() {
     }
 }
 
-/// One sample of each of many pixels, seeds or dimensions: uniform, and independent of one another.
+/// One sample of each of many pixels, seeds or dimensions: they are uniform and mutually independent.
 fn uniform_over(name: &str, sequence: impl Fn(u32) -> [f64; 2]) {
     const SIDE: usize = 32;
     let mut cells = vec![0_u64; SIDE * SIDE];
@@ -278,7 +278,7 @@ fn each_point_is_uniform_over_pixels_dimensions_and_seeds() {
     uniform_over("z-order, tiles", |i| point(&ZOrder::new(1, 1 << 31), 2 * i, 3, 0));
 }
 
-/// Rank among the permutations of four of the one that takes the order of x in one dimension to that in another.
+/// Rank, among the 24 permutations of four, of the one from the order of x in one dimension to that in the other.
 fn association(sequence: &impl Sequence, pixel: u32, dimensions: [u32; 2]) -> usize {
     let order = |dimension| {
         let x = [0, 1, 2, 3].map(|sample| point(sequence, pixel, sample, dimension)[0]);
@@ -305,17 +305,20 @@ fn dimensions_are_padded_at_random() {
     }
     let latin = orders(&LatinHypercube::new(1, 4));
     assert!(stats::uniform(&latin) > SIGNIFICANCE, "{latin:?}");
-    // a nested shuffle keeps pairs of samples together: samples 0 and 1 are in opposite halves in both dimensions
     let sobol = orders(&OwenSobol::new(1));
-    // a nested shuffle keeps (0, 1) and (2, 3) together; the order along x keeps (0, 2) and (1, 3): any of 8 of one and 8 of the other
+    // a nested shuffle keeps (0, 1) and (2, 3) together, the order along x keeps (0, 2) and (1, 3): any of 8 permutations, then any of 8
+    // others
     let kept = [0, 1, 6, 7, 16, 17, 22, 23];
     let expected: Vec<f64> = (0..24).map(|rank| if kept.contains(&rank) { 3750.0 } else { 1875.0 }).collect();
     let p = stats::chi_square(&sobol, &expected);
     assert!(p > SIGNIFICANCE, "p = {p}: {sobol:?}");
-    assert!(stats::uniform(&orders(&Lattice::r2(1))) < SIGNIFICANCE, "24 orders of a lattice of four are not alike");
+    assert!(
+        stats::uniform(&orders(&Lattice::r2(1))) < SIGNIFICANCE,
+        "the 24 orders of a four-point lattice are not equally frequent"
+    );
 }
 
-/// Owen's scrambling as it is defined: a random bit for each prefix, here of Sobol's points from their matrices.
+/// Owen scrambling by definition, with a random bit for each prefix, applied to Sobol points from the generator matrices.
 struct TrueOwen {
     seed: u64,
 }
@@ -353,7 +356,7 @@ impl Sequence for TrueOwen {
     }
 }
 
-/// A half-plane c·x + s·y < d through a random point of the square, at a random angle: its value less its area, and the area.
+/// The half-plane c·x + s·y < d through a random point of the square at a random angle.
 struct HalfPlane {
     c: f64,
     s: f64,
@@ -378,7 +381,7 @@ impl HalfPlane {
     }
 }
 
-/// How many times less variance than independent samples have, of exp(x + y) and of straight edges, each with its standard error.
+/// Factor by which the variance of exp(x + y) and of straight edges is below that of independent samples, each with its standard error.
 fn gains(sequence: &impl Sequence, n: u32) -> [[f64; 2]; 2] {
     const TRIALS: u32 = 20_000;
     let integral = (std::f64::consts::E - 1.0).powi(2);
@@ -404,9 +407,9 @@ fn gains(sequence: &impl Sequence, n: u32) -> [[f64; 2]; 2] {
     })
 }
 
-/// The gains that are known, within five standard errors and the half unit of their last digit.
+/// Asserts that a gain is the known one, within five standard errors and half a unit of its last digit.
 fn gain_is([gain, error]: [f64; 2], known: f64, half_unit: f64) {
-    assert!((gain - known).abs() < 5.0 * error + half_unit, "{gain} ± {error}, not {known}");
+    assert!((gain - known).abs() < 5.0 * error + half_unit, "{gain} ± {error}, expected {known}");
 }
 
 #[test]
@@ -434,7 +437,7 @@ fn variance_against_independent_samples() {
     for row in [sixteen, sixty_four] {
         gain_is(row[0][0], 1.0, 0.0);
         gain_is(row[0][1], 1.0, 0.0);
-        // the hash is as good as independent random bits for each prefix
+        // the hash scrambles as well as an independent random bit for each prefix
         for (hashed, exact) in row[5].iter().zip(row[6]) {
             gain_is([hashed[0], hashed[1].hypot(exact[1])], exact[0], 0.0);
         }

@@ -1,4 +1,5 @@
-//! Every property for every warp in every regime, and how many there were. `-- --nocapture` prints the greatest figure of each (warp, regime, property).
+//! Every property of every warp in every regime, and how many were checked. `-- --nocapture` prints the greatest figure of each (warp,
+//! regime, property).
 
 use etendue_tests::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, Exponential, GgxVisibleNormals, Hexagon,
@@ -12,18 +13,18 @@ use etendue_tests::suite;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::sync::Mutex;
 
-/// What has been checked.
+/// What was checked, for the summary.
 #[derive(Debug)]
 struct Checked {
     warp: &'static str,
     regimes: usize,
     cases: usize,
-    /// Greatest error of a sample and of a density, in units of 2⁻²⁴.
+    /// Greatest errors of a sample and of a pdf, in units of 2⁻²⁴.
     greatest: [f64; 2],
 }
 static CHECKED: Mutex<Vec<Checked>> = Mutex::new(Vec::new());
 
-/// All properties over the cases; reports every regime that breaks one with the first message.
+/// Runs all properties over the cases. Reports every regime that breaks one, with its first message.
 fn all<S: Fixture>(warp: &'static str, cases: &[Case<S>], random: usize) -> Result<(), Failed> {
     let outcomes = suite::all(cases, random);
     if std::env::args().any(|a| a == "--nocapture") {
@@ -55,7 +56,7 @@ fn other(name: &'static str, run: fn()) -> Trial {
 }
 
 fn main() {
-    // broken properties are reported together, with the warp that breaks them
+    // broken properties are reported together, at the end of the warp
     std::panic::set_hook(Box::new(|_| {}));
     let mut arguments = Arguments::from_args();
     arguments.test_threads =
@@ -96,10 +97,10 @@ fn main() {
             warp("spherical_triangle", || generators::triangles(4, 12), 60),
             warp("spherical_parallelogram", || generators::parallelograms(4, 13), 200),
             warp("spherical_rectangle", || generators::rectangles(8, 14), 200),
-            other("any_parameters_are_survived", any_parameters_are_survived),
+            other("any_parameters_are_total", any_parameters_are_total),
             other("contact", contact),
-            other("spheres_are_hit_in_front", spheres_are_hit_in_front),
-            other("nothing_is_beyond_its_shape", nothing_is_beyond_its_shape),
+            other("spheres_are_hit_on_the_near_side", spheres_are_hit_on_the_near_side),
+            other("no_point_is_beyond_its_shape", no_point_is_beyond_its_shape),
             other("nasty_rectangles", nasty_rectangles),
         ],
     );
@@ -107,12 +108,12 @@ fn main() {
     if !checked.is_empty() && !arguments.list {
         checked.sort_by_key(|c| c.warp);
         println!(
-            "greatest error in units of 2^-24 (of a sample, against the same body in f64; of a density, against the truth)"
+            "greatest error in units of 2^-24 (of a sample, against the same code in f64; of a pdf, against the truth)"
         );
         for c in checked.iter() {
             let [sample, density] = c.greatest;
             println!(
-                "{:28} {:3} regimes {:4} cases  sample {sample:5.1}  density {density:5.1}",
+                "{:28} {:3} regimes {:4} cases  sample {sample:5.1}  pdf {density:5.1}",
                 c.warp, c.regimes, c.cases
             );
         }
@@ -126,8 +127,8 @@ fn main() {
     conclusion.exit();
 }
 
-/// Any parameters at all: nasty numbers and random bits.
-fn any_parameters_are_survived() {
+/// Total and lane-identical for any parameters: nasty numbers and random bits.
+fn any_parameters_are_total() {
     let mut random = Random::new(99);
     let square = generators::square(40, 5);
     for i in 0..20_000 {
@@ -169,11 +170,11 @@ fn any_parameters_are_survived() {
     }
 }
 
-/// Points on a vertex, an edge and the plane; on and in spheres; nothing seen means pdf 0.
+/// Points on a vertex, on an edge and in the plane; on and in spheres. If nothing is visible, the pdf is 0.
 fn contact() {
     let (o, x, y) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
     for u in generators::square(20, 6) {
-        // on a vertex, on an edge, in the plane outside and inside, no area
+        // on a vertex, on an edge, in the plane outside and inside, without area
         for t in [
             Triangle::by_vertices(o, x, y),
             Triangle::by_vertices([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], y),
@@ -199,14 +200,14 @@ fn contact() {
 }
 
 /// The distance to a sphere is that of its near side.
-fn spheres_are_hit_in_front() {
+fn spheres_are_hit_on_the_near_side() {
     let square = generators::square(200, 7);
     for (_, cap) in generators::caps(3, 17) {
         square.iter().for_each(|&u| nearest_hit(&cap, u));
     }
 }
-/// In every regime, and where the distance is least certain: nearly in a plane with the shape.
-fn nothing_is_beyond_its_shape() {
+/// No point is beyond its shape, in every regime and where the distance is least certain: nearly in a plane with the shape.
+fn no_point_is_beyond_its_shape() {
     fn check<S: Fixture>(cases: &[Case<S>]) {
         let outcome = suite::within_reach(cases);
         let broken: Vec<_> = outcome.broken().map(|r| format!("[{}] ×{}: {}", r.name, r.broken, r.first)).collect();
@@ -228,7 +229,7 @@ fn nasty_rectangles() {
         let rectangle = Rectangle::new(vector(), vector(), vector());
         properties::any_bits(&rectangle, [random.unit(), random.unit()]);
     }
-    // bits at random: mostly of no common scale at all
+    // random bits, mostly of very different magnitudes
     for _ in 0..20_000 {
         let mut vector = || core::array::from_fn(|_| random.any_f32());
         let rectangle = Rectangle::new(vector(), vector(), vector());

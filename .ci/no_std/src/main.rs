@@ -1,4 +1,5 @@
-//! Every public sampler, without std, alloc or libc (Linux, x86-64): the exit code is the number of those that keep their contract.
+//! Every public sampler, without std, alloc or libc (Linux, x86-64). The exit code is the number of samplers if all of them keep their
+//! contract, or 100 + k if sampler k, counted from 0, breaks it; 251 to 254 mean that a table was not built, 255 means a panic.
 #![no_std]
 #![no_main]
 
@@ -24,12 +25,12 @@ use etendue::warp::{
     GgxVisibleNormals, Linear, LowDistortionTriangle, Normal, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent,
     UniformHemisphere, UniformSphere,
 };
-use etendue::{
+use etendue::{LightSampler, 
     LightSample, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, Warp1, f32x8, u32x8,
 };
 use rand_core::SeedableRng;
 
-// the kernel enters here with an aligned stack; a function expects that of its caller before the call
+// the kernel enters with an aligned stack, but a function expects the alignment before its caller's `call`
 global_asm!(".globl _start", "_start:", "and rsp, -16", "call {main}", "ud2", main = sym main);
 
 fn exit(code: u32) -> ! {
@@ -37,7 +38,7 @@ fn exit(code: u32) -> ! {
     unsafe { asm!("syscall", in("rax") 60, in("rdi") code, options(noreturn)) }
 }
 
-// the compiler calls these two on any target; without libc it is for the program to bring them
+// the compiler may call these two on any target; without libc, the program must define them
 global_asm!(
     ".globl memcpy",
     "memcpy:",
@@ -82,32 +83,32 @@ fn near(a: f32, b: f32, relative: f32) -> bool {
     (a - b).abs() <= relative * b
 }
 
-/// How many samplers were called, or 200 where one has not kept its contract.
+/// The number of samplers that kept their contract so far.
 struct Count(u32);
 
 impl Count {
     fn check(&mut self, kept: bool) {
         if !kept {
-            // which one it was
+            // 100 + the index of the sampler
             exit(100 + self.0);
         }
         self.0 += 1;
     }
-    /// Map, density and inverse: closed, and the mean of 1/pdf is the `measure` of the whole.
+    /// Checks sample, pdf and inverse: they are closed, and the mean of 1/pdf is the `measure` of the whole.
     fn warp<W: Warp<X, Point: Copy>>(&mut self, warp: W, measure: f32) {
         let (mut far, mut inverse) = (0.0_f32, lit(0.0));
         for u in squares() {
             let p = warp.sample(u);
             let v = warp.invert(p);
             let d = Vec2::new(u.x - v.x, u.y - v.y);
-            // an azimuth may come back a turn later
+            // an azimuth may come back one turn off
             let off = |d: X| (0..8).map(|i| d.lane(i).abs()).fold(0.0_f32, |m, d| m.max(d.min(1.0 - d)));
             far = far.max(off(d.x)).max(off(d.y));
             inverse += lit(1.0) / warp.pdf(p);
         }
         self.check(far < 1e-3 && near(sum(inverse) / SAMPLES as f32, measure, 2e-2));
     }
-    /// Half an arc of 2 atan(1/2) radians.
+    /// The same for directions in a plane, which fill an arc of 2 atan(1/2) radians.
     fn arc(&mut self, sample: impl Fn(X) -> (Vec3<X>, X), invert: impl Fn(Vec3<X>) -> X) {
         let (mut far, mut inverse) = (0.0_f32, lit(0.0));
         for u in squares() {
@@ -126,7 +127,7 @@ impl Count {
         });
         self.check(kept);
     }
-    /// Irradiance of radiance 1 on a receiver that faces up.
+    /// Checks the irradiance from radiance 1 on a receiver that faces up.
     fn light(&mut self, truth: f32, sample: impl Fn(Vec2<X>) -> LightSample<X>) {
         let mut total = lit(0.0);
         for u in squares() {
@@ -136,7 +137,7 @@ impl Count {
         }
         self.check(near(sum(total) / SAMPLES as f32, truth, 1e-2));
     }
-    /// The mean of x·y over a sequence is 1/4.
+    /// Checks that the mean of x·y over a sequence is 1/4.
     fn sequence(&mut self, sequence: impl Sequence) {
         let mut total = lit(0.0);
         for start in (0..SAMPLES).step_by(8) {
@@ -159,7 +160,7 @@ fn warps(count: &mut Count) {
     count.warp(AreaTriangle, 0.5);
     count.warp(LowDistortionTriangle, 0.5);
     count.warp(Bilinear { corners: [1.0, 2.0, 3.0, 4.0].map(lit) }, 1.0);
-    // half a sphere less what faces away from the view
+    // the hemisphere, minus the normals that face away from the view
     count.warp(GgxVisibleNormals::new(lit(1.0), lit(1.0), [0.0, 0.6, 0.8].into()), 2.0 * (PI - 0.643_501_1));
     count.line(Linear { a: lit(1.0), b: lit(3.0) });
     count.line(Tent { radius: lit(2.0) });
@@ -170,7 +171,7 @@ fn warps(count: &mut Count) {
 fn seen(count: &mut Count) {
     let [a, b, c] = [[-0.5, 1.0, -0.5], [0.5, 1.0, -0.5], [-0.5, 1.0, 0.5]].map(Vec3::<X>::from);
     let d = Vec3::from([0.5, 1.0, 0.5]);
-    // of a face of a cube of side 2 half as far: 4 asin(1/5), and half of it
+    // a square of side 1 at distance 1: 4 asin(1/5)
     let square = 4.0 * 0.201_357_92;
     count.warp(SphericalCap::new([0.0, 2.0, 0.0].into(), lit(1.0)), 2.0 * PI * 0.133_974_6);
     count.warp(SphericalTriangle::new(a, b, c), 0.5 * square);
@@ -181,7 +182,7 @@ fn seen(count: &mut Count) {
     count.warp(ProjectedTriangle::new(a, b, c, UP.into()), 0.5 * square);
     count.warp(ProjectedPolygon::new([a, b, d, c], UP.into()), square);
     count.warp(CosineWarped::new(SphericalTriangle::new(a, b, c), UP.into()), 0.5 * square);
-    // of a disk as wide as it is high, 2π(1 − 1/√2)
+    // a disk of radius 1 at distance 1: 2π(1 − 1/√2)
     let down = [0.0, -1.0, 0.0].into();
     count.warp(SphericalDisk::new([0.0, 1.0, 0.0].into(), down, lit(1.0)), 2.0 * PI * 0.292_893_2);
     let (end, edge) = ([-1.0, 2.0, 0.0].into(), [2.0, 0.0, 0.0].into());
@@ -238,53 +239,53 @@ fn lights(count: &mut Count) {
     let o = ORIGIN.into();
     // E = π R²/d²
     let sphere = Sphere { center: [0.0, 2.0, 0.0].into(), radius: lit(1.0) };
-    count.light(0.25 * PI, |u| sphere.by_area(o, u));
-    count.light(0.25 * PI, |u| sphere.by_solid_angle(o, u));
-    count.light(0.25 * PI, |u| sphere.by_projected_solid_angle(o, UP.into(), u));
-    // E = π r²/(h² + r²); one-sided, so that its normal points down
+    count.light(0.25 * PI, |u| sphere.by_area(o).sample(u));
+    count.light(0.25 * PI, |u| sphere.by_solid_angle(o).sample(u));
+    count.light(0.25 * PI, |u| sphere.by_projected_solid_angle(o, UP.into()).sample(u));
+    // E = π r²/(h² + r²); the normal points down because the disk is one-sided
     let disk = Disk { center: [0.0, 1.0, 0.0].into(), normal: [0.0, -1.0, 0.0].into(), radius: lit(1.0) };
-    count.light(0.5 * PI, |u| disk.by_area(o, u));
-    count.light(0.5 * PI, |u| disk.by_solid_angle(o, u));
-    // Lambert: a square of side 1 at the distance 1, and its half
+    count.light(0.5 * PI, |u| disk.by_area(o).sample(u));
+    count.light(0.5 * PI, |u| disk.by_solid_angle(o).sample(u));
+    // Lambert's formula for a square of side 1 at distance 1, and half of it
     let (p, u, v) = ([-0.5, 1.0, -0.5].into(), [1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
     let square = 0.752_274_7;
     let panel = Parallelogram { p, u, v };
-    count.light(square, |u| panel.by_area(o, u));
-    count.light(square, |u| panel.by_solid_angle(o, u));
+    count.light(square, |u| panel.by_area(o).sample(u));
+    count.light(square, |u| panel.by_solid_angle(o).sample(u));
     let rectangle = Rectangle { p, u, v };
-    count.light(square, |u| rectangle.by_area(o, u));
-    count.light(square, |u| rectangle.by_solid_angle(o, u));
-    count.light(square, |u| panel.by_projected_solid_angle(o, UP.into(), u));
-    count.light(square, |u| rectangle.by_cosine_warp(o, UP.into(), u));
+    count.light(square, |u| rectangle.by_area(o).sample(u));
+    count.light(square, |u| rectangle.by_solid_angle(o).sample(u));
+    count.light(square, |u| panel.by_projected_solid_angle(o, UP.into()).sample(u));
+    count.light(square, |u| rectangle.by_cosine_warp(o, UP.into()).sample(u));
     let corners = [p, p + u, p + u + v, p + v];
     let polygon = Polygon { corners };
-    count.light(square, |u| polygon.by_area(o, u));
-    count.light(square, |u| polygon.by_solid_angle(o, u));
-    count.light(square, |u| polygon.by_projected_solid_angle(o, UP.into(), u));
+    count.light(square, |u| polygon.by_area(o).sample(u));
+    count.light(square, |u| polygon.by_solid_angle(o).sample(u));
+    count.light(square, |u| polygon.by_projected_solid_angle(o, UP.into()).sample(u));
     let patch = BilinearPatch { p, u, v, w: u + v };
-    count.light(square, |u| patch.by_area(o, u));
-    // per unit of its width
+    count.light(square, |u| patch.by_area(o).sample(u));
+    // irradiance per unit of width
     let line = Line { p: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
-    count.light(0.431_823_8, |u| line.by_length(o, u.x));
-    count.light(0.431_823_8, |u| line.by_angle(o, u.x));
-    count.light(0.431_823_8, |u| line.by_projected_solid_angle(o, UP.into(), u.x));
+    count.light(0.431_823_8, |u| line.by_length(o).sample(u));
+    count.light(0.431_823_8, |u| line.by_angle(o).sample(u));
+    count.light(0.431_823_8, |u| line.by_projected_solid_angle(o, UP.into()).sample(u));
     let half = Triangle { v0: p, e1: u, e2: v };
-    count.light(0.5 * square, |u| half.by_projected_solid_angle(o, UP.into(), u));
-    count.light(0.5 * square, |u| half.by_cosine_warp(o, UP.into(), u));
-    count.light(0.5 * square, |u| half.by_area(o, u));
-    count.light(0.5 * square, |u| half.by_solid_angle(o, u));
+    count.light(0.5 * square, |u| half.by_projected_solid_angle(o, UP.into()).sample(u));
+    count.light(0.5 * square, |u| half.by_cosine_warp(o, UP.into()).sample(u));
+    count.light(0.5 * square, |u| half.by_area(o).sample(u));
+    count.light(0.5 * square, |u| half.by_solid_angle(o).sample(u));
     let cylinder = Cylinder { p: [-1.0, 2.0, 0.0].into(), axis: [2.0, 0.0, 0.0].into(), radius: lit(0.5) };
-    count.light(0.507_279, |u| cylinder.by_area(o, u));
-    // the lights without a density: radiant intensity, or irradiance, of 1
+    count.light(0.507_279, |u| cylinder.by_area(o).sample(u));
+    // lights without a pdf, of radiant intensity 1 or irradiance 1
     let position = [0.0, 2.0, 0.0].into();
-    count.light(0.25, |_| PointLight { position }.sample(o));
+    count.light(0.25, |u| PointLight { position }.prepare(o).sample(u));
     let spot = SpotLight { position, axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
-    count.light(0.25, |_| spot.sample(o));
-    count.light(1.0, |_| DirectionalLight { direction: UP.into() }.sample());
+    count.light(0.25, |u| spot.prepare(o).sample(u));
+    count.light(1.0, |u| DirectionalLight { direction: UP.into() }.prepare(o).sample(u));
     let sun = Sun { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
-    count.light(0.25 * PI, |u| sun.by_solid_angle(u));
-    count.light(PI, |u| ConstantEnvironment.by_solid_angle(u));
-    count.light(PI, |u| ConstantEnvironment.by_projected_solid_angle(UP.into(), u));
+    count.light(0.25 * PI, |u| sun.by_solid_angle().sample(u));
+    count.light(PI, |u| ConstantEnvironment.by_solid_angle().sample(u));
+    count.light(PI, |u| ConstantEnvironment.by_projected_solid_angle(UP.into()).sample(u));
     let mut buffer = [0.0; ImageEnvironment::buffer(4, 2)];
     let weights = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
     match ImageEnvironment::build(&weights, 4, EnvironmentMap::Equirectangular, &mut buffer) {
@@ -321,7 +322,7 @@ fn estimators(count: &mut Count) {
         welford.push(u.x, lit(1.0 / n));
         reservoir.push(u32x8::splat(n as u32), lit(n), u.y);
     }
-    // a lane has seen a column of the strata: their mean is 1/2, their variance 1/12
+    // each lane has the samples of one column of strata: mean 1/2, variance 1/12
     count
         .check(near(sum(welford.mean) / 8.0, 0.5, 1e-2) && near(sum(welford.variance(lit(n))) / 8.0, 1.0 / 12.0, 5e-2));
     count.check(reservoir.pmf().gt(lit(0.0)).all());

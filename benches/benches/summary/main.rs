@@ -1,9 +1,10 @@
-//! Two tables: time per sample of every routine in f32, f32x4 and f32x8, and how much faster eight lanes are than one; rays per
-//! second on one thread. `cargo bench -p etendue-benches --bench summary -- cone` for some, `-- --markdown` as the README has it;
-//! `-- --instructions` counts instructions instead, which needs Valgrind;
-//! `-- rays --json=FILE` writes the rays to FILE, too (an absolute path).
+//! Two tables: the time per sample of every routine in f32, f32x4 and f32x8, with the speed-up of eight lanes over one; and rays per second
+//! on one thread.
 //!
-//! The median of repetitions that take turns, so that a change of the processor's clock meets all widths alike.
+//! `cargo bench -p etendue-benches --bench summary -- cone` selects routines by name, `-- --markdown` prints the format of the README, `--
+//! --instructions` counts instructions instead (requires Valgrind), `-- rays --json=FILE` also writes the rays to FILE (an absolute path).
+//!
+//! Figures are medians of repetitions. The widths take turns, so that a change of the processor's clock affects all of them alike.
 
 mod instructions;
 
@@ -15,7 +16,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 const REPETITIONS: usize = 31;
-/// Samples in a repetition: a few hundred microseconds.
+/// Calls per repetition, which then takes a few hundred microseconds.
 const CALLS: u32 = 64;
 
 fn nanoseconds(routine: &mut Routine) -> f64 {
@@ -31,7 +32,7 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// The last column is how much less eight lanes take than one.
+/// Prints a row; the last column is the speed-up of eight lanes over one.
 fn row(markdown: bool, name: &str, [one, four, eight]: [f64; 3]) {
     let gain = one / eight;
     if markdown {
@@ -42,7 +43,7 @@ fn row(markdown: bool, name: &str, [one, four, eight]: [f64; 3]) {
 }
 
 fn main() {
-    // cargo itself passes --bench
+    // cargo passes --bench too
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let filter = arguments.iter().find(|a| !a.starts_with('-')).cloned().unwrap_or_default();
     let given = |flag: &str| arguments.iter().any(|a| a == flag);
@@ -83,7 +84,7 @@ fn main() {
     }
 }
 
-/// Hits are told too: they are the same for all ways, but for rays at edges, through which obvhs lets some pass.
+/// Prints the fraction of hits too. It is the same for all ways, except that obvhs lets some rays through at edges.
 fn rays(json: Option<&str>) {
     println!("\n{:32} {:>15} {:>9} {:>9} {:>9}", "million rays/s, median", "obvhs, per ray", "single", "groups", "hit");
     let mut rows = Vec::new();

@@ -1,3 +1,4 @@
+use crate::light::LightSample;
 use crate::real::Real;
 
 /// Multiple importance sampling: how samples of several techniques share one integral.
@@ -69,6 +70,26 @@ impl Heuristic {
         // at least 1 where there is any
         let sum = shares.into_iter().fold(zero, |sum, share| sum + share);
         shares.map(|share| share / R::blend(some, sum, one))
+    }
+
+    /// The weight of a light sample over its pdf, where the surface draws the same direction with pdf `bsdf_pdf`: the estimator of this
+    /// technique is `f · L · cosθ · light_weight`. One sample of each technique; 0 where the sample is not
+    /// [`valid`](LightSample::valid); 1/pdf for delta lights. Both pdfs per steradian.
+    #[inline]
+    pub fn light_weight<R: Real>(self, light: &LightSample<R>, bsdf_pdf: R) -> R {
+        let one = R::lit(1.0);
+        self.weights([technique_pdf(one, light.pdf, light.delta), bsdf_pdf])[0] * light.weight()
+    }
+    /// The weight over its pdf of a direction that the surface drew with pdf `bsdf_pdf`, where it hits the light at `hit`: the estimator of
+    /// this technique is `f · L · cosθ · bsdf_weight`. One sample of each technique; 0 where the light is missed or does not emit that
+    /// way. A `bsdf_pdf` of ∞ (a mirror) has weight 1 and counts as 1.
+    #[inline]
+    pub fn bsdf_weight<R: Real>(self, bsdf_pdf: R, hit: &LightSample<R>) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let drawn = bsdf_pdf.gt(R::lit(1e-37)) & hit.emits & hit.pdf.gt(zero);
+        let mirror = bsdf_pdf.ge(R::lit(f64::INFINITY));
+        let divisor = R::blend(drawn & !mirror, bsdf_pdf, one);
+        (self.weights([bsdf_pdf, hit.pdf])[0] / divisor).keep(drawn)
     }
 }
 

@@ -1,22 +1,9 @@
 use crate::real::{Real, Uint};
 
-/// One candidate of a stream, chosen in proportion to weights that become known one at a time: for lights, or samples of them.
+/// Holds one candidate of a stream, chosen in proportion to weights that arrive one at a time: for lights, or samples of them.
 ///
-/// - Formula: candidate i replaces the one held with probability wᵢ/Σ_{j≤i} wⱼ; at the end each is held with
-///   probability wᵢ/Σw. One uniform number serves the whole stream: what decided is stretched back to [0, 1).
-/// - Domain: weights in [0, ∞); NaN, negative and infinite ones count as 0, and such a candidate is never held.
-/// - Lanes are reservoirs of their own.
-/// - Precision: `u` has 24 bits, and the stretching leaves fewer for what comes after: each candidate's frequency is
-///   within some 2⁻²⁴ of its probability for each candidate of the stream. Push a fresh `u` now and then for long streams.
-/// - Source: Chao 1982; Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", EGSR 2005; Ogaki 2021 for
-///   the reuse of u; Wyman and Panteleev 2021.
-///
-/// Two uses:
-/// 1. *Choice of a light* by a bound of its contribution: the weight is the bound, [`probability`](Reservoir::pmf) is the
-///    probability of the one held, to divide by.
-/// 2. *Resampled importance sampling*: candidates xᵢ come from densities pᵢ, weights are mᵢ·p̂(xᵢ)/pᵢ with MIS weights mᵢ (1/M of M
-///    candidates from one density); the sample held is worth f·[`contribution`](Reservoir::contribution)(p̂) without bias where p̂ > 0
-///    wherever f ≠ 0.
+/// Start from `Reservoir::default()`, `push` each candidate, then read `held` and [`pmf`](Reservoir::pmf). Lanes are
+/// independent reservoirs. A weight that is negative, infinite or NaN counts as 0; without a positive weight, the pmf is 0.
 ///
 /// ```
 /// use etendue::estimate::Reservoir;
@@ -29,13 +16,30 @@ use crate::real::{Real, Uint};
 /// assert_eq!(lights.pmf(), [3.0, 0.0, 1.0, 4.0][lights.held as usize] / 8.0);
 /// assert!((0.0..1.0).contains(&u));
 /// ```
+///
+/// It has two uses:
+/// 1. *Choice of a light* by a bound of its contribution: the weight is the bound, and the estimate is divided by the
+///    [`pmf`](Reservoir::pmf) of the light held.
+/// 2. *Resampled importance sampling*: candidates xᵢ come from pdfs pᵢ, and weights are mᵢ·p̂(xᵢ)/pᵢ with MIS weights mᵢ (1/M
+///    for M candidates from one pdf). The estimate from the sample held is f·[`contribution`](Reservoir::contribution)(p̂),
+///    unbiased if p̂ > 0 wherever f ≠ 0.
+///
+/// - Formula: candidate i replaces the one held with probability wᵢ/Σ_{j≤i} wⱼ, so that at the end each is held with
+///   probability wᵢ/Σw. One uniform number serves the whole stream: the part of it that the decision leaves is stretched back
+///   to [0, 1).
+/// - Domain: weights in [0, ∞) in any unit; u in [0, 1).
+/// - Degenerate input: NaN, negative and infinite weights count as 0, and such a candidate is never held.
+/// - Greatest error: `u` has 24 bits, and each stretch leaves fewer, so each candidate's frequency is within about 2⁻²⁴ of its
+///   probability per candidate of the stream. For a long stream, push a fresh `u` now and then.
+/// - Source: Chao 1982; Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", EGSR 2005; Ogaki 2021 for
+///   the reuse of u; Wyman and Panteleev 2021.
 #[derive(Clone, Copy, Debug)]
 pub struct Reservoir<R: Real> {
-    /// The candidate held; 0 if there was none of positive weight.
+    /// The candidate held, as pushed; 0 if none had a positive weight.
     pub held: R::Uint,
-    /// Its weight.
+    /// Weight of the candidate held: ≥ 0, in the unit of the weights.
     pub weight: R,
-    /// Sum of the weights of all candidates.
+    /// Sum of the weights of all candidates so far: ≥ 0, at most `f32::MAX`.
     pub sum: R,
 }
 
@@ -47,7 +51,8 @@ impl<R: Real> Default for Reservoir<R> {
 }
 
 impl<R: Real> Reservoir<R> {
-    /// Offers a candidate. `u` in [0, 1); returns what is left of it, uniform again and independent of the decision.
+    /// Offers a candidate with its weight and a `u` in [0, 1). Returns what is left of `u`: uniform again, and independent of
+    /// the decision.
     #[inline]
     pub fn push(&mut self, candidate: R::Uint, weight: R, u: R) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -69,8 +74,8 @@ impl<R: Real> Reservoir<R> {
     pub fn pmf(&self) -> R {
         self.weight / R::blend(self.sum.gt(R::lit(0.0)), self.sum, R::lit(1.0))
     }
-    /// What stands for 1/pdf of a resampled sample: Σweights/target, where `target` is p̂ of the sample held; 0 where
-    /// it is 0.
+    /// The unbiased contribution weight, which replaces 1/pdf for a resampled sample: Σweights/target, where `target` is p̂ of
+    /// the sample held; 0 where that is 0.
     #[inline]
     #[must_use]
     pub fn contribution(&self, target: R) -> R {

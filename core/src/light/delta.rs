@@ -1,47 +1,93 @@
-//! Lights in one direction only. They have no density, so their `pdf` is what the estimator divides by: f·I·cosθ/pdf with the
-//! intensity I (or the irradiance of a directional light) in the place of the radiance. It is no density and never part of MIS.
+//! Lights that reach a point from one direction only.
 
-use super::{FAR, LightSample, direction_to};
+use super::sample::{FAR, LightSample, direction_to};
+use super::sampler::LightSampler;
 use crate::lanewise::lanewise;
 use crate::real::{Mask, Real};
 use crate::spherical::DirectionSample;
-use crate::vector::Vec3;
+use crate::vector::{Vec2, Vec3};
 
-/// Square of a distance, where it is finite and not 0.
+/// distance², where that is finite and not 0.
 #[inline(always)]
 fn inverse_square<R: Real>(distance: R) -> R {
     let squared = distance * distance;
     squared.keep(squared.lt(R::lit(1e37)))
 }
 
+#[inline(always)]
+fn delta<R: Real>(DirectionSample { direction, distance }: DirectionSample<R>, pdf: R) -> LightSample<R> {
+    let (emits, delta) = (pdf.gt(R::lit(0.0)), R::Mask::splat(true));
+    LightSample { distance, pdf, emits, delta, ..LightSample::miss(direction) }
+}
+
+/// A light of one direction, prepared for a shading point: every `u` gives the same sample, and no other technique hits it.
+#[derive(Clone, Copy, Debug)]
+pub struct DeltaSampler<R: Real> {
+    origin: Vec3<R>,
+    sample: LightSample<R>,
+}
+
+impl<R: Real> LightSampler<R> for DeltaSampler<R> {
+    #[inline(always)]
+    fn sample(&self, _: Vec2<R>) -> LightSample<R> {
+        self.sample
+    }
+    /// 0: a delta light has no density.
+    #[inline(always)]
+    fn pdf(&self, _: Vec3<R>) -> R {
+        R::lit(0.0)
+    }
+    #[inline(always)]
+    fn invert(&self, _: Vec3<R>) -> Vec2<R> {
+        Vec2::lit([0.0, 0.0])
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        LightSample::miss(w)
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+}
+
 lanewise! {
-    /// A point that emits the same intensity in all directions.
+    /// A point light that emits the same intensity in all directions.
+    ///
+    /// The estimator is `f · I · cosθ · weight()` with the intensity I in the place of the radiance, and weight 1 in multiple importance
+    /// sampling. A shading point on the light gives pdf 0.
     pub struct PointLight {
-        /// Where.
+        /// Position, in the coordinates of the scene.
         pub position: Vec3<R>,
     }
 }
 
 impl<R: Real> PointLight<R> {
-    /// The one direction: with `pdf` = distance², f·I·cosθ/pdf is what arrives of the intensity I. At the point itself `pdf` is 0.
+    /// The point light at this position.
     #[inline(always)]
-    pub fn sample(&self, p: Vec3<R>) -> LightSample<R> {
-        let DirectionSample { direction, distance } = direction_to(self.position - p);
-        let pdf = inverse_square(distance);
-        LightSample { direction, distance, pdf, emits: pdf.gt(R::lit(0.0)), delta: R::Mask::splat(true) }
+    pub fn new(position: Vec3<R>) -> Self {
+        Self { position }
+    }
+    /// Prepared for the shading point `p`. `pdf` is distance², which is no density: it makes f·I·cosθ/pdf what arrives.
+    #[inline(always)]
+    pub fn prepare(&self, p: Vec3<R>) -> DeltaSampler<R> {
+        let to = direction_to(self.position - p);
+        DeltaSampler { origin: p, sample: delta(to, inverse_square(to.distance)) }
     }
 }
 
 lanewise! {
-    /// A point that emits into a cone, with full intensity near its axis.
+    /// A point light that emits into a cone, with full intensity near its axis.
+    ///
+    /// The estimator is that of the [`PointLight`], with the intensity on the axis. Outside the cone `emits` is false and `pdf` 0.
     pub struct SpotLight {
-        /// Where.
+        /// Position, in the coordinates of the scene.
         pub position: Vec3<R>,
         /// Unit vector along which the light travels.
         pub axis: Vec3<R>,
         /// Cosine of the angle up to which the intensity is full.
         pub cos_inner: R,
-        /// Cosine of the angle from which it is 0; below `cos_inner`.
+        /// Cosine of the angle from which it is 0; less than `cos_inner`.
         pub cos_outer: R,
     }
 }
@@ -58,21 +104,21 @@ impl<R: Real> SpotLight<R> {
         let t = ((cos - self.cos_outer) / R::blend(soft, width, one)).clamped(zero, one);
         R::blend(soft, t * t * (R::lit(3.0) - (t + t)), one.keep(cos.ge(self.cos_inner)))
     }
-    /// The one direction: with `pdf` = distance²/falloff, f·I·cosθ/pdf is what arrives of the intensity I on the axis. Outside the cone
-    /// `emits` is false and `pdf` 0.
+    /// Prepared for the shading point `p`. `pdf` is distance²/falloff, which is no density: it makes f·I·cosθ/pdf what arrives.
     #[inline(always)]
-    pub fn sample(&self, p: Vec3<R>) -> LightSample<R> {
-        let DirectionSample { direction, distance } = direction_to(self.position - p);
-        let falloff = self.falloff(-direction);
+    pub fn prepare(&self, p: Vec3<R>) -> DeltaSampler<R> {
+        let to = direction_to(self.position - p);
+        let falloff = self.falloff(-to.direction);
         let some = falloff.gt(R::lit(0.0));
-        let pdf = inverse_square(distance) / R::blend(some, falloff, R::lit(1.0));
-        let pdf = pdf.keep(some & pdf.lt(R::lit(1e37)));
-        LightSample { direction, distance, pdf, emits: pdf.gt(R::lit(0.0)), delta: R::Mask::splat(true) }
+        let pdf = inverse_square(to.distance) / R::blend(some, falloff, R::lit(1.0));
+        DeltaSampler { origin: p, sample: delta(to, pdf.keep(some & pdf.lt(R::lit(1e37)))) }
     }
 }
 
 lanewise! {
-    /// Parallel light from far away.
+    /// Parallel light from infinitely far away.
+    ///
+    /// The estimator is `f · E · cosθ · weight()` with the irradiance E on a receiver that faces the light in the place of the radiance.
     pub struct DirectionalLight {
         /// Unit vector towards the light.
         pub direction: Vec3<R>,
@@ -80,15 +126,15 @@ lanewise! {
 }
 
 impl<R: Real> DirectionalLight<R> {
-    /// The one direction: with `pdf` = 1, f·E·cosθ/pdf is what arrives of the irradiance E on a receiver that faces the light.
+    /// The light from this unit direction.
     #[inline(always)]
-    pub fn sample(&self) -> LightSample<R> {
-        LightSample {
-            direction: self.direction,
-            distance: R::lit(FAR),
-            pdf: R::lit(1.0),
-            emits: R::Mask::splat(true),
-            delta: R::Mask::splat(true),
-        }
+    pub fn new(direction: Vec3<R>) -> Self {
+        Self { direction }
+    }
+    /// Prepared for any shading point `p`. `pdf` is 1.
+    #[inline(always)]
+    pub fn prepare(&self, p: Vec3<R>) -> DeltaSampler<R> {
+        let to = DirectionSample { direction: self.direction, distance: R::lit(FAR) };
+        DeltaSampler { origin: p, sample: delta(to, R::lit(1.0)) }
     }
 }

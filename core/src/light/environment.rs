@@ -1,6 +1,8 @@
 //! Light from all around as an image tells it.
 
-use super::{LightSample, distant::distant};
+use super::distant::{distant, met};
+use super::sample::LightSample;
+use super::sampler::LightSampler;
 use crate::discrete::{PiecewiseConstant2d, TableError, locate, place};
 use crate::math::atan2_turns;
 use crate::real::{GREATEST, Real, unit_interval};
@@ -71,15 +73,15 @@ pub struct EnvironmentSample<R: Real> {
 ///
 /// ```
 /// use etendue::light::{EnvironmentMap, ImageEnvironment};
-/// use etendue::{Vec2, Vec3, Warp};
+/// use etendue::{LightSampler, Vec2, Vec3};
 /// // dark but for the quarter of the upper half that is next to +x, +y
 /// let weights = [3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 /// let mut buffer = [0.0; ImageEnvironment::buffer(4, 2)];
 /// let sky = ImageEnvironment::build(&weights, 4, EnvironmentMap::Equirectangular, &mut buffer).unwrap();
-/// let s = sky.by_radiance(Vec2::new(0.3_f32, 0.6));
+/// let s = sky.by_radiance().sample(Vec2::new(0.3_f32, 0.6));
 /// assert!(s.direction.x > 0.0 && s.direction.y > 0.0 && s.direction.z > 0.0);
 /// assert!((s.pdf * core::f32::consts::FRAC_PI_2 - 1.0).abs() < 1e-6);
-/// assert_eq!(sky.pdf(Vec3::new(0.0_f32, -0.6, 0.8)), 0.0);
+/// assert_eq!(sky.by_radiance().pdf(Vec3::new(0.0_f32, -0.6, 0.8)), 0.0);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ImageEnvironment<'a> {
@@ -142,24 +144,29 @@ impl<'a> ImageEnvironment<'a> {
         let cell = self.table.cell(u);
         let texel = Texel { x: cell.x, y: cell.y, offset: cell.offset };
         let pdf = self.texel_pdf(cell.pmf, cell.y);
-        EnvironmentSample { light: distant(self.direction(&texel), pdf), x: cell.x, y: cell.y }
+        let uv = self.place(&texel);
+        EnvironmentSample { light: distant(self.direction(&texel), pdf, uv), x: cell.x, y: cell.y }
     }
-    /// A direction in proportion to the weights.
+    /// Directions in proportion to the weights, as a [`LightSampler`].
     #[inline(always)]
-    pub fn by_radiance<R: Real>(&self, u: Vec2<R>) -> LightSample<R> {
-        self.draw(u).light
+    #[must_use]
+    pub const fn by_radiance(&self) -> ByRadiance<'a> {
+        ByRadiance { environment: *self }
     }
 
+    /// Position of a texel in the image, in [0, 1]².
+    #[inline(always)]
+    fn place<R: Real>(&self, texel: &Texel<R>) -> Vec2<R> {
+        let [w, h] = self.counts();
+        Vec2::new(place(texel.x, texel.offset.x, w), place(texel.y, texel.offset.y, h))
+    }
     /// The direction of a position in a texel.
     #[inline(always)]
     pub fn direction<R: Real>(&self, texel: &Texel<R>) -> Vec3<R> {
-        let [w, h] = self.counts();
         match self.map {
-            EnvironmentMap::EqualArea => {
-                Octahedral.sample(Vec2::new(place(texel.x, texel.offset.x, w), place(texel.y, texel.offset.y, h)))
-            }
+            EnvironmentMap::EqualArea => Octahedral.sample(self.place(texel)),
             EnvironmentMap::Equirectangular => {
-                let (one, two) = (R::lit(1.0), R::lit(2.0));
+                let (one, two, [w, _]) = (R::lit(1.0), R::lit(2.0), self.counts());
                 let ring = self.ring::<R>(texel.y);
                 let within = R::blend(ring.lower, one - texel.offset.y, texel.offset.y);
                 let k = within.mul_add(ring.height, ring.start).lesser(two);
@@ -242,5 +249,37 @@ impl<R: Real> Warp<R> for ImageEnvironment<'_> {
     fn invert(&self, direction: Vec3<R>) -> Vec2<R> {
         let texel = self.texel(direction);
         self.table.invert_cell(texel.x, texel.y, texel.offset)
+    }
+}
+
+/// An [`ImageEnvironment`] as a [`LightSampler`], the same for all shading points. Surface coordinates: the position in the image.
+///
+/// Its samples report the pdf of the texel in which their direction lies, which may be the neighbour of the texel that was drawn for the
+/// 6e−7 of the directions next to an edge. [`ImageEnvironment::draw`] returns the drawn texel and its pdf instead.
+#[derive(Clone, Copy, Debug)]
+pub struct ByRadiance<'a> {
+    environment: ImageEnvironment<'a>,
+}
+
+impl<R: Real> LightSampler<R> for ByRadiance<'_> {
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        self.hit(self.environment.sample(u))
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.environment.pdf(w)
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.environment.invert(w)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        met(w, self.pdf(w), self.environment.place(&self.environment.texel(w)))
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        Vec3::lit([0.0; 3])
     }
 }

@@ -1,17 +1,22 @@
-use super::{LightSample, direction_to};
+//! Line lights.
+
+use super::sample::{LightSample, direction_to};
+use super::sampler::LightSampler;
+use super::surface::quotient;
 use crate::lanewise::lanewise;
-use crate::real::{Mask, Real};
-use crate::spherical::{DirectionSample, ProjectedSegment, SphericalSegment};
-use crate::vector::Vec3;
+use crate::real::{Mask, Real, unit_interval};
+use crate::spherical::{DirectionSample, ProjectedSegment, SphericalSegment, to_unit};
+use crate::vector::{Vec2, Vec3};
 
 lanewise! {
-    /// A line light: a cylinder so thin that only its width times its radiance counts, which emits to all sides.
+    /// A line light: a cylinder so thin that only its width times its radiance counts, which emits in all directions.
     ///
-    /// Its samples take one number. `pdf` is the density in the measure of what a unit of width is seen under, sinγ ds/r² (γ from the
-    /// line, s along it: steradians per unit of width), so that the estimator is `f · L · width · cosθ / pdf`. Techniques of this
-    /// light compare by it. No direction drawn otherwise can hit the light, so `delta` holds.
+    /// Its samplers use `u.x` alone. Their pdf is in the measure sinγ ds/r² (γ from the line, s along it: steradians per unit of width), so
+    /// that the estimator is `f · L · width · cosθ · weight()`; it compares techniques of this light with each other. No other technique
+    /// can hit the line, so `delta` holds and [`hit`](LightSampler::hit) always misses. A line of length 0, or a point on the line,
+    /// gives pdf 0. Surface coordinates: the part of the length, and 0.
     pub struct Line {
-        /// One end.
+        /// One end, in the coordinates of the scene.
         pub p: Vec3<R>,
         /// From there to the other end.
         pub edge: Vec3<R>,
@@ -19,36 +24,154 @@ lanewise! {
 }
 
 impl<R: Real> Line<R> {
-    /// Uniform over the length. pdf = r²/(length · sinγ): density 1/length per unit of length.
-    ///
-    /// Degenerate: a length of 0, a point on the line: pdf 0.
+    /// The line from `p` to `p + edge`.
     #[inline(always)]
-    pub fn by_length(&self, p: Vec3<R>, u: R) -> LightSample<R> {
-        let DirectionSample { direction, distance } = direction_to(self.edge.mul_add(u, self.p - p));
-        let scale = self.edge.max_abs().pow2_scale();
-        let across = direction.cross(self.edge * scale).length() / scale;
-        sample(DirectionSample { direction, distance }, super::solid_angle_pdf(distance, across))
+    pub fn new(p: Vec3<R>, edge: Vec3<R>) -> Self {
+        Self { p, edge }
     }
-    /// Uniform over the angle, [`SphericalSegment`]: better than by length wherever the point is near. pdf = r/α: density 1/α per
-    /// radian.
+    /// Uniform over the length, seen from the point `p`: density 1/length per unit of length, pdf r²/(length · sinγ).
     #[inline(always)]
-    pub fn by_angle(&self, p: Vec3<R>, u: R) -> LightSample<R> {
-        let seen = SphericalSegment::new(self.p - p, self.edge);
-        let sighting = seen.sample_direction(u);
-        sample(sighting, seen.uniform_pdf() * sighting.distance)
+    pub fn by_length(&self, p: Vec3<R>) -> LineByLength<R> {
+        LineByLength { line: PlacedLine::new(p, self.p - p, self.edge) }
     }
-    /// By projected solid angle above the horizon of `normal`, [`ProjectedSegment`]: on an unoccluded diffuse surface every sample is
-    /// worth the same. pdf 0 where nothing of the line is above the horizon.
+    /// Uniform over the angle α that the line subtends at the point `p`, [`SphericalSegment`]: better than by length wherever the point is
+    /// near. Density 1/α per radian, pdf r/α.
     #[inline(always)]
-    pub fn by_projected_solid_angle(&self, p: Vec3<R>, normal: Vec3<R>, u: R) -> LightSample<R> {
-        let seen = ProjectedSegment::new(self.p - p, self.edge, normal);
-        let sighting = seen.sample_direction(u);
-        sample(sighting, seen.pdf(sighting.direction) * sighting.distance)
+    pub fn by_angle(&self, p: Vec3<R>) -> LineByAngle<R> {
+        LineByAngle {
+            line: PlacedLine::new(p, self.p - p, self.edge),
+            arc: SphericalSegment::new(self.p - p, self.edge),
+        }
+    }
+    /// By projected solid angle above the horizon of the unit normal `n` at the point `p`, [`ProjectedSegment`]: on an unoccluded diffuse
+    /// surface every sample has the same value. pdf 0 where nothing of the line is above the horizon.
+    #[inline(always)]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> LineByProjectedSolidAngle<R> {
+        let arc = ProjectedSegment::new(self.p - p, self.edge, n);
+        LineByProjectedSolidAngle { line: PlacedLine::new(p, self.p - p, self.edge), arc }
     }
 }
 
+lanewise! {
+    /// A line relative to the shading point.
+    pub struct PlacedLine {
+        origin: Vec3<R>,
+        end: Vec3<R>,
+        edge: Vec3<R>,
+        /// Unit vector at right angles from the shading point to the line, and the distance along it.
+        foot: Vec3<R>,
+        height: R,
+        length: R,
+    }
+}
+
+impl<R: Real> PlacedLine<R> {
+    #[inline(always)]
+    fn new(origin: Vec3<R>, end: Vec3<R>, edge: Vec3<R>) -> Self {
+        let ([a, e], scale) = to_unit([end, edge]);
+        let (along, length) = e.unit_and_length();
+        let (across, area) = a.cross(e).unit_and_length();
+        let height = quotient(area, length) / scale;
+        Self { origin, end, edge, foot: along.cross(across), height, length: length / scale }
+    }
+    /// Distance to the line in a direction of the plane through it, and the sine of the angle between both.
+    #[inline(always)]
+    fn reach(&self, w: Vec3<R>) -> (R, R) {
+        let sine = w.dot(self.foot);
+        (quotient(self.height, sine).greater(R::lit(0.0)), sine)
+    }
+    #[inline(always)]
+    fn sample(&self, DirectionSample { direction, distance }: DirectionSample<R>, pdf: R) -> LightSample<R> {
+        let offset = (direction * distance - self.end).dot(self.edge * (R::lit(1.0) / self.scale()));
+        let along = quotient(offset, self.length * (self.length / self.scale()));
+        LightSample {
+            direction,
+            distance,
+            pdf,
+            normal: -self.foot,
+            uv: Vec2::new(along.clamped(R::lit(0.0), R::lit(1.0)), R::lit(0.0)),
+            emits: pdf.gt(R::lit(0.0)),
+            delta: R::Mask::splat(true),
+        }
+    }
+    #[inline(always)]
+    fn scale(&self) -> R {
+        R::lit(1.0) / self.length.pow2_scale()
+    }
+}
+
+/// A pdf where it is finite, 0 elsewhere.
 #[inline(always)]
-fn sample<R: Real>(DirectionSample { direction, distance }: DirectionSample<R>, pdf: R) -> LightSample<R> {
-    let pdf = pdf.keep(pdf.lt(R::lit(1e37)));
-    LightSample { direction, distance, pdf, emits: pdf.gt(R::lit(0.0)), delta: R::Mask::splat(true) }
+fn finite<R: Real>(pdf: R) -> R {
+    pdf.keep(pdf.lt(R::lit(1e37)))
+}
+
+macro_rules! line_sampler {
+    ($(#[$doc:meta])* $name:ident $({ $arc:ident: $kind:ident })?, |$this:ident, $u:ident| $draw:expr, |$self:ident, $w:ident| $pdf:expr, $invert:expr) => {
+        lanewise! {
+            $(#[$doc])*
+            pub struct $name {
+                line: PlacedLine<R>,
+                $($arc: $kind<R>,)?
+            }
+        }
+        impl<R: Real> LightSampler<R> for $name<R> {
+            #[inline(always)]
+            fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+                let ($this, $u) = (self, u.x);
+                let drawn = $draw;
+                self.line.sample(drawn, self.pdf(drawn.direction))
+            }
+            #[inline(always)]
+            fn pdf(&self, w: Vec3<R>) -> R {
+                let ($self, $w) = (self, w);
+                finite($pdf)
+            }
+            #[inline(always)]
+            fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+                let ($self, $w) = (self, w);
+                Vec2::new(unit_interval($invert), R::lit(0.0))
+            }
+            #[inline(always)]
+            fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+                LightSample::miss(w)
+            }
+            #[inline(always)]
+            fn origin(&self) -> Vec3<R> {
+                self.line.origin
+            }
+        }
+    };
+}
+line_sampler!(
+    /// A [`Line`] sampled by length from a point.
+    LineByLength,
+    |s, u| direction_to(s.line.edge.mul_add(u, s.line.end)),
+    |s, w| {
+        let (distance, sine) = s.line.reach(w);
+        super::sample::solid_angle_pdf(distance, sine * s.line.length)
+    },
+    s.line.sample(DirectionSample { direction: w, distance: s.line.reach(w).0 }, R::lit(0.0)).uv.x
+);
+line_sampler!(
+    /// A [`Line`] sampled by angle from a point.
+    LineByAngle { arc: SphericalSegment },
+    |s, u| s.arc.sample_direction(u),
+    |s, w| s.arc.pdf(w) * s.line.reach(w).0,
+    s.arc.invert(w)
+);
+line_sampler!(
+    /// A [`Line`] sampled by projected solid angle from a point on a surface.
+    LineByProjectedSolidAngle { arc: ProjectedSegment },
+    |s, u| s.arc.sample_direction(u),
+    |s, w| s.arc.pdf(w) * s.line.reach(w).0,
+    s.arc.invert(w)
+);
+
+impl<R: Real> LineByAngle<R> {
+    /// The angle α that the line subtends, in radians.
+    #[inline(always)]
+    pub fn angle(&self) -> R {
+        self.arc.angle()
+    }
 }

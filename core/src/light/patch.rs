@@ -1,13 +1,18 @@
-use super::{LightSample, finite_by_area};
+//! Bilinear patches.
+
+use super::sampler::ByArea;
+use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint, quotient};
 use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{PatchSurface, Warp};
 
 lanewise! {
-    /// A bilinear patch p + su + tv + st(w − u − v), s and t in [0, 1], that emits on the side of ∂s×∂t.
+    /// A bilinear patch light p + su + tv + st(w − u − v), s and t in [0, 1], that emits from the side of ∂s×∂t.
+    ///
+    /// It is sampled by area only. A patch without area gives pdf 0. Surface coordinates: (s, t).
     pub struct BilinearPatch {
-        /// Corner.
+        /// Corner, in the coordinates of the scene.
         pub p: Vec3<R>,
         /// From there to the next corner, s = 1.
         pub u: Vec3<R>,
@@ -19,17 +24,119 @@ lanewise! {
 }
 
 impl<R: Real> BilinearPatch<R> {
-    /// Nearly uniform over the surface, [`PatchSurface`], with the density as it is. pdf = distance²/|cosθ'| times that.
+    /// The patch with the corners p, p + u, p + v and p + w, the last opposite to the first.
     #[inline(always)]
-    pub fn by_area(&self, p: Vec3<R>, u: Vec2<R>) -> LightSample<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, w: Vec3<R>) -> Self {
+        Self { p, u, v, w }
+    }
+    /// Nearly uniform over the surface, seen from the point `p`: [`PatchSurface`]. The pdf is exact for that map: its pdf per unit area
+    /// times distance²/|cosθ'|. The pdf of a direction is that of the nearest point in it.
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>) -> PatchByArea<R> {
         let surface = PatchSurface { p: self.p - p, u: self.u, v: self.v, w: self.w };
-        let parameters = surface.parameters();
-        let st = parameters.sample(u);
-        let density = parameters.pdf(st);
-        let some = density.gt(zero);
-        let part = (one / R::blend(some, density, one)).keep(some);
+        ByArea { origin: p, surface: PlacedPatch { surface } }
+    }
+}
+
+/// A [`BilinearPatch`] sampled by area from a point.
+pub type PatchByArea<R> = ByArea<R, PlacedPatch<R>>;
+
+lanewise! {
+    /// A bilinear patch relative to the shading point. Its surface coordinates are (s, t).
+    pub struct PlacedPatch {
+        surface: PatchSurface<R>,
+    }
+}
+
+impl<R: Real> PlacedPatch<R> {
+    /// (s, t) of the nearest point in the direction `ray` and its distance, in [0, 1]² where the ray hits; and whether it does.
+    ///
+    /// The line of constant s that meets the ray makes the plane through both contain the shading point: a quadratic equation in s
+    /// (Pharr, Jakob and Humphreys, PBR 4th ed., 6.6.1).
+    #[inline(always)]
+    fn meet(&self, ray: Vec3<R>) -> (Vec2<R>, R, R::Mask) {
+        let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
+        let PatchSurface { p, u, v, w } = self.surface;
+        let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs()).greater(w.max_abs());
+        let finite = reach.lt(R::lit(1e37));
+        let scale = reach.pow2_scale();
+        let [p, u, v, w] = [p, u, v, w].map(|e| e.keep(finite) * scale);
+        let twist = (w - u) - v;
+        let (a, b, c) = (ray.dot(u.cross(twist)), ray.dot(p.cross(twist) + u.cross(v)), ray.dot(p.cross(v)));
+        let root = (b * b - R::lit(4.0) * a * c).greater(zero).sqrt();
+        let sum = b + root.copysign(b);
+        let size = p.max_abs() + one;
+        let candidate = |s: R| {
+            let (start, line) = (u.mul_add(s, p), twist.mul_add(s, v));
+            let across = ray.cross(line);
+            let t = quotient(-ray.cross(start).dot(across), across.length_squared());
+            let distance = ray.dot(line.mul_add(t, start));
+            // by as much as a direction is rounded, over the lengths of both lines
+            let slack = |length: R| R::lit(SLACK) * quotient(size, length).lesser(R::lit(1e3));
+            let beyond = |x: R| (x - x.clamped(zero, one)).abs();
+            let other = twist.mul_add(t.clamped(zero, one), u);
+            let inside = beyond(s).le(slack(ray.cross(other).length())) & beyond(t).le(slack(across.length()));
+            (Vec2::new(s.clamped(zero, one), t.clamped(zero, one)), distance, inside & distance.gt(zero) & finite)
+        };
+        let first = candidate(quotient(R::lit(-2.0) * c, sum));
+        let second = candidate(quotient(-half * sum, a));
+        let take = second.2 & (!first.2 | second.1.lt(first.1));
+        let st = Vec2::blend(take, second.0, first.0);
+        (st, R::blend(take, second.1, first.1) / scale, first.2 | second.2)
+    }
+}
+
+impl<R: Real> Surface<R> for PlacedPatch<R> {
+    #[inline(always)]
+    fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
+        let (uv, distance, hit) = self.meet(w);
+        let distance = distance.keep(hit).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));
+        SurfaceHit { distance, normal: self.surface.normal(uv).unit_and_length().0, uv }
+    }
+}
+
+impl<R: Real> AreaSurface<R> for PlacedPatch<R> {
+    const FLAT: bool = false;
+    #[inline(always)]
+    fn draw(&self, u: Vec2<R>) -> SurfacePoint<R> {
+        let uv = self.surface.parameters().sample(u);
+        let position = self.surface.p + self.surface.offset(uv);
+        let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
+        let finite = below(position.x) & below(position.y) & below(position.z);
+        let normal = self.surface.normal(uv).unit_and_length().0;
+        SurfacePoint {
+            position: position.keep(finite),
+            normal: normal.keep(finite),
+            uv,
+            inverse_pdf: self.inverse_pdf(uv),
+        }
+    }
+    #[inline(always)]
+    fn inverse_pdf(&self, uv: Vec2<R>) -> R {
         // |∂s×∂t| over the density of (s, t) is what a flat light has for its area
-        finite_by_area(surface.p + surface.offset(st), surface.normal(st) * part)
+        let pdf = self.surface.parameters().pdf(uv);
+        let some = pdf.gt(R::lit(0.0));
+        let length = self.surface.normal(uv).unit_and_length().1;
+        (length / R::blend(some, pdf, R::lit(1.0))).keep(some & length.lt(R::lit(1e37)))
+    }
+    #[inline(always)]
+    fn contains(&self, w: Vec3<R>) -> R::Mask {
+        self.meet(w).2
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.surface.parameters().invert(self.meet(w).0)
+    }
+    /// By the rule of Gauss with three by three points: exact for a flat patch.
+    #[inline(always)]
+    fn area(&self) -> R {
+        let nodes = [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+        let mut sum = R::lit(0.0);
+        for (s, a) in nodes {
+            for (t, b) in nodes {
+                sum += R::lit(a * b) * self.surface.normal(Vec2::lit([s, t])).unit_and_length().1;
+            }
+        }
+        sum
     }
 }

@@ -84,21 +84,21 @@ macro_rules! packet_mask {
     };
 }
 packet_mask!(
-    /// Mask of [`f32x4`].
+    /// The [`Mask`] of [`f32x4`].
     MaskX4, f32x4, |bits| {
         let each = u32x4::new([1, 2, 4, 8]);
         f32x4::from_bits((u32x4::splat(bits) & each).simd_eq(each))
     }
 );
 packet_mask!(
-    /// Mask of [`f32x8`].
+    /// The [`Mask`] of [`f32x8`].
     MaskX8, f32x8, |bits| {
         let each = u32x8::new([1, 2, 4, 8, 16, 32, 64, 128]);
         f32x8::from_bits((u32x8::splat(bits) & each).simd_eq(each))
     }
 );
 packet_mask!(
-    /// Mask of [`f64x4`].
+    /// The [`Mask`] of [`f64x4`].
     MaskF64X4, f64x4, |bits| {
         f64x4::new(core::array::from_fn(|i| f64::from_bits(if bits >> i & 1 == 1 { u64::MAX } else { 0 })))
     }

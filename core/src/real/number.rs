@@ -16,7 +16,7 @@ fn dekker<R: Real>(a: R, b: R, p: R, splitter: f64) -> R {
     ((ah * bh - p) + ah * bl + al * bh) + al * bl
 }
 
-/// What scalars and packets share: everything that is the same expression on both.
+/// What scalars and packets express alike.
 macro_rules! shared {
     ($splitter:expr) => {
         #[inline(always)]
@@ -29,7 +29,7 @@ macro_rules! shared {
     };
 }
 
-/// Transcendentals of single precision: own polynomials, in [`crate::math`].
+/// Transcendental functions of single precision: the polynomials of [`crate::math`].
 macro_rules! polynomials {
     () => {
         #[inline(always)]
@@ -58,7 +58,7 @@ macro_rules! polynomials {
         }
         #[inline(always)]
         fn cbrt(self) -> Self {
-            // a third of the exponent, and nearly of the mantissa: x^(-1/3) within 3.5 %
+            // a third of the exponent and nearly a third of the mantissa: x^(-1/3) within 3.5 %
             let bits = Self::from_uint(self.to_bits());
             let guess = (Self::lit(1_419_916_083.0) - bits * Self::lit(1.0 / 3.0)).to_uint();
             crate::math::cbrt_f32(self, Self::from_bits(guess))
@@ -74,7 +74,8 @@ macro_rules! polynomials {
     };
 }
 
-/// Transcendentals of double precision: `libm`, lane by lane. This precision is the oracle of the other, not the fast one.
+/// Transcendental functions of double precision: `libm`, lane by lane. This precision is the reference for the other, not the
+/// fast path.
 macro_rules! lane_by_lane {
     () => {
         #[inline(always)]
@@ -123,8 +124,8 @@ macro_rules! lane_by_lane {
         }
         #[inline(always)]
         fn normal_quantile(self) -> Self {
-            // the polynomial of single precision, and one step of Halley, which cubes its error; below the median, where
-            // Φ keeps its digits
+            // the polynomial of single precision, then one step of Halley's method, which cubes its error; below the median,
+            // where Φ keeps its digits
             let half = Self::lit(0.5);
             let above = self.gt(half);
             let lower = <Self as Real>::blend(above, Self::lit(1.0) - self, self);
@@ -315,7 +316,7 @@ macro_rules! packet_real {
             fn negate_where(self, mask: $mask) -> Self {
                 self ^ (mask.0 & $packet::splat(-0.0))
             }
-            // On x86 `fast_min` is minps: `a < b ? a : b`, as the scalar; other targets differ for NaN and ±0.
+            // on x86, `fast_min` is minps: `a < b ? a : b`, as for scalars; other targets treat NaN and ±0 differently
             #[inline(always)]
             fn lesser(self, other: Self) -> Self {
                 if cfg!(any(target_arch = "x86", target_arch = "x86_64")) {

@@ -89,7 +89,7 @@ macro_rules! packet_uint {
             fn shr(self, bits: u32) -> Self {
                 self >> bits
             }
-            // the compiler makes one reversal of the whole register of this: two table look-ups for every four bits
+            // the compiler turns this into one reversal of the whole register: two table look-ups per four bits
             #[inline(always)]
             fn reverse_bits(self) -> Self {
                 $vector::new(self.to_array().map(u32::reverse_bits))

@@ -4,10 +4,10 @@ use crate::vector::Vec2;
 use core::convert::Infallible;
 use rand_core::{Rng, SeedableRng, TryRng};
 
-/// Four words from four words: a bijection of 128 bits whose outputs pass for independent random numbers.
+/// Hashes four words to four words: a bijection of 128 bits whose outputs pass for independent random numbers.
 ///
-/// One round of a linear congruential step, two of cross-lane multiply-adds with a shift between them.
-/// Source: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020 (pcg4d).
+/// One linear congruential step, then two rounds of multiply-adds across the words, with a shift between them. Source:
+/// Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020 (pcg4d).
 #[inline]
 pub(super) fn hash4<U: Uint>(v: [U; 4]) -> [U; 4] {
     let (multiplier, increment) = (U::splat(1_664_525), U::splat(1_013_904_223));
@@ -24,11 +24,10 @@ pub(super) fn hash4<U: Uint>(v: [U; 4]) -> [U; 4] {
     [x, y, z, w]
 }
 
-/// Independent uniform numbers, from a counter: any of them at any time, in any order.
+/// Independent uniform numbers by a counter hash, with random access: the baseline for every other sequence.
 ///
-/// - Formula: a 128-bit hash of (pixel, sample, dimension, seed); 24 bits of each of its four words.
-/// - Domain: any 32-bit counters.
-/// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴], the same at every precision and width.
+/// Call `Independent::new(seed)`, then [`pair`](Sequence::pair) for any pixel, sample and dimension. There is no degenerate
+/// input.
 ///
 /// ```
 /// use etendue::{Vec2, sequence::{Independent, Sequence}};
@@ -36,24 +35,28 @@ pub(super) fn hash4<U: Uint>(v: [U; 4]) -> [U; 4] {
 /// assert_eq!(u, Independent::new(7).pair(41, 3, 0));
 /// assert_ne!(u, Independent::new(7).pair(41, 3, 1));
 /// ```
+///
+/// - Formula: a 128-bit hash of (pixel, sample, dimension, seed); each number takes 24 bits of one of its four words.
+/// - Domain: any 32-bit counters.
+/// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴], the same at every precision and width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Independent {
     seed: u32,
 }
 
 impl Independent {
-    /// Streams of different seeds are independent. All 64 bits count.
+    /// A stream; those of different seeds are independent. All 64 bits of the seed count.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let [x, y, ..] = hash4([seed as u32, (seed >> 32) as u32, 0x4574_656e, 0x6475_6500]);
         Self { seed: x ^ y.rotate_left(16) }
     }
-    /// The four words of a counter.
+    /// The four hashed words of a counter.
     #[inline]
     pub fn words<U: Uint>(&self, pixel: U, sample: U, dimension: u32) -> [U; 4] {
         hash4([pixel, sample, U::splat(dimension), U::splat(self.seed)])
     }
-    /// The pairs `2·block` and `2·block + 1` at the price of one.
+    /// The pairs `2·block` and `2·block + 1`, for the cost of one.
     #[inline]
     pub fn two_pairs<R: Real>(&self, pixel: R::Uint, sample: R::Uint, block: u32) -> [Vec2<R>; 2] {
         let [x, y, z, w] = self.words(pixel, sample, block).map(R::unit);
@@ -69,7 +72,9 @@ impl Sequence for Independent {
     }
 }
 
-/// The counter hash as a generator for code that wants one: `rand_core`'s `Rng`, seedable, 2⁶⁴ words of period.
+/// The counter hash as a random generator: `rand_core`'s `Rng`, seedable, with a period of 2⁶⁴ words.
+///
+/// Call `CounterRng::seed_from_u64(seed)`, then `next_u32`, or `unit_square` for a point. It never fails.
 ///
 /// ```
 /// use etendue::{Vec2, sequence::CounterRng};
@@ -88,7 +93,7 @@ pub struct CounterRng {
 }
 
 impl CounterRng {
-    /// A point (or a packet of them) of the unit square from any generator: two words a lane, 24 bits of each.
+    /// Draws a point (or a packet of points) of the unit square from any generator: two words per lane, 24 bits of each.
     pub fn unit_square<R: Real>(rng: &mut impl Rng) -> Vec2<R> {
         let mut unit = || R::unit(R::Uint::from_fn(|_| rng.next_u32()));
         let x = unit();

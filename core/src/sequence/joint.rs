@@ -4,18 +4,18 @@ use super::{Independent, OwenSobol, Sequence};
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 
-/// Pairs that [`JointSobol`] joins to one point.
+/// Number of pairs that [`JointSobol`] takes from one point.
 const PAIRS: u32 = 4;
 
-/// What bit b of the index adds to dimensions 3 and 4, 5 and 6, 7 and 8, bits in reverse order.
+/// What bit b of the index adds to dimensions 3 and 4, 5 and 6, 7 and 8, with the bits reversed.
 const COLUMNS: [[[u32; 2]; 32]; 3] = [
     zip(columns(2, 1, [1, 3, 0, 0, 0]), columns(3, 1, [1, 3, 1, 0, 0])),
     zip(columns(3, 2, [1, 1, 1, 0, 0]), columns(4, 1, [1, 1, 3, 3, 0])),
     zip(columns(4, 4, [1, 3, 5, 13, 0]), columns(5, 2, [1, 1, 5, 5, 17])),
 ];
 
-/// Sobol's recurrence for a primitive polynomial of `degree`, whose inner coefficients are the bits of `inner`, from its
-/// `first` odd numbers m₁, m₂, …
+/// Sobol's recurrence for the primitive polynomial of the given `degree` whose inner coefficients are the bits of `inner`,
+/// starting from the odd numbers `first` = m₁, m₂, …
 const fn columns(degree: usize, inner: u32, first: [u32; 5]) -> [u32; 32] {
     let mut v = [0; 32];
     let mut i = 0;
@@ -45,31 +45,24 @@ const fn zip(a: [u32; 32], b: [u32; 32]) -> [[u32; 2]; 32] {
     both
 }
 
-/// Low bits of the hash's words are not quite independent over dimensions, and in a key they decide on the first digits, with no
-/// shuffle of the index to hide it: high bits into low ones, and back.
+/// Mixes high bits of a word into low ones, and back: the low bits of the hash are not quite independent across dimensions, and
+/// as keys they decide the first digits, with no shuffle of the index to hide it.
 #[inline]
 fn mixed<U: Uint>(word: U) -> U {
     let word = (word ^ word.shr(16)).wrapping_mul(U::splat(0x7feb_352d));
     word ^ word.shr(15)
 }
 
-/// Owen-scrambled Sobol points of eight dimensions: pairs 0 to 3 of a sample are one point of one net.
+/// Owen-scrambled Sobol points in eight dimensions: pairs 0 to 3 of a sample are one point of one net. Take it for integrands
+/// that depend on two or more pairs together (an edge whose place in the pixel moves with the point on the lens); in one pair
+/// alone, [`OwenSobol`] is at least as good.
 ///
-/// - Formula: Sobol's sequence at the sample's index, each of its dimensions scrambled with a key of its own.
-/// - Property: samples [k·2ᵐ, (k+1)·2ᵐ) of a pixel, in the first s dimensions, are a (t, m, s)-net in base 2: each box of 2ᵗ⁻ᵐ has 2ᵗ of
-///   them, t = 0, 0, 1, 3, 5, 8, 11, 15 for s = 1 … 8. Pair 0 alone is a (0, 2)-sequence. In any one dimension t = 0.
-/// - Domain: any 32-bit counters; time grows with the bits of the sample's index, for pairs 1 to 3. Pairs from 4 on are those of [`OwenSobol`].
-/// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴]; each point alone is uniform.
-/// - Replicates: samples are correlated; pixels and seeds are independent.
-/// - When: an integrand that depends on two pairs together (an edge whose place in the pixel moves with the point on the lens),
-///   and enough samples: with 2ᵐ of them, nothing is known of boxes that are finer than 2ᵗ⁻ᵐ. In one pair alone, [`OwenSobol`]
-///   is at least as good.
-/// - Source: Sobol 1967; Joe and Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections", SIAM J. Sci.
-///   Comput. 30, 2008 (first numbers); for the scrambling see [`OwenSobol`].
+/// Call `JointSobol::new(seed)`, then [`pair`](Sequence::pair). There is no degenerate input, but 2ᵐ samples say nothing about
+/// boxes smaller than 2ᵗ⁻ᵐ, so take enough of them.
 ///
 /// ```
 /// use etendue::{Vec2, sequence::{JointSobol, Sequence}};
-/// // 32 samples: in three dimensions t = 1, so each box of 2⁻⁴ has two of them
+/// // 32 samples: in three dimensions t = 1, so each box of volume 2⁻⁴ has two of them
 /// let sobol = JointSobol::new(7);
 /// let mut boxes = [0; 16];
 /// for sample in 0..32 {
@@ -78,13 +71,24 @@ fn mixed<U: Uint>(word: U) -> U {
 /// }
 /// assert_eq!(boxes, [2; 16]);
 /// ```
+///
+/// - Formula: Sobol's sequence at the sample's index, with each dimension scrambled by a key of its own.
+/// - Property: samples [k·2ᵐ, (k+1)·2ᵐ) of a pixel, in the first s dimensions, are a (t, m, s)-net in base 2: each box of
+///   volume 2ᵗ⁻ᵐ has 2ᵗ samples, t = 0, 0, 1, 3, 5, 8, 11, 15 for s = 1 … 8. Pair 0 alone is a (0, 2)-sequence. In any one
+///   dimension t = 0.
+/// - Domain: any 32-bit counters. For pairs 1 to 3, time grows with the number of bits of the sample's index. Pairs from 4 on
+///   are those of [`OwenSobol`].
+/// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴]; each point alone is uniform.
+/// - Replicates: samples are correlated; pixels and seeds are independent.
+/// - Source: Sobol 1967; Joe and Kuo, "Constructing Sobol Sequences with Better Two-Dimensional Projections", SIAM J. Sci.
+///   Comput. 30, 2008 (first numbers); for the scrambling see [`OwenSobol`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointSobol {
     random: Independent,
 }
 
 impl JointSobol {
-    /// Scrambles of different seeds are independent. All 64 bits count.
+    /// A sequence; the scrambles of different seeds are independent. All 64 bits of the seed count.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self { random: Independent::new(seed) }
@@ -118,16 +122,11 @@ impl Sequence for JointSobol {
     }
 }
 
-/// Jittered strata in all dimensions of two to four pairs at once: side⁴, side⁶ or side⁸ cells, one sample in each.
+/// Jittered strata in all dimensions of two to four pairs at once: side⁴, side⁶ or side⁸ cells, with one sample in each. Take
+/// it for integrands that couple the pairs, at high counts. One pair alone has only side² strata for its side⁴ samples, where
+/// [`Stratified`](super::Stratified) has side⁴.
 ///
-/// - Formula: the digits of the sample's index in base `side`, each turned by a random number of its own, are the cell; u = (cell + jitter)/side.
-/// - Property: samples [k·count, (k+1)·count) of a pixel have exactly one point in each cell. Any part of them is unbiased.
-/// - Domain: a side of 1 to what leaves no more than 2²² cells; any sample: from 2³¹ on they are in the cells of 2³¹ before, at fresh
-///   places. Pairs beyond those joined are [`Independent`].
-/// - Replicates: indices [k·count, (k+1)·count) are independent copies; see [`Stratified`](super::Stratified).
-/// - When: what couples the pairs, at high counts. One pair alone has side² strata for its side⁴ samples: there
-///   [`Stratified`](super::Stratified) has side⁴ strata.
-/// - Source: Cook, Porter and Carpenter 1984; Mitchell, "Consequences of Stratified Sampling in Graphics", SIGGRAPH 1996.
+/// Call `JointStratified::new(seed, side, pairs)`, then [`pair`](Sequence::pair). Arguments are clamped to their domain.
 ///
 /// ```
 /// use etendue::{Vec2, sequence::{JointStratified, Sequence}};
@@ -139,6 +138,14 @@ impl Sequence for JointSobol {
 /// }
 /// assert_eq!(cells, [1; 16]);
 /// ```
+///
+/// - Formula: the digits of the sample's index in base `side`, each rotated by a random number of its own, give the cell; u =
+///   (cell + jitter)/side.
+/// - Property: samples [k·count, (k+1)·count) of a pixel have exactly one point in each cell. Any part of them is unbiased.
+/// - Domain: side ≥ 1 with at most 2²² cells; any sample. Samples from 2³¹ on repeat the cells of the first 2³¹, at fresh
+///   places. Pairs beyond the joined ones are [`Independent`].
+/// - Replicates: indices [k·count, (k+1)·count) are independent copies; see [`Stratified`](super::Stratified).
+/// - Source: Cook, Porter and Carpenter 1984; Mitchell, "Consequences of Stratified Sampling in Graphics", SIGGRAPH 1996.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointStratified {
     random: Independent,
@@ -148,11 +155,11 @@ pub struct JointStratified {
 }
 
 impl JointStratified {
-    /// Cells to a side, and pairs that are joined; clamped to their domain.
+    /// A set with `side` cells along each dimension of the first `pairs` pairs; both are clamped to their domain.
     #[must_use]
     pub fn new(seed: u64, side: u32, pairs: u32) -> Self {
         let pairs = pairs.clamp(2, PAIRS);
-        // the greatest whose powers 4, 6, 8 are at most 2²²
+        // the greatest sides whose powers 4, 6 and 8 are at most 2²²
         let side = side.clamp(1, [45, 12, 6][pairs as usize - 2]);
         Self { random: Independent::new(seed), side, pairs, count: side.pow(2 * pairs) }
     }
@@ -180,7 +187,7 @@ impl Sequence for JointStratified {
         let (_, second) = split(quotient, self.side);
         let turns = self.random.words(pixel, set, !dimension);
         let place = |digit: R::Uint, turn: R::Uint, jitter: R| {
-            // below `side`, which has six bits at the most
+            // less than `side`, which has at most six bits
             let turn = turn.shr(6).wrapping_mul(side).shr(26);
             let cell = digit.wrapping_add(turn);
             let below = cell.lt(side);

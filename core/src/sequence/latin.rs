@@ -4,16 +4,19 @@ use super::{Independent, Sequence};
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 
-/// Latin hypercube: each coordinate of each dimension is stratified into as many strata as there are samples, and all
-/// coordinates are associated at random.
+/// Latin hypercube: each coordinate has as many strata as there are samples, and the coordinates are associated at random. Take
+/// it for nearly additive integrands, at any count.
 ///
-/// - Formula: u = (stratum + jitter)/count, stratum = permutation of the sample's index, keyed by (pixel, dimension, axis, seed).
-/// - Property: the `count` samples of a replicate have exactly one point in each column and each row of 1/count.
-/// - Domain: any count from 1 to 2²²; sample indices beyond the count start over with fresh permutations, and from 2³¹ on with the
-///   permutations of 2³¹ before, and fresh places in the strata.
+/// Call `LatinHypercube::new(seed, count)`, then [`pair`](Sequence::pair). The count is clamped to its domain.
+///
+/// - Formula: u = (stratum + jitter)/count, where the stratum is a permutation of the sample's index, keyed by (pixel,
+///   dimension, axis, seed).
+/// - Property: the `count` samples of a replicate have exactly one point in each column and each row of width 1/count.
+/// - Domain: any count from 1 to 2²²; any sample. Indices beyond the count start over with fresh permutations; from 2³¹ on, the
+///   permutations of the first 2³¹ repeat, at fresh places in the strata.
 /// - Replicates: indices [k·count, (k+1)·count) are independent copies; see [`Stratified`](super::Stratified).
-/// - Source: McKay, Beckman and Conover 1979; Stein 1987 for the variance: what is a sum of functions of one coordinate
-///   converges fast, all else as with independent samples.
+/// - Source: McKay, Beckman and Conover 1979; Stein 1987 for the variance: the part of an integrand that is a sum of functions
+///   of one coordinate converges fast, the rest as with independent samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LatinHypercube {
     random: Independent,
@@ -21,7 +24,7 @@ pub struct LatinHypercube {
 }
 
 impl LatinHypercube {
-    /// `count` samples a replicate; clamped to [1, 2²²].
+    /// A set with `count` samples per replicate, clamped to [1, 2²²].
     #[must_use]
     pub fn new(seed: u64, count: u32) -> Self {
         Self { random: Independent::new(seed), count: count.clamp(1, 1 << 22) }

@@ -4,15 +4,18 @@ use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
 
 /// Jittered strata: the samples of a pixel are dealt to the cells of a grid, each pair of dimensions in its own random order
-/// (padding), and placed uniformly within their cells.
+/// (padding), and placed uniformly within their cells. Take it for a count that is not a power of two.
 ///
-/// - Formula: cell = permutation of the sample's index, keyed by (pixel, dimension, seed); u = (cell + jitter)/(columns, rows).
-/// - Domain: any count from 1 to 2²²; any sample: indices beyond the count start over with fresh strata, and from 2³¹ on with the
-///   strata of 2³¹ before, and fresh places in them.
-/// - Grid: columns × rows = count where a factorisation no longer than 2 : 1 exists, else the smallest grid that is nearly
-///   square and holds the count; then a random selection of its cells is used, so every point is still uniform.
-/// - Replicates: indices [k·count, (k+1)·count) are independent copies. The variance of an estimate comes from the spread
-///   of the replicates' means, not from the spread of samples, which are negatively correlated.
+/// Call `Stratified::new(seed, count)`, then [`pair`](Sequence::pair). The count is clamped to its domain.
+///
+/// - Formula: the cell is a permutation of the sample's index, keyed by (pixel, dimension, seed); u = (cell + jitter)/(columns,
+///   rows).
+/// - Domain: any count from 1 to 2²²; any sample. Indices beyond the count start over with fresh strata; from 2³¹ on, the
+///   strata of the first 2³¹ repeat, at fresh places.
+/// - Grid: columns × rows = count where a factorisation no longer than 2 : 1 exists, else the smallest nearly square grid that
+///   holds the count, of which a random selection of cells is used, so that every point is still uniform.
+/// - Replicates: indices [k·count, (k+1)·count) are independent copies. The variance of an estimate comes from the spread of
+///   the replicates' means, not from the spread of samples, which are negatively correlated.
 /// - Source: Cook, Porter and Carpenter 1984 (jitter); Kensler 2013 and PBR 4th ed., 8.5, for padding by permutation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stratified {
@@ -23,7 +26,7 @@ pub struct Stratified {
 }
 
 impl Stratified {
-    /// `count` strata a replicate; clamped to [1, 2²²].
+    /// A set with `count` strata per replicate, clamped to [1, 2²²].
     #[must_use]
     pub fn new(seed: u64, count: u32) -> Self {
         let count = count.clamp(1, 1 << 22);
@@ -42,7 +45,7 @@ impl Stratified {
     }
 }
 
-/// Columns ≤ rows.
+/// Columns and rows of the grid, with columns ≤ rows.
 fn grid(count: u32) -> (u32, u32) {
     let root = count.isqrt();
     let mut columns = root;
@@ -62,7 +65,7 @@ fn scramble<U: Uint>(mut i: U, mask: U, half: u32, keys: [U; 4]) -> U {
     let one = U::splat(1);
     for key in keys {
         for key in [key, key.shr(15)] {
-            // each step with bits of its own: few bits need all of them, to reach every permutation
+            // each step takes different bits of the key: a few index bits need all of them to reach every permutation
             i = (i ^ key) & mask;
             i = i ^ i.shr(half);
             i = i.wrapping_mul(key.shr(4) ^ (key.shr(4) & one) ^ one).wrapping_add(key.shr(10)) & mask;
@@ -71,7 +74,7 @@ fn scramble<U: Uint>(mut i: U, mask: U, half: u32, keys: [U; 4]) -> U {
     i
 }
 
-/// A permutation of [0, count) keyed by four words: the one of the next power of two, walked until it falls inside.
+/// A permutation of [0, count) keyed by four words: that of the next power of two, iterated until the result is in range.
 #[inline]
 pub(super) fn permute<U: Uint>(i: U, count: u32, keys: [U; 4]) -> U {
     if count < 2 {
@@ -114,7 +117,8 @@ impl Sequence for Stratified {
     }
 }
 
-/// Which copy of the set a sample belongs to, and its index in there, less than `count`: what is not would never be permuted into the set.
+/// The copy of the set to which a sample belongs, and its index there, below `count`: `permute` would never bring a larger one
+/// into range.
 #[inline]
 pub(super) fn replicate<R: Real>(sample: R::Uint, count: u32) -> (R::Uint, R::Uint) {
     let sample = sample & R::Uint::splat(0x7fff_ffff);
@@ -122,8 +126,8 @@ pub(super) fn replicate<R: Real>(sample: R::Uint, count: u32) -> (R::Uint, R::Ui
     (replicate, sample.wrapping_sub(replicate.wrapping_mul(R::Uint::splat(count))))
 }
 
-/// ⌊numerator/denominator⌋ for numerators below 2³¹: a rounded quotient, the rounded quotient of what is left, and at most one
-/// more or less.
+/// ⌊numerator/denominator⌋ for numerators below 2³¹: a rounded quotient, the rounded quotient of what is left, and a correction
+/// by at most one.
 #[inline]
 pub(super) fn divide<R: Real>(numerator: R::Uint, denominator: u32) -> R::Uint {
     let inverse = R::lit(1.0 / f64::from(denominator));
@@ -132,7 +136,7 @@ pub(super) fn divide<R: Real>(numerator: R::Uint, denominator: u32) -> R::Uint {
     let rest = numerator.wrapping_sub(guess.wrapping_mul(denominator));
     let guess = guess.wrapping_add((R::from_uint(rest) * inverse).to_uint());
     let product = guess.wrapping_mul(denominator);
-    // the guess is too large: all ones are −1
+    // where the guess is too large: all ones are −1
     let guess = guess.wrapping_add(numerator.lt(product));
     let rest = numerator.wrapping_sub(guess.wrapping_mul(denominator));
     let short = denominator.wrapping_sub(R::Uint::splat(1)).lt(rest);

@@ -5,19 +5,24 @@ use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp};
 
 lanewise! {
-    /// The directions from a point to a sphere: a [`Cone`] about the direction to its centre.
+    /// Directions from a point to a sphere, uniform in solid angle: a [`Cone`] about the direction to its centre.
     ///
-    /// - Formula: sin²σ = R²/d², cos²σ = (d²−R²)/d² with d²−R² in twice the working precision, h = 1−cosσ = sin²σ/(1+cosσ); then the
-    ///   cone's map. From inside the sphere every direction hits it: h = 2.
-    /// - Domain: any centre and radius > 0, at any distance; on the surface, the half of the directions that look inwards.
-    /// - Density: 1/(2πh) per steradian within the cone (and within 10 ulp of the direction beyond), 0 off it.
-    /// - Degenerate: a radius ≤ 0 (or beyond the reach of f32: R/d < 1e−18) has pdf 0 and samples the direction to the centre.
-    /// - Greatest error: pdf 3.0e−7 relative; direction 4.8e−7; distance 3.6e−7 relative, but for the limb, where its slope is infinite.
+    /// Call `SphericalCap::new(center, radius)` with the centre relative to the point, then `sample_direction`. A radius ≤ 0
+    /// gives pdf 0; from inside, every direction hits the sphere.
+    ///
+    /// - Formula: sin²σ = R²/d², cos²σ = (d²−R²)/d² with d²−R² in twice the working precision, h = 1−cosσ = sin²σ/(1+cosσ);
+    ///   then the cone's map. From inside, h = 2.
+    /// - Domain: any centre and radius > 0, at any distance; from a point on the surface, the half of the directions that look
+    ///   inwards.
+    /// - Density: the pdf is 1/(2πh) per steradian within the cone (and within 10 ulp beyond), 0 outside.
+    /// - Degenerate input: a radius ≤ 0 (or too small for f32: R/d < 1e−18) has pdf 0 and samples the direction to the centre.
+    /// - Greatest error: pdf 3.0e−7 relative; direction 4.8e−7; distance 3.6e−7 relative, except at the limb, where its slope
+    ///   is infinite.
     /// - Source: PBR 4th ed., 6.2.4, in a form without its switch to a series for small spheres.
     pub struct SphericalCap {
         frame: Frame<R>,
         cone: Cone<R>,
-        /// d and d²−R² in units of `unit`, the power of two that the lengths were divided by.
+        /// d and d²−R² in units of `unit`, the power of two by which the lengths were divided
         distance: R,
         power: R,
         unit: R,
@@ -25,11 +30,11 @@ lanewise! {
 }
 
 impl<R: Real> SphericalCap<R> {
-    /// For a sphere whose centre lies at `center` relative to the point.
+    /// Prepares for a sphere with its centre at `center` relative to the point; both lengths in one unit.
     #[inline]
     pub fn new(center: Vec3<R>, radius: R) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // a difference that overflowed: nothing to see
+        // a difference has overflowed: nothing is visible
         let finite = center.max_abs().lt(R::lit(f64::INFINITY));
         let center = Vec3::new(center.x.keep(finite), center.y.keep(finite), center.z.keep(finite));
         let radius = radius.keep(finite);
@@ -44,7 +49,7 @@ impl<R: Real> SphericalCap<R> {
         let cos = (power.greater(zero) * inverse).sqrt();
         let h = R::blend(outside, sin_squared / (one + cos), R::lit(2.0));
         let distance = squared.sqrt();
-        // in units of its own: the centre may be as near as it likes to a point inside a large sphere
+        // scaled by itself: the centre may be arbitrarily near a point inside a large sphere
         let axis = (center * center.max_abs().pow2_scale()).normalize();
         let somewhere = axis.max_abs().gt(zero);
         let axis = Vec3::new(axis.x, axis.y, R::blend(somewhere, axis.z, one));
@@ -63,21 +68,21 @@ impl<R: Real> SphericalCap<R> {
         self.cone.solid_angle()
     }
 
-    /// The density of every direction that hits the sphere, 1/Ω.
+    /// The pdf per steradian of every direction that hits the sphere, 1/Ω.
     #[inline]
     pub fn uniform_pdf(&self) -> R {
         self.cone.uniform_pdf()
     }
 
-    /// True where the point lies strictly inside the sphere, so that it sees the inner side.
+    /// True where the point lies strictly inside the sphere and so sees its inner side.
     #[inline]
     pub fn inside(&self) -> R::Mask {
         self.power.lt(R::lit(0.0))
     }
 
-    /// The direction for `u` and the distance to the sphere along it, without cancellation at grazing or near contact.
+    /// Maps `u` to a direction and the distance to the sphere along it, without cancellation at grazing or near contact.
     ///
-    /// With k = 1−cosθ: from outside R²−d²sin²θ = d²(h−k)(2−h−k), and the near root is (d²−R²)/(d cosθ + √·).
+    /// With k = 1−cosθ, from outside, R²−d²sin²θ = d²(h−k)(2−h−k), and the near root is (d²−R²)/(d cosθ + √·).
     #[inline]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
@@ -103,6 +108,7 @@ impl<R: Real> Warp<R> for SphericalCap<R> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         self.frame.to_world(self.cone.sample(u))
     }
+    /// The pdf per steradian; 0 for a direction that misses the sphere.
     #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.cone.pdf_in_frame(self.frame.to_local(w))

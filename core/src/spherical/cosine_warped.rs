@@ -2,34 +2,39 @@ use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Bilinear, Warp};
 
-/// Least weight of a corner: a corner below the horizon keeps a part of the samples, since the shape's inside may be above it.
+/// Least weight of a corner: a corner below the horizon keeps some samples, since the shape between may rise above it.
 const FLOOR: f64 = 0.01;
 
-/// The directions from a point to a shape, by solid angle times an approximation of the cosine to a surface normal: [`Bilinear`] on the
-/// unit square, before the shape's own map.
+/// Directions from a point to a shape, by solid angle times an approximate cosine: for diffuse surfaces, and lights near the
+/// horizon.
 ///
-/// The weights of the corners of the square are the cosines in the directions to which the shape maps them, and at least 0.01: what
-/// is warped is the square, so the fit is good where the shape's map is close to bilinear (triangles and rectangles that are not
-/// huge), and the density is exact everywhere. It is not cut at the horizon.
+/// Call `CosineWarped::new(shape, normal)` with a prepared shape, then `sample`. Degenerate input is as for the shape.
+///
+/// A [`Bilinear`] warp of the unit square precedes the shape's own map. The weights of the square's corners are the cosines of
+/// the directions to which the shape maps them, and at least 0.01. Since it is the square that is warped, the fit is good where
+/// the shape's map is close to bilinear (triangles and rectangles that are not huge); the pdf is exact everywhere. Samples are
+/// not clipped at the horizon.
 ///
 /// - Formula: ω = shape(v), v = bilinear(u).
-/// - Domain: u in [0, 1)²; any shape with constant density, an inverse and a fixed measure: [`SphericalTriangle`](super::SphericalTriangle),
-///   [`SphericalRectangle`](super::SphericalRectangle).
-/// - Density: the shape's times the bilinear density at v, which `pdf` finds by the shape's inverse: the same factor.
-/// - Degenerate input: as the shape.
-/// - Greatest error: that of the shape; of the density, 8 ulp more, the bilinear density's change by an error of v, and the rounding
-///   of the cosines at the corners over their mean.
-/// - Source: Hart, Pharr, Müller, Lopes, McGuire and Shirley, "Practical Product Sampling by Fitting and Composing Warps", EGSR 2020, 4.
+/// - Domain: u in [0, 1)²; any shape with a constant pdf, an inverse and a fixed measure:
+///   [`SphericalTriangle`](super::SphericalTriangle), [`SphericalRectangle`](super::SphericalRectangle).
+/// - Density: the pdf is the shape's pdf, per steradian, times the bilinear pdf at v; `pdf` finds v by the shape's inverse.
+/// - Degenerate input: as for the shape.
+/// - Greatest error: that of the shape; the pdf adds 8 ulp, the change of the bilinear pdf by the error of v, and the rounding
+///   of the corners' cosines over their mean.
+/// - Source: Hart, Pharr, Müller, Lopes, McGuire and Shirley, "Practical Product Sampling by Fitting and Composing Warps", EGSR
+///   2020, 4.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CosineWarped<S, R> {
-    /// The shape, by solid angle.
+    /// The shape, prepared for the point and uniform in solid angle.
     pub shape: S,
-    /// Density on the unit square.
+    /// Distribution on the unit square; its corner values are cosines ≥ 0.01.
     pub weights: Bilinear<R>,
 }
 
 impl<R: Real, S: Warp<R, Point = Vec3<R>>> CosineWarped<S, R> {
-    /// For a surface with the unit normal `normal`; the corners are where the shape's map takes those of the square.
+    /// Prepares for a surface with the unit normal `normal`, whose cosines it takes where the shape maps the corners of the
+    /// square.
     #[inline(always)]
     pub fn new(shape: S, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -37,7 +42,7 @@ impl<R: Real, S: Warp<R, Point = Vec3<R>>> CosineWarped<S, R> {
         let cosines = corners.map(|(x, y)| normal.dot(shape.sample(Vec2 { x, y })));
         Self::with_cosines(shape, cosines)
     }
-    /// For known cosines in the directions of the corners (0, 0), (1, 0), (0, 1) and (1, 1).
+    /// Prepares from known cosines at the directions of the corners (0, 0), (1, 0), (0, 1) and (1, 1).
     #[inline(always)]
     pub fn with_cosines(shape: S, cosines: [R; 4]) -> Self {
         Self { shape, weights: Bilinear { corners: cosines.map(|c| c.greater(R::lit(FLOOR))) } }
@@ -50,6 +55,7 @@ impl<R: Real, S: Warp<R, Point = Vec3<R>>> Warp<R> for CosineWarped<S, R> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         self.shape.sample(self.weights.sample(u))
     }
+    /// The pdf in the shape's measure, per steradian; 0 where the shape's is.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.shape.pdf(w) * self.weights.pdf(self.shape.invert(w))
@@ -59,3 +65,16 @@ impl<R: Real, S: Warp<R, Point = Vec3<R>>> Warp<R> for CosineWarped<S, R> {
         self.weights.invert(self.shape.invert(w))
     }
 }
+
+macro_rules! splats {
+    ($($shape:ident),+) => {$(
+        impl<R: Real> CosineWarped<super::$shape<R>, R> {
+            /// Repeats one warp in every lane.
+            #[inline(always)]
+            pub fn splat(s: CosineWarped<super::$shape<R::Scalar>, R::Scalar>) -> Self {
+                Self { shape: super::$shape::splat(s.shape), weights: Bilinear::splat(s.weights) }
+            }
+        }
+    )+};
+}
+splats!(SphericalTriangle, SphericalRectangle);

@@ -7,50 +7,66 @@ use crate::real::{Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Linear, Warp, Warp1};
 
-/// Angle by which a sample may leave the disk through the rounding of its direction and of the frame: 6 ulp of a component near 1.
+/// Angle by which the rounding of its direction and of the frame may move a sample out of the disk: 6 ulp of a component near
+/// 1.
 const SLACK: f64 = 6.0 / 16_777_216.0;
 
 lanewise! {
-    /// The directions from a point to a disk, uniform by solid angle: the interior of a spherical ellipse.
+    /// Directions from a point to a disk (the interior of a spherical ellipse), uniform in solid angle: for every disk that is
+    /// not far.
     ///
-    /// Seen along the axis of its cone, the boundary is an ellipse with the semi-axes sinβ and sinα at the height D over the plane
-    /// of the viewpoint. By its eccentric angle χ from the major axis dΩ = sinα sinβ dχ/(1+D): a density that varies by less than a
-    /// factor of 2 for every disk. u₀ takes χ through the four quadrants; u₁ goes from the axis outwards, uniformly in 1−cosθ.
+    /// Call `SphericalDisk::new(center, normal, radius)` with the centre relative to the point, then `sample_direction`. A
+    /// point in the disk's plane, or a radius ≤ 0, gives pdf 0.
     ///
-    /// - Formula: z the height of the point over the disk's plane, T = d²−R² for the distance d of the centre (in twice the
-    ///   working precision, as z), H = √(T²+4R²z²); cos 2α = T/H, sin 2α = 2Rz/H, tan²β = R²/(H cos²α), axis c − sin²β (c − z n).
-    ///   D² = cos²β cos²χ + cos²α sin²χ; with t = tan(χ/2), ∫dχ/(1+D) = ∫ 2 dt/(1+t²+√(cos²β(1−t²)² + 4cos²α t²)), by Gauss and Legendre
-    ///   in t^¼, four panels of 5 nodes (relative error 1e−8 for every disk; in double precision 20 nodes, 4e−14). Within the panel the integral
-    ///   is inverted by two (four) steps of Newton's method. 1−cosθ = u₁(1−D).
-    /// - Domain: u in [0, 1)²; any disk, from either side, a normal of any length.
-    /// - Density: 1/Ω per steradian inside (and within 6 to 9 ulp of the direction beyond, 17 at the ends of the major axis), 0 outside. Ω = 4 sinα sinβ ∫₀¹.
-    /// - Degenerate: the point in the disk's plane (on the disk and its rim too), a radius ≤ 0, Ω < 1e−37: pdf 0.
+    /// Along the axis of its cone, the boundary projects to an ellipse with the semi-axes sinβ and sinα, at the height D over
+    /// the plane of the viewpoint. In terms of its eccentric angle χ from the major axis, dΩ = sinα sinβ dχ/(1+D), which varies
+    /// by less than a factor of 2 for every disk. u₀ takes χ through the four quadrants; u₁ goes from the axis outwards,
+    /// uniformly in 1−cosθ.
+    ///
+    /// - Formula: z is the height of the point over the disk's plane, T = d²−R² for the distance d of the centre (both in twice
+    ///   the working precision), H = √(T²+4R²z²); cos 2α = T/H, sin 2α = 2Rz/H, tan²β = R²/(H cos²α), axis c − sin²β (c − z n).
+    ///   D² = cos²β cos²χ + cos²α sin²χ; with t = tan(χ/2), ∫dχ/(1+D) = ∫ 2 dt/(1+t²+√(cos²β(1−t²)² + 4cos²α t²)), by
+    ///   Gauss–Legendre quadrature in t^¼, four panels of 5 nodes (relative error 1e−8 for every disk; in double precision 20
+    ///   nodes, 4e−14). Two steps of Newton's method (four in double precision) invert the integral within its panel. 1−cosθ =
+    ///   u₁(1−D).
+    /// - Domain: u in [0, 1)²; any disk, from either side, with a normal of any length.
+    /// - Density: the pdf is 1/Ω per steradian inside (and within 6 to 9 ulp beyond, 17 at the ends of the major axis), 0
+    ///   outside. Ω = 4 sinα sinβ ∫₀¹.
+    /// - Degenerate input: the point in the disk's plane (on the disk and its rim too), a radius ≤ 0, or Ω < 1e−37 gives pdf 0.
     /// - Greatest error: Ω 4e−7 relative; direction 1.8e−7, besides 4 steps of 2⁻²⁴ in u; distance 2e−7 relative, over the
     ///   cosine to the disk's normal.
-    /// - Source: Guillén, Ureña, King, Fajardo, Georgiev, López-Moreno and Jarabo, "Area-Preserving Parameterizations for Spherical
-    ///   Ellipses", CGF 36(4), 2017, for the polar map; the integral by the eccentric angle and its inverse are derived here.
+    /// - Source: Guillén, Ureña, King, Fajardo, Georgiev, López-Moreno and Jarabo, "Area-Preserving Parameterizations for
+    ///   Spherical Ellipses", CGF 36(4), 2017, for the polar map; the integral by the eccentric angle and its inverse are
+    ///   derived here.
     pub struct SphericalDisk {
         /// x along the minor axis, y along the major axis, z along the axis of the cone
         frame: Frame<R>,
-        /// of the half-angles: α about y, β about x
+        /// sinα, the semi-axis along x
         sin_minor: R,
+        /// sinβ, the semi-axis along y
         sin_major: R,
+        /// cosα
         cos_minor: R,
+        /// cosβ
         cos_major: R,
-        /// the integral up to t = 1/256, 16/256, 81/256, 1
+        /// ∫dχ/(1+D) up to t = 1/256, 16/256, 81/256 and 1
         sums: Quarter<R>,
+        /// Ω in steradians
         solid_angle: R,
-        /// towards the disk's plane; its height in units of `unit`, and the greatest distance
+        /// unit normal of the disk's plane, away from the viewpoint
         normal: Vec3<R>,
+        /// z, the distance to the disk's plane, in units of `unit`
         height: R,
+        /// d + R, the greatest distance, in units of `unit`
         reach: R,
-        /// of the normal: −1 where the point is on the side to which it points
+        /// −1 where the point is on the side to which the normal points, else 1
         side: R,
+        /// unit of the lengths above, a power of two
         unit: R,
     }
 }
 
-/// Four lanes each.
+/// One value per panel of the quadrature.
 #[derive(Clone, Copy, Debug, Default)]
 struct Quarter<R>([R; 4]);
 impl<R: Real> Quarter<R> {
@@ -95,7 +111,8 @@ const WIDE: [(f64, f64); 20] = [
 ];
 
 impl<R: Real> SphericalDisk<R> {
-    /// For a disk whose centre lies at `center` relative to the point.
+    /// Prepares for a disk with its centre at `center` relative to the point, a `normal` of any length, and `radius` in the
+    /// unit of `center`.
     #[inline(always)]
     pub fn new(center: Vec3<R>, normal: Vec3<R>, radius: R) -> Self {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
@@ -108,7 +125,7 @@ impl<R: Real> SphericalDisk<R> {
         let some = squared.gt(zero);
         let shrink = rsqrt(R::blend(some, squared, one)).keep(some);
         let signed = compensated_dot(c, normal) * shrink;
-        // before the normal is rounded: on the axis this tells the azimuth
+        // before the normal is rounded: near the disk's axis this determines the azimuth
         let across = normal.cross(c);
         let normal = normal * shrink;
         let (z, side) = (signed.abs(), one.copysign(signed));
@@ -119,7 +136,7 @@ impl<R: Real> SphericalDisk<R> {
         let both = cross + cross;
         let h = power.mul_add(power, both * both).sqrt();
         let (cos_2a, sin_2a) = (ratio(power.abs(), h).lesser(one), ratio(both, h));
-        // the larger of cosine and sine by the half-angle, the smaller from the sine of the whole
+        // the larger of cosine and sine by the half-angle formula, the smaller from sin 2α
         let large = (half * (one + cos_2a)).sqrt();
         let small = sin_2a / (large + large);
         let outside = power.ge(zero);
@@ -130,12 +147,12 @@ impl<R: Real> SphericalDisk<R> {
         let (sin_major, cos_major) = (r * root, h.sqrt() * cos_minor * root);
         let cos_major_squared = hcc * inverse;
 
-        // axis: towards the foot on the disk's plane by z, across by what is left of the offset
+        // axis: z towards the foot on the disk's plane, plus what is left of the offset
         let offset = c - towards * z;
         let axis = towards * z + offset * cos_major_squared;
         let axis = (axis * axis.max_abs().pow2_scale()).normalize();
         let somewhere = axis.max_abs().gt(zero);
-        // in the disk's plane: its normal, and any direction where it has none
+        // if the point lies in the disk's plane: the normal, or any direction if that is 0
         let axis = Vec3::blend(somewhere, axis, towards);
         let axis = Vec3::new(axis.x, axis.y, R::blend(axis.max_abs().gt(zero), axis.z, one));
         let across = (across * across.max_abs().pow2_scale()).normalize();
@@ -170,7 +187,7 @@ impl<R: Real> SphericalDisk<R> {
         Self { sums: Quarter(sums), solid_angle: solid_angle.keep(seen), ..this }
     }
 
-    /// 2/(1+t²) of 1/(1+D) at t².
+    /// 2/((1+t²)(1+D)), the integrand in t, given t².
     #[inline(always)]
     fn integrand(&self, tt: R) -> R {
         let one = R::lit(1.0);
@@ -178,7 +195,7 @@ impl<R: Real> SphericalDisk<R> {
         let root = a.mul_add(a, b * b * tt).sqrt();
         R::lit(2.0) / ((one + tt) + root)
     }
-    /// The integral between t = low⁴ and high⁴.
+    /// The integral from t = low⁴ to t = high⁴.
     #[inline(always)]
     fn panel(&self, low: R, high: R) -> R {
         let width = high - low;
@@ -192,7 +209,8 @@ impl<R: Real> SphericalDisk<R> {
         }
         sum * width
     }
-    /// The panel in which the integral reaches `part`, as (low, high, integral up to low, and of the panel), or in which t lies.
+    /// The panel that the masks choose, as (low, high, integral up to low, integral over the panel); `beyond` tells whether the
+    /// target lies past the first, second and third panel.
     #[inline(always)]
     fn choose(&self, beyond: [R::Mask; 3]) -> (R, R, R, R) {
         let [a, b, c, d] = self.sums.0;
@@ -201,7 +219,7 @@ impl<R: Real> SphericalDisk<R> {
         let low = pick([edges[0], edges[1], edges[2], edges[3]]);
         (low, low + R::lit(0.25), pick([R::lit(0.0), a, b, c]), pick([a, b - a, c - b, d - c]))
     }
-    /// t = tan(χ/2) in [0, 1] with the integral `part`.
+    /// The t = tan(χ/2) in [0, 1] up to which the integral is `part`.
     #[inline(always)]
     fn invert_integral(&self, part: R) -> R {
         let [a, b, c, _] = self.sums.0;
@@ -218,7 +236,7 @@ impl<R: Real> SphericalDisk<R> {
         }
         t
     }
-    /// The integral up to t.
+    /// The integral from 0 to t.
     #[inline(always)]
     fn integral(&self, t: R) -> R {
         let s = t.sqrt().sqrt();
@@ -231,7 +249,7 @@ impl<R: Real> SphericalDisk<R> {
     pub fn solid_angle(&self) -> R {
         self.solid_angle
     }
-    /// The density of every direction that hits the disk, 1/Ω; 0 where Ω is 0.
+    /// The pdf per steradian of every direction that hits the disk, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
         reciprocal_or_zero(self.solid_angle)
@@ -242,14 +260,14 @@ impl<R: Real> SphericalDisk<R> {
         self.side.lt(R::lit(0.0))
     }
 
-    /// D and 1−D² at the point of the boundary with the given cosine and sine of χ.
+    /// D and 1−D² at the boundary point with the given cosine and sine of χ.
     #[inline(always)]
     fn rim(&self, cos: R, sin: R) -> (R, R) {
         let (a, b) = (self.cos_major * cos, self.cos_minor * sin);
         let (x, y) = (self.sin_minor * sin, self.sin_major * cos);
         (a.mul_add(a, b * b).sqrt(), x.mul_add(x, y * y))
     }
-    /// The direction for `u` and the distance to the disk along it.
+    /// Maps `u` to a direction and the distance to the disk along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let direction = self.sample(u);
@@ -265,7 +283,7 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // quadrants, every other one backwards
+        // quadrants, every second one backwards
         let turned = R::lit(4.0) * u.x;
         let quadrant = [1.0, 2.0, 3.0].map(|k| turned.ge(R::lit(k)));
         let of = |values: [f64; 4]| {
@@ -279,7 +297,7 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
         let inverse = one / (one + tt);
         let (cos, sin) = ((one - t) * (one + t) * inverse, (t + t) * inverse);
         let (d, radius_squared) = self.rim(cos, sin);
-        // sinθ over that of the rim: k(2−k)/(h(2−h))
+        // sinθ over that of the rim: √(k(2−k)/(h(2−h)))
         let h = radius_squared / (one + d);
         let k = u.y * h;
         let factor = (u.y.greater(zero) * ratio(R::lit(2.0) - k, one + d)).sqrt();
@@ -287,10 +305,11 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
         let y = self.sin_major * cos * factor * of([1.0, -1.0, -1.0, 1.0]);
         self.frame.to_world(Vec3::new(x, y, one - k))
     }
+    /// The pdf per steradian; 0 for a direction that misses the disk.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         let at = self.locate(w);
-        // across the boundary 6 ulp; along the way outwards as much longer as that is slanted
+        // 6 ulp across the boundary, and more along the radius by its slant to the boundary
         let radius = at.rim_squared.sqrt();
         let slack = R::lit(SLACK) * radius * (ratio(at.sin, self.sin_minor) + ratio(at.cos, self.sin_major));
         let beyond = slack * R::lit(0.5).mul_add(slack, radius);
@@ -311,15 +330,21 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
     }
 }
 
-/// A direction, and the point of the rim at the same azimuth.
+/// A direction, and the rim point at the same azimuth.
 struct Place<R> {
+    /// components of the direction along the minor and the major axis
     x: R,
     y: R,
+    /// 1−cosθ of the direction, θ from the axis of the cone
     one_minus_cos: R,
+    /// tan(χ/2) of the rim point, in the first quadrant
     t: R,
+    /// cosχ and sinχ
     cos: R,
     sin: R,
+    /// D
     rim_cos: R,
+    /// 1−D²
     rim_squared: R,
 }
 impl<R: Real> SphericalDisk<R> {
@@ -327,7 +352,7 @@ impl<R: Real> SphericalDisk<R> {
     fn locate(&self, w: Vec3<R>) -> Place<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Vec3 { x, y, z } = self.frame.to_local(w);
-        // a disk may be thinner than a direction is resolved: then back to it across, not towards the centre
+        // a disk may be thinner than the resolution of a direction: move back to it across, not towards the centre
         let rounding = R::lit(if double::<R>() { 8.0 / 9_007_199_254_740_992.0 } else { 8.0 / 16_777_216.0 });
         let high = ratio(y.abs(), self.sin_major).lesser(one);
         let wide = self.sin_minor * ((one - high) * (one + high)).sqrt();

@@ -1,5 +1,6 @@
-//! Products and sums of vectors in twice the working precision, as unevaluated sums of two: what is a small difference of them keeps its
-//! digits. By TwoSum and the error of a product (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot Product", algorithm 5.3).
+//! Products and sums of vectors in twice the working precision, as unevaluated sums of two numbers, so that small differences
+//! keep their digits. Built from TwoSum and TwoProd (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot Product", algorithm
+//! 5.3).
 
 use crate::math::{rsqrt, two_sum};
 use crate::real::Real;
@@ -12,7 +13,7 @@ pub(super) fn compensated_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
     sum + rest
 }
 
-/// a·b.
+/// a·b, as an unevaluated sum.
 #[inline(always)]
 pub(super) fn dot_dw<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
     let product = |a: R, b: R| {
@@ -32,21 +33,21 @@ pub(super) fn rounded_sum<R: Real>([a, ra]: [R; 2], [b, rb]: [R; 2]) -> R {
     sum + (rest + (ra + rb))
 }
 
-/// p·n for an n that is a sum of two, rounded once: the height of a far point over a plane is a small difference.
+/// p·n for an unevaluated sum n, rounded once: the height of a far point over a plane is a small difference.
 #[inline(always)]
 pub(super) fn compensated_height<R: Real>(p: Vec3<R>, n: [Vec3<R>; 2]) -> R {
     let [sum, rest] = height_dw(p, n);
     sum + rest
 }
 
-/// The same, not rounded.
+/// p·n for an unevaluated sum n, not rounded.
 #[inline(always)]
 pub(super) fn height_dw<R: Real>(p: Vec3<R>, [n, more]: [Vec3<R>; 2]) -> [R; 2] {
     let [sum, rest] = dot_dw(p, n);
     [sum, rest + p.dot(more)]
 }
 
-/// u×v.
+/// u×v, as an unevaluated sum.
 #[inline(always)]
 pub(super) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
     let cross = |a: R, b: R, c: R, d: R| {
@@ -58,14 +59,14 @@ pub(super) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
     [Vec3::new(x, y, z), Vec3::new(ex, ey, ez)]
 }
 
-/// a + b of two such sums; of two vectors, with no rests.
+/// a + b for two unevaluated sums; a plain vector has the rest 0.
 #[inline(always)]
 pub(super) fn sum_dw<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
     let ((x, ex), (y, ey), (z, ez)) = (two_sum(a.x, b.x), two_sum(a.y, b.y), two_sum(a.z, b.z));
     [Vec3::new(x, y, z), Vec3::new(ex, ey, ez) + (ra + rb)]
 }
 
-/// A normal of any length to length 1, and without rounding, times a power of two, with one over its length then; z for none.
+/// The unit normal; the normal times a power of two, unrounded; and 1 over the length of the latter. A zero normal counts as z.
 #[inline(always)]
 pub(super) fn unit_normal<R: Real>(normal: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));

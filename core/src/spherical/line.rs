@@ -8,11 +8,11 @@ use crate::vector::Vec3;
 use crate::warp::{Linear, Warp1};
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
-/// Angle by which a sample may leave the segment through the rounding of its direction: 4 ulp of a component near 1.
+/// Angle by which the rounding of its direction may move a sample out of the segment: 4 ulp of a component near 1.
 const SLACK: f64 = 4.0 / 16_777_216.0;
 const TURNS: f64 = 0.5 * FRAC_1_PI;
 
-/// Both times a power of two, and that; zeros where one is beyond the largest number.
+/// Scales both by a power of two, and returns that scale; both become 0 if a coordinate is infinite.
 #[inline(always)]
 fn common_scale<R: Real>(a: Vec3<R>, edge: Vec3<R>) -> (Vec3<R>, Vec3<R>, R) {
     let reach = a.max_abs().greater(edge.max_abs());
@@ -26,37 +26,48 @@ pub(super) fn finite_or_zero<R: Real>(v: Vec3<R>, finite: R::Mask) -> Vec3<R> {
 }
 
 lanewise! {
-    /// The directions from a point to a line segment, uniform by angle: [`Warp`](crate::Warp) in one dimension. Between a ray and a
-    /// point light it is equiangular sampling.
+    /// Directions from a point to a line segment, uniform in angle: for thin tubes, and for equiangular sampling of a ray about
+    /// a point light. A one-dimensional [`Warp`](crate::Warp).
     ///
-    /// - Formula: θ = uα from the first end, α = atan2(|a×e|, a·(a+e)) the angle under which the segment is seen; the direction is
-    ///   a/|a| cosθ + t sinθ, t = (a×e)/|a×e| × a/|a|; the distance |a×b|/(|a| sinθ + |b| sin(α−θ)), where nothing cancels.
+    /// Call `SphericalSegment::new(a, edge)` with `a` relative to the point, then `sample_direction`. A point on the line of
+    /// the segment gives pdf 0.
+    ///
+    /// - Formula: θ = uα from the first end, where α = atan2(|a×e|, a·(a+e)) is the angle that the segment subtends; the
+    ///   direction is a/|a| cosθ + t sinθ, t = (a×e)/|a×e| × a/|a|; the distance is |a×b|/(|a| sinθ + |b| sin(α−θ)), where
+    ///   nothing cancels.
     /// - Domain: u in [0, 1); any segment.
-    /// - Density: 1/α per radian of the plane of point and segment between the ends (and within 4 ulp of the direction beyond), 0
-    ///   elsewhere. A direction off that plane stands for its projection on it. Per unit of length at the distance r it is sin γ/r of
-    ///   that, with γ the angle between direction and segment.
-    /// - Degenerate: the point on the line of the segment (|a×e| < 1e−30 of the greatest coordinate's square), a length of 0, or α < 1e−30:
-    ///   pdf 0.
+    /// - Density: the pdf is 1/α per radian, in the plane of point and segment, between the ends (and within 4 ulp beyond), 0
+    ///   elsewhere. A direction off that plane counts as its projection onto it. Per unit of length, at the distance r, the pdf
+    ///   is sinγ/r times that, with γ the angle between direction and segment.
+    /// - Degenerate input: the point on the line of the segment (|a×e| < 1e−30 of the squared greatest coordinate), a length of
+    ///   0, or α < 1e−30 gives pdf 0.
     /// - Greatest error: direction 2.9e−7; pdf 3e−7 relative; distance 4e−7 relative, over sinγ.
-    /// - Source: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012, 4.1, by angles
-    ///   at the ends instead of the foot of the perpendicular.
+    /// - Source: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012, 4.1,
+    ///   by angles at the ends instead of the foot of the perpendicular.
     pub struct SphericalSegment {
-        /// at the ends: direction, and direction of turning towards the other end
+        /// unit direction a/|a| of the first end
         from: Vec3<R>,
+        /// unit tangent there, towards the other end
         from_turn: Vec3<R>,
+        /// unit direction b/|b| of the second end
         to: Vec3<R>,
+        /// unit tangent there, towards the first end
         to_turn: Vec3<R>,
+        /// α in radians
         angle: R,
-        /// |a|, |b| and |a×b| in units of `unit`
+        /// |a|, in units of `unit`
         from_distance: R,
+        /// |b|, in units of `unit`
         to_distance: R,
+        /// |a×b|, in units of `unit`²
         area: R,
+        /// unit of the lengths above, a power of two
         unit: R,
     }
 }
 
 impl<R: Real> SphericalSegment<R> {
-    /// For the segment from `a` to `a + edge`, with `a` relative to the point.
+    /// Prepares for the segment from `a` to `a + edge`, with `a` relative to the point; both in one unit of length.
     #[inline(always)]
     pub fn new(a: Vec3<R>, edge: Vec3<R>) -> Self {
         let (a, edge, scale) = common_scale(a, edge);
@@ -68,7 +79,7 @@ impl<R: Real> SphericalSegment<R> {
     #[inline(always)]
     fn between(ends: [Vec3<R>; 2], distances: [R; 2], normal: Vec3<R>, area: R, unit: R) -> Self {
         let angle = area.atan2(distances[0] * distances[1] * ends[0].dot(ends[1]));
-        // below, what it is made of is subnormal
+        // below this, its factors are subnormal
         let least = R::lit(1e-30);
         Self {
             from: ends[0],
@@ -83,12 +94,12 @@ impl<R: Real> SphericalSegment<R> {
         }
     }
 
-    /// The angle under which the segment is seen, in radians; 0 where it is degenerate.
+    /// The angle α that the segment subtends, in radians, in [0, π]; 0 where it is degenerate.
     #[inline(always)]
     pub fn angle(&self) -> R {
         self.angle
     }
-    /// The density of every direction that hits the segment, 1/α.
+    /// The pdf per radian of every direction that hits the segment, 1/α; 0 where α is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
         ratio(R::lit(1.0), self.angle)
@@ -111,37 +122,38 @@ impl<R: Real> SphericalSegment<R> {
             distance: distance.lesser(R::lit(f64::from(f32::MAX))).keep(self.angle.gt(R::lit(0.0))),
         }
     }
-    /// The direction for `u` and the distance to the segment along it.
+    /// Maps `u` to a direction and the distance to the segment along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: R) -> DirectionSample<R> {
         self.at(u * self.angle, (R::lit(1.0) - u) * self.angle)
     }
-    /// The direction for `u` in [0, 1).
+    /// Maps `u` in [0, 1) to a direction.
     #[inline(always)]
     pub fn sample(&self, u: R) -> Vec3<R> {
         self.sample_direction(u).direction
     }
-    /// Is the direction between the ends?
+    /// Tells whether the direction lies between the ends; allows for its rounding.
     #[inline(always)]
     fn between_ends(&self, w: Vec3<R>) -> R::Mask {
         let slack = R::lit(-SLACK);
-        // the direction in the middle, twice as long or more
+        // along the bisector of the ends, of length 2 or more
         let ahead = (self.from + self.to) + (self.from_turn + self.to_turn);
         w.dot(self.from_turn).ge(slack) & w.dot(self.to_turn).ge(slack) & w.dot(ahead).ge(slack)
     }
-    /// Density of a direction, per radian; 0 beyond the ends.
+    /// The pdf of a direction, per radian; 0 beyond the ends.
     #[inline(always)]
     pub fn pdf(&self, w: Vec3<R>) -> R {
         self.uniform_pdf().keep(self.between_ends(w))
     }
-    /// Angles of a direction from both ends.
+    /// Angles of a direction from the two ends.
     #[inline(always)]
     fn angles(&self, w: Vec3<R>) -> (R, R) {
         let zero = R::lit(0.0);
         let of = |turn: Vec3<R>, end: Vec3<R>| w.dot(turn).greater(zero).atan2(w.dot(end)).lesser(self.angle);
         (of(self.from_turn, self.from), of(self.to_turn, self.to))
     }
-    /// The `u` in [0, 1) that [`sample`](Self::sample) maps to the direction; any value in [0, 1) for one beyond the ends.
+    /// Returns the `u` in [0, 1) that [`sample`](Self::sample) maps to the direction; for one beyond the ends, some value in
+    /// [0, 1).
     #[inline(always)]
     pub fn invert(&self, w: Vec3<R>) -> R {
         let (theta, rest) = self.angles(w);
@@ -151,19 +163,21 @@ impl<R: Real> SphericalSegment<R> {
 }
 
 lanewise! {
-    /// One end of a [`ProjectedSegment`]: what the irradiance up to the angle x from it depends on.
+    /// One end of a [`ProjectedSegment`], with the coefficients of the irradiance ∫p up to the angle x from it.
     struct End {
-        /// p₀, p₀' and c
+        /// p₀ = sinγ₀ cosθ₀
         density: R,
+        /// p₀'
         slope: R,
+        /// c = p₀ + cosγ₀ ∂cosθ/∂x
         bend: R,
-        /// of the half of the segment next to it
+        /// ∫p over the half of the segment next to this end
         half: R,
     }
 }
 
 impl<R: Real> End<R> {
-    /// Irradiance up to the angle x ≤ π/2, its derivative, and the derivative of that.
+    /// The irradiance ∫p up to the angle x ≤ π/2, p(x), and p'(x).
     #[inline(always)]
     fn irradiance(&self, x: R) -> (R, R, R) {
         let (s, c) = (x * R::lit(TURNS)).sin_cos_turns();
@@ -174,7 +188,7 @@ impl<R: Real> End<R> {
         let slope = self.slope.mul_add((c - s) * (c + s), -(self.bend * (sc + sc)));
         (sum, value.greater(R::lit(0.0)), slope)
     }
-    /// The angle x ≤ `most` up to which the irradiance is `part`: Laguerre's method, from the density as if it were linear.
+    /// The angle x ≤ `most` up to which the irradiance is `part`: Laguerre's method, started as if p were linear.
     #[inline(always)]
     fn invert(&self, part: R, most: R) -> R {
         let zero = R::lit(0.0);
@@ -192,38 +206,47 @@ impl<R: Real> End<R> {
 }
 
 lanewise! {
-    /// The directions from a point on a surface to a thin line light, by projected solid angle: with density proportional to the
-    /// irradiance that each part of the light gives to the surface. In one dimension, as [`SphericalSegment`].
+    /// Directions from a point on a surface to a thin line light, by projected solid angle: for thin tubes over diffuse
+    /// surfaces. In one dimension, as [`SphericalSegment`].
     ///
-    /// A thin cylinder of constant radiance gives the irradiance cosθ sinγ ds/r² per unit of its width, θ from the surface's normal, γ from
-    /// the line. By the angle x at the point that is sinγ cosθ dx over the height of the point above the line: a product of two sines.
+    /// Call `ProjectedSegment::new(a, edge, normal)` with `a` relative to the point, then `sample_direction`. A point on the
+    /// line of the segment, or a segment below the horizon, gives pdf 0.
     ///
-    /// - Formula: from the first end, p(x) = sinγ cosθ = p₀ + ½p₀' sin 2x − c sin²x; ∫p = p₀x + ½p₀' sin²x − ½c(x − sinx cosx), with
-    ///   p₀ = sinγ₀ cosθ₀ and c = p₀ + cosγ₀ ∂cosθ/∂x. From the nearer half's end, ∫p = u(A+B) by three (in double precision four)
-    ///   steps of Laguerre's method for cubic polynomials, which leaves 7e−10 of α.
-    /// - Domain: u in [0, 1); any segment, which is clipped to the horizon first, its end there from the normals of both planes; a
-    ///   normal of any length.
-    /// - Density: sinγ cosθ/∫p per radian of the plane of point and segment between the ends and above the horizon (and within 4 ulp
-    ///   beyond), 0 elsewhere. A direction off that plane stands for its projection on it.
-    /// - Degenerate: the point on the line of the segment, all of it below the horizon or at it, a length of 0: pdf 0.
+    /// A thin cylinder of constant radiance gives the irradiance cosθ sinγ ds/r² per unit of its width, with θ from the
+    /// surface's normal and γ from the line. In terms of the angle x at the point, that is sinγ cosθ dx over the distance of
+    /// the point from the line: a product of two sines.
+    ///
+    /// - Formula: from the first end, p(x) = sinγ cosθ = p₀ + ½p₀' sin 2x − c sin²x; ∫p = p₀x + ½p₀' sin²x − ½c(x − sinx cosx),
+    ///   with p₀ = sinγ₀ cosθ₀ and c = p₀ + cosγ₀ ∂cosθ/∂x. Each half counts from its own end. Three steps of Laguerre's method
+    ///   for cubic polynomials (four in double precision) solve ∫p = u(A+B), where A and B are the integrals over the two
+    ///   halves; they leave 7e−10 of α.
+    /// - Domain: u in [0, 1); any segment, with a normal of any length. The segment is first clipped to the horizon, where its
+    ///   end follows from the normals of both planes.
+    /// - Density: the pdf is sinγ cosθ/∫p per radian, in the plane of point and segment, between the ends and above the horizon
+    ///   (and within 4 ulp beyond), 0 elsewhere. A direction off that plane counts as its projection onto it.
+    /// - Degenerate input: the point on the line of the segment, the whole segment at or below the horizon, or a length of 0
+    ///   gives pdf 0.
     /// - Greatest error: direction 4e−7, besides 4 steps of 2⁻²⁴ in u; ∫p 1.1e−6 relative, over the lesser sine of the angles
     ///   between the line and the directions of its ends, and 2e−14 over the sine of the higher end's elevation.
-    /// - Source: Peters, "BRDF Importance Sampling for Linear Lights", HPG 2021, for the density; the integral from an end and its
-    ///   inverse are derived here.
+    /// - Source: Peters, "BRDF Importance Sampling for Linear Lights", HPG 2021, for the density; the integral from an end and
+    ///   its inverse are derived here.
     pub struct ProjectedSegment {
+        /// the part above the horizon
         arc: SphericalSegment<R>,
         near: End<R>,
         far: End<R>,
-        /// ∫p
+        /// ∫p over both halves
         whole: R,
+        /// unit normal of the surface
         normal: Vec3<R>,
-        /// from the point to the line, at right angles
+        /// unit vector from the point to the line, perpendicular to it
         foot: Vec3<R>,
     }
 }
 
 impl<R: Real> ProjectedSegment<R> {
-    /// For the segment from `a` to `a + edge`, with `a` relative to the point, on a surface with the normal `normal`.
+    /// Prepares for the segment from `a` to `a + edge`, with `a` relative to the point, on a surface with the normal `normal`
+    /// (of any length).
     #[inline(always)]
     pub fn new(a: Vec3<R>, edge: Vec3<R>, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -234,13 +257,14 @@ impl<R: Real> ProjectedSegment<R> {
         let (along, length) = edge.unit_and_length();
         let ((a_way, a_distance), (b_way, b_distance)) = (a.unit_and_length(), b.unit_and_length());
 
-        // heights over the horizon are small differences, and the second one of these
+        // heights over the horizon are small differences, and the second is a difference of such
         let (from, up) = (dot_dw(long, a), dot_dw(long, edge));
         let heights = [from[0] + from[1], up[0] + up[1], rounded_sum(from, up)];
         let [low, rise, high] = heights.map(|z| z * shrink);
         let (enters, leaves) = (low.lt(zero), high.lt(zero));
         let (level, sine) = normal.cross(across).unit_and_length();
-        // the end on the horizon: its place; where the line passes near the point that is a small difference, and the angles to the ends tell
+        // the end on the horizon: its place is a small difference where the line passes near the point; there, the angles to
+        // the ends determine the distance
         let height = ratio(area, length);
         let farthest = a_distance.greater(b_distance);
         let (place, there) = edge.mul_add(ratio(low.abs(), rise.abs()).lesser(one), a).unit_and_length();
@@ -262,10 +286,10 @@ impl<R: Real> ProjectedSegment<R> {
 
         let cos = |below: R::Mask, height: R, distance: R| ratio(height.greater(zero), distance).keep(!below);
         let (from_cos, to_cos) = (cos(enters, low, from_distance), cos(leaves, high, to_distance));
-        // near the horizon heights tell by how much a direction rises, elsewhere the normal does
+        // the slope of the cosine: near the horizon from the heights, elsewhere from the normal
         let (sin, level) = (ratio(area * part, from_distance * to_distance), from.dot(to));
         let flat = (from_cos + to_cos).lt(sin);
-        // as far as the nearer end is known
+        // to the accuracy of the nearer end
         let most = ratio(from_distance.lesser(to_distance), farthest);
         let end = |way: Vec3<R>, turn: Vec3<R>, along: Vec3<R>, distance: R, cos: R, other: R| {
             let sine = ratio(height, distance).lesser(one);
@@ -291,13 +315,13 @@ impl<R: Real> ProjectedSegment<R> {
         }
     }
 
-    /// The irradiance of the segment per unit of its radiance and width, times the height of the point above the line; 0 where it is
-    /// degenerate.
+    /// The irradiance of the segment per unit of its radiance and width, times the distance of the point from the line: ∫p; 0
+    /// where it is degenerate.
     #[inline(always)]
     pub fn irradiance(&self) -> R {
         self.whole
     }
-    /// The direction for `u` and the distance to the segment along it.
+    /// Maps `u` to a direction and the distance to the segment along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: R) -> DirectionSample<R> {
         let (one, half) = (R::lit(1.0), R::lit(0.5));
@@ -314,19 +338,20 @@ impl<R: Real> ProjectedSegment<R> {
         let rest = self.arc.angle - x;
         self.arc.at(pick(x, rest), pick(rest, x))
     }
-    /// The direction for `u` in [0, 1).
+    /// Maps `u` in [0, 1) to a direction.
     #[inline(always)]
     pub fn sample(&self, u: R) -> Vec3<R> {
         self.sample_direction(u).direction
     }
-    /// Density of a direction, per radian; 0 beyond the ends and below the horizon.
+    /// The pdf of a direction, per radian; 0 beyond the ends and below the horizon.
     #[inline(always)]
     pub fn pdf(&self, w: Vec3<R>) -> R {
         let zero = R::lit(0.0);
         let value = w.dot(self.foot).greater(zero) * w.dot(self.normal).greater(zero);
         ratio(value, self.whole).keep(self.arc.between_ends(w))
     }
-    /// The `u` in [0, 1) that [`sample`](Self::sample) maps to the direction; any value in [0, 1) for one beyond the ends.
+    /// Returns the `u` in [0, 1) that [`sample`](Self::sample) maps to the direction; for one beyond the ends, some value in
+    /// [0, 1).
     #[inline(always)]
     pub fn invert(&self, w: Vec3<R>) -> R {
         let (x, y) = self.arc.angles(w);

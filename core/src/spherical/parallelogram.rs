@@ -5,16 +5,23 @@ use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
-/// The directions from a point to a parallelogram (a rectangle among them), uniform by solid angle.
+/// Directions from a point to a parallelogram, uniform in solid angle: for quads; cheaper than
+/// [`SphericalRectangle`](super::SphericalRectangle), whose strata follow the edges.
 ///
-/// Two [`SphericalTriangle`]s with the corner `p` in common: u₀ sweeps about that corner from one side to the other, across
-/// the diagonal without a jump, so that strata of the square stay connected.
+/// Call `SphericalParallelogram::new(p, u, v)` with `p` relative to the point, then `sample_direction`. Degenerate input is as
+/// for [`SphericalTriangle`].
 ///
-/// - Formula: Ω = Ω₁ + Ω₂; u₀ < Ω₁/Ω takes the triangle (p+u, p, p+u+v) at u₀Ω/Ω₁, else (p+u+v, p, p+v) with the rest.
-/// - Domain, density, degenerate input, source: as the triangle.
-/// - Greatest error over the atlas: Ω 5e−7 relative. Direction as the triangle, from all but 1e−5 of its size over its plane; and what half
-///   a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the elevation of the nearest
-///   corner, since the place where the second triangle begins is known as Ω₁ and Ω are.
+/// It consists of two [`SphericalTriangle`]s with the corner `p` in common: u₀ sweeps about that corner from one side to the
+/// other, across the diagonal without a jump, so that strata of the square stay connected.
+///
+/// - Formula: Ω = Ω₁ + Ω₂; u₀ < Ω₁/Ω takes the triangle (p+u, p, p+u+v) at u₀Ω/Ω₁, else (p+u+v, p, p+v) with the remainder.
+/// - Domain: u in [0, 1)²; any parallelogram, from any side.
+/// - Density: the pdf is 1/Ω per steradian inside (and within the triangle's 12 ulp beyond), 0 outside.
+/// - Degenerate input: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
+/// - Greatest error over the atlas: Ω 5e−7 relative. The direction is as for the triangle, if the point is at least 1e−5 of the
+///   parallelogram's size above its plane; add what half a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the
+///   elevation of the nearest corner, since u₀ = Ω₁/Ω, where the second triangle begins, is rounded.
+/// - Source: as for [`SphericalTriangle`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SphericalParallelogram<R> {
     first: SphericalTriangle<R>,
@@ -22,11 +29,11 @@ pub struct SphericalParallelogram<R> {
 }
 
 impl<R: Real> SphericalParallelogram<R> {
-    /// For the corners p, p+u, p+u+v, p+v, with p relative to the point.
+    /// Prepares for the corners p, p+u, p+u+v, p+v, with p relative to the point; all in one unit of length.
     #[inline(always)]
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let ([p, u, v, a, b, c], scale) = to_unit([p, u, v, p + u, p + u + v, p + v]);
-        // the corners but p are rounded sums; planes through them are sums of these
+        // p is exact, the other corners are rounded sums: form the planes from p, u and v
         let (pu, pv, normal) = (cross_dw(p, u), cross_dw(p, v), cross_dw(v, u));
         let volume = compensated_height(p, normal);
         let rounded = |[n, rest]: [Vec3<R>; 2]| n + rest;
@@ -42,7 +49,7 @@ impl<R: Real> SphericalParallelogram<R> {
             second: SphericalTriangle::prepare([b, p, c], &second, scale),
         }
     }
-    /// Prepared for one point: the same in every lane.
+    /// Repeats one prepared parallelogram in every lane.
     #[inline(always)]
     pub fn splat(s: SphericalParallelogram<R::Scalar>) -> Self {
         Self { first: SphericalTriangle::splat(s.first), second: SphericalTriangle::splat(s.second) }
@@ -52,7 +59,7 @@ impl<R: Real> SphericalParallelogram<R> {
     pub fn solid_angle(&self) -> R {
         self.first.solid_angle() + self.second.solid_angle()
     }
-    /// The density of every direction that hits the parallelogram, 1/Ω; 0 where Ω is 0.
+    /// The pdf per steradian of every direction that hits the parallelogram, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
         super::reciprocal_or_zero(self.solid_angle())
@@ -60,10 +67,11 @@ impl<R: Real> SphericalParallelogram<R> {
     /// True where the point is on the side to which the normal u×v points.
     #[inline(always)]
     pub fn in_front(&self) -> R::Mask {
-        // both triangles run p+u → p → p+u+v, which is the other way round
+        // both triangles run p+u → p → p+u+v, the other way round
         !self.first.in_front()
     }
-    /// Which triangle, `u` within it, and 1−u₀ there: near the end of the second the difference would have few digits.
+    /// The triangle for `u`, the `u` within it, and 1−u₀ there, since the difference would have few digits near the end of the
+    /// second.
     #[inline(always)]
     fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>, R) {
         let (one, zero) = (R::lit(1.0), R::lit(0.0));
@@ -76,7 +84,7 @@ impl<R: Real> SphericalParallelogram<R> {
         let rest = (R::blend(first, a - swept, left) * inverse).clamped(zero, one);
         (SphericalTriangle::blend(first, self.first, self.second), Vec2::new(x, u.y), rest)
     }
-    /// The direction for `u` and the distance to the parallelogram along it.
+    /// Maps `u` to a direction and the distance to the parallelogram along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let (triangle, u, rest) = self.branch(u);
@@ -91,6 +99,7 @@ impl<R: Real> Warp<R> for SphericalParallelogram<R> {
         let (triangle, u, rest) = self.branch(u);
         triangle.sample_from(u, rest)
     }
+    /// The pdf per steradian; 0 for a direction that misses the parallelogram.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         let (first, second) = (&self.first, &self.second);

@@ -3,18 +3,10 @@ use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
-/// The directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, uniform by solid angle.
+/// Directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, uniform in solid angle.
 ///
-/// A fan of N − 2 [`SphericalTriangle`]s about the first corner: u₀ sweeps about it from the second to the last, from one triangle into
-/// the next without a jump, so that strata of the square stay connected.
-///
-/// - Formula: Ω = ΣΩᵢ; the triangle i for which Ω₁ + … + Ωᵢ first exceeds u₀Ω, at the rest of u₀Ω over Ωᵢ. The triangle is selected
-///   per lane, and its map computed once.
-/// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
-/// - Density: 1/Ω per steradian inside (and within the triangle's slack beyond), 0 outside.
-/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, and source: as the triangle.
-/// - Greatest error: as the parallelogram, from points that are farther from the plane than the corners are by their rounding. From nearer the
-///   fan overlaps itself, and up to all of Ω may be wrong.
+/// Call `SphericalPolygon::new(corners)` with the corners relative to the point, then `sample_direction`. A point in the
+/// polygon's plane, or zero area, gives pdf 0; other values of N do not compile.
 ///
 /// ```
 /// use etendue::spherical::SphericalPolygon;
@@ -22,14 +14,26 @@ use crate::warp::Warp;
 /// // half a unit above the point, counterclockwise as seen from it
 /// let corners = [[0.5, 0.5], [0.5, -0.5], [-0.5, -0.5], [-0.5, 0.5]].map(|[x, y]| Vec3::new(x, y, 0.5_f32));
 /// let face = SphericalPolygon::new(corners);
-/// // a face of a cube about the point: a sixth of all directions
+/// // one face of a cube about the point: a sixth of all directions
 /// assert!((face.solid_angle() - 4.0 * std::f32::consts::PI / 6.0).abs() < 1e-6 && face.in_front());
 /// let w = face.sample(Vec2::new(0.3, 0.9));
 /// assert!(face.pdf(w) > 0.0 && face.pdf(Vec3::new(-w.x, -w.y, -w.z)) == 0.0);
 /// ```
+///
+/// It is a fan of N − 2 [`SphericalTriangle`]s about the first corner: u₀ sweeps about that corner from the second corner to
+/// the last, from one triangle into the next without a jump, so that strata of the square stay connected.
+///
+/// - Formula: Ω = ΣΩᵢ; the first triangle i with Ω₁ + … + Ωᵢ > u₀Ω, at the rest of u₀Ω over Ωᵢ. Each lane selects its triangle,
+///   and the map is computed once.
+/// - Domain: u in [0, 1)²; corners in order, either way round, coplanar to within their rounding.
+/// - Density: the pdf is 1/Ω per steradian inside (and within the triangle's 12 ulp beyond), 0 outside.
+/// - Degenerate input: corners may coincide or be collinear; otherwise as for the triangle.
+/// - Greatest error: as for the parallelogram, if the point is farther from the plane than the rounding of the corners. From
+///   nearer, the fan overlaps itself, and up to all of Ω may be wrong.
+/// - Source: as for [`SphericalTriangle`].
 #[derive(Clone, Copy, Debug)]
 pub struct SphericalPolygon<R, const N: usize> {
-    /// The last two are empty.
+    /// The N − 2 triangles; the last two entries are unused.
     fan: [SphericalTriangle<R>; N],
     solid_angle: R,
 }
@@ -39,7 +43,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
         N - 2
     };
-    /// For corners relative to the point.
+    /// Prepares for corners relative to the point, in any unit of length.
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N]) -> Self {
         let mut fan = [SphericalTriangle::default(); N];
@@ -52,7 +56,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         }
         Self { fan, solid_angle }
     }
-    /// Prepared for one point: the same in every lane.
+    /// Repeats one prepared polygon in every lane.
     #[inline(always)]
     pub fn splat(s: SphericalPolygon<R::Scalar, N>) -> Self {
         Self { fan: s.fan.map(SphericalTriangle::splat), solid_angle: R::splat(s.solid_angle) }
@@ -62,7 +66,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     pub fn solid_angle(&self) -> R {
         self.solid_angle
     }
-    /// The density of every direction that hits the polygon, 1/Ω; 0 where Ω is 0.
+    /// The pdf per steradian of every direction that hits the polygon, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
         super::reciprocal_or_zero(self.solid_angle)
@@ -70,19 +74,19 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     /// True where the point is on the side from which the corners run counterclockwise.
     #[inline(always)]
     pub fn in_front(&self) -> R::Mask {
-        // each triangle runs the other way round; one without area says nothing
+        // each triangle runs the other way round; skip those without area
         let mut front = R::Mask::splat(false);
         for triangle in &self.fan[..Self::TRIANGLES] {
             front = front | (!triangle.in_front() & triangle.solid_angle().gt(R::lit(0.0)));
         }
         front
     }
-    /// Which triangle, `u` within it, and 1−u₀ there: each from the end of the fan that is nearer.
+    /// The triangle for `u`, the `u` within it, and 1−u₀ there, each computed from the nearer end of the fan.
     #[inline(always)]
     fn branch(&self, u: Vec2<R>) -> (SphericalTriangle<R>, Vec2<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (swept, left) = (u.x * self.solid_angle, (one - u.x) * self.solid_angle);
-        // of those behind
+        // solid angles of all later triangles
         let mut behind = [zero; N];
         for i in (1..Self::TRIANGLES).rev() {
             behind[i - 1] = behind[i] + self.fan[i].solid_angle();
@@ -103,7 +107,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
         let x = unit_interval(R::blend(late, one - to, from));
         (chosen, Vec2::new(x, u.y), R::blend(late, to, one - from).clamped(zero, one))
     }
-    /// The direction for `u` and the distance to the polygon along it.
+    /// Maps `u` to a direction and the distance to the polygon along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let (triangle, u, rest) = self.branch(u);
@@ -118,10 +122,11 @@ impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
         let (triangle, u, rest) = self.branch(u);
         triangle.sample_from(u, rest)
     }
+    /// The pdf per steradian; 0 for a direction that misses the polygon.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         let mut inside = R::Mask::splat(true);
-        // the sides at the first corner are those of the first and of the last triangle that has an area
+        // the sides at the first corner belong to the first and the last triangle with an area
         let (mut begun, mut last) = (R::Mask::splat(false), R::Mask::splat(true));
         for triangle in &self.fan[..Self::TRIANGLES] {
             let some = triangle.solid_angle().gt(R::lit(0.0));

@@ -15,63 +15,85 @@ use segment::invert_segment;
 pub(super) use segment::segment;
 
 lanewise! {
-    /// The directions from a point to a sphere above the horizon of a surface normal, by projected solid angle: with density
-    /// proportional to the cosine to the normal.
+    /// Directions from a point to a sphere above the horizon of a surface, by projected solid angle (pdf ∝ cosine to the
+    /// normal): for diffuse surfaces, whose direct light from the sphere it samples without variance.
     ///
-    /// On the disk below the hemisphere the cap is an ellipse, which the horizon may cut. There the density is constant, in each of
-    /// three cases:
-    /// - wholly above the horizon, cosω ≥ sinσ: the concentric disk, scaled to the ellipse;
-    /// - cut, with the axis above: slices across, from the far end. Beyond the two points where the cap meets the horizon they end on the
-    ///   unit circle, before these on the ellipse; either is a segment of a disk, after scaling, and u₀ solves φ − sinφ cosφ = its area;
-    /// - cut, with the axis below: the lune between circle and ellipse, in slices along the azimuth plane of the axis.
+    /// Call `ProjectedCap::new(center, radius, normal)` with the centre relative to the point, then `sample_direction`. A
+    /// radius ≤ 0, or a sphere below the horizon, gives pdf 0; from inside, the hemisphere is sampled.
     ///
-    /// - Formula: σ the cap's half-angle, ω from the normal to its axis; centre sinω cosσ, semi-axes sinσ cosω and sinσ;
-    ///   y = √((sinσ−cosω)(sinσ+cosω)) from the sphere and the normal in twice the working precision, sinθ = y/sinω, tanθ = y/cosσ,
-    ///   tanψ = y/(cosσ cosω), S(φ) = φ − sinφ cosφ. Ω⊥ is π sin²σ cosω if whole; S(θ) + sin²σ cosω (π − S(ψ)) if cut with the axis
-    ///   above, where no term is negative; below, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds = ((1+x²) atan x − x)/x³, k = |cosω| and
-    ///   b = tanθ/k, Ω⊥ = sin²ω sin²θ tanθ (C(tanθ) − C(b))/(1−k²): a difference that is itself an integral of positive terms where b ≤ 1.
-    ///   At sinθ·t across, the lune is as wide as sinθ tanθ sin²ω b² m²/((1+P)(1+Q)(P+Q)), m = 1−t², P = √(1+m tan²θ), Q = √(1+mb²);
-    ///   its area up to t has the like form, and is inverted by a fixed number of steps of Halley's method.
+    /// Let σ be the cap's half-angle and ω the angle from the normal to its axis. Projected to the disk below the hemisphere, the
+    /// cap is an ellipse, which the horizon may cut. The density there is constant, and there are three cases:
+    /// 1. whole, cosω ≥ sinσ: the concentric disk, scaled to the ellipse;
+    /// 2. cut, with the axis above the horizon: slices across, starting at the far end. Beyond the two points where the cap meets
+    ///    the horizon they end on the unit circle, before them on the ellipse. Either part is a circular segment, after scaling,
+    ///    and u₀ solves φ − sinφ cosφ = its area;
+    /// 3. cut, with the axis below the horizon: the lune between circle and ellipse, in slices along the azimuth plane of the
+    ///    axis.
+    ///
+    /// - Formula: centre sinω cosσ, semi-axes sinσ cosω and sinσ; y = √((sinσ−cosω)(sinσ+cosω)) from the sphere and the normal
+    ///   in twice the working precision, sinθ = y/sinω, tanθ = y/cosσ, tanψ = y/(cosσ cosω), S(φ) = φ − sinφ cosφ. Ω⊥ is π
+    ///   sin²σ cosω if whole; S(θ) + sin²σ cosω (π − S(ψ)) if cut with the axis above, where no term is negative. With the axis
+    ///   below, C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds = ((1+x²) atan x − x)/x³, k = |cosω| and b = tanθ/k, Ω⊥ = sin²ω sin²θ tanθ
+    ///   (C(tanθ) − C(b))/(1−k²): a difference that is itself an integral of positive terms where b ≤ 1. At sinθ·t across, the
+    ///   width of the lune is sinθ tanθ sin²ω b² m²/((1+P)(1+Q)(P+Q)), m = 1−t², P = √(1+m tan²θ), Q = √(1+mb²); its area up to
+    ///   t has a similar form, and a fixed number of steps of Halley's method inverts it.
     /// - Domain: u in [0, 1)²; any centre and radius > 0, from outside or inside; a normal of any length.
-    /// - Density: cosθ/Ω⊥ per steradian within the cone (and within 10 ulp beyond) and above the horizon, 0 elsewhere. From inside the
-    ///   sphere: the whole hemisphere, cosθ/π.
-    /// - Degenerate: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` gives some unit vector.
-    /// - Greatest error: Ω⊥ 3e−7 relative; of a sphere below the horizon that reaches over it by less than 1e−6 of its distance 1.6e−6,
-    ///   and 4e−14 over that part; of a cap of more than 80° whose centre is below the
-    ///   horizon, times 1/sin²ω: it is then a ring about the nadir, and circle and ellipse are alike. Direction 4e−7, besides 4 steps of
-    ///   2⁻²⁴ in u, times the same; where the horizon touches the cap it has a square root's slope, and may be off by 1e−3 of the size.
-    ///   A cap of less than 1e−6 on the horizon has cosines below the rounding of its directions, and some are lost.
-    /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two maps of
-    ///   the cut cap and the forms without cancellation are derived here.
+    /// - Density: the pdf is cosθ/Ω⊥ per steradian within the cone (and within 10 ulp beyond) and above the horizon, 0
+    ///   elsewhere. From inside the sphere it is cosθ/π over the whole hemisphere.
+    /// - Degenerate input: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some unit
+    ///   vector.
+    /// - Greatest error: Ω⊥ 3e−7 relative. A sphere whose centre is below the horizon and that rises above it by less than 1e−6
+    ///   of its distance has 1.6e−6, and 4e−14 over that fraction. For a cap of more than 80° whose centre is below the
+    ///   horizon, multiply by 1/sin²ω: the cap is then a ring about the nadir, and circle and ellipse are nearly the same.
+    ///   Direction 4e−7, besides 4 steps of 2⁻²⁴ in u, times the same factor; where the horizon touches the cap, the direction
+    ///   has the slope of a square root there and may be off by 1e−3 of the size. A cap of less than 1e−6 on the horizon has
+    ///   cosines below the rounding of its directions, and some samples are lost.
+    /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two
+    ///   maps of the cut cap and the forms without cancellation are derived here.
     pub struct ProjectedCap {
-        /// x: horizontal, towards the axis; z: the normal.
+        /// x horizontal, towards the axis; z the normal
         frame: Frame<R>,
+        /// unit direction to the centre
         axis: Vec3<R>,
+        /// the cap as a cone about `axis`
         cone: Cone<R>,
+        /// sinσ
         sin_sigma: R,
+        /// cosσ
         cos_sigma: R,
+        /// sinω
         sin_omega: R,
+        /// cosω
         cos_omega: R,
-        /// sin and tan of θ, half the angle of the horizon that the cap covers; θ − sinθ cosθ; |cosω|/tanθ
+        /// sinθ, θ half the angle of the horizon that the cap covers
         sin_theta: R,
+        /// tanθ
         tan_theta: R,
+        /// S(θ) = θ − sinθ cosθ
         segment: R,
+        /// 1/b = |cosω|/tanθ
         beta: R,
-        /// of the lune: the area up to t = 1, in units of `width`'s
+        /// area of half the lune, from t = 0 to 1, in the units of a slice
         half: R,
+        /// Ω⊥ in steradians
         projected: R,
-        /// of the centre: along x and z of the frame; its distance; d²−R²; all in units of `unit`
+        /// x of the centre in the frame, in units of `unit`
         along_x: R,
+        /// z of the centre in the frame, in units of `unit`
         along_z: R,
+        /// d, the distance of the centre, in units of `unit`
         distance: R,
+        /// d²−R², in units of `unit`²
         power: R,
-        /// how far the sphere reaches over the horizon: 0 where it touches, less where it is clear of it
+        /// how far the sphere reaches across the horizon, in units of `unit`: 0 where it touches, negative where it is clear
         margin: R,
+        /// unit of the lengths above, a power of two
         unit: R,
     }
 }
 
-/// r|n| − |c·n|, of which `height` is c·n: the distance of a sphere from touching the horizon, good to parts of itself.
+/// r|n| − |c·n|, where `height` is c·n as an unevaluated sum: how far the sphere reaches across the horizon, accurate relative
+/// to its own size.
 #[inline(always)]
 fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
     let [squared, more] = dot_dw(n, n);
@@ -86,7 +108,8 @@ fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
 }
 
 impl<R: Real> ProjectedCap<R> {
-    /// For a sphere whose centre lies at `center` relative to the point, on a surface with the normal `normal`.
+    /// Prepares for a sphere with its centre at `center` relative to the point (both lengths in one unit), on a surface with
+    /// the normal `normal` (of any length).
     #[inline(always)]
     pub fn new(center: Vec3<R>, radius: R, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -98,7 +121,7 @@ impl<R: Real> ProjectedCap<R> {
         let inverse = rsqrt(R::blend(some, squared, one)).keep(some);
         let outside = power.ge(zero) & some;
 
-        // the normal to length 1, whatever it was
+        // normalise, at any scale
         let normal = normal * normal.max_abs().pow2_scale();
         let length_squared = normal.length_squared();
         let flat = length_squared.le(zero);
@@ -106,7 +129,7 @@ impl<R: Real> ProjectedCap<R> {
         let heights = dot_dw(c, normal);
         let along_z = (heights[0] + heights[1]) * shrink;
         let margin = tangent_distance(r, normal, heights) * shrink;
-        // y: horizontal, across the plane of normal and axis, before the normal is rounded
+        // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
         let across = normal.cross(c) * shrink;
         let normal = normal * shrink;
         let normal = Vec3::new(normal.x, normal.y, R::blend(flat, one, normal.z));
@@ -117,7 +140,7 @@ impl<R: Real> ProjectedCap<R> {
         let frame = Frame { s: t.cross(normal), t, n: normal };
         let along_x = (width_squared * inverse_width).keep(oblique);
 
-        // seen from inside, the hemisphere is a cap about the normal
+        // from inside, the hemisphere is a cap about the normal
         let pick = |yes: R, no: f64| R::blend(outside, yes, R::lit(no));
         let reciprocal = |square: R| rsqrt(R::blend(square.gt(zero), square, one));
         let by_radius = reciprocal(r.mul_add(r, power.greater(zero)));
@@ -128,7 +151,7 @@ impl<R: Real> ProjectedCap<R> {
         let cos_omega = pick((along_z * by_height).clamped(-one, one), 1.0);
         let height_squared = (margin * (r + along_z.abs())).greater(zero) * inverse * inverse;
         let height = height_squared.sqrt().keep(outside);
-        // seen from inside it is
+        // from inside, the cap is whole
         let whole = !outside | (margin.le(zero) & along_z.ge(zero));
         let sin_theta = ratio(height, sin_omega).lesser(one);
         let floor = R::lit(1e-9);
@@ -168,19 +191,19 @@ impl<R: Real> ProjectedCap<R> {
         }
     }
 
-    /// Projected solid angle in [0, π]: irradiance per unit of radiance.
+    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
     #[inline(always)]
     pub fn projected_solid_angle(&self) -> R {
         self.projected
     }
 
-    /// True where the point lies strictly inside the sphere, so that it sees the inner side.
+    /// True where the point lies strictly inside the sphere and so sees its inner side.
     #[inline(always)]
     pub fn inside(&self) -> R::Mask {
         self.power.lt(R::lit(0.0))
     }
 
-    /// The density of a direction that is known to hit the sphere, at a cosine to the normal: cosθ/Ω⊥.
+    /// The pdf per steradian of a direction that is known to hit the sphere and has the cosine `cos` to the normal: cosθ/Ω⊥.
     #[inline(always)]
     pub fn pdf_at_cosine(&self, cos: R) -> R {
         // a subnormal Ω⊥ has no finite reciprocal
@@ -200,7 +223,7 @@ impl<R: Real> ProjectedCap<R> {
         self.margin.le(R::lit(0.0)) & self.cos_omega.ge(R::lit(0.0))
     }
 
-    /// 1 − the centre of the ellipse: 1 − sinω cosσ.
+    /// 1 − sinω cosσ, where sinω cosσ is the centre of the ellipse.
     #[inline(always)]
     fn one_minus_centre(&self) -> R {
         let one = R::lit(1.0);
@@ -211,7 +234,7 @@ impl<R: Real> ProjectedCap<R> {
         self.sin_sigma * self.sin_sigma / (R::lit(1.0) + self.cos_sigma)
     }
 
-    /// The direction for `u` in the local frame; and (cosine to the axis) − cosσ, for what is seen from outside.
+    /// Maps `u` to a direction in the local frame and, from outside, (cosine to the axis) − cosσ.
     #[inline(always)]
     fn local(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let whole = self.whole();
@@ -232,7 +255,7 @@ impl<R: Real> ProjectedCap<R> {
         (w, beyond)
     }
 
-    /// Wholly above the horizon: the disk.
+    /// The whole cap: the concentric disk.
     #[inline(always)]
     fn ellipse(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -241,9 +264,10 @@ impl<R: Real> ProjectedCap<R> {
         let rest = (one - r.abs()) * (one + r.abs());
         self.over_the_ellipse(disk.x, self.sin_sigma * disk.y, (self.sin_sigma * self.sin_sigma * rest).greater(zero))
     }
-    /// At x on the ellipse's disk and height y on its rim or, by `inward` = the square of the rim's y − y², inside it.
+    /// The point at x on the ellipse's disk and at height y: on its rim or, where `inward` (the square of the rim's y − y²) is
+    /// positive, inside it.
     ///
-    /// At the same x, the rim is at z = cosω cosσ − sinω sinσ x; inside, z² exceeds its square by `inward`.
+    /// At the same x, the rim has z = cosω cosσ − sinω sinσ x; inside, z² exceeds the square of that by `inward`.
     #[inline(always)]
     fn over_the_ellipse(&self, x: R, y: R, inward: R) -> (Vec3<R>, R) {
         let zero = R::lit(0.0);
@@ -253,7 +277,7 @@ impl<R: Real> ProjectedCap<R> {
         (Vec3::new(point, y, z), self.cos_omega * ratio(inward, z + rim))
     }
 
-    /// Cut, with the axis above the horizon: two segments of disks.
+    /// The cap cut with its axis above the horizon: two circular segments.
     #[inline]
     fn slices(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
@@ -278,7 +302,7 @@ impl<R: Real> ProjectedCap<R> {
         (Vec3::blend(on_circle, circle, ellipse), R::blend(on_circle, near, far))
     }
 
-    /// The direction for `u` and the distance to the sphere along it.
+    /// Maps `u` to a direction and the distance to the sphere along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let zero = R::lit(0.0);
@@ -302,6 +326,7 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         self.frame.to_world(self.local(u).0)
     }
+    /// The pdf per steradian; 0 for a direction that misses the sphere or lies below the horizon.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.pdf_at_cosine(w.dot(self.frame.n)).keep(self.contains(w))
@@ -314,7 +339,7 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         let whole = self.whole();
         let below = self.cos_omega.lt(zero);
         let mut u = Vec2::default();
-        // near the horizon z tells better than x how far in a direction is
+        // near the horizon, z determines the position across better than x does
         let round = w.y.mul_add(w.y, z * z);
         let off_centre = R::blend(
             w.x.gt(half),
@@ -324,7 +349,7 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         let across = ratio(off_centre, self.sin_sigma * self.cos_omega);
         if whole.any() {
             let p = Vec2::new(across, ratio(w.y, self.sin_sigma));
-            // near the limb of a large cap z tells better than x and y how far out a direction is
+            // near the limb of a large cap, z determines the distance from the axis better than x and y do
             let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * across).greater(zero);
             let rest = (z - rim) * (z + rim) / (self.sin_sigma * self.sin_sigma).greater(R::lit(1e-37));
             let r = R::blend(z.le(self.sin_sigma) & rest.lt(half), (one - rest).greater(zero).sqrt(), p.length());
@@ -338,7 +363,7 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             let in_segment = segment(phi.clamped(zero, R::lit(FRAC_PI_2)));
             let on_circle = span.le(self.sin_theta) & w.x.gt(zero);
             let c = (-across).clamped(-one, one);
-            // sinφ from how far z is above the rim at the same x, and y
+            // sinφ from y, and from the height of z above the rim at the same x
             let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).greater(zero);
             let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).greater(zero)).sqrt() / self.sin_sigma).lesser(one);
             let phi = s.atan2(c.abs());

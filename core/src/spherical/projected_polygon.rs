@@ -14,102 +14,122 @@ use horizon::{Exact, clip};
 use piece::{Corners, Piece, narrowest};
 use sector::Sector;
 
-/// In units of the greatest coordinate: what is nearer to the horizon is on it.
+/// Heights below this, in units of the greatest coordinate, count as on the horizon.
 const LEAST_HEIGHT: f64 = 1e-30;
 
 lanewise! {
-    /// The directions from a point to a triangle above the horizon of a surface normal, by projected solid angle: with density
-    /// proportional to the cosine to the normal.
+    /// Directions from a point to a triangle above the horizon of a surface, by projected solid angle (pdf ∝ cosine to the
+    /// normal): for diffuse surfaces where a ray costs more than a sample.
     ///
-    /// What the horizon leaves is a triangle, or two. Each is swept by azimuth about the normal, between its first and last vertex: up to
-    /// the azimuth of the middle one from the first, and from there on to the last (about the zenith, from each vertex to the next), so
-    /// that in every sector two edges meet in a vertex, an outer (lower) one and an inner one. u₀ is the share of the area on the unit
-    /// disk that is swept, u₁ goes from the inner edge to the outer, uniform in the squared radius.
-    ///
-    /// - Formula: at the angle θ from that vertex along the outer edge, let z = ζ cosθ + τ sinθ be the height, D = sinδ sinθ the distance
-    ///   from the inner edge's plane (δ: between the edges), c and k the cosines of both planes to the horizon, and y = D(2kz + D). Squared
-    ///   radii are as k² : k² + y; the area is ½c ∫ y/(k² + y) dθ = ½(cθ − k atan2(c sinθ, k cosθ + ζ sinδ sinθ)). Its difference of
-    ///   arcs is formed from c − k and the angle between their ends; up to tangents x, v of 0.7 as
-    ///   ½c (x²/B)(Zθ/x + x(G − Zx)(c/k + B)/B² · ∫₀¹ t²/((1+x²t²)(1+v²t²)) dt), Z = ζ sinδ/k, G = c/k − 1, B = 1 + Zx, which is good to
-    ///   parts of itself at any size. Newton's method inverts it in x², or in θ in a bracket, until a step is below 3e−4 of the angle. The
-    ///   direction is the point of the outer edge and a displacement. Ω⊥ is the sum of the areas.
-    /// - Domain: u in [0, 1)²; any triangle, from any side, in any position to the horizon; a normal of any length.
-    /// - Density: cosθ/Ω⊥ per steradian inside (and within 8 ulp of the direction beyond) and above the horizon, 0 elsewhere.
-    /// - Degenerate: the point in the plane (also inside the triangle), zero area, lengths whose sums overflow, or nothing above the
-    ///   horizon: Ω⊥ = 0 and pdf 0; `sample` gives some vector, of unit length or 0.
-    /// - Greatest error: Ω⊥ 4e−7 relative, and over the atlas at most 1e−5, also of slivers and from next to the triangle's plane, since products and heights that
-    ///   are small differences are formed in twice the working precision. Beyond: overhead 1e−15 over its size and over the sine of the
-    ///   elevation over its plane (that is, below sizes of 1e−6), from less than 1e−3 of its length beside slivers of over 1e3 (1e−9 times the
-    ///   aspect ratio), and in its plane's normal where it covers all but 1e−4 of a hemisphere.
-    ///   Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; from next to the plane of a triangle that surrounds the point a step is worth 1/sin of the
-    ///   elevation, since so much do the areas of the sectors differ. Distance as `SphericalTriangle`. The inverse is that of a
-    ///   direction 1.4e−6 away, times how much longer than wide the triangle is seen, besides as many steps. In a corner a sweep begins like √u₀ (on the
-    ///   horizon ∛u₀): the share counts from the nearer end; within 2⁻²⁴ of the whole its inverse is the nearest `u` below 1, and if the
-    ///   horizon has cut the triangle in two, u₀ near the join belongs to one or the other. About the zenith the inverse of the azimuth at
-    ///   which the sweep begins may be 0 or 1.
-    /// - Source: Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 4, for the sectors of the disk; Lambert for the
-    ///   areas. Sectors from vertices, not between sorted azimuths: where both edges meet every quantity is a length or a volume of the
-    ///   triangle and is small as the triangle is, and the zenith may lie on an edge. The forms without cancellation are derived here.
+    /// Call `ProjectedTriangle::new(v0, v1, v2, normal)` with the vertices relative to the point, then `sample_direction`. A
+    /// point in the triangle's plane, zero area, or a triangle below the horizon gives pdf 0.
     ///
     /// ```
     /// use etendue::spherical::ProjectedTriangle;
     /// use etendue::{Vec2, Vec3, Warp};
-    /// // an eighth of the sphere, of which the horizon leaves all: seen on the floor it covers a quarter of the unit disk
+    /// // an eighth of the sphere, wholly above the horizon: projected to the floor, it covers a quarter of the unit disk
     /// let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0_f32]].map(|[x, y, z]| Vec3::new(x, y, z));
     /// let seen = ProjectedTriangle::new(x, y, z, z);
     /// assert!((seen.projected_solid_angle() - std::f32::consts::FRAC_PI_4).abs() < 1e-6);
     /// let w = seen.sample(Vec2::new(0.3, 0.9));
     /// assert!((seen.pdf(w) - w.z / std::f32::consts::FRAC_PI_4).abs() < 1e-6);
     /// ```
+    ///
+    /// The horizon leaves one triangle or two. Each is swept by azimuth about the normal, between its first and last vertex: up
+    /// to the azimuth of the middle vertex from the first, and from there on to the last (if it contains the zenith, from each
+    /// vertex to the next). So in every sector two edges meet in a vertex, an outer (lower) one and an inner one. u₀ is the
+    /// share of the projected area that is swept; u₁ goes from the inner edge to the outer, uniform in the squared radius.
+    ///
+    /// - Formula: at the angle θ from that vertex along the outer edge, let z = ζ cosθ + τ sinθ be the height, D = sinδ sinθ
+    ///   the distance from the inner edge's plane (δ is the angle between the edges), c and k the cosines of the outer and the
+    ///   inner plane to the horizon, and y = D(2kz + D). Squared radii are as k² : k² + y; the area is ½c ∫ y/(k² + y) dθ =
+    ///   ½(cθ − k atan2(c sinθ, k cosθ + ζ sinδ sinθ)). That difference of arcs is formed from c − k and the angle between
+    ///   their ends; up to tangents x, v of 0.7 as ½c (x²/B)(Zθ/x + x(G − Zx)(c/k + B)/B² · ∫₀¹ t²/((1+x²t²)(1+v²t²)) dt), Z =
+    ///   ζ sinδ/k, G = c/k − 1, B = 1 + Zx, which is accurate relative to its own size at any size. Newton's method inverts it
+    ///   in x², or in θ in a bracket, until a step is below 3e−4 of the angle. The direction is the point of the outer edge
+    ///   plus a displacement. Ω⊥ is the sum of the areas.
+    /// - Domain: u in [0, 1)²; any triangle, from either side, in any position to the horizon; a normal of any length.
+    /// - Density: the pdf is cosθ/Ω⊥ per steradian inside (and within 8 ulp beyond) and above the horizon, 0 elsewhere.
+    /// - Degenerate input: the point in the plane (also inside the triangle), zero area, lengths whose sums overflow, or
+    ///   nothing above the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some vector, of unit length or 0.
+    /// - Greatest error: Ω⊥ 4e−7 relative, and at most 1e−5 over the atlas, slivers and points next to the triangle's plane
+    ///   included, since products and heights that are small differences are formed in twice the working precision. It grows in
+    ///   three cases: overhead, by 1e−15 over the triangle's size and over the sine of the elevation above its plane (which
+    ///   matters for sizes below 1e−6); from less than 1e−3 of its length beside slivers with an aspect ratio over 1e3, by 1e−9
+    ///   times the aspect ratio; and where the triangle covers all but 1e−4 of a hemisphere, by the error of its plane's
+    ///   normal. Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; next to the plane of a triangle that surrounds the point, a step
+    ///   counts 1/sin of the elevation, since the areas of the sectors then differ by that much. Distance as for
+    ///   `SphericalTriangle`. The inverse is that of a direction 1.4e−6 away, times the triangle's apparent aspect ratio,
+    ///   besides as many steps. In a corner, a sweep begins like √u₀ (on the horizon ∛u₀), so the share counts from the nearer
+    ///   end. Within 2⁻²⁴ of the whole the inverse is the nearest `u` below 1. If the horizon cuts the triangle in two, a u₀
+    ///   near the join belongs to one or the other; about the zenith, the azimuth at which the sweep begins may have 0 or 1 as
+    ///   its inverse.
+    /// - Source: Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 4, for the sectors of the disk; Lambert
+    ///   for the areas. Unlike there, sectors start at vertices, not at sorted azimuths: where both edges meet, every quantity
+    ///   is a length or a volume of the triangle and as small as the triangle, and the zenith may lie on an edge. The forms
+    ///   without cancellation are derived here.
     pub struct ProjectedTriangle {
+        /// unit normal of the surface
         normal: Vec3<R>,
+        /// the part above the horizon, or the first of two
         first: Piece<R>,
-        /// what else the horizon has left, beyond `diagonal`
+        /// the second part, beyond `diagonal`; empty if there is one
         second: Piece<R>,
+        /// unit normal of the plane between the parts, towards the second
         diagonal: Vec3<R>,
-        /// inwards, as long as they are well known
+        /// normal of the plane through the viewpoint, v0 and v1, pointing inwards; shorter where the plane is less well known
         pole0: Vec3<R>,
+        /// the same for v1 and v2
         pole1: Vec3<R>,
+        /// the same for v2 and v0
         pole2: Vec3<R>,
-        /// (v1−v0)×(v2−v0), and V₀· that
+        /// (v1−v0)×(v2−v0)
         plane: Vec3<R>,
+        /// V₀·plane
         volume: R,
+        /// unit of the lengths above, a power of two
         unit: R,
+        /// Ω⊥ in steradians
         projected: R,
     }
 }
 
-/// A triangle: vertices, what the second and third lack if they are rounded, edges from each to the next, products of each vertex and the
-/// next, and (v1−v0)×(v2−v0).
+/// A triangle, with its derived quantities as accurately as they are known.
 struct Given<R> {
+    /// relative to the point, scaled so that all lengths are below 4
     vertices: [Vec3<R>; 3],
+    /// rounding errors of the second and third vertex, if they are rounded
     rests: Option<[Vec3<R>; 2]>,
+    /// from each vertex to the next
     edges: [Vec3<R>; 3],
+    /// cross products of each vertex and the next, as unevaluated sums
     products: [[Vec3<R>; 2]; 3],
+    /// (v1−v0)×(v2−v0), as an unevaluated sum
     plane: [Vec3<R>; 2],
 }
 
-/// a − b as a sum of two.
+/// a − b as an unevaluated sum.
 #[inline(always)]
 fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
     sum_dw([a, Vec3::default()], [-b, Vec3::default()])
 }
 
-/// What `v`, the rounded p + e, lacks.
+/// The rounding error p + e − v of the vertex v ≈ p + e.
 #[inline(always)]
 fn lack<R: Real>(v: Vec3<R>, p: Vec3<R>, e: [Vec3<R>; 2]) -> Vec3<R> {
     let [sum, rest] = sum_dw([p, Vec3::default()], e);
     (sum - v) + rest
 }
 
-/// n + a×b of a sum of two, for a small a×b.
+/// n + a×b for an unevaluated sum n and a small a×b.
 #[inline(always)]
 fn with_rest<R: Real>([n, rest]: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
     [n, rest + a.cross(b)]
 }
 
 impl<R: Real> ProjectedTriangle<R> {
-    /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point, on a surface with the normal `normal`.
+    /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point (in any unit of length), on a surface with the normal
+    /// `normal` (of any length).
     #[inline]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, normal: Vec3<R>) -> Self {
         let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
@@ -123,8 +143,10 @@ impl<R: Real> ProjectedTriangle<R> {
         Self::prepare(&corners, normal, scale)
     }
 
-    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
-    /// were moved to the point: for a small and far triangle they hold its shape.
+    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
+    ///
+    /// Take this for a small and far triangle if you know the edges more accurately than the difference of the vertices: they
+    /// then give the shape.
     #[inline]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
         let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
@@ -139,8 +161,8 @@ impl<R: Real> ProjectedTriangle<R> {
         )
     }
 
-    /// With all three edges, from each vertex to the next, as sums of two, what the rounded second and third vertex lack, and the plane's normal
-    /// as a product; all lengths below 4.
+    /// Prepares from vertices with the rounding errors of the second and third, all three edges (from each vertex to the next,
+    /// as unevaluated sums), and the plane's normal as a cross product of two factors; all lengths below 4.
     #[inline(always)]
     fn with_sides(
         vertices: [Vec3<R>; 3],
@@ -178,7 +200,7 @@ impl<R: Real> ProjectedTriangle<R> {
             Some([r1, r2]) => [dot_dw(v[0], long), over(v[1], r1), over(v[2], r2)],
             None => v.map(|v| dot_dw(v, long)),
         };
-        // below, the errors of products are subnormal, and the horizon's cut would be rounding
+        // below this the errors of products are subnormal, and the horizon would cut by rounding
         let heights = heights.map(|pair| {
             let some = pair[0].abs().gt(R::lit(LEAST_HEIGHT));
             pair.map(|x| x.keep(some))
@@ -204,14 +226,14 @@ impl<R: Real> ProjectedTriangle<R> {
             }
         }
         let mut first = Piece::new(&corners, normal);
-        // what the horizon has left next to nothing of: no `u` but 0 falls into it
+        // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
         let least = narrowest::<R>() * (first.area + second.area);
         for piece in [&mut first, &mut second] {
             piece.area = piece.area.keep(piece.area.gt(least));
         }
 
         let side = |i: usize| {
-            // the plane of vertices that lie nearly opposite is known no better than −cos : sin of their angle: by so much shorter
+            // the plane of nearly opposite vertices is known only to −cos : sin of their angle; shorten the pole by that much
             let length = lengths[i];
             poles[i] * ratio(length, length.greater(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
         };
@@ -226,17 +248,17 @@ impl<R: Real> ProjectedTriangle<R> {
             plane,
             volume,
             unit: scale.pow2_scale(),
-            // from its plane there is nothing to see, whatever rounding makes of it
+            // from the triangle's plane nothing is visible, whatever the rounded areas are
             projected: (first.area + second.area).keep(volume.abs().gt(zero)),
         }
     }
 
-    /// Projected solid angle in [0, π]: irradiance per unit of radiance.
+    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
     #[inline(always)]
     pub fn projected_solid_angle(&self) -> R {
         self.projected
     }
-    /// The density of a direction that is known to hit the triangle, at a cosine to the normal: cosθ/Ω⊥.
+    /// The pdf per steradian of a direction that is known to hit the triangle and has the cosine `cos` to the normal: cosθ/Ω⊥.
     #[inline(always)]
     pub fn pdf_at_cosine(&self, cos: R) -> R {
         cos.greater(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
@@ -247,7 +269,8 @@ impl<R: Real> ProjectedTriangle<R> {
         self.volume.lt(R::lit(0.0))
     }
 
-    /// The sector that has the area `swept` before it and `left` behind, and the share of it that is before the azimuth, from its apex.
+    /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
+    /// counted from its apex.
     #[inline(always)]
     fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
         let (mut sector, mut share) = self.first.choose(swept, left - self.second.area);
@@ -260,17 +283,17 @@ impl<R: Real> ProjectedTriangle<R> {
         }
         (sector, share)
     }
-    /// The distance to the plane along a direction, and whether there is one.
+    /// The distance to the plane along a direction; 0 where there is none.
     #[inline(always)]
     fn distance(&self, w: Vec3<R>) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let along = w.dot(self.plane).abs();
         let some = along.gt(zero) & self.projected.gt(zero);
-        // a point of the triangle is within 4 units; what does not fit f32 ends at its largest number
+        // a point of the triangle is within 4 units; a distance that does not fit f32 becomes the largest finite number
         let distance = (self.volume.abs() / R::blend(some, along, one)).lesser(R::lit(4.0)) * self.unit;
         distance.lesser(R::lit(f64::from(f32::MAX))).keep(some)
     }
-    /// The direction for `u` and the distance to the triangle along it.
+    /// Maps `u` to a direction and the distance to the triangle along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let direction = self.sample(u);
@@ -282,14 +305,14 @@ impl<R: Real> ProjectedTriangle<R> {
         let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
         within(least) & ahead(w, self.plane, self.in_front())
     }
-    /// With its sides' inner faces as those of a triangle that is seen from the front, or not.
+    /// Turns the poles inwards as for a triangle seen from the front (`front`) or from the back.
     #[inline(always)]
     fn faced(self, front: R::Mask) -> Self {
         let turn = R::lit(1.0).negate_where(front ^ self.in_front());
         let [pole0, pole1, pole2] = [self.pole0, self.pole1, self.pole2].map(|pole| pole * turn);
         Self { pole0, pole1, pole2, ..self }
     }
-    /// The area before a direction of the triangle, and `u` across; `edge`: what a jump of the map is kept away from.
+    /// The area before a direction of the triangle, and u₁; areas are kept `edge` away from a jump of the map.
     #[inline(always)]
     fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
         let zero = R::lit(0.0);
@@ -306,18 +329,19 @@ impl<R: Real> ProjectedTriangle<R> {
     }
 }
 
-/// Inside of all sides, given the least sine over them, give or take the rounding of the direction itself?
+/// Tells whether a direction is inside all sides, given the least sine over them; allows for the rounding of the direction
+/// itself.
 #[inline(always)]
 fn within<R: Real>(least: R) -> R::Mask {
     least.ge(R::lit(-SLACK))
 }
-/// Does the direction not lead away from the plane with that normal, likewise?
+/// Tells whether a direction leads towards the plane with that normal, with the same allowance.
 #[inline(always)]
 fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
     w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(SLACK)))
 }
 
-/// Two steps of u₀: from one part to the next the map may jump, and u₀Ω⊥ is known to so much.
+/// Two steps of u₀, in units of area: between two parts the map may jump, and u₀Ω⊥ is known only to this accuracy.
 #[inline(always)]
 fn edge<R: Real>(whole: R) -> R {
     let step = R::lit(1.0) - R::ONE_MINUS_EPSILON;
@@ -331,6 +355,7 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
         let (sector, share) = self.choose(u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
         sector.direction(self.normal, sector.sweep(share), u.y)
     }
+    /// The pdf per steradian; 0 for a direction that misses the triangle or lies below the horizon.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.pdf_at_cosine(w.dot(self.normal)).keep(self.contains(w))
@@ -342,25 +367,30 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
     }
 }
 
-/// The directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, above the horizon of a surface normal, by projected solid
-/// angle: with density proportional to the cosine to the normal.
+/// Directions from a point to a convex polygon of N corners, 3 ≤ N ≤ 8, above the horizon of a surface, by projected solid
+/// angle (pdf ∝ cosine to the normal): for diffuse surfaces where a ray costs more than a sample.
 ///
-/// A fan of N − 2 [`ProjectedTriangle`]s about the first corner, in turn for u₀: each is clipped to the horizon by itself, and there is no
-/// sorting by azimuth, whose order is noise where azimuths are near.
+/// Call `ProjectedPolygon::new(corners, normal)` with the corners relative to the point (or `parallelogram`, from edges), then
+/// `sample_direction`. A point in the polygon's plane, zero area, or a polygon below the horizon gives pdf 0.
 ///
-/// - Formula: Ω⊥ = ΣΩ⊥ᵢ; the triangle i for which Ω⊥₁ + … + Ω⊥ᵢ first exceeds u₀Ω⊥, at the rest of u₀Ω⊥ over Ω⊥ᵢ.
-/// - Domain: u in [0, 1)²; corners in order, either way round, no farther from one plane than their rounding.
-/// - Density: cosθ/Ω⊥ per steradian inside and above the horizon, 0 elsewhere.
-/// - Degenerate: corners that coincide or lie in line are allowed; otherwise, error and source: as the triangle. From one triangle to the
-///   next the map jumps: within the rounding of the areas before, a `u₀` may belong to one or the other, and if the zenith lies on an edge
-///   between two of them to rounding, the direction of a `u` may be another after the last bit of the normal has changed, and its inverse
-///   that of the other triangle. Density and area do not know of that. As [`SphericalPolygon`](super::SphericalPolygon), from no nearer
-///   to the plane than the corners are by their rounding: up to all of Ω⊥ may be wrong there.
+/// It is a fan of N − 2 [`ProjectedTriangle`]s about the first corner, which u₀ takes in turn. Each is clipped to the horizon
+/// by itself; nothing is sorted by azimuth, whose order is noise where azimuths are close.
+///
+/// - Formula: Ω⊥ = ΣΩ⊥ᵢ; the first triangle i with Ω⊥₁ + … + Ω⊥ᵢ > u₀Ω⊥, at the rest of u₀Ω⊥ over Ω⊥ᵢ.
+/// - Domain: u in [0, 1)²; corners in order, either way round, coplanar to within their rounding.
+/// - Density: the pdf is cosθ/Ω⊥ per steradian inside (and within 8 ulp beyond) and above the horizon, 0 elsewhere.
+/// - Degenerate input: corners may coincide or be collinear; otherwise as for the triangle.
+/// - Greatest error: as for the triangle. The map jumps from one triangle to the next: a `u₀` within the rounding of the areas
+///   before it may belong to either. If the zenith lies, to rounding, on an edge between two triangles, the last bit of the
+///   normal may change the direction of a `u`, and its inverse may be that of the other triangle; pdf and area are not
+///   affected. As with [`SphericalPolygon`](super::SphericalPolygon), up to all of Ω⊥ may be wrong where the point is no
+///   farther from the plane than the rounding of the corners.
+/// - Source: as for [`ProjectedTriangle`].
 #[derive(Clone, Copy, Debug)]
 pub struct ProjectedPolygon<R, const N: usize> {
-    /// The last two are empty.
+    /// The N − 2 triangles; the last two entries are unused.
     fan: [ProjectedTriangle<R>; N],
-    /// sums of those of the triangles
+    /// Sums over the triangles: normals, V₀·normal, and Ω⊥.
     plane: Vec3<R>,
     volume: R,
     projected: R,
@@ -374,8 +404,8 @@ impl<R: Real, const N: usize> Default for ProjectedPolygon<R, N> {
 }
 
 impl<R: Real> ProjectedPolygon<R, 4> {
-    /// For a parallelogram with the corner `p` relative to the point, and the edges `u` and `v`, on a surface with the normal
-    /// `normal`. Its shape is that of the edges, however small and far it is.
+    /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of
+    /// length), on a surface with the normal `normal` (of any length). The edges give its shape, however small and far it is.
     #[inline(always)]
     pub fn parallelogram(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, normal: Vec3<R>) -> Self {
         let none = Vec3::default();
@@ -396,7 +426,8 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
         assert!(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
         N - 2
     };
-    /// For corners relative to the point, on a surface with the normal `normal`.
+    /// Prepares for corners relative to the point (in any unit of length), on a surface with the normal `normal` (of any
+    /// length).
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
         let mut fan = [ProjectedTriangle::default(); N];
@@ -417,11 +448,11 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
         for triangle in &mut fan[..Self::TRIANGLES] {
             triangle.projected = triangle.projected.keep(triangle.projected.gt(least));
         }
-        // of a triangle between corners in line rounding tells the side
+        // rounding decides the side of a triangle with collinear corners
         let front = this.in_front();
         Self { fan: fan.map(|triangle| triangle.faced(front)), ..this }
     }
-    /// Prepared for one point: the same in every lane.
+    /// Repeats one prepared polygon in every lane.
     #[inline(always)]
     pub fn splat(s: ProjectedPolygon<R::Scalar, N>) -> Self {
         Self {
@@ -431,12 +462,12 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
             projected: R::splat(s.projected),
         }
     }
-    /// Projected solid angle in [0, π]: irradiance per unit of radiance.
+    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
     #[inline(always)]
     pub fn projected_solid_angle(&self) -> R {
         self.projected
     }
-    /// The density of a direction that is known to hit the polygon, at a cosine to the normal: cosθ/Ω⊥.
+    /// The pdf per steradian of a direction that is known to hit the polygon and has the cosine `cos` to the normal: cosθ/Ω⊥.
     #[inline(always)]
     pub fn pdf_at_cosine(&self, cos: R) -> R {
         cos.greater(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
@@ -446,7 +477,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     pub fn in_front(&self) -> R::Mask {
         self.volume.lt(R::lit(0.0))
     }
-    /// The direction for `u` and the distance to the polygon along it.
+    /// Maps `u` to a direction and the distance to the polygon along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let (direction, distance) = self.draw(u, true);
@@ -456,7 +487,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     fn draw(&self, u: Vec2<R>, far: bool) -> (Vec3<R>, R) {
         let zero = R::lit(0.0);
         let (swept, left) = (u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
-        // the areas of those behind
+        // areas of all later triangles
         let mut behind = [zero; N];
         for i in (1..Self::TRIANGLES).rev() {
             behind[i - 1] = behind[i] + self.fan[i].projected;
@@ -488,7 +519,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// True where a direction hits the polygon, to within the rounding of the direction. The horizon is not tested.
     #[inline(always)]
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
-        // the outer sides: those between triangles would meet in sharper corners than the polygon has, and what is allowed beside each is more there
+        // only the outer sides: those between triangles meet in sharper corners than the polygon has, and allow more beside each
         let mut least = w.dot(self.fan[0].pole0).lesser(w.dot(self.fan[Self::TRIANGLES - 1].pole2));
         for triangle in &self.fan[..Self::TRIANGLES] {
             least = least.lesser(w.dot(triangle.pole1));
@@ -503,6 +534,7 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         self.draw(u, false).0
     }
+    /// The pdf per steradian; 0 for a direction that misses the polygon or lies below the horizon.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.pdf_at_cosine(w.dot(self.fan[0].normal)).keep(self.contains(w))
@@ -515,7 +547,7 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
         let mut sum = self.fan[0].projected;
         for triangle in &self.fan[1..Self::TRIANGLES] {
             let some = triangle.projected.gt(zero);
-            // on the far side of the edge with which the triangle begins
+            // on the far side of the edge with which this triangle begins
             let later = some & (w.dot(triangle.pole0).ge(zero) | sum.le(zero));
             let other = triangle.locate(w, edge);
             let before = found.x.lesser(R::blend(some, sum - edge, found.x));

@@ -6,79 +6,103 @@ use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
-/// Angle by which a sample may leave the rectangle through the rounding of its direction: 8 ulp of a component near 1.
+/// Angle by which the rounding of its direction may move a sample out of the rectangle: 8 ulp of a component near 1.
 const SLACK: f64 = 8.0 / 16_777_216.0;
 const INV_FOUR_PI: f64 = 0.25 / core::f64::consts::PI;
 
 lanewise! {
-    /// The directions from a point to a rectangle, uniform by solid angle.
+    /// Directions from a point to a rectangle, uniform in solid angle: take it where strata shall follow the edges, and the
+    /// cheaper [`SphericalParallelogram`](super::SphericalParallelogram) elsewhere.
     ///
-    /// The map is that of Ureña et al.: u₀ moves along `u` so that the area swept on the sphere is u₀Ω, and u₁ along `v` uniformly in
-    /// y/√(x²+y²+z²). Both coordinates are differences from the far edge, formed without cancellation, where the rectangle lies
-    /// to one side of the foot of the perpendicular; elsewhere they are distances from the foot. So a rectangle of 1e−9 of its
-    /// distance is sampled as well as one that fills the hemisphere.
+    /// Call `SphericalRectangle::new(p, u, v)` with `p` relative to the point and `u` perpendicular to `v`, then
+    /// `sample_direction`. A point in the rectangle's plane, or zero area, gives pdf 0.
     ///
-    /// - Formula: x, y, z are coordinates along the edges and the normal, y₀, y₁ the ends in y, x₁ the far end in x, mᵢ² = yᵢ²+z²,
-    ///   ψᵢ = atan(yᵢ/z). The strip \[0, x\]×\[y₀, y₁\] has the solid angle w = asin(X sinψ₁) − asin(X sinψ₀), X = x/√(x²+z²); therefore
-    ///   x = z sinw/√M, M = (cosw−p)(cosw+s) with p = cos(ψ₁−ψ₀), s = cos(ψ₁+ψ₀). With w = w₁ − 2e, 2e = (1−u₀)Ω, and the
-    ///   difference k = cosw − cosw₁ = 2 sin(w₁−e) sin e, M is (k + (cosw₁−p))(k + (cosw₁+s)), and
-    ///   x₁−x = (x₁/sinw₁)² kQ/(√M(x₁√M + z sinw)), Q = sin²w₁(A+B+k) + (cosw+cosw₁)AB with A = cosw₁−p, B = cosw₁+s.
-    ///   With D² = x²+z², h = y/√(D²+y²) = h₁ − (1−u₁)(h₁−h₀): y = Dh/√(1−h²), 1−h² = (1−h₁²) + (h₁−h)(h₁+h).
-    /// - Domain: u in [0, 1)²; any rectangle, from any side. Edges that are not perpendicular are not sheared: use
-    ///   [`SphericalParallelogram`](super::SphericalParallelogram).
-    /// - Density: 1/Ω per steradian inside (and within 8 ulp of the direction beyond), 0 outside.
-    /// - Degenerate: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
-    /// - Greatest error over the atlas: direction 6e−7 (4e−5 of its size if that is 1e−6 and it is seen from 1e−7 over its plane), besides what
-    ///   8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded): u₀ counts from the nearer end where the rectangle lies on both sides of
-    ///   the foot. pdf 5e−7 relative: heights and coordinates are formed in twice the working precision.
-    ///   Next to the plane of a rectangle that surrounds the point nearly all of u₀ and u₁ lies within a direction's rounding: there the inverse
-    ///   is worth nothing.
+    /// The map is that of Ureña et al.: u₀ moves along `u` so that the area swept on the sphere is u₀Ω, and u₁ moves along `v`
+    /// uniformly in y/√(x²+y²+z²). Where the rectangle lies to one side of the foot of the perpendicular, both coordinates are
+    /// differences from the far edge, formed without cancellation; elsewhere they are distances from the foot. So a rectangle
+    /// of 1e−9 of its distance is sampled as well as one that fills the hemisphere.
+    ///
+    /// - Formula: x, y, z are coordinates along the edges and the normal, y₀, y₁ the ends in y, x₁ the far end in x, mᵢ² =
+    ///   yᵢ²+z², ψᵢ = atan(yᵢ/z). The strip \[0, x\]×\[y₀, y₁\] has the solid angle w = asin(X sinψ₁) − asin(X sinψ₀), X =
+    ///   x/√(x²+z²); therefore x = z sinw/√M, M = (cosw−p)(cosw+s) with p = cos(ψ₁−ψ₀), s = cos(ψ₁+ψ₀). With w = w₁ − 2e, 2e =
+    ///   (1−u₀)Ω, and the difference k = cosw − cosw₁ = 2 sin(w₁−e) sin e, M is (k + (cosw₁−p))(k + (cosw₁+s)), and x₁−x =
+    ///   (x₁/sinw₁)² kQ/(√M(x₁√M + z sinw)), Q = sin²w₁(A+B+k) + (cosw+cosw₁)AB with A = cosw₁−p, B = cosw₁+s. With D² = x²+z²,
+    ///   h = y/√(D²+y²) = h₁ − (1−u₁)(h₁−h₀): y = Dh/√(1−h²), 1−h² = (1−h₁²) + (h₁−h)(h₁+h).
+    /// - Domain: u in [0, 1)²; any rectangle, from either side. The map ignores any shear of the edges: for edges that are not
+    ///   perpendicular, use [`SphericalParallelogram`](super::SphericalParallelogram).
+    /// - Density: the pdf is 1/Ω per steradian inside (and within 8 ulp beyond), 0 outside.
+    /// - Degenerate input: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
+    /// - Greatest error over the atlas: direction 6e−7 (4e−5 of the rectangle's size if that is 1e−6 and the point is 1e−7
+    ///   above its plane), besides what 8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded; u₀ counts from the nearer end
+    ///   where the rectangle lies on both sides of the foot). pdf 5e−7 relative, since heights and coordinates are formed in
+    ///   twice the working precision. Next to the plane of a rectangle that surrounds the point, nearly all of u₀ and u₁ lies
+    ///   within the rounding of a direction, and the inverse is worthless.
     /// - Source: Ureña, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"; the forms without
     ///   cancellation are derived here from w = w₁ − 2e.
     pub struct SphericalRectangle {
-        /// P = base + X·side_x + Y·side_y, X and Y from the foot or from the far edge
+        /// the point X = Y = 0: the foot, or on the far edge where `anchor` is 1; P = base + X·side_x + Y·side_y
         base: Vec3<R>,
+        /// unit vector of x, towards the far end x₁
         side_x: Vec3<R>,
+        /// unit vector of y, towards the far end y₁
         side_y: Vec3<R>,
-        /// planes through the viewpoint and the sides at x₀, x₁, y₀, y₁, pointing inwards, and how far a direction may be beyond
+        /// unit normal of the plane through the viewpoint and the side at x₀, pointing inwards
         near_x: Vec3<R>,
+        /// the same at x₁
         far_x: Vec3<R>,
+        /// the same at y₀
         near_y: Vec3<R>,
+        /// the same at y₁
         far_y: Vec3<R>,
+        /// tolerances of the planes at x₀ and y₀: w is inside if w·plane ≥ −slack
         slack: Vec2<R>,
+        /// the same at x₁ and y₁
         slack_far: Vec2<R>,
-        /// towards the rectangle's plane
+        /// unit normal of the rectangle's plane, away from the viewpoint
         normal: Vec3<R>,
-        /// ends, with |x₀| ≤ x₁ and |y₀| ≤ y₁: the sides point so
+        /// (x₀, y₀), with |x₀| ≤ x₁ and |y₀| ≤ y₁
         near: Vec2<R>,
+        /// (x₁, y₁)
         far: Vec2<R>,
+        /// (x₁−x₀, y₁−y₀)
         size: Vec2<R>,
+        /// z, the distance to the plane
         height: R,
         /// 1 where X or Y is measured from the far edge, 0 where from the foot
         anchor: Vec2<R>,
-        /// 1 where the side points against the edge
+        /// 1 where `side_x` or `side_y` points against the edge
         flip: Vec2<R>,
+        /// sinw₁, w₁ the solid angle of the strip from the foot to x₁
         sin_w1: R,
+        /// cosw₁
         cos_w1: R,
+        /// 1/sinw₁
         inv_sin_w1: R,
-        /// cosw₁ − p, cosw₁ + s
+        /// A = cosw₁ − p
         above_p: R,
+        /// B = cosw₁ + s
         above_s: R,
-        /// these of the strip from the foot to x₀, from which the map counts where more than `half` of the area is beyond: ½ if x₀ < 0
+        /// sinw₁ of the strip from the foot to x₀ if x₀ < 0, else 0
         near_sin: R,
+        /// cosw₁ of that strip
         near_cos: R,
+        /// A of that strip
         near_above_p: R,
+        /// B of that strip
         near_above_s: R,
+        /// where more than this share of the area lies towards x₁, the map counts from x₀: ½ if x₀ < 0, else 2 (never)
         half: R,
+        /// Ω in steradians
         solid_angle: R,
-        /// of the rectangle's normal: −1 where the point is on the side to which u×v points
+        /// −1 where the point is on the side to which u×v points, else 1
         side: R,
+        /// unit of the lengths above, a power of two
         unit: R,
     }
 }
 
-/// Unit normal of the plane through `p` along `u` and `v`, and p·normal: from a far corner the height is a small difference, and it is formed
-/// in twice the working precision.
+/// Unit normal of the plane through `p` along `u` and `v`, and p·normal. From a far corner that height is a small difference,
+/// so it is formed in twice the working precision.
 #[inline(always)]
 fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R) {
     let (u, v) = (u * u.max_abs().pow2_scale(), v * v.max_abs().pow2_scale());
@@ -90,14 +114,14 @@ fn normal_and_height<R: Real>(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> (Vec3<R>, R
 
 /// Solid angle of [near.x, far.x]×[near.y, far.y] at the height z, with |near| ≤ far and `size` = far − near.
 ///
-/// Where the window lies in one quadrant, two triangles: tan(Ω/2) = zΔxΔy/(…), all terms positive. Elsewhere the two strips on
-/// either side of the foot: tan w = az(b₁r₀−b₀r₁)/(a²b₀b₁ + z²r₀r₁).
+/// A window in one quadrant is two triangles: tan(Ω/2) = zΔxΔy/(…), where all terms are positive. Elsewhere it is the two
+/// strips on either side of the foot: tan w = az(b₁r₀−b₀r₁)/(a²b₀b₁ + z²r₀r₁).
 #[inline(always)]
 fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
     let (across_x, across_y) = (near.x.lt(zero), near.y.lt(zero));
     let straddles = across_x | across_y;
-    // the axis of the strips crosses the foot
+    // the strips run along the axis that crosses the foot
     let swap = across_y & !across_x;
     let (a0, b0) = (R::blend(swap, near.y, near.x), R::blend(swap, near.x, near.y));
     let (a1, b1) = (R::blend(swap, far.y, far.x), R::blend(swap, far.x, far.y));
@@ -129,12 +153,13 @@ fn window<R: Real>(near: Vec2<R>, far: Vec2<R>, size: Vec2<R>, z: R) -> R {
 }
 
 impl<R: Real> SphericalRectangle<R> {
-    /// For the corners p, p+u, p+u+v, p+v, with p relative to the point and u perpendicular to v.
+    /// Prepares for the corners p, p+u, p+u+v, p+v, with p relative to the point and u perpendicular to v; all in one unit of
+    /// length.
     #[inline(always)]
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs());
-        // every point of the rectangle has a finite distance
+        // so that every point of the rectangle has a finite distance
         let sum = p.max_abs() + u.max_abs() + v.max_abs();
         let finite = (sum + sum).lt(R::lit(f64::INFINITY));
         let scale = reach.pow2_scale();
@@ -146,14 +171,14 @@ impl<R: Real> SphericalRectangle<R> {
 
         let (z, side) = (signed.abs(), one.copysign(signed));
 
-        // both axes point to the far end; of far corners the coordinates are small differences
+        // both axes point to the far end; coordinates of far corners are small differences
         let ends = |size: R, edge: Vec3<R>| {
             let unit = edge * edge.max_abs().pow2_scale();
             let squared = unit.length_squared();
             let inverse = rsqrt(squared).keep(squared.gt(zero));
             let (from, reach) = (dot_dw(p, unit), dot_dw(edge, unit));
             let (low, high) = ((from[0] + from[1]) * inverse, rounded_sum(from, reach) * inverse);
-            // a tiny size may be lost in both; the near end is the smaller number
+            // rounding may lose a tiny size in both ends; the near end is the one of smaller magnitude
             let flip = (low + high).lt(zero);
             let near = R::blend(flip, -high, low).greater(R::lit(-0.5) * size);
             (flip, near, near + size)
@@ -168,7 +193,7 @@ impl<R: Real> SphericalRectangle<R> {
             Vec3::blend(flip_y, corners[0], corners[3]),
             Vec3::blend(flip_y, corners[1], corners[2]),
         );
-        // the point from which X and Y count: from the far corner, or from the foot, whichever is less far
+        // the origin of X and Y, from the far corner or from the foot, whichever is nearer to it
         let (there_x, there_y) = (x1.keep(anchored_x), y1.keep(anchored_y));
         let (gone_x, gone_y) = (x1 - there_x, y1 - there_y);
         let from_corner = far_corner - side_x * gone_x - side_y * gone_y;
@@ -180,7 +205,7 @@ impl<R: Real> SphericalRectangle<R> {
         let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
         let im = ratio(one, (mm0 * mm1).sqrt());
         let across = y0.lt(zero);
-        // sine and cosine of the strip from the foot to x, cosw − p and cosw + s
+        // sine and cosine of w for the strip from the foot to x, cosw − p and cosw + s
         let strip = |x: R| {
             let xx = x * x;
             let d = xx + zz;
@@ -189,7 +214,7 @@ impl<R: Real> SphericalRectangle<R> {
             let id = ratio(one, d);
             let sum = y1.mul_add(r0, y0.abs() * r1);
             let cross = R::blend(across, sum * id, ratio(dy * (y1 + y0), sum));
-            // rr ∓ |y₀y₁|, over d where it is the difference
+            // rr ∓ |y₀y₁|, the smaller one over d
             let (plus, minus) = (rr + yy.abs(), ratio(y0.mul_add(y0, y1.mul_add(y1, d)), rr + yy.abs()));
             (
                 x * z * cross * im,
@@ -209,7 +234,7 @@ impl<R: Real> SphericalRectangle<R> {
             & sin_w1.gt(zero)
             & z.gt(R::lit(1e-18));
 
-        // planes of the sides
+        // planes through the viewpoint and the sides
         let plane = |a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>| {
             let (unit, length) = a.cross(edge).unit_and_length();
             (turn(unit, side.lt(zero)), ratio(-a.dot(b), length).greater(one).lesser(R::lit(1e18)) * R::lit(SLACK))
@@ -259,7 +284,7 @@ impl<R: Real> SphericalRectangle<R> {
     pub fn solid_angle(&self) -> R {
         self.solid_angle
     }
-    /// The density of every direction that hits the rectangle, 1/Ω; 0 where Ω is 0.
+    /// The pdf per steradian of every direction that hits the rectangle, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
         ratio(R::lit(1.0), self.solid_angle)
@@ -279,7 +304,7 @@ impl<R: Real> SphericalRectangle<R> {
         let (left, swept) = (turned(u.x, self.flip.x), turned(one - u.x, self.flip.x));
         let (v, rest) = (turned(u.y, self.flip.y), turned(one - u.y, self.flip.y));
 
-        // x: from k = cosw − cosw₁, from the nearer end on either side of the foot
+        // x: from k = cosw − cosw₁, counted from the nearer end on either side of the foot
         let near = left.gt(self.half);
         let part = R::blend(near, swept, left);
         let (sin_w1, cos_w1) = (R::blend(near, self.near_sin, self.sin_w1), R::blend(near, self.near_cos, self.cos_w1));
@@ -291,7 +316,7 @@ impl<R: Real> SphericalRectangle<R> {
         let above_p = k + R::blend(near, self.near_above_p, self.above_p);
         let above_s = k + R::blend(near, self.near_above_s, self.above_s);
         let root = (above_p * above_s).greater(zero).sqrt();
-        // where cosw₁ < 0 the difference leaves half of the first term and more
+        // where cosw₁ < 0, the difference still leaves at least half of the first term
         let (far_p, far_s) = (self.above_p, self.above_s);
         let square = self.sin_w1 * self.sin_w1;
         let q = square.mul_add(far_p + far_s + k, (self.cos_w1 + self.cos_w1 + k) * (far_p * far_s));
@@ -317,7 +342,7 @@ impl<R: Real> SphericalRectangle<R> {
         let inverse_r1 = r0 * inverse_r;
         let h1 = y1 * inverse_r1;
         let range = R::blend(y0.ge(zero), self.size.y * (y1 + y0) * d * inverse, sum * inverse_r);
-        // before the foot from the near edge, so that both ends keep 1−h²
+        // before the foot, count from the near edge, so that both ends keep 1−h²
         let (h0, down, up) = (y0 * r1 * inverse_r, v * range, rest * range);
         let before = h0 + up;
         let below = before.lt(zero);
@@ -334,7 +359,7 @@ impl<R: Real> SphericalRectangle<R> {
         let y = y.clamped(R::blend(anchored, -self.size.y, y0), R::blend(anchored, zero, y1));
         self.side_x.mul_add(x, self.side_y.mul_add(y, self.base))
     }
-    /// The direction for `u` and the distance to the rectangle along it.
+    /// Maps `u` to a direction and the distance to the rectangle along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         let point = self.point(u);
@@ -353,6 +378,7 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
         let squared = point.length_squared();
         point * rsqrt(squared).keep(squared.gt(R::lit(1e-37)))
     }
+    /// The pdf per steradian; 0 for a direction that misses the rectangle.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         let inside = w.dot(self.near_x).ge(-self.slack.x)
@@ -367,8 +393,8 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
         let elevation = w.dot(self.normal).greater(R::lit(1e-18));
-        // as in the map, from the far edge, where (x₁−x)/D₁ is the sine of the angle to its plane over that to the rectangle's, or
-        // from the foot: then a wrong elevation moves the point along the direction
+        // as in the map: from the far edge, where (x₁−x)/D₁ is the sine of the angle to the edge's plane over that to the
+        // rectangle's; or from the foot, where a wrong elevation moves the point along the direction
         let number = |side: Vec3<R>, plane: Vec3<R>, far: R, anchor: R| {
             let anchored = anchor.gt(zero);
             let distance = far.mul_add(far, z * z).sqrt();
@@ -376,7 +402,8 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
         };
         let along_x = number(self.side_x, self.far_x, x1, self.anchor.x);
         let along_y = number(self.side_y, self.far_y, y1, self.anchor.y);
-        // where that is beyond an edge by more than its own rounding, the elevation is wrong: the point of the direction on the edge
+        // a point beyond an edge by more than its own rounding has a wrong elevation: take the point of the direction on the
+        // edge
         let known = (one - R::ONE_MINUS_EPSILON) * R::lit(4.0) * z / elevation;
         let within = |number: R, near: R, far: R, anchor: R| {
             let bound = R::blend(number.lt(zero), near, far).abs();
@@ -395,7 +422,7 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
         let u = ratio(window(Vec2::new(x, y0), self.far, Vec2::new(dx, self.size.y), z), self.solid_angle);
         let d = x.mul_add(x, z * z);
         let fall = |low: R, gap: R| {
-            // h(y₁) − h(low) without the factor that they share
+            // h(y₁) − h(low), up to a common factor
             let (r0, r1) = (low.mul_add(low, d).sqrt(), y1.mul_add(y1, d).sqrt());
             let sum = y1.mul_add(r0, low.abs() * r1);
             ratio(R::blend(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0)

@@ -6,95 +6,129 @@ use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
-/// Angle by which a sample may leave a triangle through the error of its direction: 12 ulp of a component near 1.
+/// Angle by which the error of its direction may move a sample out of the triangle: 12 ulp of a component near 1.
 const BEYOND: f64 = 12.0 / 16_777_216.0;
-/// The same of one that is drawn by projected solid angle.
+/// The same for samples by projected solid angle: 8 ulp.
 pub(super) const SLACK: f64 = 8.0 / 16_777_216.0;
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 
 lanewise! {
-    /// The directions from a point to a triangle, uniform by solid angle.
+    /// Directions from a point to a triangle, uniform in solid angle: for every triangle that is not far.
     ///
-    /// The map is Arvo's: u₀ sweeps the great circle through the vertex `v1` from `v0` to `v2` so that the swept area is u₀Ω, and u₁
-    /// moves away from `v1` uniformly in 1−cos. Small differences come from the edges and never from unit vectors, so that a
-    /// triangle of 1e−9 of its distance is sampled as well as a large one; directions come from unit vectors and never from
-    /// points of the plane, so that the plane may be as near as it likes. The height over the plane is formed in twice the working
-    /// precision, so that the point may be as near to it as it likes.
+    /// Call `SphericalTriangle::new(v0, v1, v2)` with the vertices relative to the point (or `with_edges`, for a small and far
+    /// triangle), then `sample_direction`. A point in the triangle's plane, or zero area, gives pdf 0.
+    ///
+    /// The map is Arvo's: u₀ sweeps the great circle through the vertex `v1` from `v0` to `v2` so that the swept area is u₀Ω,
+    /// and u₁ moves away from `v1` uniformly in 1−cos. Small differences come from the edges, never from unit vectors, so a
+    /// triangle of 1e−9 of its distance is sampled as well as a large one. Directions come from unit vectors, never from points
+    /// of the plane, and the height over the plane is formed in twice the working precision, so the point may be arbitrarily
+    /// near the plane.
     ///
     /// - Formula: with V from the point, E₁ = v1−v0, E₂ = v2−v0, lengths l, cosines d and sums s = Vᵢ/lᵢ + Vⱼ/lⱼ between the V:
-    ///   tan(Ω/2) = G₀/T, G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), T = 1 + d₀₁ + d₀₂ + d₁₂ = sᵢₖ·sⱼₖ for any vertex k (Van Oosterom and Strackee). Where
-    ///   an angle exceeds 120° T is that product, at the vertex of which the others are the least opposite, and a sum of nearly opposite unit vectors
-    ///   follows from the foot h of the perpendicular on their edge: h(1/lᵢ + 1/lⱼ), and along the edge h²(1/lᵢ(lᵢ+|a|) − 1/lⱼ(lⱼ+|b|)).
-    ///   With c the side v0 v1, α the angle at v0, η = u₀Ω/2 and k = tan(c/2), the point P of the far edge lies, in stereographic projection
-    ///   from opposite v1, at X = k − σ cos(α−η)/sinα, Y = σ sin(α−η)/sinα, σ = 2 sinη/sin c; α−η and η count from the end that is
-    ///   nearer. With M = X² + Y² = tan²(∠(V₁,P)/2) and g = 2u₁/(1+M) the direction is zV₁/l₁ + √(g(1+z)) (X, Y), z = 1 − gM, with X
-    ///   along the tangent towards v0. P = (r(r+2b) V₀/l₀ + 2b(r + b(1+d₀₂)) V₂/l₂)/|·|, r = sin(Ω/2−η)/sin(Ω/2), b = (1+d₀₁) sinη/G₀;
-    ///   the distance follows from it, and X and Y too where c is long and that is the better conditioned.
-    /// - Domain: u in [0, 1)²; any triangle, from any side.
-    /// - Density: 1/Ω per steradian inside (and within 12 ulp of the direction beyond), 0 outside.
-    /// - Degenerate: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
-    /// - Greatest error over the atlas (size, elevation, aspect ratio and distance): Ω 5e−7 relative, direction 5.4e−7 (1.4e−5 of π), for
-    ///   edges as they are given; but 7e−5 of Ω beside the middle of an edge that is a million times longer than the triangle is wide
-    ///   and than the point is far. Distance 5.4e−7 of itself over |cos| at the plane, and of the farthest vertex.
-    ///   The inverse is that of a direction 6e−7 away, times how much longer than wide the triangle is seen; from less than 1e−3 of its
-    ///   size over the plane of a triangle that surrounds the point, where most of u₀ belongs to a direction's rounding, it is worth nothing.
+    ///   tan(Ω/2) = G₀/T, G₀ = |V₀·(E₁×E₂)|/(l₀l₁l₂), T = 1 + d₀₁ + d₀₂ + d₁₂ = sᵢₖ·sⱼₖ for any vertex k (Van Oosterom and
+    ///   Strackee). Where an angle exceeds 120°, T is that product at the vertex to which the others are least opposite, and a
+    ///   sum of nearly opposite unit vectors follows from the foot h of the perpendicular on their edge: h(1/lᵢ + 1/lⱼ), and
+    ///   along the edge h²(1/lᵢ(lᵢ+|a|) − 1/lⱼ(lⱼ+|b|)). With c the side v0 v1, α the angle at v0, η = u₀Ω/2 and k = tan(c/2),
+    ///   the point P of the far edge lies, in stereographic projection from opposite v1, at X = k − σ cos(α−η)/sinα, Y = σ
+    ///   sin(α−η)/sinα, σ = 2 sinη/sin c; α−η and η count from the nearer end. With M = X² + Y² = tan²(∠(V₁,P)/2) and g =
+    ///   2u₁/(1+M) the direction is zV₁/l₁ + √(g(1+z)) (X, Y), z = 1 − gM, with X along the tangent towards v0. P = (r(r+2b)
+    ///   V₀/l₀ + 2b(r + b(1+d₀₂)) V₂/l₂)/|·|, r = sin(Ω/2−η)/sin(Ω/2), b = (1+d₀₁) sinη/G₀; the distance follows from P, and so
+    ///   do X and Y where c is long and P is the better conditioned.
+    /// - Domain: u in [0, 1)²; any triangle, from either side.
+    /// - Density: the pdf is 1/Ω per steradian inside (and within 12 ulp beyond), 0 outside.
+    /// - Degenerate input: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0
+    ///   and pdf 0.
+    /// - Greatest error over the atlas (size, elevation, aspect ratio and distance), for edges taken as given: Ω 5e−7 relative,
+    ///   except 7e−5 beside the middle of an edge that is a million times longer than the triangle is wide and than the point
+    ///   is far; direction 5.4e−7 (1.4e−5 of the angular size where that nears π); distance 5.4e−7 of itself over |cos| at the
+    ///   plane, and 5.4e−7 of the farthest vertex's. The inverse is that of a direction 6e−7 away, times the triangle's
+    ///   apparent aspect ratio; it is worthless from less than 1e−3 of its size above the plane of a triangle that surrounds
+    ///   the point, where most of u₀ lies within the rounding of a direction.
     /// - Source: Arvo 1995, "Stratified Sampling of Spherical Triangles"; Van Oosterom and Strackee 1983 for Ω; Peters 2021,
-    ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry; here on edges.
+    ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry, here expressed
+    ///   in edges.
     pub struct SphericalTriangle {
-        /// planes through the viewpoint and two vertices, pointing inwards, and how far a direction may be beyond: v0 v1, v1 v2, v2 v0
+        /// normal of the plane through the viewpoint, v0 and v1, pointing inwards
         side01: Vec3<R>,
+        /// the same for v1 and v2
         side12: Vec3<R>,
+        /// the same for v2 and v0
         side20: Vec3<R>,
+        /// tolerances of these planes: w is inside one if w·side ≥ −slack
         slack: Vec3<R>,
+        /// E₁×E₂
         normal: Vec3<R>,
+        /// l₁, in units of `unit`
         l1: R,
-        /// distance of the farthest vertex: that of no point is more
+        /// max(l₀, l₁, l₂), an upper bound of every distance
         farthest: R,
-        /// unit vector to `v1`, and tangents there: towards `v0`, and across towards `v2`
+        /// V₁/l₁
         apex: Vec3<R>,
+        /// unit tangent at v1 towards v0
         along: Vec3<R>,
+        /// unit tangent at v1 perpendicular to `along`, towards v2
         across: Vec3<R>,
-        /// cotangent of the angle at `v0`; 2/sin(side v0 v1); tangent of half that side
+        /// cotα, α the angle at v0
         cot_alpha: R,
+        /// 2/sin c, c the side v0 v1
         stretch: R,
+        /// k = tan(c/2)
         tan_half: R,
-        /// with H = Ω/2: sin and cos of H, sin and cos of α−H over sinα
+        /// (sinH, cosH), H = Ω/2
         half: Vec2<R>,
+        /// (sin(α−H), cos(α−H))/sinα
         turned: Vec2<R>,
-        /// sine of the side v0 v1
+        /// sin c
         sin_side: R,
+        /// 1/l₀
         inv_l0: R,
+        /// 1/l₂
         inv_l2: R,
-        /// (G₁+G₂)/G₀; 1/sin(Ω/2); G₂; G₂/G₀
+        /// T/G₀ = (G₁+G₂)/G₀ = cotH, with G₁ = d₀₂+d₁₂
         total_over: R,
+        /// 1/sinH
         inv_half_sin: R,
+        /// G₂ = 1+d₀₁
         g2: R,
+        /// G₂/G₀
         g2_over: R,
-        /// 1+d₀₂; sin² of that side; V₂/l₂ along the tangents at v1; G₁
+        /// 1+d₀₂
         plus02: R,
+        /// 1−d₀₂², the squared sine of the side v0 v2
         sin02: R,
+        /// V₂/l₂ along `along`
         x2: R,
+        /// V₂/l₂ along `across`
         y2: R,
+        /// G₁ = T − G₂
         g1: R,
-        /// V₀·(E₁×E₂), signed: negative where the point is on the side of the normal (v1−v0)×(v2−v0)
+        /// V₀·(E₁×E₂): negative where the point is on the side to which E₁×E₂ points
         volume: R,
+        /// Ω in steradians
         solid_angle: R,
+        /// unit of the lengths above, a power of two
         unit: R,
     }
 }
 
-/// What is known better than from the rounded vertices: V₀×V₁, V₀×V₂, V₁×V₂, the normal E₁×E₂, its product with any vertex, and v2−v1.
+/// Quantities that callers know more accurately than the rounded vertices give them.
 pub(super) struct Planes<R> {
+    /// V₀×V₁
     pub(super) n01: Vec3<R>,
+    /// V₀×V₂
     pub(super) n02: Vec3<R>,
+    /// V₁×V₂
     pub(super) n12: Vec3<R>,
+    /// E₁×E₂
     pub(super) normal: Vec3<R>,
+    /// V·(E₁×E₂), the same for every vertex V
     pub(super) volume: R,
+    /// v2−v1
     pub(super) edge: Vec3<R>,
 }
 
-/// Va/lₐ + Vb/l_b for a and b more than 90° apart, given their product: with h the foot of the perpendicular on the line through both, good to
-/// parts of itself.
+/// Va/lₐ + Vb/l_b for a and b more than 90° apart, given n = Va×Vb: accurate relative to its own size, from the foot of the
+/// perpendicular on the line through both.
 #[inline]
 fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> Vec3<R> {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -116,17 +150,18 @@ fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> 
 
 /// The arc from `v1` to the point P of the far edge.
 struct Arc<R> {
-    /// P in stereographic projection from opposite `v1`: tan(θ/2) times the cosine and the sine of the angle turned by
+    /// X, the stereographic projection of P from opposite `v1`, towards v0: tan(θ/2) cosφ
     x: R,
+    /// Y, the same perpendicular to it: tan(θ/2) sinφ
     y: R,
-    /// tan²(θ/2)
+    /// M = X² + Y² = tan²(θ/2)
     m: R,
-    /// sine of the half of the area swept, and sine of that left over that of the whole
+    /// sinη, and r = sin(H−η)/sinH
     swept: [R; 2],
 }
 
 impl<R: Real> SphericalTriangle<R> {
-    /// For a triangle with vertices `v0`, `v1`, `v2` relative to the point.
+    /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point, in any unit of length.
     #[inline(always)]
     pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
         let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
@@ -139,9 +174,10 @@ impl<R: Real> SphericalTriangle<R> {
         Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal: normal + rest, volume, edge: v2 - v1 }, scale)
     }
 
-    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0 where they are known better than the difference of vertices that
-    /// were moved to the point: for a small and far triangle they hold its shape. The planes through the point are those of `v0` and the
-    /// edges.
+    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
+    ///
+    /// Take this for a small and far triangle if you know the edges more accurately than the difference of the vertices: they
+    /// then give the shape, and the planes through the point are those of `v0` and the edges.
     #[inline(always)]
     pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>) -> Self {
         let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
@@ -153,7 +189,7 @@ impl<R: Real> SphericalTriangle<R> {
         Self::prepare([v0, v1, v2], &Planes { n01, n02, n12, normal, volume, edge: e2 - e1 }, scale)
     }
 
-    /// With all lengths below 4.
+    /// Prepares vertices scaled so that all lengths are below 4.
     #[inline(always)]
     pub(super) fn prepare([v0, v1, v2]: [Vec3<R>; 3], planes: &Planes<R>, scale: R) -> Self {
         let Planes { n01, n02, n12, normal, volume, edge } = *planes;
@@ -170,7 +206,7 @@ impl<R: Real> SphericalTriangle<R> {
         let sin_side = n01.length_squared() * i01 * i0 * i1;
         let inv_sin_side = i01 * l0 * l1;
         let stretch = R::lit(2.0) * inv_sin_side;
-        // 1−d₀₁ and 1+d₀₁, the small one from the sine
+        // 1−d₀₁ and 1+d₀₁, the smaller one from the sine
         let small = sin_side * sin_side / (one + d01.abs());
         let obtuse = d01.lt(zero);
         let (minus, g2) = (R::blend(obtuse, one - d01, small), R::blend(obtuse, small, one + d01));
@@ -187,7 +223,7 @@ impl<R: Real> SphericalTriangle<R> {
         let (mut x2, y2) = (along.dot(edge) * i2, volume.abs() * i01 * i2);
         let (mut plus12, mut plus02) = (one + d12, one + d02);
         let sin02 = n02.length_squared() * (i0 * i2) * (i0 * i2);
-        // a side of more than 120° is rare: the work is done where there is one
+        // a side of more than 120° is rare: do the extra work only where there is one
         let wide = d01.lesser(d02).lesser(d12).lt(R::lit(-0.5));
         if wide.any() {
             let sums = [
@@ -195,7 +231,7 @@ impl<R: Real> SphericalTriangle<R> {
                 sum_of_units([v0, v2], [i0, i2], n02),
                 sum_of_units([v1, v2], [i1, i2], n12),
             ];
-            // 1 + d₀₁ + d₀₂ + d₁₂ at the vertex from which the others are not opposite
+            // T at the vertex to which the others are least opposite
             let at0 = sums[0].dot(sums[1]);
             let at1 = sums[0].dot(sums[2]);
             let at2 = sums[1].dot(sums[2]);
@@ -211,17 +247,17 @@ impl<R: Real> SphericalTriangle<R> {
         let opposite = volume.abs() * l0;
         let angle = opposite.gt(R::lit(1e-37));
         let cot_alpha = (n01.dot(n02) / R::blend(angle, opposite, one)).keep(angle);
-        // at a vertex all of them are 0, and so is the angle
+        // at a vertex everything is 0, and so is Ω
         let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
         let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(somewhere);
         let inv_g0 = one / R::blend(g0.gt(R::lit(1e-37)), g0, one);
-        // the same from v2, where the sweep ends: P there has the coordinates (X, Y) = (tanδ₂/2) (cosψ, sinψ)
+        // (sin, cos)(α−H)/sinα from v2, where the sweep ends: P there has the coordinates (X, Y) = tan(δ₂/2) (cosψ, sinψ)
         let squared = g0.mul_add(g0, total * total).greater(R::lit(1e-36));
         let over = rsqrt(squared);
         let half = Vec2::new(g0 * over, total * over);
         let inv_half_sin = inv_g0 * squared * over;
         let by_plus = one / plus12.greater(R::lit(1e-30));
-        // over sin(Ω/2) · 2/sin c
+        // sin c / (2 sinH)
         let by_swept = R::lit(0.5) * sin_side * inv_half_sin;
         let some = by_swept.lt(R::lit(1e30));
         let most = R::lit(1e18);
@@ -229,8 +265,8 @@ impl<R: Real> SphericalTriangle<R> {
             (y2 * by_plus * by_swept).lesser(most).keep(some),
             (x2.mul_add(-by_plus, tan_half) * by_swept).clamped(-most, most).keep(some),
         );
-        // the great circles through v0 and v1, from which the map starts, or through vertices that lie nearly opposite are known no better
-        // than −cos : sin of their angle; to the one through v1 and v2 the map comes along the one from v0 to v2
+        // the map starts from the great circles through v0 and v1; those, and any through nearly opposite vertices, are known
+        // only to −cos : sin of their angle. The map reaches the one through v1 and v2 along the one from v0 to v2
         let start = -d01 / R::blend(sin_side.gt(zero), sin_side, one);
         let inwards = |n: Vec3<R>| Vec3::blend(towards, -n, n);
         let start = start.greater(one).lesser(R::lit(1e18));
@@ -277,7 +313,7 @@ impl<R: Real> SphericalTriangle<R> {
         self.solid_angle
     }
 
-    /// The density of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
+    /// The pdf per steradian of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
         super::reciprocal_or_zero(self.solid_angle)
@@ -289,11 +325,11 @@ impl<R: Real> SphericalTriangle<R> {
         self.volume.lt(R::lit(0.0))
     }
 
-    /// The arc that cuts `u` of the area off, and leaves `rest` = 1−u of it.
+    /// The arc that cuts off the share `u` of the area and leaves `rest` = 1−u.
     #[inline(always)]
     fn arc(&self, u: R, rest: R) -> Arc<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // from the end that is nearer: α−η and H−η are small differences near the other
+        // from the nearer end: near the other, α−η and H−η are small differences
         let far = u.gt(R::lit(0.5));
         let part = R::blend(far, rest, u);
         let (sin, cos) = (part * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
@@ -304,31 +340,32 @@ impl<R: Real> SphericalTriangle<R> {
         let turn_sin = from_sin.mul_add(cos, from_cos * sin);
         let turn_cos = from_cos.mul_add(cos, -(from_sin * sin)).negate_where(!far);
         let stretched = s * self.stretch;
-        // P opposite v1 would be at infinity; its square must fit
+        // P opposite v1 would be at infinity; keep its square finite
         let most = R::lit(1e15);
         let x = (-stretched).mul_add(turn_cos, self.tan_half).clamped(-most, most);
         let y = (stretched * turn_sin).clamped(zero, most);
         let left = R::blend(far, sin * self.inv_half_sin, (-sin).mul_add(self.total_over, cos));
         let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, left] };
-        // a side of more than 120° is rare: the work is done where there is one
+        // a side of more than 120° is rare: do the extra work only where there is one
         let long = self.g2.lt(R::lit(0.5));
         if long.any() { self.opposite_arc(arc, long) } else { arc }
     }
 
-    /// Where v0 lies nearly opposite v1 the arc does not follow from its angle any more: then from P itself, where that is better.
+    /// Where v0 lies nearly opposite v1, the angle no longer determines the arc: takes it from P itself where that is better
+    /// conditioned.
     #[inline]
     fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let [w0, w2] = self.weights(arc.swept);
-        // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ small: 1 − P·V₀/l₀ from the sine
+        // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, where S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ are small; 1 − P·V₀/l₀ comes from the sine
         let along = w2.mul_add(self.plus02 - one, w0);
         let apart = R::blend(along.gt(zero), w2 * w2 * self.sin02 / (one + along.greater(zero)), one - along);
         let sum = w0.mul_add(self.g2, apart + w2 * self.g1.abs());
         let plus = w0.mul_add(self.g2, apart + w2 * self.g1);
         let inverse = one / plus.greater(R::lit(1e-30));
         let (first, second) = (w0 * self.sin_side * inverse, w2 * self.x2 * inverse);
-        // either X is a sum: of these two, or of tan(c/2) and the rest of it
-        // nor does P have fewer than two weights that sum up to 1: where v0 is opposite v1 to the last bit they are lost
+        // either X is a sum: of these two terms, or of tan(c/2) and the rest; take the one with less cancellation. The weights
+        // of P sum to at least 1, unless v0 is opposite v1 to the last bit, which loses them
         let known = plus.gt(sum * R::lit(0.125))
             & (w0 + w2).gt(R::lit(0.5))
             & (first + second.abs()).lt(self.tan_half.greater(arc.x.abs()));
@@ -339,15 +376,15 @@ impl<R: Real> SphericalTriangle<R> {
         Arc { x, y, m: x.mul_add(x, y * y), swept: arc.swept }
     }
 
-    /// P as a sum of the unit vectors to v0 and v2.
+    /// The weights w₀ and w₂ of P = w₀V₀/l₀ + w₂V₂/l₂.
     #[inline(always)]
     fn weights(&self, [s, left]: [R; 2]) -> [R; 2] {
         let (zero, two) = (R::lit(0.0), R::lit(2.0));
-        // a − b = cosη − sinη (G₁+G₂)/G₀ = sin(H−η)/sin H
+        // r = a − b = cosη − sinη (G₁+G₂)/G₀ = sin(H−η)/sinH
         let b = s * self.g2_over;
         let a = left + b;
         let w0 = (left * (a + b)).greater(zero);
-        // b d₀₂ + a, w₂ − w₀ and |P|²: where v0 and v2 lie nearly opposite these are small differences
+        // b d₀₂ + a, w₂ − w₀ and |P|²: small differences where v0 and v2 are nearly opposite
         let w2 = (two * b * b.mul_add(self.plus02, left)).greater(zero);
         let more = two * b * b * self.plus02 - left * left;
         let squared = more.mul_add(more, two * self.plus02 * w0 * w2);
@@ -358,14 +395,14 @@ impl<R: Real> SphericalTriangle<R> {
     /// Sine and cosine of the angle at v0.
     #[inline(always)]
     fn alpha(&self) -> (R, R) {
-        // past 1e18 the cotangent's square would not fit, and the sine is 0 to all intents
+        // past 1e18 the square of the cotangent would overflow, and the sine is 0 to working precision
         let cot = self.cot_alpha.clamped(R::lit(-1e18), R::lit(1e18));
         let sin = rsqrt(cot.mul_add(cot, R::lit(1.0)));
         (sin, cot * sin)
     }
 
-    /// The side from v1 to the far edge under the angle whose cosine and sine, in a unit of the given square, are `x` and `y`:
-    /// its sine over that unit, 1−|cos| and cos, by cotθ = (cosφ cos(side) + sinφ cotα)/sin(side).
+    /// The side from v1 to the far edge, at the azimuth φ from v0: its sine over the unit, 1−|cos| and cos, by cotθ = (cosφ
+    /// cos(side) + sinφ cotα)/sin(side). `x` and `y` are cosφ and sinφ in a unit whose square is `unit_squared`.
     #[inline(always)]
     fn side(&self, x: R, y: R, unit_squared: R) -> (R, R, R) {
         let one = R::lit(1.0);
@@ -378,29 +415,29 @@ impl<R: Real> SphericalTriangle<R> {
         (sin, sin * sin * unit_squared / (one + cos.abs()), cos)
     }
 
-    /// The direction at `u` of the arc, and the cosine and the sine of its angle to v1.
+    /// The direction at `u` along the arc, the cosine z of its angle to v1, and the sine of that angle over √M.
     #[inline]
     fn along_arc(&self, arc: &Arc<R>, u: R) -> (Vec3<R>, R, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        // 1−cosθ = 2M/(1+M), and the sine of the angle over √M
+        // 1−z = 2uM/(1+M), and the sine over √M
         let over = u * (two / (one + arc.m));
         let z = (-over).mul_add(arc.m, one);
-        // 1+z = 2(1 + (1−u)M)/(1+M): near the antipode of v1 z says nothing about the sine
+        // 1+z = 2(1 + (1−u)M)/(1+M): near the antipode of v1, z no longer determines the sine
         let plus = (one - u).mul_add(arc.m, one) * (two / (one + arc.m));
         let sin_over = (over * plus).greater(zero).sqrt();
         let tangent = self.along.mul_add(arc.x, self.across * arc.y);
         let direction = self.apex.mul_add(z, tangent * sin_over);
-        // a unit vector but for rounding: one step of Newton's to 1/√
+        // a unit vector up to rounding: one Newton step for 1/√
         let unit = direction * direction.length_squared().mul_add(R::lit(-0.5), R::lit(1.5));
         (unit, z, sin_over)
     }
 
-    /// The direction for `u` and the distance to the triangle along it.
+    /// Maps `u` to a direction and the distance to the triangle along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
         self.sample_direction_from(u, R::lit(1.0) - u.x)
     }
-    /// As `sight`, for a u₀ of which 1−u₀ is known better.
+    /// As `sample_direction`, where 1−u₀ is known more accurately than the difference gives it.
     #[inline(always)]
     pub(super) fn sample_direction_from(&self, u: Vec2<R>, rest: R) -> DirectionSample<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -408,7 +445,7 @@ impl<R: Real> SphericalTriangle<R> {
         let (direction, z, sin_over) = self.along_arc(&arc, u.y);
         let [w0, w2] = self.weights(arc.swept);
         let inv_p = w0.mul_add(self.inv_l0, w2 * self.inv_l2);
-        // direction = kV₁/l₁ + tP/|P| with t = sin/sin∠(V₁,P), k = z − t cos; so l₁/distance = k + tl₁/|P|, also at grazing
+        // direction = kV₁/l₁ + tP/|P| with t = sin/sin∠(V₁,P), k = z − t cos; so l₁/distance = k + tl₁/|P|, also at grazing;
         // sin∠(V₁,P) = 2√M/(1+M)
         let t = sin_over * R::lit(0.5) * (one + arc.m);
         let behind = arc.m.gt(one);
@@ -417,23 +454,23 @@ impl<R: Real> SphericalTriangle<R> {
         let denominator = (one + cos_abs) * t.mul_add(cos_abs, z);
         let k = (one - u.y) * (z + cos_abs) / R::blend(denominator.gt(zero), denominator, one);
         let reciprocal = t.mul_add(inv_p * self.l1, k);
-        // where P lies behind v1 that cancels; but then the triangle is large, and the plane will do
+        // where P lies behind v1 the sum cancels, but then the triangle is large, and its plane will do
         let numerator = R::blend(behind, self.volume.abs(), self.l1);
         let denominator = R::blend(behind, direction.dot(self.normal).abs(), reciprocal);
         let some = denominator.gt(zero) & self.solid_angle.gt(zero);
-        // what does not fit f32 ends at its largest number
+        // a distance that does not fit f32 becomes the largest finite number
         let distance = (numerator / R::blend(some, denominator, one)).lesser(self.farthest);
         let distance = (distance * self.unit).lesser(R::lit(f64::from(f32::MAX)));
         DirectionSample { direction, distance: distance.keep(some) }
     }
 
-    /// As `sample`, for a u₀ of which 1−u₀ is known better.
+    /// As `sample`, where 1−u₀ is known more accurately than the difference gives it.
     #[inline(always)]
     pub(super) fn sample_from(&self, u: Vec2<R>, rest: R) -> Vec3<R> {
         self.along_arc(&self.arc(u.x, rest), u.y).0
     }
 
-    /// Is the direction inside, give or take the rounding of the direction itself?
+    /// Tells whether a direction hits the triangle; allows for the rounding of the direction itself.
     #[inline(always)]
     pub fn contains(&self, w: Vec3<R>) -> R::Mask {
         self.within_v1_v2(w) & self.within_v2_v0(w) & self.within_v0_v1(w) & self.ahead(w)
@@ -450,13 +487,13 @@ impl<R: Real> SphericalTriangle<R> {
     pub(super) fn within_v0_v1(&self, w: Vec3<R>) -> R::Mask {
         w.dot(self.side01).ge(-self.slack.x)
     }
-    /// Towards the plane of the triangle.
+    /// Tells whether the direction leads towards the triangle's plane.
     #[inline(always)]
     pub(super) fn ahead(&self, w: Vec3<R>) -> R::Mask {
         let slack = self.normal.length() * R::lit(BEYOND);
         w.dot(self.normal).negate_where(self.in_front()).ge(-slack)
     }
-    /// On the far side of the plane through the viewpoint, v0 and v1 from v2.
+    /// Tells whether v2 and the direction lie on opposite sides of the plane through the viewpoint, v0 and v1.
     #[inline(always)]
     pub(super) fn beyond_v0_v1(&self, w: Vec3<R>) -> R::Mask {
         w.dot(self.across).lt(R::lit(0.0))
@@ -469,6 +506,7 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         self.sample_from(u, R::lit(1.0) - u.x)
     }
+    /// The pdf per steradian; 0 for a direction that misses the triangle.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.uniform_pdf().keep(self.contains(w))
@@ -486,7 +524,8 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
         // tan(swept/2) from two sides and the angle between them
         let both = self.sin_side * sin;
         let swept = two * (both * y).atan2(self.g2.mul_add(plus, both * x));
-        // 1 − cos of the way from the apex, across it where that is ahead: along it w is known to a unit, beside which a small triangle is nothing
+        // 1 − cos of the angle from v1; ahead it comes from the tangents, since along v1 w has a rounding error that would
+        // swamp a small triangle
         let (away, ahead) = (w - self.apex, w.dot(self.apex));
         let near = ahead.gt(zero);
         let (x, y) = (away.dot(self.along), away.dot(self.across));

@@ -2,27 +2,31 @@ use super::{Linear, Warp, Warp1};
 use crate::real::Real;
 use crate::vector::Vec2;
 
-/// Density bilinear between four corner values of the unit square.
+/// Points of the unit square with a pdf bilinear between four corner values: for emitters that are tilted or carry a smooth
+/// texture.
 ///
-/// - Formula: y is [`Linear`] between the sums of the lower and the upper corners, then x is linear between the values of both sides at y.
+/// Set `corners`, then call `sample`, `pdf` or `invert`. If no corner is positive, the pdf is 0 and `sample` returns `u`.
+///
+/// - Formula: y is [`Linear`] between the sums of the lower and of the upper corners; x is [`Linear`] between the values that
+///   the left and the right side have at y.
 /// - Domain: u in [0, 1)²; corners ≥ 0 in any unit (negative ones count as 0).
-/// - Density: 4 × the interpolated value / the sum of the corners, per unit area of [0, 1]²; 0 elsewhere.
-/// - Degenerate: all corners 0: pdf 0, and the point is u.
+/// - Density: the pdf is 4 × the interpolated value / the sum of the corners, per unit area of [0, 1]²; 0 elsewhere.
+/// - Degenerate input: if all corners are 0, the pdf is 0 and the point is u.
 /// - Greatest error: 2e−7 in the point, 4e−7 relative in the pdf.
 /// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.5.5 (bilinear), with the marginal and the conditional by [`Linear`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bilinear<R> {
-    /// Relative densities at (0, 0), (1, 0), (0, 1) and (1, 1).
+    /// Relative densities at (0, 0), (1, 0), (0, 1) and (1, 1): ≥ 0, in any common unit.
     pub corners: [R; 4],
 }
 
 impl<R: Real> Bilinear<R> {
-    /// One density in every lane.
+    /// Repeats one distribution in every lane.
     #[inline(always)]
     pub fn splat(b: Bilinear<R::Scalar>) -> Self {
         Self { corners: b.corners.map(R::splat) }
     }
-    /// Density of y, from corners times a power of two, so that no sum overflows.
+    /// The marginal of y, and the corners times a power of two, so that no sum overflows.
     #[inline(always)]
     fn marginal(&self) -> (Linear<R>, [R; 4]) {
         let zero = R::lit(0.0);
@@ -31,7 +35,7 @@ impl<R: Real> Bilinear<R> {
         let [a, b, c, d] = [a, b, c, d].map(|w| w * scale);
         (Linear { a: a + b, b: c + d }, [a, b, c, d])
     }
-    /// Density of x at y.
+    /// The distribution of x given y.
     #[inline(always)]
     fn conditional([a, b, c, d]: [R; 4], y: R) -> Linear<R> {
         let y = y.clamped(R::lit(0.0), R::lit(1.0));
@@ -48,6 +52,7 @@ impl<R: Real> Warp<R> for Bilinear<R> {
         let y = marginal.sample(u.y);
         Vec2 { x: Self::conditional(corners, y).sample(u.x), y }
     }
+    /// The pdf per unit area of [0, 1]².
     #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
         let (marginal, corners) = self.marginal();

@@ -5,27 +5,30 @@ use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
-/// Angle by which a direction may have left its cone through rounding: 4 ulp of a component near 1.
+/// Angle by which rounding may move a direction out of its cone: 4 ulp of a component near 1.
 const SLACK: f64 = 4.0 / 16_777_216.0;
 
 lanewise! {
-    /// Uniform over the directions within an angle σ of +z.
+    /// Directions within an angle σ of +z, uniform in solid angle: for suns, spheres and anything else that looks like a cap.
     ///
-    /// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h · ((2−h) + h(1−u₀))), φ = 2πu₁. No term cancels at any σ, nor near
-    ///   the far pole.
+    /// Set `one_minus_cos` to 1 − cosσ, then call `sample`, `pdf` or `invert`. An empty cone has pdf 0 and samples +z.
+    ///
+    /// - Formula, with h = 1−cosσ: 1−cosθ = u₀h, sinθ = √(u₀h · ((2−h) + h(1−u₀))), φ = 2πu₁. No term cancels, whatever σ, not
+    ///   even near the far pole.
     /// - Domain: u in [0, 1)²; h in [0, 2], clamped to it.
-    /// - Density: 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding), 0 elsewhere.
-    /// - Degenerate: h = 0 gives +z and pdf 0.
+    /// - Density: the pdf is 1/(2πh) per steradian within σ (and within 4 ulp beyond, so that no sample falls out by rounding),
+    ///   0 elsewhere.
+    /// - Degenerate input: h = 0 gives +z and pdf 0.
     /// - Greatest error: pdf 1.2e−7 relative, direction 1.8e−7 of the cone's width, at every size.
     /// - Source: the inverse of the cap's distribution function, in terms of 1−cosθ.
     pub struct Cone {
-        /// 1 − cosσ, in [0, 2].
+        /// h = 1 − cosσ, where σ is the half-angle of the cone: in [0, 2], clamped to it.
         pub one_minus_cos: R,
     }
 }
 
 impl<R: Real> Cone<R> {
-    /// h where it is one, in [0, 2]; NaN counts as 0.
+    /// h clamped to [0, 2]; NaN counts as 0.
     #[inline(always)]
     fn height(&self) -> R {
         self.one_minus_cos.clamped(R::lit(0.0), R::lit(2.0))
@@ -35,7 +38,7 @@ impl<R: Real> Cone<R> {
     pub fn solid_angle(&self) -> R {
         R::lit(2.0 * core::f64::consts::PI) * self.height()
     }
-    /// The density inside: 1/(2πh), or 0 for an empty cone.
+    /// The pdf per steradian of every direction inside, 1/(2πh); 0 for an empty cone.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
         let h = self.height();
@@ -43,7 +46,8 @@ impl<R: Real> Cone<R> {
         let some = h.gt(R::lit(1e-37));
         (R::lit(INV_TWO_PI) / R::blend(some, h, R::lit(1.0))).keep(some)
     }
-    /// Is a direction at `one_minus_cos` from the axis inside, give or take the rounding of the direction?
+    /// Tells whether the cone contains a direction whose angle θ from the axis has 1 − cosθ = `one_minus_cos`; allows for the
+    /// rounding of the direction.
     #[inline(always)]
     pub fn contains(&self, one_minus_cos: R) -> R::Mask {
         self.contains_but_for(one_minus_cos, SLACK)
@@ -53,24 +57,24 @@ impl<R: Real> Cone<R> {
         let h = self.height();
         // 1−cos(σ + ε) = h + ε sinσ + ½ε² cosσ + …
         let sin = (h * (R::lit(2.0) - h)).sqrt();
-        // behind, 1−cos is 1−z, of which the rounding counts
+        // behind, 1−cos is computed as 1−z, whose rounding counts
         let slack = R::lit(slack).mul_add(sin.greater(h - R::lit(1.0)), R::lit(0.5 * slack * slack));
         one_minus_cos.le(h + slack)
     }
-    /// The same of a direction that a frame has turned there and back: 10 ulp.
+    /// [`contains`](Self::contains) for a direction that has been rotated into a frame and back: allows for 10 ulp.
     #[inline(always)]
     pub(crate) fn contains_turned(&self, one_minus_cos: R) -> R::Mask {
         self.contains_but_for(one_minus_cos, 2.5 * SLACK)
     }
-    /// The pdf of a direction that a frame has turned there and back.
+    /// The pdf per steradian of a direction that has been rotated into a frame and back.
     #[inline(always)]
     pub(crate) fn pdf_in_frame(&self, w: Vec3<R>) -> R {
         self.uniform_pdf().keep(self.contains_turned(one_minus_z(w)))
     }
 }
 
-/// 1−cosθ of a unit vector's angle to +z: from its distance to the axis in front, from z elsewhere, where a length that is off by
-/// rounding counts for less.
+/// 1−cosθ for the angle θ between a unit vector and +z: from the distance to the axis in front, and from z elsewhere, where a
+/// rounded length matters less.
 #[inline(always)]
 fn one_minus_z<R: Real>(w: Vec3<R>) -> R {
     let one = R::lit(1.0);
@@ -84,12 +88,13 @@ impl<R: Real> Warp<R> for Cone<R> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let h = self.height();
         let k = u.x * h;
-        // 2 − k without cancellation: both terms are ≥ 0, and 2−h is exact where it matters
+        // 2 − k without cancellation: both terms are ≥ 0, and 2−h is exact where h is near 2
         let rest = h.mul_add(R::lit(1.0) - u.x, R::lit(2.0) - h);
         let sin = (k * rest).greater(R::lit(0.0)).sqrt();
         let (s, c) = u.y.sin_cos_turns();
         Vec3::new(sin * c, sin * s, R::lit(1.0) - k)
     }
+    /// The pdf per steradian; 0 outside the cone.
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.uniform_pdf().keep(self.contains(one_minus_z(w)))
@@ -113,6 +118,7 @@ macro_rules! whole_cone {
             fn sample(&self, u: Vec2<R>) -> Vec3<R> {
                 Cone { one_minus_cos: R::lit($h) }.sample(u)
             }
+            /// The pdf per steradian.
             #[inline(always)]
             fn pdf(&self, w: Vec3<R>) -> R {
                 // the whole sphere holds every direction; the hemisphere ends at the horizon, exactly
@@ -127,21 +133,25 @@ macro_rules! whole_cone {
     };
 }
 whole_cone!(
-    /// Uniform over the hemisphere about +z.
+    /// Directions with z ≥ 0, uniform in solid angle: a baseline for surfaces without a better technique.
+    ///
+    /// Call `UniformHemisphere.sample(u)`; there is nothing to set up and no degenerate input.
     ///
     /// - Formula: the [`Cone`] with h = 1: z = 1−u₀, sinθ = √(u₀(2−u₀)), φ = 2πu₁.
-    /// - Domain: u in [0, 1)²; never below the horizon.
-    /// - Density: 1/(2π) per steradian for z ≥ 0, else 0.
+    /// - Domain: u in [0, 1)²; samples never fall below the horizon.
+    /// - Density: the pdf is 1/(2π) per steradian for z ≥ 0, else 0.
     /// - Greatest error: 1.5e−7 in the direction.
     UniformHemisphere,
     1.0
 );
 whole_cone!(
-    /// Uniform over the sphere of directions.
+    /// Directions of the whole sphere, uniform in solid angle: for constant environments.
+    ///
+    /// Call `UniformSphere.sample(u)`; there is nothing to set up and no degenerate input.
     ///
     /// - Formula: the [`Cone`] with h = 2: z = 1−2u₀, sinθ = 2√(u₀(1−u₀)), φ = 2πu₁; nothing cancels near the poles.
     /// - Domain: u in [0, 1)².
-    /// - Density: 1/(4π) per steradian.
+    /// - Density: the pdf is 1/(4π) per steradian.
     /// - Greatest error: 1.5e−7 in the direction.
     UniformSphere,
     2.0

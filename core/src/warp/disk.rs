@@ -7,14 +7,14 @@ const INV_PI: f64 = core::f64::consts::FRAC_1_PI;
 
 /// The concentric map's radius (signed) and its angle as a unit vector, shared by disk and hemisphere.
 ///
-/// With a = 2u₀−1, b = 2u₁−1 (both exact): r is the one of larger magnitude, φ = π/4·b/a or π/2 − π/4·a/b.
+/// With a = 2u₀−1, b = 2u₁−1 (both exact), r is the one of larger magnitude, and φ is π/4·b/a or π/2 − π/4·a/b.
 #[inline(always)]
 pub(crate) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
     let (one, two) = (R::lit(1.0), R::lit(2.0));
     let (a, b) = (two.mul_add(u.x, -one), two.mul_add(u.y, -one));
     let first = a.abs().gt(b.abs());
     let (r, other) = (R::blend(first, a, b), R::blend(first, b, a));
-    // at the centre r = 0: any finite ratio will do
+    // at the centre r = 0, and any finite ratio will do
     let quarters = other * R::lit(0.5) / R::blend(r.abs().gt(R::lit(0.0)), r, one);
     let (s, c) = sin_cos_quarter(quarters);
     (r, Vec2 { x: R::blend(first, c, s), y: R::blend(first, s, c) })
@@ -40,13 +40,10 @@ fn disk_pdf<R: Real>(p: Vec2<R>) -> R {
     R::lit(INV_PI).keep(p.length_squared().le(R::lit(1.0 + 4e-7)))
 }
 
-/// Uniform over the unit disk, squares to concentric rings.
+/// Points of the unit disk, uniform in area, by the map that takes concentric squares to concentric rings: the default disk,
+/// since it keeps strata compact.
 ///
-/// - Formula: a = 2u₀−1, b = 2u₁−1; r = a, φ = (π/4)(b/a) where |a| > |b|, else r = b, φ = π/2 − (π/4)(a/b).
-/// - Domain: u in [0, 1)²; the centre u = (½, ½) maps to the origin.
-/// - Density: 1/π per unit area inside, 0 outside.
-/// - Greatest error: 1.5e−7 in the point; 2e−7 in `invert(sample(u))`.
-/// - Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
+/// Call `ConcentricDisk.sample(u)`; there is nothing to set up and no degenerate input.
 ///
 /// ```
 /// use etendue::{Vec2, Warp, warp::ConcentricDisk};
@@ -55,6 +52,12 @@ fn disk_pdf<R: Real>(p: Vec2<R>) -> R {
 /// let back = ConcentricDisk.invert(p);
 /// assert!((back.x - u.x).abs() < 1e-6 && (back.y - u.y).abs() < 1e-6);
 /// ```
+///
+/// - Formula: a = 2u₀−1, b = 2u₁−1; r = a, φ = (π/4)(b/a) where |a| > |b|, else r = b, φ = π/2 − (π/4)(a/b).
+/// - Domain: u in [0, 1)²; the centre u = (½, ½) maps to the origin.
+/// - Density: the pdf is 1/π per unit area inside, 0 outside.
+/// - Greatest error: 1.5e−7 in the point; 2e−7 in `invert(sample(u))`.
+/// - Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ConcentricDisk;
 
@@ -65,6 +68,7 @@ impl<R: Real> Warp<R> for ConcentricDisk {
         let (r, direction) = concentric(u);
         direction * r
     }
+    /// The pdf per unit area.
     #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
         disk_pdf(p)
@@ -75,11 +79,13 @@ impl<R: Real> Warp<R> for ConcentricDisk {
     }
 }
 
-/// Uniform over the unit disk, by radius and angle.
+/// Points of the unit disk, uniform in area, by radius and angle. Prefer [`ConcentricDisk`], which keeps strata compact.
+///
+/// Call `PolarDisk.sample(u)`; there is nothing to set up and no degenerate input.
 ///
 /// - Formula: r = √u₀, φ = 2πu₁.
 /// - Domain: u in [0, 1)²; u₀ = 0 maps to the centre, whose inverse is (0, 0).
-/// - Density: 1/π per unit area inside, 0 outside.
+/// - Density: the pdf is 1/π per unit area inside, 0 outside.
 /// - Greatest error: 1.2e−7 in the point.
 /// - Source: the inverse of the disk's distribution function.
 #[derive(Clone, Copy, Debug, Default)]
@@ -92,6 +98,7 @@ impl<R: Real> Warp<R> for PolarDisk {
         let (s, c) = u.y.sin_cos_turns();
         Vec2 { x: c, y: s } * u.x.greater(R::lit(0.0)).sqrt()
     }
+    /// The pdf per unit area.
     #[inline(always)]
     fn pdf(&self, p: Vec2<R>) -> R {
         disk_pdf(p)

@@ -3,14 +3,10 @@ use crate::lanewise::lanewise;
 use crate::real::{GREATEST, Real, unit_interval};
 
 lanewise! {
-    /// Density linear between the end values a at 0 and b at 1.
+    /// Numbers in [0, 1) with a pdf linear between the end values a at 0 and b at 1.
     ///
-    /// - Formula: x = u(a+b) / (a + √(a²(1−u) + b²u)); no term cancels, and a = b needs no other formula.
-    /// - Domain: u in [0, 1); a, b ≥ 0, in any unit (negative ones count as 0).
-    /// - Density: 2(a(1−x) + bx)/(a+b) per unit length on [0, 1], 0 elsewhere.
-    /// - Degenerate: a = b = 0 has no density: pdf 0, and x = u.
-    /// - Greatest error: 1.4e−7 in x, 2.1e−7 relative in the pdf.
-    /// - Source: the inverse of the distribution function, rationalised: Pharr, Jakob and Humphreys, PBR 4th ed., 2.3.2.
+    /// Set `a` and `b`, then call `sample`, `pdf` or `invert`; a = b is not a special case. If neither is positive, the pdf is
+    /// 0 and x = u.
     ///
     /// ```
     /// use etendue::warp::{Linear, Warp1};
@@ -18,16 +14,24 @@ lanewise! {
     /// let x = falling.sample(0.625);
     /// assert!((x - 0.5).abs() < 1e-6 && (falling.pdf(x) - 1.0).abs() < 1e-6 && (falling.invert(x) - 0.625).abs() < 1e-6);
     /// ```
+    ///
+    /// - Formula: x = u(a+b) / (a + √(a²(1−u) + b²u)); no term cancels, and the formula covers a = b.
+    /// - Domain: u in [0, 1); a, b ≥ 0, in any unit (negative ones count as 0).
+    /// - Density: the pdf is 2(a(1−x) + bx)/(a+b) per unit length on [0, 1]; 0 elsewhere.
+    /// - Degenerate input: a = b = 0 gives pdf 0 and x = u.
+    /// - Greatest error: 1.4e−7 in x, 2.1e−7 relative in the pdf.
+    /// - Source: the inverse of the distribution function, rationalised: Pharr, Jakob and Humphreys, PBR 4th ed., 2.3.2.
     pub struct Linear {
-        /// Relative density at 0.
+        /// Relative density at 0: ≥ 0, in any unit.
         pub a: R,
-        /// Relative density at 1.
+        /// Relative density at 1: ≥ 0, in the unit of `a`.
         pub b: R,
     }
 }
 
 impl<R: Real> Linear<R> {
-    /// End values times a power of two that keeps their squares in range; a + b, or 1 where that is 0; is there a density?
+    /// a and b times a power of two that keeps their squares in range, a + b, and whether that sum is positive; a = b = 1 where
+    /// it is not.
     #[inline(always)]
     fn scaled(&self) -> (R, R, R, R::Mask) {
         let zero = R::lit(0.0);
@@ -35,7 +39,7 @@ impl<R: Real> Linear<R> {
         let scale = a.greater(b).pow2_scale();
         let (a, b) = (a * scale, b * scale);
         let some = (a + b).gt(zero);
-        // without a density: uniform, so that the point is finite
+        // degenerate: uniform, so that the point is finite
         let one = R::lit(1.0);
         let (a, b) = (R::blend(some, a, one), R::blend(some, b, one));
         (a, b, a + b, some)
@@ -47,11 +51,12 @@ impl<R: Real> Warp1<R> for Linear<R> {
     fn sample(&self, u: R) -> R {
         let (a, b, sum, _) = self.scaled();
         let root = (a * a).mul_add(R::lit(1.0) - u, b * b * u).greater(R::lit(0.0)).sqrt();
-        // a = 0 at u = 0
+        // 0 for a = 0 at u = 0
         let denominator = a + root;
         let some = denominator.gt(R::lit(0.0));
         unit_interval(u * sum / R::blend(some, denominator, R::lit(1.0)))
     }
+    /// The pdf per unit length.
     #[inline(always)]
     fn pdf(&self, x: R) -> R {
         let (a, b, sum, some) = self.scaled();
@@ -67,37 +72,39 @@ impl<R: Real> Warp1<R> for Linear<R> {
         let x = unit(x);
         let rest = R::lit(1.0) - x;
         let value = a.mul_add(rest, b * x);
-        // from the nearer end: its distance times the mean of the densities at the end and at x
+        // from the nearer end: the distance to it times the mean of the densities there and at x
         let lower = x.lt(R::lit(0.5));
         let part = R::blend(lower, x * (a + value), rest * (b + value)) / sum;
         unit_interval(R::blend(lower, part, R::lit(1.0) - part))
     }
 }
 
-/// Into [0, 1].
+/// Clamps x to [0, 1].
 #[inline(always)]
 fn unit<R: Real>(x: R) -> R {
     x.clamped(R::lit(0.0), R::lit(1.0))
 }
 
 lanewise! {
-    /// Density that falls linearly from 0 to ±r: the tent or triangle filter.
+    /// Numbers in [−r, r] with a pdf that falls linearly from the middle to 0 at ±r: the tent filter of pixel reconstruction.
     ///
-    /// - Formula, with t = min(u, 1−u): x = r(2u−1)/(1 + √(2t)), which is r(√(2u) − 1) below the middle and r(1 − √(2(1−u))) above,
-    ///   without their cancellation at the middle.
+    /// Set `radius`, then call `sample`, `pdf` or `invert`. A radius of 1e−37 or less gives pdf 0 and x = 0.
+    ///
+    /// - Formula, with t = min(u, 1−u): x = r(2u−1)/(1 + √(2t)), which is r(√(2u) − 1) below the middle and r(1 − √(2(1−u)))
+    ///   above, without their cancellation at the middle.
     /// - Domain: u in [0, 1); r > 0.
-    /// - Density: (1 − |x|/r)/r per unit length within ±r, 0 elsewhere.
-    /// - Degenerate: r ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = 0.
+    /// - Density: the pdf is (1 − |x|/r)/r per unit length within ±r; 0 elsewhere.
+    /// - Degenerate input: r ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = 0.
     /// - Greatest error: 1.6e−7 relative in x, 2e−7 relative in the pdf.
     /// - Source: the inverse of the distribution function, rationalised.
     pub struct Tent {
-        /// Half-width r.
+        /// r, half the width of the tent: > 0, in the unit of x.
         pub radius: R,
     }
 }
 
 impl<R: Real> Tent<R> {
-    /// r, or 1 where it is degenerate.
+    /// r, or 1 where it is degenerate; and whether it is usable.
     #[inline(always)]
     fn usable(&self) -> (R, R::Mask) {
         let some = self.radius.gt(R::lit(1e-37));
@@ -113,6 +120,7 @@ impl<R: Real> Warp1<R> for Tent<R> {
         let x = R::lit(2.0).mul_add(u, -one) / (one + (t + t).sqrt());
         (x * self.radius).keep(self.usable().1)
     }
+    /// The pdf per unit length.
     #[inline(always)]
     fn pdf(&self, x: R) -> R {
         let (r, some) = self.usable();

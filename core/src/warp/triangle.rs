@@ -9,11 +9,14 @@ fn triangle_pdf<R: Real>(b: Vec2<R>) -> R {
     R::lit(2.0).keep(inside)
 }
 
-/// Uniform over a triangle, as the barycentric coordinates (b₁, b₂) of its second and third vertex.
+/// Points of a triangle, uniform in area, as the barycentric coordinates (b₁, b₂) of its second and third vertices. Prefer
+/// [`LowDistortionTriangle`], which keeps strata compact.
+///
+/// Call `AreaTriangle.sample(u)`; there is nothing to set up and no degenerate input.
 ///
 /// - Formula: b₀ = 1 − √u₀, b₁ = √u₀(1−u₁), b₂ = √u₀u₁.
 /// - Domain: u in [0, 1)²; u₀ = 0 maps to the first vertex, whose inverse is (0, 0).
-/// - Density: 2 per unit of barycentric area; divide by twice the triangle's area for 1/area.
+/// - Density: the pdf is 2 per unit of barycentric area; divide by twice the triangle's area for the pdf per unit area.
 /// - Greatest error: 1.2e−7.
 /// - Source: Turk, "Generating Random Points in Triangles", Graphics Gems, 1990.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,6 +30,7 @@ impl<R: Real> Warp<R> for AreaTriangle {
         let b2 = root * u.y;
         Vec2::new(root - b2, b2)
     }
+    /// The pdf per unit of barycentric area.
     #[inline(always)]
     fn pdf(&self, b: Vec2<R>) -> R {
         triangle_pdf(b)
@@ -39,14 +43,10 @@ impl<R: Real> Warp<R> for AreaTriangle {
     }
 }
 
-/// Uniform over a triangle, as the barycentric coordinates (b₁, b₂) of its second and third vertex, folding the square over its diagonal:
-/// no square root, and cells of the square stay compact.
+/// Points of a triangle, uniform in area, as the barycentric coordinates (b₁, b₂) of its second and third vertices, by folding
+/// the square over its diagonal: no square root, and strata stay compact.
 ///
-/// - Formula: (b₁, b₂) = (u₀/2, u₁ − u₀/2) where u₁ > u₀, else (u₀ − u₁/2, u₁/2). Inverse: (2b₁, b₁ + b₂) or (b₁ + b₂, 2b₂).
-/// - Domain: u in [0, 1)²; continuous, with a kink on the diagonal.
-/// - Density: 2 per unit of barycentric area; divide by twice the triangle's area for 1/area.
-/// - Greatest error: 6e−8.
-/// - Source: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
+/// Call `LowDistortionTriangle.sample(u)`; there is nothing to set up and no degenerate input.
 ///
 /// ```
 /// use etendue::{Vec2, Warp, warp::LowDistortionTriangle};
@@ -55,6 +55,12 @@ impl<R: Real> Warp<R> for AreaTriangle {
 /// assert_eq!((b.x, b.y), (0.125, 0.625));
 /// assert_eq!(LowDistortionTriangle.invert(b), u);
 /// ```
+///
+/// - Formula: (b₁, b₂) = (u₀/2, u₁ − u₀/2) where u₁ > u₀, else (u₀ − u₁/2, u₁/2). Inverse: (2b₁, b₁ + b₂) or (b₁ + b₂, 2b₂).
+/// - Domain: u in [0, 1)²; continuous, with a kink on the diagonal.
+/// - Density: the pdf is 2 per unit of barycentric area; divide by twice the triangle's area for the pdf per unit area.
+/// - Greatest error: 6e−8.
+/// - Source: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LowDistortionTriangle;
 
@@ -62,11 +68,12 @@ impl<R: Real> Warp<R> for LowDistortionTriangle {
     type Point = Vec2<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec2<R> {
-        // the smaller coordinate is halved, and the half taken from the other
+        // halve the smaller coordinate, and take that half from the other
         let half = R::lit(0.5) * u.x.lesser(u.y);
         let upper = u.y.gt(u.x);
         Vec2::new(R::blend(upper, half, u.x - half), R::blend(upper, u.y - half, half))
     }
+    /// The pdf per unit of barycentric area.
     #[inline(always)]
     fn pdf(&self, b: Vec2<R>) -> R {
         triangle_pdf(b)

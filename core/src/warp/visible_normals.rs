@@ -4,22 +4,10 @@ use crate::real::{GREATEST, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
 lanewise! {
-    /// The normals of a GGX microsurface that are visible from a direction, by the spherical cap.
+    /// Normals of a GGX microsurface that are visible from a direction, by the spherical cap: for rough reflection.
     ///
-    /// - Formula: with M = diag(αx, αy, 1) and the stretched view w = M·wi/|M·wi|, a direction c uniform over the cap z > −w.z
-    ///   ([`Cone`] with h = 1 + w.z) reflects w about c + w; the normal is M(c + w), normalised.
-    /// - Domain: u in [0, 1)²; αx, αy > 0; wi of any direction and any length but 0. Grazing views have no special case; from below the
-    ///   horizon (wi.z < 0) it is the part of the microsurface that still faces wi.
-    /// - Density: D_v(m) = 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal, l = |M⁻¹m|, for unit wi; 0 for
-    ///   m.z < 0 and for normals that face away. It is max(0, wi·m) D(m) G₁(wi)/wi.z without the quotient that fails at grazing.
-    /// - Reflection: the density of the reflected direction, 2(wi·m)m − wi, per steradian is
-    ///   [`reflected_pdf`](Self::reflected_pdf): D_v/(4 wi·m).
-    /// - Degenerate: α ≤ 1e−15 (a mirror), wi = 0 and wi = −z (nothing visible) give pdf 0, and +z or a normal of the horizon.
-    /// - Greatest error, in units of 2⁻²⁴: 8 in the stretched normal, 8 in the pdf relative to its value and to D_v/(wi·m), and
-    ///   24/(1 + w.z) + 16/|c + w| in `invert(sample(u))`: most where a grazing view sees normals turned away from it, c → −w, which have
-    ///   next to no density. A normal there may be rounded to one that faces away, with pdf 0.
-    /// - Source: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, listing 1; the density as in Heitz, "Sampling
-    ///   the GGX Distribution of Visible Normals", JCGT 7(4), 2018, equation 3, rearranged.
+    /// Call `GgxVisibleNormals::new(alpha_x, alpha_y, wi)`, then `sample` a normal and [`reflect`](Self::reflect) about it. A
+    /// mirror (α ≤ 1e−15), or a direction that sees nothing, has pdf 0.
     ///
     /// ```
     /// use etendue::{Vec2, Vec3, Warp, warp::GgxVisibleNormals};
@@ -29,26 +17,43 @@ lanewise! {
     /// let back = rough.invert(m);
     /// assert!(rough.pdf(m) > 0.0 && (back.x - u.x).abs() < 1e-5 && (back.y - u.y).abs() < 1e-5);
     /// ```
+    ///
+    /// - Formula: with M = diag(αx, αy, 1) and the stretched view w = M·wi/|M·wi|, a direction c uniform over the cap z > −w.z
+    ///   ([`Cone`] with h = 1 + w.z) reflects w about c + w; the normal is M(c + w), normalised.
+    /// - Domain: u in [0, 1)²; αx, αy > 0; any nonzero wi, of any length. Grazing views have no special case; a view from below
+    ///   the horizon (wi.z < 0) sees the part of the microsurface that still faces it.
+    /// - Density: the pdf is D_v(m) = 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal, l = |M⁻¹m|,
+    ///   for unit wi; 0 for m.z < 0 and for normals that face away. It equals max(0, wi·m) D(m) G₁(wi)/wi.z without the
+    ///   quotient that fails at grazing.
+    /// - Reflection: the reflected direction is 2(wi·m)m − wi; its pdf per steradian is [`reflected_pdf`](Self::reflected_pdf),
+    ///   D_v/(4 wi·m).
+    /// - Degenerate input: α ≤ 1e−15 (a mirror), wi = 0 and wi = −z (nothing visible) give pdf 0, and +z or a normal on the
+    ///   horizon.
+    /// - Greatest error, in units of 2⁻²⁴: 8 in the stretched normal, 8 in the pdf relative to its value and to D_v/(wi·m), and
+    ///   24/(1 + w.z) + 16/|c + w| in `invert(sample(u))`. The last is largest where a grazing view sees normals that turn away
+    ///   from it, c → −w, which have almost no probability; rounding may make such a normal face away, with pdf 0.
+    /// - Source: Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, listing 1; for the pdf,
+    ///   Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018, equation 3, rearranged.
     pub struct GgxVisibleNormals {
         alpha: Vec2<R>,
         inverse_alpha: Vec2<R>,
-        /// wi, of unit length.
+        /// wi, normalised.
         view: Vec3<R>,
-        /// w.
+        /// w = M·wi/|M·wi|.
         stretched: Vec3<R>,
-        /// 1 + w.z.
+        /// h = 1 + w.z, the height of the cap.
         height: R,
-        /// 2/(π αx αy |M·wi| h), or 0.
+        /// 2/(π αx αy |M·wi| h), or 0 where degenerate.
         scale: R,
     }
 }
 
 impl<R: Real> GgxVisibleNormals<R> {
-    /// For roughness αx, αy and the direction `wi` towards the viewer, in the frame of the surface.
+    /// Prepares for roughness αx, αy and the direction `wi` towards the viewer, in the local frame of the surface (z up).
     #[inline(always)]
     pub fn new(alpha_x: R, alpha_y: R, wi: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // to a length near 1, exactly, so that no square over- or underflows
+        // first to a length near 1, exactly, so that no square over- or underflows
         let view = (wi * wi.max_abs().pow2_scale()).normalize();
         let least = R::lit(1e-15);
         let rough = alpha_x.gt(least) & alpha_y.gt(least) & alpha_x.lt(R::lit(1e15)) & alpha_y.lt(R::lit(1e15));
@@ -60,7 +65,7 @@ impl<R: Real> GgxVisibleNormals<R> {
         let some = length.gt(zero);
         let inverse_length = one / R::blend(some, length, one);
         let stretched = Vec3::new(x, y, view.z) * inverse_length;
-        // |M·wi| + wi.z, which cancels from below: there the difference of squares over the difference
+        // |M·wi| + wi.z cancels from below: there, the difference of squares over the sum of magnitudes
         let sum = R::blend(view.z.lt(zero), across / (length + view.z.abs()).greater(R::lit(1e-37)), length + view.z);
         let visible = some & rough & sum.gt(R::lit(1e-33));
         let area = R::lit(core::f64::consts::PI) * alpha.x * alpha.y;
@@ -74,13 +79,14 @@ impl<R: Real> GgxVisibleNormals<R> {
             scale: scale.lesser(R::lit(GREATEST)),
         }
     }
-    /// Direction in which the normal `m` reflects the view: 2(wi·m)m − wi.
+    /// Reflects the view about the normal `m`: 2(wi·m)m − wi.
     #[inline(always)]
     pub fn reflect(&self, m: Vec3<R>) -> Vec3<R> {
         let cos = self.view.dot(m);
         m.mul_add(cos + cos, -self.view)
     }
-    /// Density of the direction reflected by `m`, per steradian of that direction: D_v(m)/(4 wi·m). It is finite where wi·m → 0.
+    /// The pdf of the direction reflected about `m`, per steradian of that direction: D_v(m)/(4 wi·m). It stays finite as wi·m
+    /// → 0.
     #[inline(always)]
     pub fn reflected_pdf(&self, m: Vec3<R>) -> R {
         let facing = self.view.dot(m).gt(R::lit(0.0));
@@ -103,13 +109,14 @@ impl<R: Real> Warp<R> for GgxVisibleNormals<R> {
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let c = Cone { one_minus_cos: self.height }.sample(u);
         let (x, y) = ((c.x + self.stretched.x) * self.alpha.x, (c.y + self.stretched.y) * self.alpha.y);
-        // (1 − u₀h) + (h − 1)
+        // z = (1 − u₀h) + (h − 1)
         let z = (self.height * (R::lit(1.0) - u.x)).greater(R::lit(0.0));
         let m = Vec3::new(x, y, z);
         let m = (m * m.max_abs().pow2_scale()).normalize();
         let up = Vec3::new(R::lit(0.0), R::lit(0.0), R::lit(1.0));
         Vec3::blend(m.length_squared().gt(R::lit(0.5)), m, up)
     }
+    /// The pdf per steradian of the normal.
     #[inline(always)]
     fn pdf(&self, m: Vec3<R>) -> R {
         (self.per_cosine(m) * self.view.dot(m).greater(R::lit(0.0))).lesser(R::lit(GREATEST))
@@ -121,7 +128,7 @@ impl<R: Real> Warp<R> for GgxVisibleNormals<R> {
         let cos = self.stretched.dot(h);
         let c = h.mul_add(cos + cos, -self.stretched);
         let near = Cone { one_minus_cos: self.height }.invert(c);
-        // from the rim of the cap: c.z + w.z = 2(w·h)h.z = (1−u₀)h
+        // u₀ near 1 comes from the rim of the cap: c.z + w.z = 2(w·h)h.z = (1−u₀)h
         let some = self.height.gt(R::lit(0.0));
         let rest = (cos + cos) * h.z / R::blend(some, self.height, R::lit(1.0));
         let far = unit_interval(R::lit(1.0) - rest.lesser(R::lit(1.0)));

@@ -1,4 +1,4 @@
-//! Building of trees: obvhs's binary tree, of which nodes of eight children are made here. The one file that names obvhs.
+//! Builds trees: collapses obvhs's binary tree into nodes of eight children. No other file uses obvhs.
 
 use super::tree::{Bounded, Node};
 use super::{WIDTH, X8, min};
@@ -6,21 +6,21 @@ use etendue::Real;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::{Boundable, aabb::Aabb, bvh2::Bvh2, bvh2::node::Bvh2Node, bvh2::reinsertion::ReinsertionOptimizer};
 
-/// What leaves may be and what it costs to visit them, in visits of an inner node.
+/// Limit on leaf size, and costs of visiting leaves relative to visiting an inner node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Costs {
-    /// Most primitives in a leaf, at most 15.
+    /// Greatest number of primitives in a leaf, at most 15.
     pub(super) most: usize,
-    /// Cost of any leaf.
+    /// Fixed cost of a leaf.
     pub(super) leaf: f32,
-    /// And of each primitive in it.
+    /// Additional cost of each primitive in a leaf.
     pub(super) primitive: f32,
 }
 
-/// A tree of nodes, the root first, and the primitives in the order of its leaves.
+/// The nodes of a tree, root first, and the indices of the primitives in leaf order.
 pub(super) type Built = (Vec<Node>, Vec<u32>);
 
-/// Part of the nodes for which obvhs seeks a better place.
+/// Fraction of the nodes that obvhs tries to reinsert at a better place.
 const REINSERTED: f32 = 0.1;
 
 struct Boxed<'a, T>(&'a T);
@@ -32,7 +32,7 @@ impl<T: Bounded> Boundable for Boxed<'_, T> {
     }
 }
 
-/// Nothing if the tree would be deeper than `depth` (many primitives in one place).
+/// Builds a tree; `None` if it would be deeper than `depth` (many primitives in one place), or if one leaf suffices.
 pub(super) fn build<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Option<Built> {
     if all.len() <= costs.most || crowded(all) {
         return None;
@@ -45,16 +45,16 @@ pub(super) fn build<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Option
     Some(Collapse::new(&bvh, costs, depth)?.nodes())
 }
 
-/// Primitives that are alike, of which obvhs's builder joins one pair a round.
+/// Number of equal boxes from which on obvhs is not used: its builder merges only one pair of them per round.
 const ALIKE: usize = 64;
 
-/// Are there more than that?
+/// Whether there are that many equal boxes.
 fn crowded<T: Bounded>(all: &[T]) -> bool {
     let mut keys = all.iter().map(|item| {
         let mix = |h: u64, x: &f32| (h ^ u64::from(x.to_bits())).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
         item.bounds().as_flattened().iter().fold(0, mix)
     });
-    // by chance no slot of as many as there are primitives comes near
+    // with as many slots as primitives, no slot gets near that number by chance
     let bits = usize::BITS - all.len().leading_zeros();
     let mut slots = vec![0_u8; 1 << bits];
     keys.any(|key| {
@@ -64,21 +64,21 @@ fn crowded<T: Bounded>(all: &[T]) -> bool {
     })
 }
 
-/// Least costs of replacing a subtree by 1, 2, … 7 children of one node.
+/// Least costs of representing a subtree by at most 1, 2, … 7 children of one node.
 type Least = [f32; WIDTH - 1];
 
-/// The choice of nodes and leaves whose surface area heuristic is least, by dynamic programming over the binary tree.
+/// Chooses nodes and leaves of least SAH cost by dynamic programming over the binary tree.
 /// (Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3.1.)
 struct Collapse<'a> {
     bvh: &'a Bvh2,
     costs: Costs,
-    /// Of each inner node, at the place of its pair of children.
+    /// Least costs of each inner node, indexed by its pair of children.
     least: Vec<Least>,
-    /// Primitives below it.
+    /// Number of primitives below each inner node, indexed likewise.
     sizes: Vec<u32>,
 }
 
-/// Where what belongs to an inner node is kept: obvhs keeps children in pairs, the first pair at 1.
+/// Index of an inner node's pair of children: obvhs stores children in pairs, the first pair at 1.
 fn pair(node: &Bvh2Node) -> usize {
     node.first_index as usize / 2
 }
@@ -107,7 +107,7 @@ impl<'a> Collapse<'a> {
             let size = children.map(|c| this.size(c)).iter().sum();
             let [left, right] = children.map(|c| this.least(c));
             let area = node.aabb().half_area();
-            // of j children, j − 2 at the place: the best of all ways to deal them out
+            // dealt[j − 2] is the least cost of distributing j children between the two subtrees
             let mut shifted = [f32::INFINITY; 2 * WIDTH];
             shifted[WIDTH..2 * WIDTH - 1].copy_from_slice(&right);
             let mut dealt = X8::lit(f64::INFINITY);
@@ -144,7 +144,7 @@ impl<'a> Collapse<'a> {
         let size = self.size(node);
         node.is_leaf() || self.leaf_cost(node.aabb().half_area(), size) <= self.least(node)[0]
     }
-    /// The descendants that stand for a node in up to `room` places, which are at least 2 or 1 for the node itself.
+    /// Adds the descendants that represent a node in up to `room` slots; with 1 slot, the node itself.
     fn deal(&self, index: usize, room: usize, chosen: &mut [usize; WIDTH], count: &mut usize) {
         let node = &self.bvh.nodes[index];
         let room = if node.is_leaf() { 1 } else { room };
@@ -173,7 +173,7 @@ impl<'a> Collapse<'a> {
         while let Some((index, place)) = pending.pop() {
             let (mut children, mut count) = ([0; WIDTH], 0);
             self.deal(index, WIDTH, &mut children, &mut count);
-            // what is soon done with goes to the top of the stack, which is last: a shadow ray that is hidden there is spared the rest
+            // cheap children go last, to the top of the stack, so that an occlusion test can exit early
             let cost = |child: usize| self.least(&bvh.nodes[child])[0] / bvh.nodes[child].aabb().half_area();
             children[..count].sort_unstable_by(|&a, &b| cost(b).total_cmp(&cost(a)).then(a.cmp(&b)));
             let mut inner = [(0, 0); WIDTH];

@@ -1,4 +1,4 @@
-//! Groups of packets on their way through a tree.
+//! Packet traversal: a group moves through the tree as one frustum, or a packet on its own.
 
 use super::stream::Visit;
 use super::together::{Later, TOGETHER, Walk};
@@ -6,10 +6,10 @@ use super::tree::{DEPTH, Node, Primitives, Tree};
 use super::{Hits, M8, Rays, Shaft, WIDTH, X8, max, min};
 use etendue::{Mask, Real, u32x8};
 
-/// A node leaves at most seven of its children on the stack.
+/// Stack size: each level of the tree leaves at most seven children on the stack.
 pub(super) const STACK: usize = 7 * DEPTH + 8;
 
-/// Where the rays enter a child's box, and in which lanes they do before their limit.
+/// Distances at which the rays enter a child's box, and the lanes that enter it before their limit.
 #[inline(always)]
 pub(super) fn slabs<const COMMON: bool>(node: &Node, slot: usize, rays: &Rays, sign: [bool; 3], limit: X8) -> (X8, M8) {
     let axis = |k: usize, inverse: X8, below: X8, above: X8| {
@@ -31,7 +31,7 @@ pub(super) fn slabs<const COMMON: bool>(node: &Node, slot: usize, rays: &Rays, s
     (near, near.le(far))
 }
 
-/// Room for a traversal, made once and used for many.
+/// Scratch memory for traversals, to be reused.
 #[derive(Debug)]
 pub struct Stack {
     pub(super) pending: Box<[Pending; STACK]>,
@@ -51,17 +51,18 @@ impl Default for Stack {
     }
 }
 
-/// A child that is still to be visited.
+/// A child to visit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pending {
-    /// Index of the parent, and which of its children. (For occlusion: index of the node itself.)
+    /// Index of the parent node. (For occlusion, index of the node itself.)
     pub(super) parent: u32,
+    /// Slot of the child in its parent.
     pub(super) slot: u32,
-    /// No ray enters it before this distance.
+    /// Lower bound of the entry distance.
     pub(super) near: f32,
 }
 
-/// Puts `child` on a stack of `height` below those above `floor` that are nearer.
+/// Inserts `child` into a stack of this `height`, below the nearer items above `floor`.
 #[inline(always)]
 pub(super) fn push_in_order<T: Copy>(
     stack: &mut [T],
@@ -79,18 +80,18 @@ pub(super) fn push_in_order<T: Copy>(
     *height += 1;
 }
 
-/// A group of packets on its way through a tree: as one shaft that holds them all, or as the one packet that it is.
+/// A group of packets that traverses a tree: as one shaft around all of them, or as a single packet.
 struct Traversal<'a, const COMMON: bool> {
     rays: &'a [Rays],
     sign: [bool; 3],
     shaft: Option<&'a Shaft>,
-    /// An active lane of the first packet.
+    /// Index of an active lane of the first packet.
     lead: usize,
 }
 
 impl<const COMMON: bool> Traversal<'_, COMMON> {
-    /// The children that may be entered within `reach`, as bits, and, if an order is wanted, roughly where: a lower bound for a
-    /// shaft, the entry of the packet's first lane else.
+    /// The bit set of the children that may be entered within `reach`, and with `ORDER` their entry distances: lower bounds for a
+    /// shaft, otherwise those of the packet's leading lane.
     #[inline(always)]
     fn enter<const ORDER: bool>(&self, node: &Node, limit: X8, active: M8, reach: f32) -> (u32, [f32; WIDTH]) {
         if let Some(shaft) = self.shaft {
@@ -109,7 +110,7 @@ impl<const COMMON: bool> Traversal<'_, COMMON> {
         (bits, nearest)
     }
 
-    /// The lanes of a packet that enter a leaf, and where.
+    /// The entry distances of a packet into a leaf, and the lanes that enter it.
     #[inline(always)]
     fn lanes(&self, node: &Node, slot: usize, p: usize, limit: X8, active: M8) -> (X8, M8) {
         let (near, entered) = slabs::<COMMON>(node, slot, &self.rays[p], self.sign, limit);
@@ -127,12 +128,12 @@ pub(super) fn each_bit(mut bits: u32, mut f: impl FnMut(usize)) {
 }
 
 impl<P: Primitives> Tree<P> {
-    /// Bytes held by nodes and primitives.
+    /// Size of nodes and primitives in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + self.primitives.bytes()
     }
 
-    /// Nearest hits of a group of packets, nearer than those that `hits` holds.
+    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`.
     pub(super) fn closest(
         &self,
         rays: &[Rays],
@@ -160,7 +161,7 @@ impl<P: Primitives> Tree<P> {
     ) {
         let stack = &mut *stack.pending;
         let mut height = 0;
-        // how far the farthest ray still looks
+        // the greatest remaining search distance of any ray
         let mut reach = farthest(hits, active);
         let mut place = 0_usize;
         loop {
@@ -178,7 +179,7 @@ impl<P: Primitives> Tree<P> {
                 }
                 height -= 1;
                 let Pending { parent, slot, near } = stack[height];
-                // a packet's entry bounds one lane alone: its leaves are tested again
+                // without a shaft, `near` bounds only the leading lane, and leaves are tested again below
                 if traversal.shaft.is_some() && near > reach {
                     continue;
                 }
@@ -202,7 +203,7 @@ impl<P: Primitives> Tree<P> {
         }
     }
 
-    /// Takes out of `active` the lanes in which something other than `skip` lies before `limit`.
+    /// Clears the lanes of `active` that something other than `skip` occludes before `limit`.
     pub(super) fn occluded(
         &self,
         rays: &[Rays],
@@ -280,14 +281,14 @@ impl<P: Primitives> Tree<P> {
     }
 }
 
-/// The greatest distance at which an active ray still looks for something.
+/// The greatest remaining search distance of an active ray.
 #[inline]
 fn farthest(hits: &[Hits], active: &[M8]) -> f32 {
     let most = hits.iter().zip(active).fold(X8::lit(0.0), |m, (h, &a)| max(m, h.distance.keep(a)));
     most.to_array().into_iter().fold(0.0, f32::max)
 }
 
-/// The signs that all rays of a group share, if they do.
+/// The signs of direction that all rays of a group share, if they do.
 #[inline]
 pub(super) fn common_sign(rays: &[Rays]) -> Option<[bool; 3]> {
     let sign = rays[0].common_sign?;

@@ -1,25 +1,25 @@
-//! Trees of many primitives: parts that are built each for itself, on all threads, and a tree over their roots.
+//! Builds trees over many primitives: splits them into parts, builds each part on its own, in parallel, and a tree over the roots.
 //!
-//! How the primitives are parted depends on them alone, so that the tree does not depend on the number of threads; and what a build
-//! needs besides the tree is the memory of a few parts, and of the nodes once more.
+//! The split depends on the primitives alone, so the tree does not depend on the number of threads. Besides the tree, a build needs
+//! the memory of a few parts and of a second copy of the nodes.
 
 use super::WIDTH;
 use super::build::{Costs, build};
 use super::tree::{Bounded, Bounds, DEPTH, EMPTY, Node, balanced, halve, union};
 use std::ops::Range;
 
-/// Most primitives in a part: what a builder keeps for them fits into the second cache.
+/// Greatest number of primitives in a part: the builder's data for them fits into the L2 cache.
 const PART: usize = 16_384;
-/// Greatest depth of the binary tree over the parts; theirs may have what is left of [`DEPTH`].
+/// Greatest depth of the binary tree over the parts; the parts may use the rest of [`DEPTH`].
 const DEPTH_OVER_PARTS: usize = 32;
-/// Levels at which primitives are parted where the surface area heuristic is least, before they are halved.
+/// Number of levels that are split by SAH; deeper ones are halved.
 const LEVELS: usize = 24;
-/// Places at which a set may be parted.
+/// Number of bins for the SAH.
 const BINS: usize = 32;
-/// Primitives of which that is judged.
+/// Number of primitives sampled for the SAH.
 const SAMPLE: usize = 4096;
 
-/// A tree over some of the primitives, of which inner nodes have indices among its own.
+/// A tree over some of the primitives, whose node indices are local.
 struct Part {
     nodes: Vec<Node>,
 }
@@ -32,15 +32,14 @@ impl Part {
             high.map(|planes| planes.into_iter().fold(f32::NEG_INFINITY, f32::max)),
         ]
     }
-    /// Is there nothing but one leaf?
+    /// Whether the part is a single leaf.
     fn is_leaf(&self) -> bool {
         let root = &self.nodes[0];
         root.children == 1 && root.count[0] != 0
     }
 }
 
-/// The nodes of a tree, the root first. Primitives, and their ids with them, are put into the order of its leaves, and what is in a leaf is
-/// given to `leaf`.
+/// Builds the nodes of a tree, root first. Reorders primitives and their ids into leaf order, and calls `leaf` with those of each leaf.
 pub(super) fn build_parts<T: Bounded>(
     items: &mut [T],
     ids: &mut [u32],
@@ -88,7 +87,7 @@ pub(super) fn build_parts<T: Bounded>(
     nodes
 }
 
-/// The parts of `items`, of which the first is number `first` of all.
+/// Builds the parts of `items`, which start at index `first` of all items.
 fn each_part<T: Bounded>(
     items: &mut [T],
     ids: &mut [u32],
@@ -126,7 +125,7 @@ fn part<T: Bounded>(items: &mut [T], ids: &mut [u32], first: usize, costs: Costs
     Part { nodes }
 }
 
-/// Puts number `order[i]` to place i.
+/// Moves item `order[i]` to index i.
 fn arrange<T: Copy>(items: &mut [T], ids: &mut [u32], order: &[u32]) {
     fn gather<U: Copy>(to: &mut [U], order: &[u32]) {
         let from = to.to_vec();
@@ -136,7 +135,7 @@ fn arrange<T: Copy>(items: &mut [T], ids: &mut [u32], order: &[u32]) {
     gather(ids, order);
 }
 
-/// Puts those that belong together first, and says how many.
+/// Splits the items in two, and returns the size of the first half.
 fn divide<T: Bounded>(items: &mut [T], ids: &mut [u32], level: usize) -> usize {
     if level < LEVELS
         && let Some(plane) = Plane::best(items)
@@ -150,7 +149,7 @@ fn divide<T: Bounded>(items: &mut [T], ids: &mut [u32], level: usize) -> usize {
     items.len() / 2
 }
 
-/// Puts those that are `first` first, and says how many there are.
+/// Moves the items for which `first` holds to the front, and returns their number.
 fn partition<T>(items: &mut [T], ids: &mut [u32], first: impl Fn(&T) -> bool) -> usize {
     let Range { mut start, mut end } = 0..items.len();
     loop {
@@ -175,18 +174,18 @@ fn half_area([low, high]: &Bounds) -> f32 {
     x * y + y * z + z * x
 }
 
-/// Where a set is parted: between two of [`BINS`] equal intervals of the centres along an axis.
+/// A splitting plane between two of [`BINS`] equal intervals of the centres along an axis.
 #[derive(Clone, Copy)]
 struct Plane {
     axis: usize,
     least: f32,
     scale: f32,
-    /// Bins below it.
+    /// Number of bins below the plane.
     below: usize,
 }
 
 impl Plane {
-    /// The best one for a sample of the set by the surface area heuristic; nothing if all of them have one centre.
+    /// The plane of least SAH cost for a sample of the set; `None` if all centres coincide.
     fn best<T: Bounded>(items: &[T]) -> Option<Self> {
         let sample: Vec<_> = items.iter().step_by(items.len().div_ceil(SAMPLE)).map(Bounded::bounds).collect();
         let [low, high] = sample.iter().fold(EMPTY, |all, bounds| {
@@ -201,7 +200,7 @@ impl Plane {
         let (cost, plane) = best.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (cost < f32::INFINITY).then_some(plane)
     }
-    /// Sets where its axis is parted at the least cost, and says what that is.
+    /// Moves the plane to the bin of least SAH cost and returns that cost.
     fn choose(&mut self, sample: &[Bounds]) -> f32 {
         let mut bins = [(0, EMPTY); BINS];
         for bounds in sample {
@@ -228,7 +227,7 @@ impl Plane {
     }
     #[inline]
     fn bin(&self, item: &impl Bounded) -> usize {
-        // a NaN is 0 here
+        // a NaN becomes 0
         (((item.middle(self.axis) - self.least) * self.scale) as usize).min(BINS - 1)
     }
     #[inline]

@@ -1,28 +1,28 @@
-//! What a whole group of packets can meet.
+//! The common frustum of a group of packets.
 
 use super::tree::Node;
 use super::{M8, Rays, V8, X8, max, min, select};
 use etendue::{Mask, Real};
 
-/// A region that holds all rays of a group: along one axis all of them run the same way, and across it they spread by their
-/// least and greatest slopes. One test finds the children of a node that any ray of the group can enter.
+/// A frustum that contains all rays of a group. All rays run the same way along one axis; across it, they are bounded by their least
+/// and greatest slopes. One test finds the children of a node that any ray of the group can enter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shaft {
     axis: usize,
     negative: bool,
     /// Least and greatest origin, widened.
     origin: [[f32; 3]; 2],
-    /// Least and greatest slope: change of the coordinate for a step along the axis, in the direction of the rays.
+    /// Least and greatest slope: change of a coordinate per unit along the axis, in the direction of the rays.
     slope: [[f32; 3]; 2],
-    /// Greatest step along the axis for a unit of distance.
+    /// Greatest step along the axis per unit of distance.
     along: f32,
 }
 
-/// Rays that spread by more than this slope share too few leaves to be traced as one: they take less time as a stream.
+/// Groups whose slopes differ by more than this share too few leaves: they are faster as a stream.
 const SPREAD: f32 = 0.02;
 
 impl Shaft {
-    /// The shaft of the active rays, unless they have no axis in common or spread too far for it to be of use.
+    /// The shaft of the active rays; `None` if they share no axis or spread too far.
     pub(super) fn new(rays: &[Rays], active: &[M8]) -> Option<Self> {
         let first = active.iter().position(|a| a.any())?;
         let lane = active[first].bits().trailing_zeros() as usize & 7;
@@ -59,17 +59,17 @@ impl Shaft {
         })
     }
 
-    /// Does one packet alone spread too far?
+    /// Whether this packet alone spreads too far.
     #[inline(always)]
     fn wide(slope: V8, active: M8) -> bool {
         let lead = slope.lane(active.bits().trailing_zeros() as usize & 7);
         let apart = slope - V8::splat(lead);
-        // a NaN is not within either
+        // a NaN fails the comparison, too
         let near = max(max(apart.x.abs(), apart.y.abs()), apart.z.abs()).le(X8::splat(SPREAD));
         (active & !near).any()
     }
 
-    /// The children of a node that a ray of the group may enter within `reach`, and a lower bound of the distance at which.
+    /// The children of a node that a ray of the group may enter within `reach`, and lower bounds of their entry distances.
     #[inline(always)]
     pub(super) fn enter(&self, node: &Node, reach: f32) -> (X8, M8) {
         let k = self.axis;

@@ -1,4 +1,4 @@
-//! Spheres and emitters, intersected as they are.
+//! Intersection with spheres and emitters.
 
 use super::build::Costs;
 use super::tree::{BuildError, Primitives, Tree};
@@ -7,17 +7,17 @@ use crate::scene::{Geometry, Shape};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
 
-/// A packet meets one shape after the other, each in about the time of a node.
+/// A packet tests one shape after another, each in about the time of a node.
 const COSTS: Costs = Costs { most: 4, leaf: 0.0, primitive: 1.0 };
 
-/// A shape in the form in which it is intersected.
+/// A shape, prepared for intersection.
 #[derive(Clone, Copy, Debug)]
 enum Solid {
     Sphere {
         center: [f32; 3],
         radius: f32,
     },
-    /// A point of the plane is p + s·u + t·v, with s and t its products with the dual vectors.
+    /// A triangle or parallelogram p + s·u + t·v, where s and t are dot products with the dual vectors.
     Flat {
         p: [f32; 3],
         normal: [f32; 3],
@@ -32,7 +32,7 @@ pub(super) struct Solids {
     ids: Vec<u32>,
 }
 
-/// All shapes of a scene; ids are indices into the scene's list, with [`SHAPE`] set in hits.
+/// All shapes of a scene. Ids are indices into the scene's list; in hits, they have the bit [`SHAPE`] set.
 #[derive(Debug)]
 pub struct ShapeSet {
     tree: Tree<Solids>,
@@ -84,7 +84,7 @@ impl ShapeSet {
     /// Prepares the shapes.
     ///
     /// # Errors
-    /// More than 2³¹ − 1 shapes.
+    /// Fails if there are more than 2³¹ − 1 shapes.
     pub fn new(shapes: &[Shape]) -> Result<Self, BuildError> {
         let boxes: Vec<_> = shapes.iter().map(|s| bounds(&s.geometry)).collect();
         let reach = boxes.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
@@ -105,13 +105,13 @@ impl ShapeSet {
     }
 }
 
-/// Where the rays meet the solid, and in which lanes they do, at a positive distance below the limit.
+/// Distances at which the rays hit the solid, and the lanes where these are positive and less than the limit.
 #[inline]
 fn intersect(solid: &Solid, rays: &Rays, limit: X8) -> (X8, M8) {
     let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
     match solid {
         Solid::Sphere { center, radius } => {
-            // from the foot of the perpendicular: |c − o|² never enters, so far spheres keep their edges
+            // uses the foot of the perpendicular instead of |c − o|², which keeps the edges of distant spheres accurate
             let to_center = V8::from(*center) - rays.origin;
             let along = to_center.dot(rays.direction);
             let foot = rays.direction.mul_add(-along, to_center);

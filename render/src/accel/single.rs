@@ -1,4 +1,4 @@
-//! One ray on its way through a tree: all children of a node at once, then all triangles of a leaf.
+//! Single-ray traversal: tests all children of a node at once, and all triangles of a leaf at once.
 
 use super::packets::{Pending, Stack, each_bit, push_in_order};
 use super::tree::{Node, Tree};
@@ -6,7 +6,7 @@ use super::{Hits, M8, Rays, V8, X8, max, min};
 use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
 
-/// One of eight rays, in every lane: the same numbers as in the packet, so that boxes and triangles are hit or missed alike.
+/// One ray of a packet, in every lane, with the same numbers as in the packet, so that its hits are the same, bit for bit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Single {
     pub(super) origin: V8,
@@ -14,11 +14,11 @@ pub(super) struct Single {
     pub(super) frame: [V8; 2],
     pub(super) inverse: V8,
     pub(super) offset: [V8; 2],
-    /// Bit k is set if it runs towards − along axis k.
+    /// Bit k is set if the ray runs towards − along axis k.
     octant: usize,
 }
 
-/// What one ray has hit first.
+/// The nearest hit of one ray.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Nearest {
     pub(super) distance: f32,
@@ -46,7 +46,8 @@ impl Single {
         }
     }
 
-    /// Where the ray enters the children's boxes, and which of them it does enter before the limit: in the octant that is told, or its own (8).
+    /// Entry distances of the children's boxes, and the children entered before the limit. The ray's octant is `OCTANT`, or 8 to
+    /// read it at run time.
     #[inline(always)]
     pub(super) fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
         let octant = if OCTANT < 8 { OCTANT } else { self.octant };
@@ -62,18 +63,18 @@ impl Single {
     }
 }
 
-/// Primitives of which one ray meets all of a leaf at once.
+/// Primitives that test one ray against a whole leaf at once.
 pub(super) trait Leaves {
-    /// Takes a nearer hit of one ray among the primitives of a leaf, whose box it enters at `near`.
+    /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`.
     fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest);
-    /// Asks for the memory of a leaf.
+    /// Prefetches a leaf.
     fn prefetch(&self, leaf: Range<usize>);
-    /// Does one of them lie on one ray before `limit`?
+    /// Whether a primitive of a leaf occludes one ray before `limit`.
     fn leaf_hides(&self, leaf: Range<usize>, ray: &Single, near: X8, limit: f32) -> bool;
 }
 
 impl<P: Leaves> Tree<P> {
-    /// Nearest hits of all rays, nearer than those that `hits` holds.
+    /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`.
     pub(super) fn closest_one_by_one(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
         for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
             each_bit(active.bits(), |lane| {
@@ -84,7 +85,7 @@ impl<P: Leaves> Tree<P> {
         }
     }
 
-    /// Takes out of `active` the lanes in which something lies before `limit`.
+    /// Clears the lanes of `active` that are occluded before `limit`, one by one.
     pub(super) fn occluded_one_by_one(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack) {
         for ((rays, active), limit) in rays.iter().zip(active).zip(limit) {
             let mut open = active.bits();
@@ -96,7 +97,7 @@ impl<P: Leaves> Tree<P> {
         }
     }
 
-    /// The nearest hit of one ray below a node, nearer than what `nearest` holds.
+    /// Finds the nearest hit of one ray below a node, if nearer than `nearest`.
     #[inline]
     pub(super) fn closest_single(&self, from: u32, ray: &Single, nearest: &mut Nearest, stack: &mut Stack) {
         if self.count != 0 {
@@ -124,7 +125,7 @@ impl<P: Leaves> Tree<P> {
             if bits != 0 {
                 let mut next = child(bits.trailing_zeros() as usize & 7);
                 bits &= bits - 1;
-                // all but the nearest go to the stack, the nearer of them to its top
+                // the nearest child is visited next; the others go to the stack, nearer ones on top
                 let floor = height;
                 while bits != 0 {
                     let mut other = child(bits.trailing_zeros() as usize & 7);
@@ -159,7 +160,7 @@ impl<P: Leaves> Tree<P> {
         }
     }
 
-    /// Does something below a node lie on one ray before `limit`?
+    /// Whether something below a node occludes one ray before `limit`.
     #[inline]
     pub(super) fn hides_single(&self, from: u32, ray: &Single, limit: f32, stack: &mut Stack) -> bool {
         self.count != 0 && by_octant!(ray.octant, else 7, self.hides_in_octant(from, ray, limit, stack))

@@ -1,4 +1,4 @@
-//! The rays of a group on their way through a tree together: each node is visited once, with the rays that enter it.
+//! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
 
 use super::packets::{Stack, common_sign, each_bit, push_in_order, slabs};
 use super::single::{Leaves, Single};
@@ -8,35 +8,35 @@ use super::{GROUP, Hits, M8, NOTHING, Rays, WIDTH, X8, max, min, select};
 use etendue::{Mask, Real, u32x8};
 use wide::i8x32;
 
-/// Fewer rays than this go on one by one: no more of the way do they have in common.
+/// With fewer rays than this, each continues alone, as sharing the traversal no longer pays.
 const FEW: u32 = 5;
 
 /// Marks a visit of an inner node.
 const INNER: u32 = u32::MAX;
 
-/// A child that is still to be visited, and the rays that enter it: bit 8·packet + lane.
+/// A child to visit, and the set of rays that enter it: bit 8·packet + lane.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Visit {
     rays: u64,
-    /// Index of the node, or of that in which the leaf is.
+    /// Index of the inner node, or of the leaf's parent.
     node: u32,
-    /// Slot of the leaf; that of an inner node is [`INNER`].
+    /// Slot of the leaf, or [`INNER`] for an inner node.
     slot: u32,
     near: f32,
 }
 
-/// Bit k of the octant is set if all rays run towards − along axis k; 8 if they do not agree.
+/// A group of rays. Bit k of `OCTANT` is set if all rays run towards − along axis k; 8 means that they disagree.
 struct Stream<'a, const OCTANT: usize> {
     rays: &'a [Rays],
 }
 
-/// The octant of rays, as [`Stream`] has it.
+/// The octant of a group, as in [`Stream`].
 fn octant(rays: &[Rays]) -> usize {
     common_sign(rays).map_or(8, |sign| (0..3).fold(0, |octant, k| octant | usize::from(sign[k]) << k))
 }
 
 impl<const OCTANT: usize> Stream<'_, OCTANT> {
-    /// The rays that enter each child, and a lower bound of the distance at which.
+    /// The set of rays that enter each child, and with `ORDER` the least entry distance of each child.
     #[inline(always)]
     fn enter<const ORDER: bool>(&self, node: &Node, among: u64, limit: impl Fn(usize) -> X8) -> ([u64; WIDTH], X8) {
         let negative = |k: usize| OCTANT >> k & 1;
@@ -87,13 +87,13 @@ impl<const OCTANT: usize> Stream<'_, OCTANT> {
     }
 }
 
-/// One bit a ray.
+/// The bit set of the active rays.
 fn bits(active: &[M8]) -> u64 {
     active.iter().zip(0..).fold(0, |bits, (a, p)| bits | u64::from(a.bits()) << (8 * p))
 }
 
 impl<P: Primitives + Leaves> Tree<P> {
-    /// Nearest hits of a group of packets, nearer than those that `hits` holds.
+    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`.
     pub(super) fn closest_stream(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
         if self.count == 0 {
             return;
@@ -124,7 +124,7 @@ impl<P: Primitives + Leaves> Tree<P> {
                         continue;
                     }
                     let (near, _) = slabs::<false>(node, slot, rays, [false; 3], hits.distance);
-                    // either its triangles one after the other, or its rays
+                    // one triangle after another or one ray after another, whichever are fewer
                     if lanes.count_ones() as usize >= leaf.len() {
                         self.primitives.closest(leaf.clone(), rays, near, M8::from_bits(lanes), hits);
                         continue;
@@ -171,7 +171,7 @@ impl<P: Primitives + Leaves> Tree<P> {
         }
     }
 
-    /// Takes out of `active` the lanes in which something lies before `limit`.
+    /// Clears the lanes of `active` that are occluded before `limit`.
     pub(super) fn occluded_stream(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack) {
         if self.count == 0 {
             return;

@@ -1,5 +1,4 @@
-//! Rays that have no way in common, a step of each in turn: what a ray visits next is asked for when it is found, and has come from
-//! memory when it is the ray's turn again.
+//! Interleaves incoherent rays to hide memory latency: each ray takes one step in turn, and prefetches what its next step will visit.
 
 use super::packets::{STACK, Stack, each_bit, push_in_order};
 use super::single::{Leaves, Nearest, Single};
@@ -7,28 +6,28 @@ use super::tree::{Node, Tree, prefetch};
 use super::{Hits, Rays, X8};
 use etendue::Mask;
 
-/// Rays on their way at a time.
+/// Number of interleaved rays.
 pub(super) const TOGETHER: usize = 8;
 
-/// A child that is still to be visited, and where the ray enters it.
+/// A child to visit, and the distance at which the ray enters it.
 #[derive(Clone, Copy, Debug, Default)]
 struct Child {
     first: u32,
-    /// Primitives of a leaf; 0 for an inner node.
+    /// Number of primitives of a leaf; 0 for an inner node.
     count: u32,
     near: f32,
 }
 
-/// Children of one ray that wait in [`Later`], at the most.
+/// Greatest number of pending children of one ray in [`Later`].
 const MOST: usize = 24;
 
-/// One ray on its way.
+/// The traversal state of one ray.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
     ray: Single,
-    /// How far it still looks, and what it has hit there.
+    /// The nearest hit so far, or the limit.
     nearest: Nearest,
-    /// Its index in the group: 8·packet + lane.
+    /// Index of the ray in the group: 8·packet + lane.
     index: usize,
     height: usize,
     stack: Box<[Child; STACK + MOST]>,
@@ -56,12 +55,12 @@ impl Walk {
     }
 }
 
-/// From where each ray of a group is to go on by itself.
+/// The nodes from which each ray of a group continues on its own.
 #[derive(Debug)]
 pub(super) struct Later {
     children: Box<[[Child; MOST]; 64]>,
     count: [u8; 64],
-    /// Those that have some.
+    /// Bit set of the rays with pending nodes.
     rays: u64,
 }
 
@@ -72,7 +71,8 @@ impl Default for Later {
 }
 
 impl Later {
-    /// Adds an inner node, which none of `rays` enters before `near`, for each of them; false, and none is added, if there is no room.
+    /// Adds an inner node for each of `rays`, none of which enters it before `near`. Returns false and adds nothing if one of them has
+    /// no room.
     #[inline]
     pub(super) fn add(&mut self, rays: u64, node: u32, near: f32) -> bool {
         let mut room = true;
@@ -86,7 +86,7 @@ impl Later {
         }
         room
     }
-    /// Forgets all rays but some.
+    /// Removes all rays except `rays`.
     fn keep(&mut self, rays: u64) {
         each_ray(self.rays & !rays, |i| self.count[i] = 0);
         self.rays &= rays;
@@ -109,7 +109,7 @@ pub(super) fn each_ray(mut bits: u64, mut f: impl FnMut(usize)) {
     }
 }
 
-/// What has become of a walk.
+/// The result of one step.
 enum Step {
     On,
     Hidden,
@@ -117,7 +117,7 @@ enum Step {
 }
 
 impl<P: Leaves> Tree<P> {
-    /// A child, whose memory is asked for.
+    /// A child of a node, which is prefetched.
     #[inline(always)]
     fn child(&self, node: &Node, near: &[f32; 8], slot: usize) -> Child {
         let (first, count) = (node.first[slot], u32::from(node.count[slot]));
@@ -129,7 +129,7 @@ impl<P: Leaves> Tree<P> {
         Child { first, count, near: near[slot] }
     }
 
-    /// Visits one node or leaf: with `ANY` it matters only whether there is a hit at all.
+    /// Visits one node or leaf. `ANY` means any-hit, otherwise closest-hit.
     #[inline(always)]
     fn step<const ANY: bool>(&self, walk: &mut Walk) -> Step {
         let Walk { ray, nearest, height, stack, .. } = walk;
@@ -169,8 +169,8 @@ impl<P: Leaves> Tree<P> {
         Step::On
     }
 
-    /// Sends all rays that wait on their ways. `nearest` holds how far each of them looks, and then what it has hit; with `ANY`, the
-    /// rays that hit something are returned instead.
+    /// Traces all pending rays. `nearest` has the limit of each ray and receives its hit. With `ANY`, returns the rays that hit
+    /// something instead.
     #[inline]
     fn walk<const ANY: bool>(&self, rays: &[Rays], nearest: &mut [Nearest; 64], stack: &mut Stack) -> u64 {
         let Stack { walks, later, .. } = stack;
@@ -202,7 +202,7 @@ impl<P: Leaves> Tree<P> {
         hidden
     }
 
-    /// Nearest hits of the rays that wait, nearer than those that `hits` holds.
+    /// Finds the nearest hits of the pending rays, if nearer than those in `hits`.
     pub(super) fn closest_together(&self, rays: &[Rays], hits: &mut [Hits], stack: &mut Stack) {
         let mut nearest = [Nearest::default(); 64];
         let waiting = stack.later.rays;
@@ -211,7 +211,7 @@ impl<P: Leaves> Tree<P> {
         each_ray(waiting, |i| hits[i >> 3].put(i & 7, &nearest[i]));
     }
 
-    /// Those of the rays that wait, and are `open`, that something hides before their limit.
+    /// Returns the pending rays among `open` that are occluded before their limit.
     pub(super) fn hidden_together(&self, rays: &[Rays], open: u64, limit: &[X8], stack: &mut Stack) -> u64 {
         let mut nearest = [Nearest::default(); 64];
         stack.later.keep(open);
@@ -224,7 +224,7 @@ impl<P: Leaves> Tree<P> {
 mod tests {
     use super::{Later, MOST};
 
-    /// Rays for which there is no room are left as they were, all of them; those that are forgotten or taken have room again.
+    /// If one ray has no room, no ray is changed; rays that are removed or taken have room again.
     #[test]
     fn later_is_all_or_nothing() {
         let mut later = Later::default();

@@ -1,4 +1,4 @@
-//! A tree of boxes with eight children a node.
+//! A tree of bounding boxes with up to eight children per node.
 
 use super::build::{Built, Costs};
 use super::parts::build_parts;
@@ -6,16 +6,16 @@ use super::{Hits, M8, Rays, WIDTH, X8};
 use etendue::u32x8;
 use std::ops::Range;
 
-/// Deepest binary tree that is taken from obvhs.
+/// Greatest accepted depth of a binary tree from obvhs.
 pub(super) const DEPTH: usize = 96;
 
-/// What lies in the leaves, in leaf order.
+/// Primitives in leaf order.
 pub(super) trait Primitives {
-    /// Takes nearer hits among the primitives of `range`, a leaf whose box the rays enter at `near`, into `hits`.
+    /// Updates `hits` by nearer hits of the leaf `range`, whose box the rays enter at `near`.
     fn closest(&self, range: Range<usize>, rays: &Rays, near: X8, active: M8, hits: &mut Hits);
-    /// Lanes in which one of them lies before `limit`, other than the one that has the id `skip`.
+    /// Lanes that a primitive of the leaf `range` occludes before `limit`, other than the one with id `skip`.
     fn occluded(&self, range: Range<usize>, rays: &Rays, near: X8, active: M8, limit: X8, skip: u32x8) -> M8;
-    /// Bytes held.
+    /// Size in bytes.
     fn bytes(&self) -> usize;
 }
 
@@ -28,21 +28,21 @@ pub struct BuildError {
 
 impl std::fmt::Display for BuildError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} primitives are more than a tree can index (2147483647)", self.count)
+        write!(f, "{} primitives: a tree can index at most 2147483647", self.count)
     }
 }
 
 impl std::error::Error for BuildError {}
 
-/// An inner node: boxes of up to eight children, coordinate by coordinate.
+/// An inner node: the boxes of up to eight children, in structure-of-arrays layout.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// Lower and upper planes of each axis; an absent child has an empty box.
     pub(super) planes: [[[f32; WIDTH]; 3]; 2],
-    /// Per child: index of an inner node, or of the first primitive.
+    /// For each child, the index of an inner node, or of a leaf's first primitive.
     pub(super) first: [u32; WIDTH],
-    /// Per child: number of primitives, 0 for an inner node.
+    /// For each child, the number of primitives of a leaf, or 0 for an inner node.
     pub(super) count: [u8; WIDTH],
     /// Number of children.
     pub(super) children: u32,
@@ -78,13 +78,13 @@ impl Node {
     }
 }
 
-/// Asks for the memory of what will be read soon.
+/// Prefetches items that will be read soon.
 #[inline(always)]
 pub(super) fn prefetch<T>(items: &[T]) {
     #[cfg(target_arch = "x86_64")]
     for line in (0..size_of_val(items)).step_by(64) {
         use core::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a hint, and an address within `items`
+        // SAFETY: prefetching is only a hint, and the address is within `items`
         unsafe { _mm_prefetch::<_MM_HINT_T0>(items.as_ptr().cast::<i8>().add(line)) };
     }
     #[cfg(not(target_arch = "x86_64"))]
@@ -102,16 +102,16 @@ pub(crate) struct Tree<P> {
 /// Least and greatest corner.
 pub(super) type Bounds = [[f32; 3]; 2];
 
-/// The box of nothing.
+/// The empty box.
 pub(super) const EMPTY: Bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
 
-/// The lesser; `b` where either is NaN. (`f32::min` takes three times as long, for a NaN that there is not.)
+/// The lesser; `b` if either is NaN. (`f32::min` takes three times as long, to handle NaNs that do not occur here.)
 #[inline(always)]
 pub(super) fn lesser(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// The greater; `b` where either is NaN.
+/// The greater; `b` if either is NaN.
 #[inline(always)]
 pub(super) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
@@ -122,7 +122,7 @@ pub(super) fn union(a: Bounds, b: Bounds) -> Bounds {
     [std::array::from_fn(|k| lesser(a[0][k], b[0][k])), std::array::from_fn(|k| greater(a[1][k], b[1][k]))]
 }
 
-/// What has a box around it.
+/// Items with a bounding box.
 pub(super) trait Bounded: Copy + Send + Sync {
     fn bounds(&self) -> Bounds;
     /// The middle of the box along one axis.
@@ -141,8 +141,8 @@ impl Bounded for Bounds {
 }
 
 impl<P> Tree<P> {
-    /// A tree over `items`, which come to `primitives` in the order of its leaves, with the index that each had before, and to `leaf` those of one
-    /// leaf at a time.
+    /// Builds a tree over `items`. Calls `leaf` with the items of each leaf, then `primitives` with all items in leaf order, their
+    /// original indices and the nodes.
     pub(super) fn build<T: Bounded>(
         mut items: Vec<T>,
         costs: Costs,
@@ -157,18 +157,18 @@ impl<P> Tree<P> {
         let nodes = build_parts(&mut items, &mut ids, costs, &leaf);
         Ok(Self { primitives: primitives(items, ids, &nodes), nodes, count })
     }
-    /// Greatest magnitude of a coordinate of its box.
+    /// Greatest magnitude of a coordinate of the tree's box.
     pub(super) fn reach(&self) -> f32 {
         let planes = self.nodes[0].planes.as_flattened().as_flattened();
         planes.iter().map(|x| x.abs()).filter(|x| x.is_finite()).fold(0.0, f32::max)
     }
-    /// Calls `f` with each leaf, the node that it is in, and its slot there.
+    /// Calls `f` with each leaf, its parent node and its slot there.
     pub(super) fn each_leaf(&self, mut f: impl FnMut(Range<usize>, &Node, usize)) {
         for node in &self.nodes {
             (0..WIDTH).filter(|&slot| node.count[slot] != 0).for_each(|slot| f(node.leaf(slot), node, slot));
         }
     }
-    /// How many primitives there are.
+    /// Number of primitives.
     pub(super) fn count(&self) -> usize {
         self.count
     }
@@ -177,7 +177,7 @@ impl<P> Tree<P> {
     }
 }
 
-/// A tree by halving along the longest axis of the centres: of depth log₂ n whatever the input.
+/// Builds a tree by halving along the longest axis of the centres, with depth log₂ n for any input.
 pub(super) fn balanced<T: Bounded>(all: &[T], most: usize) -> Built {
     let all: &[Bounds] = &all.iter().map(Bounded::bounds).collect::<Vec<_>>();
     let mut order: Vec<u32> = (0..all.len() as u32).collect();
@@ -211,7 +211,7 @@ pub(super) fn balanced<T: Bounded>(all: &[T], most: usize) -> Built {
     (nodes, order)
 }
 
-/// Puts the lesser half along the longest axis of the centres first.
+/// Moves the lower half along the longest axis of the centres to the front.
 pub(super) fn halve(all: &[Bounds], part: &mut [u32]) {
     let center = |i: u32, axis: usize| all[i as usize][0][axis] + all[i as usize][1][axis];
     let extent = |axis: usize| {

@@ -1,4 +1,4 @@
-//! Triangles against eight rays, and one ray against the triangles of a leaf.
+//! Intersection of one triangle with eight rays, and of one ray with all triangles of a leaf.
 
 use super::build::Costs;
 use super::packets::each_bit;
@@ -8,10 +8,10 @@ use super::{Hits, M8, NOTHING, Rays, V8, X8, max, min, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
 
-/// A packet meets one triangle after the other, a single ray all of a leaf at once.
+/// A packet tests one triangle after another, a single ray all triangles of a leaf at once.
 const COSTS: Costs = Costs { most: 8, leaf: 0.7, primitive: 0.2 };
 
-/// A triangle.
+/// The corners of a triangle.
 pub(super) type Corners = [[f32; 3]; 3];
 
 impl Bounded for Corners {
@@ -28,14 +28,14 @@ impl Bounded for Corners {
     }
 }
 
-/// Mesh triangles in the order of the leaves. A leaf of n holds its nine coordinates one after the other, each of them n times, so that
-/// a load of eight lanes is the coordinate of all its triangles (and of what lies behind it).
+/// Mesh triangles in leaf order. A leaf of n triangles stores each of the nine coordinates n times in a row, so that one load of eight
+/// lanes fetches a coordinate of all its triangles (and whatever follows).
 #[derive(Debug)]
 pub(super) struct Soup {
     coordinates: Vec<f32>,
-    /// Triangles of each one's leaf before it, and in all of that leaf: 16·before + all.
+    /// For each triangle, 16 times its index in its leaf plus the leaf's number of triangles.
     leaves: Vec<u8>,
-    /// From leaf order to the caller's index.
+    /// For each triangle, the caller's index.
     ids: Vec<u32>,
 }
 
@@ -59,7 +59,7 @@ impl Soup {
                 }
             }
             let mut coordinates = triangles.into_flattened().into_flattened();
-            // for loads from the last leaf
+            // room for eight-lane loads beyond the last leaf
             coordinates.extend([0.0; 8]);
             Self { coordinates, leaves, ids }
         })
@@ -75,8 +75,8 @@ impl Soup {
     pub(super) fn ids(&self) -> &[u32] {
         &self.ids
     }
-    /// What decides ties: the caller's index of a triangle, more than any for a shape, and less than any where nothing is hit, so that
-    /// a hit at the very limit is none.
+    /// The lower rank wins a tie: the caller's index for triangles, a greater rank for shapes, and the least for misses, so that a
+    /// hit exactly at the limit does not count.
     fn rank(&self, place: u32) -> u64 {
         match self.ids.get(place as usize) {
             Some(&id) => u64::from(id) + 1,
@@ -84,13 +84,13 @@ impl Soup {
             None => u64::MAX,
         }
     }
-    /// Lanes in which `place` holds a triangle of lower index than the one in `hits`.
+    /// Lanes of `tie` where the triangle at `place` has a lower rank than the hit in `hits`.
     #[cold]
     fn goes_first(&self, tie: M8, place: u32, hits: &Hits) -> M8 {
         let first = (0..8).filter(|&i| tie.lane(i) && self.rank(place) < self.rank(hits.place.as_array()[i]));
         M8::from_bits(first.fold(0, |bits, i| bits | 1 << i))
     }
-    /// Corners of one triangle of a leaf, in every lane.
+    /// Corners of one triangle of a leaf, broadcast to all lanes.
     #[inline(always)]
     fn one(&self, leaf: &Range<usize>, index: usize) -> [V8; 3] {
         let data = &self.coordinates[9 * leaf.start..9 * leaf.end];
@@ -98,7 +98,7 @@ impl Soup {
         let corner = |k: usize| Vec3::new(at(k), at(k + 1), at(k + 2));
         [corner(0), corner(3), corner(6)]
     }
-    /// Corners of the triangles of a leaf, lane by lane; other lanes hold any numbers.
+    /// Corners of the triangles of a leaf, one per lane; the values of the other lanes are arbitrary.
     #[inline(always)]
     fn all(&self, leaf: &Range<usize>) -> [V8; 3] {
         let all = leaf.len();
@@ -112,7 +112,7 @@ impl Soup {
     }
 }
 
-/// Edge functions of a triangle seen along a ray, and what they divide by.
+/// Edge functions of a triangle seen along a ray, and their sum.
 struct Projected {
     inside: M8,
     weights: [X8; 3],
@@ -120,12 +120,12 @@ struct Projected {
     relative: [V8; 3],
 }
 
-/// Projects the corners along each ray and takes the signs of the three edge functions.
+/// Projects the corners along each ray and evaluates the three edge functions.
 ///
-/// A corner's projection depends on the corner and the ray alone, and each edge function is a difference of two rounded products, whose
-/// sign is right or 0: two triangles that share an edge never both miss a ray between them, nor do those around a vertex.
-/// (The idea is that of Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection", with a rotation in place of the shear, so that lanes need not agree
-/// on an axis.)
+/// The projection of a corner depends only on the corner and the ray, and each edge function is a difference of two rounded products,
+/// whose sign is correct or 0. Two triangles that share an edge therefore never both miss a ray between them, nor do all triangles
+/// around a vertex. (After Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection", with a rotation instead of the shear,
+/// so that lanes need not agree on an axis.)
 #[inline(always)]
 fn project(corners: [V8; 3], origin: V8, [s, t]: [V8; 2]) -> Projected {
     let [a, b, c] = corners;
@@ -144,8 +144,8 @@ fn project(corners: [V8; 3], origin: V8, [s, t]: [V8; 2]) -> Projected {
 impl Projected {
     /// Distances along the rays, and the reciprocal of the sum of weights.
     ///
-    /// Weights of slivers may be all rounding, and a distance with them. It is no less than `near`, where the ray enters the box of the
-    /// leaf: as no tree cuts a ray shorter than that, what the ray hits does not depend on its way there.
+    /// The weights of slivers, and thus their distances, may be nothing but rounding error. Distances are at least `near`, where the
+    /// ray enters the box of the leaf. No traversal cuts a ray shorter than that, so the hit does not depend on the traversal.
     #[inline(always)]
     fn distance(&self, direction: V8, near: X8) -> (X8, X8) {
         let [a, b, c] = self.relative;

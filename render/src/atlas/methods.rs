@@ -7,7 +7,7 @@ use etendue::spherical::{
     DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
-use etendue::{Disk, LightSample, Line, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp};
+use etendue::{Disk, LightSample, LightSampler, Line, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp};
 
 /// What a technique says for one `u`.
 #[derive(Clone, Copy, Debug)]
@@ -170,26 +170,26 @@ pub fn methods(kind: Kind) -> Vec<Method> {
     let sphere_area = ours("by area", |pose, draw| {
         let (center, radius, _) = sphere(pose);
         let light = Sphere { center: vector(center), radius };
-        draw.light(|u| light.by_area(ORIGIN, u));
+        draw.light(|u| light.by_area(ORIGIN).sample(u));
     });
     let area = ours("by area", |pose, draw| {
         let (p, u, v) = flat(pose);
         let light = Parallelogram { p: vector(p), u: vector(u), v: vector(v) };
-        draw.light(|u| light.by_area(ORIGIN, u));
+        draw.light(|u| light.by_area(ORIGIN).sample(u));
     });
     let triangle_area = ours("by area", |pose, draw| {
         let (p, u, v) = flat(pose);
         let light = Triangle { v0: vector(p), e1: vector(u), e2: vector(v) };
-        draw.light(|u| light.by_area(ORIGIN, u));
+        draw.light(|u| light.by_area(ORIGIN).sample(u));
     });
     let polygon_area = ours("by area", |pose, draw| {
         let light = Polygon { corners: corners(pose).map(vector) };
-        draw.light(|u| light.by_area(ORIGIN, u));
+        draw.light(|u| light.by_area(ORIGIN).sample(u));
     });
     let length = ours("by area", |pose, draw| {
         let light = line(pose);
         draw.each(|u, _| {
-            let LightSample { direction: w, distance, pdf, .. } = light.by_length(ORIGIN, u[0]);
+            let LightSample { direction: w, distance, pdf, .. } = light.by_length(ORIGIN).sample(Vec2::new(u[0], 0.0));
             // per radian of the plane of point and line
             let density = if pdf > 0.0 { pdf / distance } else { 0.0 };
             Sample { by_area: true, weight: pdf, ..Sample::new([w.x, w.y, w.z], density, None) }
@@ -289,7 +289,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
             ours("by area", |pose, draw| {
                 let (center, normal, radius) = disk(pose);
                 let light = Disk { center: vector(center), normal: vector(normal), radius };
-                draw.light(|u| light.by_area(ORIGIN, u));
+                draw.light(|u| light.by_area(ORIGIN).sample(u));
             }),
             textbook("Ω by arc cosines of the cone", |pose, draw| {
                 let (center, normal, radius) = disk(pose);
@@ -301,7 +301,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
             ours("SphericalSegment", |pose, draw| {
                 let (a, edge) = segment(pose);
                 let map = SphericalSegment::new(vector(a), vector(edge));
-                let weight = |u| line(pose).by_angle(ORIGIN, u).pdf;
+                let weight = |u| line(pose).by_angle(ORIGIN).sample(Vec2::new(u, 0.0)).pdf;
                 draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
             }),
             length,
@@ -362,7 +362,8 @@ pub fn methods(kind: Kind) -> Vec<Method> {
             ours("ProjectedSegment", |pose, draw| {
                 let (a, edge) = segment(pose);
                 let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
-                let weight = |u| line(pose).by_projected_solid_angle(ORIGIN, vector(pose.normal), u).pdf;
+                let weight =
+                    |u| line(pose).by_projected_solid_angle(ORIGIN, vector(pose.normal)).sample(Vec2::new(u, 0.0)).pdf;
                 draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
             }),
             length,

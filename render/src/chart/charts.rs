@@ -1,27 +1,27 @@
-//! The charts of a scene.
+//! Draws the charts of a scene.
 
 use super::plot::{Bar, Bars, Chart, Dot, Drawing, Line, Scale, short};
 use super::stats::Estimate;
 use super::summary::{Point, Series, Summary};
 
-/// A chart and the name of its file.
+/// A chart with a file name and a caption.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// Which chart, for the name of its file.
+    /// Name of the chart in file names.
     pub file: &'static str,
     /// The drawing.
     pub drawing: Drawing,
-    /// What it shows, for a page.
+    /// Caption for a page.
     pub caption: String,
 }
 
-/// A value ± half of its interval.
+/// Formats a value ± half of its interval.
 #[must_use]
 pub fn with_interval(e: &Estimate) -> String {
     if e.half.is_finite() { format!("{:.3} ± {:.3}", e.value, e.half) } else { format!("{:.3} ± ?", e.value) }
 }
 
-/// A series' name for a page: technique and sampler apart.
+/// Identifier of a series in a page: technique/sampler.
 #[must_use]
 pub fn id(series: &Series) -> String {
     format!("{}/{}", super::name(series.way.technique), super::name(series.way.sampler))
@@ -45,25 +45,26 @@ fn lines(
     summary.series.iter().map(line).collect()
 }
 
-/// Error against time.
+/// Draws error against time.
 #[must_use]
 pub fn error_over_time(summary: &Summary) -> Figure {
     let chart = Chart {
         title: format!("{}: error against time", summary.scene),
-        x_label: "seconds for an image".to_owned(),
+        x_label: "seconds per image".to_owned(),
         y_label: "mean squared error".to_owned(),
         scales: [Scale::Log, Scale::Log],
         lines: lines(summary, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
         guides: vec![-1.0, -1.5],
         equal: false,
     };
-    let caption = "Lower and further left is better. Each point is one number of samples per pixel; bars are 95 % intervals over \
-                   replicates; a hollow point has an interval too wide to support a claim."
-        .to_owned();
+    let caption =
+        "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over \
+                   replicates. Hollow points have an interval too wide to support a claim."
+            .to_owned();
     Figure { file: "error-time", drawing: chart.draw(), caption }
 }
 
-/// Error against samples per pixel, with slopes.
+/// Draws error against samples per pixel, with slopes.
 #[must_use]
 pub fn error_over_samples(summary: &Summary) -> Figure {
     let name = |s: &Series| match &s.slope {
@@ -80,17 +81,17 @@ pub fn error_over_samples(summary: &Summary) -> Figure {
         equal: false,
     };
     let caption =
-        "The slopes are of log error over log samples, fitted to each replicate: mean and 95 % interval.".to_owned();
+        "Slopes of log error over log samples are fitted to each replicate: mean and 95 % interval.".to_owned();
     Figure { file: "error-samples", drawing: chart.draw(), caption }
 }
 
-/// Efficiency over the baseline's.
+/// Draws efficiency relative to the baseline; `None` if there is none.
 #[must_use]
 pub fn efficiency(summary: &Summary) -> Option<Figure> {
     let baseline = &summary.series[summary.baseline?];
     let rows = summary.gains.iter().map(|g| {
         let series = &summary.series[g.series];
-        // the interval is of a logarithm
+        // the interval is that of a logarithm
         let factor = 1.0 + g.gain.half / g.gain.value;
         let bar = Bar { value: g.gain.value, low: g.gain.value / factor, high: g.gain.value * factor };
         let sure = g.gain.is_sure() || g.series == summary.baseline.unwrap_or(usize::MAX);
@@ -98,18 +99,19 @@ pub fn efficiency(summary: &Summary) -> Option<Figure> {
     });
     let bars = Bars {
         title: format!("{}: efficiency at {} samples per pixel", summary.scene, summary.spp),
-        label: format!("1/(error × time), as a multiple of {}", baseline.way.title()),
+        label: format!("1/(error × time), relative to {}", baseline.way.title()),
         rows: rows.collect(),
         origin: 1.0,
         unit: "×".to_owned(),
     };
-    let caption = "How many times less time for the same error, if error falls as one over time; further right is better. Ratios \
-                   are of replicates that were rendered side by side."
-        .to_owned();
+    let caption =
+        "Further right is better: 10 means the same error in a tenth of the time, as long as error falls as 1/time. \
+                   Ratios compare replicates rendered in the same round."
+            .to_owned();
     Some(Figure { file: "efficiency", drawing: bars.draw(), caption })
 }
 
-/// Seconds to reach an error.
+/// Draws the seconds each series takes to reach the target error; `None` if no series reaches it.
 #[must_use]
 pub fn time_to_error(summary: &Summary) -> Option<Figure> {
     let rows: Vec<_> = summary
@@ -132,8 +134,8 @@ pub fn time_to_error(summary: &Summary) -> Option<Figure> {
         unit: " s".to_owned(),
     };
     let caption =
-        "Shorter is better. A hollow bar lies beyond what was measured, by the slope of the nearest two points, or rests on \
-                   times that are not sure."
+        "Shorter is better. Hollow bars are extrapolated by the slope of the nearest two points, or rest on times with wide \
+                   intervals."
             .to_owned();
     Some(Figure { file: "time-to-error", drawing: bars.draw(), caption })
 }

@@ -1,10 +1,10 @@
-//! What a measurement was made on and by.
+//! Describes the machine and the build that made a measurement.
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// Name and value of all that a reader has to know to judge the figures.
+/// Names and values of everything a reader needs to judge the measurements.
 #[must_use]
 pub fn facts(threads: usize) -> Vec<(&'static str, String)> {
     vec![
@@ -43,7 +43,7 @@ fn features() -> Vec<&'static str> {
     list
 }
 
-/// That of the source tree now; it may have moved on since the program was built.
+/// The current commit of the source tree, which may be newer than the program.
 fn commit() -> String {
     let git = |arguments: &[&str]| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,4 +1,4 @@
-//! Error and time of every scene × technique × sampler × samples per pixel, in replicates that take turns.
+//! Measures error and time of every scene × technique × sampler × sample count, in interleaved replicates.
 
 use super::reference::Reference;
 use super::stats::Cost;
@@ -15,28 +15,28 @@ use std::time::Instant;
 /// A scene to measure.
 #[derive(Debug)]
 pub struct ChartedScene {
-    /// As the user named it.
+    /// Scene name as given by the user.
     pub name: String,
-    /// Ready to be rendered.
+    /// The prepared scene.
     pub world: World,
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// Whether its camera has a lens: two more dimensions.
+    /// Whether the camera has a lens, which adds two dimensions.
     pub lens: bool,
-    /// What images are compared with.
+    /// The reference image.
     pub reference: Reference,
-    /// Hash of all that a measurement depends on, beside what a [`Row`] says.
+    /// Hash of everything a measurement depends on, besides the values of a [`Row`].
     pub settings: u64,
 }
 
-/// One way to render one scene.
+/// One way of rendering one scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
     /// Index of the scene.
     pub scene: usize,
     /// How lights are sampled.
     pub technique: Technique,
-    /// Where the random numbers come from.
+    /// How random numbers are generated.
     pub sampler: Sampler,
     /// Samples per pixel.
     pub spp: u32,
@@ -48,36 +48,36 @@ impl Hash for Key {
     }
 }
 
-/// One measurement: a line of the table.
+/// One measurement, which is a line of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// Which of the replicates.
+    /// Index of the replicate.
     pub replicate: u32,
-    /// Of the image.
+    /// Seed of the image.
     pub seed: u64,
-    /// Median of so many renderings of this image.
+    /// Median time of `repeats` renderings of this image, in seconds.
     pub seconds: f64,
-    /// How many they were.
+    /// Number of renderings.
     pub repeats: u32,
     /// Mean over pixels and channels of the squared difference from the reference.
     pub squared: f64,
     /// Mean difference from the reference.
     pub difference: f64,
-    /// Rays from the camera.
+    /// Number of camera rays.
     pub camera: u64,
-    /// Rays towards lights.
+    /// Number of shadow rays.
     pub shadow: u64,
 }
 
 impl Row {
-    /// Work and error, less the reference's own.
+    /// Time, and error minus that of the reference.
     #[must_use]
     pub fn cost(&self, reference: &Reference) -> Cost {
         Cost { mse: self.squared - reference.error, seconds: self.seconds }
     }
 }
 
-/// All measurements, by what they measure; each in the order of the replicates.
+/// All measurements by key, in order of replicates.
 pub type Rows = HashMap<Key, Vec<Row>>;
 
 const HEADER: [&str; 17] = [
@@ -100,31 +100,31 @@ const HEADER: [&str; 17] = [
     "shadow_rays",
 ];
 
-/// An image that takes less is rendered again until this much time has gone by, or [`REPEATS`].
+/// Images are rendered repeatedly until this many seconds have passed, at most [`REPEATS`] times.
 const SECONDS: f64 = 0.02;
 const REPEATS: u32 = 15;
 
-/// What is to be measured.
+/// The planned measurements.
 #[derive(Debug)]
 pub struct Plan {
     /// The scenes.
     pub scenes: Vec<ChartedScene>,
-    /// In the order in which they are rendered: neighbours take turns.
+    /// Keys in the order in which each round renders them.
     pub keys: Vec<Key>,
-    /// Images of each, of different seeds.
+    /// Number of images per key, with different seeds.
     pub replicates: u32,
-    /// Of this measurement.
+    /// Seed of the whole measurement.
     pub seed: u64,
 }
 
 impl Plan {
-    /// The seed of an image: one for each, so that all are independent.
+    /// The seed of an image, different for each, so that all images are independent.
     fn seed(&self, key: &Key, replicate: u32) -> u64 {
         let subject = &self.scenes[key.scene].name;
         let text = format!("{subject}/{}/{}/{}/{replicate}", name(key.technique), name(key.sampler), key.spp);
         self.seed.wrapping_add(hash(text.as_bytes()))
     }
-    /// Samples over all images that are yet to be rendered.
+    /// Number of samples in all images that are not yet measured.
     #[must_use]
     pub fn work(&self, rows: &Rows) -> u64 {
         let samples = |key: &Key| {
@@ -134,10 +134,11 @@ impl Plan {
         let left = |key: &Key| u64::from(self.replicates) - rows.get(key).map_or(0, |r| r.len() as u64);
         self.keys.iter().map(|key| left(key) * samples(key)).sum()
     }
-    /// Renders what is missing, line by line into the table; `progress` is told of samples. Returns early if `stop` says so.
+    /// Measures what is missing and appends it to the table line by line. Calls `progress` with numbers of samples. Returns early if
+    /// `stop` is set.
     ///
     /// # Errors
-    /// The table cannot be written.
+    /// Fails if the table cannot be written.
     pub fn run(
         &self,
         table: &mut Table,
@@ -152,7 +153,7 @@ impl Plan {
                     continue;
                 }
                 if last != Some(key.scene) {
-                    // the first image of a scene finds cold caches
+                    // warms the caches for the first image of a scene
                     self.render(&Key { spp: key.spp.min(4), ..*key }, 0, |_| ());
                     last = Some(key.scene);
                 }
@@ -210,17 +211,17 @@ impl Plan {
     }
 }
 
-/// The file that holds a line for each measurement, as soon as it is made.
+/// The CSV file that receives each measurement as soon as it is made.
 #[derive(Debug)]
 pub struct Table {
     writer: csv::Writer<File>,
 }
 
 impl Table {
-    /// Opens or creates the file; the measurements in it that belong to the plan, and how many do not.
+    /// Opens or creates the file. Returns the measurements that belong to the plan, and the number of others.
     ///
     /// # Errors
-    /// The file cannot be read or written, or a line is not a measurement.
+    /// Fails if the file cannot be read or written, or a line is not a measurement.
     pub fn open(path: &Path, plan: &Plan) -> Result<(Self, Rows, usize), Box<dyn Error>> {
         let at = |what: &dyn std::fmt::Display| format!("{}: {what}", path.display());
         let mut text = match std::fs::read_to_string(path) {
@@ -236,7 +237,7 @@ impl Table {
         let opened = OpenOptions::new().create(true).append(true).open(path);
         let file = opened.map_err(|error| at(&format!("cannot write: {error}")))?;
         if cut {
-            // a line that was being written when the program was killed
+            // drops an incomplete line, written when the program was killed
             file.set_len(whole as u64)?;
         }
         let mut writer = csv::WriterBuilder::new().from_writer(file);
@@ -273,7 +274,7 @@ impl Table {
 }
 
 impl Plan {
-    /// The lines of a table that belong to this plan, and how many do not.
+    /// Reads the lines of a table that belong to this plan, and counts the others.
     fn read(&self, text: &str) -> Result<(Rows, usize), String> {
         let mut rows = Rows::new();
         let mut others = 0;
@@ -294,12 +295,14 @@ impl Plan {
             let line = record.position().map_or(0, csv::Position::line);
             if line <= 1 {
                 if record.iter().ne(HEADER) {
-                    return Err("line 1 is not that of a table of measurements; write to another folder".to_owned());
+                    return Err(
+                        "line 1 is not the header of a table of measurements; choose another folder with -o".to_owned()
+                    );
                 }
                 continue;
             }
             if record.len() != HEADER.len() {
-                return Err(format!("line {line} has {} values, not {}", record.len(), HEADER.len()));
+                return Err(format!("line {line} has {} values instead of {}", record.len(), HEADER.len()));
             }
             fn value<T>(
                 record: &csv::StringRecord,
@@ -308,7 +311,7 @@ impl Plan {
                 parse: impl Fn(&str) -> Option<T>,
             ) -> Result<T, String> {
                 parse(&record[column])
-                    .ok_or_else(|| format!("line {line}: {:?} is no value for {}", &record[column], HEADER[column]))
+                    .ok_or_else(|| format!("line {line}: {:?} is not a valid {}", &record[column], HEADER[column]))
             }
             let real = |column| value(&record, line, column, |s| s.parse().ok().filter(|x: &f64| x.is_finite()));
             let count = |column| value(&record, line, column, |s| s.parse::<u64>().ok());

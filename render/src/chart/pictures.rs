@@ -1,4 +1,4 @@
-//! Images side by side: what each technique makes of a few samples, where it errs, and what its pixels vary by.
+//! Images for comparison: what each technique renders with few samples, its error and its variance per pixel.
 
 use super::measure::Plan;
 use super::plot::short;
@@ -6,18 +6,18 @@ use super::summary::{Summary, Way};
 use super::{Outcome, name};
 use crate::{Settings, image};
 
-/// A PNG with its name.
+/// A PNG with its name and title.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// For its file.
+    /// Stem of the file name.
     pub file: String,
-    /// Which kind: `image`, `difference`, `variance`, `wanted` or `samples`.
+    /// Kind of picture: `image`, `difference`, `variance`, `wanted` or `samples`.
     pub kind: &'static str,
-    /// For the reader.
+    /// Title for the reader.
     pub title: String,
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// The file's bytes.
+    /// Bytes of the PNG file.
     pub png: Vec<u8>,
 }
 
@@ -28,18 +28,18 @@ pub struct Panel {
     pub scene: String,
     /// Samples per pixel of the images.
     pub spp: u32,
-    /// The reference first.
+    /// Pictures, starting with the reference.
     pub pictures: Vec<Picture>,
-    /// What the colours mean.
+    /// Explanation of the colours.
     pub caption: String,
 }
 
-/// Images of which variances are made.
+/// Number of images from which variances are computed.
 const REPLICATES: u32 = 4;
-/// Samples per pixel, at most.
+/// Greatest number of samples per pixel.
 const SAMPLES: u32 = 16;
 
-/// Dark to light through the colours of fire, for t in [0, 1].
+/// Colour map from black through red to pale yellow, for t in [0, 1].
 #[must_use]
 pub fn heat(t: f64) -> [u8; 3] {
     const STOPS: [[f64; 3]; 6] = [
@@ -56,7 +56,7 @@ pub fn heat(t: f64) -> [u8; 3] {
     std::array::from_fn(|k| (STOPS[i][k] * (1.0 - s) + STOPS[i + 1][k] * s).round() as u8)
 }
 
-/// Blue through white to red, for t in [−1, 1].
+/// Colour map from blue through white to red, for t in [−1, 1].
 #[must_use]
 pub fn signed(t: f64) -> [u8; 3] {
     let t = t.clamp(-1.0, 1.0);
@@ -70,14 +70,14 @@ fn png(size: [u32; 2], pixels: impl Iterator<Item = [u8; 3]>) -> Vec<u8> {
     image::encode_png(size, &pixels).unwrap_or_default()
 }
 
-/// The end of the scale of samples.
+/// Upper end of the colour scale for sample counts.
 const MOST_SAMPLES: f64 = 4096.0;
 
-/// Means and variances over replicates of an image, pixel by pixel, channels taken together.
+/// The first of several replicates of an image, and the variance of each pixel over them, averaged over the channels.
 struct Spread {
     first: Vec<[f32; 3]>,
     variance: Vec<f64>,
-    /// In each pixel of the first.
+    /// Sample counts of the first image.
     samples: Vec<u32>,
 }
 
@@ -120,7 +120,7 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
     Spread { first: images.into_iter().next().unwrap_or_default(), variance, samples }
 }
 
-/// Renders the images of a scene again: a few replicates of few samples.
+/// Renders the pictures of a scene: a few replicates with few samples.
 #[must_use]
 pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
     let plan = &outcome.plan;
@@ -142,7 +142,7 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         .filter(|s| super::inapplicable(s.way.sampler, spp, subject.lens).is_none())
         .map(|s| (s.way, spread(plan, scene, s.way, spp)))
         .collect();
-    // one scale for all: that of the best in the middle, of the worst at the end
+    // one scale for all techniques and samplers
     let mut all: Vec<f64> = spreads.iter().flat_map(|(_, s)| &s.variance).copied().filter(|v| *v > 0.0).collect();
     all.sort_by(f64::total_cmp);
     let quantile = |q: f64| all.get(((all.len() as f64 - 1.0) * q) as usize).copied().unwrap_or(1.0);
@@ -177,10 +177,10 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         }
     }
     let caption = format!(
-        "{spp} samples in every pixel, or on average. Difference from the reference: blue is too dark, red too bright, \
-         full colour at ±{}. Variance of a pixel over {REPLICATES} replicates: black is {} and less, pale yellow {} and more, \
-         logarithmic between. Wanted: how many samples a pixel would need for a variance of {}, if that falls as their number grows; samples: how \
-         many an adaptive sampler took: black is 1, pale yellow {MOST_SAMPLES} and more, logarithmic between.",
+        "Images have {spp} samples per pixel, adaptive ones on average. Difference from the reference: blue is too dark, red too \
+         bright, full colour at ±{}. Variance of a pixel over {REPLICATES} replicates, on a logarithmic scale: black is {} or less, \
+         pale yellow {} or more. Wanted: the number of samples a pixel would need for a variance of {}, if variance falls as 1/N. \
+         Samples: the number an adaptive sampler took. Both on a logarithmic scale: black is 1, pale yellow {MOST_SAMPLES} or more.",
         short(range),
         short(low),
         short(high),

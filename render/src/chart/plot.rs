@@ -1,6 +1,6 @@
-//! Charts as SVG, by plotters: the one file that names it.
+//! Draws charts as SVG. No other module uses plotters.
 //!
-//! Each series is a group of its own (`<g data-series="…">`), so that a page can switch it off.
+//! Each series is a separate group (`<g data-series="…">`), so that a page can switch it off.
 
 mod axis;
 mod bars;
@@ -11,7 +11,7 @@ pub use bars::Bars;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-/// Units of the drawing per unit of the chart: plotters draws at whole units.
+/// Units of the drawing per unit of the chart: plotters uses integer coordinates.
 const UNIT: i32 = 8;
 const WIDTH: i32 = 480;
 const HEIGHT: i32 = 350;
@@ -22,7 +22,7 @@ const GRID: RGBColor = RGBColor(225, 225, 225);
 const PALE: RGBColor = RGBColor(243, 243, 243);
 const GUIDE: RGBColor = RGBColor(130, 130, 130);
 
-/// Colours that most eyes tell apart, after Okabe and Ito; then more.
+/// Colours that are distinguishable with colour blindness (Okabe and Ito), followed by others.
 pub const PALETTE: [[u8; 3]; 10] = [
     [0, 114, 178],
     [213, 94, 0],
@@ -36,7 +36,7 @@ pub const PALETTE: [[u8; 3]; 10] = [
     [150, 150, 0],
 ];
 
-/// The colour of the n-th.
+/// The colour of the n-th series.
 #[must_use]
 pub fn color(n: usize) -> [u8; 3] {
     PALETTE[n % PALETTE.len()]
@@ -47,25 +47,25 @@ fn rgb(n: usize) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-/// Lengths of dash and gap of the n-th style; the first is a whole line.
+/// Lengths of dash and gap of the n-th line style; the first is a solid line.
 #[must_use]
 pub fn dash(n: usize) -> Option<(i32, i32)> {
     [None, Some((7, 4)), Some((2, 3)), Some((12, 3)), Some((4, 2)), Some((1, 2)), Some((9, 6))][n % 7]
 }
 
-/// A value with the ends of its interval.
+/// A value with its interval.
 #[derive(Clone, Copy, Debug)]
 pub struct Bar {
     /// The value.
     pub value: f64,
-    /// Lower end.
+    /// Lower end of the interval.
     pub low: f64,
-    /// Upper end.
+    /// Upper end of the interval.
     pub high: f64,
 }
 
 impl Bar {
-    /// Without an interval.
+    /// A value without an interval.
     #[must_use]
     pub const fn exact(value: f64) -> Self {
         Self { value, low: value, high: value }
@@ -78,62 +78,62 @@ impl From<super::stats::Estimate> for Bar {
     }
 }
 
-/// A point with its error bars; hollow where it is not sure.
+/// A point with error bars.
 #[derive(Clone, Copy, Debug)]
 pub struct Dot {
-    /// Across.
+    /// Abscissa.
     pub x: Bar,
-    /// Upwards.
+    /// Ordinate.
     pub y: Bar,
-    /// Whether its interval is narrow enough to support a claim.
+    /// Whether the interval is narrow enough to support a claim; otherwise the point is hollow.
     pub sure: bool,
 }
 
 /// One series.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// What a page calls it.
+    /// Identifier in a page.
     pub id: String,
-    /// In the legend.
+    /// Name in the legend.
     pub name: String,
-    /// Which of the colours.
+    /// Index of the colour.
     pub color: usize,
-    /// Which of the dashes.
+    /// Index of the line style.
     pub dash: usize,
-    /// Whether its points are joined.
+    /// Whether the points are joined by lines.
     pub joined: bool,
-    /// Size of its markers, 1 as a rule and 0 for none.
+    /// Relative size of the markers; 0 for none.
     pub mark: f64,
-    /// In order.
+    /// Points in the order in which they are joined.
     pub dots: Vec<Dot>,
 }
 
 /// A chart of lines and points.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// Above it.
+    /// Title above the chart.
     pub title: String,
-    /// Below it.
+    /// Label of the x axis.
     pub x_label: String,
-    /// Beside it.
+    /// Label of the y axis.
     pub y_label: String,
-    /// Of x and y.
+    /// Scales of x and y.
     pub scales: [Scale; 2],
     /// The series.
     pub lines: Vec<Line>,
-    /// Slopes to compare with, in a chart of two logarithms.
+    /// Slopes of guide lines, in a log-log chart.
     pub guides: Vec<f64>,
-    /// Whether a unit is as long across as upwards.
+    /// Whether units have the same length on both axes.
     pub equal: bool,
 }
 
-/// A drawing: the chart, and below it the legend.
+/// A drawing of a chart with its legend below.
 #[derive(Clone, Debug)]
 pub struct Drawing {
     width: i32,
     chart: i32,
     legend: i32,
-    /// What a reader who cannot see it is told.
+    /// Description for screen readers.
     about: String,
     body: String,
     key: String,
@@ -155,25 +155,25 @@ impl Drawing {
     pub const fn size(&self) -> [i32; 2] {
         [self.width, self.chart + self.legend]
     }
-    /// A file of its own, with the legend.
+    /// A stand-alone SVG with the legend.
     #[must_use]
     pub fn file(&self) -> String {
         self.svg(self.chart + self.legend, &[&self.body, &self.key])
     }
-    /// For a page that has a legend of its own.
+    /// An SVG without the legend, for a page that has its own.
     #[must_use]
     pub fn inline(&self) -> String {
         self.svg(self.chart, &[&self.body])
     }
 }
 
-/// Text that is safe in HTML, and in values of attributes.
+/// Escapes text for HTML and attribute values.
 #[must_use]
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A number with three digits.
+/// Formats a number with three significant digits.
 #[must_use]
 pub fn short(x: f64) -> String {
     let size = x.abs();
@@ -189,10 +189,10 @@ pub fn short(x: f64) -> String {
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-/// Writing to a string does not fail; what plotters cannot draw it leaves out.
+/// Writing to a string never fails, and what plotters cannot draw is left out.
 type Drawn<'a> = Result<(), DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>>;
 
-/// What `draw` draws on a canvas of this size, without the outermost element.
+/// The SVG that `draw` creates on a canvas of this size, without the outermost element.
 fn layer(width: i32, height: i32, draw: impl for<'a> FnOnce(&Area<'a>) -> Drawn<'a>) -> String {
     let mut text = String::new();
     {
@@ -216,13 +216,13 @@ fn stroke(color: RGBColor, tenths: i32) -> ShapeStyle {
     color.stroke_width((tenths * UNIT / 10).max(1) as u32)
 }
 
-/// A marker at a place of a canvas: filled, or hollow where it is not sure.
+/// A marker, filled if `sure`, otherwise hollow.
 fn marker((x, y): (i32, i32), (n, size): (usize, f64), color: RGBColor, sure: bool) -> Polygon<(i32, i32)> {
     let style = if sure { color.filled() } else { WHITE.filled() };
     Polygon::new(outline(n, size).into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect::<Vec<_>>(), style)
 }
 
-/// Corners of the n-th marker around its middle.
+/// Corners of the n-th marker relative to its centre.
 fn outline(n: usize, size: f64) -> Vec<(i32, i32)> {
     let r = 3.4 * size * f64::from(UNIT);
     let regular = |count: usize, turn: f64, size: f64| {
@@ -243,17 +243,17 @@ fn outline(n: usize, size: f64) -> Vec<(i32, i32)> {
 }
 
 impl Chart {
-    /// Draws it.
+    /// Draws the chart.
     #[must_use]
     pub fn draw(&self) -> Drawing {
         let sure = |d: &&Dot| d.sure;
         let dots = || self.lines.iter().flat_map(|l| &l.dots);
-        // the intervals of what is not sure do not stretch the axes
+        // wide intervals do not stretch the axes
         let across = dots().map(|d| d.x.value).chain(dots().filter(sure).flat_map(|d| [d.x.low, d.x.high]));
         let upwards = dots().map(|d| d.y.value).chain(dots().filter(sure).flat_map(|d| [d.y.low, d.y.high]));
         let mut axes = [Axis::new(self.scales[0], across), Axis::new(self.scales[1], upwards)];
         if self.equal {
-            // what the labels leave is about 400 by 270
+            // the labels leave about 400 by 270 units
             let [x, y] = &mut axes;
             let (middle, half) = ((x.low + x.high) / 2.0, (y.high - y.low) * 400.0 / 270.0 / 2.0);
             (x.low, x.high) = (middle - half, middle + half);
@@ -269,7 +269,7 @@ impl Chart {
         Drawing { width: WIDTH, chart: HEIGHT, legend, about: self.title.clone(), body, key }
     }
 
-    /// Axes and labels.
+    /// Draws axes and labels.
     fn frame<'a>(&self, area: &Area<'a>, axes: &[Axis; 2]) -> Drawn<'a> {
         let mut chart = self.builder(area, true).build_cartesian_2d(axes[0].clone(), axes[1].clone())?;
         let (x, y) = (axes[0].clone(), axes[1].clone());
@@ -304,7 +304,7 @@ impl Chart {
         builder
     }
 
-    /// A layer between the axes.
+    /// Draws a layer between the axes.
     fn plane(
         &self,
         axes: &[Axis; 2],
@@ -316,7 +316,7 @@ impl Chart {
         })
     }
 
-    /// Lines of the given slopes, from the middle of the upper edge.
+    /// Draws guide lines of the given slopes from the middle of the upper edge.
     fn draw_guides<'a>(
         &self,
         plane: &DrawingArea<SVGBackend<'a>, Cartesian2d<Axis, Axis>>,
@@ -324,7 +324,7 @@ impl Chart {
     ) -> Drawn<'a> {
         for slope in &self.guides {
             let start = (x.low * (x.high / x.low).powf(0.04), y.high / (y.high / y.low).powf(0.03));
-            // as far as the chart goes
+            // up to the edge of the chart
             let reach = (x.high / start.0).min((y.low / start.1).powf(1.0 / slope));
             let reach = reach.powf(0.97);
             let end = (start.0 * reach, start.1 * reach.powf(*slope));
@@ -394,7 +394,7 @@ fn group(attributes: &str, body: &str) -> String {
     format!("<g {attributes}>\n{body}</g>\n")
 }
 
-/// Samples of the lines with their names, two to a row if they are short, from `top` on; and its height.
+/// Draws a legend from `top` on, in two columns if the names are short; returns it with its height.
 fn legend(lines: &[Line], top: i32) -> (String, i32) {
     if lines.is_empty() {
         return (String::new(), 0);

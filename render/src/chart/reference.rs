@@ -1,61 +1,61 @@
-//! What images are compared with, and how far off that is itself.
+//! Reference images and their own error.
 
 use crate::image::{self, Picture};
 use crate::{Sampler, Settings, Technique, World};
 use std::path::Path;
 
-/// An image that is taken for the truth, up to a known error.
+/// An image that serves as the truth, with a known error.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// The image.
     pub picture: Picture,
-    /// Its mean squared standard error.
+    /// Mean squared standard error of the image.
     pub error: f64,
-    /// Where it comes from.
+    /// Origin of the image.
     pub about: String,
 }
 
-/// Images of the built-in scenes by an independent renderer, 256×256, 32,768 samples per pixel, with their mean squared
-/// standard errors.
+/// Images of built-in scenes by an independent renderer, 256×256 with 32,768 samples per pixel, and their mean squared standard
+/// errors.
 const BUILTIN: [(&str, f64, &[u8]); 3] = [
     ("sphere-light", 4.8e-9, include_bytes!("../../tests/references/sphere-light.exr")),
     ("triangle-light", 2.6e-8, include_bytes!("../../tests/references/triangle-light.exr")),
     ("quads", 1.9e-8, include_bytes!("../../tests/references/quads.exr")),
 ];
 
-/// The error of a reference is itself known to this fraction.
+/// Relative uncertainty of a reference's error.
 pub const KNOWN_TO: f64 = 0.05;
 
 impl Reference {
-    /// The one that comes with the program, for a built-in scene.
+    /// The reference that comes with the program for a built-in scene, if there is one.
     ///
     /// # Panics
-    /// The program's own file is damaged.
+    /// Panics if the embedded file is damaged.
     #[must_use]
     pub fn builtin(scene: &str) -> Option<Self> {
         let (name, error, bytes) = BUILTIN.iter().find(|(name, ..)| *name == scene)?;
-        let picture = image::decode(Path::new(name), bytes).expect("a reference of this program's own");
+        let picture = image::decode(Path::new(name), bytes).expect("the embedded reference is valid");
         let about = "by an independent renderer, 32,768 samples per pixel".to_owned();
         Some(Self { picture, error: *error, about })
     }
 
-    /// From a file, with its own variance if it has it, else `error`.
+    /// Reads a reference from a file. Its error is that of the file's variance, or `error` if the file has none.
     ///
     /// # Errors
-    /// The file cannot be read, or holds a radiance that is not finite.
+    /// Fails if the file cannot be read or holds a radiance that is not finite.
     pub fn read(path: &Path, error: f64) -> Result<Self, Box<dyn std::error::Error>> {
         let picture = image::read_exr(path)?;
         if let Some(i) = picture.radiance.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
             let (x, y, p) = (i % picture.width, i / picture.width, picture.radiance[i]);
-            return Err(format!("{}: the reference holds {p:?} at pixel ({x}, {y})", path.display()).into());
+            return Err(format!("{}: pixel ({x}, {y}) of the reference is not finite: {p:?}", path.display()).into());
         }
         let own = picture.variance.as_ref().map(|v| mean(v)).filter(|v| v.is_finite());
         Ok(Self { picture, error: own.unwrap_or(error), about: format!("the file {}", path.display()) })
     }
 
-    /// Rendered here: by multiple importance sampling, stratified.
+    /// Renders a reference with multiple importance sampling and stratified samples.
     pub fn render(world: &World, [width, height]: [u32; 2], spp: u32, progress: impl Fn(u64) + Sync) -> Self {
-        // a seed that no measurement has
+        // a seed that no measurement uses
         let (technique, sampler, seed) = (Technique::MisPower, Sampler::Stratified, 0x5eed_0f7e_fe7e_ce00);
         let settings = Settings {
             width,
@@ -73,17 +73,17 @@ impl Reference {
         Self { picture, error, about }
     }
 
-    /// For a smaller image: each pixel is the mean of a square of pixels.
+    /// Shrinks the reference: each pixel becomes the mean of a square of pixels.
     ///
     /// # Errors
-    /// The sides are not the same fraction of the reference's.
+    /// Fails if the reference's sides are not the same integer multiple of the new ones.
     pub fn shrunk(self, [width, height]: [u32; 2]) -> Result<Self, String> {
         let (w, h) = (width as usize, height as usize);
         let Picture { width: from_w, height: from_h, .. } = self.picture;
         let factor = from_w / w.max(1);
         if factor == 0 || w * factor != from_w || h * factor != from_h {
             return Err(format!(
-                "the reference is {from_w}x{from_h}: an image of {w}x{h} is not a whole fraction of it"
+                "the reference is {from_w}x{from_h} pixels, which is not an integer multiple of the image's {w}x{h}"
             ));
         }
         if factor == 1 {
@@ -100,11 +100,11 @@ impl Reference {
             })
             .collect();
         let picture = Picture { width: w, height: h, radiance, variance: None };
-        let about = format!("{}, {factor}×{factor} pixels in one", self.about);
+        let about = format!("{}, averaged over {factor}×{factor} pixels", self.about);
         Ok(Self { picture, error: self.error / count, about })
     }
 
-    /// Mean squared difference of an image, and the mean difference.
+    /// Mean squared difference and mean difference of an image from the reference.
     #[must_use]
     pub fn difference(&self, radiance: impl ExactSizeIterator<Item = [f32; 3]>) -> (f64, f64) {
         let count = 3.0 * radiance.len() as f64;
@@ -144,7 +144,7 @@ mod tests {
         }
     }
 
-    /// A smaller image that is rendered agrees with the larger one that is shrunk, to its noise.
+    /// A small rendered image agrees, within its noise, with a larger image that is shrunk.
     #[test]
     fn a_pixel_is_the_mean_of_its_parts() {
         let world = World::new(&crate::scene::load("quads").unwrap()).unwrap();
@@ -152,7 +152,7 @@ mod tests {
         let rendered = Reference::render(&world, [32, 32], 4096, |_| ());
         let (squared, mean) = reference.difference(rendered.picture.radiance.iter().copied());
         let expected = reference.error + rendered.error;
-        // 1024 pixels, whose variances differ: the mean square is known to some per cent
+        // with 1024 pixels of different variances, the mean square is accurate to some per cent
         assert!((squared / expected - 1.0).abs() < 0.5, "{squared:e} {expected:e}");
         assert!(mean.abs() < 5.0 * (expected / 1024.0).sqrt(), "{mean:e} {expected:e}");
     }

@@ -1,4 +1,4 @@
-//! One page that needs nothing but itself: charts, tables, images, and what they were made on.
+//! Writes the report: a self-contained page of charts, tables and images, with a description of the machine.
 
 use super::charts::{Figure, id, with_interval};
 use super::pictures::Panel;
@@ -12,7 +12,7 @@ use base64::Engine;
 use serde_json::json;
 use std::fmt::Write;
 
-/// A value with the ± of its interval in per cent.
+/// Formats a value with half of its interval in per cent.
 fn percent(e: &Estimate) -> String {
     if e.half.is_finite() {
         format!("{} ±{:.0} %", short(e.value), 100.0 * e.relative())
@@ -25,7 +25,7 @@ fn table(summary: &Summary) -> String {
     let base = summary.baseline.map_or_else(String::new, |b| summary.series[b].way.title());
     let mut text = format!(
         "<div class=\"scroll\"><table><tr><th>series</th><th>slope over samples</th><th>slope over time</th><th>error at {0} spp</th>\
-         <th>seconds at {0} spp</th><th>efficiency over {1}</th><th>seconds to {2}</th><th>bias</th></tr>\n",
+         <th>seconds at {0} spp</th><th>efficiency relative to {1}</th><th>seconds to {2}</th><th>bias</th></tr>\n",
         summary.spp,
         escape(&base),
         short(summary.target)
@@ -42,7 +42,8 @@ fn table(summary: &Summary) -> String {
             series.points.iter().map(|p| p.bias).filter(|b| !b.is_nan()).max_by(|a, b| a.abs().total_cmp(&b.abs()));
         let _ = writeln!(
             text,
-            "<tr data-series=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td><td>{seconds}</td><td>{}</td></tr>",
+            "<tr data-series=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td><td>{seconds}</td>\
+             <td>{}</td></tr>",
             escape(&id(series)),
             escape(&series.way.title()),
             slope(&series.slope),
@@ -60,14 +61,16 @@ fn viewer(index: usize, panel: &Panel) -> String {
         "<div class=\"viewer\" data-scene=\"{index}\" tabindex=\"0\"><div class=\"controls\"><span class=\"chips kinds\"></span>\
          <label>left <select class=\"pick\"></select></label><label>right <select class=\"pick\"></select></label></div>\
          <div class=\"stage\"><img alt=\"left image\"><img alt=\"right image\"><div class=\"edge\"></div><span class=\"left\"></span>\
-         <span class=\"right\"></span></div><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" aria-label=\"where the two images meet\">\
-         <p><small>Drag, or click here and use <kbd>f</kbd> to flip between the two, <kbd>←</kbd> <kbd>→</kbd> to step through all. {}</small></p>\
+         <span class=\"right\"></span></div><input type=\"range\" min=\"0\" max=\"100\" value=\"50\" \
+         aria-label=\"position of the boundary between the two images\">\
+         <p><small>Drag the boundary, or click here and press <kbd>f</kbd> to flip between the two, <kbd>←</kbd> \
+         <kbd>→</kbd> to step through all. {}</small></p>\
          <div class=\"thumbs\"></div></div>\n",
         escape(&panel.caption)
     )
 }
 
-/// The whole page; `warps` is a figure and a table.
+/// The whole page; `warps` is a figure and an HTML table.
 #[must_use]
 pub fn page(
     outcome: &Outcome,
@@ -139,7 +142,7 @@ pub fn page(
     facts.push((
         "seeds",
         format!(
-            "{seed}, from which each image has its own: the column seed of measurements.csv; {} replicates",
+            "{seed}, from which the seed of each image derives (column seed of measurements.csv); {} replicates",
             outcome.plan.replicates
         ),
     ));
@@ -170,10 +173,10 @@ pub fn page(
             pictures.iter().map(one).collect::<Vec<_>>()
         })
         .collect();
-    // "</" would end the script
+    // "</" could end the script
     let data = json!(data).to_string().replace("</", "<\\/");
     let notes: String = outcome.notes.iter().map(|n| format!("<p>{}</p>\n", escape(n))).collect();
-    // the data last: what it holds is not searched for the names of others
+    // the data last, so that placeholders are not searched for in it
     include_str!("report.html")
         .replace("{{known}}", &format!("{:.0}", 100.0 * KNOWN_TO))
         .replace("{{widest}}", &format!("{:.0}", 100.0 * WIDEST))

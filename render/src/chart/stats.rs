@@ -1,20 +1,20 @@
-//! What replicates can tell: means, ratios and slopes with the interval that holds the truth 19 times of 20.
+//! Means, ratios and slopes over replicates, with 95 % confidence intervals.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// A value and half of its 95 % interval, infinite where nothing is known of its spread.
+/// A value and half of its 95 % interval, which is infinite if the spread is unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// The middle of the interval.
+    /// Middle of the interval.
     pub value: f64,
-    /// Half of its width.
+    /// Half of the interval's width.
     pub half: f64,
 }
 
-/// Intervals wider than this fraction of the value, to each side, do not support a claim.
+/// An estimate whose half interval exceeds this fraction of the value does not support a claim.
 pub const WIDEST: f64 = 0.3;
 
-/// The factor of the standard error that makes a 95 % interval of `n` values' mean.
+/// Factor from the standard error of the mean of `n` values to half of its 95 % interval.
 fn student(n: usize) -> f64 {
     if n < 2 {
         return f64::INFINITY;
@@ -22,7 +22,7 @@ fn student(n: usize) -> f64 {
     StudentsT::new(0.0, 1.0, (n - 1) as f64).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
 }
 
-/// Mean and standard deviation (n − 1) in two passes; the deviation of less than two values is 0.
+/// Mean and standard deviation (n − 1) in two passes; the deviation of fewer than two values is 0.
 pub fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -31,7 +31,7 @@ pub fn moments(values: &[f64]) -> (f64, f64) {
 }
 
 impl Estimate {
-    /// The mean of independent values, by Student's distribution.
+    /// Estimates the mean of independent values by Student's t distribution.
     #[must_use]
     pub fn of(values: &[f64]) -> Self {
         let (value, deviation) = moments(values);
@@ -41,12 +41,12 @@ impl Estimate {
         };
         Self { value, half }
     }
-    /// The lower end.
+    /// Lower end of the interval.
     #[must_use]
     pub fn low(&self) -> f64 {
         self.value - self.half
     }
-    /// The upper end.
+    /// Upper end of the interval.
     #[must_use]
     pub fn high(&self) -> f64 {
         self.value + self.half
@@ -56,27 +56,27 @@ impl Estimate {
     pub fn relative(&self) -> f64 {
         self.half / self.value.abs()
     }
-    /// Is it positive, and its interval narrow enough to support a claim?
+    /// Whether the value is positive and its interval narrow enough to support a claim.
     #[must_use]
     pub fn is_sure(&self) -> bool {
         self.value > 0.0 && self.relative() <= WIDEST
     }
 }
 
-/// Work and error of one replicate.
+/// Error and time of one replicate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
-    /// Squared error.
+    /// Mean squared error.
     pub mse: f64,
-    /// Seconds.
+    /// Rendering time in seconds.
     pub seconds: f64,
 }
 
-/// How many times more efficient `a` is than `b`, by 1/(MSE × time) of the means; the replicates of one round stand side by side in both, so
-/// that what slows the machine in a round weighs on neither. To first order in the relative errors (the delta method), of a
-/// logarithm: the interval is `value / factor` to `value × factor`, with `half = value (factor − 1)`.
+/// Efficiency of `a` relative to `b`, where efficiency is 1/(MSE × time) of the means.
 ///
-/// Nothing where a mean is not positive.
+/// Replicates of the same round are paired, so that a slow round affects neither. The interval is that of the logarithm, to first
+/// order in the relative errors (the delta method): `value / factor` to `value × factor`, with `half = value (factor − 1)`. `None`
+/// if a mean is not positive.
 #[must_use]
 pub fn gain(a: &[Cost], b: &[Cost]) -> Option<Estimate> {
     let n = a.len().min(b.len());
@@ -92,9 +92,9 @@ pub fn gain(a: &[Cost], b: &[Cost]) -> Option<Estimate> {
     Some(Estimate { value, half: value * Estimate::of(&influence).half.exp_m1() })
 }
 
-/// Slope of log y over log x by least squares, one for each replicate: their mean. Every replicate has one y for each x.
+/// Mean over the replicates of the least-squares slope of log y over log x. Every replicate has one y for each x.
 ///
-/// Nothing for less than two different x, or where a value is not positive.
+/// `None` if there are fewer than two different x, or if a value is not positive.
 #[must_use]
 pub fn slope(x: &[f64], replicates: &[Vec<f64>]) -> Option<Estimate> {
     let log_x: Vec<f64> = x.iter().map(|x| x.ln()).collect();
@@ -108,8 +108,8 @@ pub fn slope(x: &[f64], replicates: &[Vec<f64>]) -> Option<Estimate> {
     Some(Estimate::of(&replicates.iter().map(one).collect::<Vec<_>>()))
 }
 
-/// The x at which a polyline through points (x, y), in the order of x, reaches `y` downwards; all in logarithms. Beyond its ends by
-/// the slope of its last or first piece: then the flag says so.
+/// The x at which a polyline through points (x, y), in order of x, falls to `y`, in logarithms. The flag is true if the line had to be
+/// extrapolated by its first or last segment.
 #[must_use]
 pub fn reach(points: &[(f64, f64)], y: f64) -> Option<(f64, bool)> {
     let cross = |a: (f64, f64), b: (f64, f64)| {
@@ -130,7 +130,7 @@ pub fn reach(points: &[(f64, f64)], y: f64) -> Option<(f64, bool)> {
 mod tests {
     use super::*;
 
-    /// Uniform numbers of a fixed sequence.
+    /// Uniform random numbers from a fixed sequence.
     fn random(state: &mut u64) -> f64 {
         *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((*state >> 33) as f64 + 0.5) / (1_u64 << 31) as f64
@@ -138,12 +138,12 @@ mod tests {
     fn normal(state: &mut u64) -> f64 {
         (-2.0 * random(state).ln()).sqrt() * (std::f64::consts::TAU * random(state)).cos()
     }
-    /// How often of 4000 times `holds`.
+    /// Fraction of 4000 trials in which `holds` returns true.
     fn share(mut holds: impl FnMut(&mut u64) -> bool) -> f64 {
         let mut state = 7;
         (0..4000).filter(|_| holds(&mut state)).count() as f64 / 4000.0
     }
-    /// 19 of 20, within five standard errors of 4000 trials.
+    /// Asserts a fraction of 0.95, within five standard errors of 4000 trials.
     fn nineteen_of_twenty(share: f64) {
         assert!((share - 0.95).abs() < 5.0 * (0.95 * 0.05_f64 / 4000.0).sqrt(), "{share}");
     }
@@ -155,7 +155,7 @@ mod tests {
                 let e = Estimate::of(&(0..n).map(|_| 3.0 + 0.5 * normal(s)).collect::<Vec<_>>());
                 (e.value - 3.0).abs() <= e.half
             }));
-            // efficiencies of 6 to 1, a few per cent of noise, and rounds in which the machine is slow for both
+            // a relative efficiency of 6, noise of a few per cent, and rounds that are slow for both
             nineteen_of_twenty(share(|s| {
                 let (mut a, mut b) = (Vec::new(), Vec::new());
                 for _ in 0..n {

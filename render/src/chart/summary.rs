@@ -1,4 +1,4 @@
-//! From measurements to what the charts show.
+//! Summarises measurements for the charts.
 
 use super::measure::{Key, Plan, Row, Rows};
 use super::name;
@@ -11,30 +11,30 @@ use crate::{Sampler, Technique};
 pub struct Way {
     /// How lights are sampled.
     pub technique: Technique,
-    /// Where the random numbers come from.
+    /// How random numbers are generated.
     pub sampler: Sampler,
 }
 
 impl Way {
-    /// As in `area, stratified`.
+    /// Name of technique and sampler, such as `area, stratified`.
     #[must_use]
     pub fn title(&self) -> String {
         format!("{}, {}", name(self.technique), name(self.sampler))
     }
 }
 
-/// One way at one number of samples per pixel.
+/// The results of a technique and sampler at one sample count.
 #[derive(Clone, Debug)]
 pub struct Point {
     /// Samples per pixel.
     pub spp: u32,
-    /// Squared error less the reference's; its interval includes what the latter is not known to.
+    /// Mean squared error minus that of the reference; the interval includes the uncertainty of the latter.
     pub mse: Estimate,
-    /// Time for an image.
+    /// Rendering time of an image in seconds.
     pub seconds: Estimate,
-    /// Mean difference from the reference in its standard errors; a bias if it is far from 0. NaN for one replicate.
+    /// Mean difference from the reference, in standard errors; far from 0 it indicates a bias. NaN for one replicate.
     pub bias: f64,
-    /// Each replicate, in their order.
+    /// Costs of the replicates, in order.
     pub costs: Vec<Cost>,
 }
 
@@ -45,14 +45,14 @@ impl Point {
         let mut mse = Estimate::of(&costs.iter().map(|c| c.mse).collect::<Vec<_>>());
         mse.half += KNOWN_TO * reference.error;
         let seconds = Estimate::of(&costs.iter().map(|c| c.seconds).collect::<Vec<_>>());
-        // channels share their samples: the reference's error of a pixel counts once
+        // channels share their samples, so the reference's error of a pixel counts once
         let own = reference.error / reference.picture.radiance.len() as f64;
         let (mean, deviation) = stats::moments(&rows.iter().map(|r| r.difference).collect::<Vec<_>>());
         let n = rows.len() as f64;
         let bias = if rows.len() < 2 { f64::NAN } else { mean / (deviation * deviation / n + own).sqrt() };
         Self { spp, mse, seconds, bias, costs }
     }
-    /// Do the intervals of both error and time support a claim?
+    /// Whether the intervals of both error and time are narrow enough to support a claim.
     #[must_use]
     pub fn is_sure(&self) -> bool {
         self.mse.is_sure() && self.seconds.is_sure()
@@ -62,13 +62,13 @@ impl Point {
 /// One line of a chart.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// Which.
+    /// Technique and sampler.
     pub way: Way,
-    /// In the order of samples per pixel.
+    /// Points in order of samples per pixel.
     pub points: Vec<Point>,
-    /// Of log MSE over log samples per pixel, from the points that are sure.
+    /// Slope of log MSE over log samples per pixel, from the points with narrow intervals.
     pub slope: Option<Estimate>,
-    /// Of log MSE over log time.
+    /// Slope of log MSE over log time, likewise.
     pub slope_in_time: Option<Estimate>,
 }
 
@@ -85,7 +85,7 @@ impl Series {
         let slope_in_time = of(Point::is_sure, |p| p.seconds.value);
         Self { way, points, slope, slope_in_time }
     }
-    /// Seconds to reach a squared error; the flag says whether that lies beyond what was measured, or a time is not sure.
+    /// Seconds to reach a squared error. The flag is true if that is extrapolated, or if a time has a wide interval.
     #[must_use]
     pub fn seconds_to(&self, mse: f64) -> Option<(f64, bool)> {
         let known = || self.points.iter().filter(|p| p.mse.is_sure());
@@ -93,42 +93,42 @@ impl Series {
         let (seconds, beyond) = stats::reach(&points, mse)?;
         Some((seconds, beyond || known().any(|p| !p.seconds.is_sure())))
     }
-    /// The point at so many samples per pixel.
+    /// The point at this number of samples per pixel.
     #[must_use]
     pub fn at(&self, spp: u32) -> Option<&Point> {
         self.points.iter().find(|p| p.spp == spp)
     }
 }
 
-/// Efficiency of a series over the baseline's.
+/// Efficiency of a series relative to the baseline.
 #[derive(Clone, Copy, Debug)]
 pub struct Gain {
     /// Index of the series.
     pub series: usize,
-    /// How many times the baseline's.
+    /// Efficiency as a multiple of the baseline's.
     pub gain: Estimate,
 }
 
-/// All about one scene.
+/// The results for one scene.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// As the user named it.
+    /// Scene name as given by the user.
     pub scene: String,
-    /// Lines of its charts.
+    /// Lines of the scene's charts.
     pub series: Vec<Series>,
-    /// Index of the series that others are compared with.
+    /// Index of the baseline series.
     pub baseline: Option<usize>,
     /// Samples per pixel at which efficiencies are compared.
     pub spp: u32,
-    /// Efficiency over the baseline's at `spp`.
+    /// Efficiencies relative to the baseline at `spp`.
     pub gains: Vec<Gain>,
-    /// The squared error to be reached.
+    /// The mean squared error to reach.
     pub target: f64,
 }
 
 impl Summary {
-    /// Of scene `scene` of a plan. The baseline is `baseline` or, where that was not measured, the first series. The target is
-    /// `target`, or what the best technique of the baseline's sampler has at the middle of the samples per pixel.
+    /// Summarises scene `scene` of a plan. If `baseline` was not measured, the first series takes its place. The default target is
+    /// the error of the best technique, with the baseline's sampler, at the median sample count.
     #[must_use]
     pub fn new(plan: &Plan, rows: &Rows, scene: usize, baseline: Way, target: Option<f64>) -> Self {
         let mut series: Vec<Series> = Vec::new();
@@ -139,7 +139,7 @@ impl Summary {
                 ways.push(way);
             }
         }
-        // in the order of the techniques, as they are listed
+        // in the order of `etendue list`
         ways.sort_by_key(|w| (w.technique as usize, w.sampler as usize));
         for way in ways {
             let of_way = |k: &&Key| k.scene == scene && k.technique == way.technique && k.sampler == way.sampler;
@@ -157,7 +157,7 @@ impl Summary {
         let found = series.iter().position(|s| s.way == baseline);
         let baseline = found.or(if series.is_empty() { None } else { Some(0) });
         let measured = |spp: u32| series.iter().filter(|s| s.at(spp).is_some_and(|p| p.costs.len() > 1)).count();
-        // the largest number of samples that most series have
+        // the largest sample count among those that most series have
         let all: Vec<u32> = series.iter().flat_map(|s| s.points.iter().map(|p| p.spp)).collect();
         let in_baseline = |spp: &u32| baseline.is_none_or(|b| series[b].at(*spp).is_some());
         let spp = all.iter().copied().filter(in_baseline).max_by_key(|&n| (measured(n), n)).unwrap_or(0);

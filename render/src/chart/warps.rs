@@ -1,4 +1,4 @@
-//! Warps one by one: time for a sample at each width against the greatest error that single precision makes.
+//! Measures each warp on its own: time per sample at each width, and the greatest error in single precision.
 
 use super::charts::Figure;
 use super::plot::{Bar, Chart, Dot, Line, Scale, escape, short};
@@ -15,29 +15,29 @@ use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Samples in a batch: their `u` and points fit the first-level cache.
+/// Samples in a batch, whose `u` and points fit into the L1 cache.
 const SAMPLES: usize = 1024;
-/// Batches of each, which take turns.
+/// Number of interleaved rounds.
 const ROUNDS: usize = 41;
-/// Batches that are timed as one.
+/// Batches that are timed together.
 const BATCHES: u32 = 4;
-/// Random places at which errors are looked for.
+/// Number of random points at which errors are measured.
 const PLACES: u32 = 1 << 18;
 
 /// One warp with its parameters.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// As in `spherical triangle, 1e-3 across`.
+    /// Name, such as `spherical triangle, a thousandth`.
     pub name: String,
-    /// Nanoseconds for a sample at f32, f32x4, f32x8: medians of groups of rounds.
+    /// Nanoseconds per sample with f32, f32x4 and f32x8: means over medians of groups of rounds.
     pub nanoseconds: [Estimate; 3],
     /// Greatest distance of a point or unit direction in f32 from that of the f64 instance.
     pub point: f64,
-    /// Greatest relative error of a density, likewise.
+    /// Greatest relative error of a pdf in f32, compared with the f64 instance.
     pub density: f64,
 }
 
-/// Points as numbers.
+/// Conversion between points and numbers.
 trait Coordinates<R: Real> {
     fn numbers(&self, lane: usize) -> [f64; 3];
     fn of(numbers: [f64; 3]) -> Self;
@@ -61,12 +61,12 @@ impl<R: Real> Coordinates<R> for Vec3<R> {
     }
 }
 
-/// Eight random places.
+/// Random points of the unit square, from index `first`.
 fn square<R: Real>(first: u32) -> Vec2<R> {
     Independent::new(3).pair(R::Uint::splat(0), R::Uint::from_fn(|lane| first + lane as u32), 0)
 }
 
-/// Greatest errors of a point and of a density.
+/// Greatest errors of a point and of a pdf.
 fn errors<W, V>(single: &W, double: &V) -> [f64; 2]
 where
     W: Warp<f32x8>,
@@ -84,7 +84,7 @@ where
             let at = found.numbers(lane);
             let off = (0..3).map(|k| (at[k] - truth[k]).powi(2)).sum::<f64>().sqrt();
             point = point.max(off);
-            // at the place itself, unless rounding has left the shape
+            // the pdf at the rounded point itself, unless that is outside the shape
             let known = double.pdf(V::Point::of(at));
             if known > 0.0 {
                 density = density.max((pdf.lane_f64(lane) / known - 1.0).abs());
@@ -94,7 +94,7 @@ where
     [point, density]
 }
 
-/// What a batch of samples costs: nanoseconds for one.
+/// A function that times a batch and returns nanoseconds per sample.
 type Routine = Box<dyn FnMut() -> f64>;
 
 fn routine<R: Real + 'static, T>(sample: impl Fn(Vec2<R>) -> T + 'static) -> Routine {
@@ -118,12 +118,12 @@ struct Entry {
     errors: [f64; 2],
 }
 
-/// A warp that is prepared once: its expression is evaluated at each width, with `R` for the width.
+/// Adds a warp that is prepared once. Its expression is evaluated at each width, for which `R` stands.
 macro_rules! warp {
     ($list:ident, $name:expr, $R:ident => $make:expr) => {{
         macro_rules! at {
             ($width:ty) => {{
-                // what takes no parameters does not mention its width
+                // unused by warps without parameters
                 #[allow(dead_code)]
                 type $R = $width;
                 $make
@@ -143,8 +143,8 @@ macro_rules! warp {
     }};
 }
 
-/// Besides, one that is prepared for every sample, as a renderer does for every point that it shades: the numbers that it is made of
-/// come out of a `black_box` each time.
+/// Also adds the warp prepared anew for every sample, as a renderer does for every shading point. Its parameters pass through a
+/// `black_box` each time.
 macro_rules! prepared {
     ($list:ident, $name:expr, $R:ident => $make:expr) => {{
         warp!($list, $name, $R => $make);
@@ -158,7 +158,7 @@ macro_rules! prepared {
             };
         }
         $list.push(Entry {
-            name: format!("{}, prepared for each", $name),
+            name: format!("{}, prepared per sample", $name),
             routines: [timed!(f32), timed!(f32x4), timed!(f32x8)],
             errors,
         });
@@ -166,7 +166,7 @@ macro_rules! prepared {
 }
 
 fn vector<R: Real>(v: [f64; 3]) -> Vec3<R> {
-    // every number of single precision is one of double: both widths are given the same shape
+    // rounded to f32, so that both precisions get the same shape
     let [x, y, z] = v.map(|x| R::lit(f64::from(x as f32)));
     black_box(Vec3::new(x, y, z))
 }
@@ -189,7 +189,7 @@ fn entries() -> Vec<Entry> {
     warp!(list, "bilinear", R => Bilinear { corners: [1.0, 2.0, 0.5, 4.0].map(number::<R>) });
     warp!(list, "GGX visible normals", R => GgxVisibleNormals::new(number::<R>(0.4), number(0.2), vector([0.6, 0.0, 0.8])));
     for (name, scale) in [("", 1.0), (", a thousandth", 1e-3)] {
-        // a radius of 0.2 of the distance, and one of 2e-4
+        // radii of 0.2 and 2e-4 times the distance
         let radius = 0.2 * scale;
         prepared!(list, format!("spherical cap{name}"), R => SphericalCap::new(vector([0.6, 0.0, 0.8]), number::<R>(radius)));
         let edges = [[1.0, 0.2, -0.3], [0.1, 0.9, 0.4]].map(|v| v.map(|x| x * scale));
@@ -211,7 +211,7 @@ fn entries() -> Vec<Entry> {
     list
 }
 
-/// Measures all, in turns; fewer rounds if `stop` says so.
+/// Measures all warps in interleaved rounds; fewer rounds if `stop` is set.
 #[must_use]
 pub fn measure(stop: &AtomicBool, progress: impl Fn(u64, u64)) -> Vec<Measured> {
     let mut list = entries();
@@ -227,7 +227,7 @@ pub fn measure(stop: &AtomicBool, progress: impl Fn(u64, u64)) -> Vec<Measured> 
             break;
         }
     }
-    // medians of groups: one that was interrupted does not count
+    // medians of groups, so that interrupted batches do not count
     let estimate = |times: &Vec<f64>| {
         let groups = times.chunks_exact((times.len() / 5).max(1)).map(|group| {
             let mut group = group.to_vec();
@@ -245,7 +245,7 @@ pub fn measure(stop: &AtomicBool, progress: impl Fn(u64, u64)) -> Vec<Measured> 
     list.into_iter().zip(times).map(one).collect()
 }
 
-/// Time for a sample against greatest error.
+/// Draws the greatest error against the time per sample.
 #[must_use]
 pub fn figure(measured: &[Measured]) -> Figure {
     let line = |(i, m): (usize, &Measured)| Line {
@@ -259,25 +259,25 @@ pub fn figure(measured: &[Measured]) -> Figure {
     };
     let chart = Chart {
         title: "warps: greatest error against time".to_owned(),
-        x_label: "nanoseconds for a sample: x8, x4, f32 from left to right".to_owned(),
+        x_label: "nanoseconds per sample: x8, x4, f32 from left to right".to_owned(),
         y_label: "greatest error of a point or direction".to_owned(),
         scales: [Scale::Log, Scale::Log],
         lines: measured.iter().enumerate().map(line).collect(),
         guides: Vec::new(),
         equal: false,
     };
-    let caption = "Each line is one warp at its three widths, which give the same bits: hence the same error. Errors are against the \
-                   f64 instance of the same body, at the same numbers, over 262,144 random places; a direction has length 1."
+    let caption = "Each line is one warp at three widths, which give the same bits and thus the same error. Errors are differences from \
+                   the f64 instance of the same code for the same inputs, over 262,144 random points; directions have length 1."
         .to_owned();
     Figure { file: "warps", drawing: chart.draw(), caption }
 }
 
-/// The figures as a table of HTML.
+/// The measurements as an HTML table.
 #[must_use]
 pub fn table(measured: &[Measured]) -> String {
     let mut text =
-        "<div class=\"scroll\"><table><tr><th>warp</th><th>f32</th><th>x4</th><th>x8</th><th>x8 over f32</th>\
-                    <th>point off by</th><th>density off by</th></tr>\n"
+        "<div class=\"scroll\"><table><tr><th>warp</th><th>f32</th><th>x4</th><th>x8</th><th>speed-up x8</th>\
+                    <th>greatest error of point</th><th>of pdf</th></tr>\n"
             .to_owned();
     for m in measured {
         let [a, b, c] = m.nanoseconds.each_ref().map(|t| short(t.value));
@@ -293,11 +293,11 @@ pub fn table(measured: &[Measured]) -> String {
     text + "</table></div>\n"
 }
 
-/// The same as CSV.
+/// The measurements as CSV.
 #[must_use]
 pub fn csv(measured: &[Measured]) -> String {
     let mut text =
-        "warp,ns_f32,ns_f32x4,ns_f32x8,half_f32,half_f32x4,half_f32x8,greatest_point_error,greatest_density_error\n"
+        "warp,ns_f32,ns_f32x4,ns_f32x8,half_f32,half_f32x4,half_f32x8,greatest_point_error,greatest_pdf_error\n"
             .to_owned();
     for m in measured {
         let [a, b, c] = &m.nanoseconds;

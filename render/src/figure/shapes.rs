@@ -6,7 +6,7 @@ use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, Chart, Dot, Line, Scale, short};
 use etendue::spherical::{ProjectedCap, SphericalCap};
 use etendue::warp::Warp;
-use etendue::{LightSample, Mask, Real, Triangle, Vec2, Vec3, f32x8};
+use etendue::{LightSample, LightSampler, Mask, Real, Triangle, Vec2, Vec3, f32x8};
 
 /// The triangle of the scene triangle-light, and a point of its ground near the lower edge.
 const CORNERS: [[f64; 3]; 3] = [[-2.0, 0.3, -1.5], [2.0, 0.3, -1.5], [0.0, 2.3, -0.5]];
@@ -75,8 +75,8 @@ pub(super) fn area_factors() -> Finding {
     let light = Triangle { v0: single(a), e1: single(b - a), e2: single(c - a) };
     let from = single(p);
     let up = [0.0, 1.0, 0.0];
-    let (mean, by_area) = moments(up, |u| light.by_area(from, u));
-    let (same, by_solid_angle) = moments(up, |u| light.by_solid_angle(from, u));
+    let (mean, by_area) = moments(up, |u| light.by_area(from).sample(u));
+    let (same, by_solid_angle) = moments(up, |u| light.by_solid_angle(from).sample(u));
     let relative = |v: f64, m: f64| short(v / (m * m));
     let headline = vec![
         format!("greatest over least of cosθ cosθ′/r² on the triangle: {}", short(ratio)),
@@ -157,7 +157,7 @@ pub(super) fn cap_solid_angle_vs_projected() -> Finding {
         distance: f32x8::splat(1.0),
         pdf,
         emits: all,
-        delta: !all,
+        ..LightSample::miss(direction)
     };
     let up = [0.0, 1.0, 0.0];
     let (mean, spread) = moments(up, |u| sample(cap.sample(u), cap.uniform_pdf()));

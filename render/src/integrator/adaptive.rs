@@ -1,8 +1,8 @@
-//! Samples where they are needed: a few for every pixel, the others by how much those vary around it.
+//! Adaptive sampling: a few pilot samples for every pixel, and the rest where the variance around a pixel is great.
 //!
-//! The pilot's samples are part of the image. A pixel's number of samples depends on the variance at its neighbours and not on its
-//! own, so that a pixel which has happened to be dark is not left so: mean and number are independent, but for the share that one
-//! pixel has in the sum over all.
+//! The pilot's samples are part of the image. The number of samples of a pixel depends on the variance at its neighbours, not on its
+//! own, so that a pixel that happens to be dark is not left dark. Mean and number of samples are independent, except for the share
+//! that a pixel has in the sum over all pixels.
 
 use super::allocation::{APART, Allocated, Blocks, Weights};
 use super::{Work, z_order};
@@ -12,22 +12,22 @@ use crate::sampler::Packet;
 use etendue::estimate::Welford;
 use etendue::{Mask, Real, u32x8};
 
-/// Squared error falls about as N^−1.5 where a pixel's integrand is smooth but for edges: then Σ cᵢ nᵢ^−1.5 at a given Σ nᵢ is least
-/// with nᵢ in proportion to cᵢ^0.4.
+/// The squared error falls about as N^−1.5 if a pixel's integrand is smooth except for edges. Then Σ cᵢ nᵢ^−1.5 for a given Σ nᵢ is
+/// least with nᵢ ∝ cᵢ^0.4.
 const POWER: f64 = 0.4;
-/// Neighbours are pixels up to so many rows and columns away.
+/// Neighbours are at most this many rows and columns away.
 const NEAR: usize = 2;
-/// Those that are farther have a little weight: the near ones may all have missed an edge that passes through the pixel. (With a pilot of
-/// eight samples; with more, there is nothing in it.)
+/// Pixels up to this far away have a small weight, since all near ones may have missed an edge that passes through the pixel. (This
+/// helps a pilot of eight samples; with more it makes no difference.)
 const FAR: usize = 6;
 const WEIGHT_FAR: f64 = 0.003;
 
-/// Numbers of samples of an image: of each set of a pixel, in packets of eight.
+/// Numbers of samples per set of a pixel, in packets of eight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// Packets that each set begins with.
+    /// Packets of the pilot in each set.
     pub(super) pilot: u32,
-    /// Packets of each set, on average over the pixels.
+    /// Mean number of packets per set over the pixels.
     pub(super) packets: f64,
     pub(super) sets: u32,
 }
@@ -35,30 +35,31 @@ pub(super) struct Effort {
 impl Effort {
     pub(super) fn new(spp: u32, sets: u32) -> Self {
         let packets = f64::from(spp) / f64::from(8 * sets);
-        // a quarter, in a power of two; of so few that it would be one packet, half: eight points miss too much
+        // a power of two of at most a quarter, but half if a quarter were one packet: eight points miss too much
         let pilot = (packets / 4.0).log2().floor().exp2().max(if packets < 4.0 { 1.0 } else { 2.0 });
         Self { pilot: pilot as u32, packets, sets }
     }
 }
 
-/// What a range of the samples of a pixel comes to.
+/// Statistics of a range of the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Part {
-    /// Of each set.
+    /// Mean of each set.
     means: [[f64; 3]; 4],
-    /// In each set.
+    /// Packets in each set.
     packets: u32,
-    /// Variance of the means of four samples each, over channels and sets.
+    /// Variance of the means of four samples each, summed over the channels. For allocated samples, the sum of squared differences.
     variance: f64,
-    /// Lights to which the samples were allocated, if they were, and to no more than `APART`.
+    /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
     lights: usize,
-    /// Of each: a sum of squared differences of two neighbours among its samples, the logarithm to base 2 of their number in a set.
+    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light.
     spread: [f32; APART],
+    /// log₂ of the number of samples of each light per set.
     taken: [u8; APART],
 }
 
 impl Part {
-    /// Of two ranges, the finished pixel.
+    /// Combines two ranges into the finished pixel.
     pub(super) fn finish(&self, other: &Self, sets: u32) -> Pixel {
         let packets = self.packets + other.packets;
         let share = f64::from(other.packets) / f64::from(packets);
@@ -77,8 +78,8 @@ impl Part {
     }
 }
 
-/// Of every pixel, the packets of each set, from the variance that the pilot has found; and what samples of each light are worth, where they
-/// are allocated and the pilot can tell.
+/// Packets per set for each pixel, from the variance of the pilot; and the weights of the lights, if samples are allocated to at most
+/// `APART` lights.
 pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, Option<Weights>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let mut weights = None;
@@ -86,7 +87,7 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, O
         let variance: Vec<_> = parts.iter().map(|part| part.variance).collect();
         mean_around(&variance, &vec![1.0; parts.len()], columns).into_iter().map(|v| v.powf(POWER)).collect()
     } else {
-        // each light's part of the error falls with its own samples: Σ over the lights of cᵢ nᵢ^−1.5 is (Σ cᵢ^0.4)^2.5 n^−1.5 at its least
+        // the error of each light falls with its own samples: the least Σ cᵢ nᵢ^−1.5 over the lights is (Σ cᵢ^0.4)^2.5 n^−1.5
         let mut of = vec![0.0; parts.len() * lights];
         for k in 0..lights {
             let spread: Vec<_> = parts.iter().map(|part| f64::from(part.spread[k])).collect();
@@ -104,7 +105,7 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, O
     let spent = |scale: f64| wanted.iter().map(|w| (w * scale).max(pilot)).sum::<f64>();
     let most = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
     if most <= 0.0 {
-        // nothing varies: all alike
+        // no variance anywhere: the same number for all pixels
         return (vec![(effort.packets.round() as u32).max(effort.pilot); parts.len()], weights);
     }
     let (mut low, mut high) = (0.0, total / most);
@@ -115,7 +116,7 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, O
         let middle = 0.5 * (low + high);
         if spent(middle) < total { low = middle } else { high = middle }
     }
-    // Sobol's points are best in powers of two: the one below or above, by a number that has nothing to do with the samples
+    // Sobol points are best in powers of two: rounds down or up at random, independently of the samples
     let rounded = |i: usize, packets: f64| {
         let below = packets.log2().floor().exp2();
         let turn = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
@@ -125,7 +126,7 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, O
     (wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect(), weights)
 }
 
-/// At each pixel Σ `sums` / Σ `counts` over the pixels around it, without its own.
+/// Σ `sums` / Σ `counts` over the neighbours of each pixel, excluding the pixel itself.
 fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
     let weighted = |values: &[f64]| {
         let (near, far) = (sums_around(values, columns, NEAR), sums_around(values, columns, FAR));
@@ -134,8 +135,8 @@ fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
     weighted(sums).zip(weighted(counts)).map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect()
 }
 
-/// At each pixel the sum over those up to `reach` rows and columns away, without its own: none of it is taken off again, so that not even
-/// rounding tells of it.
+/// Sums over the pixels up to `reach` rows and columns away from each pixel, excluding the pixel itself. Its value is never added and
+/// subtracted again, so that not even rounding depends on it.
 fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
     let near = |i: usize, most: usize| i.saturating_sub(reach)..(i + reach + 1).min(most);
     let (mut beside, mut across) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
@@ -155,8 +156,8 @@ fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
 }
 
 impl Work<'_> {
-    /// Packets `from` to `to` of each set of the pixels of an area, row by row; `range` is told column and row. Samples are allocated
-    /// to the lights by `weights` if it has any, else by what is seen at the corners of the pixels.
+    /// Renders packets `from` to `to` of each set of the pixels of an area, row by row; `range` returns them for a column and row.
+    /// Samples are allocated to the lights by `weights` if given, otherwise by the corners of the pixels.
     pub(super) fn parts(
         &mut self,
         area: [u32; 4],
@@ -215,14 +216,16 @@ impl Work<'_> {
     }
 }
 
-/// How the samples of a pixel vary.
+/// Accumulates the variation of a pixel's samples.
 #[derive(Default)]
 struct Tally {
     halves: [Welford<f64>; 3],
     count: u32,
-    /// Of neighbours among the samples of one light: squared differences, of all lights and of each for itself; samples of each.
+    /// Sum of squared differences of successive samples of the same light.
     between: f64,
+    /// The same sum for each light, times its squared share.
     spread: [f64; APART],
+    /// Number of samples of each light.
     samples: [u32; APART],
 }
 
@@ -265,7 +268,7 @@ impl Tally {
     }
 }
 
-/// The means of four lanes each.
+/// The means of the first and the last four lanes.
 fn halves(radiance: V8) -> [[f64; 3]; 2] {
     [0, 4].map(|first| {
         [radiance.x, radiance.y, radiance.z]

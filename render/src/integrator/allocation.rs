@@ -1,10 +1,9 @@
-//! Which of a few lights each sample of a pixel goes to, where that need not be left to chance.
+//! Allocates the samples of a pixel to a few lights, instead of choosing lights at random.
 //!
-//! The samples of a pixel are strata of one set: a light gets a power of two of them, one after another, so that they are a good set of
-//! their own. Its share of them is known, and what it adds is divided by that: no light is sampled more or less often than
-//! it should be, which for lights of different colours is most of the noise. How many a light gets goes by what it can contribute
-//! to the pixel's corners, or by what has been found at the pixel's neighbours, never by what its own samples have found: so nothing
-//! is biased.
+//! Each light receives a power of two of successive samples of a set, which are well distributed on their own. Its contribution is
+//! divided by its share of the samples. No light is sampled more or less often than it should be, which for lights of different
+//! colours is most of the noise. The number of samples of a light depends on its possible contribution to the pixel's corners, or on
+//! the samples of neighbouring pixels, never on the pixel's own samples: that keeps the estimate unbiased.
 
 use super::{TILE, Work};
 use crate::accel::{GROUP, Hits, M8, Rays, X8};
@@ -12,28 +11,28 @@ use crate::lens::Camera;
 use crate::lights::{FEW, Technique};
 use etendue::{Mask, Real, u32x8};
 
-/// Up to so many lights, the adaptive sampler tells which of them vary.
+/// Greatest number of lights whose variances the adaptive sampler measures separately.
 pub(super) const APART: usize = 8;
-/// Least share of a light in what all are worth: a pixel may be unlike its corners and neighbours.
+/// Least weight of a light, as a fraction of the sum: a pixel may differ from its corners and neighbours.
 const LEAST: f32 = 0.02;
-/// Squared error of a light's part c falls about as c² n^−1.5: at a given sum of the n it is least with n in proportion to c^0.8.
+/// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
 const POWER: f32 = 0.8;
 
-/// What samples of the lights are worth in the pixels of an area: of each, row by row, a number for each light.
+/// The weights of the lights in the pixels of an area, row by row.
 pub(super) struct Weights {
     pub(super) lights: usize,
     pub(super) of: Vec<f32>,
     pub(super) area: [u32; 4],
-    /// Logarithms to base 2 of the samples in a set that each light has had in the first block of each pixel, if that is done.
+    /// log₂ of the samples per set that each light received in the first block of each pixel; empty if that block is not done.
     pub(super) begun: Vec<[u8; APART]>,
 }
 
-/// How the samples of a block of a power of two are allocated to the lights, most to the first.
+/// The allocation of a block of 2ᵏ samples to the lights, in decreasing order of their numbers.
 #[derive(Clone, Copy)]
 struct Allocation {
     lights: usize,
     light: [u32; FEW],
-    /// Where in the block each one's samples end, and how many of its samples came before the block.
+    /// End of each light's samples in the block, and the number of its samples before the block.
     end: [u32; FEW],
     before: [u32; FEW],
     reciprocal: f32,
@@ -43,9 +42,9 @@ struct Allocation {
 #[derive(Clone, Copy)]
 pub(super) struct Allocated {
     pub(super) light: u32x8,
-    /// Which of that light's samples it is.
+    /// Indices among the samples of their lights.
     pub(super) sample: u32x8,
-    /// Samples of that light over samples of the block.
+    /// Fractions of the block's samples that their lights receive.
     pub(super) share: X8,
 }
 
@@ -54,7 +53,7 @@ impl Weights {
         let [x0, y0, x1, _] = self.area;
         ((y - y0) * (x1 - x0) + (x - x0)) as usize
     }
-    /// Of a block of a pixel, where each light has had `before` samples of it, to which this adds.
+    /// Allocates a block of a pixel, and adds the allocated samples to `before`, the numbers before the block.
     fn allocate(&self, pixel: usize, size: u32, before: &mut [u32; FEW]) -> Allocation {
         Allocation::new(&self.of[pixel * self.lights..][..self.lights], size, before)
     }
@@ -70,8 +69,8 @@ impl Allocation {
         for (worth, weight) in worth.iter_mut().zip(weights) {
             *worth = weight + least;
         }
-        // while there are samples left, twice as many for the light for which they are worth most: the least count divides what
-        // is left, so that it comes out even
+        // doubles the count of the light with the greatest weight per sample as long as samples are left; the least count divides
+        // the rest, so that none remain
         while left > 0 {
             let mut best = usize::MAX;
             for k in (0..lights).filter(|&k| each[k] <= left) {
@@ -95,7 +94,7 @@ impl Allocation {
         }
         allocation
     }
-    /// The eight samples of the block from `first` on.
+    /// Eight samples of the block, from `first` on.
     fn packet(&self, first: u32) -> Allocated {
         let (mut light, mut sample, mut share) = ([0; 8], [0; 8], [0.0; 8]);
         let mut k = self.end[..self.lights].partition_point(|&end| end <= first);
@@ -112,7 +111,7 @@ impl Allocation {
     }
 }
 
-/// The allocations of one pixel after another. The samples of a set are blocks: the first of `first`, then each as long as all before.
+/// The allocations of successive pixels. The samples of a set form blocks: one of `first` samples, then each as long as all before it.
 pub(super) struct Blocks {
     first: u32,
     known: Option<([u32; 2], u32, Allocation)>,
@@ -122,7 +121,7 @@ impl Blocks {
     pub(super) const fn new(first: u32) -> Self {
         Self { first, known: None }
     }
-    /// The eight samples from `sample` on of a set of a pixel.
+    /// Eight samples of a set of a pixel, from `sample` on.
     pub(super) fn packet(&mut self, weights: &Weights, pixel: [u32; 2], sample: u32) -> Allocated {
         let start = (sample / self.first).checked_ilog2().map_or(0, |doubled| self.first << doubled);
         if let Some((of, at, allocation)) = &self.known
@@ -150,15 +149,15 @@ impl Blocks {
 }
 
 impl Work<'_> {
-    /// What the lights can contribute to the pixels of an area, by what is seen at their corners; nothing where lights are chosen, or
-    /// too many for blocks of `size` samples.
+    /// Weights of the lights by their possible contributions at the corners of the pixels of an area; `None` if lights are chosen at
+    /// random, or if there are too many for blocks of `size` samples.
     pub(super) fn weights(&mut self, area: [u32; 4], size: u32) -> Option<Weights> {
         let world = self.world;
         let by_light =
             matches!(self.settings.technique, Technique::Area | Technique::SolidAngle | Technique::ProjectedSolidAngle);
         let Camera::Pinhole(camera) = self.camera else { return None };
         let lights = world.lights.few()?;
-        // each light takes a sample at the least, if it is worth it or not: of many, they take half the samples at the most
+        // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
         let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
         if !fits || !by_light || !world.plain(self.settings.technique) || !self.source.allocates() {
             return None;

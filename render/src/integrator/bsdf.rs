@@ -1,4 +1,4 @@
-//! What surfaces reflect: diffuse, perfect mirrors and rough metals, in packets.
+//! BSDFs in packets: diffuse surfaces, perfect mirrors and rough metals.
 
 use crate::accel::{M8, V8, X8, equal, max, min, select};
 use crate::scene::Material;
@@ -7,16 +7,16 @@ use etendue::{Frame, Real, Vec2, Warp, u32x8};
 
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
-/// Eight numbers a material, so that eight lanes are gathered by one transposition: roughness, η and k (or a mirror's reflectance, and
-/// 0), kind (bits).
+/// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α, η (3), k (3), kind (bits). A mirror
+/// has its reflectance in place of η, and k = 0.
 pub(super) type Finish = [f32; 8];
 
-// a diffuse one has kind 0
+// kind 0 is diffuse
 const MIRROR: u32 = 1;
 const METAL: u32 = 2;
 const ROUGH: u32 = 3;
 
-/// Of a diffuse surface: the roughness is any that is sound.
+/// The record of a diffuse surface, with an arbitrary valid roughness.
 pub(super) const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
 
 /// The record of a material.
@@ -32,7 +32,7 @@ pub(super) fn finish(material: &Material) -> Finish {
     }
 }
 
-/// What metals are made of, in each lane.
+/// Parameters of the metal in each lane.
 #[derive(Clone, Copy)]
 pub(super) struct Metal {
     alpha: X8,
@@ -42,7 +42,7 @@ pub(super) struct Metal {
 }
 
 impl Metal {
-    /// A record in each lane.
+    /// Gathers one record per lane.
     #[inline]
     pub(super) fn new(rows: [&Finish; 8]) -> Self {
         let r = X8::transpose(rows.map(|r| X8::from(&r[..])));
@@ -68,7 +68,7 @@ impl Metal {
     pub(super) fn rough(&self) -> M8 {
         equal(self.kind, u32x8::splat(ROUGH))
     }
-    /// Share of the light that a perfect mirror reflects at the cosine.
+    /// Reflectance of a perfect mirror at this cosine of the angle of incidence, per channel.
     #[inline]
     pub(super) fn reflectance(&self, cos: X8) -> V8 {
         V8::blend(equal(self.kind, u32x8::splat(MIRROR)), self.eta, self.fresnel(cos))
@@ -81,10 +81,10 @@ impl Metal {
     }
 }
 
-/// Reflectance of a smooth conductor with the index η + ik for unpolarised light.
+/// Reflectance of a smooth conductor with index of refraction η + ik for unpolarised light.
 ///
-/// With t₀ = η² − k² − sin²θ and a² + b² = √(t₀² + 4η²k²), 2a² = a² + b² + t₀: r⊥ and r∥ of PBR 4th ed., 9.3.6, in real numbers (Born and
-/// Wolf, 14.2). Of the two forms of 2a² it takes the one that does not cancel.
+/// Formula: with t₀ = η² − k² − sin²θ, a² + b² = √(t₀² + 4η²k²) and 2a² = a² + b² + t₀, r⊥ and r∥ of PBR 4th ed., 9.3.6, in real
+/// numbers (Born and Wolf, 14.2). Uses the form of 2a² that does not cancel.
 #[inline]
 fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
     let (zero, one, two) = (X8::lit(0.0), X8::lit(1.0), X8::lit(2.0));
@@ -110,24 +110,24 @@ fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
     X8::lit(0.5) * (across + along)
 }
 
-/// What eight surfaces reflect, seen from given directions.
+/// The BSDFs of eight surfaces for given outgoing directions.
 #[derive(Clone, Copy)]
 pub(super) struct Bsdf {
     frame: Frame<X8>,
     albedo: V8,
-    /// Where lanes are rough: the metal, and where it is seen from, in the frame.
+    /// Lanes of rough metals, the metals, and the outgoing directions in the shading frame.
     rough: Option<(M8, Metal, V8)>,
 }
 
 impl Bsdf {
-    /// Of surfaces with this normal and albedo, seen against `direction`.
+    /// The BSDFs of surfaces with this normal and albedo for camera rays along `direction`.
     #[inline]
     pub(super) fn new(normal: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
         let frame = Frame::new(normal);
         let rough = metal.map(|m| (m.rough(), m, frame.to_local(-direction)));
         Self { frame, albedo, rough: rough.filter(|(lanes, ..)| etendue::Mask::any(*lanes)) }
     }
-    /// f·cosθ towards the unit vector `w`, and the density of [`sample`](Self::sample) there; both 0 below the horizon.
+    /// f·cosθ for the unit vector `w`, and the pdf of [`sample`](Self::sample) (solid angle, 1/sr); both are 0 below the horizon.
     #[inline]
     pub(super) fn evaluate(&self, w: V8) -> (V8, X8) {
         let local = self.frame.to_local(w);
@@ -138,14 +138,14 @@ impl Bsdf {
             let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
             let m = (local + *view).normalize();
             let density = normals.reflected_pdf(m).keep(above);
-            // f cosθ = F D G₂/(4 cosθᵢ) and the density is D G₁/(4 cosθᵢ): what remains is F G₂/G₁
+            // f cosθ = F D G₂/(4 cosθᵢ) and the pdf is D G₁/(4 cosθᵢ), so their quotient is F G₂/G₁
             let share = density * shadowing(metal.alpha, view.z, local.z);
             value = V8::blend(*lanes, metal.fresnel(view.dot(m)) * share, value);
             pdf = select(*lanes, density, pdf);
         }
         (value, pdf)
     }
-    /// A direction: by the cosine, or about a visible normal.
+    /// Samples a direction: by the cosine, or by visible normals for rough metals.
     #[inline]
     pub(super) fn sample(&self, u: Vec2<X8>) -> V8 {
         let mut local: V8 = CosineHemisphere.sample(u);
@@ -155,30 +155,30 @@ impl Bsdf {
         }
         self.frame.to_world(local)
     }
-    /// A direction by the cosine, whatever the surface is.
+    /// Samples a cosine-distributed direction, for any BSDF.
     #[inline]
     pub(super) fn by_cosine(&self, u: Vec2<X8>) -> V8 {
         self.frame.to_world(CosineHemisphere.sample(u))
     }
-    /// Its density.
+    /// The pdf of [`by_cosine`](Self::by_cosine) (solid angle, 1/sr).
     #[inline]
     pub(super) fn cosine_pdf(&self, w: V8) -> X8 {
         CosineHemisphere.pdf(self.frame.to_local(w))
     }
-    /// A uniform direction, whatever the surface is.
+    /// Samples a direction uniform over the hemisphere, for any BSDF.
     #[inline]
     pub(super) fn uniform(&self, u: Vec2<X8>) -> V8 {
         self.frame.to_world(UniformHemisphere.sample(u))
     }
-    /// Its density.
+    /// The pdf of [`uniform`](Self::uniform) (solid angle, 1/sr).
     #[inline]
     pub(super) fn uniform_pdf(&self, w: V8) -> X8 {
         UniformHemisphere.pdf(self.frame.to_local(w))
     }
 }
 
-/// G₂/G₁ of Smith's masking and shadowing, with heights correlated (Heitz 2014, equation 99): (1 + Λᵢ)/(1 + Λᵢ + Λₒ), where
-/// 1 + 2Λ = √(1 + α²tan²θ), without quotients by a cosine.
+/// G₂/G₁ of the height-correlated Smith masking-shadowing function (Heitz 2014, equation 99): (1 + Λᵢ)/(1 + Λᵢ + Λₒ), where
+/// 1 + 2Λ = √(1 + α²tan²θ), computed without division by a cosine.
 #[inline]
 fn shadowing(alpha: X8, cos_i: X8, cos_o: X8) -> X8 {
     let one = X8::lit(1.0);
@@ -203,7 +203,7 @@ mod tests {
         let (a, b) = (((modulus + re) / 2.0).sqrt(), ((modulus - re) / 2.0).sqrt());
         let ratio = |(p, q): (f64, f64), (r, s): (f64, f64)| (p * p + q * q) / (r * r + s * s);
         let across = ratio((cos - a, -b), (cos + a, b));
-        // times m: m² cosθ ∓ m cosθₜ
+        // multiplied by m: m² cosθ ∓ m cosθₜ
         let (x, y) = ((eta * eta - k * k) * cos, 2.0 * eta * k * cos);
         let along = ratio((x - a, y - b), (x + a, y + b));
         0.5 * (across + along)
@@ -223,17 +223,17 @@ mod tests {
             }
         }
         assert!(greatest > 0.0);
-        // at right angles, with η = 1: k²/(k² + 4)
+        // at normal incidence with η = 1: k²/(k² + 4)
         assert!((fresnel(X8::lit(1.0), X8::lit(1.0), X8::lit(2.0)).lane(0) - 0.5).abs() < 1e-7);
-        // nothing at all, and a vacuum
+        // a zero index, and a vacuum
         for (cos, eta, k) in [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.5, 1.0, 0.0)] {
             let f = fresnel(X8::lit(cos), X8::lit(eta), X8::lit(k)).lane(0);
             assert!((0.0..=1.0).contains(&f), "{cos} {eta} {k}: {f}");
         }
     }
 
-    /// The white furnace's share that single scattering keeps: ∫f cosθ dω by sampling the surface and by a grid over the hemisphere; the
-    /// density integrates to what of it lies above the horizon.
+    /// White furnace test: ∫f cosθ dω agrees between BSDF sampling and a grid over the hemisphere, and the pdf integrates to the
+    /// fraction of samples above the horizon.
     #[test]
     fn rough_metal_integrates() {
         for alpha in [0.1_f32, 0.4, 1.0] {

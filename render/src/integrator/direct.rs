@@ -1,4 +1,4 @@
-//! Light that a surface reflects, by sampling a light or the hemisphere.
+//! Light reflected by diffuse surfaces, by sampling a light or the hemisphere.
 
 use super::Work;
 use super::allocation::Allocated;
@@ -7,12 +7,13 @@ use crate::accel::{GROUP, Hits, M8, NOTHING, SHAPE, V8, X8, pick, select};
 use etendue::warp::{CosineHemisphere, UniformHemisphere};
 use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 
-/// What touches a light does not hide it: a shadow ray ends 2⁻¹⁷ of its length before it.
+/// Fraction of the distance to a light that a shadow ray covers: it stops 2⁻¹⁷ short, so that surfaces touching the light do not
+/// occlude it.
 pub(super) const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
 impl Work<'_> {
-    /// Reflected light by sampling a light: the one that is `allocated` to each sample, if they are, or one by chance.
+    /// Reflected light by sampling a light: the `allocated` one of each sample, or else one chosen at random.
     #[inline]
     pub(super) fn light(
         &mut self,
@@ -75,12 +76,12 @@ impl Work<'_> {
             rays[p] = world.accel.rays(surface.point, Frame::new(surface.normal).to_world(local));
             lit[p] = surface.reflects;
             self.count.shadow += u64::from(surface.reflects.bits().count_ones());
-            // f·L·cos/pdf: cos/π for the cosine's density z/π leaves the albedo, for 1/2π it leaves 2cos
+            // f·L·cosθ/pdf: with f = albedo/π, the pdf cosθ/π leaves the albedo, the pdf 1/(2π) leaves 2 cosθ times the albedo
             if !cosine {
                 weight[p] = local.z * X8::lit(2.0);
             }
         }
-        // lights are few and found at once; only what hits one is worth a shadow ray
+        // finding the hit light is cheap; only rays that hit one need an occlusion test
         world.accel.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
         let mut reflected = [V8::default(); GROUP];
         let mut target = [u32x8::splat(NOTHING); GROUP];

@@ -1,9 +1,9 @@
-//! Scenes that hold mirrors, rough metals, delta lights or a sky, and techniques that combine two: what the plain path does without.
+//! The general integrator, for scenes with mirrors, rough metals, delta lights or a sky, and for combined techniques.
 //!
-//! A sample is followed through perfect mirrors to the first surface that is none; there is nothing random in that. Then all lanes are at
-//! one surface each, and light and surface are sampled for all at once. (Rays between mirrors keep their lanes: moved up into fewer
-//! packets they took as long in the room of mirrors, 1.00 ± 0.03, and 1.04 times as long among three thousand balls.) A sample so reflects at one surface besides mirrors; the rays
-//! towards lights see mirrors as what blocks them.
+//! A camera ray is followed, without random numbers, through perfect mirrors to the first other surface. Then light and surface are
+//! sampled for all lanes at once. A path thus has one reflection besides those at mirrors; mirrors occlude shadow rays. (Rays
+//! between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room, 1.00 ± 0.03, and 1.04 times
+//! as long among three thousand balls.)
 
 use super::bsdf::{Bsdf, Finish, Metal, PLAIN};
 use super::direct::{SPARED, keep, product};
@@ -15,27 +15,27 @@ use crate::sampler::{CHOICE, FILM, Packet, SURFACE};
 use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::{Mask, Real, Vec2, u32x8};
 
-/// Where the paths of a packet end.
+/// The ends of the paths of a packet.
 #[derive(Clone, Copy)]
 struct End {
-    /// The surface, if there is one that reflects; its emission is taken account of already.
+    /// The reflecting surfaces; their emission is already accounted for.
     surface: Surface,
     bsdf: Option<Bsdf>,
-    /// Direction in which the surface was met.
+    /// Directions of the rays that hit the surfaces.
     direction: V8,
     metal: Option<Metal>,
-    /// What of the light that leaves the surface reaches the camera.
+    /// Fractions of the light leaving the surfaces that reach the camera.
     throughput: V8,
 }
 
-/// Pairs of random numbers of each packet.
+/// Random numbers of each packet.
 struct Pairs {
     light: [Vec2<X8>; GROUP],
     choice: Option<[X8; GROUP]>,
 }
 
 impl World {
-    /// Materials where rays met surfaces.
+    /// Materials at the hit points.
     #[inline]
     fn metal(&self, hits: &Hits, lanes: M8) -> Metal {
         let places = hits.place.as_array();
@@ -63,7 +63,7 @@ impl Work<'_> {
         let count = packets.len();
         let finds_lights =
             matches!(technique, Technique::UniformHemisphere | Technique::CosineHemisphere | Technique::Brdf);
-        // techniques that find lights by chance never find a delta light
+        // techniques that find lights by chance never hit a delta light, so those are sampled
         let lights = if finds_lights { &world.deltas } else { &world.lights };
         let pair = finds_lights || !lights.only_deltas();
 
@@ -126,7 +126,7 @@ impl Work<'_> {
         radiance
     }
 
-    /// Follows the rays of a group through mirrors; adds what they see of lights and of the sky.
+    /// Follows the rays of a group through mirrors, and adds the radiance of the lights and the sky that they hit.
     fn follow(&mut self, count: usize, mut active: [M8; GROUP], radiance: &mut [V8; GROUP]) -> [End; GROUP] {
         let world = self.world;
         let one = V8::from([1.0; 3]);
@@ -184,8 +184,7 @@ impl Work<'_> {
         ends
     }
 
-    /// Reflected light by sampling one of the lights, or a given one, with the weight that the heuristic gives it beside the surface's
-    /// own sample.
+    /// Reflected light by sampling one of the lights, or a given light, with its MIS weight if there is a heuristic.
     fn by_lights(
         &mut self,
         lights: &Lights,
@@ -241,7 +240,7 @@ impl Work<'_> {
         }
     }
 
-    /// Reflected light by sampling what the surface reflects, or the hemisphere.
+    /// Reflected light by sampling the BSDF or the hemisphere, with its MIS weight if there is a heuristic.
     fn by_surface(
         &mut self,
         ends: &[End],
@@ -279,7 +278,7 @@ impl Work<'_> {
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[p] = world.accel.rays(surface.point, direction);
         }
-        // lights are few and found at once; only what hits one is worth a shadow ray
+        // finding the hit light is cheap; only rays that hit one need an occlusion test
         world.accel.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut limit = [infinite; GROUP];
@@ -333,7 +332,7 @@ impl Work<'_> {
 }
 
 impl End {
-    /// Ends the paths of these lanes at the surface.
+    /// Ends the paths of these lanes at a surface.
     #[inline]
     fn settle(&mut self, surface: &Surface, lanes: M8, direction: V8, metal: Metal) {
         if !lanes.any() {
@@ -347,7 +346,7 @@ impl End {
         self.direction = V8::blend(lanes, direction, self.direction);
         self.metal = Some(self.metal.map_or(metal, |other| Metal::select(lanes, &metal, &other)));
     }
-    /// Rays that leave mirrors.
+    /// Reflects the rays of these lanes at mirrors.
     #[inline]
     fn reflect(&mut self, surface: &Surface, metal: &Metal, lanes: M8, rays: &Rays, world: &World) -> Rays {
         let cos = -rays.direction.dot(surface.normal);

@@ -1,11 +1,11 @@
-//! What rays meet: the point, its normal, what it gives off and reflects.
+//! The surfaces that rays hit: point, normal, emission and albedo.
 
 use super::World;
 use crate::accel::{Hits, M8, Rays, SHAPE, V8, X8};
 use crate::scene::{Geometry, Shape};
 use etendue::{Mask, Real, Vec3, u32x8};
 
-/// The points that eight rays meet.
+/// The hit points of eight rays.
 #[derive(Clone, Copy)]
 pub(super) struct Surface {
     pub(super) point: V8,
@@ -24,8 +24,8 @@ impl Default for Surface {
 }
 
 impl World {
-    /// Geometry and material where eight rays from the camera meet the scene.
-    // always: it has two callers, and a call would copy what it returns
+    /// Geometry and material where eight rays hit the scene.
+    // a call would copy the result
     #[inline(always)]
     pub(super) fn surface(&self, hits: &Hits, rays: &Rays) -> Surface {
         let shapes = hits.shapes();
@@ -82,13 +82,13 @@ impl World {
         self.albedos[self.mesh_material(place) as usize]
     }
 
-    /// The material of a place of the tree.
+    /// Material of a triangle, by its place in tree order.
     #[inline]
     pub(super) fn mesh_material(&self, place: u32) -> u32 {
         self.place_materials.get(place as usize).copied().unwrap_or(self.one_material)
     }
 
-    /// Calls `f` for each of the shapes that lanes have met: its index, the lanes, the shape, and its outward normal there.
+    /// Calls `f` for each shape that some lanes have hit, with its index, the lanes, the shape and its outward normals at the hits.
     #[inline]
     pub(super) fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(usize, M8, &Shape, V8)) {
         while lanes.any() {
@@ -108,7 +108,7 @@ impl World {
         }
     }
 
-    /// Spheres and emitters that eight rays meet.
+    /// Adds the spheres and emitters that eight rays hit.
     fn shapes(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
         self.each_shape(hits, lanes, rays, |_, here, shape, outward| {
             if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
@@ -118,7 +118,7 @@ impl World {
             if albedo != [0.0; 3] {
                 let normal = facing(outward, rays.direction);
                 let point = match shape.geometry {
-                    // however far the camera is, the point is on the sphere
+                    // on the sphere, however far away the camera is
                     Geometry::Sphere { center, radius } => outward.mul_add(X8::splat(radius), center.into()),
                     _ => rays.direction.mul_add(hits.distance, rays.origin),
                 };
@@ -132,7 +132,7 @@ impl World {
     }
 }
 
-/// What a shape sends back along the rays, and in which of the lanes.
+/// Radiance that a shape emits against the rays, and the lanes where it does.
 #[inline]
 pub(super) fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(V8, M8)> {
     let emission = shape.emission?;
@@ -140,7 +140,7 @@ pub(super) fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> O
     Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
 }
 
-/// The unit normal of a flat shape.
+/// The unit normal of a flat shape; 0 for a sphere.
 pub(super) fn normal_of(geometry: &Geometry) -> [f32; 3] {
     let [a, b] = match *geometry {
         Geometry::Sphere { .. } => return [0.0; 3],
@@ -151,15 +151,15 @@ pub(super) fn normal_of(geometry: &Geometry) -> [f32; 3] {
     [normal.x as f32, normal.y as f32, normal.z as f32]
 }
 
-/// The normal on the side from which the ray comes.
+/// The normal on the side of the incoming ray.
 #[inline]
 fn facing(normal: V8, direction: V8) -> V8 {
     let away = normal.dot(direction).gt(X8::lit(0.0));
     V8::new(normal.x.negate_where(away), normal.y.negate_where(away), normal.z.negate_where(away))
 }
 
-/// Moves a point off its surface by 8 ulps of the largest coordinate of the primitive it lies on: more than the error of the
-/// point and of the triangle test, whatever the unit of length.
+/// Moves a point off its surface by 8 ulp of the largest coordinate of the primitive, which exceeds the error of the point and of
+/// the triangle test for every unit of length.
 #[inline]
 fn lift(point: V8, normal: V8, reach: X8) -> V8 {
     normal.mul_add(reach * X8::lit(1.0 / 1_048_576.0), point)

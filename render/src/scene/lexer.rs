@@ -1,4 +1,4 @@
-//! Splits scene text into tokens, each with its line.
+//! Splits the text of a scene file into tokens with line numbers.
 
 use super::{Message, Place};
 use std::sync::Arc;
@@ -10,9 +10,9 @@ pub(super) enum Token<'a> {
     Open,
     /// `]`
     Close,
-    /// A quoted string, with its escapes resolved.
+    /// A quoted string, unescaped.
     Text(String),
-    /// Anything else up to white space, a quote or a bracket.
+    /// Anything else, up to white space, a quote or a bracket.
     Word(&'a str),
 }
 
@@ -69,7 +69,7 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// Like [`Lexer::next`], but does not move on.
+    /// Like [`Lexer::next`], but does not consume the token.
     pub(super) fn peek(&mut self) -> Result<Option<&Token<'a>>, Message> {
         if self.peeked.is_none() {
             self.peeked = self.scan()?;
@@ -77,7 +77,7 @@ impl<'a> Lexer<'a> {
         Ok(self.peeked.as_ref().map(|(token, _)| token))
     }
 
-    /// The next token; an error that names `what` at the end of the file.
+    /// The next token; at the end of the file, an error that names `what`.
     pub(super) fn expect(&mut self, what: &str) -> Result<(Token<'a>, u32), Message> {
         let end = |lexer: &Self| lexer.place(lexer.line).message(format!("the file ends where {what} is expected"));
         self.next()?.ok_or_else(|| end(self))
@@ -123,7 +123,7 @@ impl<'a> Lexer<'a> {
             }
             b'"' => Token::Text(self.scan_text()?),
             _ => {
-                // All bytes that end a word are ASCII, so the slice is on character boundaries.
+                // all bytes that end a word are ASCII, so the slice ends on a character boundary
                 let ends = |b: &&u8| matches!(b, b' ' | b'\t' | b'\r' | b'\n' | b'"' | b'[' | b']');
                 self.at += bytes[start..].iter().take_while(|b| !ends(b)).count();
                 Token::Word(&self.text[start..self.at])
@@ -163,7 +163,7 @@ impl<'a> Lexer<'a> {
     }
 }
 
-/// The value of a number token; the error says what is wrong with it.
+/// The value of a number token; the error says why it is none.
 pub(super) fn number(token: &Token<'_>) -> Result<f64, String> {
     let Token::Word(word) = token else {
         return Err(format!("expected a number, found {}", token.show()));

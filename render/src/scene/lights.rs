@@ -1,4 +1,4 @@
-//! `LightSource`: lights that are no shapes.
+//! Reads `LightSource`: lights without a shape.
 
 use super::lexer::shortened;
 use super::params::Params;
@@ -7,75 +7,75 @@ use super::{Message, rounded};
 use crate::image::{ImageError, Picture};
 use etendue::light::EnvironmentMap;
 
-/// A light in one direction from every point; nothing can hit it.
+/// A light that is seen from every point in a single direction, and that no ray can hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DeltaLight {
-    /// The same intensity in all directions.
+    /// A point light of the same intensity in all directions.
     Point {
-        /// Where.
+        /// World position.
         position: [f32; 3],
-        /// Linear RGB.
+        /// Radiant intensity, linear RGB.
         intensity: [f32; 3],
     },
-    /// Intensity in a cone, which falls off smoothly between two angles.
+    /// A spotlight: a cone whose intensity falls off smoothly between two angles.
     Spot {
-        /// Where.
+        /// World position.
         position: [f32; 3],
         /// Unit vector along which the light travels.
         axis: [f32; 3],
-        /// Cosine of the angle up to which the intensity is full.
+        /// Cosine of the angle up to which the intensity is constant.
         cos_inner: f32,
-        /// Cosine of the angle from which it is 0.
+        /// Cosine of the angle from which on the intensity is 0.
         cos_outer: f32,
-        /// On the axis, linear RGB.
+        /// Radiant intensity on the axis, linear RGB.
         intensity: [f32; 3],
     },
-    /// Parallel light.
+    /// Parallel light from infinitely far away.
     Distant {
         /// Unit vector towards the light.
         direction: [f32; 3],
-        /// Irradiance of what faces it, linear RGB.
+        /// Irradiance of a surface that faces the light, linear RGB.
         irradiance: [f32; 3],
     },
 }
 
-/// Light from infinitely far, all around.
+/// Light from infinitely far away in all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
-    /// Rows of the orthogonal matrix that takes a direction of the world to one of the light.
+    /// Rows of the orthogonal matrix from world space to light space.
     pub to_light: [[f32; 3]; 3],
-    /// Radiance.
+    /// Radiance by direction.
     pub sky: SkyRadiance,
 }
 
 /// Radiance of an [`Environment`], linear RGB.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SkyRadiance {
-    /// The same from everywhere.
+    /// The same in all directions.
     Constant([f32; 3]),
-    /// Constant in each texel.
+    /// An image, constant within each texel.
     Image {
-        /// Columns.
+        /// Number of columns.
         width: usize,
-        /// How the image covers the directions.
+        /// How the image maps to directions.
         map: EnvironmentMap,
-        /// Row by row; at least one channel is over 0.
+        /// Texels row by row; at least one channel is greater than 0.
         texels: Vec<[f32; 3]>,
     },
 }
 
-/// What a `LightSource` makes.
+/// What a `LightSource` directive creates.
 pub(super) enum Source {
     Delta(DeltaLight),
     Environment(Environment),
-    /// It emits nothing.
+    /// Nothing, since the light emits nothing.
     Dark,
 }
 
-/// Texels of an environment, at the most.
+/// Greatest number of texels of an environment.
 const MOST_TEXELS: usize = 1 << 26;
 
-/// Reads a `LightSource`; `open` reads the file of an image.
+/// Reads a `LightSource`; `open` reads an image file.
 pub(super) fn read(
     kind: &str,
     params: &mut Params,
@@ -89,13 +89,13 @@ pub(super) fn read(
     params.reject(&["power", "illuminance", "portal"])?;
     let scale = params.float("scale")?.unwrap_or(1.0);
     if scale < 0.0 {
-        return Err(params.error(format!("\"scale\": {scale} is negative")));
+        return Err(params.error(format!("\"scale\": must be at least 0, not {scale}")));
     }
     let file = if kind == "infinite" { params.text("filename")? } else { None };
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
     let colour = params.rgb(name)?;
     let source = match file {
-        Some(_) if colour.is_some() => return Err(params.error("\"filename\" excludes \"L\"")),
+        Some(_) if colour.is_some() => return Err(params.error("\"filename\" and \"L\" cannot be combined")),
         Some(file) => {
             let to_light = turned(params, ctm)?;
             match picture(params, &file, open, scale, warnings)? {
@@ -132,7 +132,7 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
     let from = point("from", [0.0; 3])?;
     let position = ctm.point(from).map(|x| x as f32);
     if !position.iter().all(|x| x.is_finite()) {
-        return Err(params.error(format!("it is at {:?}, which is not finite in f32", ctm.point(from))));
+        return Err(params.error(format!("its position {:?} is not finite in f32", ctm.point(from))));
     }
     if kind == "point" {
         return Ok(Source::Delta(DeltaLight::Point { position, intensity: colour }));
@@ -145,15 +145,16 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
         return Ok(Source::Delta(DeltaLight::Distant { direction, irradiance: colour }));
     }
     if ctm.similarity().is_none() {
-        return Err(params.error("its transform stretches its cone, which is not supported"));
+        return Err(params
+            .error("its transform stretches its cone: only rotations, reflections and uniform scales are supported"));
     }
     let outer = params.float("coneangle")?.unwrap_or(30.0);
     let delta = params.float("conedeltaangle")?.unwrap_or(5.0);
     if !(outer > 0.0 && outer <= 180.0) {
-        return Err(params.error(format!("\"coneangle\": {outer} is not over 0 and up to 180")));
+        return Err(params.error(format!("\"coneangle\": must be greater than 0 and at most 180 degrees, not {outer}")));
     }
     if !(0.0..=outer).contains(&delta) {
-        return Err(params.error(format!("\"conedeltaangle\": {delta} is not within 0 and the cone's {outer}")));
+        return Err(params.error(format!("\"conedeltaangle\": must be from 0 to the cone angle {outer}, not {delta}")));
     }
     let cosine = |degrees: f64| degrees.to_radians().cos() as f32;
     let [cos_inner, cos_outer] = [outer - delta, outer].map(cosine);
@@ -161,15 +162,15 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
     Ok(Source::Delta(DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity: colour }))
 }
 
-/// World to light, without the scale.
+/// The rotation from world space to light space.
 fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
-    let stretched = || params.error("its transform is not a rotation, reflection and uniform scale");
+    let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
     let factor = ctm.similarity().ok_or_else(stretched)?;
-    // an orthogonal matrix is inverted by its transpose
+    // the inverse of an orthogonal matrix is its transpose
     Ok(std::array::from_fn(|i| std::array::from_fn(|j| (ctm.linear[j][i] / factor) as f32)))
 }
 
-/// The image of an environment; nothing if it is black.
+/// The image of an environment; `None` if it is black.
 fn picture(
     params: &Params,
     name: &str,
@@ -185,26 +186,30 @@ fn picture(
         _ if width == 2 * height => EnvironmentMap::Equirectangular,
         _ => {
             return Err(wrong(format!(
-                "{width}×{height} texels: want a square (equal-area octahedral) or 2:1 (equirectangular)"
+                "{width}×{height} texels: must be square (equal-area octahedral) or 2:1 (equirectangular)"
             )));
         }
     };
     if width * height > MOST_TEXELS {
-        return Err(wrong(format!("{width}×{height} texels are over 2^26")));
+        return Err(wrong(format!("{width}×{height} texels: at most 2^26 are supported")));
     }
     let mut negative = 0;
     let mut texels = Vec::with_capacity(image.radiance.len());
     for (i, texel) in image.radiance.iter().enumerate() {
         let rgb = texel.map(|x| (f64::from(x) * scale) as f32);
-        // the sum of the channels is what is sampled by
+        // texels are sampled in proportion to the sum of their channels
         if !rgb.iter().sum::<f32>().is_finite() {
-            return Err(wrong(format!("texel ({}, {}) is {texel:?}, times {scale}", i % width, i / width)));
+            return Err(wrong(format!(
+                "texel ({}, {}) is {texel:?}, times {scale}: not finite in f32",
+                i % width,
+                i / width
+            )));
         }
         negative += usize::from(rgb.iter().any(|&x| x < 0.0));
         texels.push(rgb.map(|x| x.max(0.0)));
     }
     if negative > 0 {
-        warnings.push(wrong(format!("{negative} texels have negative values, taken as 0")));
+        warnings.push(wrong(format!("negative values in {negative} texel(s) are replaced by 0")));
     }
     let black = texels.iter().all(|t| *t == [0.0; 3]);
     Ok((!black).then_some(SkyRadiance::Image { width, map, texels }))

@@ -1,21 +1,21 @@
-//! `Material` and `MakeNamedMaterial`.
+//! Reads `Material` and `MakeNamedMaterial`.
 
 use super::lexer::shortened;
 use super::params::Params;
 use super::{Message, rounded};
 
-/// How a surface reflects. All are opaque, and alike on both sides.
+/// How a surface reflects. All materials are opaque and the same on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
-    /// Lambertian, of this albedo, linear RGB.
+    /// A Lambertian surface with this albedo, linear RGB.
     Diffuse([f32; 3]),
-    /// A perfect mirror that reflects the same at every angle, linear RGB.
+    /// A perfect mirror with this reflectance at every angle, linear RGB.
     Mirror([f32; 3]),
-    /// A metal.
+    /// A metal with Fresnel reflectance.
     Conductor {
         /// Real part of the index of refraction, per channel.
         eta: [f32; 3],
-        /// Imaginary part: the coefficient of absorption.
+        /// Imaginary part of the index, per channel: the absorption coefficient.
         k: [f32; 3],
         /// Roughness α of the GGX distribution; 0 is a perfect mirror.
         alpha: f32,
@@ -23,19 +23,19 @@ pub enum Material {
 }
 
 impl Material {
-    /// Black: it reflects nothing at all.
+    /// Whether the material reflects nothing at all.
     pub fn is_black(&self) -> bool {
         matches!(self, Self::Diffuse(c) | Self::Mirror(c) if *c == [0.0; 3])
     }
-    /// A perfect mirror?
+    /// Whether the material is a perfect mirror.
     pub fn is_mirror(&self) -> bool {
         matches!(self, Self::Mirror(_) | Self::Conductor { alpha: 0.0, .. })
     }
-    /// A rough metal?
+    /// Whether the material is a rough metal.
     pub fn is_glossy(&self) -> bool {
         matches!(self, Self::Conductor { .. }) && !self.is_mirror()
     }
-    /// Equal materials have equal words.
+    /// A key for hashing: equal materials have equal words.
     pub(super) fn words(&self) -> [u32; 8] {
         let of = |kind: u32, a: [f32; 3], b: [f32; 3], c: f32| {
             let [x, y, z] = a.map(f32::to_bits);
@@ -63,16 +63,18 @@ pub(super) fn read(kind: &str, params: &mut Params, warnings: &mut Vec<Message>)
     }
 }
 
-/// A share of light that is reflected.
+/// Reads a reflectance.
 fn colour(name: &str, default: f64, params: &mut Params, warnings: &mut Vec<Message>) -> Result<[f32; 3], Message> {
     let rgb = params.rgb(name)?.unwrap_or([default; 3]);
     if let Some(x) = rgb.iter().find(|&&x| x > 1.0) {
-        warnings.push(params.error(format!("{name:?}: {x} is over 1: more light leaves than arrives")));
+        warnings.push(
+            params.error(format!("{name:?}: {x} is greater than 1: the surface reflects more light than it receives")),
+        );
     }
     rounded(rgb).ok_or_else(|| params.error(format!("{name:?}: {rgb:?} is too large for f32")))
 }
 
-/// The greatest reflectance that is given an index of refraction: pbrt's limit.
+/// The greatest reflectance that is converted to an index of refraction: pbrt's limit.
 const MOST_REFLECTANCE: f64 = 0.9999;
 
 fn conductor(params: &mut Params) -> Result<Material, Message> {
@@ -81,24 +83,24 @@ fn conductor(params: &mut Params) -> Result<Material, Message> {
     let (eta, k) = (params.rgb("eta")?, params.rgb("k")?);
     let (eta, k) = match (reflectance, eta, k) {
         (None, Some(eta), Some(k)) => (eta, k),
-        // what reflects as much at right angles, with eta = 1: r = k²/(k² + 4)
+        // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
         (Some(r), None, None) => {
             if let Some(x) = r.iter().find(|&&x| x > 1.0) {
-                return Err(params.error(format!("\"reflectance\": {x} is over 1")));
+                return Err(params.error(format!("\"reflectance\": must be at most 1, not {x}")));
             }
             let r = r.map(|r| r.min(MOST_REFLECTANCE));
             ([1.0; 3], r.map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
         }
-        (Some(_), ..) => return Err(params.error("\"reflectance\" excludes \"eta\" and \"k\"")),
+        (Some(_), ..) => return Err(params.error("\"reflectance\" cannot be combined with \"eta\" and \"k\"")),
         _ => {
             return Err(params.error(
-                "\"rgb reflectance\", or both of \"rgb eta\" and \"rgb k\", must be given: spectra of metals are not supported",
+                "needs \"rgb reflectance\", or both \"rgb eta\" and \"rgb k\": spectra of metals are not supported",
             ));
         }
     };
-    // their fourth powers must be finite in f32
+    // fourth powers must be finite in f32
     let bounded = |name: &str, rgb: [f64; 3]| {
-        let too_large = || params.error(format!("{name:?}: {rgb:?} is too large"));
+        let too_large = || params.error(format!("{name:?}: {rgb:?} is too large: must be less than 1e9"));
         rounded(rgb).filter(|c| c.iter().all(|&x| x < 1e9)).ok_or_else(too_large)
     };
     let (eta, k) = (bounded("eta", eta)?, bounded("k", k)?);
@@ -108,7 +110,7 @@ fn conductor(params: &mut Params) -> Result<Material, Message> {
         return Err(params.error(format!("roughness {u} × {v}: only isotropic roughness is supported")));
     }
     if !(0.0..=1.0).contains(&u) {
-        return Err(params.error(format!("\"roughness\": {u} is not within 0 and 1")));
+        return Err(params.error(format!("\"roughness\": must be from 0 to 1, not {u}")));
     }
     let alpha = if params.flag("remaproughness")?.unwrap_or(true) { u.sqrt() } else { u };
     Ok(Material::Conductor { eta, k, alpha: alpha as f32 })

@@ -1,9 +1,9 @@
-//! Parameter lists: `"type name" [ values ]`, as they follow most directives.
+//! Reads the parameter lists that follow most directives: `"type name" [ values ]`.
 
 use super::lexer::{Lexer, Token, number, shortened};
 use super::{Message, Place};
 
-/// Far more than any directive has; keeps look-ups by name short.
+/// Far more than any directive has; bounds the linear look-up by name.
 const MOST_PARAMETERS: usize = 100;
 
 /// The values of one parameter.
@@ -14,7 +14,7 @@ enum Values {
     Texts(Vec<String>),
 }
 
-/// One parameter, and the line of its declaration.
+/// One parameter and the line of its declaration.
 #[derive(Clone, Debug)]
 struct Param {
     kind: &'static str,
@@ -23,17 +23,17 @@ struct Param {
     line: u32,
 }
 
-/// The parameters of one directive. Each is taken out when it is looked up; what stays is warned of.
+/// The parameters of one directive. A look-up removes the parameter; those left at the end cause warnings.
 #[derive(Clone, Debug)]
 pub(super) struct Params {
-    /// The directive as messages show it, like `Shape "sphere"`.
+    /// The directive as messages show it, such as `Shape "sphere"`.
     pub(super) owner: String,
     /// The line of the directive.
     pub(super) place: Place,
     list: Vec<Param>,
 }
 
-/// The name by which this file knows a parameter type.
+/// The canonical name of a parameter type.
 fn canonical(kind: &str) -> Option<&'static str> {
     Some(match kind {
         "integer" => "integer",
@@ -93,7 +93,7 @@ impl Params {
             let param = Self::read_one(lexer, &params.owner)?;
             let duplicate = params.list.iter().any(|p| p.name == param.name);
             if duplicate || params.list.len() == MOST_PARAMETERS {
-                let why = if duplicate { "given twice" } else { "one parameter too many" };
+                let why = if duplicate { "given twice" } else { "too many parameters" };
                 return Err(lexer.place(param.line).message(format!("{}: {:?}: {why}", params.owner, param.name)));
             }
             params.list.push(param);
@@ -109,11 +109,14 @@ impl Params {
         let wrong = |line: u32, text: String| lexer.place(line).message(format!("{owner}: {text}"));
         let mut words = declaration.split_whitespace();
         let (Some(kind), Some(name), None) = (words.next(), words.next(), words.next()) else {
-            return Err(wrong(line, format!("{:?} is not a parameter's type and name", shortened(&declaration))));
+            return Err(wrong(
+                line,
+                format!("expected a parameter's type and name, found {:?}", shortened(&declaration)),
+            ));
         };
         let name = shortened(name);
         let kind = canonical(kind)
-            .ok_or_else(|| wrong(line, format!("parameter {name:?} has the unknown type {:?}", shortened(kind))))?;
+            .ok_or_else(|| wrong(line, format!("parameter {name:?} has unknown type {:?}", shortened(kind))))?;
 
         let mut values = Values::new(kind);
         let what = format!("a value of {name:?}");
@@ -134,12 +137,12 @@ impl Params {
         Ok(Param { kind, name, values, line })
     }
 
-    /// An error at the directive.
+    /// A message at the directive's line.
     pub(super) fn error(&self, text: impl AsRef<str>) -> Message {
         self.place.message(format!("{}: {}", self.owner, text.as_ref()))
     }
 
-    /// An error or a warning at one parameter.
+    /// A message at one parameter's line.
     fn at(&self, param: &Param, text: impl AsRef<str>) -> Message {
         let place = Place { file: self.place.file.clone(), line: param.line };
         place.message(format!("{}: {:?}: {}", self.owner, param.name, text.as_ref()))
@@ -164,7 +167,7 @@ impl Params {
         }
     }
 
-    /// Numbers of type `kind`; their count is a multiple of `group`.
+    /// Numbers of type `kind`, whose count must be a multiple of `group`.
     pub(super) fn numbers(&mut self, name: &str, kind: &str, group: usize) -> Result<Option<Vec<f64>>, Message> {
         let Some(mut param) = self.take(name, kind)? else { return Ok(None) };
         let numbers = match &mut param.values {
@@ -172,7 +175,7 @@ impl Params {
             _ => Vec::new(),
         };
         if !numbers.len().is_multiple_of(group) {
-            return Err(self.at(&param, format!("{} numbers are not a multiple of {group}", numbers.len())));
+            return Err(self.at(&param, format!("expected a multiple of {group} numbers, found {}", numbers.len())));
         }
         Ok(Some(numbers))
     }
@@ -227,19 +230,19 @@ impl Params {
             return Err(self.at(&param, format!("expected three numbers, found {}", numbers.len())));
         };
         match rgb.iter().find(|&&x| x < 0.0) {
-            Some(x) => Err(self.at(&param, format!("{x} is negative"))),
+            Some(x) => Err(self.at(&param, format!("must be at least 0, not {x}"))),
             None => Ok(Some(rgb.map(|x| x + 0.0))), // no −0
         }
     }
 
-    /// Whether this parameter is given, of whatever type; takes it out.
+    /// Removes the parameter, of whatever type; returns whether it was given.
     pub(super) fn given(&mut self, name: &str) -> bool {
         let before = self.list.len();
         self.list.retain(|p| p.name != name);
         self.list.len() != before
     }
 
-    /// An error if one of these is given.
+    /// Fails if one of these parameters is given.
     pub(super) fn reject(&self, names: &[&str]) -> Result<(), Message> {
         match self.list.iter().find(|p| names.contains(&p.name.as_str())) {
             Some(param) => Err(self.at(param, "not supported")),
@@ -247,7 +250,7 @@ impl Params {
         }
     }
 
-    /// A warning for each parameter that nothing asked for.
+    /// A warning for each parameter that was not looked up.
     pub(super) fn finish(self) -> Vec<Message> {
         self.list.iter().map(|param| self.at(param, "ignored")).collect()
     }

@@ -1,4 +1,4 @@
-//! Mesh files in the PLY format, ascii or binary: the points and faces, with every count checked against the file.
+//! Reads the points and faces of PLY mesh files, ASCII or binary, and checks every count against the size of the file.
 
 use super::lexer::shortened;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
@@ -7,25 +7,25 @@ use ply_rs_bw::ply::{
 };
 use std::io::ErrorKind;
 
-/// What a mesh file holds.
+/// The contents of a mesh file.
 #[derive(Debug)]
 pub(super) struct Mesh {
-    /// In the order of the file; may be NaN or infinite.
+    /// Vertices in the order of the file; coordinates may be NaN or infinite.
     pub(super) points: Vec<[f64; 3]>,
-    /// In the order of the file; their indices are not checked.
+    /// Faces in the order of the file, with unchecked indices.
     pub(super) faces: Vec<Face>,
     /// Whether the vertices have normals.
     pub(super) has_normals: bool,
-    /// What was left unread.
+    /// Warnings about ignored parts of the file.
     pub(super) warnings: Vec<String>,
 }
 
 /// A triangle or a quad.
 #[derive(Debug)]
 pub(super) struct Face {
-    /// In cyclic order; the last is unused in a triangle.
+    /// Vertex indices in cyclic order; a triangle leaves the last one unused.
     pub(super) indices: [i64; 4],
-    /// 3 or 4.
+    /// Number of corners, 3 or 4.
     pub(super) corners: usize,
 }
 
@@ -96,7 +96,7 @@ fn is_index_list(name: &str) -> bool {
     name == "vertex_indices" || name == "vertex_index"
 }
 
-/// Reads the file that messages call `name`. An error starts with `name:line:` or `name: byte n:`.
+/// Reads a file that messages call `name`. An error starts with `name:line:` or `name: byte n:`.
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Other>::new().read_header(&mut reader);
@@ -140,15 +140,16 @@ fn read_element<E: PropertyAccess>(
         let byte = (header.encoding != Encoding::Ascii).then(|| bytes.len() - reader.get_ref().len());
         let text = match error.line() {
             Some(_) => describe(name, bytes, &error, byte, &format!("element {:?}", def.name)),
-            None => format!("{name}:{}: {error}", reader.line()), // not UTF-8
+            // the line is not UTF-8
+            None => format!("{name}:{}: {error}", reader.line()),
         };
         shortened_lines(&text)
     })
 }
 
-/// What the crate lets through: repeated names, elements without properties, and counts that no file could hold.
+/// Rejects what the crate accepts: repeated names, elements without properties, and counts that do not fit into the file.
 fn check_header(header: &Header, bytes: &[u8], body: usize) -> Result<(), String> {
-    // The crate keeps one of two equal names, and would then read the body in the wrong layout.
+    // the crate keeps only one of two equal names, and would then read the body in the wrong layout
     let text = &bytes[..bytes.len() - body];
     let declared = text.split(|&b| b == b'\n').filter(|l| l.starts_with(b"element") || l.starts_with(b"property"));
     let kept: usize = header.elements.values().map(|def| 1 + def.properties.len()).sum();
@@ -156,7 +157,7 @@ fn check_header(header: &Header, bytes: &[u8], body: usize) -> Result<(), String
         return Err("an element or a property is declared twice".into());
     }
     for (name, def) in &header.elements {
-        // The shortest an element can be; a face needs at least three indices.
+        // the fewest bytes of an element; a face needs at least three indices
         let least = if name == "face" { 4 } else { def.properties.len() };
         if least == 0 {
             return Err(format!("element {name:?} has no properties"));
@@ -169,7 +170,7 @@ fn check_header(header: &Header, bytes: &[u8], body: usize) -> Result<(), String
     for axis in ["x", "y", "z"] {
         match vertex.properties.get(axis).map(|def| &def.data_type) {
             Some(PropertyType::Scalar(_)) => {}
-            _ => return Err(format!("element \"vertex\" has no number {axis:?}")),
+            _ => return Err(format!("element \"vertex\" needs a scalar property {axis:?}")),
         }
     }
     let face = header.elements.get("face").ok_or("no element \"face\"")?;
@@ -177,11 +178,11 @@ fn check_header(header: &Header, bytes: &[u8], body: usize) -> Result<(), String
     let mut types = lists.map(|def| &def.data_type);
     match (types.next(), types.next()) {
         (Some(PropertyType::List(_, item)), None) if !matches!(item, ScalarType::Float | ScalarType::Double) => Ok(()),
-        _ => Err("element \"face\" needs one list of integers \"vertex_indices\"".into()),
+        _ => Err("element \"face\" needs one list of integers, \"vertex_indices\"".into()),
     }
 }
 
-/// One line: the file, the line or byte, the text of that line and the innermost reason.
+/// A one-line message: the file, the line or byte, the text of that line and the innermost reason.
 fn describe(name: &str, bytes: &[u8], error: &ParseError, byte: Option<usize>, what: &str) -> String {
     let full = error.to_string();
     let reason = full.rsplit("Error: ").next().unwrap_or(&full);
@@ -199,7 +200,7 @@ fn describe(name: &str, bytes: &[u8], error: &ParseError, byte: Option<usize>, w
     }
 }
 
-/// `text` on one line, of at most 300 characters.
+/// `text` on one line and cut to 300 characters.
 fn shortened_lines(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").chars().take(300).collect()
 }

@@ -1,4 +1,4 @@
-//! The directives of a scene file, one by one, and the graphics state that they change.
+//! Interprets the directives of a scene file and keeps the graphics state.
 
 use super::lexer::{Lexer, Token, shortened};
 use super::params::Params;
@@ -13,15 +13,15 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Files open at once through `Include`, and files included in all.
+/// Greatest depth of nested `Include`s, and greatest number of included files.
 const DEEPEST_INCLUDE: usize = 32;
 const MOST_INCLUDES: usize = 4096;
-/// `AttributeBegin` within `AttributeBegin`.
+/// Greatest depth of nested `AttributeBegin`s.
 const DEEPEST_ATTRIBUTES: usize = 1024;
 const MOST_PIXELS: i64 = 1 << 28;
 const MOST_SAMPLES: i64 = 1 << 24;
 
-/// What `AttributeBegin` saves and `AttributeEnd` restores.
+/// The graphics state that `AttributeBegin` saves and `AttributeEnd` restores.
 #[derive(Clone, Debug)]
 struct State {
     ctm: Transform,
@@ -48,7 +48,7 @@ struct Reader<'a> {
     included: usize,
 }
 
-/// Reads a whole scene; only a built-in one may name `builtin:` meshes.
+/// Reads a whole scene; only a built-in scene may name `builtin:` meshes.
 pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Result<Scene, Message> {
     let material = Material::Diffuse([0.5; 3]);
     let state = State { ctm: Transform::IDENTITY, reverse: false, material, emission: None };
@@ -75,7 +75,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
     let lines = u32::try_from(text.lines().count()).unwrap_or(u32::MAX);
     let end = Place { file: file.clone(), line: lines.max(1) };
     if let Some((_, place)) = reader.saved.last() {
-        return Err(place.message("AttributeBegin or TransformBegin without its end"));
+        return Err(place.message("this AttributeBegin or TransformBegin is never closed"));
     }
     let Some(camera) = reader.camera else {
         return Err(end.message("the scene has no Camera"));
@@ -148,21 +148,19 @@ impl Reader<'_> {
             }
             "CoordSysTransform" => {
                 let name = lexer.text("a name")?;
-                let unknown = || place.message(format!("no CoordinateSystem {:?}", shortened(&name)));
+                let unknown = || place.message(format!("undefined CoordinateSystem {:?}", shortened(&name)));
                 self.state.ctm = *self.systems.get(&name).ok_or_else(unknown)?;
             }
             "ActiveTransform" => match lexer.expect("All, StartTime or EndTime")?.0 {
                 Token::Word("All") => {}
                 other => {
-                    return Err(
-                        place.message(format!("ActiveTransform {}: not supported: nothing moves", other.show()))
-                    );
+                    return Err(place.message(format!("ActiveTransform {}: not supported, only All", other.show())));
                 }
             },
             "ReverseOrientation" => self.state.reverse = !self.state.reverse,
             "WorldBegin" => {
                 if self.in_world {
-                    return Err(place.message("a second WorldBegin"));
+                    return Err(place.message("a second WorldBegin: only one is allowed"));
                 }
                 self.in_world = true;
                 self.state.ctm = Transform::IDENTITY;
@@ -170,13 +168,13 @@ impl Reader<'_> {
             }
             "AttributeBegin" | "TransformBegin" => {
                 if self.saved.len() == DEEPEST_ATTRIBUTES {
-                    return Err(place.message(format!("{word} nested over {DEEPEST_ATTRIBUTES} deep")));
+                    return Err(place.message(format!("{word} is nested more than {DEEPEST_ATTRIBUTES} deep")));
                 }
                 self.saved.push((self.state.clone(), place));
             }
             "AttributeEnd" | "TransformEnd" => match self.saved.pop() {
                 Some((state, _)) => self.state = state,
-                None => return Err(place.message(format!("{word} without its beginning"))),
+                None => return Err(place.message(format!("{word} has no matching Begin"))),
             },
             "Include" => self.include(&place, lexer, dir)?,
             "ColorSpace" => {
@@ -192,7 +190,7 @@ impl Reader<'_> {
             }
             "NamedMaterial" => {
                 let name = lexer.text("a name")?;
-                let unknown = || place.message(format!("no MakeNamedMaterial {:?} before this", shortened(&name)));
+                let unknown = || place.message(format!("no MakeNamedMaterial {:?} precedes this", shortened(&name)));
                 self.state.material = *self.named.get(&name).ok_or_else(unknown)?;
             }
             "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
@@ -218,14 +216,14 @@ impl Reader<'_> {
             "PixelFilter" => {
                 let mut half = |name| Ok(params.float(name)?.is_none_or(|radius| radius == 0.5));
                 if !(half("xradius")? & half("yradius")? & (kind == "box")) {
-                    let text = params.error("ignored: each pixel is the mean over its own square").text;
+                    let text = params.error("ignored: the filter is always a box of one pixel").text;
                     self.warn(&params.place, text);
                 }
             }
             "Integrator" => {
                 let direct = params.integer("maxdepth")? == Some(1);
                 if !(direct && ["path", "volpath", "simplepath"].contains(&kind)) {
-                    let text = params.error("only direct light is rendered (as by \"path\" with maxdepth 1)").text;
+                    let text = params.error("only direct light is rendered, as with \"path\" and maxdepth 1").text;
                     self.warn(&params.place, text);
                 }
             }
@@ -260,7 +258,7 @@ impl Reader<'_> {
         self.included += 1;
         if self.open_files.len() == DEEPEST_INCLUDE || self.included > MOST_INCLUDES {
             return Err(place.message(format!(
-                "Include {shown:?}: over {DEEPEST_INCLUDE} files deep, or over {MOST_INCLUDES} files"
+                "Include {shown:?}: more than {DEEPEST_INCLUDE} files deep, or more than {MOST_INCLUDES} files in all"
             )));
         }
         let failed = |error| place.message(format!("Include: cannot read {shown:?}: {error}"));
@@ -277,7 +275,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A file beside the one that names it, else beside the main file (as in pbrt).
+    /// Resolves a file name relative to the file that names it, else relative to the main file, as in pbrt.
     fn resolve(&self, name: &str, dir: &Path) -> PathBuf {
         let near = dir.join(name);
         let main = self.main_dir.join(name);
@@ -313,7 +311,7 @@ impl Reader<'_> {
         let made = match word {
             "Translate" => Ok(Transform::translate(three(0))),
             "Scale" => Ok(Transform::scale(three(0))),
-            "Rotate" => Transform::rotate(m[0], three(1)).ok_or("the axis has no direction"),
+            "Rotate" => Transform::rotate(m[0], three(1)).ok_or("the axis must not be zero"),
             "LookAt" => {
                 Transform::look_at(three(0), three(3), three(6)).ok_or("eye, target and up do not define a view")
             }
@@ -332,20 +330,20 @@ impl Reader<'_> {
             return Err(params.error("not supported, only \"perspective\""));
         }
         if self.camera.is_some() {
-            return Err(params.error("a second camera"));
+            return Err(params.error("a second camera: only one is supported"));
         }
         params.reject(&["screenwindow", "frameaspectratio"])?;
         let radius = params.float("lensradius")?.unwrap_or(0.0);
         if radius < 0.0 {
-            return Err(params.error(format!("\"lensradius\": {radius} is negative")));
+            return Err(params.error(format!("\"lensradius\": must be at least 0, not {radius}")));
         }
         let focus = params.float("focaldistance")?.unwrap_or(1e6);
         if focus <= 0.0 {
-            return Err(params.error(format!("\"focaldistance\": {focus} is not over 0")));
+            return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {focus}")));
         }
         let fov = params.float("fov")?.unwrap_or(90.0);
         if !(fov > 0.0 && fov < 180.0) {
-            return Err(params.error(format!("\"fov\": {fov} is not between 0 and 180")));
+            return Err(params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {fov}")));
         }
         let singular = || params.error("its transform is singular");
         let world = self.state.ctm.inverse().ok_or_else(singular)?;
@@ -386,13 +384,12 @@ impl Reader<'_> {
         let height = params.integer("yresolution")?.unwrap_or(720);
         let side = 1..=65_536;
         if !(side.contains(&width) && side.contains(&height) && width * height <= MOST_PIXELS) {
-            return Err(
-                params.error(format!("{width} × {height} pixels: each side must be 1 to 65536, and all at most 2^28"))
-            );
+            return Err(params
+                .error(format!("{width} × {height} pixels: each side must be 1 to 65536, and the area at most 2^28")));
         }
         let diagonal = params.float("diagonal")?.unwrap_or(35.0);
         if !(1e-2..=1e6).contains(&diagonal) {
-            return Err(params.error(format!("\"diagonal\": {diagonal:e} mm is not within 1e-2 and 1e6")));
+            return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
         }
         let filename = params.text("filename")?;
         self.film = Some(FilmSettings { width: width as u32, height: height as u32, diagonal, filename });
@@ -406,10 +403,13 @@ impl Reader<'_> {
             params.integer("pixelsamples")?.unwrap_or(16)
         };
         if !(1..=MOST_SAMPLES).contains(&samples) {
-            return Err(params.error(format!("{samples} samples per pixel: must be 1 to 2^24")));
+            return Err(params.error(format!("{samples} samples per pixel: must be from 1 to 2^24")));
         }
         if kind != "independent" && kind != "stratified" {
-            self.warn(&params.place, params.error("only the number of samples is used").text);
+            self.warn(
+                &params.place,
+                params.error("only the number of samples is used; --sampler chooses the sampler").text,
+            );
         }
         self.pixel_samples = Some(samples as u32);
         Ok(())
@@ -442,7 +442,7 @@ impl Reader<'_> {
         let radiance = params.rgb("L")?.unwrap_or([1.0; 3]);
         let scale = params.float("scale")?.unwrap_or(1.0);
         if scale < 0.0 {
-            return Err(params.error(format!("\"scale\": {scale} is negative")));
+            return Err(params.error(format!("\"scale\": must be at least 0, not {scale}")));
         }
         let radiance = radiance.map(|x| x * scale);
         let two_sided = params.flag("twosided")?.unwrap_or(false);

@@ -1,4 +1,4 @@
-//! Shapes: object space to world space in f64, checked, oriented and rounded once to f32.
+//! Reads shapes: transforms them to world space in f64, checks and orients them, and rounds once to f32.
 
 use super::params::Params;
 use super::transform::{Transform, add, cross, dot, length, sub};
@@ -6,11 +6,11 @@ use super::{Emission, Geometry, Material, Message, Shape, ply, read_file, terrai
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-/// How far a bilinear patch may be from a planar parallelogram, and a quad of a mesh file from its plane, relative
-/// to its size: coordinates of six digits pass, a visible bend does not.
+/// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
+/// coordinates of six digits pass, a visible bend does not.
 const FLATNESS: f64 = 1e-5;
 
-/// What the shapes of a scene become.
+/// The geometry and materials of a scene.
 #[derive(Debug, Default)]
 pub(super) struct Output {
     pub(super) materials: Vec<Material>,
@@ -22,18 +22,18 @@ pub(super) struct Output {
     warned: HashSet<&'static str>,
 }
 
-/// What the graphics state says of a shape.
+/// The part of the graphics state that applies to a shape.
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
     pub(super) ctm: Transform,
-    /// Whether the normal is against the order of the vertices after the transform.
+    /// Whether the normal opposes the order of the transformed vertices.
     pub(super) flip: bool,
     pub(super) material: u32,
     pub(super) emission: Option<Emission>,
 }
 
 impl Output {
-    /// The index of the material.
+    /// The index of the material, which is added if it is new.
     pub(super) fn material(&mut self, material: Material) -> u32 {
         *self.material_index.entry(material.words()).or_insert_with(|| {
             self.materials.push(material);
@@ -41,10 +41,10 @@ impl Output {
         })
     }
 
-    /// Warns once in a scene of a parameter that has no effect.
+    /// Warns about a parameter without effect, once per scene.
     fn warn_once(&mut self, params: &Params, name: &'static str, why: &str) {
         if self.warned.insert(name) {
-            self.warnings.push(params.error(format!("{name:?}: {why} (said once)")));
+            self.warnings.push(params.error(format!("{name:?}: {why} (reported once)")));
         }
     }
 
@@ -58,7 +58,7 @@ impl Output {
         }
     }
 
-    /// A triangle of world points; `name` says which in an error.
+    /// Adds a triangle of world points, which errors call `name`.
     fn triangle(
         &mut self,
         surface: &Surface,
@@ -74,7 +74,7 @@ impl Output {
         Ok(())
     }
 
-    /// A parallelogram with corners p00, p10, p01, p11, or an error that says how far it is from one.
+    /// Adds a parallelogram with corners p00, p10, p01, p11; fails if the last corner is off.
     fn parallelogram(&mut self, surface: &Surface, p: [[f64; 3]; 4], name: &dyn Fn() -> String) -> Result<(), String> {
         let [p00, p10, p01, p11] = p;
         let (u, v) = (sub(p10, p00), sub(p01, p00));
@@ -95,7 +95,7 @@ impl Output {
         Ok(())
     }
 
-    /// Four corners in cyclic order: a parallelogram, or two triangles if they are planar and convex.
+    /// Adds a quad with corners in cyclic order: a parallelogram, or two triangles if it is planar and convex.
     fn quad(
         &mut self,
         surface: &Surface,
@@ -125,7 +125,7 @@ fn round(p: [f64; 3]) -> [f32; 3] {
 }
 
 impl Surface {
-    /// World points that f32 can hold.
+    /// Transforms points to world space; fails if one is not finite in f32.
     fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
         let place = |(i, p): (usize, [f64; 3])| {
             let world = self.ctm.point(p);
@@ -137,7 +137,7 @@ impl Surface {
     }
 }
 
-/// `Shape "sphere"`.
+/// Reads `Shape "sphere"`.
 pub(super) fn sphere(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
     params.reject(&["zmin", "zmax", "phimax"])?;
     let radius = params.float("radius")?.unwrap_or(1.0);
@@ -151,15 +151,15 @@ pub(super) fn sphere(out: &mut Output, surface: &Surface, params: &mut Params) -
     let center = surface.place(std::iter::once([0.0; 3])).map_err(|why| params.error(why))?;
     let world_radius = (radius * factor) as f32;
     if !(world_radius > 0.0 && world_radius.is_finite()) {
-        return Err(
-            params.error(format!("\"radius\": {radius} (in the world {world_radius:e}) is not positive and finite"))
-        );
+        return Err(params.error(format!(
+            "\"radius\": must be greater than 0 and finite, not {radius} ({world_radius:e} in world space)"
+        )));
     }
     out.push(surface, Geometry::Sphere { center: round(center[0]), radius: world_radius });
     Ok(())
 }
 
-/// World points from "P", and index groups of `N` from "indices"; `N` points need no indices.
+/// Reads world points from "P" and groups of `N` indices from "indices"; `N` points need no indices.
 #[allow(clippy::type_complexity)] // a pair that only two callers see
 fn indexed<const N: usize>(
     surface: &Surface,
@@ -172,7 +172,7 @@ fn indexed<const N: usize>(
     let points = surface.place(points).map_err(|why| params.error(why))?;
     let Some(indices) = params.numbers("indices", "integer", N)? else {
         if points.len() != N {
-            return Err(params.error(format!("\"indices\" is missing, which only {N} points may do without")));
+            return Err(params.error(format!("\"indices\" is missing: it is optional only for {N} points")));
         }
         return Ok((points, vec![std::array::from_fn(|i| i)]));
     };
@@ -183,7 +183,7 @@ fn indexed<const N: usize>(
     Ok((points, groups.collect()))
 }
 
-/// Normals turn the emitting side in pbrt, so they are refused where that matters; elsewhere all is flat shaded.
+/// In pbrt normals decide the emitting side, so they are an error on one-sided lights; elsewhere all is flat shaded.
 fn shading(out: &mut Output, surface: &Surface, params: &mut Params, has_normals: bool) -> Result<(), Message> {
     let given = params.given("N") | has_normals;
     if given && surface.emission.is_some_and(|emission| !emission.two_sided) {
@@ -196,13 +196,13 @@ fn shading(out: &mut Output, surface: &Surface, params: &mut Params, has_normals
     }
     for name in ["uv", "S"] {
         if params.given(name) {
-            out.warn_once(params, name, "ignored: nothing uses it");
+            out.warn_once(params, name, "ignored: no material uses it");
         }
     }
     Ok(())
 }
 
-/// `Shape "trianglemesh"`.
+/// Reads `Shape "trianglemesh"`.
 pub(super) fn triangle_mesh(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
     shading(out, surface, params, false)?;
     let (points, indices) = indexed::<3>(surface, params)?;
@@ -213,7 +213,7 @@ pub(super) fn triangle_mesh(out: &mut Output, surface: &Surface, params: &mut Pa
     Ok(())
 }
 
-/// `Shape "bilinearmesh"`.
+/// Reads `Shape "bilinearmesh"`.
 pub(super) fn bilinear_mesh(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
     shading(out, surface, params, false)?;
     let (points, indices) = indexed::<4>(surface, params)?;
@@ -224,7 +224,7 @@ pub(super) fn bilinear_mesh(out: &mut Output, surface: &Surface, params: &mut Pa
     Ok(())
 }
 
-/// `Shape "plymesh"` from a file.
+/// Reads `Shape "plymesh"` from a file.
 pub(super) fn ply_mesh(out: &mut Output, surface: &Surface, params: &mut Params, path: &Path) -> Result<(), Message> {
     let shown = path.display().to_string();
     let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
@@ -258,7 +258,7 @@ pub(super) fn ply_mesh(out: &mut Output, surface: &Surface, params: &mut Params,
     Ok(())
 }
 
-/// The mesh of the built-in terrain scene, which is known to be sound; the scene has no transform there.
+/// Adds the mesh of the built-in terrain scene, which needs no checks.
 pub(super) fn terrain(out: &mut Output, surface: &Surface, params: &Params) -> Result<(), Message> {
     if surface.ctm != Transform::IDENTITY || surface.flip || surface.emission.is_some() {
         return Err(params.error("builtin:terrain takes no transform and no light"));

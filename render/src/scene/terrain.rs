@@ -2,12 +2,12 @@
 
 /// Cells along each side of the height field.
 const CELLS: usize = 512;
-/// Times that each face of the icosahedron is split in four.
+/// Number of times each face of the icosahedron is split in four.
 const LEVEL: usize = 5;
-/// Spheres along each side of their grid.
+/// Spheres along each side of the grid of spheres.
 const SPHERES: usize = 5;
 
-/// All 1,036,288 triangles, normals up and outwards.
+/// All 1,036,288 triangles, with normals up and outwards.
 pub(super) fn triangles() -> Vec<[[f32; 3]; 3]> {
     let faces = bumpy_sphere();
     let mut out = Vec::with_capacity(2 * CELLS * CELLS + SPHERES * SPHERES * faces.len());
@@ -45,7 +45,7 @@ fn height_field(out: &mut Vec<[[f32; 3]; 3]>) {
     }
 }
 
-/// The faces of a subdivided icosahedron on the unit sphere, each vertex then moved by the bumps.
+/// The faces of a subdivided icosahedron on the unit sphere, with each vertex displaced by the bumps.
 fn bumpy_sphere() -> Vec<[[f64; 3]; 3]> {
     let bump = |v: [f64; 3]| {
         let s = 1.0 + 0.05 * (9.0 * v[0]).sin() * (9.0 * v[1]).sin() * (9.0 * v[2]).sin();

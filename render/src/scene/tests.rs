@@ -1,4 +1,4 @@
-//! The built-in scenes, transforms and orientation. Faulty input is in `faulty`, mesh files are in `meshes`.
+//! Tests of the built-in scenes, transforms and orientation; `faulty` has faulty input, `meshes` has mesh files.
 
 mod faulty;
 mod lights;
@@ -6,7 +6,7 @@ mod meshes;
 
 use super::*;
 
-/// Camera and world around some shapes.
+/// A scene of a camera and some shapes.
 fn world(shapes: &str) -> String {
     format!("LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin\n{shapes}")
 }
@@ -31,7 +31,7 @@ fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The normal of a flat shape, times twice or once its area.
+/// The normal of a flat shape, whose length is twice the area of a triangle or the area of a parallelogram.
 fn normal(geometry: &Geometry) -> [f32; 3] {
     match *geometry {
         Geometry::Triangle([a, b, c]) => cross(sub(b, a), sub(c, a)),
@@ -98,7 +98,7 @@ fn builtin_lights_are_where_they_should_be() {
     assert_eq!(scene.shapes[0].geometry, light);
 }
 
-/// Boxes are closed and outward: their volume is the sum of signed tetrahedra; the ground faces up.
+/// Boxes are closed and face outwards, since the signed tetrahedra add up to their volume; the ground faces up.
 #[test]
 fn boxes_of_quads_have_their_volumes() {
     let scene = load("quads").unwrap();
@@ -118,8 +118,8 @@ fn boxes_of_quads_have_their_volumes() {
     }
 }
 
-/// The sum of all coordinates as computed elsewhere from the same formulas, less the light's two triangles; a few
-/// coordinates may round differently, because sines differ in their last bit.
+/// Compares the sum of all coordinates with one computed independently from the same formulas, which includes the light's two
+/// triangles. A few coordinates may round differently, because sines differ in their last bit.
 #[test]
 fn terrain_matches_an_independent_sum() {
     let scene = load("terrain").unwrap();
@@ -178,13 +178,13 @@ fn fov_spans_the_shorter_side() {
     }
 }
 
-/// Without the mirror, pbrt's axes are left-handed: from +z towards the origin, right is −x.
+/// Without `Scale -1 1 1`, pbrt's camera space is left-handed: looking from +z towards the origin, right is −x.
 #[test]
 fn camera_space_is_left_handed() {
     let camera = read("LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin").camera;
     assert_eq!((camera.origin, camera.forward), ([0.0, 0.0, 5.0], [0.0, 0.0, -1.0]));
     assert_eq!((camera.right, camera.up), ([-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
-    // A scale of the camera changes nothing; no transform looks along +z.
+    // a scale of the camera changes nothing; the identity looks along +z
     let scaled = read("Scale 3 3 3 LookAt 0 0 5 0 0 0 0 1 0 Camera \"perspective\" WorldBegin").camera;
     assert_eq!((scaled.origin, scaled.forward, scaled.right), (camera.origin, camera.forward, camera.right));
     assert_eq!(read("Camera \"perspective\" WorldBegin").camera.forward, [0.0, 0.0, 1.0]);
@@ -212,7 +212,7 @@ fn transforms_compose_as_in_pbrt() {
     assert_eq!(at("Scale -1 1 1 Translate 1 0 0").0, [-1.0, 0.0, 0.0]);
 }
 
-/// The order of rotation and nonuniform scale, on a vertex; the sum is done in f64 and rounded once.
+/// Transforms are composed in f64, and vertices are rounded once.
 #[test]
 fn vertices_are_rounded_once() {
     let scene = read(&world(&format!("Translate 1e8 0 0 Translate -1e8 0 0 Translate 0.1 0 0 {TRIANGLE}")));
@@ -225,7 +225,7 @@ fn orientation_flips_once_for_each_cause() {
     for shape in [TRIANGLE, PATCH] {
         assert!(up(shape));
         assert!(!up(&format!("ReverseOrientation {shape}")));
-        // A mirror in x leaves the normal, as a vector, along +z.
+        // a reflection in x leaves the normal along +z
         assert!(up(&format!("Scale -1 1 1 {shape}")));
         assert!(!up(&format!("Scale -1 1 1 ReverseOrientation {shape}")));
         assert!(!up(&format!("Scale 1 1 -1 {shape}")));
@@ -234,7 +234,7 @@ fn orientation_flips_once_for_each_cause() {
     }
     let flipped = read(&world(&format!("ReverseOrientation {TRIANGLE}"))).triangles[0];
     assert_eq!(normal(&Geometry::Triangle(flipped)), [0.0, 0.0, -1.0]);
-    // A two-sided sphere light, or one that does not emit, has no wrong side.
+    // orientation does not matter for spheres that emit on both sides or not at all
     read(&world("ReverseOrientation AreaLightSource \"diffuse\" \"bool twosided\" true Shape \"sphere\""));
     read(&world("Scale 1 1 -1 Shape \"sphere\""));
 }
@@ -246,12 +246,12 @@ fn a_lens_is_measured_in_camera_space() {
     assert_eq!(lens("Camera \"perspective\" \"float lensradius\" 0"), None);
     let plain = lens("Camera \"perspective\" \"float lensradius\" .5 \"float focaldistance\" 3");
     assert_eq!(plain, Some(Lens { radius: 0.5, focus: 3.0, unit: 1.0 }));
-    // pbrt's default; 4 units of the scene are one of the camera
+    // pbrt's default focal distance; a unit of camera space is 4 units of world space
     let scaled = lens("Scale .25 .25 .25 Camera \"perspective\" \"float lensradius\" .5");
     assert_eq!(scaled, Some(Lens { radius: 0.5, focus: 1e6, unit: 4.0 }));
     assert!(
         read("Camera \"perspective\" \"float lensradius\" 1 WorldBegin").warnings.len() == 1,
-        "no light, else nothing"
+        "the only warning is that nothing emits light"
     );
 }
 

@@ -1,6 +1,6 @@
-//! Affine maps in f64: the current transformation matrix of a scene file.
+//! Affine maps in f64, for the current transformation matrix of a scene file.
 
-/// `p ↦ linear · p + shift`, rows first.
+/// The affine map `p ↦ linear · p + shift`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Transform {
     /// Rows of the linear part.
@@ -9,27 +9,27 @@ pub(super) struct Transform {
     pub(super) shift: [f64; 3],
 }
 
-/// The vector from `b` to `a`.
+/// The difference `a − b`.
 pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// Componentwise sum.
+/// The sum `a + b`.
 pub(super) fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// Product with a number.
+/// The product `s a`.
 pub(super) fn scaled(a: [f64; 3], s: f64) -> [f64; 3] {
     [a[0] * s, a[1] * s, a[2] * s]
 }
 
-/// Scalar product.
+/// Dot product.
 pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// Vector product.
+/// Cross product.
 pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
@@ -39,9 +39,9 @@ pub(super) fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// `a` at length 1; `None` if its length is zero or not finite.
+/// `a` scaled to length 1; `None` if its length is zero or not finite.
 pub(super) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    // Divided by the greatest component first, so that the squares neither overflow nor vanish.
+    // divided by the greatest component first, so that the squares neither overflow nor underflow
     let greatest = a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let b = a.map(|x| x / greatest);
     let b = scaled(b, 1.0 / length(b));
@@ -49,21 +49,21 @@ pub(super) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 impl Transform {
-    /// The map that changes nothing.
+    /// The identity.
     pub(super) const IDENTITY: Transform =
         Transform { linear: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], shift: [0.0; 3] };
 
-    /// A shift by `d`.
+    /// Translation by `d`.
     pub(super) fn translate(d: [f64; 3]) -> Self {
         Transform { shift: d, ..Self::IDENTITY }
     }
 
-    /// A stretch along the axes.
+    /// Scale along the axes.
     pub(super) fn scale(s: [f64; 3]) -> Self {
         Transform { linear: [[s[0], 0.0, 0.0], [0.0, s[1], 0.0], [0.0, 0.0, s[2]]], shift: [0.0; 3] }
     }
 
-    /// A right-handed turn about `axis`; `None` if the axis has no direction.
+    /// Right-handed rotation about `axis`; `None` if the axis has no direction.
     pub(super) fn rotate(degrees: f64, axis: [f64; 3]) -> Option<Self> {
         let a = unit(axis)?;
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -77,7 +77,7 @@ impl Transform {
         Some(Transform { linear, shift: [0.0; 3] })
     }
 
-    /// World to the left-handed camera at `eye`: x right, y up, z towards `target`. `None` if that is not defined.
+    /// World space to the left-handed camera space at `eye`: x right, y up, z towards `target`. `None` if the view is not defined.
     pub(super) fn look_at(eye: [f64; 3], target: [f64; 3], up: [f64; 3]) -> Option<Self> {
         let forward = unit(sub(target, eye))?;
         let right = unit(cross(unit(up)?, forward))?;
@@ -86,14 +86,14 @@ impl Transform {
         Some(Transform { linear, shift })
     }
 
-    /// From the 16 numbers of `Transform`, by columns; `None` if it is not affine.
+    /// The map of the 16 numbers of `Transform`, by columns; `None` if it is not affine.
     pub(super) fn from_columns(m: &[f64; 16]) -> Option<Self> {
         let row = |i: usize| [m[i], m[4 + i], m[8 + i]];
         let affine = [m[3], m[7], m[11], m[15]] == [0.0, 0.0, 0.0, 1.0];
         affine.then(|| Transform { linear: [row(0), row(1), row(2)], shift: [m[12], m[13], m[14]] })
     }
 
-    /// `other` first, then `self`.
+    /// The composition that applies `other` first, then `self`.
     pub(super) fn after(&self, other: &Transform) -> Self {
         let column = |j: usize| self.vector([other.linear[0][j], other.linear[1][j], other.linear[2][j]]);
         let (x, y, z) = (column(0), column(1), column(2));
@@ -106,7 +106,7 @@ impl Transform {
         add(self.vector(p), self.shift)
     }
 
-    /// The image of a difference of points.
+    /// The image of a vector.
     pub(super) fn vector(&self, v: [f64; 3]) -> [f64; 3] {
         self.linear.map(|row| dot(row, v))
     }
@@ -138,7 +138,7 @@ impl Transform {
         inverse.is_finite().then_some(inverse)
     }
 
-    /// The factor of a similarity (rotation, uniform scale, reflection); `None` if lengths differ by over 1 in 10⁵.
+    /// The scale factor of a similarity (rotation, uniform scale, reflection); `None` if lengths differ by more than 1 in 10⁵.
     pub(super) fn similarity(&self) -> Option<f64> {
         let column = |j: usize| [self.linear[0][j], self.linear[1][j], self.linear[2][j]];
         let (x, y, z) = (column(0), column(1), column(2));

@@ -4,9 +4,11 @@ use super::{Input, scalable};
 use crate::oracle::{V3, cross, dot, length, sub, wide};
 use crate::properties;
 use crate::techniques::{self, AreaLight, LightShape, Measure, Technique};
-use etendue::{ConstantEnvironment, DirectionalLight, LightSample, PointLight, Real, SpotLight, Sun, Vec2, Vec3};
+use etendue::{
+    ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
+};
 
-/// Lights with a surface, eight different ones of a kind.
+/// Lights with a surface: packets of eight that mix two lights of one kind.
 pub(super) fn area_lights(input: &mut Input<'_>) {
     let (shape, by) = AreaLight::KINDS[input.below(AreaLight::KINDS.len() as u8) as usize];
     let mut one = || {
@@ -24,11 +26,11 @@ pub(super) fn area_lights(input: &mut Input<'_>) {
     let (light, u) = first;
     techniques::measure(&light, u);
     let AreaLight { p, a, b, c, n, radius, .. } = light;
-    // areas are squares of lengths, and smaller than these if the shape is slim
+    // the area of a shape is a square of lengths, and even smaller if the shape is slim
     let [e, f, g] = [b, c, n].map(wide);
     let roomy = |e: V3, f: V3| length(cross(e, f)) > 1e-18 + 1e-4 * length(e) * length(f);
     let spread = if shape == LightShape::Patch {
-        // at its four corners
+        // for a patch, at each of its four corners
         let [x, y] = [sub(g, e), sub(g, f)];
         roomy(e, f) && roomy(e, x) && roomy(f, y) && roomy(x, y)
     } else {
@@ -37,12 +39,12 @@ pub(super) fn area_lights(input: &mut Input<'_>) {
     if scalable(&[p, a, b, c, n].concat(), 1e6) && scalable(&[radius], 1e6) && spread {
         techniques::scale(&light, u);
     }
-    // more is known of the sizes of rooms
+    // at the scale of rooms, more properties hold
     let [p, a] = [[0.0; 3], input.vector(&[]).map(|x| x.clamp(-2.0, 2.0))];
     let [b, c, n] = [(); 3].map(|()| input.direction());
     let near = AreaLight { p, a, b, c, n, radius: input.unit(), ..light };
-    // the edges of a rectangle are perpendicular: these are not. A flat shape shall not be in the plane of the point but for rounding; least of
-    // all a polygon, whose corners are rounded, or one over a horizon
+    // These edges are not perpendicular, as those of a rectangle have to be. A flat shape must be clearly out of the plane of the point;
+    // most of all a polygon, whose corners are rounded, or a shape over a horizon.
     let [v, e, f] = [a, b, c].map(wide);
     let normal = cross(e, f);
     let elevation = dot(v, normal).abs() / (length(v) * length(normal));
@@ -66,29 +68,30 @@ struct Distant {
     y: f32,
 }
 impl Technique for Distant {
-    fn draw<R: Real>(lanes: &[Self], u: Vec2<R>) -> LightSample<R> {
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
         let of = |i: usize| lanes[i % lanes.len()];
         let vector = |pick: fn(&Self) -> [f32; 3]| -> Vec3<R> { properties::vectors_of(|i| pick(&of(i))) };
         let number = |pick: fn(&Self) -> f32| -> R { properties::lanes_of(|i| f64::from(pick(&of(i)))) };
-        let (p, a, n) = (vector(|d| d.p), vector(|d| d.a), vector(|d| d.n));
+        let (p, position, n) = (vector(|d| d.p), vector(|d| d.a), vector(|d| d.n));
         match lanes[0].kind {
-            0 => PointLight { position: a }.sample(p),
-            1 => SpotLight { position: a, axis: n, cos_inner: number(|d| d.x), cos_outer: number(|d| d.y) }.sample(p),
-            2 => DirectionalLight { direction: n }.sample(),
-            3 => Sun { direction: n, one_minus_cos: number(|d| d.x) }.by_solid_angle(u),
-            4 => ConstantEnvironment.by_solid_angle(u),
-            _ => ConstantEnvironment.by_projected_solid_angle(n, u),
+            0 => Box::new(PointLight { position }.prepare(p)),
+            1 => {
+                let (cos_inner, cos_outer) = (number(|d| d.x), number(|d| d.y));
+                Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.prepare(p))
+            }
+            2 => Box::new(DirectionalLight::new(n).prepare(p)),
+            3 => Box::new(Sun::new(n, number(|d| d.x)).by_solid_angle()),
+            4 => Box::new(ConstantEnvironment.by_solid_angle()),
+            _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),
         }
     }
-    fn evaluate<R: Real>(lanes: &[Self], w: Vec3<R>) -> Option<R> {
-        let of = |i: usize| lanes[i % lanes.len()];
-        let direction = properties::vectors_of(|i| of(i).n);
-        (lanes[0].kind == 3)
-            .then(|| Sun { direction, one_minus_cos: properties::lanes_of(|i| f64::from(of(i).x)) }.pdf(w))
+    /// Delta lights have no density.
+    fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
+        (!s.delta).then_some(0.0)
     }
 }
 
-/// Lights without a surface, eight different ones of a kind.
+/// Lights without a surface: packets of eight that mix two lights of one kind.
 pub(super) fn distant_lights(input: &mut Input<'_>) {
     let kind = input.below(6);
     let mut one = || {

@@ -1,4 +1,4 @@
-//! Tables, choices of lights, functions and estimators.
+//! Tables, choices of lights, elementary functions and estimators.
 
 use super::Input;
 use crate::checks;
@@ -11,7 +11,7 @@ use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
 use etendue::select::{Choice, LightBound, PowerLights, SpatialLights, UniformLights};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x8, u32x8};
 
-/// Weights of which some are 0; rarely one is invalid.
+/// Weights, some of them 0 and rarely one invalid, with the error that an invalid one must give.
 fn weights(input: &mut Input<'_>, most: u8) -> (Vec<f32>, Option<TableError>) {
     let mut weights = input.weights(most);
     if input.below(16) == 0 {
@@ -29,7 +29,7 @@ fn weights(input: &mut Input<'_>, most: u8) -> (Vec<f32>, Option<TableError>) {
 }
 const STEP: f64 = 1.0 / 16_777_216.0;
 
-/// Tables of one and two dimensions: a cell is drawn with the probability that is told, and never without a weight.
+/// Tables of one and two dimensions: a cell's pmf is the reported one, and a cell without weight is never drawn.
 pub(super) fn piecewise_constant(input: &mut Input<'_>) {
     let (weights, error) = weights(input, 40);
     let n = weights.len();
@@ -68,14 +68,14 @@ pub(super) fn piecewise_constant(input: &mut Input<'_>) {
         assert_eq!(cell.pmf, image.pmf::<f32>(cell.x, cell.y));
         let expected = cell.pmf * (image.size()[0] * image.size()[1]) as f32;
         let off = (image.pdf(p) / expected - 1.0).abs();
-        assert!(off < 3e-7, "{weights:?} of {width} at {u:?}: off by {off:e}");
+        assert!(off < 3e-7, "{weights:?} of {width} at {u:?}: pmf off by {off:e}");
         let back = image.invert_cell(cell.x, cell.y, cell.offset);
         let off = (back.x - u.x).abs().max((back.y - u.y).abs());
         assert!(f64::from(off) <= STEP, "{weights:?} of {width} at {u:?}: {back:?}");
     }
 }
 
-/// Vose's table: an item without a weight is never drawn; each is drawn as often as is told, as far as the grid of `u` allows.
+/// Vose's table: an item's pmf is the reported one to the precision of `u`, and an item without weight is never drawn.
 pub(super) fn alias_table(input: &mut Input<'_>) {
     let (weights, error) = weights(input, 40);
     let n = weights.len();
@@ -95,7 +95,7 @@ pub(super) fn alias_table(input: &mut Input<'_>) {
         let packet = table.cell(f32x8::splat(u));
         assert_eq!((packet.index.lane(5), packet.offset.lane(5)), (cell.index, cell.offset));
     }
-    // what the buckets hold of an item is its share
+    // the buckets hold of each item what its weight demands
     let mut held = vec![0.0; n];
     for (i, (&threshold, &alias)) in thresholds.iter().zip(&aliases).enumerate() {
         assert!((0.0..=1.0).contains(&threshold), "{weights:?}: {threshold}");
@@ -105,11 +105,11 @@ pub(super) fn alias_table(input: &mut Input<'_>) {
     for (i, held) in held.iter().enumerate() {
         let share = f64::from(weights[i]) / total;
         let off = (held / n as f64 - share).abs();
-        assert!(off <= STEP, "{weights:?}: item {i} is held {} for {share}", held / n as f64);
+        assert!(off <= STEP, "{weights:?}: item {i} has probability {}, expected {share}", held / n as f64);
     }
 }
 
-/// An image around the scene: what is drawn is what is reported, and is found again.
+/// Environment images: the evaluated pdf and the inverse agree with the sample.
 pub(super) fn environment(input: &mut Input<'_>) {
     let map = if input.below(2) == 0 { EnvironmentMap::EqualArea } else { EnvironmentMap::Equirectangular };
     let (weights, error) = weights(input, 40);
@@ -131,13 +131,13 @@ pub(super) fn environment(input: &mut Input<'_>) {
         assert!(weights[s.x as usize + s.y as usize * width] > 0.0, "{weights:?} of {width} at {square:?}: {s:?}");
         let eight = image.draw::<f32x8>(squares_of(&[square]));
         assert_eq!((eight.x.lane(3), eight.light.pdf.lane(3)), (s.x, s.light.pdf));
-        // the texel again, unless the direction is next to its edge
+        // the inverse finds the same texel, unless the direction is next to its edge
         let texel = image.texel(w);
         let inner = |x: f32| (1e-3..0.999).contains(&x);
         if inner(texel.offset.x) && inner(texel.offset.y) {
             assert_eq!((texel.x, texel.y), (s.x, s.y), "{map:?} {weights:?} of {width} at {square:?}");
             let off = (image.pdf(w) / s.light.pdf - 1.0).abs();
-            assert!(off < 1e-6, "two densities, off by {off:e}: {map:?} {weights:?} of {width} at {square:?}");
+            assert!(off < 1e-6, "evaluated pdf off by {off:e}: {map:?} {weights:?} of {width} at {square:?}");
         }
     }
     let any = input.direction();
@@ -158,14 +158,14 @@ fn chosen(choice: Choice<f32>, pmf: impl Fn(u32) -> f32, packet: Choice<f32x8>, 
     let some = powers.iter().any(|p| *p > 0.0 && *p < f32::INFINITY);
     assert_eq!(some, choice.pmf > 0.0, "{powers:?}: {choice:?}");
     if some {
-        assert!(powers[choice.index as usize] > 0.0, "a light of no power: {powers:?}: {choice:?}");
+        assert!(powers[choice.index as usize] > 0.0, "a light without power: {powers:?}: {choice:?}");
     }
     let sum: f64 = (0..powers.len() as u32).map(|k| f64::from(pmf(k))).sum();
     assert!((sum - f64::from(u8::from(some))).abs() < 1e-5, "Σpmf = {sum}: {powers:?}");
     assert_eq!([pmf(powers.len() as u32), pmf(u32::MAX)], [0.0; 2]);
 }
 
-/// Choices of lights of any powers and places.
+/// Choices of lights of any power and place.
 pub(super) fn light_choice(input: &mut Input<'_>) {
     let u = input.unit();
     let count = input.word() >> 10;
@@ -176,7 +176,7 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     let mut sums = vec![0.0; powers.len()];
     let lights = PowerLights::new(&powers, &mut sums);
     chosen(lights.choose(u), |k| lights.pmf(k), lights.choose(f32x8::splat(u)), &powers);
-    // as documented: powers from 1e−20 to 1e20
+    // the documented domain: powers from 1e−20 to 1e20
     powers.iter_mut().for_each(|p| *p = if *p > 0.0 { p.clamp(1e-20, 1e20) } else { 0.0 });
     let mut before = vec![[0.0; 3]];
     let bounds: Vec<_> = powers
@@ -193,20 +193,20 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     chosen(lights.choose(one, u), |k| lights.pmf(one, k), lights.choose(eight, f32x8::splat(u)), &powers);
 }
 
-/// Elementary functions at any numbers: their documented errors in their documented domains, finite everywhere, lanes alike.
+/// Elementary functions: within the documented errors in the documented domains, finite everywhere, identical in every lane.
 pub(super) fn math(input: &mut Input<'_>) {
     let (x, y, z, w) = (input.number(), input.number(), input.number(), input.number());
     let (dx, dy) = (f64::from(x), f64::from(y));
     let close = |name: &str, value: f32, truth: f64, relative: f64, absolute: f64| {
         let off = (f64::from(value) - truth).abs();
-        assert!(off <= relative * truth.abs() + absolute, "{name} of {x:e}, {y:e}: {value:e} for {truth:e}");
+        assert!(off <= relative * truth.abs() + absolute, "{name} of {x:e}, {y:e}: {value:e}, truth {truth:e}");
     };
     let same = |name: &str, one: f32, eight: f32x8| {
         assert!(one.to_bits() == eight.lane(7).to_bits(), "{name} of {x:e}, {y:e}: {one:e}, {:e}", eight.lane(7));
     };
     let (x8, y8): (f32x8, f32x8) = (f32x8::splat(x), f32x8::splat(y));
     let angle = Real::atan2(y, x);
-    // an angle that is subnormal is rounded to what there is; where both numbers are some steps of 2⁻¹⁴⁹ so is the octant's bound
+    // a subnormal angle is rounded to the subnormal grid, and so is the bound of the octant if both numbers are a few steps of 2⁻¹⁴⁹
     let largest = x.abs().max(y.abs());
     if largest <= 1e30 {
         let relative = if largest < 9e-44 { 5.2e-6 } else { 2.0e-7 };
@@ -254,14 +254,14 @@ pub(super) fn math(input: &mut Input<'_>) {
     if [x, y, z, w].into_iter().all(fair) {
         let value = difference_of_products(x, y, z, w);
         let (dz, dw) = (f64::from(z), f64::from(w));
-        // 48 bits each; their difference may have more
+        // each product has 48 bits, their difference may have more
         let truth = dx * dy - dz * dw;
         let rest = (dx * dy).abs().max((dz * dw).abs()) * f64::EPSILON;
         close("difference_of_products", value, truth, 1.5 / 8_388_608.0, rest);
     }
 }
 
-/// Weights of techniques, reservoirs and running variances of any numbers.
+/// MIS weights, reservoirs and running variances of any numbers.
 pub(super) fn estimate(input: &mut Input<'_>) {
     let heuristic = match input.below(4) {
         0 => Heuristic::Balance,
@@ -273,7 +273,7 @@ pub(super) fn estimate(input: &mut Input<'_>) {
     let (two, four) = ([(); 2].map(|()| density()), [(); 4].map(|()| density()));
     checks::weights_sum_to_one(heuristic, &two, &heuristic.weights(two));
     let weights = heuristic.weights(four);
-    // one rounding more for each technique
+    // one more rounding than with three techniques
     let sum: f64 = weights.iter().map(|&w| f64::from(w)).sum();
     let some = four.iter().any(|d| *d > 0.0);
     assert!((sum - f64::from(u8::from(some))).abs() < 4.8e-7, "{heuristic:?} {four:?}: {weights:?}");
@@ -308,7 +308,7 @@ pub(super) fn estimate(input: &mut Input<'_>) {
     }
 }
 
-/// Masks and counters: lanes are what scalars are.
+/// Masks and counters: every lane equals the scalar result.
 pub(super) fn bits(input: &mut Input<'_>) {
     let words: [u32; 8] = core::array::from_fn(|_| input.word());
     let others: [u32; 8] = core::array::from_fn(|_| input.word());

@@ -6,7 +6,7 @@ use etendue::sequence::{
 };
 use etendue::{Uint, Vec2, f32x8, u32x8};
 
-/// Every sequence, anywhere: in [0, 1)², the same in packets, and again.
+/// Every sequence at any index: points are in [0, 1)², and the same in packets and when evaluated again.
 pub(super) fn sequence(input: &mut Input<'_>) {
     fn check(sequence: &(impl Sequence + core::fmt::Debug), pixel: u32, sample: u32, dimension: u32) {
         let (pixels, samples) =
@@ -33,7 +33,7 @@ pub(super) fn sequence(input: &mut Input<'_>) {
         _ => check(&JointStratified::new(seed, count, pixel % 6), pixel, sample, dimension % 8),
     }
 }
-/// Counters: small ones, powers of two, the last ones, and any.
+/// Counters: small ones, powers of two, the largest ones, and any.
 fn counters<const N: usize>(input: &mut Input<'_>) -> [u32; N] {
     [(); N].map(|()| {
         let word = input.word();
@@ -41,18 +41,18 @@ fn counters<const N: usize>(input: &mut Input<'_>) -> [u32; N] {
     })
 }
 
-/// In which of `cells` equal parts of [0, 1).
+/// Which of `cells` equal parts of [0, 1) contains `u`.
 fn cell(u: f32, cells: u32) -> usize {
-    // exact where cells are a power of two; else a point on the grid of 2⁻²⁴ may be rounded over an edge
+    // exact if `cells` is a power of two; otherwise rounding to the grid of 2⁻²⁴ may carry a point over an edge
     (f64::from(u) * f64::from(cells)) as usize
 }
-/// Which cell, unless it is on an edge: from below a point may have been rounded onto it.
+/// Which cell contains `u`; none if it is on an edge, onto which a point may have been rounded from below.
 fn inside(u: Vec2<f32>, columns: u32, rows: u32) -> Option<usize> {
     let on_an_edge = |u: f32, cells: u32| (f64::from(u) * f64::from(cells)).fract() == 0.0;
     let some = !on_an_edge(u.x, columns) && !on_an_edge(u.y, rows);
     some.then(|| cell(u.x, columns) + cell(u.y, rows) * columns as usize)
 }
-/// As many samples as cells, one in each; those on edges, which are few, count for any.
+/// Asserts that `count` samples fall one into each of `count` cells; the few on edges are ignored.
 fn once(cells: impl Iterator<Item = Option<usize>>, count: usize, what: impl core::fmt::Debug) {
     let (mut taken, mut samples) = (vec![false; count], 0);
     for cell in cells {
@@ -65,7 +65,7 @@ fn once(cells: impl Iterator<Item = Option<usize>>, count: usize, what: impl cor
     assert_eq!(samples, count);
 }
 
-/// Each cell of a replicate once, wherever it begins, and each box of a net as often as the others.
+/// Each replicate has one sample in every stratum and each box of a net the same number, from any start.
 pub(super) fn strata(input: &mut Input<'_>) {
     let (seed, kind) = (input.seed(), input.below(6));
     let [pixel, start] = counters(input);
@@ -106,7 +106,7 @@ pub(super) fn strata(input: &mut Input<'_>) {
             once((0..count).map(of), count as usize, (strata, pixel, first));
         }
         3 => {
-            // in each coordinate, and in boxes of one pair
+            // one sample in each interval of a coordinate, and equal numbers in the boxes of one pair
             let (owen, bits) = (OwenSobol::new(seed), u32::from(1 + input.below(8)));
             let (count, dimension) = (1_u32 << bits, input.word());
             let first = start >> bits << bits;
@@ -119,7 +119,7 @@ pub(super) fn strata(input: &mut Input<'_>) {
     }
 }
 
-/// Boxes of the joint sequence's net, of up to six dimensions: 2ᵗ points in each box of 2ᵗ⁻ᵐ.
+/// Boxes of the joint sequence's net in up to six dimensions: 2ᵗ points in each box of volume 2ᵗ⁻ᵐ.
 fn net(input: &mut Input<'_>, seed: u64, pixel: u32, start: u32) {
     const T: [u32; 6] = [0, 0, 1, 3, 5, 8];
     let dimensions = 1 + u32::from(input.below(6));

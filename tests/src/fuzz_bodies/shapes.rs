@@ -1,4 +1,4 @@
-//! Warps, and shapes that are seen.
+//! Warps, and shapes seen from a point.
 
 use super::{Input, scalable};
 use crate::fixtures::{
@@ -11,18 +11,15 @@ use crate::generators::{self, Random};
 use crate::properties::{self, Fixture};
 use etendue::Warp;
 
-/// What holds for any shape of one density: a sample has it, unless there is nothing to see.
+/// For a shape of constant pdf: a sample has exactly that pdf, which is 0 if nothing is visible.
 fn uniform<S: Fixture>(s: &S, u: [f32; 2], uniform_pdf: impl Fn(&S::Warp<f32>) -> f32) {
     let warp = S::prepare::<f32>(&[*s]);
     let pdf = warp.pdf(warp.sample(properties::squares_of(&[u])));
     let expected = uniform_pdf(&warp);
-    assert!(
-        pdf.to_bits() == expected.to_bits(),
-        "the pdf of a sample is {pdf}, that of the shape {expected}: {s:?} at {u:?}"
-    );
+    assert!(pdf.to_bits() == expected.to_bits(), "the pdf of a sample is {pdf}, expected {expected}: {s:?} at {u:?}");
 }
 
-/// Any 1−cosσ, and those of which more is known.
+/// Cones of any 1−cosσ.
 pub(super) fn cone(input: &mut Input<'_>) {
     let (cone, u) = (Cone { one_minus_cos: input.number() }, input.square());
     properties::any_bits(&cone, u);
@@ -51,7 +48,7 @@ pub(super) fn fixed_warps(input: &mut Input<'_>) {
     }
 }
 
-/// Densities on the line, and the bilinear one.
+/// Densities on the line, and the bilinear density.
 pub(super) fn line_warps(input: &mut Input<'_>) {
     let (kind, u) = (input.below(5), input.square());
     let [a, b, c, d] = [(); 4].map(|()| input.number());
@@ -75,7 +72,7 @@ pub(super) fn line_warps(input: &mut Input<'_>) {
         2 => {
             let s = Exponential { rate: a };
             properties::any_bits(&s, u);
-            // the tail has densities of 4e−18 of the first
+            // the density of the tail is 4e−18 of the greatest
             if (1e-18..1e18).contains(&a) {
                 properties::pointwise(&s, u, random);
             }
@@ -83,7 +80,7 @@ pub(super) fn line_warps(input: &mut Input<'_>) {
         3 => {
             let s = Normal { mean: b, sigma: a };
             properties::any_bits(&s, u);
-            // its tails have densities of 1e−16 of the middle's
+            // the densities of the tails are 1e−16 of the greatest
             if (1e-20..1e20).contains(&a) {
                 properties::pointwise(&Normal { mean: 0.0, sigma: a }, u, random);
             }
@@ -144,7 +141,7 @@ pub(super) fn projected_cap(input: &mut Input<'_>) {
     properties::pdf(&s, u, [f64::from(input.unit()), f64::from(input.unit())]);
 }
 
-/// Says which regime it was if a property is broken.
+/// Prints the regime if a property is broken.
 struct Said(&'static str);
 impl Drop for Said {
     fn drop(&mut self) {
@@ -154,15 +151,15 @@ impl Drop for Said {
     }
 }
 
-/// The properties of a flat shape of any numbers.
+/// The properties that a flat shape has for any numbers.
 fn flat<S: Fixture>(s: &S, u: [f32; 2], lengths: &[f32]) {
     properties::any_bits(s, u);
     if scalable(lengths, 1e18) {
         properties::scale(s, u);
     }
 }
-/// The properties of a regime: all, but where a step of `u` may turn the direction by the plane's nearness. There distances are off by more than
-/// the tolerance in 1 of 1e4, a limit that is known.
+/// The properties of a shape from a regime: all of them, except near a hemisphere, where a step of `u` turns the direction a lot. There,
+/// one distance in 1e4 is off by more than the tolerance, which is a known limit.
 fn regime<S: Fixture>((name, s): generators::Case<S>, u: [f32; 2], seed: u64) {
     let _said = Said(name);
     properties::within_reach(&s, u);
@@ -199,13 +196,13 @@ pub(super) fn spherical_parallelogram(input: &mut Input<'_>) {
     regime(input.case(generators::parallelograms), u, input.seed());
 }
 
-/// Rectangles, and what are none.
+/// Rectangles, including malformed ones.
 pub(super) fn spherical_rectangle(input: &mut Input<'_>) {
     let (u, ([a, b, c], all)) = (input.square(), three(input));
     flat(&Rectangle::new(a, b, c), u, &all);
     let (name, s) = input.case(generators::rectangles);
     if name.starts_with("grazing 1e-4") || name == "near a vertex" {
-        // beside a corner the direction may be off by 1.2e−5 there, a limit that is known
+        // known limit: beside a corner the direction may be off by 1.2e−5
         let _said = Said(name);
         flat(&s, u, &[]);
         properties::within_reach(&s, u);
@@ -214,7 +211,7 @@ pub(super) fn spherical_rectangle(input: &mut Input<'_>) {
     }
 }
 
-/// Polygons, and what are none.
+/// Polygons, including malformed ones.
 pub(super) fn spherical_polygon(input: &mut Input<'_>) {
     let (u, ([a, b, c], mut all)) = (input.square(), three(input));
     let mut corners = [a, b, c, a, b, c];
@@ -225,7 +222,7 @@ pub(super) fn spherical_polygon(input: &mut Input<'_>) {
     flat(&Hexagon::new(corners), u, &all);
     let (name, s) = input.case(generators::hexagons);
     if name.starts_with("sliver") {
-        // the density of a fan of slivers may be off by 1.3e−6, a limit that is known
+        // known limit: the pdf of a fan of slivers may be off by 1.3e−6
         flat(&s, u, &[]);
         properties::within_reach(&s, u);
     } else {
@@ -233,7 +230,7 @@ pub(super) fn spherical_polygon(input: &mut Input<'_>) {
     }
 }
 
-/// Disks, and spheres' worth of them.
+/// Disks with a unit normal, and with any normal.
 pub(super) fn spherical_disk(input: &mut Input<'_>) {
     let (u, center, normal, radius) = (input.square(), input.vector(&[]), input.direction(), input.number());
     let s = Disk::new(center, normal, radius);
@@ -243,7 +240,7 @@ pub(super) fn spherical_disk(input: &mut Input<'_>) {
     regime((name, Disk::new(center, normal, radius)), u, input.seed());
 }
 
-/// Lines.
+/// Line segments.
 pub(super) fn spherical_segment(input: &mut Input<'_>) {
     let (u, a) = (input.square(), input.vector(&[]));
     let edge = input.vector(&[a]);
@@ -253,7 +250,7 @@ pub(super) fn spherical_segment(input: &mut Input<'_>) {
     properties::pointwise(&Segment::new(a, edge), u, &mut Random::new(input.seed()));
 }
 
-/// Lines over a horizon.
+/// Line segments over a horizon.
 pub(super) fn projected_segment(input: &mut Input<'_>) {
     let (u, a) = (input.square(), input.vector(&[]));
     let edge = input.vector(&[a]);
@@ -262,7 +259,7 @@ pub(super) fn projected_segment(input: &mut Input<'_>) {
     let (name, [a, edge, normal]) = input.case(|each, seed| generators::segment_parameters(each, seed).1);
     let _said = Said(name);
     let s = ProjectedSegment::new(a, edge, normal);
-    // a horizon that is known to the rounding of its normal may leave nothing of a segment that is as small
+    // the rounding of the normal may move the horizon past the whole of a tiny segment
     let warp = ProjectedSegment::prepare::<f32>(&[s]);
     if s.seen() && warp.pdf(warp.sample(properties::squares_of(&[u]))) > 0.0 {
         properties::pointwise(&s, u, &mut Random::new(input.seed()));
@@ -281,8 +278,9 @@ pub(super) fn projected_triangle(input: &mut Input<'_>) {
         over_horizon((name, s), u, input.seed());
     }
 }
-/// As of the spherical triangle: near a hemisphere a step of `u` turns the direction by more than the tolerance. Of slivers the density and the
-/// direction may be off by twice the tolerance, and next to shapes of 1e−7 it may not be 0 16 units beyond: limits that are known.
+/// The properties of a shape over a horizon. Known limits: near a hemisphere a step of `u` turns the direction by more than the tolerance;
+/// for slivers the pdf and the direction may be off by twice the tolerance; next to shapes of 1e−7 the pdf may not yet be 0 at 16 units
+/// outside.
 fn over_horizon<S: Fixture>((name, s): generators::Case<S>, u: [f32; 2], seed: u64) {
     let _said = Said(name);
     if ["hemisphere", "huge", "close", "sliver", "1e-7"].iter().any(|part| name.contains(part)) {
@@ -292,7 +290,7 @@ fn over_horizon<S: Fixture>((name, s): generators::Case<S>, u: [f32; 2], seed: u
     }
 }
 
-/// Parallelograms and pentagons over a horizon, and what are none.
+/// Parallelograms and pentagons over a horizon, including malformed ones.
 pub(super) fn projected_polygon(input: &mut Input<'_>) {
     let (u, ([a, b, c], mut all)) = (input.square(), three(input));
     let normal = input.vector(&[a, b, c]);
@@ -311,7 +309,7 @@ pub(super) fn projected_polygon(input: &mut Input<'_>) {
     }
 }
 
-/// Shapes under a cosine's warp.
+/// Shapes warped by the cosine.
 pub(super) fn cosine_warped(input: &mut Input<'_>) {
     let (u, ([a, b, c], all)) = (input.square(), three(input));
     let normal = input.direction();

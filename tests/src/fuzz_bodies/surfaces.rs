@@ -5,13 +5,13 @@ use crate::fixtures::{CylinderSide, DiskSurface, PatchSurface, SphereSurface};
 use crate::generators::Random;
 use crate::properties::{self, Fixture};
 
-/// A surface of any numbers; and one of a fair size and distance, for which all properties hold.
+/// Checks a surface of any numbers, and one of ordinary size and distance, for which all properties hold.
 fn check<S: Fixture>(any: &S, fair: &S, input: &mut Input<'_>) {
     let u = input.square();
     properties::any_bits(any, u);
     properties::pointwise(fair, u, &mut Random::new(input.seed()));
 }
-/// A length of 2⁻²⁰ to 2²⁰, and how far things of that size may be: up to a thousand times.
+/// A length from 2⁻²⁰ to 2²⁰, and how far away a thing of that size may be: up to a thousand times its size.
 fn units(input: &mut Input<'_>) -> (f32, f32) {
     let size = (f32::from(input.below(41)) - 20.0).exp2();
     (size * (0.5 + input.unit()), size * f32::from(input.below(11)).exp2())
@@ -35,7 +35,7 @@ pub(super) fn sphere_surface(input: &mut Input<'_>) {
     check(&any, &SphereSurface { center: place(input, reach), radius }, input);
 }
 
-/// Cylinders: fair ones are up to sixteen times as long as wide, or as wide as long.
+/// Sides of cylinders; the ordinary ones are up to sixteen times as long as wide, or as wide as long.
 pub(super) fn cylinder_side(input: &mut Input<'_>) {
     let p = input.vector(&[]);
     let any = CylinderSide { p, axis: input.vector(&[p]), radius: input.number() };
@@ -45,7 +45,7 @@ pub(super) fn cylinder_side(input: &mut Input<'_>) {
     check(&any, &CylinderSide { p: place(input, reach), axis, radius }, input);
 }
 
-/// Bilinear patches. Fair ones are nearly squares, a little twisted: convex as they are seen along the normal of their middle.
+/// Bilinear patches. The ordinary ones are slightly twisted near-squares, convex as seen along the normal of their middle.
 pub(super) fn patch_surface(input: &mut Input<'_>) {
     let p = input.vector(&[]);
     let u = input.vector(&[p]);

@@ -3,10 +3,10 @@
 use super::{Case, Random, combine, frame, narrow};
 use crate::fixtures::{CosineRectangle, CosineTriangle, Hexagon, Parallelogram, Rectangle, Triangle};
 
-/// A corner and two edges, about the given axes.
+/// Computes a corner and two edges in the given frame.
 type Place<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
 
-/// Flat shapes by regime: corner, two edges. `each` random ones of every regime.
+/// Corner and two edges of flat shapes, `each` random ones in every regime.
 fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
     let mut random = Random::new(seed);
     let mut all = Vec::new();
@@ -15,7 +15,7 @@ fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
             let axes = frame(&mut random);
             all.push((name, f(&mut random, axes).map(narrow)));
         };
-        // edges in the plane z = const of the frame, around the axis
+        // a shape in the plane z = 1 of the frame, near the axis
         let facing = |r: &mut Random, a: [[f64; 3]; 3], size: f64, shift: f64| {
             let (x, y) = (r.range(-1.0, 1.0) * shift, r.range(-1.0, 1.0) * shift);
             let angle = r.range(0.6, 2.4);
@@ -66,7 +66,7 @@ fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
     all
 }
 
-/// Corner and edges of flat shapes so nearly in a plane with the viewpoint that f32 hardly tells on which side it is.
+/// Corner and edges of flat shapes so nearly in a plane with the viewpoint that f32 barely resolves on which side it lies.
 #[must_use]
 pub fn nearly_in_plane(each: usize, seed: u64) -> Vec<[[f32; 3]; 3]> {
     let mut random = Random::new(seed);
@@ -76,14 +76,14 @@ pub fn nearly_in_plane(each: usize, seed: u64) -> Vec<[[f32; 3]; 3]> {
             let v0 = combine(&a, random.range(-1.0, 1.0), 2.0, height);
             return [v0, combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow);
         }
-        // the far edge square to the view, so that its whole is about as far as its ends
+        // the far edge is perpendicular to the view, so that all of it is about as far as its ends
         let v0 = combine(&a, random.range(-0.1, 0.1), random.range(0.2, 2.0), height);
         [v0, combine(&a, -0.3, 1.0, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow)
     };
     [1e-5, 1e-6, 1e-7, 1e-8].into_iter().flat_map(|height| (0..each).map(|_| one(height)).collect::<Vec<_>>()).collect()
 }
 
-/// Triangles of every regime.
+/// Triangles in every regime.
 #[must_use]
 pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
     flats(each, seed)
@@ -91,7 +91,7 @@ pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
         .enumerate()
         .map(|(i, (name, [v0, e1, e2]))| {
             let by_edges = Triangle::by_edges(v0, e1, e2);
-            // a corner that is moved to the viewpoint loses a tiny shape, and the sum rounds: then the shape is another, but exact
+            // moving a corner to the viewpoint would lose a tiny shape, and the sum rounds: the result is another shape, but an exact one
             let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
             let by_vertices = Triangle::by_vertices(v0, add(v0, e1), add(v0, e2));
             let whole = !(name.contains("tiny") || name.contains("far") || name.contains("sliver 1e4"));
@@ -100,13 +100,13 @@ pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
         .collect()
 }
 
-/// Parallelograms of every regime.
+/// Parallelograms in every regime.
 #[must_use]
 pub fn parallelograms(each: usize, seed: u64) -> Vec<Case<Parallelogram>> {
     flats(each, seed).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
 }
 
-/// Two perpendicular vectors of a random orientation whose products with numbers of 8 bits are exact in f32, and the unit normal: columns of
+/// Two perpendicular vectors of random orientation whose products with 8-bit numbers are exact in f32, and their unit normal: columns of
 /// the rotation by a quaternion of small integers.
 fn exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
     let mut pick = || (random.word() % 13) as f64 - 6.0;
@@ -116,22 +116,21 @@ fn exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
     [u, v, crate::oracle::unit(crate::oracle::cross(u, v))]
 }
 
-/// Rounded to 8 bits.
+/// Rounds to 8 bits.
 fn coarse(x: f64) -> f64 {
     let unit = (x.abs().log2().floor() - 7.0).exp2();
     (x / unit).round() * unit
 }
 
-/// In a frame whose z axis is the normal.
+/// A rectangle's size, and its corner in a frame whose z axis is the normal.
 type SizeAndCorner = ([f64; 2], [f64; 3]);
 
-/// Rectangles of every regime, with right angles that no rounding has changed.
+/// Rectangles in every regime; rounding leaves their right angles exact.
 #[must_use]
 pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
     let mut random = Random::new(seed);
     let mut all = Vec::new();
     for _ in 0..each {
-        // size, and the corner in a frame whose z axis is the normal
         let mut push = |name, f: &dyn Fn(&mut Random) -> SizeAndCorner| {
             let a = exact_axes(&mut random);
             let unit = [a[0], a[1], a[2]].map(crate::oracle::unit);
@@ -173,7 +172,7 @@ pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
         push("sliver 1e4 from its end", &|r| ([1e-4, 1.0], [r.range(0.1, 1.0), 0.0, 1.0]));
         push("near a vertex", &|r| ([1.0, 0.9], [1e-3 * r.range(-1.0, 1.0), 1e-3, 1e-3]));
         push("near an edge", &|r| ([1.0, 0.9], [-0.5, 1e-3 * r.range(-1.0, 1.0), 1e-3]));
-        // tilted rectangles on the z axis of the world, whose coordinates tell less than 1
+        // tilted rectangles on the z axis of the world, where the granularity is less than 1
         let tilt = exact_axes(&mut random);
         let length = crate::oracle::length(tilt[0]);
         for (name, size) in [("on the axis, 1e-4", 1e-4), ("on the axis, 1e-9", 1e-9)] {
@@ -186,7 +185,7 @@ pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
     all
 }
 
-/// Convex hexagons: by the semi-axes of the ellipse about them, and where its centre lies.
+/// Convex hexagons, from the semi-axes and the centre of their circumscribed ellipse.
 #[must_use]
 pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
     let mut random = Random::new(seed);
@@ -212,7 +211,7 @@ pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
     all
 }
 
-/// Regimes of flat shapes over which a cosine varies, or is at a far end of them.
+/// Shapes with random normals, from the regimes where the cosine varies over the shape and from the extremes of size.
 fn with_normals<S, W>(shapes: Vec<Case<S>>, seed: u64, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
     const KEPT: [&str; 7] = ["ordinary", "ordinary, aside", "small 1e-2", "tiny 1e-5", "far 1e9", "large 6", "oblique"];
     let mut random = Random::new(seed);

@@ -3,27 +3,27 @@
 use super::{Case, Random, combine, frame, narrow};
 use crate::fixtures::{ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle};
 
-/// Where a flat shape lies over a horizon.
+/// How a flat shape is placed relative to the horizon.
 #[derive(Clone, Copy, Debug)]
 enum Lie {
-    /// Its middle in this direction (elevation's sine), turned at random about it.
+    /// The sine of the elevation of its middle; the azimuth is random.
     At(f64),
-    /// The horizon passes so far (in units of its size) above its middle.
+    /// The height of the horizon above its middle, in units of its size.
     Cut(f64),
     /// The horizon passes through its first corner.
     Corner,
-    /// The zenith is at these coordinates of its edges.
+    /// The zenith, in coordinates along its edges.
     Zenith(f64, f64),
 }
 
-/// Flat shapes over a horizon, of every regime: corner, edges and normal.
+/// Flat shapes relative to a horizon, in every regime: corner, two edges and normal.
 #[must_use]
 pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
     use Lie::{At, Corner, Cut, Zenith};
     let mut random = Random::new(seed);
     let mut all = Vec::new();
     for _ in 0..each {
-        // size, length over width, and its distance off the nearest point of its plane
+        // size, length over width, distance from the point of its plane nearest to the viewpoint, and placement
         for (name, size, aspect, shift, lie) in [
             ("ordinary", 1.0, 1.0, 0.7, At(0.6)),
             ("overhead", 1.0, 1.0, 0.7, At(0.95)),
@@ -72,7 +72,7 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
                 [a, b].map(|_| core::array::from_fn::<f64, 3, _>(|i| a[i] * turn.cos() + b[i] * turn.sin()))
             };
             let middle = crate::oracle::unit(at(0.33, 0.33));
-            // perpendicular to p, as near as may be to the given vector
+            // the unit vector perpendicular to p that is nearest to v
             let upright = |p: [f64; 3], v: [f64; 3]| {
                 let p = crate::oracle::unit(p);
                 crate::oracle::unit(crate::oracle::along(v, p, -crate::oracle::dot(v, p)))
@@ -83,7 +83,7 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
                     core::array::from_fn(|i| middle[i] * sin + a[i] * cos)
                 }
                 Cut(below) => {
-                    // up to the sign the plane through p of which the tangent is b
+                    // up to its sign, the plane through p whose tangent is b
                     let reach = size / aspect / crate::oracle::length(at(0.33, 0.33));
                     let lift = f64::atan(reach * below);
                     let up = upright(middle, b);
@@ -92,11 +92,11 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
                 Corner => upright(corner, b),
                 Zenith(s, t) => crate::oracle::unit(at(s, t)),
             };
-            // any length will do
+            // any length is allowed
             let normal = normal.map(|x: f64| x * random.magnitude(0.1, 10.0));
             all.push((name, [corner, e1, e2, normal].map(narrow)));
         }
-        // exactly in the planes of the coordinates
+        // exactly aligned with the coordinate planes
         let upright = [[0.2, 0.0, 1.0], [1.0, 0.0, 0.0], [0.5, random.range(0.2, 1.0), 0.0], [0.0, 0.0, 1.0]];
         all.push(("azimuth of an edge", upright.map(narrow)));
         let lying = [[-1.0, 2.0, 0.0], [1.5, 0.0, 0.0], [0.5, 0.2, random.range(0.2, 1.0)], [0.0, 0.0, 1.0]];
@@ -105,7 +105,7 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
     all
 }
 
-/// Triangles over a horizon, of every regime.
+/// Triangles relative to a horizon, in every regime.
 #[must_use]
 pub fn projected_triangles(each: usize, seed: u64) -> Vec<Case<ProjectedTriangle>> {
     let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
@@ -122,7 +122,7 @@ pub fn projected_triangles(each: usize, seed: u64) -> Vec<Case<ProjectedTriangle
         .collect()
 }
 
-/// Parallelograms over a horizon, of every regime.
+/// Parallelograms relative to a horizon, in every regime.
 #[must_use]
 pub fn projected_parallelograms(each: usize, seed: u64) -> Vec<Case<ProjectedParallelogram>> {
     over_horizon(each, seed)
@@ -132,7 +132,7 @@ pub fn projected_parallelograms(each: usize, seed: u64) -> Vec<Case<ProjectedPar
         .collect()
 }
 
-/// Convex pentagons over a horizon.
+/// Convex pentagons relative to a horizon.
 #[must_use]
 pub fn projected_pentagons(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon>> {
     let mut random = Random::new(seed);

@@ -5,7 +5,7 @@ use crate::fixtures::{ProjectedSegment, Segment};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-/// Line segments of every regime, and over a horizon.
+/// Line segments in every regime, alone and relative to a horizon.
 #[must_use]
 pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
     let (plain, over) = segment_parameters(each, seed);
@@ -14,15 +14,15 @@ pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<Project
     (plain, over.filter(|(_, s)| s.seen()).collect())
 }
 
-/// Two names as one, made once.
+/// `name, place` as a string, allocated once per pair.
 fn joined(name: &'static str, place: &'static str) -> &'static str {
     static NAMES: Mutex<BTreeMap<[&str; 2], &str>> = Mutex::new(BTreeMap::new());
     let mut names = NAMES.lock().expect("nothing panics here");
     names.entry([name, place]).or_insert_with(|| Box::leak(format!("{name}, {place}").into_boxed_str()))
 }
 
-/// One end and the edge from there, and besides the normal of the surface, of [`segments`]: from one end, in the plane of point and segment (along the direction to it, and across), the edge; and the
-/// height over the horizon of either end.
+/// Parameters of [`segments`]: one end and the edge from it, and for the second list the surface's normal. The table has end and edge in a
+/// plane with the viewpoint, and the inner table the tilt of the normal and the first end's height over the horizon.
 #[must_use]
 #[expect(clippy::type_complexity, reason = "vectors")]
 pub fn segment_parameters(each: usize, seed: u64) -> (Vec<Case<[[f32; 3]; 2]>>, Vec<Case<[[f32; 3]; 3]>>) {
@@ -48,7 +48,7 @@ pub fn segment_parameters(each: usize, seed: u64) -> (Vec<Case<[[f32; 3]; 2]>>, 
             let axes = frame(&mut random);
             let [p, e] = [a, edge].map(|v| narrow(combine(&axes, v[0], v[1], 0.0)));
             plain.push((name, [p, e]));
-            // in units of the distance, so that small segments cross the horizon too
+            // relative to the distance, so that small segments cross the horizon too
             let size = f64::hypot(edge[0], edge[1]).min(1.0) / f64::hypot(a[0], a[1]).max(1.0);
             for (place, tilt, lift) in [
                 ("overhead", 0.7, 0.7),
@@ -57,7 +57,7 @@ pub fn segment_parameters(each: usize, seed: u64) -> (Vec<Case<[[f32; 3]; 2]>>, 
                 ("cut at the other end", -0.6, 0.2 * size),
                 ("low 1e-2", 0.3, 1e-2),
             ] {
-                // the height of a is its direction's part of the normal along it
+                // the first end's height is the normal's component along its direction
                 let unit = crate::oracle::unit([a[0], a[1], 0.0]);
                 let side = [-unit[1], unit[0], 0.0];
                 let towards = side[0] * edge[0] + side[1] * edge[1] > 0.0;

@@ -3,7 +3,7 @@
 use super::{Case, Random, combine, frame, narrow};
 use crate::fixtures::{Cap, Disk, ProjectedCap};
 
-/// Spheres of every regime.
+/// Spheres in every regime.
 #[must_use]
 pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
     let mut random = Random::new(seed);
@@ -32,7 +32,7 @@ pub fn caps(each: usize, seed: u64) -> Vec<Case<Cap>> {
     all
 }
 
-/// Spheres over a horizon, of every regime: by ratio of radius to distance, and cosine from normal to axis (in units of that ratio if small).
+/// Spheres relative to a horizon, in every regime: the ratio of radius to distance, and the cosine between the normal and the axis.
 #[must_use]
 pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
     let mut random = Random::new(seed);
@@ -63,7 +63,7 @@ pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
             all.push((name, ProjectedCap::new(center, ratio as f32, narrow(a[2]))));
         }
         let normal = narrow(random.direction());
-        // exactly: beside the normal by rounding alone, the azimuth is that of the rounding
+        // exactly along the normal: if rounding alone separated the axis from it, the azimuth would be that of the rounding
         all.push((
             "along the normal",
             ProjectedCap::new([0.0, 0.0, 3.0], random.range(0.1, 3.0) as f32, [0.0, 0.0, 1.0]),
@@ -77,13 +77,13 @@ pub fn projected_caps(each: usize, seed: u64) -> Vec<Case<ProjectedCap>> {
     all
 }
 
-/// Disks of every regime.
+/// Disks in every regime.
 #[must_use]
 pub fn disks(each: usize, seed: u64) -> Vec<Case<Disk>> {
     disk_parameters(each, seed).into_iter().map(|(name, (c, n, r))| (name, Disk::new(c, n, r))).collect()
 }
 
-/// Centre, normal and radius of [`disks`]: from the radius, the height of the point over the plane, and its offset from the axis.
+/// Centre, normal and radius of [`disks`]: the radius, the height of the viewpoint over the plane, and its offset from the axis.
 #[must_use]
 #[expect(clippy::type_complexity, reason = "vectors and a number")]
 pub fn disk_parameters(each: usize, seed: u64) -> Vec<Case<([f32; 3], [f32; 3], f32)>> {

@@ -1,4 +1,4 @@
-//! Of the maps of lines, squares and surfaces.
+//! Parameters of maps of lines, squares and surfaces.
 
 use super::{Case, EPSILON};
 use crate::fixtures::{
@@ -6,7 +6,7 @@ use crate::fixtures::{
     SphereSurface, Tent,
 };
 
-/// Cones from 1e−6 to π, by half-angle.
+/// Cones of half-angles from 1e−15 to π.
 #[must_use]
 pub fn cones() -> Vec<Case<Cone>> {
     let of = |sigma: f64| Cone { one_minus_cos: (2.0 * (sigma / 2.0).sin().powi(2)) as f32 };
@@ -32,7 +32,7 @@ pub fn cones() -> Vec<Case<Cone>> {
     all
 }
 
-/// Linear densities: flat, rising, falling, nearly flat, from and to nothing; tiny and huge units.
+/// Linear densities: flat, rising, falling, nearly flat, 0 at either end, in tiny and huge units.
 #[must_use]
 pub fn linears() -> Vec<Case<Linear>> {
     [
@@ -51,7 +51,7 @@ pub fn linears() -> Vec<Case<Linear>> {
     .to_vec()
 }
 
-/// Sizes of things on the line.
+/// Scales of distributions on the line.
 const SIZES: [(&str, f32); 7] = [
     ("1", 1.0),
     ("ordinary", 0.37),
@@ -62,7 +62,7 @@ const SIZES: [(&str, f32); 7] = [
     ("tiny 1e-30", 1e-30),
 ];
 
-/// Tents of every size.
+/// Tents of every scale.
 #[must_use]
 pub fn tents() -> Vec<Case<Tent>> {
     SIZES.map(|(name, radius)| (name, Tent { radius })).to_vec()
@@ -74,7 +74,7 @@ pub fn exponentials() -> Vec<Case<Exponential>> {
     SIZES.map(|(name, size)| (name, Exponential { rate: 1.0 / size })).to_vec()
 }
 
-/// Normal distributions of every size, about 0 and about means that are large and small beside σ.
+/// Normal distributions of every scale, about 0 and about means that are large or small relative to σ.
 #[must_use]
 pub fn normals() -> Vec<Case<Normal>> {
     let mut all = SIZES.map(|(name, sigma)| (name, Normal { mean: 0.0, sigma })).to_vec();
@@ -84,7 +84,7 @@ pub fn normals() -> Vec<Case<Normal>> {
     all
 }
 
-/// Bilinear densities: flat, ordinary, with zero corners and sides, steep, in tiny and huge units.
+/// Bilinear densities: flat, ordinary, with corners and sides of 0, steep, in tiny and huge units.
 #[must_use]
 pub fn bilinears() -> Vec<Case<Bilinear>> {
     [
@@ -101,7 +101,7 @@ pub fn bilinears() -> Vec<Case<Bilinear>> {
     .to_vec()
 }
 
-/// Microsurfaces: rough, smooth and anisotropic, from above, grazing and below.
+/// Microsurfaces: rough, smooth and anisotropic, viewed from above, at grazing angles and from below.
 #[must_use]
 pub fn microsurfaces() -> Vec<Case<GgxVisibleNormals>> {
     [
@@ -123,7 +123,7 @@ pub fn microsurfaces() -> Vec<Case<GgxVisibleNormals>> {
     .to_vec()
 }
 
-/// Distances and sizes of surfaces in space.
+/// Name, distance and size of surfaces in space.
 const PLACES: [(&str, f32, f32); 5] = [
     ("ordinary", 1.0, 0.7),
     ("small 1e-3", 1.0, 1e-3),
@@ -152,7 +152,7 @@ pub fn sphere_surfaces() -> [Case<SphereSurface>; 5] {
     PLACES.map(|(name, d, radius)| (name, SphereSurface { center: times(PLACE, d), radius }))
 }
 
-/// Sides of cylinders in space: of their own width, long and short.
+/// Sides of cylinders in space: of ordinary proportions, long, and short.
 #[must_use]
 pub fn cylinder_sides() -> Vec<Case<CylinderSide>> {
     let of = |(name, d, radius)| (name, CylinderSide { p: times(PLACE, d), axis: times(AXIS, 2.0 * radius), radius });
@@ -162,7 +162,7 @@ pub fn cylinder_sides() -> Vec<Case<CylinderSide>> {
     all
 }
 
-/// Bilinear patches in space: flat, twisted, a trapezium, long, and with two corners in one place.
+/// Bilinear patches in space: flat, twisted, a trapezium, long, and with two corners nearly coincident.
 #[must_use]
 pub fn patch_surfaces() -> Vec<Case<PatchSurface>> {
     let u = [0.8, 0.36, -0.2];

@@ -4,58 +4,75 @@ use crate::properties::vectors_of;
 use crate::techniques::Technique;
 use etendue::spherical::SphericalRectangle;
 use etendue::warp::Bilinear;
-use etendue::{Disk, LightSample, Mask, Real, Rectangle, Vec2, Vec3, Warp};
+use etendue::{Disk, LightSample, LightSampler, Mask, Real, Rectangle, Vec2, Vec3, Warp};
 
-/// 3: the square is warped by the cosines at the corners before a rectangle is sampled by its solid angle (Hart et al. 2020). The sample's
-/// density has the warp's factor; the evaluated one, if `WRONG`, has not.
+/// 3: the square is warped by the cosines at the corners before a rectangle is sampled by solid angle (Hart et al. 2020). The pdf of a
+/// sample includes the warp's factor; if `WRONG`, the evaluated pdf does not.
 #[derive(Clone, Copy, Debug)]
 pub struct CosineWarp<const WRONG: bool> {
     /// Corner, relative to the shading point.
     pub p: [f32; 3],
-    /// Edge.
+    /// First edge.
     pub u: [f32; 3],
-    /// Edge, perpendicular to `u`.
+    /// Second edge, perpendicular to `u`.
     pub v: [f32; 3],
 }
 impl<const WRONG: bool> CosineWarp<WRONG> {
     fn parts<R: Real>(lanes: &[Self]) -> (Rectangle<R>, SphericalRectangle<R>, Bilinear<R>) {
         let of = |i: usize| lanes[i % lanes.len()];
         let (p, u, v) = (vectors_of(|i| of(i).p), vectors_of(|i| of(i).u), vectors_of(|i| of(i).v));
-        // the normal of the receiver is +z
+        // the receiver's normal is +z
         let cos = |corner: Vec3<R>| corner.normalize().z.greater(R::lit(0.01));
         let corners = [cos(p), cos(p + u), cos(p + v), cos(p + u + v)];
         (Rectangle { p, u, v }, SphericalRectangle::new(p, u, v), Bilinear { corners })
     }
 }
 impl<const WRONG: bool> Technique for CosineWarp<WRONG> {
-    fn draw<R: Real>(lanes: &[Self], u: Vec2<R>) -> LightSample<R> {
-        let (light, _, warp) = Self::parts::<R>(lanes);
-        let v = warp.sample(u);
-        let zero = R::lit(0.0);
-        let sample = light.by_solid_angle(Vec3::new(zero, zero, zero), v);
-        LightSample { pdf: sample.pdf * warp.pdf(v), ..sample }
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+        let (light, seen, warp) = Self::parts::<R>(lanes);
+        Box::new(Warped::<R, WRONG> { light, seen, warp })
     }
-    fn evaluate<R: Real>(lanes: &[Self], w: Vec3<R>) -> Option<R> {
-        let (_, seen, warp) = Self::parts::<R>(lanes);
-        let pdf = seen.pdf(w);
-        Some(if WRONG { pdf } else { pdf * warp.pdf(seen.invert(w)) })
+    /// The inverse is accurate to a few roundings of a direction, divided by the size of the rectangle.
+    fn evaluated_to(&self, _: &LightSample<f32>) -> Option<f64> {
+        Some(1e-4)
     }
-    /// The inverse is known to some steps of a direction's rounding over the size.
-    fn evaluated_to(&self, _: crate::oracle::V3) -> f64 {
-        1e-4
+}
+struct Warped<R, const WRONG: bool> {
+    light: Rectangle<R>,
+    seen: SphericalRectangle<R>,
+    warp: Bilinear<R>,
+}
+impl<R: Real, const WRONG: bool> LightSampler<R> for Warped<R, WRONG> {
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let v = self.warp.sample(u);
+        let sample = self.light.by_solid_angle(self.origin()).sample(v);
+        LightSample { pdf: sample.pdf * self.warp.pdf(v), ..sample }
+    }
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let pdf = self.seen.pdf(w);
+        if WRONG { pdf } else { pdf * self.warp.pdf(self.seen.invert(w)) }
+    }
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.warp.invert(self.seen.invert(w))
+    }
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        LightSample { pdf: self.pdf(w), ..self.light.by_solid_angle(self.origin()).hit(w) }
+    }
+    fn origin(&self) -> Vec3<R> {
+        Vec3::lit([0.0; 3])
     }
 }
 
-/// A disk by area, as the core has it.
+/// A disk by area, as in the core.
 pub struct SoundDisk;
 impl SoundDisk {
     /// A sample from the origin.
     #[must_use]
     pub fn draw(disk: &Disk<f64>, u: Vec2<f64>) -> LightSample<f64> {
-        disk.by_area(Vec3::new(0.0, 0.0, 0.0), u)
+        disk.by_area(Vec3::new(0.0, 0.0, 0.0)).sample(u)
     }
 }
-/// 11: 1e−4 is added to what a density by area is divided by, lest it be 0.
+/// 11: 1e−4 is added to the divisor of a pdf by area, to keep it from being 0.
 pub struct PaddedDisk;
 impl PaddedDisk {
     /// A sample from the origin.

@@ -16,7 +16,7 @@ fn sphere<R: Real>(lanes: &[Cap]) -> Data<R> {
     let zero = R::lit(0.0);
     [axis(0), axis(1), axis(2), lanes_of(|i| f64::from(of(i).radius)), zero, zero, zero, zero, zero]
 }
-/// v0 and the edges.
+/// The first vertex and the two edges.
 fn flat<R: Real>(lanes: &[Triangle]) -> Data<R> {
     core::array::from_fn(|k| lanes_of(|i| lanes[i % lanes.len()].edges()[k / 3][k % 3]))
 }
@@ -24,7 +24,7 @@ fn vectors<R: Real>(data: &Data<R>) -> [Vec3<R>; 3] {
     [0, 3, 6].map(|k| Vec3::new(data[k], data[k + 1], data[k + 2]))
 }
 
-/// 1: 1−cosσ from a cosine in the density, of a sample that takes it from sin²σ/(1+cosσ).
+/// 1: the pdf computes 1−cosσ from a cosine, whereas the sample uses sin²σ/(1+cosσ).
 #[derive(Clone, Copy, Debug)]
 pub struct UnguardedCap;
 impl Defect for UnguardedCap {
@@ -41,7 +41,7 @@ impl Defect for UnguardedCap {
     }
 }
 
-/// 2: Arvo's map sweeps u₀ of a solid angle that is the excess of three angles; the density has that of an arc tangent.
+/// 2: Arvo's map sweeps u₀ times a solid angle computed as the excess of three angles; the pdf uses the one from an arc tangent.
 #[derive(Clone, Copy, Debug)]
 pub struct ExcessInSample;
 impl Defect for ExcessInSample {
@@ -60,14 +60,14 @@ impl Defect for ExcessInSample {
     }
 }
 
-/// A point that is uniform by area, seen.
+/// A point that is uniform by area, relative to the viewpoint.
 fn by_area<R: Real>(data: &Data<R>, u: Vec2<R>) -> Vec3<R> {
     let [v0, e1, e2] = vectors(data);
     let b: Vec2<R> = warp::AreaTriangle.sample(u);
     v0 + e1 * b.x + e2 * b.y
 }
 
-/// 4: below 3e−4 sr the point is uniform by area, and the density 1/Ω.
+/// 4: below 3e−4 sr the point is uniform by area, but the pdf is 1/Ω.
 #[derive(Clone, Copy, Debug)]
 pub struct AreaBetweenThresholds;
 impl Defect for AreaBetweenThresholds {
@@ -81,7 +81,8 @@ impl Defect for AreaBetweenThresholds {
     }
 }
 
-/// 5: a technique is chosen by the plane's distance over |N|, where that has been divided by |N| already. Both techniques are right.
+/// 5: the technique is chosen by the distance of the plane over |N|, although the distance was already divided by |N|. Both techniques are
+/// correct.
 #[derive(Clone, Copy, Debug)]
 pub struct UnitsInTheSwitch;
 impl UnitsInTheSwitch {
@@ -112,7 +113,7 @@ impl Defect for UnitsInTheSwitch {
     }
 }
 
-/// 8: b/a and a/b with no guard where both are 0.
+/// 8: b/a and a/b, unguarded where both are 0.
 #[derive(Clone, Copy, Debug)]
 pub struct FlatCentre;
 impl Defect for FlatCentre {
@@ -126,8 +127,8 @@ impl Defect for FlatCentre {
     }
 }
 
-/// 9: barycentric coordinates of the direction that was sampled, divided by their sum where that exceeds 1; the second by the sum of the
-/// first that is already divided and itself. The point is then beyond the far edge.
+/// 9: barycentric coordinates of the sampled direction are divided by their sum where that exceeds 1, but the sum for the second uses the
+/// first after its division. The point then lies beyond the far edge.
 #[derive(Clone, Copy, Debug)]
 pub struct SelfClampingBarycentrics<const WRONG: bool>;
 impl<const WRONG: bool> Defect for SelfClampingBarycentrics<WRONG> {
@@ -160,7 +161,7 @@ impl<const WRONG: bool> Defect for SelfClampingBarycentrics<WRONG> {
     }
 }
 
-/// 10: what leaves at less than 1e−5 over the horizon is dropped.
+/// 10: directions less than 1e−5 above the horizon are dropped.
 #[derive(Clone, Copy, Debug)]
 pub struct DroppedGrazing;
 impl Defect for DroppedGrazing {
@@ -170,7 +171,7 @@ impl Defect for DroppedGrazing {
     }
 }
 
-/// 12: the sine of a direction from its cosine as √(1+z²).
+/// 12: the sine of a direction is computed from its cosine as √(1+z²).
 #[derive(Clone, Copy, Debug)]
 pub struct ConeOverflow;
 impl Defect for ConeOverflow {
@@ -186,7 +187,7 @@ impl Defect for ConeOverflow {
     }
 }
 
-/// 13: the density of a sphere is 1/Ω wherever one looks.
+/// 13: the pdf of a sphere is 1/Ω in every direction.
 #[derive(Clone, Copy, Debug)]
 pub struct NonZeroOffTheCone;
 impl Defect for NonZeroOffTheCone {

@@ -1,13 +1,14 @@
-//! A cap whose centre is below the horizon: the lune between circle and ellipse.
+//! A cap cut by the horizon with its centre below: the lune between circle and ellipse.
 
 use super::ProjectedCap;
 use crate::math::{double, ratio};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 
-/// (C(x), C(x) − C(y) over 1 − x²/y²) for 0 ≤ x ≤ y, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds.
+/// C(x), and (C(x) − C(y))/(1 − x²/y²), for 0 ≤ x ≤ y, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds.
 ///
-/// Up to 1 (2.5 in single precision) by Gauss and Legendre, where (C(x)−C(y))/(y²−x²) = ∫ s²(1−s²)/((1+x²s²)(1+y²s²)) ds; beyond in closed form.
+/// Up to 1 (2.5 in single precision) by Gauss–Legendre quadrature, where (C(x)−C(y))/(y²−x²) = ∫ s²(1−s²)/((1+x²s²)(1+y²s²))
+/// ds; beyond, in closed form.
 #[inline]
 pub(super) fn arcs<R: Real>(x: R, y: R) -> (R, R) {
     // s² and weight · (1−s²)
@@ -49,7 +50,7 @@ pub(super) fn arcs<R: Real>(x: R, y: R) -> (R, R) {
     if !far.any() {
         return (first, difference);
     }
-    // in single precision the difference has too few digits up to 2.5, and twice as many nodes still do
+    // in single precision, the closed form has too few digits below 2.5, where twice as many nodes suffice
     let reach = R::lit(if double::<R>() { 1.0 } else { 2.5 });
     let wide = if double::<R>() { (first, difference) } else { quadrature(&WIDE, reach) };
     let closed = |x: R| {
@@ -65,16 +66,16 @@ pub(super) fn arcs<R: Real>(x: R, y: R) -> (R, R) {
     (R::blend(far, far_first, first), R::blend(far, far_difference, difference))
 }
 
-/// A slice of the lune at ±t: its half-area up to t and its width, in common units.
+/// A slice of the lune at ±t: its half-area up to t and its width, in units common to all slices of a cap.
 pub(super) struct Slice<R> {
     pub(super) area: R,
     width: R,
-    /// d width/dt over width
+    /// (d width/dt)/width
     slope: R,
 }
 
 impl<R: Real> ProjectedCap<R> {
-    /// The direction for `u` in the local frame, and (cosine to the axis) − cosσ.
+    /// Maps `u` to a direction in the local frame and (cosine to the axis) − cosσ.
     #[inline]
     pub(super) fn lune(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
@@ -86,7 +87,7 @@ impl<R: Real> ProjectedCap<R> {
         let inward = width * u.y;
         let x = arc - inward;
         let z = (inward * (arc + x)).greater(zero).sqrt();
-        // from the rim, at the same y
+        // the rim at the same y
         let (rim_x, rim_z) = (arc - width, (width * (arc + arc - width)).greater(zero).sqrt());
         let beyond = width * (one - u.y) * (self.sin_omega - self.cos_omega * ratio(x + rim_x, z + rim_z));
         (Vec3::new(x, y, z), beyond)
@@ -96,7 +97,7 @@ impl<R: Real> ProjectedCap<R> {
     pub(super) fn width(&self, t: R) -> R {
         self.sin_theta * self.tan_theta * self.sin_omega * self.sin_omega * self.slice(t, false).width
     }
-    /// The slice at t; without its area, `area` is 0.
+    /// The slice at t; `area` is 0 without `with_area`.
     #[inline]
     pub(super) fn slice(&self, t: R, with_area: bool) -> Slice<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -105,7 +106,7 @@ impl<R: Real> ProjectedCap<R> {
         let p = (a * a).mul_add(m, one).sqrt();
         let q = beta.mul_add(beta, m).sqrt();
         let (p1, q1, pq) = (one + p, beta + q, beta.mul_add(p, q));
-        // two divisions for all the quotients below: P ≥ 1, and Q ≥ β ≥ 1e−9
+        // two divisions serve all the quotients below: P ≥ 1, and Q ≥ β ≥ 1e−9
         let (a_pair, a_triple) = (one / (p * q), one / (p1 * q1 * pq));
         let (by_p, by_q, by_pq) = (q * a_pair, p * a_pair, p1 * q1 * a_triple);
         let width = m * m * a_triple;
@@ -116,12 +117,12 @@ impl<R: Real> ProjectedCap<R> {
             let tail = R::lit(0.5) * t * t * t * a_pair;
             area = t.mul_add(width, tail * (c * m * by_pq + beta * difference * by_p));
         }
-        // of log m² − log(1+P) − log(β+Q) − log(βP+Q), by m, times dm/dt = −2t
+        // derivative of log m² − log(1+P) − log(β+Q) − log(βP+Q) by m, times dm/dt = −2t
         let (dp, dq) = (R::lit(0.5) * a * a * by_p, R::lit(0.5) * by_q);
         let by_m = ratio(R::lit(2.0), m) - (dp * q1 + dq * p1) * pq * a_triple - beta.mul_add(dp, dq) * by_pq;
         Slice { area, width, slope: -(t + t) * by_m }
     }
-    /// The half-lune's area beyond t, in the units of a slice: what is left after a difference would have few digits.
+    /// The half-lune's area beyond t, in the units of a slice, by quadrature: a difference would leave few digits.
     #[inline]
     pub(super) fn tail(&self, t: R) -> R {
         let one = R::lit(1.0);
@@ -137,17 +138,17 @@ impl<R: Real> ProjectedCap<R> {
             (0.8983332387068134, 0.1111905172266872),
             (0.9801449282487681, 0.0506142681451885),
         ] {
-            // in √(1−t), of which P and Q have no steep root
+            // in terms of √(1−t), where P and Q have no steep root
             sum = R::lit(2.0 * weight * x).mul_add(self.slice(rest.mul_add(R::lit(-x * x), one), false).width, sum);
         }
         sum * rest
     }
-    /// Where single precision would leave an area beyond t of few digits: that is less than a share of 1/8 of the half.
+    /// Where single precision would leave few digits of the area beyond t: a share of less than 1/8 of the half.
     #[inline(always)]
     pub(super) fn ends(share: R) -> R::Mask {
         share.lt(R::lit(if double::<R>() { -1.0 } else { 0.125 }))
     }
-    /// t in [0, 1] beyond which lies the share `left` of the half-lune.
+    /// The t in [0, 1] beyond which lies the share `left` of the half-lune.
     #[inline]
     fn invert_lune(&self, left: R) -> R {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -155,7 +156,7 @@ impl<R: Real> ProjectedCap<R> {
         let target = v * self.half;
         let ends = Self::ends(left);
         let start = self.slice(zero, false);
-        // from the two ends: area ≈ width · t; and at P = 1 and t ≈ 1, with r = Q − β, the rest of it is r⁴/8 + βr³/6
+        // estimates from the two ends: area ≈ width · t; and near P = 1 and t = 1, with r = Q − β, the rest is r⁴/8 + βr³/6
         let near = v * ratio(self.half, start.width);
         let rest = left.greater(zero) * self.half;
         let mut r = (R::lit(8.0) * rest).sqrt().sqrt().lesser((R::lit(6.0) * ratio(rest, self.beta)).cbrt());
@@ -166,7 +167,7 @@ impl<R: Real> ProjectedCap<R> {
         }
         let far = (one - r * (r + self.beta + self.beta)).greater(zero).sqrt();
         let mut t = R::blend(v.lt(R::lit(0.5)), near, near.greater(far)).clamped(zero, one);
-        // a step takes the error to its third power: after one of so many parts of what is left there is nothing more to do
+        // a step cubes the error, so one below `enough` of the rest is the last
         let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 256.0) };
         let mut open = R::Mask::splat(true);
         for _ in 0..steps {
@@ -179,7 +180,7 @@ impl<R: Real> ProjectedCap<R> {
             // Halley: off/(1 − ½ off f′/f)
             let halley = one - R::lit(0.5) * newton * slice.slope;
             let step = newton / halley.greater(R::lit(0.5));
-            // a lane that is done stays as it is, whatever its neighbours need
+            // a converged lane stays as it is, so that it does not depend on its neighbours
             t = R::blend(open, (t - step).clamped(zero, one), t);
             open = open & (step.abs()).gt(R::lit(enough) * (one - t));
             if !open.any() {

@@ -1,10 +1,10 @@
-//! The area of a segment of a disk, and its inverse.
+//! The area of a circular segment, and its inverse.
 
 use crate::math::{double, polynomial, ratio};
 use crate::real::Real;
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
-/// S(φ) = φ − sinφ cosφ for φ in [0, π/2]: ½(Φ − sinΦ) with Φ = 2φ, by its series.
+/// S(φ) = φ − sinφ cosφ for φ in [0, π/2]: ½(Φ − sinΦ) with Φ = 2φ, by its power series.
 #[inline(always)]
 pub(in crate::spherical) fn segment<R: Real>(phi: R) -> R {
     const fn coefficients<const N: usize>() -> [f64; N] {
@@ -28,8 +28,8 @@ pub(in crate::spherical) fn segment<R: Real>(phi: R) -> R {
 
 /// Sine and cosine of the φ in [0, π/2] with S(φ) = `area`.
 ///
-/// Both are series in w², w = (12·`area`)^⅓: sinφ = wP(w²), cosφ = Q(w²), fitted to 2.0e−8 and 1.1e−8; in double precision refined by
-/// two steps of Newton's.
+/// Both are series in w², w = (12·`area`)^⅓: sinφ = wP(w²), cosφ = Q(w²), fitted to 2.0e−8 and 1.1e−8. Double precision adds
+/// two steps of Newton's method.
 #[inline(always)]
 pub(super) fn invert_segment<R: Real>(area: R) -> (R, R) {
     let (zero, one) = (R::lit(0.0), R::lit(1.0));

@@ -1,5 +1,5 @@
-//! A triangle wholly above the horizon, in two sectors or, about the zenith, in three.
-#![expect(unreachable_pub, reason = "of the macro")]
+//! A triangle wholly above the horizon: two sectors, or three if it contains the zenith.
+#![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
 use super::sector::{Corner, Sector};
 use crate::lanewise::lanewise;
@@ -7,7 +7,7 @@ use crate::math::{double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
-/// Share of the area below which a sector is left out: a small part of a step of 2⁻²⁴ in `u`, or of the precision.
+/// Share of the area below which a sector is dropped: a small part of a step of 2⁻²⁴ in `u`, or of the precision.
 const NARROWEST: f64 = 1.0 / 4_294_967_296.0;
 const NARROWEST_F64: f64 = 1e-16;
 
@@ -17,28 +17,37 @@ pub(super) fn narrowest<R: Real>() -> R {
 }
 
 lanewise! {
-    /// By azimuth: from the first vertex to the middle one, from there to the last; about the zenith on to the first.
+    /// A triangle swept by azimuth: from the first vertex to the middle one, from there to the last, and about the zenith on to
+    /// the first.
     pub struct Piece {
+        /// from the first vertex to the middle one
         first: Sector<R>,
-        /// told from its far end, the last vertex
+        /// from the middle vertex to the last, given from the last
         second: Sector<R>,
+        /// about the zenith, from the last vertex to the first; otherwise empty
         third: Sector<R>,
-        /// horizontal, across the azimuth of the middle vertex: positive beyond it
+        /// horizontal normal of the azimuth plane of the middle vertex: positive beyond it
         middle: Vec3<R>,
-        /// ±1: does the azimuth go round anticlockwise?
+        /// 1 if the azimuth runs counterclockwise, else −1
         turn: R,
+        /// sum of the sectors
         pub(super) area: R,
     }
 }
 
-/// Vertices relative to the point; of the products of each and the next unit vectors, lengths, and inner products with the normal; heights over
-/// the horizon, and det(v₀, v₁, v₂).
+/// A triangle, with the quantities that give its sectors.
 pub(super) struct Corners<R> {
+    /// relative to the point
     pub(super) vertices: [Vec3<R>; 3],
+    /// unit normals of the planes through the viewpoint and each vertex and the next
     pub(super) poles: [Vec3<R>; 3],
+    /// lengths of the cross products of each vertex and the next
     pub(super) lengths: [R; 3],
+    /// inner products of those cross products with the normal
     pub(super) areas: [R; 3],
+    /// heights of the vertices over the horizon
     pub(super) heights: [R; 3],
+    /// det(v₀, v₁, v₂)
     pub(super) volume: R,
 }
 
@@ -54,7 +63,7 @@ impl<R: Real> Piece<R> {
         let cosine: [R; 3] = core::array::from_fn(|i| (areas[i] * m_inverse[i]).clamped(-one, one));
         let reversed = volume.lt(zero);
         let cosine = cosine.map(|c| c.negate_where(reversed));
-        // one edge on the far side of the other two: inner if its plane lies over the triangle. None about the zenith
+        // an edge is inner if its plane lies over the triangle: one is, or two are, or, about the zenith, none
         let inner = cosine.map(|c| c.lt(zero));
         let two = (inner[0] & inner[1]) | (inner[1] & inner[2]) | (inner[2] & inner[0]);
         let central = !(inner[0] | inner[1] | inner[2]);
@@ -75,13 +84,13 @@ impl<R: Real> Piece<R> {
         let (a, c) = (turned(unit, 0), turned(unit, 2));
         let (size_a, size_c) = (pick(sizes, 0), pick(sizes, 2));
         let (height_a, height_c) = (pick(height, 0), pick(height, 2));
-        // twice the horizontal areas to either side of the middle vertex
+        // twice the projected areas on either side of the middle vertex
         let (before, after) = (cosines[0] * lengths[0], cosines[1] * lengths[1]);
         let volume_abs = volume.abs();
         let some = volume_abs.gt(zero);
 
         let sector = |own: usize, away: R::Mask, apex: Vec3<R>, size: R, height: R, mine: R, other: R| {
-            // away: the own edge runs towards the apex; the long one from the last vertex to the first
+            // away: this sector's own edge runs towards the apex; the long edge runs from the last vertex to the first
             let over = Vec3::blend(two, poles[2], poles[own]);
             let over = Vec3::blend(away ^ two, -over, over);
             let tangent = over.cross(apex);
@@ -121,12 +130,12 @@ impl<R: Real> Piece<R> {
             });
             third.area = third.area.keep(central & some);
         }
-        // beside an upright edge there are sectors of no width, in which a direction is all rounding: no `u` but 0 falls into them
+        // beside an upright edge a sector has no width, and a direction in it would be pure rounding: only u = 0 falls into it
         let least = narrowest::<R>() * (first.area + second.area + third.area);
         for sector in [&mut first, &mut second, &mut third] {
             sector.area = sector.area.keep(sector.area.gt(least));
         }
-        // with the long edge outside, they run the other way round
+        // with the long edge outside, the sectors run the other way round
         let turn = one.negate_where(reversed ^ two);
         Self {
             first,
@@ -138,8 +147,8 @@ impl<R: Real> Piece<R> {
         }
     }
 
-    /// The sector that has the area `swept` before it and `left` behind, and the share of its own area that is before the azimuth, from its
-    /// apex: each from the end that is nearer, where the azimuth is a root of the area.
+    /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
+    /// counted from its apex: each from the nearer end, where the azimuth is a root of the area.
     #[inline(always)]
     pub(super) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -156,7 +165,7 @@ impl<R: Real> Piece<R> {
         (sector, share)
     }
 
-    /// The area before a direction, and `u` across.
+    /// The area before a direction, and u₁.
     #[inline(always)]
     pub(super) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));

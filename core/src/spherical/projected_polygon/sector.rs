@@ -1,65 +1,73 @@
-//! A part of a polygon between two half-planes of constant azimuth and two great circles that meet in a vertex.
-#![expect(unreachable_pub, reason = "of the macro")]
+//! The part of a polygon between two half-planes of constant azimuth and two great circles that meet in a vertex.
+#![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
 use crate::lanewise::lanewise;
 use crate::math::{double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
-/// Up to this tangent of either arc an area is the form that keeps its digits at any size, beyond it the difference of arcs.
+/// Up to this tangent of either arc, the area uses the form that keeps its digits at any size; beyond, the difference of arcs.
 const NEAR: f64 = 0.7;
-/// How far the inner arc may rise over the outer one, relative to its own plane's cosine, there.
+/// How far the inner arc may rise over the outer one in that form, relative to the cosine k of its plane.
 const STEEP: f64 = 4.0;
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 
 lanewise! {
-    /// Between an outer arc, which is lower, and an inner one, from the vertex in which they meet to an azimuth.
+    /// The region between an outer (lower) arc and an inner one, from the vertex in which they meet up to an azimuth.
     ///
-    /// At the angle θ along the outer arc, its height over the horizon is z = ζ cosθ + τ sinθ, and the plane of the inner one lies
-    /// D = sinδ sinθ away (δ: angle between the arcs). With c, k the cosines of the two planes to the horizon, squared distances to the
-    /// zenith's axis are in the ratio k²/(k² + y), y = D(2kz + D), so that the area is ½c ∫ y/(k² + y) dθ: an integral of positive terms.
+    /// At the angle θ along the outer arc, its height over the horizon is z = ζ cosθ + τ sinθ, and the plane of the inner arc
+    /// is D = sinδ sinθ away (δ is the angle between the arcs). With c and k the cosines of the outer and the inner plane to
+    /// the horizon, squared distances to the zenith's axis are in the ratio k²/(k² + y), y = D(2kz + D), so the area is ½c ∫
+    /// y/(k² + y) dθ: an integral of positive terms.
     pub struct Sector {
+        /// unit vector to the vertex in which the arcs meet
         pub(super) apex: Vec3<R>,
-        /// along the outer arc
+        /// unit tangent there, along the outer arc
         tangent: Vec3<R>,
-        /// ζ and τ
+        /// ζ, the height of the apex
         height: R,
+        /// τ, the height of the tangent
         slope: R,
-        /// c, k, c−k and sinδ; k = 0 stands for the zenith itself as the inner arc
+        /// c
         outer: R,
+        /// k; 0 stands for the zenith itself as the inner arc
         inner: R,
+        /// c−k
         gap: R,
+        /// sinδ
         fold: R,
-        /// tanθ at the far end, if both arcs are short; else 0
+        /// tanθ at the far end if both arcs are short, else 0
         near: R,
-        /// θ at the far end, if not; else 0
+        /// θ at the far end if they are not, else 0
         wide: R,
         /// d log area / d log θ at the far end
         power: R,
+        /// projected area, a part of Ω⊥
         pub(super) area: R,
     }
 }
 
-/// What a sector is made from.
+/// The inputs of [`Sector::new`].
 pub(super) struct Corner<R> {
+    /// as in [`Sector`]
     pub(super) apex: Vec3<R>,
     pub(super) tangent: Vec3<R>,
     pub(super) height: R,
     pub(super) slope: R,
     pub(super) outer: R,
     pub(super) inner: R,
-    /// sine and cosine of the angle between the arcs
+    /// sinδ and cosδ
     pub(super) fold: [R; 2],
-    /// proportional to the sine and the cosine of the outer arc
+    /// proportional to the sine and the cosine of the outer arc's length
     pub(super) end: [R; 2],
 }
 
-/// Half the width of the step in which `R` counts as converged: the next error is its square.
+/// Newton step, relative to its variable, below which `R` counts as converged: the next error is its square.
 fn enough<R: Real>() -> R {
     R::lit(if double::<R>() { 1e-9 } else { 3e-4 })
 }
 
-/// ∫₀¹ t²/((1+at²)(1+bt²)) dt for a, b in [0, ½], by `1 + (a+b)t² + abt⁴`: Gauss's rule for the weight t².
+/// ∫₀¹ t²/((1+at²)(1+bt²)) dt for a, b in [0, ½], given a+b and ab, by Gauss's rule for the weight t².
 #[inline(always)]
 fn mean_fall<R: Real>(sum: R, product: R) -> R {
     const FEW: [(f64, f64); 4] = [
@@ -78,7 +86,7 @@ fn mean_fall<R: Real>(sum: R, product: R) -> R {
         (0.123_363_751_658_919_72, 0.020_725_616_336_108_083),
         (0.031_856_603_044_242_76, 0.005_624_688_017_293_875),
     ];
-    // pairs of quotients over one denominator, and pairs of those
+    // one division for four quotients
     let pair = |&[(x, v), (y, w)]: &[(f64, f64); 2]| {
         let below = |t: f64| product.mul_add(R::lit(t * t), sum.mul_add(R::lit(t), R::lit(1.0)));
         let (p, q) = (below(x), below(y));
@@ -91,7 +99,7 @@ fn mean_fall<R: Real>(sum: R, product: R) -> R {
     if double::<R>() { four(&MANY[..4]) + four(&MANY[4..]) } else { four(&FEW) }
 }
 
-/// An area, and its derivative.
+/// An area and its derivative.
 struct Swept<R> {
     area: R,
     density: R,
@@ -102,7 +110,7 @@ impl<R: Real> Sector<R> {
     pub(super) fn new(corner: Corner<R>) -> Self {
         let Corner { apex, tangent, height, slope, outer, inner, fold: [sin, cos], end: [y, x] } = corner;
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
-        // c − k = c(1−cosδ) + τ sinδ; near the zenith both are small, and their difference is better
+        // c − k = c(1−cosδ) + τ sinδ; near the zenith c and k are small, and the plain difference is better
         let versine = R::blend(cos.gt(zero), sin * sin / (one + cos.greater(zero)), one - cos);
         let gap = R::blend((outer + inner).lt(sin), outer - inner, outer.mul_add(versine, slope * sin));
         let (near, steep) = (R::lit(NEAR), R::lit(STEEP));
@@ -145,7 +153,7 @@ impl<R: Real> Sector<R> {
         sector
     }
 
-    /// Over k: c, c − k, ζ sinδ and sinδ.
+    /// c, c − k, ζ sinδ and sinδ, each over k.
     #[inline(always)]
     fn narrow(&self) -> [R; 4] {
         let inverse = ratio(R::lit(1.0), self.inner.keep(self.near.gt(R::lit(0.0))));
@@ -153,9 +161,9 @@ impl<R: Real> Sector<R> {
         [self.outer * inverse, self.gap * inverse, self.height * fold, fold]
     }
 
-    /// The area up to x = tanθ and its derivative by x, over ½c, both good to parts of themselves.
+    /// The area up to x = tanθ and its derivative by x, over ½c, both accurate relative to their own size.
     ///
-    /// With B = k + ζ sinδ x the inner arc's tangent is v = cx/B, and c atan x − k atan v, with atan x/x = 1 − x²Ψ.
+    /// With B = k + ζ sinδ x the inner arc's tangent is v = cx/B; the area is c atan x − k atan v, with atan x/x = 1 − x²Ψ.
     #[inline(always)]
     fn by_tangent(&self, &[outer, gap, lift, fold]: &[R; 4], x: R) -> Swept<R> {
         let one = R::lit(1.0);
@@ -173,11 +181,11 @@ impl<R: Real> Sector<R> {
         Swept { area, density: above / (square * (square + above)) }
     }
 
-    /// y at θ, by its sine and cosine.
+    /// y at θ, from its sine and the height z there.
     #[inline(always)]
     fn rise(&self, s: R, z: R) -> R {
         let away = self.fold * s;
-        // of the zenith: 1, also where the outer arc begins
+        // if the inner arc is the zenith, the ratio is 1 even where the outer arc begins
         (away * (self.inner + self.inner).mul_add(z, away)).greater(R::lit(1e-37))
     }
     #[inline(always)]
@@ -185,11 +193,11 @@ impl<R: Real> Sector<R> {
         self.height.mul_add(c, self.slope * s).greater(R::lit(0.0))
     }
 
-    /// The area up to θ and its derivative by θ, over ½c: to parts of θ.
+    /// The area up to θ and its derivative by θ, over ½c, accurate relative to θ.
     #[inline(always)]
     fn by_angle(&self, theta: R, s: R, c: R) -> Swept<R> {
         let lift = self.height * self.fold;
-        // the inner arc beyond the outer one
+        // the angle from the end of the outer arc to that of the inner one
         let y = s * lift.mul_add(s, -self.gap * c);
         let x = s.mul_add(lift.mul_add(c, self.gap * s), self.inner);
         let both = self.gap.mul_add(theta, self.inner * y.atan2(x));
@@ -197,7 +205,7 @@ impl<R: Real> Sector<R> {
         Swept { area: ratio(both, self.outer), density: rise / self.inner.mul_add(self.inner, rise) }
     }
 
-    /// Share of the far end's θ or tanθ for a share v of the area: exact at both ends to first order.
+    /// Estimates the share of the far end's θ or tanθ for the share v of the area: exact at both ends to first order.
     #[inline(always)]
     fn start(&self, v: R) -> R {
         let root = v.sqrt();
@@ -205,7 +213,7 @@ impl<R: Real> Sector<R> {
         self.power * root / (self.power - two).mul_add(root, two)
     }
 
-    /// Sine and cosine of the θ up to which lies the share `v` of the area.
+    /// Sine and cosine of the θ up to which the share `v` of the area lies.
     #[inline(never)]
     pub(super) fn sweep(&self, v: R) -> [R; 2] {
         let one = R::lit(1.0);
@@ -225,7 +233,7 @@ impl<R: Real> Sector<R> {
         [s, c]
     }
 
-    /// Newton's method in x², of which the area is nearly a multiple.
+    /// Newton's method in x², which is nearly proportional to the area.
     #[inline(always)]
     fn invert_tangent(&self, v: R) -> R {
         let two = R::lit(2.0);
@@ -248,12 +256,12 @@ impl<R: Real> Sector<R> {
         x
     }
 
-    /// Newton's method in θ² or in θ, whichever the area is more nearly a multiple of, within a bracket.
+    /// Newton's method, within a bracket, in θ² or θ, whichever is more nearly proportional to the area.
     #[inline(always)]
     fn invert_angle(&self, v: R) -> R {
         let (zero, two, half) = (R::lit(0.0), R::lit(2.0), R::lit(0.5));
         let target = v * ratio(two * self.area, self.outer);
-        // about the zenith, the area is a multiple of θ
+        // about the zenith, the area is proportional to θ
         let mut theta = self.wide * R::blend(self.inner.gt(zero), self.start(v), v);
         let mut going = theta.gt(zero) & self.inner.gt(zero);
         let (mut low, mut high) = (zero, self.wide);
@@ -279,39 +287,39 @@ impl<R: Real> Sector<R> {
         theta
     }
 
-    /// The direction at θ of the outer arc, and `u` of the way there from the inner one.
+    /// The direction at the azimuth of θ on the outer arc, at `u` of the way there from the inner one.
     #[inline(always)]
     pub(super) fn direction(&self, normal: Vec3<R>, [s, c]: [R; 2], u: R) -> Vec3<R> {
         let one = R::lit(1.0);
         let z = self.height(s, c);
         let rise = self.rise(s, z);
         let whole = self.inner.mul_add(self.inner, rise);
-        // squared distance to the axis: 1 − ν of the outer arc's
+        // squared distance to the axis: 1 − ν times that of the outer arc
         let nu = (one - u) * rise / whole;
         let keep = (self.inner.mul_add(self.inner, u * rise) / whole).sqrt();
         let arc = self.apex.mul_add(c, self.tangent * s);
         let flat = arc - normal * z;
         let squared = flat.length_squared();
         let up = squared.mul_add(nu, z * z).sqrt();
-        // as a displacement, so that it is as good as it is small
+        // as a displacement, accurate relative to its own size
         let moved = normal * (ratio(squared, up + z) * nu) - flat * (nu / (one + keep));
         let w = arc + moved;
-        // a unit vector but for rounding; from the triangle's own plane or corner its planes are all rounding
+        // a unit vector up to rounding; from the triangle's own plane or corner its planes are pure rounding
         let squared = w.length_squared();
         w * rsqrt(R::blend(squared.gt(R::lit(1e-30)), squared, one))
     }
 
-    /// The share of the area before the azimuth of a direction, and `u` across.
+    /// The share of the area before the azimuth of a direction, and u₁.
     #[inline(never)]
     pub(super) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // q_A × q_w and q_w × q_T, of horizontal parts
+        // q_A × q_w and q_w × q_T for the horizontal parts q of apex, direction and tangent
         let (start, far) = (normal.cross(self.apex), normal.cross(self.tangent));
         let clockwise = start.dot(self.tangent).lt(zero);
         let y = start.dot(w - self.apex).negate_where(clockwise);
         let x = (-far.dot(w)).negate_where(clockwise);
-        // per sine of the way from the vertex this is the cosine of a plane between those of both arcs, which bound it better than the
-        // rounded direction does: along a steep arc a unit of azimuth is a long way
+        // over the sine of the way from the vertex, this is the cosine of a plane between the arcs; they bound it better than
+        // the rounded direction does, since along a steep arc a unit of azimuth is a long way
         let way = w.cross(self.apex).length();
         let y = y.greater(way * self.outer.lesser(self.inner));
         let y = R::blend(self.slope.ge(zero), y.lesser(way * self.outer), y);
@@ -334,7 +342,7 @@ impl<R: Real> Sector<R> {
         let rise = self.rise(s, z);
         let whole = self.inner.mul_add(self.inner, rise);
         let arc = self.apex.mul_add(c, self.tangent * s);
-        // r₀² − r² = sin(the angle between) sin(the sum of the angles to the axis)
+        // r₀² − r² = sin(angle between) · sin(sum of the angles to the axis)
         let (out, inward) = (arc.cross(normal), w.cross(normal));
         let (out2, in2) = (out.length_squared(), inward.length_squared());
         let (r0, r) = (out2.sqrt(), in2.sqrt());

@@ -1,4 +1,4 @@
-//! Axes with even steps or even factors.
+//! Linear and logarithmic axes.
 
 use super::short;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
@@ -6,15 +6,15 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 /// A scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// Even steps.
+    /// Linear.
     Linear,
-    /// Even factors.
+    /// Logarithmic, with ticks at powers of ten.
     Log,
-    /// Even factors, ticks at powers of two.
+    /// Logarithmic, with ticks at powers of two.
     Binary,
 }
 
-/// 10 to a whole power, in small raised digits.
+/// Formats a power of ten with a superscript exponent.
 fn power_of_ten(exponent: i32) -> String {
     let digit = |c: char| match c {
         '-' => '⁻',
@@ -27,7 +27,7 @@ fn power_of_ten(exponent: i32) -> String {
     }
 }
 
-/// An axis of any scale.
+/// An axis with any scale.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
     pub(super) scale: Scale,
@@ -38,7 +38,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Around all of the values, with a margin.
+    /// An axis that contains all values, with a margin.
     pub(super) fn new(scale: Scale, values: impl Iterator<Item = f64>) -> Self {
         let usable = |x: &f64| x.is_finite() && (scale == Scale::Linear || *x > 0.0);
         let (low, high) =
@@ -68,7 +68,7 @@ impl Axis {
                     light.extend(steps.filter(|x| (low..=high).contains(x)));
                 }
                 if scale == Scale::Log && bold.len() < 2 {
-                    // less than two powers of ten in view: 2 and 5 of each as well
+                    // fewer than two powers of ten in view: also ticks at 2 and 5 times each
                     let more = (first - 1..=last).flat_map(|e| [2.0, 5.0].map(|k| k * 10_f64.powi(e)));
                     bold.extend(more.filter(|x| (low..=high).contains(x)));
                     bold.sort_by(f64::total_cmp);
@@ -85,7 +85,7 @@ impl Axis {
             _ => short(x),
         }
     }
-    /// Into the chart, so that an interval that includes 0 ends at its edge.
+    /// Clamps a value to the axis, so that an interval that includes 0 ends at its edge.
     pub(super) fn inside(&self, x: f64) -> f64 {
         if x.is_nan() { self.low } else { x.clamp(self.low, self.high) }
     }

@@ -1,4 +1,4 @@
-//! Bars.
+//! Bar charts.
 
 use super::axis::{Axis, Scale};
 use super::{Bar, Drawing, GRID, INK, PALE, ROW, TEXT, UNIT, WIDTH, escape, font, group, layer, rgb, short, stroke};
@@ -6,23 +6,23 @@ use plotters::coord::ranged1d::Ranged;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Bars to the right, from 1, on a logarithmic scale.
+/// Horizontal bars on a logarithmic scale.
 #[derive(Clone, Debug)]
 pub struct Bars {
-    /// Above it.
+    /// Title above the chart.
     pub title: String,
-    /// Below it.
+    /// Label of the axis.
     pub label: String,
-    /// From top to bottom: id, name, colour, value, and whether it is sure.
+    /// Rows from top to bottom: id, name, colour, value, and whether the value supports a claim.
     pub rows: Vec<(String, String, usize, Bar, bool)>,
-    /// Where bars begin.
+    /// Value at which bars begin.
     pub origin: f64,
-    /// How a value is written behind its bar.
+    /// Unit written behind each value.
     pub unit: String,
 }
 
 impl Bars {
-    /// Draws it.
+    /// Draws the chart.
     #[must_use]
     pub fn draw(&self) -> Drawing {
         let drawable = |b: &Bar| b.value.is_finite() && b.value > 0.0;
@@ -31,7 +31,7 @@ impl Bars {
             [r.3.value, ends[0], ends[1]]
         });
         let mut axis = Axis::new(Scale::Log, values.chain([self.origin]));
-        // room for the numbers behind the bars
+        // leaves room for the numbers behind the bars
         axis.high *= (axis.high / axis.low).powf(0.22);
         axis = Axis { scale: Scale::Log, ..Axis::new(Scale::Log, [axis.low * 1.3, axis.high / 1.3].into_iter()) };
         let (top, left, bottom) = (34, 186, 44);
@@ -60,7 +60,7 @@ impl Bars {
                 area.draw(&Text::new(name.clone(), ((left - 6) * UNIT, middle), style))?;
                 let value = font(TEXT - 2).pos(Pos::new(HPos::Left, VPos::Center));
                 if !drawable(bar) {
-                    return area.draw(&Text::new("not known", (at(self.origin) + 6 * UNIT, middle), value));
+                    return area.draw(&Text::new("unknown", (at(self.origin) + 6 * UNIT, middle), value));
                 }
                 let (a, b) = (at(self.origin), at(bar.value));
                 let rectangle = [(a.min(b), y + 3 * UNIT), (a.max(b), y + (ROW - 3) * UNIT)];

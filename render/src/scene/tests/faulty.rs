@@ -1,4 +1,4 @@
-//! Errors and warnings: each at its line, each with the value that is wrong; and no input that panics.
+//! Errors and warnings name the line and the wrong value, and no input panics.
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn error(text: &str) -> String {
     }
 }
 
-/// Each text follows a sound first line, unless it starts with its own camera.
+/// Each text follows a valid first line.
 #[test]
 fn errors_name_line_and_value() {
     let cases: &[(&str, u32, &str)] = &[
@@ -28,7 +28,7 @@ fn errors_name_line_and_value() {
         ("Translate 1 2 1e999", 2, "the number 1e999 is not finite"),
         ("Translate [1 2 3]", 2, "expected a number, found ["),
         // parameters
-        ("Shape \"sphere\" \"radius\" 1", 2, "\"radius\" is not a parameter's type and name"),
+        ("Shape \"sphere\" \"radius\" 1", 2, "expected a parameter's type and name, found \"radius\""),
         ("Shape \"sphere\" \"real radius\" 1", 2, "unknown type \"real\""),
         ("Shape \"sphere\"\n\"integer radius\" 1", 3, "\"radius\": type integer is not supported, only float"),
         ("Shape \"sphere\" \"float radius\" [1\n2z]", 3, "\"radius\": expected a number, found 2z"),
@@ -41,13 +41,13 @@ fn errors_name_line_and_value() {
         ("Shape \"trianglemesh\" \"integer indices\" [9999999999]", 2, "expected an integer, found 9999999999"),
         ("AreaLightSource \"diffuse\" \"bool twosided\" 1", 2, "expected true or false, found 1"),
         // state
-        ("AttributeBegin\n\n", 2, "AttributeBegin or TransformBegin without its end"),
-        ("AttributeEnd", 2, "AttributeEnd without its beginning"),
+        ("AttributeBegin\n\n", 2, "this AttributeBegin or TransformBegin is never closed"),
+        ("AttributeEnd", 2, "AttributeEnd has no matching Begin"),
         ("WorldBegin", 2, "a second WorldBegin"),
         ("Film \"rgb\"", 2, "Film must come before WorldBegin"),
-        ("CoordSysTransform \"x\"", 2, "no CoordinateSystem \"x\""),
+        ("CoordSysTransform \"x\"", 2, "undefined CoordinateSystem \"x\""),
         ("NamedMaterial \"x\"", 2, "no MakeNamedMaterial \"x\""),
-        ("Rotate 30 0 0 0", 2, "the axis has no direction"),
+        ("Rotate 30 0 0 0", 2, "the axis must not be zero"),
         ("LookAt 0 0 0 0 1 0 0 1 0", 2, "do not define a view"),
         ("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]", 2, "not affine"),
         ("Transform 1 0 0 0", 2, "expected [, found 1"),
@@ -71,13 +71,13 @@ fn errors_name_line_and_value() {
         ("AreaLightSource \"diffuse\" \"float power\" 3", 2, "\"power\": not supported"),
         // values
         ("Material \"diffuse\" \"rgb reflectance\" [.1 .2]", 2, "expected three numbers, found 2"),
-        ("Material \"diffuse\" \"rgb reflectance\" [.1 .2 -.5]", 2, "-0.5 is negative"),
-        ("AreaLightSource \"diffuse\" \"rgb L\" [1 -2 3]", 2, "-2 is negative"),
+        ("Material \"diffuse\" \"rgb reflectance\" [.1 .2 -.5]", 2, "\"reflectance\": must be at least 0, not -0.5"),
+        ("AreaLightSource \"diffuse\" \"rgb L\" [1 -2 3]", 2, "\"L\": must be at least 0, not -2"),
         ("AreaLightSource \"diffuse\" \"rgb L\" [1e39 1 1]", 2, "too large for f32"),
-        ("AreaLightSource \"diffuse\" \"float scale\" -1", 2, "\"scale\": -1 is negative"),
+        ("AreaLightSource \"diffuse\" \"float scale\" -1", 2, "\"scale\": must be at least 0, not -1"),
         // spheres
-        ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": 0 "),
-        ("Shape \"sphere\" \"float radius\" -3", 2, "\"radius\": -3 "),
+        ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0 "),
+        ("Shape \"sphere\" \"float radius\" -3", 2, "\"radius\": must be greater than 0 and finite, not -3 "),
         ("Shape \"sphere\" \"float zmin\" -.5", 2, "\"zmin\": not supported"),
         ("Scale 1 1 2\nShape \"sphere\"", 3, "ellipsoid"),
         ("AreaLightSource \"diffuse\" ReverseOrientation\nShape \"sphere\"", 3, "emit inwards"),
@@ -85,7 +85,7 @@ fn errors_name_line_and_value() {
         ("Translate 1e39 0 0\nShape \"sphere\"", 3, "[1e39, 0.0, 0.0], which is not finite in f32"),
         // meshes
         ("Shape \"trianglemesh\"", 2, "\"point3 P\" is missing"),
-        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]", 2, "4 numbers are not a multiple of 3"),
+        ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]", 2, "expected a multiple of 3 numbers, found 4"),
         ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0]", 2, "\"indices\" is missing"),
         ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1e39 1 0]", 2, "vertex 2 is at [1e39, 1.0, 0.0]"),
         ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 inf 1 0]", 2, "the number inf is not finite"),
@@ -102,7 +102,7 @@ fn errors_name_line_and_value() {
         (
             "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]",
             2,
-            "4 numbers are not a multiple of 3",
+            "expected a multiple of 3 numbers, found 4",
         ),
         (
             "Shape \"trianglemesh\"\n\"point3 P\" [0 0 0 1 0 0 0 1 0 2 0 0] \"integer indices\" [0 1 2 0 1 3]",
@@ -125,7 +125,7 @@ fn errors_name_line_and_value() {
         (
             "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2]",
             2,
-            "3 numbers are not a multiple of 4",
+            "expected a multiple of 4 numbers, found 3",
         ),
         ("Shape \"plymesh\"", 2, "\"string filename\" is missing"),
         ("Shape \"plymesh\" \"string filename\" \"builtin:terrain\"", 2, "cannot read"),
@@ -146,17 +146,25 @@ fn errors_before_the_world() {
         ("Shape \"sphere\"", 1, "Shape must come after WorldBegin"),
         ("Camera \"orthographic\"", 1, "Camera \"orthographic\": not supported"),
         ("Camera \"perspective\"\nCamera \"perspective\"", 2, "a second camera"),
-        ("Camera \"perspective\" \"float lensradius\" -.1", 1, "\"lensradius\": -0.1 is negative"),
-        ("Camera \"perspective\" \"float focaldistance\" 0", 1, "\"focaldistance\": 0 is not over 0"),
+        ("Camera \"perspective\" \"float lensradius\" -.1", 1, "\"lensradius\": must be at least 0, not -0.1"),
+        ("Camera \"perspective\" \"float focaldistance\" 0", 1, "\"focaldistance\": must be greater than 0, not 0"),
         ("\nCamera \"perspective\" \"float lensradius\" 1e-45", 2, "radius 1e-45 focused at 1e6"),
         ("Scale 1e-30 1e-30 1e-30\nCamera \"perspective\" \"float lensradius\" 1e9", 2, "out of the range"),
         ("Camera \"perspective\" \"float screenwindow\" [-1 1 -1 1]", 1, "\"screenwindow\": not supported"),
-        ("Camera \"perspective\" \"float fov\" 180", 1, "\"fov\": 180 is not between"),
-        ("Camera \"perspective\" \"float fov\" 0", 1, "\"fov\": 0 is not between"),
+        (
+            "Camera \"perspective\" \"float fov\" 180",
+            1,
+            "\"fov\": must be greater than 0 and less than 180 degrees, not 180",
+        ),
+        (
+            "Camera \"perspective\" \"float fov\" 0",
+            1,
+            "\"fov\": must be greater than 0 and less than 180 degrees, not 0",
+        ),
         ("Scale 1 1 0\nCamera \"perspective\"", 2, "its transform is singular"),
         ("Film \"gbuffer\"", 1, "Film \"gbuffer\": not supported"),
         ("Film \"rgb\" \"integer xresolution\" 0", 1, "0 × 720 pixels"),
-        ("Film \"rgb\" \"float diagonal\" 0", 1, "\"diagonal\": 0e0 mm"),
+        ("Film \"rgb\" \"float diagonal\" 0", 1, "\"diagonal\": must be from 1e-2 to 1e6 mm, not 0e0"),
         ("Film \"rgb\" \"integer yresolution\" -1", 1, "1280 × -1 pixels"),
         ("Film \"rgb\" \"integer xresolution\" 65537", 1, "65537 × 720 pixels"),
         ("Film \"rgb\" \"integer xresolution\" 65536 \"integer yresolution\" 65536", 1, "65536 × 65536 pixels"),
@@ -192,7 +200,7 @@ fn warnings_name_line_and_parameter() {
         "a.pbrt:6: PixelFilter \"gaussian\": ignored",
         "a.pbrt:7: Integrator \"path\": only direct light",
         "a.pbrt:8: Camera \"perspective\": \"shutteropen\": ignored",
-        "a.pbrt:10: Material \"diffuse\": \"reflectance\": 2 is over 1",
+        "a.pbrt:10: Material \"diffuse\": \"reflectance\": 2 is greater than 1",
         "a.pbrt:10: Material \"diffuse\": \"roughness\": ignored",
         "a.pbrt:11: Shape \"trianglemesh\": \"N\": ignored",
         "a.pbrt:11: Shape \"trianglemesh\": \"uv\": ignored",
@@ -210,7 +218,7 @@ fn warnings_name_line_and_parameter() {
 #[test]
 fn nesting_is_bounded() {
     let deep = "AttributeBegin\n".repeat(2000);
-    assert!(error(&world(&deep)).starts_with("a.pbrt:1026: AttributeBegin nested over 1024 deep"));
+    assert!(error(&world(&deep)).starts_with("a.pbrt:1026: AttributeBegin is nested more than 1024 deep"));
 }
 
 #[test]
@@ -220,7 +228,7 @@ fn includes_are_relative_bounded_and_name_their_own_lines() {
     dir.write("sub/both.pbrt", b"Include \"shape.pbrt\"\nInclude \"shape.pbrt\"");
     dir.write("sub/faulty.pbrt", b"\n\nShape \"disk\"");
     dir.write("sub/self.pbrt", b"Include \"self.pbrt\"");
-    dir.write("sub/main.pbrt", b"Include \"sub/shape.pbrt\""); // found beside the main file
+    dir.write("sub/main.pbrt", b"Include \"sub/shape.pbrt\""); // relative to the main file
     dir.write("bytes.pbrt", b"\n\xff\n");
     let read = |text: &str| parse(&world(text), "a.pbrt", &dir.path);
     assert_eq!(read("Include \"sub/both.pbrt\"").unwrap().triangles.len(), 2);
@@ -233,16 +241,16 @@ fn includes_are_relative_bounded_and_name_their_own_lines() {
     assert!(own.contains("self.pbrt:1: ") && own.contains("includes itself"), "{own}");
     assert!(message("Include \"bytes.pbrt\"").contains("bytes.pbrt:2: the byte 0xff is not UTF-8"));
     assert!(message("Include \"sub\"").contains("not a regular file"));
-    // A chain of files over the limit, and many small ones.
+    // a chain of files that exceeds the depth limit, and one file included too often
     for i in 0..40 {
         dir.write(&format!("{i}.pbrt"), format!("Include \"{}.pbrt\"", i + 1).as_bytes());
     }
-    assert!(message("Include \"0.pbrt\"").contains("over 32 files deep"));
+    assert!(message("Include \"0.pbrt\"").contains("more than 32 files deep"));
     dir.write("empty.pbrt", b"");
     assert!(message(&"Include \"empty.pbrt\"\n".repeat(4097)).starts_with("a.pbrt:4098: "));
 }
 
-/// Every prefix of a scene, and many scenes with some bytes changed, give a scene or an error.
+/// Every prefix of a scene, and many scenes with a few bytes changed, give a scene or an error.
 #[test]
 fn no_text_panics() {
     let text = include_str!("../../../scenes/quads.pbrt");
@@ -250,7 +258,7 @@ fn no_text_panics() {
     for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
         let _ = parse(&text[..end], "a.pbrt", directory);
     }
-    // Knuth's MMIX generator.
+    // Knuth's MMIX generator
     let mut state = 1_u64;
     let mut next = |n: usize| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

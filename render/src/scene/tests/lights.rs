@@ -1,4 +1,4 @@
-//! Delta lights, environments and materials: what they become, and what is wrong with them.
+//! Reading of delta lights, environments and materials, and their error messages.
 
 use super::*;
 use etendue::light::EnvironmentMap;
@@ -30,7 +30,7 @@ fn spots_have_the_defaults_of_pbrt() {
     assert_eq!((position, axis, intensity), ([0.0; 3], [0.0, 0.0, 1.0], [1.0; 3]));
     assert!((cos_inner - 25.0_f32.to_radians().cos()).abs() < 1e-7);
     assert!((cos_outer - 30.0_f32.to_radians().cos()).abs() < 1e-7);
-    // turned about x: +z becomes −y
+    // rotated about x: +z becomes −y
     let text = "Rotate 90 1 0 0\nLightSource \"spot\" \"point3 from\" [0 0 -2] \"point3 to\" [0 0 3] \"float coneangle\" 60 \"float conedeltaangle\" 0";
     let DeltaLight::Spot { position, axis, cos_inner, cos_outer, .. } = light(text) else { panic!("not a spot") };
     let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-6);
@@ -55,7 +55,7 @@ fn infinite_lights_turn_with_their_transform() {
         read(&world("Rotate -90 1 0 0 Scale 3 3 3\nLightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 0.5"));
     let environment = scene.environment.unwrap();
     assert_eq!(environment.sky, SkyRadiance::Constant([0.5, 1.0, 1.5]));
-    // up in the world is z of the light
+    // up in world space is z in light space
     let up: [f32; 3] = environment.to_light.map(|row| row[1]);
     assert!(up[0].abs() < 1e-6 && up[1].abs() < 1e-6 && (up[2] - 1.0).abs() < 1e-6, "{up:?}");
     assert!(
@@ -67,7 +67,7 @@ fn infinite_lights_turn_with_their_transform() {
     assert_eq!(warnings(&dark).len(), 2, "{:?}", warnings(&dark));
 }
 
-/// EXR, HDR and PNG; square and 2:1; values that no light can have.
+/// Reads EXR, HDR and PNG images, square and 2:1, and rejects values that no light can have.
 #[test]
 fn images_of_the_sky() {
     let folder = std::env::temp_dir().join(format!("etendue-sky-{}", std::process::id()));
@@ -82,7 +82,7 @@ fn images_of_the_sky() {
     write("nan.exr", 4, 2, f32::NAN);
     write("negative.exr", 4, 2, -5.0);
     fs::write(folder.join("text.exr"), "not an image").unwrap();
-    // one texel of RGBE: mantissas 128, 64, 0 with exponent 129 are 1, ½ and 0
+    // one RGBE texel: mantissas 128, 64, 0 with exponent 129 are 1, ½ and 0
     let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x00\x81";
     fs::write(folder.join("one.hdr"), hdr).unwrap();
     let mut png = Vec::new();
@@ -108,12 +108,12 @@ fn images_of_the_sky() {
     let png = texels("one.png").2[0];
     assert!(png[0] == 2.0 && (png[1] - 2.0 * 0.502_886_5).abs() < 1e-5 && png[2] == 0.0, "{png:?}");
     let scene = load("negative.exr").unwrap();
-    assert!(warnings(&scene)[0].contains("1 texels have negative values"), "{:?}", warnings(&scene));
+    assert!(warnings(&scene)[0].contains("negative values in 1 texel(s)"), "{:?}", warnings(&scene));
 
     for (name, what) in [
-        ("odd.exr", "4×3 texels: want a square"),
-        ("nan.exr", "texel (1, 0) is [NaN, 2.0, 3.0], times 2"),
-        ("text.exr", "not an EXR, HDR or PNG image"),
+        ("odd.exr", "4×3 texels: must be square"),
+        ("nan.exr", "texel (1, 0) is [NaN, 2.0, 3.0], times 2: not finite"),
+        ("text.exr", "not a valid EXR, HDR or PNG image"),
         ("none.exr", "cannot read"),
     ] {
         let message = load(name).unwrap_err().to_string();
@@ -121,7 +121,7 @@ fn images_of_the_sky() {
         assert!(message.contains(name), "{message}");
     }
     let both = "LightSource \"infinite\" \"string filename\" \"wide.exr\" \"rgb L\" [1 1 1]";
-    assert!(error(both).contains("\"filename\" excludes \"L\""));
+    assert!(error(both).contains("\"filename\" and \"L\" cannot be combined"));
     fs::remove_dir_all(&folder).unwrap();
 }
 
@@ -138,7 +138,7 @@ fn metals_and_mirrors() {
     assert_eq!(material(gold), metal(0.5));
     assert_eq!(material(&format!("{gold} \"bool remaproughness\" false")), metal(0.25));
     assert!(metal(0.5).is_glossy() && metal(0.0).is_mirror() && !metal(0.5).is_mirror());
-    // half of the light at right angles: k² = 4
+    // reflectance ½ at normal incidence: k² = 4
     let half = material("Material \"conductor\" \"rgb reflectance\" [0.5 0 1]");
     let Material::Conductor { eta, k, alpha } = half else { panic!("{half:?}") };
     assert!(
@@ -155,26 +155,32 @@ fn errors_name_line_and_value() {
         ("LightSource \"point\" \"float power\" 3", "\"power\": not supported"),
         ("LightSource \"distant\" \"float illuminance\" 3", "\"illuminance\": not supported"),
         ("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]", "\"portal\": not supported"),
-        ("LightSource \"point\" \"float scale\" -2", "\"scale\": -2 is negative"),
-        ("LightSource \"point\" \"rgb I\" [1 -3 1]", "-3 is negative"),
+        ("LightSource \"point\" \"float scale\" -2", "\"scale\": must be at least 0, not -2"),
+        ("LightSource \"point\" \"rgb I\" [1 -3 1]", "\"I\": must be at least 0, not -3"),
         ("LightSource \"point\" \"blackbody I\" 3000", "type blackbody is not supported, only rgb"),
         ("LightSource \"point\" \"rgb I\" [1e30 0 0] \"float scale\" 1e30", "too large for f32"),
         ("LightSource \"point\" \"point3 from\" [1e39 0 0]", "not finite in f32"),
         ("LightSource \"point\" \"point3 from\" [1 2 3 4 5 6]", "\"from\": expected three numbers, found 6"),
         ("LightSource \"distant\" \"point3 from\" [1 2 3] \"point3 to\" [1 2 3]", "define no direction"),
-        ("LightSource \"spot\" \"float coneangle\" 200", "\"coneangle\": 200 "),
-        ("LightSource \"spot\" \"float coneangle\" 20 \"float conedeltaangle\" 21", "\"conedeltaangle\": 21 "),
+        (
+            "LightSource \"spot\" \"float coneangle\" 200",
+            "\"coneangle\": must be greater than 0 and at most 180 degrees, not 200",
+        ),
+        (
+            "LightSource \"spot\" \"float coneangle\" 20 \"float conedeltaangle\" 21",
+            "\"conedeltaangle\": must be from 0 to the cone angle 20, not 21",
+        ),
         ("Scale 1 2 1 LightSource \"spot\"", "stretches its cone"),
-        ("Scale 1 2 1 LightSource \"infinite\"", "not a rotation, reflection and uniform scale"),
+        ("Scale 1 2 1 LightSource \"infinite\"", "rotations, reflections and uniform scales"),
         ("Material \"conductor\"", "spectra of metals are not supported"),
         ("Material \"conductor\" \"spectrum eta\" \"metal-Cu-eta\"", "type spectrum is not supported"),
-        ("Material \"conductor\" \"rgb eta\" [1 1 1]", "must be given"),
+        ("Material \"conductor\" \"rgb eta\" [1 1 1]", "needs \"rgb reflectance\""),
         ("Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb k\" [1e20 1 1]", "\"k\": [1e20, 1.0, 1.0] is too large"),
-        ("Material \"conductor\" \"rgb reflectance\" [1 1 1.5]", "\"reflectance\": 1.5 is over 1"),
-        ("Material \"conductor\" \"rgb reflectance\" [1 1 1] \"rgb k\" [1 1 1]", "excludes"),
+        ("Material \"conductor\" \"rgb reflectance\" [1 1 1.5]", "\"reflectance\": must be at most 1, not 1.5"),
+        ("Material \"conductor\" \"rgb reflectance\" [1 1 1] \"rgb k\" [1 1 1]", "\"reflectance\" cannot be combined"),
         (
             "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" 1.5",
-            "\"roughness\": 1.5 is not within",
+            "\"roughness\": must be from 0 to 1, not 1.5",
         ),
         (
             "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float uroughness\" .5",
@@ -201,13 +207,13 @@ fn new_builtin_scenes_are_sound() {
     }
     let cornell = load("cornell-box").unwrap();
     assert_eq!((cornell.triangles.len(), cornell.shapes.len()), (30, 1));
-    // the light looks down, as do the tops of the blocks up
+    // the light faces down
     assert!(normal(&cornell.shapes[0].geometry)[1] < 0.0);
     assert_eq!(load("delta-lights").unwrap().delta_lights.len(), 3);
     assert!(load("sky").unwrap().environment.is_some());
     assert_eq!(load("plates").unwrap().materials.iter().filter(|m| m.is_glossy()).count(), 4);
     assert_eq!(load("mirror-room").unwrap().materials.iter().filter(|m| m.is_mirror()).count(), 3);
-    // an image of a built-in scene is none of other scenes
+    // only the built-in scene may refer to its image
     let text = world("LightSource \"infinite\" \"string filename\" \"sky.exr\"");
     assert!(parse(&text, "a.pbrt", Path::new("no such directory")).is_err());
 }

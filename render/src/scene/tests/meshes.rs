@@ -1,10 +1,10 @@
-//! Mesh files: the three encodings, and files that are not what they say.
+//! Mesh files in all three encodings, and malformed files.
 
 use super::*;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A directory that goes when the test ends.
+/// A temporary directory, removed when the test ends.
 pub(super) struct Scratch {
     pub(super) path: PathBuf,
 }
@@ -81,15 +81,15 @@ fn all_encodings_give_the_same_triangles() {
     for bytes in [ascii(), binary(false), binary(true)] {
         let scene = load_mesh(&bytes, "").unwrap();
         assert_eq!(scene.triangles, expected);
-        assert_eq!(scene.warnings.len(), 1, "{:?}", warnings(&scene)); // no light
-        // The same mesh as a light: the quad is one shape.
+        assert_eq!(scene.warnings.len(), 1, "no light: {:?}", warnings(&scene));
+        // as a light, the quad is one shape
         let scene = load_mesh(&bytes, LIGHT).unwrap();
         assert!(scene.triangles.is_empty() && scene.warnings.is_empty());
         let quad = Geometry::Parallelogram { p: p[0], u: [2.0, 0.0, 0.0], v: [0.0, 1.0, 0.0] };
         assert_eq!((scene.shapes.len(), &scene.shapes[0].geometry), (2, &quad));
         assert_eq!(scene.shapes[1].geometry, Geometry::Triangle(expected[2]));
     }
-    // Windows line ends, doubles, the other name of the list, an element that is not needed.
+    // Windows line ends, doubles, the other name of the list, an unknown element
     let text = "ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty double x\r\nproperty double y\r\nproperty double z\r\n\
         element edge 1\r\nproperty int a\r\nelement face 1\r\nproperty list uchar int vertex_index\r\nend_header\r\n\
         0 0 0\r\n1e0 0 0\r\n0 1 0\r\n5\r\n3 0 1 2\r\n";
@@ -135,8 +135,11 @@ fn malformed_files_name_both_files() {
         (changed("element face 2", "element face 4000000000"), "4000000000 elements \"face\" do not fit"),
         (changed("property list uchar uint vertex_indices\n", ""), "\"face\" needs one list of integers"),
         (changed("uint vertex_indices", "float vertex_indices"), "\"face\" needs one list of integers"),
-        (changed("property float z", "property float w"), "element \"vertex\" has no number \"z\""),
-        (changed("property float z", "property list uchar float z"), "element \"vertex\" has no number \"z\""),
+        (changed("property float z", "property float w"), "element \"vertex\" needs a scalar property \"z\""),
+        (
+            changed("property float z", "property list uchar float z"),
+            "element \"vertex\" needs a scalar property \"z\"",
+        ),
         (changed("property uchar red", "property float x"), "declared twice"),
         (
             changed("element face", &format!("element empty {huge}\nelement face")),
@@ -161,7 +164,7 @@ fn malformed_files_name_both_files() {
         assert!(message.starts_with("a.pbrt:3: Shape \"plymesh\": "), "{message}");
         assert!(message.contains(part) && !message.contains('\n'), "{message}\n{part}");
     }
-    // Normals decide the emitting side in pbrt.
+    // normals decide the emitting side in pbrt
     let normals =
         sound.replace("float x", "float nx\nproperty float x").replace("float y", "float ny\nproperty float y");
     let normals = normals.replace("float z", "float nz\nproperty float z").replace(" 7\n", " 0 0 0 7\n");
@@ -170,7 +173,7 @@ fn malformed_files_name_both_files() {
     assert!(warnings(&load_mesh(&trailing, "").unwrap())[0].contains("4 bytes after the last element ignored"));
 }
 
-/// Every prefix, and many files with some bytes changed, give a mesh or an error, in little memory.
+/// Every prefix of a file, and many files with a few bytes changed, give a mesh or an error, in little memory.
 #[test]
 fn no_file_panics() {
     let mut state = 7_u64;

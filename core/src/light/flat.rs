@@ -1,0 +1,211 @@
+//! Triangles, parallelograms and rectangles.
+
+use super::sample::direction_to;
+use super::sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, BySolidAngle};
+use super::surface::{PlacedParallelogram, PlacedTriangle};
+use crate::lanewise::lanewise;
+use crate::real::Real;
+use crate::spherical::{
+    CosineWarped, ProjectedPolygon, ProjectedTriangle, SphericalParallelogram, SphericalRectangle, SphericalTriangle,
+};
+use crate::vector::Vec3;
+
+lanewise! {
+    /// A triangle light that emits from the side of (v1−v0)×(v2−v0).
+    ///
+    /// Take [`by_solid_angle`](Self::by_solid_angle) unless the light is small for its distance, where [`by_area`](Self::by_area) is
+    /// cheaper and as good; [`by_projected_solid_angle`](Self::by_projected_solid_angle) has no variance on an unoccluded diffuse
+    /// surface. A point in the plane of the triangle, or a triangle without area, gives pdf 0.
+    ///
+    /// ```
+    /// use etendue::{LightSampler, Triangle, Vec2};
+    /// let light = Triangle::new([0.0, 2.0, 0.0].into(), [1.0, 2.0, 0.0].into(), [0.0, 2.0, 1.0_f32].into());
+    /// let sampler = light.by_solid_angle([0.0; 3].into()); // prepare once, for one shading point
+    /// let s = sampler.sample(Vec2::new(0.3, 0.6));
+    /// assert!(s.valid() && s.weight() == 1.0 / s.pdf);
+    /// assert_eq!(sampler.pdf(s.direction), s.pdf);
+    /// ```
+    ///
+    /// Surface coordinates (u, v): the barycentric coordinates of `v1` and `v2`.
+    pub struct Triangle {
+        /// First vertex v0, in the coordinates of the scene.
+        pub v0: Vec3<R>,
+        /// Edge v1 − v0.
+        pub e1: Vec3<R>,
+        /// Edge v2 − v0.
+        pub e2: Vec3<R>,
+    }
+}
+
+impl<R: Real> Triangle<R> {
+    /// The triangle with these vertices. It emits from the side on which they run counterclockwise.
+    #[inline(always)]
+    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>) -> Self {
+        Self { v0, e1: v1 - v0, e2: v2 - v0 }
+    }
+    #[inline(always)]
+    fn placed(&self, p: Vec3<R>) -> PlacedTriangle<R> {
+        PlacedTriangle::new(self.v0 - p, self.e1, self.e2)
+    }
+    #[inline(always)]
+    fn spherical(&self, p: Vec3<R>) -> SphericalTriangle<R> {
+        let v0 = self.v0 - p;
+        SphericalTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2)
+    }
+    /// Uniform over the surface, seen from the point `p`: [`AreaTriangle`](crate::warp::AreaTriangle).
+    ///
+    /// - pdf: distance²/(|cosθ'| A) per steradian, with A the area and θ' the angle at the light.
+    /// - Greatest error of the pdf: 32 ulp / |cosθ'|.
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>) -> TriangleByArea<R> {
+        ByArea { origin: p, surface: self.placed(p) }
+    }
+    /// Uniform over the solid angle Ω at the point `p`, [`SphericalTriangle`]: pdf 1/Ω per steradian.
+    #[inline(always)]
+    pub fn by_solid_angle(&self, p: Vec3<R>) -> TriangleBySolidAngle<R> {
+        BySolidAngle { origin: p, surface: self.placed(p), shape: self.spherical(p) }
+    }
+    /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedTriangle`]: pdf
+    /// cosθ/Ω⊥ per steradian, 0 where nothing of the triangle is above the horizon. On an unoccluded diffuse surface every sample has the
+    /// same value.
+    #[inline(always)]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> TriangleByProjectedSolidAngle<R> {
+        let v0 = self.v0 - p;
+        let shape = ProjectedTriangle::with_edges(v0, v0 + self.e1, v0 + self.e2, self.e1, self.e2, n);
+        ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
+    }
+    /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, [`CosineWarped`]: for diffuse
+    /// surfaces where the projected solid angle costs too much. The pdf is per steradian.
+    #[inline(always)]
+    pub fn by_cosine_warp(&self, p: Vec3<R>, n: Vec3<R>) -> TriangleByCosineWarp<R> {
+        let v0 = self.v0 - p;
+        let [a, b, c] = [v0, v0 + self.e1, v0 + self.e2].map(|v| direction_to(v).direction.dot(n));
+        // the map sweeps about v1, from v0 to v2
+        let warped = CosineWarped::with_cosines(self.spherical(p), [b, b, a, c]);
+        ByCosineWarp { origin: p, surface: self.placed(p), warped }
+    }
+}
+
+/// A [`Triangle`] sampled by area from a point.
+pub type TriangleByArea<R> = ByArea<R, PlacedTriangle<R>>;
+/// A [`Triangle`] sampled by solid angle from a point.
+pub type TriangleBySolidAngle<R> = BySolidAngle<R, PlacedTriangle<R>, SphericalTriangle<R>>;
+/// A [`Triangle`] sampled by projected solid angle from a point on a surface.
+pub type TriangleByProjectedSolidAngle<R> = ByProjectedSolidAngle<R, PlacedTriangle<R>, ProjectedTriangle<R>>;
+/// A [`Triangle`] sampled by the cosine warp from a point on a surface.
+pub type TriangleByCosineWarp<R> = ByCosineWarp<R, PlacedTriangle<R>, SphericalTriangle<R>>;
+
+lanewise! {
+    /// A parallelogram light p + su + tv, s and t in [0, 1], that emits from the side of u×v.
+    ///
+    /// For rectangles whose strata should follow the edges take [`Rectangle`]. A point in the plane of the parallelogram, or a
+    /// parallelogram without area, gives pdf 0. Surface coordinates: (s, t).
+    ///
+    /// ```
+    /// use etendue::{LightSampler, Parallelogram, Vec2};
+    /// let panel = Parallelogram::new([-1.0, 2.0, -1.0].into(), [2.0, 0.0, 0.0].into(), [0.0, 0.0, 2.0_f32].into());
+    /// let sampler = panel.by_solid_angle([0.0; 3].into());
+    /// let s = sampler.sample(Vec2::new(0.3, 0.6));
+    /// assert!((s.direction.y * s.distance - 2.0).abs() < 1e-6 && s.pdf == 1.0 / sampler.solid_angle());
+    /// ```
+    pub struct Parallelogram {
+        /// Corner, in the coordinates of the scene.
+        pub p: Vec3<R>,
+        /// Edge along s.
+        pub u: Vec3<R>,
+        /// Edge along t.
+        pub v: Vec3<R>,
+    }
+}
+
+impl<R: Real> Parallelogram<R> {
+    /// The parallelogram with a corner at `p` and the edges `u` and `v`.
+    #[inline(always)]
+    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
+        Self { p, u, v }
+    }
+    #[inline(always)]
+    fn placed(&self, p: Vec3<R>) -> PlacedParallelogram<R> {
+        PlacedParallelogram::new(self.p - p, self.u, self.v)
+    }
+    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, to 32 ulp / |cosθ'|.
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>) -> ParallelogramByArea<R> {
+        ByArea { origin: p, surface: self.placed(p) }
+    }
+    /// Uniform over the solid angle Ω at the point `p`, [`SphericalParallelogram`]: pdf 1/Ω per steradian.
+    #[inline(always)]
+    pub fn by_solid_angle(&self, p: Vec3<R>) -> ParallelogramBySolidAngle<R> {
+        let shape = SphericalParallelogram::new(self.p - p, self.u, self.v);
+        BySolidAngle { origin: p, surface: self.placed(p), shape }
+    }
+    /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedPolygon`]: pdf
+    /// cosθ/Ω⊥ per steradian, 0 where nothing of the parallelogram is above the horizon. On an unoccluded diffuse surface every sample
+    /// has the same value.
+    #[inline(always)]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> ParallelogramByProjectedSolidAngle<R> {
+        let shape = ProjectedPolygon::parallelogram(self.p - p, self.u, self.v, n);
+        ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
+    }
+}
+
+/// A [`Parallelogram`] or a [`Rectangle`] sampled by area from a point.
+pub type ParallelogramByArea<R> = ByArea<R, PlacedParallelogram<R>>;
+/// A [`Parallelogram`] sampled by solid angle from a point.
+pub type ParallelogramBySolidAngle<R> = BySolidAngle<R, PlacedParallelogram<R>, SphericalParallelogram<R>>;
+/// A [`Parallelogram`] sampled by projected solid angle from a point on a surface.
+pub type ParallelogramByProjectedSolidAngle<R> =
+    ByProjectedSolidAngle<R, PlacedParallelogram<R>, ProjectedPolygon<R, 4>>;
+
+lanewise! {
+    /// A rectangle light p + su + tv, s and t in [0, 1], u perpendicular to v, that emits from the side of u×v.
+    ///
+    /// Its map by solid angle keeps the sides of strata along the edges, for 1.7 times the cost of the [`Parallelogram`]'s. A point in
+    /// the plane of the rectangle, or a rectangle without area, gives pdf 0. Surface coordinates: (s, t).
+    pub struct Rectangle {
+        /// Corner, in the coordinates of the scene.
+        pub p: Vec3<R>,
+        /// Edge along s.
+        pub u: Vec3<R>,
+        /// Edge along t, perpendicular to `u`.
+        pub v: Vec3<R>,
+    }
+}
+
+impl<R: Real> Rectangle<R> {
+    /// The rectangle with a corner at `p` and the edges `u` and `v`, which must be perpendicular.
+    #[inline(always)]
+    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
+        Self { p, u, v }
+    }
+    #[inline(always)]
+    fn placed(&self, p: Vec3<R>) -> PlacedParallelogram<R> {
+        PlacedParallelogram::new(self.p - p, self.u, self.v)
+    }
+    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, to 32 ulp / |cosθ'|.
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>) -> ParallelogramByArea<R> {
+        ByArea { origin: p, surface: self.placed(p) }
+    }
+    /// Uniform over the solid angle Ω at the point `p`, [`SphericalRectangle`]: pdf 1/Ω per steradian.
+    #[inline(always)]
+    pub fn by_solid_angle(&self, p: Vec3<R>) -> RectangleBySolidAngle<R> {
+        let shape = SphericalRectangle::new(self.p - p, self.u, self.v);
+        BySolidAngle { origin: p, surface: self.placed(p), shape }
+    }
+    /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, [`CosineWarped`]: for diffuse
+    /// surfaces. The pdf is per steradian.
+    #[inline(always)]
+    pub fn by_cosine_warp(&self, p: Vec3<R>, n: Vec3<R>) -> RectangleByCosineWarp<R> {
+        let corner = self.p - p;
+        let corners = [corner, corner + self.u, corner + self.v, corner + self.u + self.v];
+        let shape = SphericalRectangle::new(corner, self.u, self.v);
+        let warped = CosineWarped::with_cosines(shape, corners.map(|v| direction_to(v).direction.dot(n)));
+        ByCosineWarp { origin: p, surface: self.placed(p), warped }
+    }
+}
+
+/// A [`Rectangle`] sampled by solid angle from a point.
+pub type RectangleBySolidAngle<R> = BySolidAngle<R, PlacedParallelogram<R>, SphericalRectangle<R>>;
+/// A [`Rectangle`] sampled by the cosine warp from a point on a surface.
+pub type RectangleByCosineWarp<R> = ByCosineWarp<R, PlacedParallelogram<R>, SphericalRectangle<R>>;

@@ -1,0 +1,320 @@
+//! Lights prepared for a shading point.
+
+use super::sample::{AreaSample, LightSample, direction_to, solid_angle_pdf};
+use super::surface::{
+    AreaSurface, PlacedDisk, PlacedParallelogram, PlacedPolygon, PlacedSphere, PlacedTriangle, Surface,
+};
+use super::{PlacedCylinder, PlacedPatch};
+use crate::real::{Mask, Real};
+use crate::spherical::{
+    CosineWarped, DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedShape, ProjectedTriangle, SphericalCap,
+    SphericalDisk, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalShape, SphericalTriangle,
+};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::Warp;
+
+/// A light prepared for one shading point and one technique: what an integrator needs, whatever the light and the measure are.
+///
+/// [`sample`](Self::sample) draws a direction, [`pdf`](Self::pdf) evaluates the same density for a direction that another technique drew,
+/// [`hit`](Self::hit) also finds the point of the light there, and [`invert`](Self::invert) recovers the random numbers. Prepare once,
+/// then call as often as needed: what depends on the light and the point alone is computed by the `by_…` method that returned the sampler.
+///
+/// `sample(u).pdf` and `pdf(sample(u).direction)` are the same bits. The exceptions are curved lights (sphere, cylinder, bilinear patch)
+/// *by area*, whose density a rounded direction determines only as well as it determines the point; there the sample reports the pdf of
+/// the point that was drawn.
+///
+/// Degenerate input (a light without extent, a shading point on the light) gives pdf 0, never NaN, infinity or a panic.
+///
+/// ```
+/// use etendue::{Frame, LightSampler, Real, Vec2, Vec3, Warp, estimate::Heuristic, warp::CosineHemisphere};
+/// /// Radiance that a white diffuse surface with normal `n` reflects of a light with radiance 1, by one sample of either technique.
+/// fn reflected<R: Real>(light: &impl LightSampler<R>, n: Vec3<R>, u: Vec2<R>, v: Vec2<R>) -> R {
+///     let cosine_pdf = |w: Vec3<R>| w.dot(n).greater(R::lit(0.0)) * R::lit(std::f64::consts::FRAC_1_PI);
+///     let s = light.sample(u); // here a renderer traces a shadow ray along s.direction up to s.distance
+///     let by_light = cosine_pdf(s.direction) * Heuristic::POWER.light_weight(&s, cosine_pdf(s.direction));
+///     let w = Frame::new(n).to_world(CosineHemisphere.sample(v));
+///     let by_surface = cosine_pdf(w) * Heuristic::POWER.bsdf_weight(cosine_pdf(w), &light.hit(w));
+///     by_light + by_surface
+/// }
+/// let triangle = etendue::Triangle::new([0.0, 1.0, 0.0].into(), [1.0, 1.0, 0.0].into(), [0.0, 1.0, 1.0_f32].into());
+/// let (p, n) = ([0.2, 0.0, 0.1].into(), [0.0, 1.0, 0.0].into());
+/// let u = Vec2::new(0.3, 0.7);
+/// assert!(reflected(&triangle.by_solid_angle(p), n, u, u) > 0.0);
+/// assert!(reflected(&triangle.by_projected_solid_angle(p, n), n, u, u) > 0.0);
+/// ```
+pub trait LightSampler<R: Real> {
+    /// Draws a direction to the light for `u` in [0, 1)². Lights of one dimension use `u.x`, delta lights neither number.
+    fn sample(&self, u: Vec2<R>) -> LightSample<R>;
+    /// Probability density, in the measure of [`LightSample::pdf`], with which [`sample`](Self::sample) draws the unit direction `w`; 0
+    /// where it misses the light.
+    fn pdf(&self, w: Vec3<R>) -> R;
+    /// The `u` in [0, 1)² that [`sample`](Self::sample) maps to the unit direction `w`; any value in [0, 1)² where `w` misses the light.
+    fn invert(&self, w: Vec3<R>) -> Vec2<R>;
+    /// The nearest point of the light in the unit direction `w`, with the pdf of that direction; [`LightSample::miss`] where there is none.
+    /// Delta lights and lines cannot be hit.
+    fn hit(&self, w: Vec3<R>) -> LightSample<R>;
+    /// The shading point.
+    fn origin(&self) -> Vec3<R>;
+    /// Draws a point of the light for `u` in [0, 1)², with its pdf per unit area: distance² / |cosθ'| times less than per steradian.
+    #[inline(always)]
+    fn area_sample(&self, u: Vec2<R>) -> AreaSample<R> {
+        let LightSample { direction, distance, pdf, normal, uv, .. } = self.sample(u);
+        let some = pdf.gt(R::lit(0.0)) & distance.lt(R::lit(super::FAR));
+        let positive = R::blend(some, distance, R::lit(1.0));
+        let pdf = (pdf / positive * direction.dot(normal).abs() / positive).keep(some);
+        AreaSample { point: direction.mul_add(distance, self.origin()), normal, pdf, uv }
+    }
+}
+
+/// A light sampled uniformly by its surface area.
+#[derive(Clone, Copy, Debug)]
+pub struct ByArea<R, S> {
+    pub(super) origin: Vec3<R>,
+    pub(super) surface: S,
+}
+
+impl<R: Real, S: AreaSurface<R>> ByArea<R, S> {
+    /// Surface area, in the square of the unit of the coordinates.
+    #[inline(always)]
+    pub fn area(&self) -> R {
+        self.surface.area()
+    }
+}
+
+impl<R: Real, S: AreaSurface<R>> LightSampler<R> for ByArea<R, S> {
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let point = self.surface.draw(u);
+        let DirectionSample { direction, distance } = direction_to(point.position);
+        let cos = direction.dot(point.normal);
+        // of a flat light the direction determines the distance, however small and far it is
+        let reach = if S::FLAT { self.surface.at(direction).distance } else { distance };
+        let pdf = solid_angle_pdf(reach, cos.abs() * point.inverse_pdf);
+        let (emits, delta) = (cos.lt(R::lit(0.0)), R::Mask::splat(false));
+        LightSample { direction, distance, pdf, normal: point.normal, uv: point.uv, emits, delta }
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let at = self.surface.at(w);
+        let pdf = solid_angle_pdf(at.distance, w.dot(at.normal).abs() * self.surface.inverse_pdf(at.uv));
+        pdf.keep(self.surface.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.surface.invert(w)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        found(w, self.pdf(w), &self.surface, None)
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+    #[inline(always)]
+    fn area_sample(&self, u: Vec2<R>) -> AreaSample<R> {
+        let point = self.surface.draw(u);
+        let some = point.inverse_pdf.gt(R::lit(0.0));
+        let pdf = (R::lit(1.0) / R::blend(some, point.inverse_pdf, R::lit(1.0))).keep(some);
+        AreaSample { point: point.position + self.origin, normal: point.normal, pdf, uv: point.uv }
+    }
+}
+
+/// A hit where the pdf is positive, a miss elsewhere.
+#[inline(always)]
+fn found<R: Real>(w: Vec3<R>, pdf: R, surface: &impl Surface<R>, front: Option<R::Mask>) -> LightSample<R> {
+    let some = pdf.gt(R::lit(0.0));
+    let at = surface.at(w);
+    let front = front.unwrap_or_else(|| w.dot(at.normal).lt(R::lit(0.0)));
+    LightSample {
+        distance: at.distance.keep(some),
+        pdf,
+        normal: at.normal,
+        uv: at.uv,
+        emits: front & some,
+        ..LightSample::miss(w)
+    }
+}
+
+/// A light sampled uniformly by the solid angle it subtends at the shading point.
+#[derive(Clone, Copy, Debug)]
+pub struct BySolidAngle<R, S, W> {
+    pub(super) origin: Vec3<R>,
+    pub(super) surface: S,
+    pub(super) shape: W,
+}
+
+impl<R: Real, S, W: SphericalShape<R>> BySolidAngle<R, S, W> {
+    /// Solid angle of the light in steradians, in [0, 4π].
+    #[inline(always)]
+    pub fn solid_angle(&self) -> R {
+        self.shape.solid_angle()
+    }
+}
+
+impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAngle<R, S, W> {
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let DirectionSample { direction, distance } = self.shape.sample_direction(u);
+        let at = self.surface.at(direction);
+        LightSample {
+            direction,
+            distance,
+            pdf: self.shape.uniform_pdf(),
+            normal: at.normal,
+            uv: at.uv,
+            emits: self.shape.in_front(),
+            delta: R::Mask::splat(false),
+        }
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.shape.pdf(w)
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.shape.invert(w)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        found(w, self.pdf(w), &self.surface, Some(self.shape.in_front()))
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+}
+
+/// A light sampled uniformly by the projected solid angle above the horizon of a surface: with a pdf proportional to cosθ.
+#[derive(Clone, Copy, Debug)]
+pub struct ByProjectedSolidAngle<R, S, W> {
+    pub(super) origin: Vec3<R>,
+    pub(super) normal: Vec3<R>,
+    pub(super) surface: S,
+    pub(super) shape: W,
+}
+
+impl<R: Real, S, W: ProjectedShape<R>> ByProjectedSolidAngle<R, S, W> {
+    /// Projected solid angle of the light above the horizon, in [0, π]: the irradiance per unit of radiance.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.shape.projected_solid_angle()
+    }
+}
+
+impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProjectedSolidAngle<R, S, W> {
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let DirectionSample { direction, distance } = self.shape.sample_direction(u);
+        let at = self.surface.at(direction);
+        LightSample {
+            direction,
+            distance,
+            pdf: self.shape.pdf_at_cosine(direction.dot(self.normal)),
+            normal: at.normal,
+            uv: at.uv,
+            emits: self.shape.in_front(),
+            delta: R::Mask::splat(false),
+        }
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.shape.pdf_at_cosine(w.dot(self.normal)).keep(self.shape.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.shape.invert(w)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        found(w, self.pdf(w), &self.surface, Some(self.shape.in_front()))
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+}
+
+/// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`CosineWarped`].
+#[derive(Clone, Copy, Debug)]
+pub struct ByCosineWarp<R, S, W> {
+    pub(super) origin: Vec3<R>,
+    pub(super) surface: S,
+    pub(super) warped: CosineWarped<W, R>,
+}
+
+impl<R: Real, S, W: SphericalShape<R>> ByCosineWarp<R, S, W> {
+    /// Solid angle of the light in steradians, in [0, 2π].
+    #[inline(always)]
+    pub fn solid_angle(&self) -> R {
+        self.warped.shape.solid_angle()
+    }
+}
+
+impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineWarp<R, S, W> {
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let shape = &self.warped.shape;
+        let DirectionSample { direction, distance } = shape.sample_direction(self.warped.weights.sample(u));
+        let at = self.surface.at(direction);
+        LightSample {
+            direction,
+            distance,
+            pdf: self.pdf(direction),
+            normal: at.normal,
+            uv: at.uv,
+            emits: shape.in_front(),
+            delta: R::Mask::splat(false),
+        }
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.warped.pdf(w)
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        self.warped.invert(w)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        found(w, self.pdf(w), &self.surface, Some(self.warped.shape.in_front()))
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+}
+
+/// `splat` for each kind of sampler: prepared in scalars, it draws packets of samples for one point.
+macro_rules! splats {
+    ($($alias:ident $(, $n:ident)? { $($field:ident: $kind:ty),+ })+) => {$(
+        impl<R: Real $(, const $n: usize)?> super::$alias<R $(, $n)?> {
+            /// Repeats one sampler in every lane: prepared for one point, it draws packets of samples.
+            #[inline(always)]
+            pub fn splat(s: super::$alias<R::Scalar $(, $n)?>) -> Self {
+                Self { origin: Vec3::splat(s.origin), $($field: <$kind>::splat(s.$field)),+ }
+            }
+        }
+    )+};
+}
+splats! {
+    TriangleByArea { surface: PlacedTriangle<R> }
+    ParallelogramByArea { surface: PlacedParallelogram<R> }
+    SphereByArea { surface: PlacedSphere<R> }
+    DiskByArea { surface: PlacedDisk<R> }
+    CylinderByArea { surface: PlacedCylinder<R> }
+    PatchByArea { surface: PlacedPatch<R> }
+    PolygonByArea, N { surface: PlacedPolygon<R, N> }
+    TriangleBySolidAngle { surface: PlacedTriangle<R>, shape: SphericalTriangle<R> }
+    ParallelogramBySolidAngle { surface: PlacedParallelogram<R>, shape: SphericalParallelogram<R> }
+    RectangleBySolidAngle { surface: PlacedParallelogram<R>, shape: SphericalRectangle<R> }
+    SphereBySolidAngle { surface: PlacedSphere<R>, shape: SphericalCap<R> }
+    DiskBySolidAngle { surface: PlacedDisk<R>, shape: SphericalDisk<R> }
+    PolygonBySolidAngle, N { surface: PlacedPolygon<R, N>, shape: SphericalPolygon<R, N> }
+    TriangleByProjectedSolidAngle { normal: Vec3<R>, surface: PlacedTriangle<R>, shape: ProjectedTriangle<R> }
+    ParallelogramByProjectedSolidAngle { normal: Vec3<R>, surface: PlacedParallelogram<R>, shape: ProjectedPolygon<R, 4> }
+    SphereByProjectedSolidAngle { normal: Vec3<R>, surface: PlacedSphere<R>, shape: ProjectedCap<R> }
+    PolygonByProjectedSolidAngle, N { normal: Vec3<R>, surface: PlacedPolygon<R, N>, shape: ProjectedPolygon<R, N> }
+    TriangleByCosineWarp { surface: PlacedTriangle<R>, warped: CosineWarped<SphericalTriangle<R>, R> }
+    RectangleByCosineWarp { surface: PlacedParallelogram<R>, warped: CosineWarped<SphericalRectangle<R>, R> }
+}

@@ -1,0 +1,218 @@
+//! Every light by every technique, as an integrator uses it: one trait, one pdf.
+
+use etendue::{LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
+use etendue_tests::generators::Random;
+use etendue_tests::oracle::{cross, dot, length, sub, wide};
+use etendue_tests::properties::{Coordinates, squares_of};
+use etendue_tests::techniques::{self, AreaLight, LightShape, Measure, Technique};
+
+/// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
+fn light(kind: usize, round: u32, random: &mut Random) -> AreaLight {
+    let (shape, by) = AreaLight::KINDS[kind];
+    let mut unit = || random.direction().map(|x| x as f32);
+    let (mut b, mut c, n, towards) = (unit(), unit(), unit(), unit());
+    if shape == LightShape::Rectangle {
+        let along = dot(wide(b), wide(c));
+        c = core::array::from_fn(|k| (f64::from(c[k]) - along * f64::from(b[k])) as f32);
+    }
+    let size = [1.0, 1e-3, 1e-6, 30.0][round as usize % 4];
+    if shape != LightShape::Disk {
+        b = b.map(|x| x * size);
+    }
+    c = c.map(|x| x * size);
+    // the fourth corner of a patch: nearly opposite
+    let n = if shape == LightShape::Patch { core::array::from_fn(|k| b[k] + c[k] + 0.2 * size * n[k]) } else { n };
+    let mut a = towards.map(|x| x * (0.1 + random.unit()) * if size > 1.0 { 10.0 } else { 1.0 });
+    if round % 5 == 4 {
+        // nearly in its plane
+        let normal = cross(wide(b), wide(c));
+        let lift = dot(wide(a), normal) / dot(normal, normal) * 0.999;
+        a = core::array::from_fn(|k| (f64::from(a[k]) - lift * normal[k]) as f32);
+    }
+    AreaLight { shape, by, p: [0.0; 3], a, b, c, n, radius: size * 0.3 }
+}
+
+/// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.
+fn clear(light: &AreaLight) -> bool {
+    let (v, b, c) = (wide(light.a), wide(light.b), wide(light.c));
+    let normal = if light.shape == LightShape::Disk { b } else { cross(b, c) };
+    let flat = !matches!(light.shape, LightShape::Sphere | LightShape::Cylinder | LightShape::Line | LightShape::Patch);
+    let slim = length(cross(b, c)) < 0.05 * length(b) * length(c);
+    let low = dot(v, normal).abs() < 1e-2 * length(v) * length(normal);
+    !(flat && (low || slim && light.shape != LightShape::Disk))
+}
+
+#[test]
+fn pdf_of_a_sample_is_the_pdf_of_its_direction() {
+    let mut checked = [0_u32; 23];
+    for (kind, checked) in checked.iter_mut().enumerate() {
+        let mut random = Random::new(kind as u64);
+        for round in 0..4000 {
+            let light = light(kind, round, &mut random);
+            let u = [random.unit(), random.unit()];
+            if clear(&light) {
+                techniques::one_pdf(&light, u);
+                *checked += u32::from(AreaLight::prepare::<f32>(&[light]).sample(squares_of(&[u])).pdf > 0.0);
+            }
+        }
+    }
+    println!("samples with a pdf by kind: {checked:?}");
+    assert!(checked.iter().all(|&n| n > 500), "{checked:?}");
+}
+
+#[test]
+fn every_lane_agrees_in_all_that_a_sampler_returns() {
+    for kind in 0..AreaLight::KINDS.len() {
+        let mut random = Random::new(100 + kind as u64);
+        for round in 0..200 {
+            let lights = core::array::from_fn(|i| light(kind, round + i as u32, &mut random));
+            let us = core::array::from_fn(|_| [random.unit(), random.unit()]);
+            techniques::any_bits(&lights, &us);
+        }
+    }
+}
+
+/// The inverse returns the number, to what the direction's rounding allows; of solid angles at the scale of rooms.
+#[test]
+fn inverse_of_a_sample_is_its_number() {
+    for kind in 0..AreaLight::KINDS.len() {
+        let mut random = Random::new(200 + kind as u64);
+        let mut worst = 0.0_f64;
+        for round in 0..1000 {
+            let light = light(kind, round * 20, &mut random);
+            let (v, normal) = (wide(light.a), cross(wide(light.b), wide(light.c)));
+            if !clear(&light) || dot(v, normal).abs() < 0.2 * length(v) * length(normal) || length(normal) < 0.3 {
+                continue;
+            }
+            let u = Vec2::new(0.02 + 0.96 * random.unit_f64(), 0.02 + 0.96 * random.unit_f64());
+            let sampler = AreaLight::prepare::<f64>(&[light]);
+            let s = sampler.sample(u);
+            // the nearest point is another one where the light hides the sample
+            let cos = dot(s.direction.at(0), s.normal.at(0)).abs();
+            if s.pdf > 0.0 && s.emits && cos > 0.05 {
+                let again = sampler.invert(s.direction);
+                let across = if light.shape == LightShape::Line { 0.0 } else { (again.y - u.y).abs() };
+                worst = worst.max((again.x - u.x).abs().max(across.min(1.0 - across)));
+            }
+        }
+        println!("{:?}: inverse off by {worst:.1e}", AreaLight::KINDS[kind]);
+        // one of the two maps of a cut cap has a square root at its ends
+        let limit =
+            if AreaLight::KINDS[kind] == (LightShape::Sphere, Measure::ProjectedSolidAngle) { 1e-5 } else { 1e-7 };
+        assert!(worst < limit, "{:?}: {worst:e}", AreaLight::KINDS[kind]);
+    }
+}
+
+/// A ray hits the point of the sample: distance, normal and surface coordinates agree.
+#[test]
+fn a_hit_is_the_point_that_was_sampled() {
+    for kind in 0..AreaLight::KINDS.len() {
+        let (shape, by) = AreaLight::KINDS[kind];
+        if shape == LightShape::Line {
+            continue;
+        }
+        let mut random = Random::new(300 + kind as u64);
+        let mut seen = 0;
+        for round in 0..500 {
+            let light = light(kind, round * 20, &mut random);
+            let sampler = AreaLight::prepare::<f64>(&[light]);
+            let s = sampler.sample(Vec2::new(random.unit_f64(), random.unit_f64()));
+            let cos = dot(s.direction.at(0), s.normal.at(0)).abs();
+            if !clear(&light) || !s.valid() || cos < 0.05 {
+                continue;
+            }
+            seen += 1;
+            let hit = sampler.hit(s.direction);
+            let off = (hit.distance / s.distance - 1.0).abs();
+            assert!(hit.valid() && off < 1e-7, "{shape:?} {by:?}: {hit:?} for {s:?}");
+            assert!(length(sub(hit.normal.at(0), s.normal.at(0))) < 1e-6, "{shape:?} {by:?}: {hit:?} for {s:?}");
+            let [du, dv] = [hit.uv.x - s.uv.x, hit.uv.y - s.uv.y].map(f64::abs);
+            let near = |d: f64| d.min(1.0 - d) < 1e-6;
+            assert!(near(du) && near(dv), "{shape:?} {by:?}: {hit:?} for {s:?}");
+            // the point by area has the same normal, and a pdf that is less by distance²/cosθ'
+            let u = sampler.invert(s.direction);
+            let area = sampler.area_sample(u);
+            let again = sampler.sample(u);
+            let point: [f64; 3] = core::array::from_fn(|k| again.direction.at(0)[k] * again.distance);
+            assert!(length(sub(area.point.at(0), point)) < 1e-6 * again.distance, "{shape:?} {by:?}: {area:?}");
+            let cos = dot(again.direction.at(0), again.normal.at(0)).abs();
+            let expected = again.pdf * cos / (again.distance * again.distance);
+            assert!((area.pdf / expected - 1.0).abs() < 1e-6, "{shape:?} {by:?}: {area:?} for {expected}");
+        }
+        assert!(seen > 50, "{shape:?} {by:?}: {seen}");
+    }
+}
+
+/// A direction that misses the light has pdf 0, and is a miss.
+#[test]
+fn directions_beside_the_light_miss() {
+    for kind in 0..AreaLight::KINDS.len() {
+        let (shape, by) = AreaLight::KINDS[kind];
+        let mut random = Random::new(400 + kind as u64);
+        for round in 0..300 {
+            let light = light(kind, round * 20 + 1, &mut random);
+            let sampler = AreaLight::prepare::<f32>(&[light]);
+            let w = sampler.sample(Vec2::new(0.5, 0.5)).direction;
+            for miss in [-w, Vec3::new(w.y, w.z, w.x)] {
+                let off = 1.0 - f64::from(miss.dot(w));
+                if off > 0.1 && length(w.at(0)) > 0.9 && shape != LightShape::Line {
+                    assert_eq!(sampler.pdf(miss), 0.0, "{shape:?} {by:?}: {light:?}");
+                    let hit = sampler.hit(miss);
+                    assert!(!hit.valid() && hit.weight() == 0.0, "{shape:?} {by:?}: {hit:?}");
+                }
+            }
+        }
+    }
+}
+
+/// A sampler prepared in scalars and repeated draws the bits of one that was prepared in packets.
+#[test]
+fn splat_is_the_same_sampler() {
+    let (p, n) = (Vec3::<f32>::new(0.1, 0.2, -0.3), Vec3::<f32>::new(0.0, 0.6, 0.8));
+    let triangle = Triangle::new([0.0, 1.0, 0.0].into(), [1.0, 1.5, 0.0].into(), [0.0, 1.0, 1.0_f32].into());
+    let us = squares_of::<f32x8>(&core::array::from_fn::<_, 8, _>(|i| [i as f32 / 8.0, 0.9 - i as f32 / 9.0]));
+    let wide = Triangle::<f32x8>::splat(triangle);
+    let (pw, nw) = (Vec3::splat(p), Vec3::splat(n));
+    macro_rules! same {
+        ($($by:ident($($point:expr),+; $($packet:expr),+) as $alias:ident),+) => {$(
+            let one = etendue::light::$alias::<f32x8>::splat(triangle.$by($($point),+)).sample(us);
+            let other = wide.$by($($packet),+).sample(us);
+            assert_eq!(one.direction, other.direction);
+            assert_eq!(one.pdf, other.pdf);
+            assert_eq!(one.distance, other.distance);
+            assert_eq!(one.uv, other.uv);
+        )+};
+    }
+    same!(
+        by_area(p; pw) as TriangleByArea,
+        by_solid_angle(p; pw) as TriangleBySolidAngle,
+        by_projected_solid_angle(p, n; pw, nw) as TriangleByProjectedSolidAngle,
+        by_cosine_warp(p, n; pw, nw) as TriangleByCosineWarp
+    );
+}
+
+/// Lanes without a sample weigh nothing, and no light divides by 0.
+#[test]
+fn invalid_lanes_weigh_nothing() {
+    let zero = Vec3::<f32x8>::lit([0.0; 3]);
+    let flat = Triangle::new(zero, Vec3::lit([1.0, 0.0, 0.0]), Vec3::lit([0.0, 1.0, 0.0]));
+    let back = Parallelogram::new(Vec3::lit([-1.0, 2.0, -1.0]), Vec3::lit([0.0, 0.0, 2.0]), Vec3::lit([2.0, 0.0, 0.0]));
+    let bulb = Sphere::new(Vec3::lit([0.0, 2.0, 0.0]), f32x8::splat(-1.0));
+    let u = Vec2::lit([0.3, 0.6]);
+    for (name, s) in [
+        ("a point in the plane", flat.by_solid_angle(zero).sample(u)),
+        ("a point in the plane, by area", flat.by_area(zero).sample(u)),
+        ("behind", back.by_solid_angle(zero).sample(u)),
+        ("behind, by area", back.by_area(zero).sample(u)),
+        ("a negative radius", bulb.by_solid_angle(zero).sample(u)),
+        ("a negative radius, by projected solid angle", bulb.by_projected_solid_angle(zero, zero).sample(u)),
+    ] {
+        assert_eq!(s.weight(), f32x8::splat(0.0), "{name}: {s:?}");
+        assert!(!s.valid().any(), "{name}");
+        assert_eq!(s.lane(3).weight(), 0.0, "{name}");
+    }
+    // from behind the pdf is positive: the light may emit from both sides
+    let s = back.by_solid_angle(zero).sample(u);
+    assert!(s.pdf.lane(0) > 0.0 && s.two_sided().valid().all());
+    assert_eq!(s.two_sided().weight(), f32x8::splat(1.0) / s.pdf);
+}
