@@ -4,6 +4,7 @@ use etendue::discrete::{AliasTable, PiecewiseConstant2d};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
+    ZOrderIndex,
 };
 use etendue::spherical::{
     CosineWarped, ProjectedCap, ProjectedPolygon, ProjectedSegment, ProjectedTriangle, SphericalCap, SphericalDisk,
@@ -242,7 +243,14 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.sequence("owen sobol", OwenSobol::new(1));
     list.sequence("joint sobol", JointSobol::new(1));
     list.sequence("joint strata", JointStratified::new(1, 4, 2));
-    list.sequence("z-order", ZOrder::new(1, 64));
+    let z_order = ZOrder::new(1, 64);
+    let indices: Vec<_> = (0..SAMPLES / R::LANES).map(index::<R>).collect();
+    list.push("sequence z-order pair", z_order, indices.clone(), |s, i| {
+        s.pair::<R>(ZOrderIndex::from_position(R::Uint::splat(7)), i, 1)
+    });
+    list.push("sequence z-order pair, pixels", z_order, indices, |s, i| {
+        s.pair::<R>(ZOrderIndex::from_position(i), R::Uint::splat(7), 1)
+    });
     list.sequence("lattice", Lattice::r2(1));
     list.routines
 }

@@ -44,6 +44,7 @@ mod interop;
 mod lanewise;
 pub mod light;
 pub mod math;
+pub mod random;
 pub mod real;
 pub mod select;
 pub mod sequence;

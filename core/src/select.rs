@@ -10,6 +10,7 @@
 //! multiple importance sampling: what another technique hits has a probability too. No light of positive power has
 //! probability 0, and none of zero power has another.
 
+use crate::discrete::TableError;
 use crate::estimate::Reservoir;
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec3;
@@ -65,10 +66,11 @@ impl UniformLights {
 /// ```
 /// use etendue::select::PowerLights;
 /// let mut sums = [0.0; 3];
-/// let lights = PowerLights::new(&[1.0, 0.0, 3.0], &mut sums);
+/// let lights = PowerLights::new(&[1.0, 0.0, 3.0], &mut sums)?;
 /// let choice = lights.choose(0.625_f32);
 /// assert_eq!((choice.index, choice.pmf, choice.u), (2, 0.75, 0.5));
 /// assert_eq!(lights.pmf::<f32>(1), 0.0);
+/// # Ok::<(), etendue::discrete::TableError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct PowerLights<'a> {
@@ -76,18 +78,26 @@ pub struct PowerLights<'a> {
 }
 
 impl<'a> PowerLights<'a> {
-    /// Fills `sums`; the shorter of the two slices counts.
-    pub fn new(powers: &[f32], sums: &'a mut [f32]) -> Self {
-        let count = powers.len().min(sums.len());
+    /// The greatest number of lights: with more, the least pmf would exceed a fair share.
+    pub const MOST: usize = 1 << 14;
+
+    /// Fills `sums`, which needs one entry per light.
+    ///
+    /// # Errors
+    /// [`TableError::Length`] if the lengths differ or there are more than [`MOST`](Self::MOST) lights.
+    pub fn new(powers: &[f32], sums: &'a mut [f32]) -> Result<Self, TableError> {
+        if powers.len() != sums.len() || powers.len() > Self::MOST {
+            return Err(TableError::Length);
+        }
         let clean = |power: f32| if power > 0.0 && power < f32::INFINITY { f64::from(power) } else { 0.0 };
-        let total: f64 = powers[..count].iter().map(|&power| clean(power)).sum();
+        let total: f64 = powers.iter().map(|&power| clean(power)).sum();
         let mut sum = 0.0;
         for (to, &power) in sums.iter_mut().zip(powers) {
             let share = if power > 0.0 && total > 0.0 { clean(power) / total } else { 0.0 };
             sum += if clean(power) > 0.0 { share.greater(1.0 / 262_144.0) } else { 0.0 };
             *to = sum as f32;
         }
-        Self { sums: &sums[..count] }
+        Ok(Self { sums })
     }
     /// Chooses by `u` in [0, 1).
     #[inline]

@@ -33,7 +33,7 @@ pub use independent::{CounterRng, Independent};
 pub use joint::{JointSobol, JointStratified};
 pub use latin::LatinHypercube;
 pub use lattice::Lattice;
-pub use owen_sobol::{OwenSobol, ZOrder};
+pub use owen_sobol::{OwenSobol, ZOrder, ZOrderIndex};
 pub use stratified::Stratified;
 
 use crate::real::Real;

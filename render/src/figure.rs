@@ -51,7 +51,7 @@ pub enum Name {
     QuadsConvergence,
     /// Importance sampling with a pdf that matches the integrand, and with one that does not
     Importance,
-    /// Convergence rates of stratified sampling for three integrands
+    /// Convergence rates of independent and jittered samples, with their integrands
     Stratification,
     /// Variance and cost of each technique in each scene
     Efficiency,

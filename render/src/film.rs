@@ -56,9 +56,7 @@ pub struct PixelSum {
     lanes: [Welford<X8>; 3],
     packets: u32,
     samples: [Welford<f64>; 3],
-    count: f64,
     replicates: [Welford<f64>; 3],
-    finished: f64,
     /// Number of samples in all replicates.
     taken: u32,
 }
@@ -69,9 +67,8 @@ impl PixelSum {
     pub fn push_packet(&mut self, radiance: V8) {
         self.packets += 1;
         self.taken += 8;
-        let reciprocal = X8::splat(1.0 / self.packets as f32);
         for (lane, x) in self.lanes.iter_mut().zip([radiance.x, radiance.y, radiance.z]) {
-            lane.push(x, reciprocal);
+            lane.push(x);
         }
         if self.packets == BLOCK {
             self.flush();
@@ -80,10 +77,9 @@ impl PixelSum {
     /// Adds one sample.
     #[inline]
     pub fn push(&mut self, radiance: [f32; 3]) {
-        self.count += 1.0;
         self.taken += 1;
         for (sum, x) in self.samples.iter_mut().zip(radiance) {
-            sum.push(f64::from(x), 1.0 / self.count);
+            sum.push(f64::from(x));
         }
     }
     fn flush(&mut self) {
@@ -93,10 +89,9 @@ impl PixelSum {
         }
         for lane in 0..8 {
             for (sum, packet) in self.samples.iter_mut().zip(&self.lanes) {
-                let one = Welford { mean: f64::from(packet.mean.lane(lane)), m2: f64::from(packet.m2.lane(lane)) };
-                *sum = sum.merge(self.count, one, n);
+                let [mean, m2] = [packet.mean(), packet.m2()].map(|x| f64::from(x.lane(lane)));
+                *sum = sum.merge(Welford::from_moments(n, mean, m2));
             }
-            self.count += n;
         }
         self.lanes = Default::default();
         self.packets = 0;
@@ -104,20 +99,18 @@ impl PixelSum {
     /// Ends a replicate.
     pub fn end_replicate(&mut self) {
         self.flush();
-        self.finished += 1.0;
         for (sum, samples) in self.replicates.iter_mut().zip(&self.samples) {
-            sum.push(samples.mean, 1.0 / self.finished);
+            sum.push(samples.mean());
         }
         self.samples = Default::default();
-        self.count = 0.0;
     }
     /// Returns the pixel and resets the sum.
     pub fn finish(&mut self) -> Pixel {
         self.flush();
-        let (sums, n) = if self.finished > 0.0 { (self.replicates, self.finished) } else { (self.samples, self.count) };
+        let sums = if self.replicates[0].count() > 0.0 { self.replicates } else { self.samples };
         let pixel = Pixel {
-            mean: sums.map(|s| s.mean as f32),
-            variance: sums.map(|s| (s.variance(n) / n) as f32),
+            mean: sums.map(|s| s.mean() as f32),
+            variance: sums.map(|s| (s.variance() / s.count()) as f32),
             samples: self.taken,
         };
         *self = Self::default();
@@ -126,7 +119,7 @@ impl PixelSum {
     /// Returns the mean and sample count of an unfinished replicate, and resets the sum.
     pub fn take(&mut self) -> ([f64; 3], u32) {
         self.flush();
-        let taken = (self.samples.map(|s| s.mean), self.taken);
+        let taken = (self.samples.map(|s| s.mean()), self.taken);
         *self = Self::default();
         taken
     }

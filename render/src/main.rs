@@ -33,7 +33,7 @@ enum Command {
     Chart(chart::Options),
     /// Draw a figure about light sampling and print the numbers behind it
     Figure(figure::Options),
-    /// Map where each technique of the library loses accuracy, beside the textbook formulas
+    /// Map where each technique of the library loses accuracy, compared with textbook formulas
     Atlas(atlas::Options),
     /// List the built-in scenes, techniques, samplers and sensors
     List,

@@ -9,7 +9,7 @@
 
 use crate::accel::{M8, X8};
 use etendue::sequence::{
-    Independent, JointSobol, JointStratified, LatinHypercube, OwenSobol, Sequence, Stratified, ZOrder,
+    Independent, JointSobol, JointStratified, LatinHypercube, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
 };
 use etendue::{Vec2, u32x8};
 
@@ -253,7 +253,7 @@ impl Source {
                 let (key, index) = sobol();
                 set.pair(key, index, joint(dimension))
             }
-            Set::ZOrder(set) => set.pair(ZOrder::pixel(packet.x, packet.y), sample(), dimension),
+            Set::ZOrder(set) => set.pair(ZOrderIndex::new(packet.x, packet.y), sample(), dimension),
         }
     }
 }

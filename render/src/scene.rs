@@ -32,7 +32,7 @@ pub struct Scene {
     pub film: FilmSettings,
     /// Samples per pixel; 16 by default.
     pub pixel_samples: u32,
-    /// Materials, no two of which are equal.
+    /// Materials without duplicates.
     pub materials: Vec<Material>,
     /// Corners of the triangles that do not emit. The normal is (v1 − v0) × (v2 − v0); no area is zero.
     pub triangles: Vec<[[f32; 3]; 3]>,

@@ -10,7 +10,7 @@ use clap::ValueEnum;
 pub struct Row {
     /// How lights were sampled.
     pub technique: Technique,
-    /// Where random numbers came from.
+    /// How random numbers were generated.
     pub sampler: Sampler,
     /// Mean over pixels, per channel.
     pub mean: [f64; 3],

@@ -1,4 +1,4 @@
-//! Samples where they are needed: as many as were asked for, in other places, with less error and no bias.
+//! The adaptive sampler takes the requested number of samples on average, reduces the error and has no bias.
 
 use etendue_render::film::Film;
 use etendue_render::image::Picture;
@@ -24,7 +24,7 @@ fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
     world.render(settings, |_| ())
 }
 
-/// On average as many samples as were asked for; in each pixel a power of two of packets in each set, no fewer than the pilot's.
+/// The mean number of samples is the requested one. Each set of a pixel has a power of two of packets, at least those of the pilot.
 #[test]
 fn samples_are_counted() {
     for (name, spp, sets, pilot) in [
@@ -41,14 +41,14 @@ fn samples_are_counted() {
         let taken: u64 = film.pixels.iter().map(|p| u64::from(p.samples)).sum();
         assert_eq!(rays.camera, taken, "{name}");
         let share = taken as f64 / (f64::from(spp) * film.pixels.len() as f64);
-        assert!((share - 1.0).abs() < 0.02, "{name}, {spp} samples: {share} of what was asked for");
+        assert!((share - 1.0).abs() < 0.02, "{name}, {spp} samples: {share} of the requested number");
         for pixel in &film.pixels {
             let packets = pixel.samples / (8 * sets);
             assert!(packets.is_power_of_two() && packets * 8 >= pilot, "{name}: {} samples", pixel.samples);
             assert!(pixel.variance.iter().all(|v| v.is_finite() == (sets > 1)), "{name}: {pixel:?}");
         }
         let most = film.pixels.iter().map(|p| p.samples).max().unwrap();
-        assert!(most >= 2 * spp, "{name}: {most} samples at the most");
+        assert!(most >= 2 * spp, "{name}: at most {most} samples");
     }
 }
 
@@ -64,8 +64,8 @@ fn threads_do_not_matter() {
     assert_eq!(one, on(3));
 }
 
-/// Error against the images that come with the program, less their own. Of 32 samples the lower edge of the triangle takes its toll: it
-/// covers a sixteenth of its pixels, and by a pilot of eight samples some that it passes through would be left at that (5.3 times less).
+/// Compares errors against the built-in references, minus the references' own. With 32 samples, the lower edge of the triangle matters:
+/// it covers a sixteenth of its pixels, and a pilot of eight samples would miss it in some of them (a gain of only 5.3).
 #[test]
 fn errs_less_than_as_many_samples_everywhere() {
     for (name, spp, error, least) in [
@@ -85,12 +85,13 @@ fn errs_less_than_as_many_samples_everywhere() {
             (1..4).map(of).sum::<f64>()
         };
         let gain = measured(Sampler::Sobol) / measured(Sampler::Adaptive);
-        println!("{name}, {spp} samples: {gain:.2} times less error than sobol");
+        println!("{name}, {spp} samples: sobol has {gain:.2} times the error");
         assert!(gain > least, "{name}, {spp} samples: {gain}");
     }
 }
 
-/// The mean over seeds is that of a precise image: a number of samples that went by the pixel's own would leave dark pixels dark.
+/// The mean over seeds equals that of a precise image. (If the number of samples depended on the pixel itself, dark pixels would be
+/// left dark.)
 #[test]
 fn is_not_biased() {
     let world = world("sphere-light");

@@ -1,4 +1,4 @@
-//! Few lights are allocated to the samples of a pixel: with less error, and no bias.
+//! Allocating samples to a few lights reduces the error and has no bias.
 
 use etendue_render::image::Picture;
 use etendue_render::{Sampler, Settings, Technique, World, compare::Comparison, image, scene};
@@ -19,24 +19,24 @@ fn world(name: &str) -> World {
     World::new(&scene::load(name).unwrap()).unwrap()
 }
 
-/// A corner of a pixel is looked through once by each tile of 16×16 pixels, and only where lights are allocated: in a scene of some
-/// lights, by samples that are counted for each of them.
+/// Each tile of 16×16 pixels traces each corner once, and only if samples are allocated: in scenes with several lights, for samplers that
+/// can count samples per light.
 #[test]
 fn corners_are_looked_through_where_it_helps() {
     let corners = |name: &str, settings: Settings| world(name).render(&settings, |_| ()).1.corner;
     let four_tiles = 4 * 17 * 17;
     assert_eq!(corners("quads", SETTINGS), four_tiles);
     assert_eq!(corners("quads", Settings { spp: 64, sets: 4, ..SETTINGS }), four_tiles);
-    // for the pilot; what follows goes by that
+    // for the pilot only, which determines the rest
     assert_eq!(corners("quads", Settings { sampler: Sampler::Adaptive, ..SETTINGS }), four_tiles);
     assert_eq!(corners("quads", Settings { width: 17, height: 3, ..SETTINGS }), 17 * 4 + 2 * 4);
     for other in [
         // one light
         ("sphere-light", SETTINGS),
-        // by chance
+        // lights chosen at random
         ("quads", Settings { sampler: Sampler::Independent, ..SETTINGS }),
         ("quads", Settings { sampler: Sampler::Sobol4d, ..SETTINGS }),
-        // no power of two, or less than a packet
+        // not a power of two, or less than a packet
         ("quads", Settings { spp: 24, ..SETTINGS }),
         ("quads", Settings { spp: 4, ..SETTINGS }),
         // lights are not sampled
@@ -48,7 +48,7 @@ fn corners_are_looked_through_where_it_helps() {
     }
 }
 
-/// The mean over seeds is that of an image whose lights are chosen by chance; also where a corner does not see what the pixel holds.
+/// The mean over seeds equals that of an image with randomly chosen lights, also where corners do not see what the pixel sees.
 #[test]
 fn is_not_biased() {
     let world = world("quads");
@@ -73,7 +73,7 @@ fn is_not_biased() {
     }
 }
 
-/// The variance that the sets tell is that of the image.
+/// The variance computed from the sets is that of the image.
 #[test]
 fn sets_tell_the_error() {
     let world = world("quads");
@@ -86,11 +86,11 @@ fn sets_tell_the_error() {
         found += films.iter().map(|f| (f64::from(f.pixels[i].mean[1]) - mean).powi(2)).sum::<f64>() / (n - 1.0);
         told += films.iter().map(|f| f64::from(f.pixels[i].variance[1])).sum::<f64>() / n;
     }
-    println!("variance told / found: {:.3}", told / found);
-    assert!((told / found - 1.0).abs() < 0.05, "{told:e} told, {found:e} found");
+    println!("variance reported / measured: {:.3}", told / found);
+    assert!((told / found - 1.0).abs() < 0.05, "{told:e} reported, {found:e} measured");
 }
 
-/// Error against the image that comes with the program, less its own: by chance (sobol-4d) over allocated (sobol).
+/// Compares errors against the built-in reference, minus its own: lights chosen at random (sobol-4d) and allocated (sobol).
 #[test]
 fn errs_less_than_by_chance() {
     let reference = image::read_exr(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/references/quads.exr")).unwrap();
@@ -100,6 +100,6 @@ fn errs_less_than_by_chance() {
         Comparison::new(&reference, &Picture::from(&world.render(&settings, |_| ()).0), 1.9e-8).unwrap().mse
     };
     let (chance, allocated) = (measured(Sampler::Sobol4d), measured(Sampler::Sobol));
-    println!("quads: {chance:.2e} by chance, {allocated:.2e} allocated, {:.2} times less", chance / allocated);
+    println!("quads: {chance:.2e} at random, {allocated:.2e} allocated, ratio {:.2}", chance / allocated);
     assert!(chance > 3.0 * allocated, "{chance:e} {allocated:e}");
 }

@@ -327,9 +327,9 @@ fn figures_say_their_numbers() {
         numbers(out.lines().find_map(|l| l.trim().strip_prefix(start)).unwrap_or_else(|| panic!("{start} in {out}")))
     };
     let out = folder.succeed("figure importance");
-    let [gain, loss] = ["density 0.1 | 4.6 | 0.1:", "density 1.2 | 0.2 | 1.2:"].map(|s| line(&out, s)[0]);
+    let [gain, loss] = ["pdf 0.1 | 4.6 | 0.1: variance", "pdf 1.2 | 0.2 | 1.2: variance"].map(|s| line(&out, s)[0]);
     assert!((gain / 6.67 - 1.0).abs() < 0.01 && (loss / 5.34 - 1.0).abs() < 0.03, "{out}");
-    assert!(line(&out, "density in proportion to f: variance")[0] < 1e-20, "{out}");
+    assert!(line(&out, "pdf proportional to f: variance")[0] < 1e-20, "{out}");
 
     let out = folder.succeed("figure stratification");
     for (name, rate) in

@@ -1,4 +1,4 @@
-//! The program as its user meets it: output, messages, exit codes.
+//! Runs the program as a user would, and checks output, messages and exit codes.
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::{env, fs, process};
 
-/// A folder of its own for each test, gone when the test ends.
+/// A temporary folder for a test, removed when the test ends.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -20,7 +20,7 @@ impl Folder {
     fn path(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
-    /// A file in the folder.
+    /// Writes a file in the folder.
     fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
         let path = self.path(name);
         fs::write(&path, bytes).unwrap();
@@ -37,14 +37,14 @@ impl Folder {
     fn run(&self, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO_BIN_EXE_etendue")).current_dir(&self.0).args(arguments).output().unwrap()
     }
-    /// Its standard output, after success without a word on standard error.
+    /// Runs the program, which must succeed without messages, and returns its standard output.
     fn succeed(&self, arguments: &[&str]) -> String {
         let output = self.run(arguments);
         let error = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success() && error.is_empty(), "{arguments:?}: {:?}: {error}", output.status);
         String::from_utf8(output.stdout).unwrap()
     }
-    /// Its message, after exit code 2 and nothing on standard output.
+    /// Runs the program, which must exit with code 2 and print nothing on standard output, and returns its message.
     fn fail(&self, arguments: &[&str]) -> String {
         let output = self.run(arguments);
         let error = String::from_utf8(output.stderr).unwrap();
@@ -72,7 +72,7 @@ fn keys(value: &Value) -> Vec<&str> {
     keys
 }
 
-/// A scene on five lines: line 1 the camera and film, 2 `WorldBegin`, 3 a light, 4 the ground, 5 `last`.
+/// A scene of five lines: camera and film, `WorldBegin`, a light, the ground, and `last`.
 fn scene(last: &str) -> String {
     format!(
         "LookAt 0 4 6 0 0 0 0 1 0 Camera \"perspective\" Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n\
@@ -159,7 +159,7 @@ fn render_writes_an_image_and_a_picture() {
     let header = png::Decoder::new(std::io::Cursor::new(picture)).read_info().unwrap().info().size();
     assert_eq!(header, (17, 5));
 
-    // a scene file names its image; what --output says comes before that
+    // --output overrides the file name in the scene
     let text = scene("").replace("Film \"rgb\"", "Film \"rgb\" \"string filename\" \"mine.png\"");
     folder.write("file.pbrt", text);
     folder.succeed(&["render", "file.pbrt"]);
@@ -182,10 +182,10 @@ fn bytes_depend_on_the_seed_and_not_on_threads() {
     assert_eq!(one, of("5", "2"));
     assert_eq!(one, of("5", "3"));
     assert_ne!(one, of("6", "1"));
-    assert_ne!(of("5", "1"), of("4294967301", "1"), "all 64 bits of a seed count");
+    assert_ne!(of("5", "1"), of("4294967301", "1"), "all 64 bits of a seed matter");
 }
 
-/// Runs `render` on a faulty scene, over an image that is already there.
+/// Runs `render` on a faulty scene, with the output over an existing image.
 fn faulty(folder: &Folder, name: &str, text: impl AsRef<[u8]>, message: &[&str]) {
     folder.write(name, text);
     fails_untouched(folder, &["render", name, "-o", "kept.exr"], message);
@@ -196,7 +196,7 @@ fn fails_untouched(folder: &Folder, arguments: &[&str], message: &[&str]) {
     let names = folder.names();
     let error = folder.fail(arguments);
     for part in message {
-        assert!(error.contains(part), "{arguments:?}: {error:?} should tell {part:?}");
+        assert!(error.contains(part), "{arguments:?}: {error:?} should contain {part:?}");
     }
     assert_eq!((fs::read(image).unwrap(), fs::read(picture).unwrap()), (b"an image".into(), b"a picture".into()));
     assert_eq!(folder.names(), names, "no file is left behind");
@@ -227,7 +227,7 @@ fn bad_scenes_are_told_with_file_and_line() {
         let text = scene("").replace("8 \"integer yresolution\" 8", film);
         faulty(&folder, "film.pbrt", text, &["etendue: film.pbrt:1: ", "each side must be 1 to 65536"]);
     }
-    // the fault lies in an included file
+    // a fault in an included file
     folder.write("part.pbrt", "# first line\nShape \"sphere\" \"float radius\" one\n");
     faulty(&folder, "whole.pbrt", scene("Include \"part.pbrt\""), &["part.pbrt:2: ", "expected a number, found one"]);
     faulty(&folder, "bytes.pbrt", b"LookAt\n\xff\xfe", &["bytes.pbrt:2: ", "UTF-8"]);
@@ -298,12 +298,12 @@ fn compare_tells_images_apart() {
     assert!(pixel.iter().all(|x| x.as_u64().unwrap() < 32), "{two}");
     assert!(folder.succeed(&["compare", "a.exr", "b.exr"]).contains("z of the mean"));
 
-    // an image of one sample has no variance to judge by
+    // an image with one sample has no variance
     let blind = json(&folder.succeed(&["compare", "a.exr", "one.exr", "--json"]));
     assert_eq!(keys(&blind), ["largest", "mean_difference", "mse"]);
     assert!(folder.succeed(&["compare", "a.exr", "one.exr"]).contains("no variance"));
 
-    // faults
+    // invalid input
     let error = folder.fail(&["compare", "a.exr", "small.exr"]);
     assert!(error.contains("32x32") && error.contains("31x32"), "{error}");
     let error = folder.fail(&["compare", "none.exr", "a.exr"]);
@@ -318,7 +318,7 @@ fn compare_tells_images_apart() {
     assert!(error.contains("a.png"), "{error}");
 }
 
-/// Whatever bytes change, the program ends well or says what is wrong.
+/// With any bytes changed, an image is read or rejected, but nothing crashes.
 #[test]
 fn damaged_images_never_crash() {
     let folder = Folder::new();
@@ -333,7 +333,7 @@ fn damaged_images_never_crash() {
             damaged[at] = (state >> 3) as u8;
         }
         let path = folder.write("damaged.exr", &damaged);
-        // in this process: 300 starts of the program would take a while
+        // in this process, since 300 starts of the program would be slow
         let _ = etendue_render::image::read_exr(Path::new(&path));
     }
 }
@@ -419,10 +419,13 @@ fn atlas_of_one_shape() {
     assert_eq!(names, ["atlas.csv", "atlas.html", "segment-size-elevation.svg"]);
     let page = fs::read_to_string(folder.path("maps/atlas.html")).unwrap();
     assert!(page.contains("equiangular, by arc tangents") && page.contains("<svg"));
-    assert!(!page.contains("{{") && !page.contains(">NaN") && !page.contains("\"NaN"), "all is filled in");
+    assert!(
+        !page.contains("{{") && !page.contains(">NaN") && !page.contains("\"NaN"),
+        "a placeholder or value is missing"
+    );
     let mut table = csv::Reader::from_path(folder.path("maps/atlas.csv")).unwrap();
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
-    // every cell of three techniques, and ours keeps the contract in all of them
+    // every cell of three techniques; ours is within the contract in all cells
     assert!(rows.len().is_multiple_of(3) && rows.len() > 600, "{}", rows.len());
     let ours = |r: &&csv::StringRecord| &r[2] == "SphericalSegment";
     let last = table.headers().unwrap().len() - 1;

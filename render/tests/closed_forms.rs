@@ -1,4 +1,4 @@
-//! Lights and mirrors against closed forms: points, spots and parallel light over a plane, the image in a mirror, a sky.
+//! Compares lights and mirrors with closed forms: point, spot and distant lights over a plane, a mirror image, a sky.
 
 use clap::ValueEnum;
 use etendue_render::compare::Comparison;
@@ -16,7 +16,7 @@ fn world(text: &str) -> World {
     World::new(&scene).unwrap()
 }
 
-/// A camera of so narrow a view that a pixel is a point: the origin seen from `camera`.
+/// A camera that sees the origin from `camera`, with a view so narrow that a pixel is a point.
 fn narrow(camera: &str, scene: &str) -> World {
     world(&format!("LookAt {camera} 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{scene}"))
 }
@@ -35,7 +35,7 @@ fn pixel(world: &World, technique: Technique, spp: u32) -> ([f64; 3], [f64; 3]) 
     (pixel.mean.map(f64::from), pixel.variance.map(|v| f64::from(v).sqrt()))
 }
 
-/// Every technique gives this irradiance times albedo/π: exactly, and with no noise, if the light has one direction only.
+/// Every technique gives exactly this irradiance times albedo/π, without noise, for lights with a single direction.
 fn exactly(world: &World, irradiance: [f64; 3]) {
     for &technique in Technique::value_variants() {
         let (mean, error) = pixel(world, technique, 24);
@@ -53,7 +53,7 @@ fn point_over_a_plane() {
     let squared: f64 = 0.09 + 4.0 + 0.25;
     let each = 2.0 / squared.sqrt() / squared;
     exactly(&narrow("1 5 2", &scene), [each, 2.0 * each, 3.0 * each]);
-    // from below no light reaches it, nor through a ball
+    // no light reaches the other side, or passes through a ball
     exactly(&narrow("1 -5 2", &scene), [0.0; 3]);
     let hidden = format!("{scene} Translate .15 1 -.25 Shape \"sphere\" \"float radius\" .2");
     exactly(&narrow("1 5 2", &hidden), [0.0; 3]);
@@ -61,7 +61,7 @@ fn point_over_a_plane() {
 
 #[test]
 fn spot_over_a_plane() {
-    // the axis points a little past the origin, which is seen between the two angles
+    // the axis points past the origin, which lies between the two angles
     let scene = format!(
         "{PLANE}LightSource \"spot\" \"point3 from\" [0 2 0] \"point3 to\" [.5 0 0] \"float coneangle\" 20 \"float conedeltaangle\" 10"
     );
@@ -77,14 +77,14 @@ fn parallel_light_over_a_plane() {
     let scene =
         format!("{PLANE}LightSource \"distant\" \"point3 from\" [3 4 0] \"rgb L\" [1 .5 2] \"point3 to\" [0 0 0]");
     exactly(&narrow("1 5 2", &scene), [0.8, 0.4, 1.6]);
-    // three at once: all of them, still without noise
+    // three lights are all sampled, still without noise
     let more = format!(
         "{scene} LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] LightSource \"point\" \"point3 from\" [0 1 0]"
     );
     exactly(&narrow("1 5 2", &more), [2.8, 2.4, 3.6]);
 }
 
-/// Over 32 delta lights, and delta lights beside others, are chosen among by chance.
+/// One of more than 32 delta lights, or of delta lights mixed with others, is chosen at random.
 #[test]
 fn many_delta_lights_and_mixed_ones() {
     let mut scene = PLANE.to_owned();
@@ -97,7 +97,7 @@ fn many_delta_lights_and_mixed_ones() {
     }
     let sphere = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \
                   Translate 2 2 0 Shape \"sphere\" \"float radius\" .5 AttributeEnd";
-    // facing it, a sphere gives π sin²σ
+    // a facing sphere gives π sin²σ
     let ball = 5.0 * PI * 0.25 / 8.0 / 2.0_f64.sqrt();
     for (scene, irradiance) in [(scene.clone(), irradiance), (format!("{scene}{sphere}"), irradiance + ball)] {
         let world = narrow("1 5 2", &scene);
@@ -119,23 +119,23 @@ fn uniform_sky() {
             let off = (mean[k] - truth).abs();
             assert!(off < LIMIT * error[k] + 1e-5, "{technique:?}: {mean:?} ± {error:?}");
             assert!(error[k] < 0.03, "{technique:?}: {error:?}");
-            // in proportion to the cosine each sample is worth the same
+            // with a pdf proportional to the cosine, all samples have the same value
             if matches!(technique, Technique::CosineHemisphere | Technique::Brdf | Technique::ProjectedSolidAngle) {
                 assert!(off < 1e-5 && error[k] < 1e-5, "{technique:?}: {mean:?} ± {error:?}");
             }
         }
     }
-    // and it is seen
+    // the sky is visible
     let (mean, _) = pixel(&narrow("1 5 2", "LightSource \"infinite\" \"rgb L\" [1 2 4]"), Technique::MisPower, 8);
     assert_eq!(mean, [1.0, 2.0, 4.0]);
 }
 
-/// Half of the sky is white, by an image of two texels: what a plane gets of it, and where it is seen.
+/// An image of two texels makes half of the sky white: checks the irradiance of a plane, and where the white half is.
 #[test]
 fn half_a_sky() {
     let folder = std::env::temp_dir().join(format!("etendue-half-sky-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    // azimuth from +x to −x by +y, about z
+    // the white half has azimuths about z from +x over +y to −x
     exr::prelude::write_rgb_file(folder.join("half.exr"), 2, 1, |x, _| {
         if x == 0 { (1.0_f32, 1.0_f32, 1.0_f32) } else { (0.0, 0.0, 0.0) }
     })
@@ -149,7 +149,7 @@ fn half_a_sky() {
     };
     let plane = "Material \"diffuse\" \"rgb reflectance\" [.8 .8 .8] Rotate 30 1 0 0\n\
                  Shape \"trianglemesh\" \"point3 P\" [-9 -9 0  9 -9 0  0 9 0]";
-    // of the hemisphere about the plane's normal (0, −½, √¾) the white half holds a lune of 60 degrees: π(1 + cos120°)/2
+    // the white half covers a lune of 60° of the hemisphere about the plane's normal (0, −½, √¾): π(1 + cos120°)/2
     let world = load("0 -1 4", "", plane);
     for &technique in Technique::value_variants() {
         let (mean, error) = pixel(&world, technique, 4096);
@@ -158,7 +158,7 @@ fn half_a_sky() {
     }
     let seen = |camera: &str, transform: &str| pixel(&load(camera, transform, ""), Technique::MisPower, 8).0[0];
     assert_eq!([seen("0 -5 1", ""), seen("0 5 1", "")], [1.0, 0.0]);
-    // turned by a quarter about z: +y becomes −x
+    // rotated by 90° about z: +y becomes −x
     assert_eq!([seen("5 0 1", "Rotate 90 0 0 1"), seen("-5 0 1", "Rotate 90 0 0 1")], [1.0, 0.0]);
     assert_eq!([seen("0 -5 1", "Scale 1 -1 1"), seen("0 5 1", "Scale 1 -1 1")], [0.0, 1.0]);
     std::fs::remove_dir_all(&folder).unwrap();
@@ -173,12 +173,13 @@ fn picture(film: &Film) -> Picture {
     }
 }
 
-/// What a camera sees in a floor of mirror is what its mirror image sees of the scene, upside down.
+/// A camera sees in a mirror floor what its mirror image sees of the scene, upside down.
 #[test]
 fn a_mirror_shows_the_mirror_image() {
     let objects = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [5 4 3] \
         Shape \"bilinearmesh\" \"point3 P\" [-1 3 -1  1 3 -1  -1 3 1  1 3 1] AttributeEnd\n\
-        AttributeBegin Translate .5 1 0 Material \"diffuse\" \"rgb reflectance\" [.7 .2 .7] Shape \"sphere\" \"float radius\" .6 AttributeEnd\n\
+        AttributeBegin Translate .5 1 0 Material \"diffuse\" \"rgb reflectance\" [.7 .2 .7] \
+        Shape \"sphere\" \"float radius\" .6 AttributeEnd\n\
         LightSource \"point\" \"point3 from\" [-2 1 2] \"rgb I\" [3 3 9]\n\
         Shape \"trianglemesh\" \"point3 P\" [-1.5 .5 -.5  -.2 .5 -.5  -.8 2 .3]\n";
     let view =
@@ -196,21 +197,21 @@ fn a_mirror_shows_the_mirror_image() {
         let p = Comparison::new(&b, &a, 0.0).unwrap().predicted.unwrap();
         assert!(p.z.iter().all(|z| z.abs() < LIMIT) && p.z_mse.abs() < LIMIT, "{technique:?}: {p:?}");
         assert!(a.radiance.iter().flatten().any(|&x| x > 4.5), "the light is not in view");
-        // the check sees an image that is upside down
+        // the check rejects an image that is upside down
         let p = Comparison::new(&Picture { radiance: flip(&b.radiance), ..b.clone() }, &a, 0.0).unwrap();
         assert!(p.predicted.unwrap().z_mse > 20.0);
     }
 }
 
-/// Two mirrors face each other: a light beside the camera is seen after exactly so many of them, each time by Kr less.
+/// Between two facing mirrors, a light is seen after exactly `depth` reflections, and each attenuates it by Kr.
 #[test]
 fn chains_of_mirrors_end_at_their_depth() {
     let mirrors = "Material \"mirror\" \"rgb Kr\" [.5 .5 .5]\n\
         Shape \"bilinearmesh\" \"point3 P\" [-50 -2 9  50 -2 9  -50 -2 -9  50 -2 -9]\n\
         Shape \"bilinearmesh\" \"point3 P\" [-50 2 9  50 2 9  -50 2 -9  50 2 -9]\n";
-    // the ray from (−18, 0) to (0, 0) in the plane z = 0 climbs by none; towards (−16, −2) it runs at 45 degrees and is reflected every 4
+    // in the plane z = 0, a ray from (−18, 0) towards (−16, −2) runs at 45 degrees and is reflected every 4 units of x
     for (depth, x) in [(1, -14.0), (2, -10.0), (3, -6.0), (5, 2.0)] {
-        // between two reflections the ray is at y = 0
+        // midway between two reflections, at y = 0
         let light = format!(
             "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [8 8 8] \
              Translate {x} 0 0 Shape \"sphere\" \"float radius\" .2 AttributeEnd\n"
@@ -230,21 +231,22 @@ fn chains_of_mirrors_end_at_their_depth() {
     }
 }
 
-/// A mirror hit by a shadow ray blocks, as by any technique; so does a rough metal.
+/// Mirrors and rough metals block shadow rays with every technique.
 #[test]
 fn mirrors_block() {
     for material in ["Material \"mirror\"", "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" .3"]
     {
         let scene = format!(
             "{PLANE}LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0]\n\
-             AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" Translate 0 3 0 Shape \"sphere\" \"float radius\" .2 AttributeEnd\n\
+             AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \
+             Translate 0 3 0 Shape \"sphere\" \"float radius\" .2 AttributeEnd\n\
              {material} Shape \"bilinearmesh\" \"point3 P\" [-9 1 9  9 1 9  -9 1 -9  9 1 -9]"
         );
         exactly(&narrow("1 .5 .2", &scene), [0.0; 3]);
     }
 }
 
-/// Spheres keep their own colour where all triangles share one that comes later in the file.
+/// Spheres keep their own colour if all triangles share one that comes later in the file.
 #[test]
 fn materials_are_not_mixed_up() {
     let scene = "Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2] Shape \"sphere\" \"float radius\" 1e-3\n\

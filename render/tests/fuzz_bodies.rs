@@ -1,17 +1,17 @@
-//! The fuzz targets' bodies of files without a fuzzer: on the committed seeds and findings, and on these with bytes changed at random.
+//! Runs the fuzz bodies for files without a fuzzer, on the committed seeds and findings, and on randomly damaged copies of them.
 
 #[path = "../../fuzz/bodies/files.rs"]
 mod files;
 
 use std::path::Path;
 
-/// What makes different numbers in turn.
+/// A random number generator.
 fn next(state: &mut u64) -> u64 {
     *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     *state >> 33
 }
 
-/// Each seed as it is, and so often damaged: bytes replaced, left out, or repeated.
+/// Runs `body` on each seed, and on `times` damaged copies with bytes replaced, removed or repeated.
 fn damaged(name: &str, body: fn(&[u8]), times: u64) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/seeds").join(name);
     let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()).collect();
@@ -36,7 +36,7 @@ fn damaged(name: &str, body: fn(&[u8]), times: u64) {
                 }
             }
             let outcome = std::panic::catch_unwind(|| body(&bytes));
-            assert!(outcome.is_ok(), "{}, damaged for the {k}th time", path.display());
+            assert!(outcome.is_ok(), "{}, damaged copy {k}", path.display());
         }
     }
 }

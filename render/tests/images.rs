@@ -1,11 +1,11 @@
-//! Sizes that a file's header claims are believed as far as the file's length allows.
+//! The image size in a file's header is accepted only if the file is long enough for it.
 
 use etendue_render::image;
 use exr::prelude::{Compression, Encoding, Image, Layer, LayerAttributes, SpecificChannels, WritableImage};
 use std::io::Cursor;
 use std::path::Path;
 
-/// One colour, which compresses as well as an image can.
+/// An image of one colour, which compresses best.
 fn plain(side: usize, compression: Compression) -> Vec<u8> {
     let channels = SpecificChannels::rgb(|_| (0.25_f32, 0.5_f32, 0.75_f32));
     let encoding = Encoding { compression, ..Encoding::default() };
@@ -35,13 +35,13 @@ fn plain_images_are_read_however_they_are_compressed() {
     assert_eq!(image::decode(Path::new("plain.png"), &bytes).unwrap().radiance[7], [1.0; 3]);
 }
 
-/// What a fuzzer found: 600 bytes for which 2.7 GB were taken.
+/// Found by fuzzing: a file of 600 bytes for which 2.7 GB were allocated.
 #[test]
 fn a_size_that_the_file_cannot_hold_is_an_error() {
     let bytes = include_bytes!("../../fuzz/seeds/image/oversized");
     let error = image::decode(Path::new("large.exr"), bytes).unwrap_err().to_string();
     assert_eq!(error, "large.exr: 64 × 67108802 pixels: at most 268435456 are supported");
-    // of a good file, the last coordinate of the data window
+    // changes the last coordinates of the data window of a valid file
     let mut bytes = plain(64, Compression::ZIP16);
     let window = bytes.windows(10).position(|w| w == b"dataWindow").unwrap() + 10 + 1 + 6 + 4;
     assert_eq!(bytes[window + 8..window + 16], [63, 0, 0, 0, 63, 0, 0, 0]);
@@ -56,7 +56,7 @@ fn a_size_that_the_file_cannot_hold_is_an_error() {
     assert_eq!(error, "huge.exr: 16777024 × 16777024 pixels: at most 268435456 are supported");
 }
 
-/// What a fuzzer found: an HDR image of no rows, whose mean is 0/0.
+/// Found by fuzzing: an HDR image without rows, whose mean is 0/0.
 #[test]
 fn an_image_of_nothing_is_an_error() {
     let bytes = include_bytes!("../../fuzz/seeds/image/zero-rows");

@@ -1,4 +1,4 @@
-//! The thin lens: where its rays go, and images of edges out of focus against their closed form.
+//! The thin lens: geometry of its rays, and images of defocused edges compared with their closed form.
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Vec2, f32x8, u32x8};
@@ -40,8 +40,8 @@ fn agrees(reference: &Picture, image: &Picture) -> bool {
     p.z.iter().all(|z| z.abs() < LIMIT) && p.z_mse.abs() < LIMIT
 }
 
-/// Rays through one place of the film meet in one point of the plane of focus, that of the ray through the centre; they leave
-/// from a disk, uniformly.
+/// Rays from one point of the film meet the plane of focus in the same point as the ray through the lens's centre, and leave uniformly
+/// from a disk.
 #[test]
 fn rays_meet_in_the_plane_of_focus() {
     for (radius, focus, scale) in
@@ -72,33 +72,33 @@ fn rays_meet_in_the_plane_of_focus() {
                 assert!((dot(d, d) - 1.0).abs() < 1e-6);
                 let off: [f64; 3] = std::array::from_fn(|k| o[k] - camera.origin[k]);
                 let [x, y, z] = [camera.right, camera.up, camera.forward].map(|axis| dot(off, axis) / scale / radius);
-                // a point is rounded where it is, far from the origin of the scene
+                // rounding of a point far from the origin of the scene
                 let rounding = 1e-6 * (1.0 + 4.0 / (scale * radius));
                 assert!(x.hypot(y) < 1.0 + rounding && z.abs() < rounding, "{x} {y} {z}");
                 for (sum, m) in moments.iter_mut().zip([x, y, x * x, y * y, x * y]) {
                     *sum += m / f64::from(8 * packets);
                 }
-                // where it meets the plane of focus, in units of its distance
+                // the hit point on the plane of focus, in units of its distance
                 let along = dot(d, camera.forward);
                 let film = [film.x, film.y].map(|f| f64::from(f.lane(k)));
                 let wanted = [(2.0 * film[0] - 1.0) * tx, (1.0 - 2.0 * film[1]) * ty];
                 for (axis, (lens, wanted)) in [camera.right, camera.up].into_iter().zip([x, y].into_iter().zip(wanted))
                 {
                     let met = lens * radius / focus + dot(d, axis) / along;
-                    // a direction's error is 1e−7 over the square of its cosine
+                    // the error of a direction is 1e−7 over its squared cosine
                     let error = 3e-7 / (along * along) + rounding * radius / focus;
-                    assert!((met - wanted).abs() < error, "{met} {wanted}, not within {error:e}");
+                    assert!((met - wanted).abs() < error, "{met} {wanted}, tolerance {error:e}");
                 }
             }
         }
-        // of the unit disk: 0, 0, ¼, ¼, 0; variances at most ¼, of 16,000 points
+        // moments of the unit disk: 0, 0, ¼, ¼, 0, with variances of at most ¼, over 16,000 points
         for (m, truth) in moments.into_iter().zip([0.0, 0.0, 0.25, 0.25, 0.0]) {
             assert!((m - truth).abs() < 5.0 * 0.5 / 126.0, "{moments:?}");
         }
     }
 }
 
-/// What part of the lens sees the far side of a straight edge, at the middle of whose blur s = 0.
+/// Fraction of the lens that sees the far side of a straight edge; s = 0 is the middle of the blur.
 fn fraction(s: f64) -> f64 {
     let s = s.clamp(-1.0, 1.0);
     0.5 + (s.asin() + s * (1.0 - s * s).sqrt()) / PI
@@ -106,7 +106,7 @@ fn fraction(s: f64) -> f64 {
 
 const SIZE: [u32; 2] = [64, 16];
 
-/// A vertical edge at depth 2, of a light, or of a black mesh before a light.
+/// A vertical edge at depth 2, of a light or of a black mesh in front of a light.
 fn edge(radius: f64, focus: f64, mesh: bool) -> scene::Scene {
     let light = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true";
     let world = if mesh {
@@ -139,14 +139,14 @@ fn blurred(radius: f64, focus: f64) -> Picture {
     Picture { width, height, radiance: row.repeat(height), variance: None }
 }
 
-/// Nearer than the plane of focus, farther, and in it; by every sampler.
+/// Edges in front of, behind and in the plane of focus, with every sampler.
 #[test]
 fn edges_out_of_focus_have_their_closed_form() {
     for (radius, focus) in [(0.5, 1.0), (0.5, 4.0), (0.2, 1.5), (1.0, 2.0)] {
         let reference = blurred(radius, focus);
         for mesh in [false, true] {
             for sampler in SAMPLERS {
-                // four replicates of 2⁶, of 3⁶ or of 64 samples
+                // four replicates of 2⁶ = 64 samples
                 let spp = 256;
                 let [width, height] = SIZE;
                 let technique = Technique::SolidAngle;
@@ -164,7 +164,7 @@ fn edges_out_of_focus_have_their_closed_form() {
     }
 }
 
-/// Lights by area, by solid angle and by chance, through the lens.
+/// Techniques and samplers agree on images through the lens.
 #[test]
 fn techniques_and_samplers_agree_through_a_lens() {
     let scene = scene::load("defocus").unwrap();
@@ -182,7 +182,7 @@ fn techniques_and_samplers_agree_through_a_lens() {
     }
 }
 
-/// The unit of length does not matter: all lengths times a power of two, the lens's too, give the same image.
+/// Multiplying all lengths, including those of the lens, by a power of two does not change the image.
 #[test]
 fn the_unit_of_length_does_not_matter() {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/defocus.pbrt")).unwrap();
@@ -198,7 +198,7 @@ fn the_unit_of_length_does_not_matter() {
     };
     let image = render(&read(&text), &settings);
     for scale in [1024.0, 1.0 / 4096.0] {
-        // a unit of camera space is then `scale` units of the scene, all of which is in these units
+        // a unit of camera space is `scale` units of the scene
         let scaled = text
             .replace("LookAt", &format!("Scale {0} {0} {0} LookAt", 1.0 / scale))
             .replace(

@@ -1,10 +1,10 @@
-//! All ways through the tree against every leaf tested in turn, on meshes and rays made to lose hits: bit for bit.
+//! Compares all traversals, bit for bit, with an exhaustive test of every leaf, on meshes and rays designed to lose hits.
 //!
-//! What tests a single triangle is checked in `rays.rs`, in double precision; here nothing is left to a tolerance.
+//! The test of a single triangle is checked in `rays.rs`, in double precision; there are no tolerances here.
 //!
-//! Among them is what obvhs's own traversal gets wrong: −0 in a direction and rays in the plane of a box (kinds 3, 4 and 5), distances
-//! below 10⁻⁴ (scale 10⁻⁶), a tree deeper than its stack ("nested"), primitives in one place ("alike"; 100,000 of them in `rays.rs`),
-//! and gaps between neighbours (`closed_meshes_do_not_leak`).
+//! The cases include those that obvhs's own traversal gets wrong: −0 in a direction and rays in the plane of a box (kinds 3, 4 and 5),
+//! distances below 10⁻⁴ (scale 10⁻⁶), a tree deeper than its stack ("nested"), coincident primitives ("alike"; 100,000 of them in
+//! `rays.rs`), and gaps between adjacent triangles (`closed_meshes_do_not_leak`).
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
@@ -13,7 +13,7 @@ use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, ShapeSet, Stack, Wa
 type Triangle = [[f32; 3]; 3];
 type Ray = ([f32; 3], [f32; 3]);
 
-/// Numbers of [0, 1), without end.
+/// A generator of random numbers.
 struct Random {
     index: u32,
 }
@@ -39,7 +39,7 @@ fn add(a: [f32; 3], b: [f32; 3], s: f32) -> [f32; 3] {
     std::array::from_fn(|k| a[k] + b[k] * s)
 }
 
-/// A sheet of n × n squares of two triangles each over [−1, 1]², at a height; all of its corners are on a lattice.
+/// A height field over [−1, 1]² of n × n squares with two triangles each; its corners lie on a lattice.
 fn sheet(n: usize, height: impl Fn(f32, f32) -> f32) -> Vec<Triangle> {
     let at = |i: usize, j: usize| {
         let (x, z) = (2.0 * i as f32 / n as f32 - 1.0, 2.0 * j as f32 / n as f32 - 1.0);
@@ -52,7 +52,7 @@ fn sheet(n: usize, height: impl Fn(f32, f32) -> f32) -> Vec<Triangle> {
     (0..n * n).flat_map(|k| square(k / n, k % n)).collect()
 }
 
-/// The cube [−1, 1]³, each side as a sheet.
+/// The cube [−1, 1]³ with a sheet for each side.
 fn cube(n: usize) -> Vec<Triangle> {
     let side = sheet(n, |_, _| 1.0);
     let turned = |f: fn([f32; 3]) -> [f32; 3]| side.iter().map(|t| t.map(f)).collect::<Vec<_>>();
@@ -67,7 +67,7 @@ fn cube(n: usize) -> Vec<Triangle> {
     .concat()
 }
 
-/// Meshes on which traversals go wrong, within [−2, 2]³.
+/// Difficult meshes within [−2, 2]³.
 fn meshes(random: &mut Random) -> Vec<(&'static str, Vec<Triangle>)> {
     let soup = (0..300).map(|_| {
         let center = random.point();
@@ -87,14 +87,14 @@ fn meshes(random: &mut Random) -> Vec<(&'static str, Vec<Triangle>)> {
         [[0.0; 3], rim(i), rim((i + 1) % 64)]
     });
     let fan = fan.collect();
-    // each half the size of the one before: a tree as deep as obvhs makes one
+    // each half the size of the previous one: the deepest tree that obvhs builds
     let nested = (0..120).map(|i| {
         let s = 0.75_f32.powi(i);
         [[-s, s * 0.1, -s], [s, -s * 0.1, -s], [0.0, s * 0.2, s]]
     });
     let nested = nested.collect();
     let twins = sheet(4, |x, _| 0.25 * x).into_iter().flat_map(|t| [t, t, [t[1], t[2], t[0]]]).collect();
-    // few enough for obvhs, which makes a list of them
+    // few enough for obvhs, which turns them into a list
     let alike = (0..120).map(|i| {
         if i % 2 == 0 {
             [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 0.0, 1.0]]
@@ -116,8 +116,8 @@ fn meshes(random: &mut Random) -> Vec<(&'static str, Vec<Triangle>)> {
     ]
 }
 
-/// A ray of a kind: every which way; at a corner; at a point of an edge; along an axis through the lattice, with −0; in the plane of a
-/// side of the box of a triangle; from a corner.
+/// A ray of a kind: in a random direction; towards a corner; towards a point of an edge; along an axis through the lattice, with −0; in
+/// the plane of a side of a triangle's box; from a corner.
 fn ray(kind: usize, mesh: &[Triangle], random: &mut Random) -> Ray {
     let t = mesh[random.below(mesh.len())];
     let origin = random.point().map(|x| 2.0 * x);
@@ -145,23 +145,23 @@ fn ray(kind: usize, mesh: &[Triangle], random: &mut Random) -> Ray {
     }
 }
 
-/// Seven kinds, and then groups of rays that stay close together.
+/// Seven kinds of rays, and two kinds of coherent groups.
 const KINDS: usize = 9;
 
 fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
     if kind < 7 {
         return (0..8 * GROUP).map(|_| ray(kind, mesh, random)).collect();
     }
-    // narrow enough for a shaft, or just not
+    // narrow enough for a shaft, or just too wide
     let (o, d) = ray(1, mesh, random);
     let spread = if kind == 7 { 0.005 } else { 0.03 };
     (0..8 * GROUP).map(|_| (add(o, random.point(), 0.001), add(d, random.point(), spread))).collect()
 }
 
-/// What all rays of a group hit, and which of them are free up to half of that distance, all of it, and a bit more.
+/// The hits of a group, and which rays are unoccluded up to half of the hit distance, up to it, and slightly beyond.
 #[derive(Debug, PartialEq)]
 struct Found {
-    /// Bits of the distance, of the place and of both coordinates.
+    /// Bits of the distance, the place and both barycentric coordinates.
     hits: Vec<[u32; 4]>,
     free: Vec<u32>,
 }
@@ -181,7 +181,7 @@ fn trace(accel: &Accel, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found
         [bits(h.distance, i), h.place.to_array()[i], bits(h.b1, i), bits(h.b2, i)]
     });
     let each: Vec<_> = each.collect();
-    // limits at, before and behind the hits
+    // limits before, at and behind the hits
     let limits = [0.5, 1.0, 1.000_001].map(|c| hits.map(|h| h.distance * f32x8::splat(c)));
     let free = limits.iter().flat_map(|limit| {
         let mut open: Vec<_> = active.to_vec();
@@ -189,14 +189,14 @@ fn trace(accel: &Accel, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found
         open.into_iter().map(|m| m.bits()).collect::<Vec<_>>()
     });
     let free = free.collect();
-    // and closest hits up to such limits
+    // closest hits with limits at the hits
     let mut until = hits.map(|h| Hits::none(h.distance));
     accel.closest(&packets, active, &mut until, stack);
     assert!(until.iter().zip(active).all(|(u, &a)| !(u.any() & a).any()), "a hit at the limit counts");
     Found { hits: each, free }
 }
 
-/// Traces groups of all kinds on all meshes, scaled and shifted; returns how many rays were compared, and how many of them hit.
+/// Traces groups of all kinds on all meshes, scaled and shifted. Returns the numbers of compared rays and of hits.
 fn campaign(groups: usize, seed: u32) -> [u64; 2] {
     let mut random = Random { index: seed };
     let mut stack = Stack::default();
@@ -217,7 +217,7 @@ fn campaign(groups: usize, seed: u32) -> [u64; 2] {
                 let mut rays: Vec<_> = rays.collect();
                 let Some(&first) = rays.first() else { continue };
                 rays.resize(8 * GROUP, first);
-                // some lanes, packets too, are off
+                // some lanes and packets are inactive
                 let all = M8::splat(true);
                 let mask =
                     |p: usize| if index % 3 == 0 { M8::from_bits((index * 37 + p * 91) as u32 & 0xff) } else { all };
@@ -260,7 +260,7 @@ fn ways_agree_with_every_leaf_tested_at_length() {
     assert!(rays >= 10_000_000, "{rays}");
 }
 
-/// From within a closed mesh every ray meets it, at its corners and edges too.
+/// Every ray from inside a closed mesh hits it, also at corners and edges.
 #[test]
 fn closed_meshes_do_not_leak() {
     let mut random = Random { index: 77 };

@@ -1,4 +1,4 @@
-//! Packets against one triangle at a time in double precision, and meshes that builders stumble over.
+//! Compares packets with a test of each triangle in double precision, and builds trees over difficult meshes.
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
@@ -16,7 +16,7 @@ fn cross(a: V, b: V) -> V {
     std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
 }
 
-/// Distance and least barycentric coordinate (Möller and Trumbore), if the line meets the plane ahead.
+/// Distance and least barycentric coordinate (Möller and Trumbore), if the ray hits the plane.
 fn meet(t: &[[f32; 3]; 3], o: V, d: V) -> Option<(f64, f64)> {
     let [a, b, c] = t.map(|v| v.map(f64::from));
     let (e1, e2, s) = (sub(b, a), sub(c, a), sub(o, a));
@@ -32,8 +32,8 @@ fn random(i: u32, dimension: u32) -> [f32; 2] {
     [u.x * 2.0 - 1.0, u.y * 2.0 - 1.0]
 }
 
-/// Checks a group of eight packets; returns how many rays hit.
-/// Distances are good to 1e−6 of the scene's `scale`: 8 roundings of its coordinates.
+/// Checks a group of eight packets; returns the number of hits. Distances are accurate to 1e−6 of the scene's `scale`, 8 roundings of its
+/// coordinates.
 fn check(triangles: &[[[f32; 3]; 3]], accel: &Accel, rays: &[([f32; 3], [f32; 3])], scale: f32) -> usize {
     let lanes = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
         let axis = |k: usize| f32x8::from_fn(|i| f(8 * p + i)[k]);
@@ -50,16 +50,16 @@ fn check(triangles: &[[[f32; 3]; 3]], accel: &Accel, rays: &[([f32; 3], [f32; 3]
     for (i, (o, d)) in rays.iter().enumerate() {
         let (o, d) = (o.map(f64::from), d.map(f64::from));
         let met: Vec<_> = triangles.iter().filter_map(|t| meet(t, o, d)).collect();
-        // within 1e−5 of an edge single precision may decide either way
+        // within 1e−5 of an edge, either result is valid in single precision
         let surely = met.iter().filter(|m| m.1 > 1e-5).map(|m| m.0).fold(f64::INFINITY, f64::min);
         let perhaps = met.iter().filter(|m| m.1 > -1e-5).map(|m| m.0).fold(f64::INFINITY, f64::min);
         let found = f64::from(hits[i / 8].distance.lane(i % 8));
         assert_eq!(found < f64::INFINITY, !open[i / 8].lane(i % 8), "closest and occluded differ on ray {i}");
         let slack = 1e-6 * f64::from(scale);
-        assert!(found <= surely * (1.0 + 1e-5) + slack, "ray {i} {o:?} {d:?}: {found}, but {surely} is hit");
+        assert!(found <= surely * (1.0 + 1e-5) + slack, "ray {i} {o:?} {d:?}: found {found}, expected {surely}");
         assert!(
             found >= perhaps * (1.0 - 1e-5) - slack || found == perhaps,
-            "ray {i} {o:?} {d:?}: {found} before {perhaps}"
+            "ray {i} {o:?} {d:?}: found {found}, nearer than {perhaps}"
         );
         count += usize::from(found < f64::INFINITY);
     }
@@ -90,7 +90,7 @@ fn packets_find_what_is_there() {
             let rays: Vec<_> = (0..64)
                 .map(|i| {
                     let (o, d) = (point(group * 64 + i, 5), point(group * 64 + i, 6));
-                    // one origin and a narrow beam, tilted or not, along an axis (with −0), or every which way
+                    // one origin and a narrow beam, tilted or not, along an axis (with −0), or random directions
                     let (o, d) = match group % 4 {
                         0 => {
                             ([1.5 * tilt, -0.9 * tilt, 3.0], [0.01 * d[0] - 0.5 * tilt, 0.01 * d[1] + 0.3 * tilt, -1.0])
@@ -115,14 +115,14 @@ fn identical_triangles_build() {
     let accel = accel(&vec![one; 100_000]);
     let rays = vec![([0.0, 0.0, 2.0], [0.0, 0.0, -1.0]); 64];
     assert_eq!(check(&[one], &accel, &rays, 1.0), 64);
-    // ties go to the triangle of lower index
+    // the triangle of lower index wins a tie
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY))];
     let ray = accel.rays([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into());
     accel.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Stack::default());
     assert_eq!(accel.order()[hits[0].place.to_array()[0] as usize], 0);
 }
 
-/// 60,000 triangles: a sheet, 20,000 of one place, and some far away and large.
+/// 60,000 triangles: a sheet, 20,000 coincident ones, and some that are distant and large.
 fn many() -> Vec<[[f32; 3]; 3]> {
     let point = |i: u32, k: u32| {
         let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
@@ -149,8 +149,8 @@ fn trees_of_many_parts_are_whole() {
         assert_eq!(&accel.corners(place), triangles[id as usize].as_flattened(), "place {place}");
     }
     order.sort_unstable();
-    assert!(order.into_iter().eq(0..triangles.len() as u32), "not each triangle once");
-    // as many hits as there are by looking at every leaf
+    assert!(order.into_iter().eq(0..triangles.len() as u32), "a triangle is missing or duplicated");
+    // the same hits as by an exhaustive test
     let rays: Vec<_> = (0..64_u32)
         .map(|i| {
             let ([x, z], [u, v]) = (random(i, 20), random(i, 21));
@@ -173,7 +173,7 @@ fn trees_of_many_parts_are_whole() {
     });
     let met = found[3].iter().flat_map(|(_, places)| places).filter(|&&place| place != NOTHING).count();
     assert!(met > 32, "{met} of 64 rays hit");
-    assert!(found.iter().all(|f| *f == found[3]), "ways differ");
+    assert!(found.iter().all(|f| *f == found[3]), "traversals differ");
 }
 
 #[test]
@@ -183,8 +183,8 @@ fn trees_do_not_depend_on_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| format!("{:?}", accel(&triangles)))
     });
-    assert!(built[1] == built[0] && built[2] == built[0], "the number of threads makes a difference");
-    // nor on who owns the triangles
+    assert!(built[1] == built[0] && built[2] == built[0], "the tree depends on the number of threads");
+    // nor does the tree depend on the ownership of the triangles
     let own = Accel::taking(triangles, ShapeSet::new(&[]).unwrap()).unwrap();
-    assert!(format!("{own:?}") == built[0], "triangles that are given away make a difference");
+    assert!(format!("{own:?}") == built[0], "the tree depends on the ownership of the triangles");
 }

@@ -1,10 +1,9 @@
-//! Images against the references of an independent renderer (256×256, 32,768 samples per pixel).
+//! Compares images with references by an independent renderer (256×256, 32,768 samples per pixel).
 //!
 //! Significance: three scenes × four techniques × two samplers, and × two techniques × the five other samplers, give 54 images with four
 //! figures each (z of the mean in three channels, z of the mean squared error). A correct renderer passes all 216 bounds of 4.5 with
-//! probability 1 − 216 · 6.8e−6 = 0.9985;
-//! seeds are fixed, so that a test that passes once passes always. Both signs count: a variance layer that claims too much
-//! is as wrong as one that claims too little. The last checks of [`scene`] show what the bounds would reject.
+//! probability 1 − 216 · 6.8e−6 = 0.9985. Seeds are fixed, so a test that passes once always passes. Both signs count: a variance layer
+//! that claims too much is as wrong as one that claims too little. The last checks of [`scene`] show what the bounds reject.
 
 use etendue_render::compare::{Comparison, Prediction};
 use etendue_render::film::Film;
@@ -15,7 +14,7 @@ use std::path::Path;
 const LIMIT: f64 = 4.5;
 const TECHNIQUES: [Technique; 4] =
     [Technique::Area, Technique::SolidAngle, Technique::CosineHemisphere, Technique::UniformHemisphere];
-/// The last six differ from the first two in the numbers alone, and are tried with one technique of each kind.
+/// The last six differ from the first two only in their random numbers, and are tested with one technique of each kind.
 const SAMPLERS: [Sampler; 8] = [
     Sampler::Independent,
     Sampler::Stratified,
@@ -53,17 +52,13 @@ fn agrees(p: &Prediction) -> bool {
     mean_agrees(p) && p.z_mse.abs() < LIMIT
 }
 
-/// All techniques and samplers on one scene. `hemisphere_spp` is more where few directions find a light; `hemisphere_scale` is the
-/// factor of radiance that so noisy an image must still betray, for the techniques that sample lights it is 1.01.
+/// Tests all techniques and samplers on one scene. `hemisphere_spp` is greater if few directions find a light. `hemisphere_scale` is the
+/// error factor of radiance that the check must still detect in such a noisy image; for techniques that sample lights it is 1.01.
 fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemisphere_scale: f32) {
     let reference = reference(name);
     let pixels = reference.radiance.len() as f64;
     let sum: f64 = reference.radiance.iter().flatten().map(|&x| f64::from(x)).sum();
-    assert!(
-        (sum / (3.0 * pixels) - mean).abs() < 1e-6,
-        "not the reference that it should be: {}",
-        sum / (3.0 * pixels)
-    );
+    assert!((sum / (3.0 * pixels) - mean).abs() < 1e-6, "unexpected mean of the reference: {}", sum / (3.0 * pixels));
 
     let world = World::new(&scene::load(name).unwrap()).unwrap();
     for technique in TECHNIQUES {
@@ -71,7 +66,7 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
         let (spp, scale) = if towards_lights { (64, 1.01) } else { (hemisphere_spp, hemisphere_scale) };
         let both = [Technique::SolidAngle, Technique::CosineHemisphere].contains(&technique);
         for sampler in SAMPLERS.into_iter().take(if both { SAMPLERS.len() } else { 2 }) {
-            // four replicates of 2⁴ or 3⁴ strata
+            // 324 is four replicates of 3⁴ strata
             let spp = if sampler == Sampler::Stratified4d && !towards_lights { 324 } else { spp };
             let settings = Settings { width: 256, height: 256, spp, technique, depth: 8, sets: 0, sampler, seed: 1 };
             let image = picture(&world.render(&settings, |_| ()).0);
@@ -111,7 +106,7 @@ fn quads() {
     scene("quads", 0.123_276, 1.9e-8, 128, 1.05);
 }
 
-/// One film for one seed: on one, two or three threads, which take tiles in different orders.
+/// The film depends on the seed, not on the number of threads, which process tiles in different orders.
 #[test]
 fn threads_do_not_matter_and_seeds_do() {
     let world = World::new(&scene::load("quads").unwrap()).unwrap();
@@ -126,7 +121,7 @@ fn threads_do_not_matter_and_seeds_do() {
         (Technique::Area, Sampler::Latin, 20),
         (Technique::Area, Sampler::ZOrder, 6),
     ] {
-        // 16 divides neither side: some tiles are smaller
+        // 16 divides neither side, so some tiles are smaller
         let settings = Settings { width: 100, height: 75, spp, technique, depth: 8, sets: 0, sampler, seed: 7 };
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -139,13 +134,13 @@ fn threads_do_not_matter_and_seeds_do() {
         assert_eq!(other.1.camera, one.1.camera);
         let same = one.0.pixels.iter().zip(&other.0.pixels).filter(|(a, b)| a == b && a.mean != [0.0; 3]).count();
         assert!(same * 100 < one.0.pixels.len(), "{same} pixels do not depend on the seed");
-        // and the two agree
+        // images with different seeds agree
         let p = prediction(&picture(&one.0), &picture(&other.0), 0.0);
         assert!(mean_agrees(&p), "{technique:?} {sampler:?}: {p:?}");
     }
 }
 
-/// Counts that fill no packet, counts that strata do not divide, and images smaller than a tile have the mean of a precise image.
+/// Sample counts that do not fill packets or strata, and images smaller than a tile, have the mean of a precise image.
 #[test]
 fn any_number_of_samples_and_any_size() {
     let world = World::new(&scene::load("triangle-light").unwrap()).unwrap();
@@ -162,7 +157,7 @@ fn any_number_of_samples_and_any_size() {
         let precise = of(4096, Technique::SolidAngle, Sampler::Stratified, 1);
         for spp in [1, 2, 3, 7, 8, 12, 15, 16, 20, 24] {
             for technique in TECHNIQUES {
-                // adaptive takes 16 and more, and not the same in each pixel
+                // adaptive needs at least 16 samples, and varies them between pixels
                 for sampler in SAMPLERS.into_iter().filter(|s| *s != Sampler::Adaptive) {
                     let mut image = of(spp, technique, sampler, 2);
                     let known = match sampler {
@@ -175,7 +170,7 @@ fn any_number_of_samples_and_any_size() {
                     let at = |i: usize| variance[i].iter().all(|x| x.is_finite() && *x >= 0.0);
                     assert!((0..variance.len()).all(|i| at(i) == known), "{spp} {sampler:?}: {variance:?}");
                     if !known {
-                        // its variance is at most that of independent samples: from as many seeds as make it known
+                        // the variance is at most that of independent samples, estimated from many seeds
                         let more: Vec<_> = (3..19).map(|seed| of(spp, technique, sampler, seed).radiance).collect();
                         let n = more.len() as f32;
                         image.radiance = (0..variance.len())
@@ -187,7 +182,7 @@ fn any_number_of_samples_and_any_size() {
                         };
                         image.variance = Some((0..mean.len()).map(|i| std::array::from_fn(|k| spread(i, k))).collect());
                     }
-                    // one pixel of few samples has no normal distribution: its z is bounded elsewhere, by the larger images
+                    // the mean of one pixel with few samples is not normally distributed; larger images test z
                     if width > 1 {
                         let p = prediction(&precise, &image, 0.0);
                         assert!(mean_agrees(&p), "{width}x{height}, {spp} spp, {technique:?} {sampler:?}: {p:?}");
@@ -198,11 +193,11 @@ fn any_number_of_samples_and_any_size() {
     }
 }
 
-/// A million triangles: two techniques that share nothing but the scene agree.
+/// Two techniques that share only the scene agree on a million triangles.
 #[test]
 fn terrain_agrees_with_itself() {
     let world = World::new(&scene::load("terrain").unwrap()).unwrap();
-    // techniques that share a seed share their noise in part
+    // techniques with the same seed share part of their noise
     let of = |spp, technique| {
         let seed = technique as u64;
         let settings =
@@ -217,7 +212,7 @@ fn terrain_agrees_with_itself() {
         println!("{technique:?}: {p:?}");
         assert!(agrees(&p), "{technique:?}: {p:?}");
     }
-    // one sample has no variance of its own: the spread over pixels stands in for it
+    // one sample has no variance, so the spread over pixels replaces it
     let one = of(1, Technique::Area);
     let difference = |i: usize| f64::from(one.radiance[i][0]) - f64::from(lights.radiance[i][0]);
     let n = one.radiance.len();

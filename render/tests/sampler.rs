@@ -1,4 +1,4 @@
-//! The numbers that a renderer's samplers give to the pixel, the light and the lens.
+//! The random numbers that samplers generate for the pixel, the light and the lens.
 
 use etendue::{Mask, Real, u32x8};
 use etendue_render::Sampler;
@@ -7,7 +7,7 @@ use etendue_render::sampler::{CHOICE, FILM, LENS, LIGHT, Packet, Source};
 
 type M8 = <X8 as Real>::Mask;
 
-/// Film, light and lens of every sample of one pixel, in the order in which they are taken.
+/// Film, light and lens numbers of every sample of one pixel, in order.
 fn points(sampler: Sampler, spp: u32, lens: bool, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
     let source = Source::new(sampler, seed, spp, 0, lens, 256);
     let replicate = |i: u32| i.checked_div(source.span()).unwrap_or(0);
@@ -35,7 +35,7 @@ fn points(sampler: Sampler, spp: u32, lens: bool, pixel: [u32; 2], seed: u64) ->
     (all, source.span())
 }
 
-/// Does each of `side`ᵈ cells hold equally many of the points, in their first d coordinates?
+/// Whether each of `side`ᵈ cells holds the same number of points, by their first d coordinates.
 fn even(points: &[[f64; 6]], side: usize, d: usize) -> bool {
     let mut cells = vec![0; side.pow(d as u32)];
     for p in points {
@@ -58,13 +58,13 @@ fn joint_samplers_are_joint() {
             assert_eq!(span as usize, side * side * side * side * side * side);
             assert!(points.chunks(span as usize).all(|set| even(set, side, 6)), "{spp}");
         }
-        // t = 3 in four dimensions and 8 in six: 2⁴⁺³ and 2⁶⁺⁸ points fill halves evenly
+        // with t = 3 in four dimensions and t = 8 in six, 2⁴⁺³ and 2⁶⁺⁸ points fill halves evenly
         for (spp, lens, d) in [(512, false, 4), (512, true, 4), (1 << 16, true, 6)] {
             let (points, span) = points(Sampler::Sobol4d, spp, lens, pixel, 1);
             assert_eq!(span, spp / 4);
             assert!(points.chunks(span as usize).all(|set| even(set, 2, d)), "{spp}");
         }
-        // and padding is not
+        // padded samplers are not joint
         for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Latin, Sampler::Sobol, Sampler::ZOrder] {
             let (points, _) = points(sampler, 512, false, pixel, 1);
             assert!(!points.chunks(128).all(|set| even(set, 2, 4)), "{sampler:?}");
@@ -81,7 +81,7 @@ fn every_pair_of_a_replicate_is_even() {
             let side = span.isqrt() as usize;
             for set in points.chunks(span as usize) {
                 for pair in 0..3 {
-                    // joint Sobol is a net in the first pair, and in the others together with it
+                    // joint Sobol points are a net in the first pair; the other pairs only together with it
                     if sampler != Sampler::Sobol4d || pair == 0 {
                         let pair: Vec<_> = set.iter().map(|p| [p[2 * pair], p[2 * pair + 1], 0., 0., 0., 0.]).collect();
                         assert!(even(&pair, side, 2), "{sampler:?}");
@@ -92,13 +92,13 @@ fn every_pair_of_a_replicate_is_even() {
     }
 }
 
-/// Means of replicates, of pixels and of seeds are not correlated; for Z-order, pixels are.
+/// The means of replicates, pixels and seeds are uncorrelated, except those of pixels with Z-order.
 #[test]
 fn replicates_are_independent() {
     for sampler in
         [Sampler::Stratified, Sampler::Stratified4d, Sampler::Latin, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder]
     {
-        // 100 and 24 are no powers: a replicate ends amid a set, and the next begins with one of its own
+        // 100 and 24 are not powers of two: a replicate ends within a set, and the next one starts a new set
         for spp in [32, 256, 100, 24] {
             let means = |pixel: [u32; 2], seed| -> Vec<f64> {
                 let (points, span) = points(sampler, spp, true, pixel, seed);
@@ -122,7 +122,7 @@ fn replicates_are_independent() {
                 let (a, b) = (mean(&|p| p.0), mean(&|p| p.1));
                 let covariance = mean(&|p| (p.0 - a) * (p.1 - b));
                 let spread = mean(&|p| (p.0 - a).powi(2)) * mean(&|p| (p.1 - b).powi(2));
-                // pixels are seen twice, in either order
+                // pairs of pixels count twice, in either order
                 let z = covariance / spread.sqrt() * f64::from(if what == "pixels" { n / 2 } else { n }).sqrt();
                 assert!(z.abs() < 4.5, "{sampler:?}, {spp} samples: {what} are correlated, z = {z:.2}");
             }

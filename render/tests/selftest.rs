@@ -1,4 +1,4 @@
-//! Every technique and sampler on every built-in scene but the terrain, in small.
+//! Runs every technique and sampler on small images of every built-in scene except the terrain.
 
 use etendue_render::selftest::{self, Effort};
 use etendue_render::{World, scene};
@@ -6,7 +6,7 @@ use etendue_render::{World, scene};
 #[test]
 fn all_agree_on_every_scene() {
     for (name, _) in scene::builtin().iter().filter(|(name, _)| *name != "terrain") {
-        // light that is sampled on rough metal has long tails: few of its pixels tell its variance
+        // light sampling on rough metal has long tails, so that few pixels dominate the variance
         let spp = if *name == "plates" { 256 } else { 64 };
         let effort = Effort { side: 32, spp, seed: 1, depth: 8 };
         let scene = scene::load(name).unwrap();
@@ -17,8 +17,8 @@ fn all_agree_on_every_scene() {
             .map(|row| row.error.iter().zip(row.mean).map(|(e, m)| e / m).fold(0.0, f64::max))
             .inspect(|e| println!("{name}: relative error {e:.4}"))
             .collect();
-        // agreement with what says nothing would be worth nothing; in the plates a small bright light in view is found by chance,
-        // and adaptive numbers of samples go after what few directions of the hemisphere have found
+        // agreement means little without precision; in `plates` small bright lights are found by chance, and adaptive sampling chases
+        // the few hemisphere directions that have found one
         let (most, several) = if *name == "plates" { (0.4, 0.06) } else { (0.15, 0.02) };
         assert!(errors.iter().all(|&e| e < most), "{name}: {errors:?}");
         assert!(errors.iter().filter(|&&e| e < several).count() >= 4, "{name}: {errors:?}");
@@ -26,7 +26,7 @@ fn all_agree_on_every_scene() {
     }
 }
 
-/// The plates without the lights in view: what is left is noise of the techniques themselves.
+/// The plates without visible lights: the remaining noise is that of the techniques.
 #[test]
 fn plates_from_near() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/plates.pbrt");

@@ -1,4 +1,4 @@
-//! Irradiance and power of the film in a field of one radiance, against the closed form.
+//! Compares irradiance and power of the film under uniform radiance with the closed form.
 
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
@@ -6,7 +6,8 @@ use etendue_render::{Sampler, Sensor, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 use std::path::Path;
 
-/// Within a sphere of radiance 1: fov 2·atan(½), film of 4 : 3 and 50 mm, so 40 × 30 mm at 30 mm from the lens.
+/// A camera inside a sphere of radiance 1. With fov 2·atan(½) and a 4:3 film of 50 mm diagonal, the film is 40 × 30 mm, 30 mm behind the
+/// lens.
 fn inside(radius: f64, scale: f64) -> scene::Scene {
     let fov = 2.0 * 0.5_f64.atan().to_degrees();
     let text = format!(
@@ -36,8 +37,8 @@ fn render(scene: &scene::Scene, sensor: Sensor, sampler: Sampler, spp: u32) -> P
     }
 }
 
-/// Irradiance by a facing disk of radiance 1: radius k and offset a, in units of its distance. (π times the form factor
-/// ½ [1 − (1 + a² − k²)/√((1 + a² + k²)² − 4 a² k²)], with the difference brought under the fraction.)
+/// Irradiance from a parallel disk of radiance 1, with radius k and offset a in units of its distance: π times the form factor
+/// ½ [1 − (1 + a² − k²)/√((1 + a² + k²)² − 4 a² k²)], rearranged to avoid cancellation.
 fn facing_disk(k: f64, a: f64) -> f64 {
     let (c, root) = (1.0 + a * a - k * k, ((1.0 + a * a + k * k).powi(2) - 4.0 * (a * k).powi(2)).sqrt());
     // root² − c² = 4 k²
@@ -46,11 +47,11 @@ fn facing_disk(k: f64, a: f64) -> f64 {
 
 /// Mean irradiance of the pixel (x, y) for radiance 1.
 fn expected(k: f64, x: usize, y: usize) -> f64 {
-    // three points of Gauss each way: the field is smooth over a thirtieth of the film
+    // three Gauss points per dimension, as the field is smooth over a thirtieth of the film
     let node = [0.5 - 0.15_f64.sqrt(), 0.5, 0.5 + 0.15_f64.sqrt()];
     let weight = [5.0, 8.0, 5.0].map(|w| w / 18.0);
     let at = |i: usize, j: usize| {
-        // millimetres from the middle, over 30
+        // millimetres from the middle, over 30 mm
         let a = [x as f64 + node[i] - 20.0, y as f64 + node[j] - 15.0].map(|mm| mm * 1e-3 / DISTANCE);
         weight[i] * weight[j] * facing_disk(k, a[0].hypot(a[1]))
     };
@@ -60,7 +61,7 @@ fn expected(k: f64, x: usize, y: usize) -> f64 {
 #[test]
 fn the_closed_form_is_the_integral() {
     for (k, a) in [(0.01, 0.0), (0.3, 0.8), (1.0, 0.5), (3.0, 0.2), (3.0, 2.9), (0.5, 0.5)] {
-        // ∫ dA'/(1 + |p' − p|²)² over the disk, by rings and angles
+        // ∫ dA'/(1 + |p' − p|²)² over the disk, in polar coordinates
         let n = 400;
         let ring = |i: i32| {
             let r = k * (f64::from(i) + 0.5) / f64::from(n);
@@ -71,13 +72,13 @@ fn the_closed_form_is_the_integral() {
         let sum: f64 = (0..n).map(ring).sum();
         assert!((sum / facing_disk(k, a) - 1.0).abs() < 2e-5, "{k} {a}: {sum} {}", facing_disk(k, a));
     }
-    // on the axis π sin²α, and cos⁴ of the angle for a small lens
+    // π sin²α on the axis, and cos⁴θ for a small lens
     assert!((facing_disk(2.0, 0.0) - PI * 0.8).abs() < 1e-14);
     let fall = facing_disk(1e-4, 0.75) / facing_disk(1e-4, 0.0);
     assert!((fall - 0.8_f64.powi(4)).abs() < 1e-7, "{fall}");
 }
 
-/// Every pixel, for lenses from f/500 to wider than the film is far.
+/// Checks every pixel, for lenses from f/500 to wider than their distance from the film.
 #[test]
 fn irradiance_of_a_uniform_field() {
     for (k, scale) in [(1e-3, 1.0), (0.05, 1.0), (0.5, 1.0), (0.5, 64.0), (1.0, 1.0), (3.0, 1.0)] {
@@ -97,7 +98,7 @@ fn irradiance_of_a_uniform_field() {
                 relative[1] += f64::from(v[0]) / (t[0] * image.radiance.len() as f64).powi(2);
                 squares += error * error / t[0] / t[0];
             }
-            // a sum in single precision is good to 1e−6
+            // sums in single precision are accurate to 1e−6
             let bound = 4.5 * relative[1].sqrt() + 1e-6;
             println!(
                 "{sampler:?} k = {k}: mean {:+.2e} ± {:.1e}, rms {:.1e}",
@@ -106,7 +107,7 @@ fn irradiance_of_a_uniform_field() {
                 (squares / 1200.0).sqrt()
             );
             assert!(relative[0].abs() < bound, "{sampler:?}, k = {k}: {:e} ± {:e}", relative[0], relative[1].sqrt());
-            assert!(relative[1].sqrt() < 5e-3, "the test cannot tell two percent");
+            assert!(relative[1].sqrt() < 5e-3, "the test would not detect an error of two per cent");
             if k >= 0.5 {
                 let reference = Picture {
                     radiance: (0..1200).map(|i| truth(i).map(|x| x as f32)).collect(),
@@ -126,13 +127,13 @@ fn power_is_irradiance_times_the_area_of_a_pixel() {
     let [irradiance, power] =
         [Sensor::Irradiance, Sensor::Power].map(|sensor| render(&scene, sensor, Sampler::Sobol4d, 64));
     for (e, w) in irradiance.radiance.iter().zip(&power.radiance) {
-        // a square of 1 mm
+        // a pixel is a square of 1 mm
         assert!((0..3).all(|c| (f64::from(w[c]) / (1e-6 * f64::from(e[c])) - 1.0).abs() < 1e-5), "{e:?} {w:?}");
     }
     for (e, w) in irradiance.variance.unwrap().iter().zip(&power.variance.unwrap()) {
         assert!((0..3).all(|c| (f64::from(w[c]) / (1e-12 * f64::from(e[c])) - 1.0).abs() < 1e-3), "{e:?} {w:?}");
     }
-    // radiance does not fall off
+    // radiance does not fall off towards the corners
     let radiance = render(&scene, Sensor::Radiance, Sampler::Independent, 16);
     assert!(radiance.radiance.iter().all(|p| *p == [1.0, 2.0, 4.0]));
     let corner = f64::from(irradiance.radiance[0][0] / irradiance.radiance[15 * 40 + 20][0]);
@@ -140,7 +141,7 @@ fn power_is_irradiance_times_the_area_of_a_pixel() {
     assert!((corner / truth - 1.0).abs() < 0.05 && truth < 0.5, "{corner} {truth}");
 }
 
-/// What the picture is exposed by; a pinhole lets nothing through.
+/// The exposure on the axis, which is 0 for a pinhole.
 #[test]
 fn the_measure_on_the_axis() {
     let world = |radius, sensor| World::new(&inside(radius, 1.0)).unwrap().with_sensor(sensor);
@@ -148,7 +149,7 @@ fn the_measure_on_the_axis() {
     assert!((on_axis(DISTANCE, Sensor::Irradiance) - PI / 2.0).abs() < 1e-12);
     assert!((on_axis(DISTANCE, Sensor::Power) - PI / 2.0 * 1e-6).abs() < 1e-18);
     assert!(world(DISTANCE, Sensor::Radiance).exposure(40, 30).is_none());
-    // more pixels on the same film: less power each
+    // more pixels on the same film receive less power each
     let fine = world(DISTANCE, Sensor::Power).exposure(400, 300).unwrap().on_axis();
     assert!((fine - PI / 2.0 * 1e-8).abs() < 1e-20);
     let dark = render(&inside(0.0, 1.0), Sensor::Irradiance, Sampler::Independent, 4);

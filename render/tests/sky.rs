@@ -1,4 +1,4 @@
-//! The image of the built-in scene `sky` is what a formula says. `cargo test -p etendue-render --test sky -- --ignored` writes it anew.
+//! The image of the built-in scene `sky` matches its formula. `cargo test -p etendue-render --test sky -- --ignored` writes it again.
 
 use etendue::warp::Octahedral;
 use etendue::{Vec2, Vec3, Warp};
@@ -12,7 +12,7 @@ fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/sky.exr")
 }
 
-/// Radiance in the middle of a texel: a blue sky that pales towards the horizon, a brown ground, and a low sun with a soft edge.
+/// Radiance at the centre of a texel: a blue sky that fades towards the horizon, a brown ground, and a low sun with a soft edge.
 fn texel(x: usize, y: usize) -> [f16; 3] {
     let at = |i: usize| (i as f64 + 0.5) / SIDE as f64;
     let w: Vec3<f64> = Octahedral.sample(Vec2::new(at(x), at(y)));
@@ -23,7 +23,7 @@ fn texel(x: usize, y: usize) -> [f16; 3] {
     let rgb: [f64; 3] = std::array::from_fn(|k| {
         let (sky, horizon) = ([0.12, 0.25, 0.6][k], [0.55, 0.55, 0.5][k]);
         let above = sky + (horizon - sky) * pale + disk * [1.0, 0.8, 0.5][k];
-        // the horizon is soft: texels lie across it
+        // the horizon is soft, since texels lie across it
         let ground = [0.09, 0.07, 0.05][k];
         ground + (above - ground) * ((w.z + 0.1) / 0.2).clamp(0.0, 1.0)
     });
@@ -36,9 +36,9 @@ fn sky_image_is_its_formula() {
     assert_eq!((image.width, image.height), (SIDE, SIDE));
     for (i, found) in image.radiance.iter().enumerate() {
         let expected = texel(i % SIDE, i / SIDE).map(f16::to_f32);
-        // the last bit of a half may differ where an exponential does
+        // the last bit of a half float may differ if the exponential does
         let near = (0..3).all(|k| (found[k] - expected[k]).abs() <= 1e-3 * expected[k]);
-        assert!(near, "texel {i}: {found:?}, not {expected:?}");
+        assert!(near, "texel {i}: {found:?}, expected {expected:?}");
     }
 }
 

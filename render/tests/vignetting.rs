@@ -1,4 +1,4 @@
-//! The lens in its barrel, as points of the film see it.
+//! Vignetting of a lens in a barrel, as seen from points of the film.
 
 use etendue_render::compare::Comparison;
 use etendue_render::film::Film;
@@ -31,11 +31,11 @@ fn lens_of(scene: &scene::Scene) -> (ThinLens, scene::Lens) {
     (ThinLens::new(&scene.camera, &lens, SIZE[0], SIZE[1]), lens)
 }
 
-/// In a field of radiance 1 a pixel's radiance is the part of the lens that is open.
+/// Under uniform radiance 1, the radiance of a pixel is the open fraction of the lens.
 #[test]
 fn vignetting_has_its_closed_form() {
     let [width, height] = SIZE;
-    // length and radius of the barrel in radii of the lens, distance of the plane of focus
+    // length and radius of the barrel, in radii of the lens, and distance of the plane of focus
     for (length, radius, focus) in
         [(2.0, 1.15, 100.0), (5.0, 0.8, 100.0), (1.0, 2.0, 2.0), (3.0, 1.2, 2.5), (3.0, 0.5, 0.02), (0.0, 0.7, 1.0)]
     {
@@ -78,20 +78,20 @@ fn open_parts_that_are_known() {
         Barrel::new(&scene.camera, &lens, [length * 0.01, radius * 0.01], SIZE[0], SIZE[1]).open_part(x, y)
     };
     let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-6, "{a} {b}");
-    // the middle of the film: the lens, or the rim, whichever is narrower; nothing hides where the rim is wide
+    // in the middle of the film, the narrower of lens and rim counts; a wide rim blocks nothing
     close(part(2.0, 3.0, 24.0, 16.0), 1.0);
     close(part(0.0, 0.5, 24.0, 16.0), 0.25);
     close(part(0.0, 0.5, 3.0, 30.0), 0.25);
     close(part(2.0, 9.0, 0.0, 0.0), 1.0);
-    // too long a tube: the corner sees nothing
+    // with a very long barrel, the corner sees nothing
     close(part(90.0, 1.0, 0.0, 0.0), 0.0);
-    // two equal disks whose centres are a radius apart: 2/3 − √3/(2π). Slope x·tan 20° to the right of the middle row
+    // two equal disks whose centres are one radius apart share 2/3 − √3/(2π)
     let slope = |x: f64| (x - 24.0) / 16.0 * 20.0_f64.to_radians().tan();
     let length = 1.0 / (slope(36.0) + 0.01);
     close(part(length, 1.0 - 0.01 * length, 36.0, 16.0), 2.0 / 3.0 - 3.0_f64.sqrt() / (2.0 * PI));
 }
 
-/// What a view of the lens adds up to is what the pixel receives.
+/// The sum over a view of the lens is what the pixel receives.
 #[test]
 fn a_view_has_the_open_part_and_nothing_else() {
     let scene = scene("\"float lensradius\" .01 \"float focaldistance\" 1", "Shape \"sphere\" \"float radius\" 1000");
@@ -107,16 +107,16 @@ fn a_view_has_the_open_part_and_nothing_else() {
             let open = view.mean()[0] * area;
             let error = view.pixels.iter().map(|p| f64::from(p.variance[0])).sum::<f64>().sqrt() / n * area;
             let truth = barrel.map_or(1.0, |barrel| barrel.open_part(film[0], film[1]));
-            assert!((open - truth).abs() < LIMIT * error, "{film:?}: {open} ± {error} for {truth}");
+            assert!((open - truth).abs() < LIMIT * error, "{film:?}: {open} ± {error}, expected {truth}");
             assert!(error < 2e-3);
-            // beside the lens is black, whatever lies there
+            // everything outside the lens is black
             let corner = view.pixels[0].mean;
             assert_eq!(corner, [0.0; 3]);
         }
     }
 }
 
-/// In focus, all of the lens shows one point; out of focus, each of its points another one.
+/// In focus, the whole lens shows one point; out of focus, each of its points shows a different one.
 #[test]
 fn a_view_is_uniform_in_focus_and_a_picture_out_of_focus() {
     // a light for x > 0 at depth 2
@@ -130,7 +130,7 @@ fn a_view_is_uniform_in_focus_and_a_picture_out_of_focus() {
         for x in films {
             let camera = Camera::Pupil(Pupil::new(thin, None, [x, 11.0], 64, 1.0));
             let view = render(&scene, &camera, [64, 64], 16, Sampler::Stratified);
-            // where the ray from ℓ meets depth 2
+            // position of the ray from ℓ at depth 2
             let at = |lens: f64| 2.0 * (x - 24.0) / 16.0 * half + 0.1 * lens * (1.0 - 2.0 / focus);
             let mut lit = 0;
             for (i, p) in view.pixels.iter().enumerate() {
@@ -148,9 +148,9 @@ fn a_view_is_uniform_in_focus_and_a_picture_out_of_focus() {
             }
             let inside = (lit > 0) as usize + (lit < 3000) as usize;
             if focus == 2.0 {
-                assert!(lit == 0 || lit > 3000, "in focus all or nothing is lit: {lit}");
+                assert!(lit == 0 || lit > 3000, "in focus, all or nothing must be lit: {lit}");
             } else if x == 24.0 || x == 24.5 {
-                assert_eq!(inside, 2, "out of focus a part is lit: {lit}");
+                assert_eq!(inside, 2, "out of focus, only a part must be lit: {lit}");
             }
         }
     }

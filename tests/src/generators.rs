@@ -12,6 +12,16 @@ pub use line::*;
 pub use round::*;
 pub use warps::*;
 
+/// A [`ZOrder`](etendue::sequence::ZOrder) whose pixels are positions along the curve, for what takes any sequence.
+#[derive(Clone, Copy, Debug)]
+pub struct AlongCurve(pub etendue::sequence::ZOrder);
+
+impl etendue::sequence::Sequence for AlongCurve {
+    fn pair<R: etendue::Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> etendue::Vec2<R> {
+        self.0.pair(etendue::sequence::ZOrderIndex::from_position(pixel), sample, dimension)
+    }
+}
+
 /// SplitMix64, independent of the generators under test.
 #[derive(Clone, Debug)]
 pub struct Random(u64);

@@ -1,5 +1,6 @@
 //! Choice of lights: frequencies against probabilities, sums, limits.
 
+use etendue::discrete::TableError;
 use etendue::select::{Choice, LightBound, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Uint, Vec2, Vec3, f32x4, f32x8, u32x8};
@@ -68,7 +69,7 @@ fn power() {
         [&[1.0][..], &[0.0, 2.0, 0.0, 1.0, 0.0], &[1e-30, 1.0, 1e30, 0.0], &[3e38, 3e38], &[1e-42, 2e-42], &many]
     {
         let mut sums = vec![0.0; powers.len()];
-        let lights = PowerLights::new(powers, &mut sums);
+        let lights = PowerLights::new(powers, &mut sums).unwrap();
         check("power", powers.len(), |u| lights.choose(u), |u| lights.choose(u), |k| lights.pmf(k));
         for (k, power) in powers.iter().enumerate() {
             let pmf = lights.pmf::<f32>(k as u32);
@@ -81,13 +82,19 @@ fn power() {
     }
     // in proportion, where nothing is lifted
     let mut sums = [0.0; 3];
-    let lights = PowerLights::new(&[3.0, 1.0, 4.0], &mut sums);
+    let lights = PowerLights::new(&[3.0, 1.0, 4.0], &mut sums).unwrap();
     assert_eq!([0, 1, 2].map(|k| lights.pmf::<f32>(k)), [0.375, 0.125, 0.5]);
     for powers in [&[][..], &[0.0, 0.0], &[f32::NAN, -1.0]] {
         let mut sums = vec![7.0; powers.len()];
-        let choice = PowerLights::new(powers, &mut sums).choose(0.3_f32);
+        let choice = PowerLights::new(powers, &mut sums).unwrap().choose(0.3_f32);
         assert_eq!((choice.pmf, choice.u), (0.0, 0.0));
     }
+    // a table that does not fit the lights is refused, not cut
+    let mut sums = vec![0.0; PowerLights::MOST + 1];
+    let powers = vec![1.0; sums.len()];
+    assert_eq!(PowerLights::new(&powers, &mut sums).err(), Some(TableError::Length));
+    assert_eq!(PowerLights::new(&powers[..3], &mut sums[..2]).err(), Some(TableError::Length));
+    assert_eq!(PowerLights::new(&powers[..2], &mut sums[..3]).err(), Some(TableError::Length));
 }
 
 /// Each of 2¹⁴ lights, one of them 10³⁰ times as strong as the others, is found by some u of the grid, in its due share.
@@ -96,7 +103,7 @@ fn weak_lights_are_found() {
     let mut powers = vec![1e-20_f32; 1 << 14];
     powers[5000] = 1e10;
     let mut sums = vec![0.0; powers.len()];
-    let lights = PowerLights::new(&powers, &mut sums);
+    let lights = PowerLights::new(&powers, &mut sums).unwrap();
     let mut counts = vec![0_u32; powers.len()];
     for i in (0..1 << 24).step_by(8) {
         let u = f32x8::from_fn(|k| (i + k) as f32 / 16_777_216.0);

@@ -1,10 +1,15 @@
 //! Point sets: they are the nets, strata and lattices that they claim to be, at every width, and reduce the variance as expected.
 
-use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder};
+use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
+use etendue_tests::generators::AlongCurve;
 use etendue_tests::stats;
 use etendue_tests::tolerances::SIGNIFICANCE;
 
+/// The position of a pixel along the Z-order curve.
+fn position(x: u32, y: u32) -> u32 {
+    (0..16).map(|bit| (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1)).sum()
+}
 fn point(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [f64; 2] {
     let u: Vec2<f64> = sequence.pair(pixel, sample, dimension);
     [u.x, u.y]
@@ -57,8 +62,8 @@ fn net_check_can_fail() {
 #[test]
 fn z_order_is_a_net_in_a_pixel_and_over_squares() {
     for samples in [1, 2, 3, 4, 8, 16, 32] {
-        let z = ZOrder::new(5, samples);
-        let held = z.samples();
+        let z = AlongCurve(ZOrder::new(5, samples));
+        let held = z.0.samples();
         assert_eq!(held, samples.next_power_of_two());
         for dimension in [0, 1, 6] {
             for [x0, y0, side] in [[0, 0, 1], [3, 5, 1], [6, 4, 2], [24, 40, 8], [4096, 8192, 16]] {
@@ -67,7 +72,7 @@ fn z_order_is_a_net_in_a_pixel_and_over_squares() {
                     let mut points = Vec::new();
                     for y in y0..y0 + side {
                         for x in x0..x0 + side {
-                            let pixel = ZOrder::pixel(x, y);
+                            let pixel = position(x, y);
                             points.extend((0..held).map(|i| point(&z, pixel, replicate * held + i, dimension)));
                         }
                     }
@@ -77,18 +82,27 @@ fn z_order_is_a_net_in_a_pixel_and_over_squares() {
         }
     }
     // 2³¹ samples in a pixel: the shift must not become 32
-    let points: Vec<_> = (0..1024).map(|i| point(&ZOrder::new(5, u32::MAX), 7, (1 << 30) + i, 0)).collect();
+    let points: Vec<_> = (0..1024).map(|i| point(&AlongCurve(ZOrder::new(5, u32::MAX)), 7, (1 << 30) + i, 0)).collect();
     assert_eq!(failed_shape(&points), None);
     // one sample in a pixel: all 32 bits belong to the pixel
-    let points: Vec<_> = (0..1024).map(|i| point(&ZOrder::new(5, 0), (1 << 31) + i, 0, 0)).collect();
+    let points: Vec<_> = (0..1024).map(|i| point(&AlongCurve(ZOrder::new(5, 0)), (1 << 31) + i, 0, 0)).collect();
     assert_eq!(failed_shape(&points), None);
 }
 
 /// The base-4 digits take all 24 orders, nearly equally often; nested permutations in base 2 would only take 8.
 #[test]
+fn z_order_index_is_the_position_along_the_curve() {
+    let z = ZOrder::new(3, 4);
+    for (x, y) in [(0, 0), (1, 0), (0, 1), (5, 6), (255, 3), (65_535, 65_535), (40_000, 1_234)] {
+        let (by_index, by_position) = (ZOrderIndex::new(x, y), ZOrderIndex::from_position(position(x, y)));
+        assert_eq!(z.pair::<f32>(by_index, 1, 0), z.pair(by_position, 1, 0), "{x}, {y}");
+    }
+}
+
+#[test]
 fn z_order_permutes_digits_in_every_way() {
     for samples in [1, 2, 4] {
-        let z = ZOrder::new(11, samples);
+        let z = AlongCurve(ZOrder::new(11, samples));
         let mut orders = std::collections::BTreeMap::new();
         for block in 0..24_000 {
             // one sample of each of four neighbours: with one sample per pixel, the quarter that contains it was the last digit of its
@@ -160,8 +174,8 @@ fn z_order_leaves_blue_noise() {
     for (name, f, most) in [("smooth", smooth as fn(_) -> _, 0.15), ("edge", edge, 0.45)] {
         let blue = low_frequencies(
             |seed| {
-                let z = ZOrder::new(seed, 4);
-                Box::new(move |[x, y], i| point(&z, ZOrder::pixel(x, y), i, 0))
+                let z = AlongCurve(ZOrder::new(seed, 4));
+                Box::new(move |[x, y], i| point(&z, position(x, y), i, 0))
             },
             f,
         );
@@ -273,9 +287,9 @@ fn each_point_is_uniform_over_pixels_dimensions_and_seeds() {
     uniform_over("latin, dimensions", |i| point(&latin, 3, 5, i));
     uniform_over("lattice, pixels", |i| point(&r2, i, 5, 0));
     uniform_over("lattice, dimensions", |i| point(&r2, 3, 5, i));
-    uniform_over("z-order, seeds", |i| point(&ZOrder::new(u64::from(i), 4), 1000, 3, 1));
-    uniform_over("z-order, dimensions", |i| point(&ZOrder::new(1, 4), 1000, 3, i));
-    uniform_over("z-order, tiles", |i| point(&ZOrder::new(1, 1 << 31), 2 * i, 3, 0));
+    uniform_over("z-order, seeds", |i| point(&AlongCurve(ZOrder::new(u64::from(i), 4)), 1000, 3, 1));
+    uniform_over("z-order, dimensions", |i| point(&AlongCurve(ZOrder::new(1, 4)), 1000, 3, i));
+    uniform_over("z-order, tiles", |i| point(&AlongCurve(ZOrder::new(1, 1 << 31)), 2 * i, 3, 0));
 }
 
 /// Rank, among the 24 permutations of four, of the one from the order of x in one dimension to that in the other.
@@ -423,7 +437,7 @@ fn variance_against_independent_samples() {
             gains(&Lattice::fibonacci(1, n), n),
             gains(&OwenSobol::new(1), n),
             gains(&TrueOwen { seed: 1 }, n),
-            gains(&ZOrder::new(1, n), n),
+            gains(&AlongCurve(ZOrder::new(1, n)), n),
         ]
     });
     for (n, row) in [16, 64].iter().zip(&table) {
@@ -480,7 +494,7 @@ fn packets_are_scalars() {
     check("lattice", &Lattice::r2(3));
     for count in [0, 1, 2, 7, 64, 100, 4096, u32::MAX] {
         check("latin", &LatinHypercube::new(3, count));
-        check("z-order", &ZOrder::new(3, count));
+        check("z-order", &AlongCurve(ZOrder::new(3, count)));
         check("fibonacci", &Lattice::fibonacci(3, count));
     }
 }

@@ -2,7 +2,7 @@ use super::Sequence;
 use crate::real::{Real, Uint};
 use crate::vector::Vec2;
 use core::convert::Infallible;
-use rand_core::{Rng, SeedableRng, TryRng};
+use rand_core::{SeedableRng, TryRng};
 
 /// Hashes four words to four words: a bijection of 128 bits whose outputs pass for independent random numbers.
 ///
@@ -74,14 +74,14 @@ impl Sequence for Independent {
 
 /// The counter hash as a random generator: `rand_core`'s `Rng`, seedable, with a period of 2⁶⁴ words.
 ///
-/// Call `CounterRng::seed_from_u64(seed)`, then `next_u32`, or `unit_square` for a point. It never fails.
+/// Call `CounterRng::seed_from_u64(seed)`, then `next_u32`, or [`DrawExt::pair`](crate::random::DrawExt::pair) for a point. It never fails.
 ///
 /// ```
-/// use etendue::{Vec2, sequence::CounterRng};
+/// use etendue::{Vec2, random::DrawExt, sequence::CounterRng};
 /// use rand_core::{Rng, SeedableRng};
 /// let mut rng = CounterRng::seed_from_u64(1);
 /// let word = rng.next_u32();
-/// let u: Vec2<f32> = CounterRng::unit_square(&mut rng);
+/// let u: Vec2<f32> = rng.pair();
 /// assert!(u.x >= 0.0 && u.x < 1.0);
 /// # let _ = word;
 /// ```
@@ -90,15 +90,6 @@ pub struct CounterRng {
     key: [u32; 2],
     counter: u64,
     words: [u32; 4],
-}
-
-impl CounterRng {
-    /// Draws a point (or a packet of points) of the unit square from any generator: two words per lane, 24 bits of each.
-    pub fn unit_square<R: Real>(rng: &mut impl Rng) -> Vec2<R> {
-        let mut unit = || R::unit(R::Uint::from_fn(|_| rng.next_u32()));
-        let x = unit();
-        Vec2::new(x, unit())
-    }
 }
 
 impl SeedableRng for CounterRng {

@@ -110,16 +110,16 @@ impl Sequence for OwenSobol {
 /// Owen-scrambled Sobol pairs dealt out along a Z-order curve: neighbouring pixels take neighbouring parts of one net, so that
 /// their errors cancel and the remaining noise is blue. Take it for few samples per pixel, in images for human viewers.
 ///
-/// Call `ZOrder::new(seed, samples)`, then [`pair`](Sequence::pair) with a pixel from [`ZOrder::pixel`]. There is no degenerate
+/// Call `ZOrder::new(seed, samples)`, then [`pair`](ZOrder::pair) with a [`ZOrderIndex`]. There is no degenerate
 /// input.
 ///
 /// ```
-/// use etendue::{Vec2, sequence::{Sequence, ZOrder}};
+/// use etendue::{Vec2, sequence::{ZOrder, ZOrderIndex}};
 /// // one sample in each of four neighbouring pixels: together they have one in each quarter
 /// let z = ZOrder::new(7, 1);
 /// let mut quarters = [0; 4];
 /// for (x, y) in [(6, 8), (7, 8), (6, 9), (7, 9)] {
-///     let u: Vec2<f32> = z.pair(ZOrder::pixel(x, y), 0, 0);
+///     let u: Vec2<f32> = z.pair(ZOrderIndex::new(x, y), 0, 0);
 ///     quarters[(u.x * 2.0) as usize * 2 + (u.y * 2.0) as usize] += 1;
 /// }
 /// assert_eq!(quarters, [1; 4]);
@@ -132,7 +132,7 @@ impl Sequence for OwenSobol {
 ///   aligned square of 2ⁿ × 2ⁿ pixels together.
 /// - Spectrum: with 4 samples, below an eighth of the sampling rate, errors have 0.13 of the power of white noise where the
 ///   integrand is smooth and 0.42 where it has an edge (`cargo test -p etendue-tests --test sobol blue -- --nocapture`).
-/// - Domain: any 32-bit counters. `pixel` is a position along the curve, from [`ZOrder::pixel`]. Pixels share one net while
+/// - Domain: any 32-bit counters. The pixel is a position along the curve, a [`ZOrderIndex`]. Pixels share one net while
 ///   pixel·2ᵏ < 2³²; later ones take further, independent nets, and so do samples past 2ᵏ.
 /// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴].
 /// - Replicates: samples are correlated, and so are pixels, so the spread among neighbours says nothing about the variance. Use
@@ -157,24 +157,10 @@ impl ZOrder {
     pub const fn samples(&self) -> u32 {
         1 << self.bits
     }
-    /// The position of a pixel along the Z-order curve, from coordinates below 2¹⁶: the bits of x and y alternate, x first.
+    /// The pair `dimension` of sample `sample` of a pixel, in [0, 1)²; lanes may differ in pixel and sample.
     #[inline]
-    #[must_use]
-    pub fn pixel<U: Uint>(x: U, y: U) -> U {
-        let spread = |v: U| {
-            let mut v = v & U::splat(0xffff);
-            for (by, kept) in [(8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555)] {
-                v = (v | v.shl(by)) & U::splat(kept);
-            }
-            v
-        };
-        spread(x) | spread(y).shl(1)
-    }
-}
-
-impl Sequence for ZOrder {
-    #[inline]
-    fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
+    pub fn pair<R: Real>(&self, pixel: ZOrderIndex<R::Uint>, sample: R::Uint, dimension: u32) -> Vec2<R> {
+        let ZOrderIndex(pixel) = pixel;
         // two shifts, since a shift by all 32 bits is not defined
         let net_of_pixel = pixel.shr(1).shr(31 - self.bits);
         let net_of_sample = sample.shr(self.bits);
@@ -191,5 +177,31 @@ impl Sequence for ZOrder {
         let low = (if self.bits.is_multiple_of(2) { 0x5555_5555 } else { 0xaaaa_aaaa }) & u32::MAX >> self.bits;
         let index = scramble_base_4(index.reverse_bits(), [shuffle, again], low).reverse_bits();
         net(index, [first, second])
+    }
+}
+
+/// The position of a pixel along the Z-order curve, which a [`ZOrder`] takes: a row-major pixel number would not be one.
+#[derive(Clone, Copy, Debug)]
+pub struct ZOrderIndex<U>(U);
+
+impl<U: Uint> ZOrderIndex<U> {
+    /// The position of the pixel in column `x` and row `y`, both below 2¹⁶: their bits alternate, the lowest of x first.
+    #[inline]
+    #[must_use]
+    pub fn new(x: U, y: U) -> Self {
+        let spread = |v: U| {
+            let mut v = v & U::splat(0xffff);
+            for (by, kept) in [(8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555)] {
+                v = (v | v.shl(by)) & U::splat(kept);
+            }
+            v
+        };
+        Self(spread(x) | spread(y).shl(1))
+    }
+    /// A position along the curve that is known already.
+    #[inline]
+    #[must_use]
+    pub fn from_position(position: U) -> Self {
+        Self(position)
     }
 }

@@ -71,8 +71,8 @@ impl Default for Later {
 }
 
 impl Later {
-    /// Adds an inner node for each of `rays`, none of which enters it before `near`. Returns false and adds nothing if one of them has
-    /// no room.
+    /// Adds an inner node for each of `rays`; `near` is a lower bound of their entry distances. Returns false and adds nothing if a ray
+    /// has no room.
     #[inline]
     pub(super) fn add(&mut self, rays: u64, node: u32, near: f32) -> bool {
         let mut room = true;

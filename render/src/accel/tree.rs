@@ -22,7 +22,7 @@ pub(super) trait Primitives {
 /// Why a tree could not be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuildError {
-    /// Number of primitives, of which there may be at most 2³¹ − 1.
+    /// Number of primitives; at most 2³¹ − 1 are supported.
     pub count: usize,
 }
 

@@ -1,10 +1,11 @@
-//! The maps of disks and line segments, from their definitions: set up in 106 bits, integrated and inverted in f64.
+//! The maps of disks and line segments by definition, set up in 106 bits, integrated and inverted in f64.
 
 use super::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
 use super::pose::V3;
 use core::f64::consts::FRAC_PI_2;
 
-/// Where an increasing function with f(0) = 0 and f(`end`) = `top` is `target`: false position (Illinois), and halves where that is slow.
+/// Solves f(x) = `target` for an increasing f with f(0) = 0 and f(`end`) = `top`, by false position (Illinois), with bisection if that is
+/// slow.
 pub(super) fn root(end: f64, top: f64, target: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, end);
     let (mut f_low, mut f_high) = (-target, top - target);
@@ -29,7 +30,7 @@ pub(super) fn root(end: f64, top: f64, target: f64, f: impl Fn(f64) -> f64) -> f
     0.5 * (low + high)
 }
 
-/// Nodes and weights of Gauss and Legendre on [0, 1], 16 of them.
+/// The 16 Gauss-Legendre nodes on [0, 1] with their weights.
 fn nodes() -> [(f64, f64); 16] {
     core::array::from_fn(|i| {
         let n = 16.0;
@@ -51,22 +52,23 @@ fn integral(nodes: &[(f64, f64); 16], low: f64, high: f64, f: impl Fn(f64) -> f6
     (high - low) * nodes.iter().map(|&(x, weight)| weight * f(low + (high - low) * x)).sum::<f64>()
 }
 
-/// A disk as it is seen, an elliptic cone. By the eccentric angle χ from the major axis dΩ = sinα sinβ dχ/(1+D), D² = cos²β cos²χ + cos²α sin²χ
-/// the height of the rim; u₀ takes χ through the quadrants, 1−cosθ is u₁ of that of the rim.
+/// The elliptic cone of a disk as seen from the point. With χ the eccentric angle from the major axis, dΩ = sinα sinβ dχ/(1+D), where
+/// D² = cos²β cos²χ + cos²α sin²χ is the squared height of the rim. u₀ sets χ, quadrant by quadrant, and 1−cosθ is the fraction u₁ of
+/// that of the rim.
 #[derive(Clone, Debug)]
 pub struct Ellipse {
-    /// Minor, major and cone's axis.
+    /// Minor axis, major axis and the cone's axis.
     axes: [V3; 3],
-    /// Of the half-angles α and β.
+    /// Sines of the half-angles α and β.
     pub(super) sines: [f64; 2],
     cosines: [f64; 2],
     nodes: [(f64, f64); 16],
-    /// χ, and the integral of 1/(1+D) up to it.
+    /// Values of χ, and the integral of 1/(1+D) up to each.
     panels: Vec<[f64; 2]>,
     solid_angle: f64,
 }
 impl Ellipse {
-    /// Of a disk with the normal `n`, of any length.
+    /// The cone of a disk with normal `n` of any length.
     #[must_use]
     pub fn new(center: V3, n: V3, radius: f64) -> Self {
         let (c, n, r) = (dd(center), dd(n), Dd::from(radius));
@@ -80,7 +82,7 @@ impl Ellipse {
         let cos = if power.to_f64() >= 0.0 { alpha.cos() } else { (twice / h).to_f64() / (2.0 * sin) };
         let beta = radius.atan2(h.to_f64().sqrt() * cos);
         let (sines, cosines) = ([sin, beta.sin()], [cos, beta.cos()]);
-        // the axis: c − sin²β (c − z n)
+        // the cone's axis is c − sin²β (c − z n)
         let offset = add(c, times(towards, -z));
         let axis = add(times(towards, z), times(offset, Dd::from(cosines[1] * cosines[1])));
         let axis = normalized(if length(axis).to_f64() > 0.0 { axis } else { towards });
@@ -94,7 +96,7 @@ impl Ellipse {
         };
         let axes = [normalized(cross(across, axis)), across, axis].map(narrow);
         let mut this = Self { axes, sines, cosines, nodes: nodes(), panels: vec![[0.0; 2]], solid_angle: 0.0 };
-        // finer to the major axis, where a large disk has a kink
+        // finer near the major axis, where the integrand of a large disk has a kink
         let mut sum = 0.0;
         for k in (0..40).rev() {
             let (low, high) = (this.panels[this.panels.len() - 1][0], FRAC_PI_2 * 0.5_f64.powi(k));
@@ -109,7 +111,7 @@ impl Ellipse {
     fn rim(&self, chi: f64) -> f64 {
         (self.cosines[1] * chi.cos()).hypot(self.cosines[0] * chi.sin())
     }
-    /// In steradians.
+    /// Solid angle in steradians.
     #[must_use]
     pub fn solid_angle(&self) -> f64 {
         self.solid_angle
@@ -127,7 +129,7 @@ impl Ellipse {
         let chi = low + root(high - low, after - before, target - before, up_to);
         let (s, c) = chi.sin_cos();
         let (x, y) = (self.sines[0] * s, self.sines[1] * c);
-        // 1−D² is the square of the rim's radius
+        // 1−D² is the squared radius of the rim
         let (squared, d) = (x * x + y * y, self.rim(chi));
         let k = u[1] * squared / (1.0 + d);
         let factor = (u[1] * (2.0 - k) / (1.0 + d)).sqrt();
@@ -137,7 +139,7 @@ impl Ellipse {
     }
 }
 
-/// One end of an [`Arc`]: direction, direction of turning towards the other, and sinγ and cosθ there with their derivatives by the angle.
+/// One end of an [`Arc`]: its direction, the tangent towards the other end, and sinγ and cosθ there with their derivatives by the angle.
 #[derive(Clone, Debug)]
 struct End {
     way: V3,
@@ -147,27 +149,27 @@ struct End {
     half: f64,
 }
 impl End {
-    /// sinγ cosθ at the angle x from it.
+    /// sinγ cosθ at angle x from this end.
     fn product(&self, x: f64) -> f64 {
         let (s, c) = x.sin_cos();
         ((self.sine[0] * c + self.sine[1] * s) * (self.cosine[0] * c + self.cosine[1] * s)).max(0.0)
     }
 }
 
-/// A segment as it is seen, or what a horizon leaves of it.
+/// The arc of a segment as seen from the point, possibly clipped to a horizon.
 #[derive(Clone, Debug)]
 pub struct Arc {
     ends: [End; 2],
-    /// Under which it is seen.
+    /// Angle that the segment subtends, in radians.
     pub angle: f64,
-    /// Towards the line at right angles.
+    /// Unit vector along the perpendicular to the line.
     pub(super) foot: V3,
     nodes: [(f64, f64); 16],
-    /// ∫ sinγ cosθ over it.
+    /// ∫ sinγ cosθ over the arc.
     pub whole: f64,
 }
 impl Arc {
-    /// From `a` to `a + edge`; clipped to the horizon of a normal if there is one.
+    /// The arc from `a` to `a + edge`, clipped to the horizon of a normal if given.
     #[must_use]
     pub fn new(a: Dd3, edge: Dd3, normal: Option<Dd3>) -> Self {
         let b = add(a, edge);
@@ -191,7 +193,7 @@ impl Arc {
         let end = |p: Dd3, sign: f64| {
             let way = normalized(p);
             let turn = times(cross(pole, way), Dd::from(sign));
-            // on the horizon exactly
+            // exactly on the horizon
             let height = dot(way, n).to_f64();
             let cosine = [if height < 1e-25 { 0.0 } else { height }, dot(turn, n).to_f64()];
             let sine = [(length(plane) / (length(p) * length(edge))).to_f64(), dot(turn, foot).to_f64()];
@@ -214,7 +216,7 @@ impl Arc {
     fn up_to(&self, end: usize, x: f64) -> f64 {
         integral(&self.nodes, 0.0, x, |x| self.ends[end].product(x))
     }
-    /// The angle from the first end up to which it gives the part `u` of the whole.
+    /// Angle from the first end up to which the integral is the fraction `u` of the whole.
     #[must_use]
     pub fn angle_of(&self, u: f64) -> f64 {
         let near = u * self.whole <= self.ends[0].half;

@@ -1,4 +1,5 @@
-//! 106-bit arithmetic, and what is known by it of polygons: sums and products of pairs of f64, exact to about 2⁻¹⁰⁴. Source: Dekker 1971; Knuth, TAOCP 2, 4.2.2.
+//! 106-bit arithmetic on pairs of f64, accurate to about 2⁻¹⁰⁴, and projected solid angles of polygons computed with it. Source: Dekker
+//! 1971; Knuth, TAOCP 2, 4.2.2.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,12 +14,12 @@ fn two_sum(a: f64, b: f64) -> Dd {
 }
 
 impl Dd {
-    /// Rounded to f64.
+    /// Rounds to f64.
     #[must_use]
     pub fn to_f64(self) -> f64 {
         self.0 + self.1
     }
-    /// Square root, by one step of Newton's method.
+    /// Square root by one Newton step.
     #[must_use]
     pub fn sqrt(self) -> Self {
         if self.0 <= 0.0 {
@@ -28,7 +29,7 @@ impl Dd {
         let rest = self - Self(x, 0.0) * Self(x, 0.0);
         Self(x, 0.0) + Self(rest.to_f64() / (2.0 * x), 0.0)
     }
-    /// Angle of (x, y) = (`other`, `self`): the f64 arc tangent, and the rest of it from its sine and cosine by their series.
+    /// Angle of (x, y) = (`other`, `self`): the f64 arc tangent, corrected by its sine and cosine.
     #[must_use]
     pub fn atan2(self, other: Self) -> Self {
         let angle = self.to_f64().atan2(other.to_f64());
@@ -36,7 +37,7 @@ impl Dd {
         let length = (self * self + other * other).sqrt();
         if length.to_f64() > 0.0 { Self(angle, 0.0) + (self * c - other * s) / length } else { Self(angle, 0.0) }
     }
-    /// Sine and cosine, by their series at a sixteenth, then doubled.
+    /// Sine and cosine by their series at a sixteenth of the angle, followed by doublings.
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
         let part = self / Self(16.0, 0.0);
@@ -103,10 +104,10 @@ impl Div for Dd {
     }
 }
 
-/// Three of them.
+/// A vector of 106-bit numbers.
 pub type Dd3 = [Dd; 3];
 
-/// With rests of nothing.
+/// Converts a vector from f64.
 #[must_use]
 pub fn dd(a: [f64; 3]) -> Dd3 {
     a.map(Dd::from)
@@ -130,20 +131,20 @@ pub fn length(a: Dd3) -> Dd {
     dot(a, a).sqrt()
 }
 
-/// a/|a|; as it is if that is 0.
+/// a/|a|, or a if |a| is 0.
 #[must_use]
 pub fn normalized(a: Dd3) -> Dd3 {
     let l = length(a);
     if l.to_f64() > 0.0 { a.map(|x| x / l) } else { a }
 }
 
-/// Rounded.
+/// Rounds a vector to f64.
 #[must_use]
 pub fn narrow(a: Dd3) -> [f64; 3] {
     a.map(Dd::to_f64)
 }
 
-/// Inner product.
+/// a·b.
 #[must_use]
 pub fn dot(a: Dd3, b: Dd3) -> Dd {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -161,7 +162,7 @@ pub fn determinant(a: Dd3, b: Dd3, c: Dd3) -> Dd {
     dot(a, cross(b, c))
 }
 
-/// The corners of what the horizon of `n` leaves of a convex polygon.
+/// Clips a convex polygon to the hemisphere of `n`.
 #[must_use]
 pub fn above_horizon(corners: &[Dd3], n: Dd3) -> Vec<Dd3> {
     let mut above = Vec::new();
@@ -179,7 +180,7 @@ pub fn above_horizon(corners: &[Dd3], n: Dd3) -> Vec<Dd3> {
     above
 }
 
-/// Lambert's sum over the edges of a polygon above the horizon of `n`: good to 1e−13 down to 1e−8 of the distance.
+/// Lambert's sum over the edges of a polygon above the horizon of `n`, accurate to 1e−13 for sizes down to 1e−8 of the distance.
 #[must_use]
 pub fn lambert(corners: &[Dd3], n: Dd3) -> f64 {
     let mut sum = Dd::default();

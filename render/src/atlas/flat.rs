@@ -1,17 +1,18 @@
-//! Triangles and rectangles by solid angle in 106 bits: areas, and the maps as they are defined.
+//! Solid angles of triangles and rectangles, and their maps by definition, in 106 bits.
 
 use super::curves::root;
 use super::double_double::{Dd, Dd3, add, cross, dot, length, narrow, normalized, times};
 use super::pose::V3;
 
-/// Solid angle of a triangle with the corners a, b, c, whose a·(b×c) is known, by Van Oosterom and Strackee.
+/// Solid angle of a triangle with corners a, b, c and a·(b×c) = `volume`, by Van Oosterom and Strackee.
 fn solid_angle(a: Dd3, b: Dd3, c: Dd3, volume: Dd) -> Dd {
     let [la, lb, lc] = [a, b, c].map(length);
     let under = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
     Dd::from(2.0) * volume.abs().atan2(under)
 }
 
-/// A triangle and Arvo's map about its vertex `v1`: the area swept from `v0` is u₀Ω, 1−cos of the angle from `v1` is u₁ of the whole.
+/// A triangle and Arvo's map about its vertex `v1`: the area swept from `v0` is u₀Ω, and 1−cos of the angle from `v1` is the fraction u₁
+/// of its greatest value.
 #[derive(Clone, Debug)]
 pub struct Fan {
     units: [Dd3; 3],
@@ -20,11 +21,11 @@ pub struct Fan {
     pub(super) solid_angle: Dd,
 }
 impl Fan {
-    /// From a vertex and the edges to the two others.
+    /// The triangle of a vertex and the edges to the other two.
     #[must_use]
     pub fn new(v0: Dd3, e1: Dd3, e2: Dd3) -> Self {
         let (v1, v2) = (add(v0, e1), add(v0, e2));
-        // of edges: a small triangle's volume is a product, not a difference
+        // from edges: the volume of a small triangle is a product, not a difference
         let volume = dot(v0, cross(e1, e2));
         let units = [v0, v1, v2].map(normalized);
         let lengths = length(v0) * length(v1) * length(v2);
@@ -35,15 +36,15 @@ impl Fan {
         let omega = if touches { Dd::default() } else { solid_angle(v0, v1, v2, volume) };
         Self { units, g, solid_angle: omega }
     }
-    /// In steradians.
+    /// Solid angle in steradians.
     #[must_use]
     pub fn solid_angle(&self) -> f64 {
         self.solid_angle.to_f64()
     }
-    /// The unit vector to the point of the edge `v0 v2` for `u₀`.
+    /// Unit vector to the point of the edge `v0 v2` for `u₀`.
     #[must_use]
     pub fn swept(&self, u0: Dd) -> Dd3 {
-        // near v2 what is left is small
+        // near v2 the remaining angle is small
         let (s, c) = (Dd::from(0.5) * u0 * self.solid_angle).sin_cos();
         let [a, _, b] = self.units;
         let alpha = self.g[0] * c - self.g[1] * s;
@@ -63,7 +64,7 @@ impl Fan {
         let sin = (k * (Dd::from(2.0) - k)).sqrt();
         narrow(add(times(apex, one - k), times(tangent, sin)))
     }
-    /// Of the part of it that `u₀` has swept, from the point that [`swept`](Self::swept) gives: u₀Ω if the map is right.
+    /// Solid angle up to the point [`swept`](Self::swept) for `u₀`, which is u₀Ω if the map is correct.
     #[must_use]
     pub fn area_swept(&self, u0: f64) -> f64 {
         let p = self.swept(Dd::from(u0));
@@ -72,7 +73,7 @@ impl Fan {
     }
 }
 
-/// A rectangle, and the map of Ureña et al.: the strip up to x has the solid angle u₀Ω, y/√(x²+y²+z²) is linear in u₁.
+/// A rectangle and the map of Ureña et al.: the strip up to x has solid angle u₀Ω, and y/√(x²+y²+z²) is linear in u₁.
 #[derive(Clone, Debug)]
 pub struct Window {
     corner: Dd3,
@@ -98,7 +99,7 @@ impl Window {
         window.solid_angle = window.strip(window.size[0]);
         window
     }
-    /// Solid angle from the near side in x to `dx` beyond it.
+    /// Solid angle of the strip from the near side in x to `dx` beyond it.
     fn strip(&self, dx: Dd) -> f64 {
         if self.height.to_f64() <= 0.0 || dx.to_f64() <= 0.0 {
             return 0.0;
@@ -111,7 +112,7 @@ impl Window {
     }
     pub(super) fn at(&self, u: [f64; 2]) -> V3 {
         let target = u[0] * self.solid_angle;
-        // by the angle at the foot of the perpendicular, in which the strip grows evenly
+        // in terms of the angle at the foot of the perpendicular, in which the strip grows evenly
         let z = self.height;
         let (x0, x1) = (self.near[0], self.near[0] + self.size[0]);
         let turn = self.size[0] * z;

@@ -1,4 +1,4 @@
-//! The techniques of each kind of shape: ours, and the textbook's.
+//! The techniques for each kind of shape: those of the library, and textbook formulas.
 
 use super::pose::{Kind, Pose, Shape};
 use super::textbook::{self, Excess, add};
@@ -9,29 +9,29 @@ use etendue::spherical::{
 };
 use etendue::{Disk, LightSample, LightSampler, Line, Parallelogram, Sphere, Triangle, Vec2, Vec3, Warp};
 
-/// What a technique says for one `u`.
+/// The result of a technique for one `u`.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// Unit direction.
     pub direction: [f32; 3],
-    /// Density per steradian, of a segment per radian, evaluated for the direction.
+    /// The pdf evaluated for the direction, per steradian, or per radian for a segment.
     pub pdf: f32,
-    /// What an estimator of irradiance divides the cosine by: that density; of a line, per sinγ ds/r² (γ from the line, s along it).
+    /// The pdf by which an irradiance estimator divides the cosine; for a line, per sinγ ds/r² (γ from the line, s along it).
     pub weight: f32,
-    /// Inverse of the direction, where there is one.
+    /// Inverse of the direction, if the technique has one.
     pub inverse: Option<[f32; 2]>,
-    /// Was it drawn by area?
+    /// Whether the sample was drawn by area.
     pub by_area: bool,
-    /// Is it of the side that emits?
+    /// Whether the sample is on the emitting side.
     pub emits: bool,
 }
 impl Sample {
-    /// By solid angle.
+    /// A sample by solid angle.
     #[must_use]
     pub fn new(direction: [f32; 3], pdf: f32, inverse: Option<[f32; 2]>) -> Self {
         Self { direction, pdf, weight: pdf, inverse, by_area: false, emits: true }
     }
-    /// Is all of it finite?
+    /// Whether all values are finite.
     #[must_use]
     pub fn finite(&self) -> bool {
         let inverse = self.inverse.unwrap_or_default();
@@ -39,22 +39,22 @@ impl Sample {
     }
 }
 
-/// What to draw, and where to put it.
+/// The samples to draw and the list that receives them.
 #[derive(Debug)]
 pub struct Draw<'a> {
-    /// Points of the square.
+    /// Points of the unit square.
     pub us: &'a [[f32; 2]],
-    /// Is the inverse wanted too?
+    /// Whether to invert each sample, too.
     pub invert: bool,
-    /// The samples.
+    /// Receives the samples.
     pub out: &'a mut Vec<Sample>,
 }
 impl Draw<'_> {
-    /// One sample for each point.
+    /// Draws one sample for each point.
     pub(super) fn each(&mut self, f: impl Fn([f32; 2], bool) -> Sample) {
         self.out.extend(self.us.iter().map(|&u| f(u, self.invert)));
     }
-    /// By projected solid angle, with the density at the cosine to the normal as it was given.
+    /// Draws samples by projected solid angle; the weight is the pdf at the cosine to the given normal.
     fn projected(&mut self, warp: &impl Warp<f32, Point = Vec3<f32>>, density: impl Fn(f32) -> f32, normal: Vec3<f32>) {
         self.each(|u, invert| {
             let w = warp.sample(Vec2::new(u[0], u[1]));
@@ -70,7 +70,7 @@ impl Draw<'_> {
             Sample::new([w.x, w.y, w.z], warp.pdf(w), inverse)
         });
     }
-    /// Along a line, with the weight of its light: the second number stays as it is.
+    /// Draws samples along a line with the weight of its light; the second random number is unused.
     fn line(
         &mut self,
         sample: impl Fn(f32) -> Vec3<f32>,
@@ -84,7 +84,7 @@ impl Draw<'_> {
             Sample { weight: weight(u[0]), ..Sample::new([w.x, w.y, w.z], pdf(w), inverse) }
         });
     }
-    /// The directions of ours with a density computed otherwise, times the cosine to a normal if there is one.
+    /// Draws our directions with another pdf: `density`, times the cosine to a normal if given.
     fn with_density(&mut self, warp: &impl Warp<f32, Point = Vec3<f32>>, density: f32, normal: Option<Vec3<f32>>) {
         self.each(|u, _| {
             let w = warp.sample(Vec2::new(u[0], u[1]));
@@ -103,11 +103,11 @@ impl Draw<'_> {
 /// A technique.
 #[derive(Clone, Copy, Debug)]
 pub struct Method {
-    /// Short.
+    /// Short name.
     pub name: &'static str,
-    /// Of the core, or a baseline?
+    /// Whether it belongs to the library; otherwise it is a baseline.
     pub ours: bool,
-    /// Prepares for a pose and draws.
+    /// Prepares for a pose and draws samples.
     pub run: fn(&Pose, &mut Draw<'_>),
 }
 
@@ -150,7 +150,7 @@ fn corners(pose: &Pose) -> [V; 6] {
         _ => [[0.0; 3]; 6],
     }
 }
-/// As the core orders them: about the first corner.
+/// The two triangles of a parallelogram, in the order of the library: about the first corner.
 fn halves(pose: &Pose) -> [[V; 3]; 2] {
     let (p, u, v) = flat(pose);
     let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
@@ -162,7 +162,7 @@ fn hexagon(pose: &Pose) -> [[V; 3]; 4] {
 }
 const ORIGIN: Vec3<f32> = Vec3 { x: 0.0, y: 0.0, z: 0.0 };
 
-/// Those of a kind of shape: by solid angle or projected solid angle first, then by area, then the textbook's.
+/// The techniques for a kind of shape: by (projected) solid angle, then by area, then textbook formulas.
 #[must_use]
 pub fn methods(kind: Kind) -> Vec<Method> {
     let ours = |name, run| Method { name, ours: true, run };
@@ -190,7 +190,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
         let light = line(pose);
         draw.each(|u, _| {
             let LightSample { direction: w, distance, pdf, .. } = light.by_length(ORIGIN).sample(Vec2::new(u[0], 0.0));
-            // per radian of the plane of point and line
+            // per radian in the plane of point and line
             let density = if pdf > 0.0 { pdf / distance } else { 0.0 };
             Sample { by_area: true, weight: pdf, ..Sample::new([w.x, w.y, w.z], density, None) }
         });
@@ -218,7 +218,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.projected(&map, |cos| map.pdf_at_cosine(cos), vector(normal));
             }),
             sphere_area,
-            textbook("closed form of the density", |pose, draw| {
+            textbook("closed form of the pdf", |pose, draw| {
                 let (center, radius, normal) = sphere(pose);
                 let projected = textbook::projected_cap(center, radius, normal);
                 let cap = ProjectedCap::new(vector(center), radius, vector(normal));
@@ -244,7 +244,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 let (p, u, v) = flat(pose);
                 textbook::fan([[p, add(p, u), add(p, v)]], Excess::Oosterom, draw);
             }),
-            textbook("area outside 3e-4 to 6.22 sr", |pose, draw| {
+            textbook("by area outside 3e-4 to 6.22 sr", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 textbook::triangle_with_thresholds(p, u, v, draw);
             }),
@@ -255,8 +255,8 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.warp(&SphericalParallelogram::new(vector(p), vector(u), vector(v)));
             }),
             area,
-            textbook("two of Arvo, angle excess", |pose, draw| textbook::fan(halves(pose), Excess::Angles, draw)),
-            textbook("two of Van Oosterom", |pose, draw| textbook::fan(halves(pose), Excess::Oosterom, draw)),
+            textbook("Arvo ×2, angle excess", |pose, draw| textbook::fan(halves(pose), Excess::Angles, draw)),
+            textbook("Van Oosterom ×2", |pose, draw| textbook::fan(halves(pose), Excess::Oosterom, draw)),
         ],
         Kind::Rectangle => vec![
             ours("SphericalRectangle", |pose, draw| {
@@ -268,7 +268,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 let (p, u, v) = flat(pose);
                 textbook::urena(p, u, v, draw);
             }),
-            textbook("area outside 3e-4 to 6.22 sr", |pose, draw| {
+            textbook("by area outside 3e-4 to 6.22 sr", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 textbook::rectangle_with_thresholds(p, u, v, draw);
             }),
@@ -278,8 +278,8 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.warp(&SphericalPolygon::new(corners(pose).map(vector)));
             }),
             polygon_area,
-            textbook("four of Arvo, angle excess", |pose, draw| textbook::fan(hexagon(pose), Excess::Angles, draw)),
-            textbook("four of Van Oosterom", |pose, draw| textbook::fan(hexagon(pose), Excess::Oosterom, draw)),
+            textbook("Arvo ×4, angle excess", |pose, draw| textbook::fan(hexagon(pose), Excess::Angles, draw)),
+            textbook("Van Oosterom ×4", |pose, draw| textbook::fan(hexagon(pose), Excess::Oosterom, draw)),
         ],
         Kind::Disk => vec![
             ours("SphericalDisk", |pose, draw| {
@@ -367,7 +367,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.line(|u| map.sample(u), |w| map.pdf(w), |w| map.invert(w), weight);
             }),
             length,
-            textbook("density over its closed form", |pose, draw| {
+            textbook("pdf by closed-form integral", |pose, draw| {
                 let (a, edge) = segment(pose);
                 let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));
                 let whole = textbook::projected_segment(a, edge, pose.normal);

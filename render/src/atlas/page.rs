@@ -1,4 +1,4 @@
-//! The maps, the table, and the page that shows them.
+//! Writes the maps, the table and the page.
 
 use super::pose::{Kind, Sweep};
 use super::{ErrorMap, Figures, LIMIT};
@@ -7,7 +7,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// What a map shows.
+/// The quantity that a map shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Measure {
     Direction,
@@ -23,7 +23,7 @@ const MEASURES: [(Measure, &str); 6] = [
     (Measure::RoundTrip, "round trip"),
     (Measure::Invalid, "invalid samples"),
     (Measure::Bias, "bias of irradiance"),
-    (Measure::Efficiency, "efficiency : by area"),
+    (Measure::Efficiency, "efficiency vs. area"),
 ];
 impl Measure {
     fn of(self, chart: &ErrorMap, cell: &Figures) -> f64 {
@@ -41,7 +41,7 @@ impl Measure {
     }
 }
 
-/// log₁₀ and colour: blue within the contract, from yellow to black beyond it.
+/// Colours by log₁₀ of the error: blue within the contract, yellow to black outside.
 const ERRORS: [(f64, [u8; 3]); 11] = [
     (-8.0, [0xed, 0xf4, 0xfa]),
     (-7.0, [0xc3, 0xdc, 0xee]),
@@ -55,9 +55,9 @@ const ERRORS: [(f64, [u8; 3]); 11] = [
     (0.0, [0x66, 0x00, 0x1a]),
     (0.1, [0x33, 0x00, 0x10]),
 ];
-/// Of a part of the samples.
+/// Colours by log₁₀ of a fraction of the samples.
 const PARTS: [(f64, [u8; 3]); 3] = [(-3.5, [0xff, 0xec, 0xa0]), (-1.5, [0xe3, 0x4a, 0x2c]), (0.0, [0x66, 0x00, 0x1a])];
-/// Worse than sampling by area, and better.
+/// Colours by log₁₀ of the efficiency: brown is worse than sampling by area, green is better.
 const RATIOS: [(f64, [u8; 3]); 7] = [
     (-3.0, [0x54, 0x30, 0x05]),
     (-1.0, [0xc9, 0x8f, 0x45]),
@@ -71,7 +71,7 @@ const NONE: &str = "#dcdcdc";
 const BROKEN: &str = "#000000";
 const CLEAN: &str = "#edf4fa";
 
-/// To a quarter of a decade, so that equal neighbours are one shape.
+/// Interpolates a colour, rounded to quarter decades, so that equal neighbours form one shape.
 fn blend(stops: &[(f64, [u8; 3])], log: f64) -> String {
     let log = ((log * 4.0).floor() / 4.0).clamp(stops[0].0, stops[stops.len() - 1].0);
     let above = stops.iter().position(|s| s.0 > log).unwrap_or(stops.len() - 1).max(1);
@@ -92,7 +92,7 @@ fn colour(measure: Measure, value: f64, cell: &Figures) -> String {
         _ => blend(&ERRORS, value.max(1e-9).log10()),
     }
 }
-/// Decades of a value: a contour runs between cells that differ.
+/// The decade of a value; contours separate cells of different decades.
 fn decade(measure: Measure, value: f64) -> Option<i32> {
     let lowest = if measure == Measure::Efficiency { -3.0 } else { -8.0 };
     (!value.is_nan() && value.is_finite()).then(|| value.max(1e-30).log10().floor().clamp(lowest, 12.0) as i32)
@@ -106,13 +106,13 @@ const PLOT: [f64; 2] = [250.0, 190.0];
 const MARGIN: [f64; 2] = [62.0, 22.0];
 const STEP: [f64; 2] = [PLOT[0] + 14.0, PLOT[1] + 22.0];
 
-/// One map, its lower left corner of cells at the origin, in cells.
+/// Draws one map, scaled to the size of a plot.
 fn map(chart: &ErrorMap, measure: Measure, out: &mut String) {
     let (nx, ny) = (chart.sweep.x.len(), chart.sweep.y.len());
     let at = |i: usize, j: usize| &chart.cells[j * nx + i];
     let value = |i: usize, j: usize| measure.of(chart, at(i, j));
     let (w, h) = (PLOT[0] / nx as f64, PLOT[1] / ny as f64);
-    // runs of one colour, by colour
+    // horizontal runs of cells, grouped by colour
     let mut runs: Vec<(String, String)> = Vec::new();
     for j in 0..ny {
         let mut i = 0;
@@ -206,7 +206,7 @@ fn ticks(sweep: &Sweep, x_axis: bool, y_axis: bool, out: &mut String) {
     }
 }
 
-/// All maps of one sweep: techniques across, measures down.
+/// Draws all maps of one sweep, with techniques across and measures down.
 fn sheet(charts: &[&ErrorMap]) -> String {
     let sweep = &charts[0].sweep;
     let (columns, rows) = (charts.len() as f64, MEASURES.len() as f64);
@@ -241,27 +241,27 @@ fn sheet(charts: &[&ErrorMap]) -> String {
     let bottom = MARGIN[1] + STEP[1] * rows + 12.0;
     let _ = write!(
         out,
-        r#"<text x="{}" y="{bottom}" font-size="11">across: {}; upwards: {}</text>"#,
+        r#"<text x="{}" y="{bottom}" font-size="11">x: {}; y: {}</text>"#,
         MARGIN[0], sweep.x_title, sweep.y_title
     );
     out.push_str("</g></svg>");
     out
 }
 
-/// Greatest figures of a technique over all its sweeps.
+/// Greatest errors of a technique over all its sweeps.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// Of the shape.
+    /// Kind of shape.
     pub kind: Kind,
-    /// Its name, and whether it is of the core.
+    /// Name of the technique, and whether it belongs to the library.
     pub method: (&'static str, bool),
-    /// Of direction, pdf, round trip and bias; NaN: not measured.
+    /// Greatest errors of direction, pdf and round trip, and greatest bias; NaN if not measured.
     pub greatest: [f64; 4],
-    /// Cells that keep the contract, that have an invalid sample, and all.
+    /// Numbers of cells within the contract, of cells with an invalid sample, and of all cells.
     pub cells: [usize; 3],
-    /// Cells with a bias within the limit, and all in which it was measured.
+    /// Numbers of cells whose bias is within the limit, and of all cells with a measured bias.
     pub unbiased: [usize; 2],
-    /// Nanoseconds for one sample.
+    /// Nanoseconds to prepare for a point and draw one sample.
     pub cost: f64,
 }
 
@@ -271,7 +271,7 @@ impl Summary {
     }
 }
 
-/// Of each kind and technique, in order.
+/// Summaries of each kind and technique, in order.
 #[must_use]
 pub fn summary(charts: &[ErrorMap]) -> Vec<Summary> {
     let mut all: Vec<Summary> = Vec::new();
@@ -389,7 +389,7 @@ fn html(charts: &[ErrorMap], sheets: &[(Kind, Sweep, String)], quick: bool) -> S
         let _ = writeln!(maps, r#"<h3>{}</h3><div class="sheet">{svg}</div>"#, escape(sweep.title));
     }
     include_str!("atlas.html")
-        .replace("{{DETAIL}}", if quick { "A quick survey: coarse axes. " } else { "" })
+        .replace("{{DETAIL}}", if quick { "This is a quick survey with coarse axes. " } else { "" })
         .replace("{{ERRORS}}", &legend(&ERRORS, -8, 0, "≤", "≥"))
         .replace("{{RATIOS}}", &legend(&RATIOS, -3, 8, "≤", "≥"))
         .replace("{{SUMMARY}}", &rows)
@@ -441,10 +441,10 @@ fn table_of_cells(charts: &[ErrorMap]) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(out.into_inner()?)
 }
 
-/// Writes `atlas.csv`, a sheet of maps for each sweep, and last of all `atlas.html`, which holds everything.
+/// Writes `atlas.csv`, one SVG of maps per sweep, and finally `atlas.html`, which contains everything.
 ///
 /// # Errors
-/// Where a file cannot be written.
+/// Fails if a file cannot be written.
 pub fn write(charts: &[ErrorMap], directory: &Path, quick: bool) -> Result<(), Box<dyn Error>> {
     let mut sheets: Vec<(Kind, Sweep, String)> = Vec::new();
     let mut rest = charts;

@@ -1,16 +1,16 @@
-//! Where a shape stands: the two sweeps, with lengths that are exact in f32.
+//! Poses of shapes, and the sweeps over them, with lengths that are exact in f32.
 
 use clap::ValueEnum;
 
 /// A vector in f64.
 pub type V3 = [f64; 3];
 
-/// f32 to f64.
+/// Converts f32 to f64.
 #[must_use]
 pub fn wide(a: [f32; 3]) -> V3 {
     a.map(f64::from)
 }
-/// Unit vector; 0 stays 0.
+/// Normalizes a vector; 0 stays 0.
 #[must_use]
 pub fn unit(a: V3) -> V3 {
     let l = a[0].hypot(a[1]).hypot(a[2]);
@@ -23,7 +23,7 @@ fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// What the atlas sweeps.
+/// A kind of shape and the measure by which it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Kind {
     /// A sphere by solid angle
@@ -48,21 +48,21 @@ pub enum Kind {
     ProjectedParallelogram,
     /// A convex hexagon by projected solid angle
     ProjectedPolygon,
-    /// A line segment by what it gives to a surface
+    /// A line segment by the irradiance it causes
     ProjectedSegment,
 }
 impl Kind {
-    /// All of them.
+    /// All kinds.
     #[must_use]
     pub fn all() -> &'static [Self] {
         Self::value_variants()
     }
-    /// As on the command line.
+    /// The name on the command line.
     #[must_use]
     pub fn name(self) -> String {
         self.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
     }
-    /// What it is.
+    /// A description.
     #[must_use]
     pub fn about(self) -> String {
         let help = self.to_possible_value().and_then(|v| v.get_help().map(ToString::to_string));
@@ -71,12 +71,12 @@ impl Kind {
     fn round(self) -> bool {
         matches!(self, Self::Sphere | Self::ProjectedSphere)
     }
-    /// Has it length alone?
+    /// Whether it is a line segment.
     #[must_use]
     pub fn line(self) -> bool {
         matches!(self, Self::Segment | Self::ProjectedSegment)
     }
-    /// Is its density that of the irradiance of a receiver?
+    /// Whether its pdf is proportional to the irradiance of a receiver.
     #[must_use]
     pub fn projected(self) -> bool {
         matches!(
@@ -99,48 +99,48 @@ impl Kind {
 /// A shape relative to the viewpoint.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// Centre and radius.
+    /// A sphere.
     Sphere {
         /// Centre.
         center: [f32; 3],
         /// Radius.
         radius: f32,
     },
-    /// A triangle or a parallelogram: corner and edges.
+    /// A triangle or a parallelogram.
     Flat {
         /// Corner.
         p: [f32; 3],
-        /// Edge.
+        /// First edge from that corner.
         u: [f32; 3],
-        /// Edge.
+        /// Second edge from that corner.
         v: [f32; 3],
     },
-    /// A hexagon.
+    /// The corners of a hexagon.
     Corners([[f32; 3]; 6]),
     /// A disk.
     Disk {
         /// Centre.
         center: [f32; 3],
-        /// Of any length.
+        /// Normal of any length.
         normal: [f32; 3],
         /// Radius.
         radius: f32,
     },
-    /// A line.
+    /// A line segment.
     Segment {
         /// First end.
         a: [f32; 3],
-        /// To the other.
+        /// Vector from the first end to the second.
         edge: [f32; 3],
     },
 }
 
-/// A shape, and the receiver's normal.
+/// A shape and the receiver's normal.
 #[derive(Clone, Debug)]
 pub struct Pose {
-    /// Relative to the viewpoint.
+    /// The shape, relative to the viewpoint.
     pub shape: Shape,
-    /// Of the receiver.
+    /// Unit normal of the receiver.
     pub normal: [f32; 3],
 }
 
@@ -149,39 +149,39 @@ pub struct Pose {
 pub struct Tick {
     /// The value.
     pub value: f64,
-    /// As written on the axis.
+    /// Label on the axis; empty for none.
     pub label: String,
 }
 
-/// Two axes.
+/// A sweep over two parameters.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    /// As in the table.
+    /// Name in file names and in the table.
     pub name: &'static str,
-    /// Over the map.
+    /// Title of the maps.
     pub title: &'static str,
-    /// Across.
+    /// Title of the x axis.
     pub x_title: &'static str,
-    /// Upwards.
+    /// Title of the y axis.
     pub y_title: &'static str,
-    /// Across.
+    /// Values of the x axis.
     pub x: Vec<Tick>,
-    /// Upwards.
+    /// Values of the y axis.
     pub y: Vec<Tick>,
-    /// What they are.
+    /// Parameters that vary.
     axes: Axes,
 }
 
-/// What a sweep varies.
+/// The parameters of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Axes {
-    /// Size, and elevation of a sphere over the horizon or of the viewpoint over a flat shape.
+    /// Size, and elevation of a sphere above the horizon or of the viewpoint above a flat shape.
     Elevation,
-    /// Size, and elevation of the light over the horizon in units of its size.
+    /// Size, and elevation of the light above the horizon in units of its size.
     Horizon,
     /// Aspect ratio and distance.
     Aspect,
-    /// Where the viewpoint is over a disk's plane, and how high.
+    /// Distance of the viewpoint's foot on the disk's plane from the centre, and height above the plane.
     Foot,
 }
 
@@ -197,7 +197,7 @@ fn powers(low: i32, high: i32, per_decade: i32) -> Vec<Tick> {
     (low * per_decade..=high * per_decade).map(|i| power(f64::from(i) / f64::from(per_decade))).collect()
 }
 
-/// From the nadir to the zenith: sines, finest at the horizon.
+/// Sines of elevations from the nadir to the zenith, densest at the horizon.
 fn elevations(per_decade: i32) -> Vec<Tick> {
     let mut up: Vec<_> = powers(-7, -1, per_decade);
     up.extend([named(0.3, ""), named(0.6, ""), named(0.9, ""), named(1.0, "1")]);
@@ -211,7 +211,7 @@ fn elevations(per_decade: i32) -> Vec<Tick> {
     all
 }
 
-/// Elevations in units of the size: where the horizon touches and cuts.
+/// Elevations in units of the size, densest where the horizon touches the shape.
 fn cuts() -> Vec<Tick> {
     let near = |k: i32| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" });
     let mut up = vec![named(1.1, "1.1"), named(1.001, ""), named(1.0 + 1e-6, ""), named(1.0, "1")];
@@ -233,7 +233,7 @@ fn cuts() -> Vec<Tick> {
 pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
     let fine = if quick { 1 } else { 2 };
     if kind.round() {
-        // to the surface, and inside
+        // up to the surface, and inside
         let mut x = powers(-9, -1, fine);
         x.extend([named(0.3, ""), named(0.7, ""), named(0.9, "0.9")]);
         x.extend((2..=7).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" })));
@@ -241,7 +241,7 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
         return vec![
             Sweep {
                 name: "size-elevation",
-                title: "size × elevation of the centre over the horizon",
+                title: "size × elevation of the centre above the horizon",
                 x_title: "radius / distance",
                 y_title: "sine of elevation",
                 x: x.clone(),
@@ -262,9 +262,9 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
     let mut list = vec![Sweep {
         name: "size-elevation",
         title: if kind.line() {
-            "size × elevation of the viewpoint over the line of the light"
+            "size × elevation of the viewpoint above the line of the light"
         } else {
-            "size × elevation of the viewpoint over the plane of the light"
+            "size × elevation of the viewpoint above the plane of the light"
         },
         x_title: "size / distance",
         y_title: "sine of elevation",
@@ -275,7 +275,7 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
     if kind.projected() {
         list.push(Sweep {
             name: "size-horizon",
-            title: "size × elevation of the light over the surface, in units of its size: where the horizon cuts",
+            title: "size × elevation of the light above the surface, in units of its size: where the horizon cuts",
             x_title: "size / distance",
             y_title: "height of the centre / half the size",
             x: powers(-9, 2, fine),
@@ -294,7 +294,7 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
         x.extend(powers(1, 6, fine));
         list.push(Sweep {
             name: "foot-height",
-            title: "foot of the viewpoint on the disk's plane × its height",
+            title: "foot of the viewpoint on the disk's plane × height of the viewpoint",
             x_title: "distance of the foot from the centre / radius",
             y_title: "height / radius",
             x,
@@ -315,7 +315,7 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
     list
 }
 
-/// SplitMix64.
+/// The SplitMix64 generator.
 struct Random(u64);
 impl Random {
     fn word(&mut self) -> u64 {
@@ -330,7 +330,7 @@ impl Random {
     }
 }
 
-/// `n` points of the square, biased to its edges: multiples of 2⁻²⁴.
+/// `n` points of the unit square, many of them at its edges; coordinates are multiples of 2⁻²⁴.
 #[must_use]
 pub fn square(n: usize, seed: u64) -> Vec<[f32; 2]> {
     const EDGES: [f32; 7] = [0.0, 1.0 / 16_777_216.0, 1e-3, 0.5, 0.75, 0.999, 1.0 - 1.0 / 16_777_216.0];
@@ -341,13 +341,13 @@ pub fn square(n: usize, seed: u64) -> Vec<[f32; 2]> {
                 let word = random.word();
                 if edge { EDGES[(word % 7) as usize] } else { (word >> 40) as f32 / 16_777_216.0 }
             };
-            // a quarter in a corner, a half at a side
+            // a quarter of them in a corner, half of them at an edge
             [axis(i % 4 < 2), axis(i % 4 == 0 || i % 4 == 2)]
         })
         .collect()
 }
 
-/// To 8 bits.
+/// Rounds to 8 bits.
 fn coarse(x: f64) -> f64 {
     if x == 0.0 {
         return 0.0;
@@ -356,8 +356,8 @@ fn coarse(x: f64) -> f64 {
     (x / unit).round() * unit
 }
 
-/// Three perpendicular vectors whose products with numbers of 8 bits are exact in f32: columns of the rotation by a quaternion of small
-/// integers. The third has length 1. `upright`: the third is the z axis, so that a height of 0 is exact.
+/// Three perpendicular vectors whose products with 8-bit numbers are exact in f32: columns of the rotation by a quaternion of small
+/// integers. The third has length 1; if `upright`, it is the z axis, so that a height of 0 is exact.
 fn axes(random: &mut Random, upright: bool) -> [V3; 3] {
     let mut pick = || (random.word() % 13) as f64 - 6.0;
     let (a, d) = (pick() + 0.5, pick());
@@ -368,13 +368,13 @@ fn axes(random: &mut Random, upright: bool) -> [V3; 3] {
 }
 
 impl Sweep {
-    /// Does it vary the distance to a shape of one size?
+    /// Whether the sweep varies the distance to a shape of fixed size.
     #[must_use]
     pub fn touches(&self) -> bool {
         matches!(self.axes, Axes::Aspect | Axes::Foot)
     }
 
-    /// The pose of a cell; each `turn` is another rotation of it.
+    /// The pose of a cell, rotated at random for each `turn`.
     #[must_use]
     pub fn pose(&self, kind: Kind, x: f64, y: f64, turn: u64) -> Pose {
         let mut random = Random(turn.wrapping_mul(0x1234_5678_9abc_def1) ^ x.to_bits() ^ y.to_bits().rotate_left(17));
@@ -391,7 +391,7 @@ impl Sweep {
             let center = narrow(at([level(sin) * c, level(sin) * s, sin]));
             return Pose { shape: Shape::Sphere { center, radius: x as f32 }, normal: up };
         }
-        // a flat light lies across the third axis, a line along the first; its centre is at `center`
+        // a flat light is perpendicular to the third axis, a line lies along the first
         let (length, width, center) = match self.axes {
             Axes::Elevation if kind.line() => {
                 let (s, c) = around(&mut random);
@@ -409,7 +409,7 @@ impl Sweep {
             }
         };
         let center = at(center);
-        // the receiver faces the light, or has it at the horizon: there the normal is turned about an axis across both
+        // the receiver faces the light, or has it at the horizon
         let towards = if center == [0.0; 3] { units[2] } else { unit(center) };
         let normal = if self.axes == Axes::Horizon {
             let across = unit(cross(towards, units[(turn % 3) as usize]));
@@ -453,7 +453,7 @@ impl Sweep {
         }
         let (u, v) = (narrow(u), narrow(v));
         let middle = if kind.triangle() { 1.0 / 3.0 } else { 0.5 };
-        // touching: within, on a vertex, on an edge
+        // if it touches: the viewpoint is inside, at a vertex or on an edge
         let (s, t) = match turn % 3 {
             1 if self.axes == Axes::Aspect && y == 0.0 => (0.0, 0.0),
             2 if self.axes == Axes::Aspect && y == 0.0 => (0.5, 0.0),

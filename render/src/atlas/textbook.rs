@@ -1,5 +1,4 @@
-//! Baselines: the forms that textbooks and papers print, in f32, as they are usually coded. They are here to be seen failing: nothing
-//! else calls them.
+//! Baselines: formulas from textbooks and papers in f32, as they are usually implemented. They only serve to show where they fail.
 
 use super::methods::{Draw, Sample};
 use core::f32::consts::{FRAC_PI_2, PI, TAU};
@@ -29,8 +28,8 @@ fn normalize(a: V) -> V {
     a.map(|x| x / l)
 }
 
-/// The cone by its cosine: cosσ = √(1 − R²/d²), cosθ = 1 − u₀(1 − cosσ), sinθ = √(1 − cos²θ). With `series`, below sin²σ = 0.00068523 (1.5°)
-/// sin²θ = u₀ sin²σ and 1 − cosσ = ½ sin²σ, as in PBR 4th ed., 6.2.4.
+/// A cone by its cosine: cosσ = √(1 − R²/d²), cosθ = 1 − u₀(1 − cosσ), sinθ = √(1 − cos²θ). With `series`,
+/// sin²θ = u₀ sin²σ and 1 − cosσ = ½ sin²σ below sin²σ = 0.00068523 (1.5°), as in PBR 4th ed., 6.2.4.
 pub fn cone(center: V, radius: f32, series: bool, draw: &mut Draw<'_>) {
     let distance = length(center);
     let axis = normalize(center);
@@ -75,16 +74,16 @@ pub fn projected_cap(center: V, radius: f32, normal: V) -> f32 {
     }
 }
 
-/// How the solid angle of a spherical triangle is computed.
+/// How to compute the solid angle of a spherical triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excess {
-    /// α + β + γ − π, the angles by arc cosines of the planes' normals (Girard; Arvo 1995).
+    /// α + β + γ − π, with angles by arc cosines of the planes' normals (Girard; Arvo 1995).
     Angles,
     /// 2 atan2(|a·(b×c)|, 1 + a·b + b·c + c·a) on unit vectors (Van Oosterom and Strackee 1983).
     Oosterom,
 }
 
-/// A spherical triangle and Arvo's map, "Stratified Sampling of Spherical Triangles", 1995: about b, from a to c.
+/// A spherical triangle and Arvo's map about b, from a to c ("Stratified Sampling of Spherical Triangles", 1995).
 #[derive(Clone, Copy, Debug)]
 pub struct Arvo {
     a: V,
@@ -95,7 +94,7 @@ pub struct Arvo {
     solid_angle: f32,
 }
 impl Arvo {
-    /// Of vertices relative to the point.
+    /// The triangle of vertices relative to the point.
     #[must_use]
     pub fn new([a, b, c]: [V; 3], excess: Excess) -> Self {
         let (a, b, c) = (normalize(a), normalize(b), normalize(c));
@@ -112,7 +111,7 @@ impl Arvo {
         };
         Self { a, b, c, cos_c: dot(a, b), angle: [alpha.sin(), alpha.cos()], solid_angle }
     }
-    /// In steradians.
+    /// Solid angle in steradians.
     #[must_use]
     pub fn solid_angle(&self) -> f32 {
         self.solid_angle
@@ -133,7 +132,7 @@ impl Arvo {
         let z = 1.0 - u[1] * (1.0 - dot(swept, self.b));
         add(times(self.b, z), times(towards(self.b, swept), (1.0 - z * z).max(0.0).sqrt()))
     }
-    /// The inverse: the solid angle of the triangle swept over that of the whole, and a ratio of 1 − cos.
+    /// The inverse: the swept fraction of the solid angle, and a ratio of values of 1 − cos.
     #[must_use]
     pub fn invert(&self, w: V, excess: Excess) -> [f32; 2] {
         let plane = cross(self.b, w);
@@ -149,7 +148,7 @@ impl Arvo {
     }
 }
 
-/// A fan of spherical triangles, one for each part of u₀.
+/// A fan of spherical triangles, chosen by u₀.
 pub fn fan<const N: usize>(triangles: [[V; 3]; N], excess: Excess, draw: &mut Draw<'_>) {
     let fans = triangles.map(|t| Arvo::new(t, excess));
     let whole: f32 = fans.iter().map(Arvo::solid_angle).sum();
@@ -174,7 +173,7 @@ pub fn fan<const N: usize>(triangles: [[V; 3]; N], excess: Excess, draw: &mut Dr
     });
 }
 
-/// A point of a flat shape, uniform by area: d²/(|cosθ'| A). A triangle if `half`, else a parallelogram.
+/// A point of a flat shape, uniform by area, with pdf d²/(|cosθ'| A). The shape is a triangle if `half`, else a parallelogram.
 pub fn area(p: V, e1: V, e2: V, half: bool, draw: &mut Draw<'_>) {
     let normal = cross(e1, e2);
     let area = length(normal) * if half { 0.5 } else { 1.0 };
@@ -193,7 +192,7 @@ pub fn area(p: V, e1: V, e2: V, half: bool, draw: &mut Draw<'_>) {
     });
 }
 
-/// A renderer's triangle: by solid angle (Van Oosterom and Strackee, Arvo) from 3e−4 to 6.22 steradians, by area outside.
+/// A triangle as in renderers: by solid angle (Van Oosterom and Strackee, Arvo) from 3e−4 to 6.22 sr, otherwise by area.
 pub fn triangle_with_thresholds(p: V, e1: V, e2: V, draw: &mut Draw<'_>) {
     let vertices = [p, add(p, e1), add(p, e2)];
     let solid_angle = Arvo::new(vertices, Excess::Oosterom).solid_angle();
@@ -216,7 +215,7 @@ pub struct Urena {
     solid_angle: f32,
 }
 impl Urena {
-    /// Of a corner and two perpendicular edges.
+    /// The rectangle of a corner and two perpendicular edges.
     #[must_use]
     pub fn new(p: V, u: V, v: V) -> Self {
         let (lu, lv) = (length(u), length(v));
@@ -243,7 +242,7 @@ impl Urena {
             solid_angle: gamma[0] + gamma[1] - k,
         }
     }
-    /// In steradians.
+    /// Solid angle in steradians.
     #[must_use]
     pub fn solid_angle(&self) -> f32 {
         self.solid_angle
@@ -271,13 +270,13 @@ impl Urena {
         let scale = self.z / dot(w, n);
         let x = (dot(w, a) * scale).clamp(self.x[0], self.x[1]);
         let y = dot(w, b) * scale;
-        // cos of the azimuth about y, then f, then b₀ cos − f sin = b₁
+        // the cosine of the azimuth about y, then f, then b₀ cos − f sin = b₁
         let [b0, b1] = self.b;
         let c = x / (x * x + self.z * self.z).sqrt();
         let f = (1.0 / (c * c) - b0 * b0).max(0.0).sqrt().copysign(c);
         let radius = (b0 * b0 + f * f).sqrt();
         let (offset, reach) = (f.atan2(b0), (b1 / radius).clamp(-1.0, 1.0).acos());
-        // of the angles that solve it, the one within the swept part
+        // takes the solution that lies within the swept angle
         let mut best = (f32::INFINITY, 0.0);
         for root in [reach - offset, -reach - offset] {
             for turn in [0.0, TAU, 2.0 * TAU] {
@@ -304,13 +303,13 @@ pub fn urena(p: V, u: V, v: V, draw: &mut Draw<'_>) {
     });
 }
 
-/// A renderer's rectangle: the published one from 3e−4 to 6.22 steradians, by area outside.
+/// A rectangle as in renderers: the published map from 3e−4 to 6.22 sr, otherwise by area.
 pub fn rectangle_with_thresholds(p: V, u: V, v: V, draw: &mut Draw<'_>) {
     let solid_angle = Urena::new(p, u, v).solid_angle();
     if (3e-4..=6.22).contains(&solid_angle) { urena(p, u, v, draw) } else { area(p, u, v, false, draw) }
 }
 
-/// The projected solid angle of a polygon: clipped to the horizon, then Lambert's sum with arc cosines of the vertices' unit vectors.
+/// The projected solid angle of a polygon, clipped to the horizon, by Lambert's sum with arc cosines of the vertices' unit vectors.
 #[must_use]
 pub fn lambert(corners: &[V], normal: V) -> f32 {
     let mut above = Vec::new();
@@ -331,7 +330,8 @@ pub fn lambert(corners: &[V], normal: V) -> f32 {
     0.5 * (0..above.len()).map(edge).sum::<f32>().abs()
 }
 
-/// The solid angle of a disk by 32 midpoints of 2π − 4∫√(q/(q+a²b²)) over the tangents a and b of its cone, from a half-angle by arc cosines.
+/// The solid angle of a disk by 32 midpoints of 2π − 4∫√(q/(q+a²b²)), with a and b the tangents of the half-angles of its cone, from arc
+/// cosines.
 #[must_use]
 pub fn disk(center: V, normal: V, radius: f32) -> f32 {
     let n = normalize(normal);
@@ -355,7 +355,7 @@ pub fn disk(center: V, normal: V, radius: f32) -> f32 {
     TAU - 4.0 * sum * FRAC_PI_2 / N as f32
 }
 
-/// Equiangular sampling by arc tangents from the foot of the perpendicular: Kulla and Fajardo 2012.
+/// Equiangular sampling by arc tangents from the foot of the perpendicular (Kulla and Fajardo 2012).
 #[derive(Clone, Copy, Debug)]
 pub struct Equiangular {
     foot: V,
@@ -364,7 +364,7 @@ pub struct Equiangular {
     angles: [f32; 2],
 }
 impl Equiangular {
-    /// From one end, and to the other.
+    /// The segment from `a` to `a + edge`.
     #[must_use]
     pub fn new(a: V, edge: V) -> Self {
         let size = length(edge);
@@ -385,7 +385,7 @@ impl Equiangular {
     pub fn distance(&self, u: f32) -> f32 {
         self.height / ((1.0 - u) * self.angles[0] + u * self.angles[1]).cos()
     }
-    /// Per radian.
+    /// The pdf per radian.
     #[must_use]
     pub fn pdf(&self) -> f32 {
         1.0 / (self.angles[1] - self.angles[0])

@@ -1,5 +1,5 @@
-//! What is true of a shape seen from a point: solid angles, densities and the maps themselves in 106 bits. Nothing here calls the bodies
-//! under test, but for the directions of projected shapes (see [`Truth::direction`]).
+//! Exact results for a shape seen from a point: solid angles, pdfs and the maps themselves in 106 bits. Nothing here calls the code under
+//! test, except for the directions of projected shapes (see [`Truth::direction`]).
 
 use super::curves::{Arc, Ellipse};
 use super::double_double::{Dd, Dd3, above_horizon, add, cross, dd, dot, lambert, length, narrow, normalized, times};
@@ -10,7 +10,7 @@ use etendue::spherical::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
 use etendue::warp::ConcentricDisk;
 use etendue::{Frame, Vec2, Vec3, Warp};
 
-/// 1−cosσ of a sphere; 2 from inside.
+/// 1−cosσ of a sphere, or 2 from inside.
 #[must_use]
 pub fn cap(center: V3, radius: f64) -> f64 {
     let (c, r) = (dd(center), Dd::from(radius));
@@ -23,7 +23,7 @@ pub fn cap(center: V3, radius: f64) -> f64 {
     (r * r / squared / (Dd::from(1.0) + cos)).to_f64()
 }
 
-/// Projected solid angle of a sphere above the horizon of `normal`, in closed form; π from inside.
+/// Projected solid angle of a sphere above the horizon of `normal`, in closed form, or π from inside.
 #[must_use]
 pub fn projected_cap(center: V3, radius: f64, normal: V3) -> f64 {
     let (c, r, n) = (dd(center), Dd::from(radius), dd(normal));
@@ -41,7 +41,7 @@ pub fn projected_cap(center: V3, radius: f64, normal: V3) -> f64 {
         return 0.0;
     }
     let y = ((sin - height) * (sin + height)).sqrt();
-    // a thin lune is a small difference of the three
+    // for a thin lune, this is a small difference of three terms
     (y.atan2(cos) + sin * sin * height * y.atan2(-(cos * height)) - y * cos).to_f64()
 }
 
@@ -53,20 +53,20 @@ enum Map {
     Disk(Box<Ellipse>),
     Line(Arc),
     Surface(Arc),
-    // the f64 bodies, whose properties the tests hold to closed forms
+    // the f64 instances, which tests compare with closed forms
     Lune(Box<ProjectedCap<f64>>),
     Triangle(Box<ProjectedTriangle<f64>>),
     Quad(Box<ProjectedPolygon<f64, 4>>),
     Hexagon(Box<ProjectedPolygon<f64, 6>>),
 }
 
-/// Of one pose.
+/// The exact results for one pose.
 #[derive(Clone, Debug)]
 pub struct Truth {
     map: Map,
     /// Solid angle, or projected solid angle.
     pub measure: f64,
-    /// Greatest angle between two directions to it.
+    /// Greatest angle between two directions to the shape.
     pub extent: f64,
     projected: bool,
     normal: V3,
@@ -80,7 +80,7 @@ fn between(a: Dd3, b: Dd3) -> f64 {
 }
 
 impl Truth {
-    /// Of a kind of shape in a pose.
+    /// The exact results for a kind of shape in a pose.
     #[must_use]
     pub fn new(kind: Kind, pose: &Pose) -> Self {
         let projected = kind.projected();
@@ -172,8 +172,8 @@ impl Truth {
         Self { map, measure, extent, projected, normal, shape: pose.shape.clone(), kind }
     }
 
-    /// The direction for `u`, computed from the map's definition; but of projected spheres, triangles, parallelograms and polygons it is
-    /// that of the f64 body, whose density the properties of the tests hold to the closed form.
+    /// The direction for `u`, computed from the definition of the map. For projected spheres, triangles, parallelograms and polygons it
+    /// comes from the f64 instance, whose pdf the tests compare with the closed form.
     #[must_use]
     pub fn direction(&self, u: [f64; 2]) -> V3 {
         match &self.map {
@@ -209,7 +209,7 @@ impl Truth {
         }
     }
 
-    /// Has it one dimension?
+    /// Whether the map has one dimension.
     #[must_use]
     pub fn line(&self) -> bool {
         self.kind.line()
@@ -229,13 +229,13 @@ impl Truth {
         if middle == [0.0; 3] { self.normal } else { unit(middle) }
     }
 
-    /// Is a coordinate of u an azimuth?
+    /// Whether this coordinate of u is an azimuth.
     #[must_use]
     pub fn periodic(&self, axis: usize) -> bool {
         matches!((&self.map, axis), (Map::Cap { .. }, 1) | (Map::Disk(_), 0))
     }
 
-    /// The density at a direction of the shape: its value, and by how much an error of the direction changes it, per radian.
+    /// The pdf at a direction of the shape, and its change per radian of error of the direction.
     #[must_use]
     pub fn pdf(&self, w: V3) -> [f64; 2] {
         let cos: f64 = (0..3).map(|i| w[i] * self.normal[i]).sum();
@@ -249,7 +249,7 @@ impl Truth {
         }
     }
 
-    /// The direction for `u` and its density where `u` is uniform over the area: 0 where that has no finite value.
+    /// The direction and its pdf if `u` is uniform over the area; the pdf is 0 if it is not finite.
     #[must_use]
     pub fn by_area(&self, u: [f64; 2]) -> (V3, f64) {
         let (point, normal) = match &self.shape {
@@ -323,8 +323,8 @@ fn sampled(body: &impl Warp<f64, Point = Vec3<f64>>, u: [f64; 2]) -> V3 {
 }
 
 impl Truth {
-    /// What the shape gives to a receiver with the unit normal `n`, per unit of radiance; of a segment, times the height over its line and
-    /// per unit of its width. By closed form; NaN for a disk, which has none.
+    /// Irradiance of a receiver with unit normal `n`, per unit of radiance, in closed form; for a segment, times the height above its line
+    /// and per unit of its width. NaN for a disk, which has no closed form.
     #[must_use]
     pub fn irradiance(&self, n: V3) -> f64 {
         let n = dd(n);
@@ -345,14 +345,14 @@ impl Truth {
             Shape::Segment { a, edge } => Arc::new(dd(wide(*a)), dd(wide(*edge)), Some(n)).whole,
         }
     }
-    /// Of the point over a line; 1 for what is none.
+    /// Height of the point above a line; 1 for other shapes.
     #[must_use]
     pub fn height(&self) -> f64 {
         let Shape::Segment { a, edge } = &self.shape else { return 1.0 };
         let (a, edge) = (dd(wide(*a)), dd(wide(*edge)));
         (length(cross(a, edge)) / length(edge)).to_f64()
     }
-    /// The distance of a line in a direction of the plane of point and line over the height; 1 for what is none.
+    /// Distance of a line in a direction within the plane of point and line, over the height; 1 for other shapes.
     #[must_use]
     pub fn stretch(&self, w: V3) -> f64 {
         let Shape::Segment { edge, .. } = &self.shape else { return 1.0 };

@@ -1,4 +1,4 @@
-//! Figures of measurements: how error falls, and what it costs.
+//! Figures of measured convergence and efficiency.
 
 use super::images::ratio_text;
 use super::sheet::Svg;
@@ -10,14 +10,14 @@ use crate::{Sampler, Settings, Technique, World, image, scene};
 use clap::ValueEnum;
 use std::error::Error;
 
-/// Samplers of these names that this program has.
+/// The samplers with these names, as far as they exist.
 fn samplers(names: &[&str]) -> Vec<Sampler> {
     names.iter().filter_map(|name| Sampler::from_str(name, false).ok()).collect()
 }
 
 impl Studio<'_> {
-    /// Measures into a folder beside the figures.
-    #[expect(clippy::too_many_arguments, reason = "what options have, but for what all figures share")]
+    /// Measures, with the results in a folder beside the figures.
+    #[expect(clippy::too_many_arguments, reason = "the options that differ between figures")]
     fn measure(
         &self,
         folder: &str,
@@ -45,7 +45,7 @@ impl Studio<'_> {
             target: None,
             time_limit: Some(3600),
             warps: false,
-            // references of fewer samples, where there is none
+            // renders missing references with fewer samples
             quick: true,
         };
         chart::measure(&options, self.stop)
@@ -67,9 +67,12 @@ impl Studio<'_> {
         let mut headline = slopes(summary);
         let last = |k: usize| summary.series[k].points.last().map(|p| p.mse);
         if let [Some(a), Some(b)] = [last(0), last(1)] {
-            headline.push(format!("at 1024 samples stratified has {:.1} times less error", a.value / b.value));
+            headline.push(format!(
+                "at 1024 samples, independent has {:.1} times the error of stratified",
+                a.value / b.value
+            ));
         }
-        // a corner of a box with its shadows
+        // crops of a box's corner with its shadows
         let world = World::new(&scene::load("quads")?)?;
         let mut rows = vec![Svg::chart(&charts::error_over_samples(summary).drawing)];
         for sampler in samplers {
@@ -99,7 +102,7 @@ impl Studio<'_> {
         let outcome = self.measure("efficiency", &scenes, Vec::new(), vec![Sampler::Independent], vec![16], 8, None)?;
         let mut headline = Vec::new();
         let mut charts = Vec::new();
-        // where all techniques are one there is nothing to compare
+        // a scene in which all techniques coincide has nothing to compare
         for summary in outcome.summaries.iter().filter(|s| s.series.len() > 1) {
             charts.extend(charts::efficiency(summary).map(|f| Svg::chart(&f.drawing)));
             let best = summary.gains.iter().max_by(|a, b| a.gain.value.total_cmp(&b.gain.value));
@@ -110,7 +113,7 @@ impl Studio<'_> {
                     name(summary.series[best.series].way.technique),
                     ratio_text(&best.gain)
                 ),
-                _ => format!("{}: nothing is more efficient than area", summary.scene),
+                _ => format!("{}: no technique is more efficient than area", summary.scene),
             });
         }
         let mut charts = charts.into_iter();
@@ -126,23 +129,23 @@ impl Studio<'_> {
     }
 
     pub(super) fn padding(&self) -> Result<Finding, Box<dyn Error>> {
-        // each is n⁴, 2n⁴ or 4n⁴
-        let about = "Pixel and light are four dimensions: points that are good in pairs, associated at random (padding), or \
-                     good in all four together.";
+        // all counts are n⁴, 2n⁴ or 4n⁴
+        let about = "Pixel and light have four dimensions: points are well distributed in pairs that are combined at random (padding), \
+                     or in all four dimensions together.";
         self.joint("padding", "sphere-light", vec![1, 4, 16, 64, 256, 1024], about)
     }
 
     pub(super) fn defocus(&self) -> Result<Finding, Box<dyn Error>> {
-        // stratified-4d takes only those that are n⁶, 2n⁶ or 4n⁶ of these
-        let about = "Pixel, lens and light are six dimensions: points that are good in pairs, associated at random (padding), or good in \
-                     all six together.";
+        // stratified-4d uses only the counts n⁶, 2n⁶ and 4n⁶
+        let about = "Pixel, lens and light have six dimensions: points are well distributed in pairs that are combined at random \
+                     (padding), or in all six dimensions together.";
         self.joint("defocus", "defocus", vec![1, 4, 16, 64, 256, 1024], about)
     }
 
-    /// Samplers that pad, and samplers that do not.
+    /// Compares padded with joint samplers.
     fn joint(&self, name: &str, scene: &str, counts: Vec<u32>, about: &str) -> Result<Finding, Box<dyn Error>> {
         const AT: u32 = 256;
-        // the error of a reference of few samples would drown that of the best samplers
+        // with fewer samples, the error of the reference would hide that of the best samplers
         let reference_spp = (scene == "defocus").then_some(8192);
         let samplers = samplers(&["independent", "stratified", "sobol", "stratified-4d", "sobol-4d"]);
         let techniques = vec![Technique::SolidAngle];
@@ -155,9 +158,8 @@ impl Studio<'_> {
                 let ratio = a.value / b.value;
                 let half = ratio * (a.relative() + b.relative());
                 let name = crate::chart::name(summary.series[k].way.sampler);
-                headline.push(format!(
-                    "at {AT} samples {name} has {ratio:.1} ± {half:.1} times less error than independent"
-                ));
+                headline
+                    .push(format!("at {AT} samples, independent has {ratio:.1} ± {half:.1} times the error of {name}"));
             }
         }
         let mut lines = vec![about.to_owned()];
@@ -167,7 +169,7 @@ impl Studio<'_> {
     }
 }
 
-/// The slope of each series.
+/// Describes the slope of each series.
 fn slopes(summary: &Summary) -> Vec<String> {
     let one = |s: &crate::chart::summary::Series| {
         let slope = s.slope.as_ref().map_or_else(|| "?".to_owned(), |e| with_interval(e).replace('-', "−"));

@@ -1,4 +1,4 @@
-//! Figures of images: what techniques make of a few samples.
+//! Figures of images rendered with few samples.
 
 use super::sheet::Svg;
 use super::{Finding, Studio, technique};
@@ -11,9 +11,9 @@ use crate::film::Film;
 use crate::{Sampler, Settings, Technique, World, image, scene};
 use std::error::Error;
 
-/// Images of different seeds behind a figure's numbers.
+/// Number of images, with different seeds, from which a figure's numbers are computed.
 const REPLICATES: u64 = 12;
-/// Side of an image on the sheet.
+/// Side of an image on the sheet, in CSS pixels.
 const SIDE: f64 = 256.0;
 
 fn pixels(film: &Film) -> Vec<[u8; 3]> {
@@ -21,7 +21,7 @@ fn pixels(film: &Film) -> Vec<[u8; 3]> {
 }
 
 impl Studio<'_> {
-    /// Replicates of an image of 256×256.
+    /// Renders replicates of an image of 256×256 pixels.
     fn films(&self, world: &World, technique: Technique, spp: u32, count: u64) -> impl Iterator<Item = Film> {
         let seed = self.options.seed.wrapping_add(hash(format!("{}/{spp}", name(technique)).as_bytes()));
         (0..count).map(move |k| {
@@ -39,10 +39,10 @@ impl Studio<'_> {
         })
     }
 
-    /// Techniques side by side, with the first one's error over that of the others.
+    /// Shows techniques side by side, with the ratio of the first one's error to each other one's.
     fn versus(&self, scene_name: &str, spp: u32, techniques: &[Technique]) -> Result<Finding, Box<dyn Error>> {
         let world = World::new(&scene::load(scene_name)?)?;
-        let reference = Reference::builtin(scene_name).ok_or("a scene without a reference")?;
+        let reference = Reference::builtin(scene_name).ok_or("the scene has no built-in reference")?;
         let mut panels = Vec::new();
         let mut costs: Vec<Vec<Cost>> = Vec::new();
         for &technique in techniques {
@@ -59,16 +59,17 @@ impl Studio<'_> {
         let truth: Vec<_> = reference.picture.radiance.iter().map(|p| image::tone_map(*p)).collect();
         panels.push(Svg::image("reference", [256, 256], &truth, SIDE));
         let mut lines = vec![format!(
-            "{scene_name}, 256×256, {spp} samples in a pixel, each with one shadow ray. Mean squared error over {REPLICATES} images, 95 % intervals:"
+            "{scene_name}, 256×256, {spp} samples per pixel, each with one shadow ray. Mean squared error over {REPLICATES} images, with \
+             95 % intervals:"
         )];
         for (technique, errors) in techniques.iter().zip(&costs) {
             let e = Estimate::of(&errors.iter().map(|c| c.mse).collect::<Vec<_>>());
             lines.push(format!("{}: {:.3e} ± {:.1} %", name(*technique), e.value, 100.0 * e.relative()));
         }
         for (technique, errors) in techniques.iter().zip(&costs).skip(1) {
-            let ratio = gain(errors, &costs[0]).ok_or("an error that is not positive")?;
+            let ratio = gain(errors, &costs[0]).ok_or("a measured error is not positive")?;
             let first = name(techniques[0]);
-            lines.push(format!("MSE ratio {first} : {} = {}", name(*technique), ratio_text(&ratio)));
+            lines.push(format!("MSE ratio {first} / {} = {}", name(*technique), ratio_text(&ratio)));
         }
         Ok(Finding { svg: Svg::row(panels).captioned(&lines), headline: lines })
     }
@@ -87,13 +88,13 @@ impl Studio<'_> {
         self.versus("triangle-light", 16, &techniques)
     }
 
-    /// Four samples: the image, what they say of its variance, and the truth about that.
+    /// Shows an image of four samples, their estimate of its variance, and the true variance.
     pub(super) fn sample_variance(&self) -> Result<Finding, Box<dyn Error>> {
         const N: u32 = 4;
         let world = World::new(&scene::load("quads")?)?;
-        let reference = Reference::builtin("quads").ok_or("a scene without a reference")?;
+        let reference = Reference::builtin("quads").ok_or("the scene has no built-in reference")?;
         let mean = |v: [f32; 3]| (f64::from(v[0]) + f64::from(v[1]) + f64::from(v[2])) / 3.0;
-        // of one sample, as many know it
+        // the variance of one sample, estimated from many
         let many = self.films(&world, Technique::SolidAngle, 4096, 1).next().ok_or("no image")?;
         let truth: Vec<f64> = many.pixels.iter().map(|p| mean(p.variance) * 4096.0).collect();
         let mut first = None;
@@ -117,22 +118,23 @@ impl Studio<'_> {
         };
         let panels = vec![
             Svg::image("mean of 4 samples", [256, 256], &picture, SIDE),
-            Svg::image("variance, as the 4 tell", [256, 256], &scaled(&claimed), SIDE),
-            Svg::image("variance, as 4096 tell", [256, 256], &scaled(&truth), SIDE),
+            Svg::image("variance estimated from 4", [256, 256], &scaled(&claimed), SIDE),
+            Svg::image("variance estimated from 4096", [256, 256], &scaled(&truth), SIDE),
         ];
         let (ratio, share) = (Estimate::of(&ratios), Estimate::of(&shares));
         let lines = vec![
             format!(
-                "quads, solid-angle, independent: variance of one sample, black {} and less, pale yellow {} and more, logarithmic between.",
+                "quads, solid-angle, independent: variance of one sample on a logarithmic scale; black is {} or less, \
+                 pale yellow {} or more.",
                 short(low),
                 short(high)
             ),
             format!(
-                "Over the image the sample variance/4 is right: {:.3} ± {:.3} of the squared error that was measured, over {REPLICATES} images.",
+                "Over the image, the sample variance/4 is correct: {:.3} ± {:.3} of the measured squared error, over {REPLICATES} images.",
                 ratio.value, ratio.half
             ),
             format!(
-                "In a pixel it is not: in {:.1} ± {:.1} % of them it is less than half of the truth.",
+                "In single pixels it is not: in {:.1} ± {:.1} % of them it is less than half of the true variance.",
                 share.value, share.half
             ),
         ];
@@ -140,7 +142,7 @@ impl Studio<'_> {
     }
 }
 
-/// A ratio with the interval of its logarithm.
+/// Formats a ratio with the interval of its logarithm.
 pub(super) fn ratio_text(ratio: &Estimate) -> String {
     let factor = 1.0 + ratio.half / ratio.value;
     format!("{} ({} to {})", short(ratio.value), short(ratio.value / factor), short(ratio.value * factor))

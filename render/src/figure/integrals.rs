@@ -1,4 +1,4 @@
-//! Figures of integrals whose variance is known in closed form.
+//! Figures of integrals with a variance in closed form.
 
 use super::Finding;
 use super::images::ratio_text;
@@ -16,7 +16,7 @@ fn bump(x: f64) -> f64 {
     (-1000.0 * (x - 0.25) * (x - 0.25)).exp()
 }
 
-/// A density of `outside` but for `inside` between 0.15 and 0.35.
+/// A pdf that is `inside` between 0.15 and 0.35 and `outside` elsewhere.
 #[derive(Clone, Copy)]
 struct Steps {
     outside: f64,
@@ -44,7 +44,7 @@ fn line(name: String, n: usize, points: impl Iterator<Item = (f64, Bar, bool)>, 
     Line { id: name.clone(), name, color: n, dash: n, joined, mark: 1.0, dots }
 }
 
-/// A curve without dots: many points that are joined.
+/// A curve without dots.
 fn curve(name: &str, n: usize, f: impl Fn(f64) -> f64) -> Line {
     let mut line =
         line(name.to_owned(), n, (0..=400).map(|i| f64::from(i) / 400.0).map(|x| (x, Bar::exact(f(x)), true)), true);
@@ -60,7 +60,7 @@ pub(super) fn importance(seed: u64) -> Finding {
     let perfect = Normal::<f64> { mean: 0.25, sigma };
     let integral = (std::f64::consts::PI / 1000.0).sqrt();
     let sequence = Independent::new(seed);
-    // variance of one sample, in each batch
+    // the variance of one sample in each batch
     let batches = |key: u32, estimate: &dyn Fn(f64) -> f64| -> Vec<f64> {
         (0..BATCHES as u32)
             .map(|batch| {
@@ -90,9 +90,9 @@ pub(super) fn importance(seed: u64) -> Finding {
         |a: &[f64], b: &[f64]| gain(&costs(a), &costs(b)).unwrap_or(Estimate { value: f64::NAN, half: f64::NAN });
     let (better, worse) = (known(&like, &uniform), known(&uniform, &unlike));
     let shapes = Chart {
-        title: "f(x) = exp(−1000(x−¼)²), and three densities".to_owned(),
+        title: "f(x) = exp(−1000(x−¼)²) and three pdfs".to_owned(),
         x_label: "x".to_owned(),
-        y_label: "f, and densities".to_owned(),
+        y_label: "f and pdfs".to_owned(),
         scales: [Scale::Linear, Scale::Linear],
         lines: vec![
             curve("f", 8, bump),
@@ -103,7 +103,7 @@ pub(super) fn importance(seed: u64) -> Finding {
         guides: Vec::new(),
         equal: false,
     };
-    // variance of the mean of N, from groups of the batches' own samples
+    // the variance of the mean of N samples, derived from that of one
     let errors = |name: &str, n: usize, v: &[f64]| {
         let e = of(v);
         let points = (0..=10).map(|k| f64::from(1 << k)).map(|count| {
@@ -131,15 +131,15 @@ pub(super) fn importance(seed: u64) -> Finding {
             of(&uniform).value,
             of(&uniform).half
         ),
-        format!("density 0.1 | 4.6 | 0.1: {} times lower (6.67 in closed form)", ratio_text(&better)),
-        format!("density 1.2 | 0.2 | 1.2: {} times higher (5.34 in closed form)", ratio_text(&worse)),
-        format!("density in proportion to f: variance {:.1e}, which is rounding", of(&exact).value),
+        format!("pdf 0.1 | 4.6 | 0.1: variance lower by a factor of {} (6.67 in closed form)", ratio_text(&better)),
+        format!("pdf 1.2 | 0.2 | 1.2: variance higher by a factor of {} (5.34 in closed form)", ratio_text(&worse)),
+        format!("pdf proportional to f: variance {:.1e}, which is rounding error", of(&exact).value),
     ];
     let charts = Svg::row(vec![Svg::chart(&shapes.draw()), Svg::chart(&convergence.draw())]);
     Finding { svg: charts.captioned(&headline), headline }
 }
 
-/// A point of a stratified or independent set, in f64 but for its 24 bits of jitter.
+/// Calls `each` with the points of a stratified or independent set.
 fn points(sequence: &impl Sequence, replicate: u32, n: u32, mut each: impl FnMut(f64, f64)) {
     for start in (0..n).step_by(8) {
         let samples = u32x8::new(std::array::from_fn(|k| start + k as u32));
@@ -152,7 +152,7 @@ fn points(sequence: &impl Sequence, replicate: u32, n: u32, mut each: impl FnMut
 }
 
 pub(super) fn stratification(seed: u64) -> Finding {
-    /// An integrand of x, y and a number that differs between replicates; less its integral.
+    /// An integrand minus its integral, as a function of x, y and a number that differs between replicates.
     type Integrand = fn(f64, f64, f64) -> f64;
     const EDGE: Integrand = |x, _, offset| f64::from(x < offset) - offset;
     const SMOOTH: Integrand = |x, _, _| x - 0.5;
@@ -165,7 +165,7 @@ pub(super) fn stratification(seed: u64) -> Finding {
             .map(|group| {
                 COUNTS
                     .map(|n| {
-                        // fewer of the larger sets, so that each takes its share of the time
+                        // fewer replicates of larger sets, so that all take similar time
                         let replicates = (REPLICATES * 256 / n).clamp(REPLICATES / 2, 4 * REPLICATES);
                         let square = |r: u32| {
                             let id = (key * GROUPS + group) * 4 * REPLICATES + r;
@@ -187,7 +187,7 @@ pub(super) fn stratification(seed: u64) -> Finding {
     };
     let counts = COUNTS.map(f64::from);
     let rates = [
-        // with the constants of theory
+        // with the theoretical rates and constants
         ("edge, independent", EDGE, false, -1.0, ("1/6", 6.0)),
         ("edge, jittered", EDGE, true, -1.5, ("1/6", 6.0)),
         ("x, independent", SMOOTH, false, -1.0, ("1/12", 12.0)),
@@ -226,7 +226,7 @@ pub(super) fn stratification(seed: u64) -> Finding {
         (0..96 * 96).map(|i| heat(f((f64::from(i % 96) + 0.5) / 96.0))).collect()
     };
     let images = Svg::column(vec![
-        Svg::image("an edge at a random place", [96, 96], &picture(&|x| f64::from(x < 0.63)), 190.0),
+        Svg::image("an edge at a random position", [96, 96], &picture(&|x| f64::from(x < 0.63)), 190.0),
         Svg::image("x", [96, 96], &picture(&|x| x), 190.0),
     ]);
     Finding { svg: Svg::row(vec![Svg::chart(&chart.draw()), images]).captioned(&headline), headline }

@@ -1,4 +1,4 @@
-//! Figures of single lights seen from single points.
+//! Figures of one light seen from one point.
 
 use super::Finding;
 use super::sheet::Svg;
@@ -8,7 +8,7 @@ use etendue::spherical::{ProjectedCap, SphericalCap};
 use etendue::warp::Warp;
 use etendue::{LightSample, LightSampler, Mask, Real, Triangle, Vec2, Vec3, f32x8};
 
-/// The triangle of the scene triangle-light, and a point of its ground near the lower edge.
+/// The triangle of the scene `triangle-light`, and a point of the ground near its lower edge.
 const CORNERS: [[f64; 3]; 3] = [[-2.0, 0.3, -1.5], [2.0, 0.3, -1.5], [0.0, 2.3, -0.5]];
 const POINT: [f64; 3] = [0.8, 0.0, -0.9];
 
@@ -40,7 +40,7 @@ pub(super) fn area_factors() -> Finding {
     let [a, b, c] = CORNERS.map(Vec3::<f64>::from);
     let p = Vec3::<f64>::from(POINT);
     let normal = (b - a).cross(c - a).normalize();
-    // the triangle in its plane: from a to b, and up to c
+    // coordinates in the plane of the triangle: from a to b, and up to c
     let across = (b - a).normalize();
     let upwards = normal.cross(across);
     let (width, height) = ((b - a).length(), (c - a).dot(upwards));
@@ -79,9 +79,9 @@ pub(super) fn area_factors() -> Finding {
     let (same, by_solid_angle) = moments(up, |u| light.by_solid_angle(from).sample(u));
     let relative = |v: f64, m: f64| short(v / (m * m));
     let headline = vec![
-        format!("greatest over least of cosθ cosθ′/r² on the triangle: {}", short(ratio)),
+        format!("greatest over least value of cosθ cosθ′/r² on the triangle: {}", short(ratio)),
         format!(
-            "relative variance of one sample: {} by area, {} by solid angle ({} times less), 0 by projected solid angle",
+            "relative variance of one sample: {} by area, {} by solid angle (lower by a factor of {}), 0 by projected solid angle",
             relative(by_area, mean),
             relative(by_solid_angle, same),
             short(by_area / by_solid_angle)
@@ -91,7 +91,7 @@ pub(super) fn area_factors() -> Finding {
     let mut two = || Svg::row(panels.by_ref().take(2).collect());
     let svg = Svg::column(vec![two(), two()]);
     let mut lines = vec![format!(
-        "The light of triangle-light from the ground at ({}, {}, {}). Each factor from black at 0 to pale yellow at its greatest.",
+        "The light of triangle-light as seen from the ground at ({}, {}, {}). Black is 0, pale yellow the greatest value of each factor.",
         POINT[0], POINT[1], POINT[2]
     )];
     lines.extend(headline.iter().cloned());
@@ -99,7 +99,7 @@ pub(super) fn area_factors() -> Finding {
 }
 
 pub(super) fn cap_solid_angle_vs_projected() -> Finding {
-    // half-angle 40°, its axis 65° from the normal: the horizon cuts it
+    // half-angle 40° with its axis 65° from the normal, so that the horizon cuts it
     let (omega, sigma) = (65.0_f64.to_radians(), 40.0_f64.to_radians());
     let center = [omega.sin(), omega.cos(), 0.0];
     let vector = |v: [f64; 3]| Vec3::<f32x8>::from(v.map(|x| x as f32));
@@ -137,20 +137,20 @@ pub(super) fn cap_solid_angle_vs_projected() -> Finding {
         let below = dots(sample, false);
         let mut lines = vec![horizon, line("above the horizon", 0, dots(sample, true))];
         if !below.is_empty() {
-            lines.push(line("below it: worth nothing", 1, below));
+            lines.push(line("below the horizon: no contribution", 1, below));
         }
         Chart {
             title: title.to_owned(),
-            x_label: "direction across, x".to_owned(),
-            y_label: "direction across, z".to_owned(),
+            x_label: "direction, x".to_owned(),
+            y_label: "direction, z".to_owned(),
             scales: [Scale::Linear, Scale::Linear],
             lines,
             guides: Vec::new(),
             equal: true,
         }
     };
-    let by_solid_angle = chart("uniform by solid angle, from above", &|u| cap.sample(u));
-    let by_projected = chart("uniform by projected solid angle, from above", &|u| projected.sample(u));
+    let by_solid_angle = chart("uniform by solid angle, seen from above", &|u| cap.sample(u));
+    let by_projected = chart("uniform by projected solid angle, seen from above", &|u| projected.sample(u));
     let all = <f32x8 as Real>::Mask::splat(true);
     let sample = |direction: Vec3<f32x8>, pdf: f32x8| LightSample {
         direction,
@@ -167,14 +167,14 @@ pub(super) fn cap_solid_angle_vs_projected() -> Finding {
     });
     let headline = vec![
         format!("relative variance of one sample of the irradiance: {:.4} by solid angle", spread / (mean * mean)),
-        format!("by projected solid angle {:.1e}, which is rounding", (none / (same * same)).abs()),
+        format!("by projected solid angle {:.1e}, which is rounding error", (none / (same * same)).abs()),
         format!(
             "irradiance per radiance {mean:.6} and {same:.6}; {:.6} in closed form",
             f64::from(projected.projected_solid_angle().lane(0))
         ),
     ];
     let mut lines =
-        vec!["A sphere of half-angle 40° whose axis is 65° from the normal: the horizon cuts it.".to_owned()];
+        vec!["A sphere of half-angle 40°, whose axis is 65° from the normal, so that the horizon cuts it.".to_owned()];
     lines.extend(headline.iter().cloned());
     let svg = Svg::row(vec![Svg::chart(&by_solid_angle.draw()), Svg::chart(&by_projected.draw())]);
     Finding { svg: svg.captioned(&lines), headline }

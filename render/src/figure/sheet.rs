@@ -1,11 +1,11 @@
-//! Drawings and images on one sheet.
+//! Arranges drawings and images on a sheet.
 
 use crate::chart::plot::{Drawing, escape};
 use crate::image;
 use base64::Engine;
 use std::fmt::Write;
 
-/// A part of a sheet, in units of CSS.
+/// A part of a sheet, with sizes in CSS pixels.
 #[derive(Clone, Debug)]
 pub(super) struct Svg {
     width: f64,
@@ -17,25 +17,26 @@ const GAP: f64 = 12.0;
 const LINE: f64 = 17.0;
 
 impl Svg {
-    /// A chart with its legend.
+    /// A part with a chart and its legend.
     pub(super) fn chart(drawing: &Drawing) -> Self {
         let [width, height] = drawing.size().map(f64::from);
         Self { width, height, body: drawing.file() }
     }
-    /// An image under its title, `width` across.
+    /// A part with an image of this `width` below its title.
     pub(super) fn image(title: &str, size: [u32; 2], pixels: &[[u8; 3]], width: f64) -> Self {
         let png = image::encode_png(size, pixels).unwrap_or_default();
         let height = width * f64::from(size[1]) / f64::from(size[0]);
         let uri = base64::engine::general_purpose::STANDARD.encode(png);
         let body = format!(
             "<text x=\"{}\" y=\"14\" font-size=\"13\" text-anchor=\"middle\" fill=\"#333\">{}</text>\n\
-             <image y=\"22\" width=\"{width}\" height=\"{height}\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{uri}\"/>\n",
+             <image y=\"22\" width=\"{width}\" height=\"{height}\" style=\"image-rendering:pixelated\" \
+             href=\"data:image/png;base64,{uri}\"/>\n",
             width / 2.0,
             escape(title),
         );
         Self { width, height: height + 22.0, body }
     }
-    /// From left to right.
+    /// Arranges parts from left to right.
     pub(super) fn row(parts: Vec<Self>) -> Self {
         let height = parts.iter().map(|p| p.height).fold(0.0, f64::max);
         let (mut x, mut body) = (0.0, String::new());
@@ -45,7 +46,7 @@ impl Svg {
         }
         Self { width: (x - GAP).max(0.0), height, body }
     }
-    /// From top to bottom, each in the middle.
+    /// Arranges parts from top to bottom, centred.
     pub(super) fn column(parts: Vec<Self>) -> Self {
         let width = parts.iter().map(|p| p.width).fold(0.0, f64::max);
         let (mut y, mut body) = (0.0, String::new());
@@ -56,7 +57,7 @@ impl Svg {
         }
         Self { width, height: (y - GAP).max(0.0), body }
     }
-    /// With lines of text below, broken where the width ends.
+    /// Adds lines of text below, wrapped to the width.
     pub(super) fn captioned(self, lines: &[String]) -> Self {
         let (mut y, mut body) = (self.height + 20.0, self.body);
         let most = (self.width / 6.9) as usize;
@@ -66,7 +67,7 @@ impl Svg {
         }
         Self { height: y - LINE + 6.0, body, ..self }
     }
-    /// As a file, with a margin.
+    /// The SVG file, with a margin.
     pub(super) fn file(&self) -> String {
         let (w, h) = (self.width + 2.0 * GAP, self.height + 2.0 * GAP);
         format!(
@@ -77,7 +78,7 @@ impl Svg {
     }
 }
 
-/// Words in lines of at most so many letters.
+/// Wraps text into lines of at most `most` characters.
 fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split(' ') {

@@ -1,4 +1,4 @@
-//! The lens of the scene `defocus` in a barrel: the image that it makes, and how it looks from three points of the film.
+//! The figure of vignetting: the lens of the scene `defocus` in a barrel, its image, and the lens as seen from three points of the film.
 
 use super::sheet::Svg;
 use super::{Finding, Studio};
@@ -8,18 +8,19 @@ use crate::vignetting::{Barrel, Pupil};
 use crate::{Sampler, Settings, Technique, World, image, scene};
 use std::error::Error;
 
-/// The image's size, of which a view of the lens is as high as.
+/// Size of the image in pixels; views of the lens have the same height.
 const IMAGE: [u32; 2] = [288, 192];
 const VIEW: u32 = IMAGE[1];
-/// What a view shows, in radii of the lens.
+/// Half side of a view, in radii of the lens.
 const EXTENT: f64 = 1.1;
 const WHITE: f32 = 4.0;
-/// The front rim: how far before the lens, and how wide, in radii of the lens.
+/// Distance of the front rim from the lens and its radius, in radii of the lens.
 const BARREL: [f64; 2] = [2.0, 1.15];
-/// The third sphere, on which the scene's camera is focused; the first lamp; the lower left corner.
+/// Points of the film in pixels of the image: the third sphere, on which the scene's camera is focused, the first lamp, and the lower
+/// left corner.
 const POINTS: [(&str, [f64; 2]); 3] =
     [("third sphere", [118.1, 132.7]), ("lamp", [83.8, 43.7]), ("corner", [9.0, 183.0])];
-/// Distance of that lamp along the axis.
+/// Distance of the lamp along the axis, in metres.
 const LAMP: f64 = 1.381;
 
 fn panel(title: &str, film: &Film) -> Svg {
@@ -27,7 +28,7 @@ fn panel(title: &str, film: &Film) -> Svg {
     Svg::image(title, [film.width, film.height], &pixels, f64::from(film.width))
 }
 
-/// A cross with an open middle around a point.
+/// Draws a cross with an open centre around a point.
 fn mark(picture: &mut Film, [x, y]: [f64; 2]) {
     for (dx, dy) in (3_i32..8).flat_map(|k| [(k, 0), (-k, 0), (0, k), (0, -k)]) {
         let (x, y) = (x as i32 + dx, y as i32 + dy);

@@ -35,7 +35,7 @@ pub(super) struct Effort {
 impl Effort {
     pub(super) fn new(spp: u32, sets: u32) -> Self {
         let packets = f64::from(spp) / f64::from(8 * sets);
-        // a power of two of at most a quarter, but half if a quarter were one packet: eight points miss too much
+        // the greatest power of two up to a quarter, but 2 packets if there are 4 or more: eight points miss too much
         let pilot = (packets / 4.0).log2().floor().exp2().max(if packets < 4.0 { 1.0 } else { 2.0 });
         Self { pilot: pilot as u32, packets, sets }
     }
@@ -64,15 +64,14 @@ impl Part {
         let packets = self.packets + other.packets;
         let share = f64::from(other.packets) / f64::from(packets);
         let mut over = [Welford::<f64>::default(); 3];
-        for (k, (a, b)) in self.means.iter().zip(&other.means).take(sets as usize).enumerate() {
+        for (a, b) in self.means.iter().zip(&other.means).take(sets as usize) {
             for (sum, (a, b)) in over.iter_mut().zip(a.iter().zip(b)) {
-                sum.push(a + share * (b - a), 1.0 / (k + 1) as f64);
+                sum.push(a + share * (b - a));
             }
         }
-        let n = f64::from(sets);
         Pixel {
-            mean: over.map(|s| s.mean as f32),
-            variance: over.map(|s| (s.variance(n) / n) as f32),
+            mean: over.map(|s| s.mean() as f32),
+            variance: over.map(|s| (s.variance() / s.count()) as f32),
             samples: packets * 8 * sets,
         }
     }
@@ -220,7 +219,6 @@ impl Work<'_> {
 #[derive(Default)]
 struct Tally {
     halves: [Welford<f64>; 3],
-    count: u32,
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
     /// The same sum for each light, times its squared share.
@@ -233,9 +231,8 @@ impl Tally {
     fn push(&mut self, radiance: V8, allocated: Option<&Allocated>) {
         let Some(allocated) = allocated else {
             for half in halves(radiance) {
-                self.count += 1;
                 for (spread, x) in self.halves.iter_mut().zip(half) {
-                    spread.push(x, 1.0 / f64::from(self.count));
+                    spread.push(x);
                 }
             }
             return;
@@ -257,7 +254,7 @@ impl Tally {
     }
     fn end(&self, part: &mut Part, sets: u32, lights: usize) {
         part.variance = match lights {
-            0 => self.halves.iter().map(|b| b.variance(f64::from(self.count))).sum(),
+            0 => self.halves.iter().map(|b| b.variance()).sum(),
             _ => self.between,
         };
         if (1..=APART).contains(&lights) {

@@ -218,7 +218,7 @@ mod tests {
                 let [c, e, x] = [cos, eta, k].map(|x| x as f32);
                 let truth = complex(c.into(), e.into(), x.into());
                 let value = f64::from(fresnel(X8::splat(c), X8::splat(e), X8::splat(x)).lane(3));
-                assert!((value - truth).abs() < 2e-6, "{eta} {k} at {cos}: {value} for {truth}");
+                assert!((value - truth).abs() < 2e-6, "{eta} {k} at {cos}: {value}, expected {truth}");
                 greatest = greatest.max((value - truth).abs());
             }
         }

@@ -174,7 +174,7 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     assert!(count == 0 || choice.index < count && choice.pmf > 0.0 && (0.0..1.0).contains(&choice.u));
     let mut powers = input.weights(20);
     let mut sums = vec![0.0; powers.len()];
-    let lights = PowerLights::new(&powers, &mut sums);
+    let lights = PowerLights::new(&powers, &mut sums).expect("as many sums as powers");
     chosen(lights.choose(u), |k| lights.pmf(k), lights.choose(f32x8::splat(u)), &powers);
     // the documented domain: powers from 1e−20 to 1e20
     powers.iter_mut().for_each(|p| *p = if *p > 0.0 { p.clamp(1e-20, 1e20) } else { 0.0 });
@@ -298,12 +298,12 @@ pub(super) fn estimate(input: &mut Input<'_>) {
 
     let samples: Vec<f32> = (0..input.below(20)).map(|_| input.ordinary()).collect();
     let mut welford = Welford::<f64>::default();
-    for (i, &x) in samples.iter().enumerate() {
-        welford.push(f64::from(x), 1.0 / (i + 1) as f64);
+    for &x in &samples {
+        welford.push(f64::from(x));
     }
     if samples.len() > 1 {
         let (mean, variance) = crate::stats::mean_variance(&samples.iter().map(|&x| f64::from(x)).collect::<Vec<_>>());
-        let off = (welford.mean - mean).abs().max((welford.variance(samples.len() as f64) - variance).abs());
+        let off = (welford.mean() - mean).abs().max((welford.variance() - variance).abs());
         assert!(off < 1e-13, "{samples:?}: off by {off:e}");
     }
 }

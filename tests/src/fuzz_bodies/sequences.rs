@@ -1,6 +1,7 @@
 //! Sequences.
 
 use super::Input;
+use crate::generators::AlongCurve;
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
 };
@@ -28,7 +29,7 @@ pub(super) fn sequence(input: &mut Input<'_>) {
         3 => check(&Lattice::r2(seed), pixel, sample, dimension),
         4 => check(&Lattice::fibonacci(seed, count), pixel, sample, dimension),
         5 => check(&OwenSobol::new(seed), pixel, sample, dimension),
-        6 => check(&ZOrder::new(seed, count), pixel, sample, dimension),
+        6 => check(&AlongCurve(ZOrder::new(seed, count)), pixel, sample, dimension),
         7 => check(&JointSobol::new(seed), pixel, sample, dimension % 8),
         _ => check(&JointStratified::new(seed, count, pixel % 6), pixel, sample, dimension % 8),
     }
