@@ -16,7 +16,8 @@ use etendue::warp::{
     UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{
-    BilinearPatch, Cylinder, Disk, LightSampler, Line, Parallelogram, Polygon, Real, Sphere, Triangle, Uint, Vec2, Vec3,
+    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere,
+    Triangle, Uint, Vec2, Vec3,
 };
 use std::hint::black_box;
 
@@ -94,6 +95,23 @@ impl<R: Real + 'static> List<R> {
         self.push(&format!("{name} sample"), warp, us, |w, u| w.sample(u));
         self.push(&format!("{name} pdf"), warp, points.clone(), |w, x| w.pdf(x));
         self.push(&format!("{name} invert"), warp, points, |w, x| w.invert(x));
+    }
+    /// A light as an integrator calls it: prepared for every sample and once, its pdf and inverse, and with normal and surface coordinates.
+    fn light<S: LightSampler<R> + Copy + 'static>(
+        &mut self,
+        name: &str,
+        prepare: impl Fn(Vec3<R>) -> S + Copy + 'static,
+    ) {
+        // what direct lighting needs; the rest of the sample is not computed
+        let used = |s: LightSample<R>| (s.direction, s.distance, s.pdf, s.emits, s.delta);
+        self.prepared(&format!("light {name}"), move |p, u| used(prepare(p).sample(u)));
+        self.prepared(&format!("light {name}, with normal and uv"), move |p, u| prepare(p).sample(u));
+        // a loaded value, of which the compiler knows nothing
+        let sampler = black_box(prepare(black_box(Vec3::lit([0.1, -0.2, 0.3]))));
+        let directions: Vec<_> = self.squares.iter().map(|&u| sampler.sample(u).direction).collect();
+        self.push(&format!("light {name}, prepared"), sampler, self.squares.clone(), move |s, u| used(s.sample(u)));
+        self.push(&format!("light {name}, prepared, pdf"), sampler, directions.clone(), |s, w| s.pdf(w));
+        self.push(&format!("light {name}, prepared, invert"), sampler, directions, |s, w| s.invert(w));
     }
     /// Something that is prepared for every sample.
     fn prepared<T>(&mut self, name: &str, compute: impl Fn(Vec3<R>, Vec2<R>) -> T + 'static) {
@@ -187,31 +205,30 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     });
 
     let sphere = Sphere { center: a, radius };
-    list.prepared("light sphere by area", move |p, u| sphere.by_area(p).sample(u));
-    list.prepared("light sphere by solid angle", move |p, u| sphere.by_solid_angle(p).sample(u));
+    list.light("sphere by area", move |p| sphere.by_area(p));
+    let rectangle = Rectangle::new(corner, du, dv);
+    list.light("rectangle by area", move |p| rectangle.by_area(p));
+    list.light("rectangle by solid angle", move |p| rectangle.by_solid_angle(p));
+    list.light("sphere by solid angle", move |p| sphere.by_solid_angle(p));
     let up = vector([0.0, 1.0, 0.0]);
-    list.prepared("light sphere by projected solid angle", move |p, u| {
-        sphere.by_projected_solid_angle(p, up).sample(u)
-    });
+    list.light("sphere by projected solid angle", move |p| sphere.by_projected_solid_angle(p, up));
     let triangle = Triangle { v0: a, e1, e2 };
-    list.prepared("light triangle by area", move |p, u| triangle.by_area(p).sample(u));
-    list.prepared("light triangle by solid angle", move |p, u| triangle.by_solid_angle(p).sample(u));
-    list.prepared("light triangle by projected solid angle", move |p, u| {
-        triangle.by_projected_solid_angle(p, up).sample(u)
-    });
+    list.light("triangle by area", move |p| triangle.by_area(p));
+    list.light("triangle by solid angle", move |p| triangle.by_solid_angle(p));
+    list.light("triangle by projected solid angle", move |p| triangle.by_projected_solid_angle(p, up));
     let quad = Parallelogram { p: a, u: e1, v: e2 };
-    list.prepared("light parallelogram by area", move |p, u| quad.by_area(p).sample(u));
-    list.prepared("light parallelogram by solid angle", move |p, u| quad.by_solid_angle(p).sample(u));
+    list.light("parallelogram by area", move |p| quad.by_area(p));
+    list.light("parallelogram by solid angle", move |p| quad.by_solid_angle(p));
     list.warp("cosine-warped triangle", CosineWarped::new(SphericalTriangle::new(a, b, c), up));
-    list.prepared("light triangle by cosine warp", move |p, u| triangle.by_cosine_warp(p, up).sample(u));
+    list.light("triangle by cosine warp", move |p| triangle.by_cosine_warp(p, up));
     list.warp("spherical disk", SphericalDisk::new(a, up, radius));
     let disk = Disk { center: a, normal: up, radius };
-    list.prepared("light disk by area", move |p, u| disk.by_area(p).sample(u));
-    list.prepared("light disk by solid angle", move |p, u| disk.by_solid_angle(p).sample(u));
+    list.light("disk by area", move |p| disk.by_area(p));
+    list.light("disk by solid angle", move |p| disk.by_solid_angle(p));
     let line = Line { p: a, edge: e1 };
-    list.prepared("light line by length", move |p, u| line.by_length(p).sample(u));
-    list.prepared("light line by angle", move |p, u| line.by_angle(p).sample(u));
-    list.prepared("light line by projected solid angle", move |p, u| line.by_projected_solid_angle(p, up).sample(u));
+    list.light("line by length", move |p| line.by_length(p));
+    list.light("line by angle", move |p| line.by_angle(p));
+    list.light("line by projected solid angle", move |p| line.by_projected_solid_angle(p, up));
     let arc = SphericalSegment::new(a, e1);
     list.prepared("spherical segment sample", move |_, u| arc.sample(u.x));
     list.prepared("spherical segment invert", move |p, _| arc.invert(p));
@@ -219,9 +236,7 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("projected segment sample", move |_, u| arc.sample(u.x));
     list.prepared("projected segment invert", move |p, _| arc.invert(p));
 
-    list.prepared("light parallelogram by projected solid angle", move |p, u| {
-        quad.by_projected_solid_angle(p, up).sample(u)
-    });
+    list.light("parallelogram by projected solid angle", move |p| quad.by_projected_solid_angle(p, up));
 
     list.warp("disk surface", DiskSurface { center: a, normal: up, radius });
     list.warp("cylinder side", CylinderSide { p: a, axis: e1, radius });
@@ -229,12 +244,14 @@ pub fn routines<R: Real + 'static>() -> Vec<Routine> {
     let twisted = e1 + e2 + up * R::lit(0.3);
     list.warp("patch surface", PatchSurface { p: a, u: e1, v: e2, w: twisted });
     let patch = BilinearPatch { p: a, u: e1, v: e2, w: twisted };
-    list.prepared("light bilinear patch by area", move |p, u| patch.by_area(p).sample(u));
+    list.light("bilinear patch by area", move |p| patch.by_area(p));
     let cylinder = Cylinder { p: a, axis: e1, radius };
-    list.prepared("light cylinder by area", move |p, u| cylinder.by_area(p).sample(u));
+    list.light("cylinder by area", move |p| cylinder.by_area(p));
     let pentagon = Polygon { corners: [a, a + e1, a + e1 + e2 * half_of(), a + e1 * half_of() + e2, a + e2] };
-    list.prepared("light pentagon by area", move |p, u| pentagon.by_area(p).sample(u));
-    list.prepared("light pentagon by solid angle", move |p, u| pentagon.by_solid_angle(p).sample(u));
+    list.light("pentagon by area", move |p| pentagon.by_area(p));
+    list.light("pentagon by solid angle", move |p| pentagon.by_solid_angle(p));
+    list.light("pentagon by projected solid angle", move |p| pentagon.by_projected_solid_angle(p, up));
+    list.light("rectangle by cosine warp", move |p| rectangle.by_cosine_warp(p, up));
     tables(&mut list);
 
     list.sequence("independent", Independent::new(1));

@@ -6,17 +6,8 @@
 //! (`cargo test -p etendue-tests --test sobol -- --nocapture variance`,
 //! `cargo bench -p etendue-benches --bench summary -- sequence`.)
 //!
-//! | sequence | variance: smooth, edge | gain at 16 | gain at 64 | ns: f32, f32x4, f32x8 | when |
-//! |---|---|---|---|---|---|
-//! | [`Independent`] | N⁻¹ | 1 | 1 | 2.9, 1.6, 0.8 | the baseline; the spread of samples gives the variance |
-//! | [`LatinHypercube`] | N⁻¹, less parts in x or y alone | 22, 3.5 | 25, 3.7 | 52.3, 26.5, 13.4 | any count, nearly additive integrands |
-//! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 45.7, 20.7, 10.5 | any count |
-//! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 3.9, 1.0, 0.5 | a count not known in advance; cheap |
-//! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 3.9, 1.0, 0.5 | a Fibonacci count; edges |
-//! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 9.3, 3.0, 1.4 | the choice wherever the count is a power of two |
-//! | [`JointSobol`] | pair 0 as [`OwenSobol`] | | | 7.0, 3.0, 1.5 | integrands that depend on two or more pairs together |
-//! | [`JointStratified`] | √N strata in each pair | | | 40.0, 16.9, 8.6 | as [`JointSobol`], at n⁴ samples |
-//! | [`ZOrder`] | within a pixel as [`OwenSobol`] | | | 26.7, 8.6, 6.3 | few samples per pixel, images for human viewers: blue noise |
+//! <!-- table: sequences -->
+//! <!-- end of table -->
 //!
 //! These figures are for pairs of one dimension. Different dimensions are associated at random.
 //!

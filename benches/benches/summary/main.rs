@@ -4,9 +4,13 @@
 //! `cargo bench -p etendue-benches --bench summary -- cone` selects routines by name, `-- --markdown` prints the format of the README, `--
 //! --instructions` counts instructions instead (requires Valgrind), `-- rays --json=FILE` also writes the rays to FILE (an absolute path).
 //!
+//! `-- --tables` writes the tables of costs and errors in the READMEs and the documentation, and `-- --check-tables` measures nothing and
+//! fails where their rows and the routines differ.
+//!
 //! Figures are medians of repetitions. The widths take turns, so that a change of the processor's clock affects all of them alike.
 
 mod instructions;
+mod tables;
 
 use etendue::{f32x4, f32x8};
 use etendue_benches::rays::{How, Kind, Workload};
@@ -50,6 +54,10 @@ fn main() {
     if given(instructions::CHILD) {
         return instructions::child(&filter);
     }
+    if given("--check-tables") {
+        let names: Vec<String> = routines::<f32>().into_iter().map(|routine| routine.name).collect();
+        return finish(tables::check(&names));
+    }
     let (markdown, counted) = (given("--markdown"), given("--instructions"));
     let what = if counted { "instructions/sample" } else { "ns/sample, median" };
     let json = arguments.iter().find_map(|a| a.strip_prefix("--json="));
@@ -68,6 +76,7 @@ fn main() {
         }
         return;
     }
+    let mut times = std::collections::HashMap::new();
     let [one, four, eight] = [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()];
     let widths = one.into_iter().zip(four).zip(eight);
     for ((one, four), eight) in widths.filter(|((one, _), _)| one.name.contains(&filter)) {
@@ -78,9 +87,20 @@ fn main() {
         let rounds: Vec<_> = (0..REPETITIONS).map(|_| each.each_mut().map(nanoseconds)).collect();
         let [one, four, eight] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
         row(markdown, &each[0].name, [one, four, eight]);
+        times.insert(each[0].name.clone(), [one, four, eight]);
+    }
+    if given("--tables") {
+        return finish(tables::Measured::new(times).and_then(|measured| tables::write(&measured)));
     }
     if "rays".contains(&filter) {
         rays(json);
+    }
+}
+
+fn finish(result: Result<(), String>) {
+    if let Err(error) = result {
+        eprintln!("error: {error}");
+        std::process::exit(2);
     }
 }
 
