@@ -1,11 +1,11 @@
-//! What to do with samples: mean and variance, exactly mergeable; weights of several techniques; choice from a stream.
+//! Combines samples: mergeable mean and variance, weights of several techniques, choice from a stream.
 //!
-//! | | what |
+//! | | purpose |
 //! |---|---|
 //! | [`Welford`] | mean and variance of a stream |
 //! | [`Heuristic`], [`technique_pdf`] | multiple importance sampling |
 //! | [`Measured`], [`log_variance_error`] | efficiency: variance against cost |
-//! | [`Reservoir`] | one of a stream in proportion to weights: choice among lights, resampling |
+//! | [`Reservoir`] | draws one item of a stream in proportion to weights: choice among lights, resampling |
 
 mod mis;
 mod reservoir;

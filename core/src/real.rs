@@ -4,6 +4,7 @@
 //! lane 0 of a packet, which the compiler reduces to the scalar instruction. So code written once over [`Real`] gives the same
 //! bits at every width.
 
+mod functions;
 mod mask;
 mod number;
 mod uint;
@@ -16,6 +17,7 @@ mod sealed {
 }
 use sealed::Sealed;
 
+pub(crate) use functions::{exp_minus_half_square, polynomial, sin_cos_quarter};
 pub use mask::{MaskF64X4, MaskX4, MaskX8};
 
 /// A truth value per lane.

@@ -1,14 +1,14 @@
-//! Which light to sample: an index, its probability, and what is left of the random number.
+//! Chooses which light to sample: an index, its probability, and what is left of the random number.
 //!
-//! | choice | probability | cost | when |
+//! | choice | pmf | cost | when |
 //! |---|---|---|---|
-//! | [`UniformLights`] | 1/n | least | few lights, alike |
-//! | [`PowerLights`] | power/Σpower | a binary search in each lane | lights of different power, about equally far |
-//! | [`SpatialLights`] | power/distance², per shading point | two passes over all lights | few lights (up to some tens), near and far |
+//! | [`UniformLights`] | 1/n | least | few, similar lights |
+//! | [`PowerLights`] | power/Σpower | a binary search per lane | lights of different power at similar distances |
+//! | [`SpatialLights`] | power/distance², per shading point | two passes over all lights | up to some tens of lights, near and far |
 //!
-//! The estimator divides by `probability` (times the density of the sample on the light). Each has `pmf`, with the same bits, for
-//! multiple importance sampling: what another technique hits has a probability too. No light of positive power has
-//! probability 0, and none of zero power has another.
+//! The estimator divides by the `pmf` of the choice times the pdf of the sample on the light. Each type also has a method `pmf`, which
+//! returns the same bits, for multiple importance sampling: a light that another technique hits has a probability too. Every light of
+//! positive power has a positive pmf, and no other light has.
 
 use crate::discrete::TableError;
 use crate::estimate::Reservoir;
@@ -18,18 +18,19 @@ use crate::vector::Vec3;
 /// A light that was chosen, per lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Choice<R: Real> {
-    /// Which.
+    /// Index of the light.
     pub index: R::Uint,
-    /// With which probability; 0 in lanes that have none to choose.
+    /// Probability with which it was chosen; 0 in lanes without a light.
     pub pmf: R,
-    /// Uniform in [0, 1), independent of the index: what was left of the number that chose.
+    /// What is left of the random number: uniform in [0, 1), independent of the index.
     pub u: R,
 }
 
-/// Every light alike.
+/// Chooses each light with the same probability.
 ///
-/// - Formula: index = ⌊u·count⌋, probability 1/count.
-/// - Domain: up to 2²² lights; none gives probability 0.
+/// - Formula: index = ⌊u·count⌋, pmf 1/count.
+/// - Domain: up to 2²² lights.
+/// - Degenerate: without lights the pmf is 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UniformLights {
     /// Number of lights.
@@ -47,21 +48,21 @@ impl UniformLights {
         let index = index.wrapping_add(last.lt(index));
         Choice { index, pmf: self.pmf(index), u: unit_interval(place - R::from_uint(index)) }
     }
-    /// Probability of a light; 0 for an index that is none.
+    /// Probability of a light; 0 for an index past the last light.
     #[inline]
     pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
         R::from_fn(|i| R::Scalar::lit(if index.lane(i) < self.count { 1.0 / f64::from(self.count) } else { 0.0 }))
     }
 }
 
-/// Each light in proportion to its power, from a table of sums that the caller keeps.
+/// Chooses lights in proportion to their power, by a table of sums in the caller's buffer.
 ///
-/// - Formula: the first index whose sum exceeds u·Σ; probability = (its sum − the one before)/Σ: exactly what the search
-///   does, so rounding of the sums is not a bias.
+/// - Formula: the first index whose sum exceeds u·Σ; pmf = (its sum − the one before)/Σ. That is exactly what the search does, so the
+///   rounding of the sums causes no bias.
 /// - Domain: powers in [0, 3e38], in any unit; NaN, negative and infinite ones count as 0. A positive power counts as at least
-///   2⁻¹⁸ of the sum of all, so that each light is found by some u, whose grid is 2⁻²⁴.
+///   2⁻¹⁸ of the total, so that some u on the grid of 2⁻²⁴ finds each light.
 /// - Bounds: up to 2¹⁴ lights. A light's frequency is within 2⁻²⁴ of its probability.
-/// - Degenerate: no power at all gives probability 0.
+/// - Degenerate: if no light has power, the pmf is 0.
 ///
 /// ```
 /// use etendue::select::PowerLights;
@@ -117,7 +118,7 @@ impl<'a> PowerLights<'a> {
         });
         Choice { index, pmf: self.pmf(index), u: unit_interval(left) }
     }
-    /// Probability of a light; 0 for an index that is none.
+    /// Probability of a light; 0 for an index past the last light.
     #[inline]
     pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
         let total = self.sums.last().copied().map_or(0.0, f64::from);
@@ -132,10 +133,10 @@ impl<'a> PowerLights<'a> {
     }
 }
 
-/// Where a light is, and how strong.
+/// Bounding sphere and power of a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightBound {
-    /// Centre of a sphere around the light.
+    /// Centre of a sphere around the light, in the coordinates of the scene.
     pub center: [f32; 3],
     /// Radius of that sphere, not negative.
     pub radius: f32,
@@ -143,16 +144,16 @@ pub struct LightBound {
     pub power: f32,
 }
 
-/// Each light in proportion to a bound of its irradiance at the shading point: power over squared distance to the centre, but
-/// no nearer than the radius.
+/// Chooses lights in proportion to an estimate of their irradiance at the shading point: power over the squared distance to the centre,
+/// or over the squared radius if that is more.
 ///
 /// - Formula: weight = power·(least/d)², d = max(|centre − p|, radius), where `least` is the smallest d of all lights; a
 ///   [`Reservoir`] over the weights.
 /// - Domain: any finite bounds and points; powers as for [`PowerLights`], from 1e−20 to 1e20. (least/d)² counts as at least 2⁻¹⁸, so a
 ///   far light is never dropped. Scaling all lengths by a power of two changes nothing.
-/// - Degenerate: no light, or none of positive power, gives probability 0.
+/// - Degenerate: without a light of positive power the pmf is 0.
 /// - Precision: a light's frequency is within 2⁻²³ of its probability for each light of the list.
-/// - Lanes are shading points (or samples of one); every lane looks at every light.
+/// - Lanes are shading points, or samples of one; each lane visits every light.
 /// - Source: the weight is that of Shirley, Wang and Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG
 ///   15(1), 1996, for few lights.
 ///
@@ -171,7 +172,7 @@ pub struct SpatialLights<'a> {
 }
 
 impl SpatialLights<'_> {
-    /// Distance that counts. Components are scaled by a power of two before they are squared.
+    /// Half the distance to the light, at least half its radius. Components are scaled by a power of two before they are squared.
     #[inline]
     fn distance<R: Real>(light: &LightBound, p: Vec3<R>) -> R {
         let lit = |x: f32| R::lit(f64::from(x));
@@ -214,7 +215,7 @@ impl SpatialLights<'_> {
         }
         Choice { index: reservoir.held, pmf: reservoir.pmf(), u }
     }
-    /// Probability with which `choose` gives the light from `p`; 0 for an index that is none.
+    /// Probability with which `choose` returns the light from `p`; 0 for an index past the last light.
     #[inline]
     pub fn pmf<R: Real>(&self, p: Vec3<R>, index: R::Uint) -> R {
         let least = self.least(p);
@@ -222,7 +223,7 @@ impl SpatialLights<'_> {
         let mut own = R::lit(0.0);
         for (i, light) in self.lights.iter().enumerate() {
             let weight = Self::weight(light, least, p);
-            // the sum alone matters
+            // only the sum matters
             reservoir.push(R::Uint::splat(0), weight, R::lit(0.0));
             let here = R::from_fn(|lane| R::Scalar::lit(f64::from(u8::from(index.lane(lane) == i as u32))));
             own += weight * here;

@@ -1,15 +1,18 @@
 use crate::light::LightSample;
 use crate::real::Real;
 
-/// Multiple importance sampling: how samples of several techniques share one integral.
+/// Multiple importance sampling: weights by which the samples of several techniques share one integral.
 ///
-/// - Formula: with densities dᵢ = nᵢpᵢ of the techniques at one point, weights wᵢ = dᵢ^β/Σdⱼ^β; the estimator is the sum over
-///   techniques of w·f/(n·p).
-/// - Domain: densities in [0, ∞]; a negative number or NaN counts as 0. Densities are divided by the largest before they are
-///   raised to a power, so nothing over- or underflows that matters: any common factor of the densities changes nothing.
-/// - Delta distributions: a technique that alone can sample the point (a point light, a mirror) has density ∞, see
-///   [`technique_pdf`]; it has weight 1 and the others 0. Several of them share equally.
-/// - Degenerate: all densities 0 give weights 0.
+/// Call [`light_weight`](Self::light_weight) for a sample of a light and [`bsdf_weight`](Self::bsdf_weight) for a ray that hits one, or
+/// [`weights`](Self::weights) for any techniques. Where every pdf is 0, so is every weight.
+///
+/// - Formula: with dᵢ = nᵢpᵢ for technique i with nᵢ samples and the pdf pᵢ at the point, the weights are wᵢ = dᵢ^β/Σdⱼ^β; the
+///   estimator is the sum of w·f/(n·p) over the techniques.
+/// - Domain: dᵢ in [0, ∞]; a negative number or NaN counts as 0. All are divided by the largest before they are raised to the power, so
+///   that none overflows, and a common factor changes nothing.
+/// - Delta distributions: a technique that alone can sample the point (a point light, a mirror) has d = ∞, see
+///   [`technique_pdf`]; its weight is 1 and that of the others 0. Several such techniques share equally.
+/// - Degenerate: if all dᵢ are 0, so are the weights.
 /// - Greatest error: weights sum to 1 within 2⁻²³ for two techniques.
 /// - Source: Veach 1997, *Robust Monte Carlo Methods for Light Transport Simulation*, 9.2.
 ///
@@ -33,9 +36,9 @@ use crate::real::Real;
 pub enum Heuristic {
     /// β = 1.
     Balance,
-    /// Any β from 0 (every technique alike, where its density is not 0).
+    /// Any β; with 0, all techniques whose pdf is not 0 have the same weight.
     Power(u32),
-    /// β → ∞: all to the technique of the largest technique_pdf, the first of equals.
+    /// β → ∞: the technique with the largest d has weight 1, the first of several equal ones.
     Maximum,
 }
 
@@ -43,7 +46,7 @@ impl Heuristic {
     /// The power heuristic with β = 2, Veach's choice.
     pub const POWER: Self = Self::Power(2);
 
-    /// The weight of each technique at a point where they have these densities.
+    /// The weight of each technique, given its d = n·p at the point.
     #[inline]
     pub fn weights<R: Real, const N: usize>(self, densities: [R; N]) -> [R; N] {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -93,8 +96,8 @@ impl Heuristic {
     }
 }
 
-/// The density of a technique that takes `samples` samples with density `pdf`, for [`Heuristic::weights`]: their
-/// product, which saturates; ∞ where `delta` holds.
+/// What [`Heuristic::weights`] takes for a technique with this number of samples and this pdf: their product, at most the largest
+/// single-precision number; ∞ where `delta` holds.
 #[inline]
 pub fn technique_pdf<R: Real>(samples: R, pdf: R, delta: R::Mask) -> R {
     let product = (samples * pdf).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));

@@ -34,42 +34,42 @@ macro_rules! polynomials {
     () => {
         #[inline(always)]
         fn sin_cos_turns(self) -> (Self, Self) {
-            crate::math::sin_cos_turns_f32(self)
+            super::functions::sin_cos_turns_f32(self)
         }
         #[inline(always)]
         fn acos(self) -> Self {
-            crate::math::acos_f32(self)
+            super::functions::acos_f32(self)
         }
         #[inline(always)]
         fn atan2(self, other: Self) -> Self {
-            crate::math::atan2_f32(self, other)
+            super::functions::atan2_f32(self, other)
         }
         #[inline(always)]
         fn exp(self) -> Self {
-            crate::math::exp_f32(self)
+            super::functions::exp_f32(self)
         }
         #[inline(always)]
         fn exp_m1(self) -> Self {
-            crate::math::exp_m1_f32(self)
+            super::functions::exp_m1_f32(self)
         }
         #[inline(always)]
         fn ln_1p(self) -> Self {
-            crate::math::ln_1p_f32(self)
+            super::functions::ln_1p_f32(self)
         }
         #[inline(always)]
         fn cbrt(self) -> Self {
             // a third of the exponent and nearly a third of the mantissa: x^(-1/3) within 3.5 %
             let bits = Self::from_uint(self.to_bits());
             let guess = (Self::lit(1_419_916_083.0) - bits * Self::lit(1.0 / 3.0)).to_uint();
-            crate::math::cbrt_f32(self, Self::from_bits(guess))
+            super::functions::cbrt_f32(self, Self::from_bits(guess))
         }
         #[inline(always)]
         fn normal_cdf(self) -> Self {
-            crate::math::normal_cdf_f32(self)
+            super::functions::normal_cdf_f32(self)
         }
         #[inline(always)]
         fn normal_quantile(self) -> Self {
-            crate::math::normal_quantile_f32(self)
+            super::functions::normal_quantile_f32(self)
         }
     };
 }
@@ -129,8 +129,8 @@ macro_rules! lane_by_lane {
             let half = Self::lit(0.5);
             let above = self.gt(half);
             let lower = <Self as Real>::blend(above, Self::lit(1.0) - self, self);
-            let lower = Real::clamped(lower, Self::lit(crate::math::LEAST_TAIL), half);
-            let z = crate::math::normal_quantile_f32(lower);
+            let lower = Real::clamped(lower, Self::lit(super::functions::LEAST_TAIL), half);
+            let z = super::functions::normal_quantile_f32(lower);
             let refined = Self::from_fn(|i| {
                 let z = z.lane(i);
                 let excess = 0.5 * libm::erfc(-core::f64::consts::FRAC_1_SQRT_2 * z) - lower.lane(i);
