@@ -7,4 +7,4 @@ pub mod baseline;
 pub mod rays;
 pub mod routines;
 
-pub use routines::{Routine, SAMPLES, routines};
+pub use routines::{Routine, SAMPLES, routines, without_tables};

@@ -2,7 +2,7 @@
 //! call of a marker function.
 
 use etendue::{f32x4, f32x8};
-use etendue_benches::{Routine, SAMPLES, routines};
+use etendue_benches::{Routine, SAMPLES, without_tables};
 use std::fs;
 use std::hint::black_box;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn etendue_bench_mark() {
 
 /// Calls each routine whose name contains `filter`, in the order of the results of [`count`].
 pub(crate) fn child(filter: &str) {
-    let mut every: Vec<Routine> = [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()]
+    let mut every: Vec<Routine> = [without_tables::<f32>(), without_tables::<f32x4>(), without_tables::<f32x8>()]
         .into_iter()
         .flatten()
         .filter(|r| r.name.contains(filter))
@@ -42,7 +42,8 @@ pub(crate) fn count(filter: &str) -> Result<Vec<(String, [f64; 3])>, String> {
     let counts = dumps(filter, &scratch);
     // also after an error
     let _ = fs::remove_dir_all(&scratch);
-    let names: Vec<String> = routines::<f32>().into_iter().map(|r| r.name).filter(|n| n.contains(filter)).collect();
+    let names: Vec<String> =
+        without_tables::<f32>().into_iter().map(|r| r.name).filter(|n| n.contains(filter)).collect();
     let counts = counts?;
     // dumps alternate between a routine and what lies between two routines
     let runs: Vec<f64> = counts.into_iter().skip(1).step_by(2).map(|n| n as f64 / SAMPLES as f64).collect();
