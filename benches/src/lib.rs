@@ -6,5 +6,6 @@
 pub mod baseline;
 pub mod rays;
 pub mod routines;
+pub mod tables;
 
 pub use routines::{Routine, SAMPLES, routines, without_tables};

@@ -9,7 +9,7 @@ use rand_core::Rng;
 /// What every generator of `rand_core` (and so of `rand`) can draw here, a point or a packet of points at a time.
 ///
 /// ```
-/// use etendue::{Sphere, random::DrawExt, warp::CosineHemisphere, Vec3, f32x8};
+/// use etendue::{Real, Sphere, random::DrawExt, warp::CosineHemisphere, Vec3, f32x8};
 /// # use rand_core::SeedableRng;
 /// let mut rng = etendue::sequence::CounterRng::seed_from_u64(1); // or any of `rand`'s
 /// let w: Vec3<f32> = rng.draw(&CosineHemisphere);

@@ -1,4 +1,4 @@
-//! The emitters of a scene as a table from which packets draw: which light, and where on it.
+//! The lights of a scene: packets choose one per lane, and sample it.
 
 use crate::accel::{M8, NOTHING, V8, X8, select};
 use crate::scene::{DeltaLight, Geometry, Scene};
@@ -12,9 +12,9 @@ use std::sync::Arc;
 /// How a light is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Technique {
-    /// Directions uniform over the hemisphere; lights are found by chance
+    /// Directions uniform over the hemisphere; rays hit lights by chance
     UniformHemisphere,
-    /// Directions in proportion to the cosine; lights are found by chance
+    /// Directions in proportion to the cosine; rays hit lights by chance
     CosineHemisphere,
     /// Points uniform over a light's area
     Area,
@@ -22,16 +22,16 @@ pub enum Technique {
     SolidAngle,
     /// Directions uniform over the projected solid angle of a light
     ProjectedSolidAngle,
-    /// Directions by what the surface reflects: the cosine, or the visible normals of a rough metal
+    /// Directions by the BSDF: the cosine, or the visible normals of a rough metal
     Brdf,
-    /// Solid-angle and brdf, by the balance heuristic
+    /// Solid-angle and brdf, combined by the balance heuristic
     MisBalance,
-    /// Solid-angle and brdf, by the power heuristic
+    /// Solid-angle and brdf, combined by the power heuristic
     MisPower,
 }
 
 impl Technique {
-    /// How it samples lights, where it does.
+    /// The measure by which it samples lights; solid angle for techniques that sample none.
     pub fn measure(self) -> Measure {
         match self {
             Self::Area => Measure::Area,
@@ -61,57 +61,58 @@ const DISTANT: u32 = 5;
 const SKY: u32 = 6;
 const KINDS: u32 = 7;
 const TWO_SIDED: u32 = 8;
-/// Up to here a light is found by comparing with all; and choosing one leaves enough digits of `u` to choose a point with.
+/// The largest number of lights among which a packet chooses by comparing with all of them. The choice leaves enough digits of `u` for a
+/// point on the light.
 pub const FEW: usize = 32;
 
-/// Sixteen numbers a light, so that eight lanes are gathered by two transpositions: geometry (9), radiance (3), probability, the start of
-/// its interval of u, kind and sides (bits), index of its shape (bits).
+/// Sixteen numbers per light, so that two transpositions gather eight lanes: geometry (9), radiance (3), pmf, start of its interval of u,
+/// kind and sides (bits), index of its shape (bits).
 type Record = [f32; 16];
 
-/// What a light can contribute to a point, as far as it matters for the choice of one.
+/// What the choice of a light needs of it: bounds of what it can contribute to a point.
 #[derive(Clone, Copy, Debug)]
 struct Reach {
     center: [f32; 3],
-    /// Of a sphere around it.
+    /// Radius of a sphere around the light, in scene units.
     radius: f32,
-    /// Of a flat one.
+    /// Unit normal of a flat light; 0 for a sphere.
     normal: [f32; 3],
-    /// It shines to all sides: 1, else 0.
+    /// 1/4 for a sphere, whose area is four times its cross section; 0 for a flat light.
     round: f32,
-    /// It is flat and shines to both sides.
+    /// True for a flat light that emits from both sides.
     two_sided: bool,
-    /// Of one side.
+    /// Power of one side, in units of π.
     power: f32,
 }
 
-/// Emitters, chosen in proportion to their power or to what they can contribute to a point.
+/// The lights of a scene, chosen in proportion to their power or to what they can contribute to a point.
 #[derive(Debug)]
 pub struct Lights {
     records: Vec<Record>,
-    /// Of each, if they are few, more than one, and all have an area; else none.
+    /// One per light if there are 2 to [`FEW`] lights and all have an area; otherwise empty.
     reaches: Vec<Reach>,
     /// Upper ends of the intervals of `u`; the last is 1.
     ends: Vec<f32>,
     /// Bit k is set if there is a light of kind k.
     kinds: u32,
     sky: Option<Arc<Sky>>,
-    /// Probability of each shape of the scene; 0 of those that are no lights.
+    /// Pmf of each shape of the scene; 0 for shapes that are not lights.
     shape_probabilities: Vec<f32>,
-    /// Which light each of them is.
+    /// Index of the light of each shape.
     shape_lights: Vec<u32>,
     sky_probability: f32,
 }
 
-/// What the lights can contribute to the points of a packet: power · cosθ cosθ' / d² by the centre of each, where cosθ is that of the
-/// direction within the sphere around the light that is nearest to the normal, and d is no less than its radius. It is 0 only where a light
-/// is below the horizon or seen from behind.
+/// What each light can contribute to the points of a packet: power · cosθ cosθ' / d² for its centre. cosθ is that of the direction within
+/// the light's bounding sphere that is nearest to the normal, and d is at least the radius of the sphere. It is 0 only where the light is
+/// below the horizon or faces away.
 pub struct Near {
-    /// Sums over the lights up to each.
+    /// Sums of the contributions up to and including each light.
     ends: [X8; FEW],
 }
 
 impl Near {
-    /// Of each light.
+    /// The contribution of each light.
     pub fn parts(&self, lights: usize) -> impl Iterator<Item = X8> {
         (0..lights).map(|k| if k == 0 { self.ends[0] } else { self.ends[k] - self.ends[k - 1] })
     }
@@ -143,14 +144,14 @@ impl From<LightSample<X8>> for Drawn {
 /// One light in each lane.
 pub struct Chosen {
     geometry: [X8; 9],
-    /// Radiance; of a delta light intensity or irradiance.
+    /// Radiance; intensity or irradiance for a delta light.
     pub radiance: V8,
     /// Probability with which it was chosen.
     pub pmf: X8,
-    /// Of its interval of `u`, where the choice is by power.
+    /// Start of its interval of `u`, where the choice is by power.
     start: X8,
     kind: u32x8,
-    /// Index of its shape; [`NOTHING`] if it is none.
+    /// Index of its shape; [`NOTHING`] for a light without one.
     pub shape: u32x8,
 }
 
@@ -166,7 +167,7 @@ fn area(geometry: &Geometry) -> f64 {
     }
 }
 
-/// Square of the radius of a sphere around all that reflects or emits.
+/// Squared radius of a sphere around all surfaces.
 fn squared_radius(scene: &Scene) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let mut add = |p: [f32; 3], pad: f32| {
@@ -246,23 +247,23 @@ impl Lights {
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
     }
-    /// Does the choice of a light need a random number of its own?
+    /// True if the choice of a light needs a random number of its own.
     pub fn many(&self) -> bool {
         self.len() > FEW
     }
-    /// Are all of them delta lights? Then a pair for a point on the light is of no use.
+    /// True if all lights are delta lights, which need no pair for a point on the light.
     pub fn only_deltas(&self) -> bool {
         self.kinds & !(1 << POINT | 1 << SPOT | 1 << DISTANT) == 0
     }
-    /// The number of delta lights that are all sampled, with no random number: if there are no others and they are few.
+    /// The number of lights if they are few and all delta lights: then all are sampled, without random numbers.
     pub fn each(&self) -> Option<usize> {
         (self.only_deltas() && !self.many()).then(|| self.len())
     }
-    /// One light in every lane, not chosen by chance.
+    /// The same light in every lane, with pmf 1.
     pub fn one(&self, index: usize) -> Chosen {
         Chosen { pmf: X8::lit(1.0), ..Chosen::new(self.records[index].map(X8::splat)) }
     }
-    /// A light per lane for `u`, and `u` stretched over what its interval leaves.
+    /// Chooses a light per lane by power, and returns what is left of `u`, uniform in [0, 1).
     #[inline(always)]
     pub fn choose(&self, u: X8) -> (Chosen, X8) {
         if let [record] = &self.records[..] {
@@ -281,7 +282,7 @@ impl Lights {
         let rest = Real::clamped((u - chosen.start) / chosen.pmf, X8::lit(0.0), X8::ONE_MINUS_EPSILON);
         (chosen, rest)
     }
-    /// What each light can contribute to points of a surface, if they are few and more than one; nothing where the choice is by power.
+    /// What each light can contribute to points of a surface; `None` where the choice is by power.
     #[inline(always)]
     pub fn near(&self, p: V8, normal: V8) -> Option<Near> {
         if self.reaches.is_empty() {
@@ -302,16 +303,16 @@ impl Lights {
         }
         Some(Near { ends })
     }
-    /// The number of lights, where they are few, more than one, and all have an area.
+    /// The number of lights if there are 2 to [`FEW`] and all have an area.
     pub fn few(&self) -> Option<usize> {
         (!self.reaches.is_empty()).then_some(self.reaches.len())
     }
-    /// The light that each lane is told to sample, with its share of the samples.
+    /// The light that is allocated to each lane, with its share of the samples.
     #[inline(always)]
-    pub fn told(&self, light: u32x8, share: X8) -> Chosen {
+    pub fn allocated(&self, light: u32x8, share: X8) -> Chosen {
         Chosen { pmf: share, ..self.gathered(light.to_array().map(|i| i as usize)) }
     }
-    /// A light per lane for `u`, and `u` stretched over what its interval leaves: by power, or by what is near.
+    /// Chooses a light per lane by `u`, and returns what is left of `u`: by contribution, or by power if `near` is `None`.
     #[inline(always)]
     pub fn choose_near(&self, near: Option<&Near>, u: X8) -> (Chosen, X8) {
         let Some(Near { ends }) = near else { return self.choose(u) };
@@ -342,8 +343,8 @@ impl Lights {
         chosen.start = b[5];
         chosen
     }
-    /// A sample of the chosen lights from points `p` on surfaces with this normal; `emits` already takes account of lights with two
-    /// sides, and `radiance` of `chosen` of where in the sky the sample lies.
+    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky, `radiance` of
+    /// `chosen` becomes that of the sampled direction.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         const ONLY_SPHERES: u32 = 1 << SPHERE;
@@ -358,7 +359,7 @@ impl Lights {
         sample.emits = sample.emits | chosen.two_sided();
         sample
     }
-    /// Every kind that there is, each in its lanes.
+    /// Samples every kind of light that the scene has, each in its lanes.
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let mut mixed: Option<Drawn> = None;
         for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
@@ -391,8 +392,8 @@ impl Lights {
         }
         mixed.unwrap_or_else(|| unreachable!("there is a light"))
     }
-    /// Density per steradian, with the probability of the choice, with which [`sample`](Self::sample) by solid angle draws the
-    /// direction `w` of a shape from `p`.
+    /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
+    /// shape from `p`.
     #[inline]
     pub fn shape_pdf(&self, near: Option<&Near>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         let pdf = match *geometry {
@@ -418,7 +419,7 @@ impl Lights {
             }
         }
     }
-    /// The same for a direction of the sky.
+    /// The same for a direction to the sky.
     #[inline]
     pub fn sky_pdf(&self, normal: V8, w: V8) -> X8 {
         match &self.sky {
@@ -513,7 +514,7 @@ impl Table {
     }
 }
 
-/// Of a light with an area.
+/// Bounds of a light with an area.
 fn reach((record, power): (&Record, &f64)) -> Reach {
     let vector = |k: usize| -> Vec3<f64> { std::array::from_fn(|i| f64::from(record[k + i])).into() };
     let kind = record[14].to_bits();
@@ -534,7 +535,7 @@ fn reach((record, power): (&Record, &f64)) -> Reach {
     let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
     Reach {
         center: narrow(center),
-        // it is outside of the rounded centre's sphere by no more than this
+        // the rounding of the centre moves the sphere by less than this
         radius: (radius * (1.0 + 1e-6)) as f32,
         normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
         round: if length > 0.0 { 0.0 } else { 0.25 },
@@ -543,7 +544,7 @@ fn reach((record, power): (&Record, &f64)) -> Reach {
     }
 }
 
-/// Keeps the long way out of the short ones' registers.
+/// Not inlined, so that its registers do not burden the cheaper measures.
 #[inline(never)]
 fn projected(sample: impl Fn() -> Drawn) -> Drawn {
     sample()

@@ -1,4 +1,4 @@
-//! Light from infinitely far, ready to be looked up and sampled in packets.
+//! Light from infinitely far away, looked up and sampled in packets.
 
 use crate::accel::{V8, X8};
 use crate::lights::Measure;
@@ -9,7 +9,7 @@ use etendue::{ConstantEnvironment, LightSample, LightSampler, Vec2, Vec3, Warp, 
 /// An environment and the table by which it is sampled.
 #[derive(Clone, Debug)]
 pub struct Sky {
-    /// World to light.
+    /// Rows of the rotation from the world to the light.
     rows: [[f32; 3]; 3],
     kind: Kind,
 }
@@ -68,7 +68,7 @@ impl Sky {
             }
         }
     }
-    /// A direction, its density, and the radiance from there.
+    /// Samples a direction; returns it with its pdf per steradian, and the radiance from there.
     #[inline]
     pub fn sample(&self, measure: Measure, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
         match &self.kind {
@@ -86,7 +86,7 @@ impl Sky {
             }
         }
     }
-    /// Density with which [`sample`](Self::sample) draws a direction.
+    /// Pdf per steradian with which [`sample`](Self::sample) draws a direction.
     #[inline]
     pub fn pdf(&self, measure: Measure, normal: V8, direction: V8) -> X8 {
         match (&self.kind, measure) {

@@ -80,14 +80,14 @@ fn sets_tell_the_error() {
     let settings = Settings { width: 64, height: 64, spp: 64, sets: 4, ..SETTINGS };
     let films: Vec<_> = (0..24).map(|seed| world.render(&Settings { seed, ..settings }, |_| ()).0).collect();
     let n = films.len() as f64;
-    let (mut told, mut found) = (0.0, 0.0);
+    let (mut reported, mut found) = (0.0, 0.0);
     for i in 0..64 * 64 {
         let mean = films.iter().map(|f| f64::from(f.pixels[i].mean[1])).sum::<f64>() / n;
         found += films.iter().map(|f| (f64::from(f.pixels[i].mean[1]) - mean).powi(2)).sum::<f64>() / (n - 1.0);
-        told += films.iter().map(|f| f64::from(f.pixels[i].variance[1])).sum::<f64>() / n;
+        reported += films.iter().map(|f| f64::from(f.pixels[i].variance[1])).sum::<f64>() / n;
     }
-    println!("variance reported / measured: {:.3}", told / found);
-    assert!((told / found - 1.0).abs() < 0.05, "{told:e} reported, {found:e} measured");
+    println!("variance reported / measured: {:.3}", reported / found);
+    assert!((reported / found - 1.0).abs() < 0.05, "{reported:e} reported, {found:e} measured");
 }
 
 /// Compares errors against the built-in reference, minus its own: lights chosen at random (sobol-4d) and allocated (sobol).

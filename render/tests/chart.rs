@@ -118,7 +118,7 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
 }
 
 #[test]
-fn faults_are_told() {
+fn faults_are_reported() {
     let folder = Folder::new();
     let says = |arguments: &str, words: &[&str]| {
         let error = folder.fail(arguments);
@@ -262,8 +262,8 @@ fn errors_are_those_of_the_images() {
                 let film = world.render(&settings, |_| ()).0;
                 film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>() / (3.0 * 64.0 * 64.0)
             };
-            let foretold = (100..103).map(of).sum::<f64>() / 3.0;
-            let ratio = point.mse.value / foretold;
+            let predicted = (100..103).map(of).sum::<f64>() / 3.0;
+            let ratio = point.mse.value / predicted;
             // one set of strata has less error than the two or four that provide a variance
             let range = if series.way.sampler == Sampler::Independent { 0.88..1.12 } else { 0.4..0.9 };
             assert!(range.contains(&ratio), "{} {}: {ratio}", series.way.title(), point.spp);

@@ -203,7 +203,7 @@ fn fails_untouched(folder: &Folder, arguments: &[&str], message: &[&str]) {
 }
 
 #[test]
-fn bad_scenes_are_told_with_file_and_line() {
+fn bad_scenes_are_reported_with_file_and_line() {
     let folder = Folder::new();
     let cases = [
         ("Sahpe \"sphere\"", "5: ", "unknown directive Sahpe"),
@@ -235,7 +235,7 @@ fn bad_scenes_are_told_with_file_and_line() {
 }
 
 #[test]
-fn bad_arguments_are_told() {
+fn bad_arguments_are_reported() {
     let folder = Folder::new();
     fails_untouched(&folder, &["render", "none.pbrt", "-o", "kept.exr"], &["none.pbrt", "quads"]);
     fails_untouched(&folder, &["render", ".", "-o", "kept.exr"], &["\".\""]);

@@ -1,6 +1,6 @@
 //! Lights by one technique each, and the properties of their samples.
 
-use crate::oracle::{V3, cross, dot, length, sub, wide};
+use crate::oracle::{V3, along, cross, dot, length, sub, wide};
 use crate::properties::{Coordinates, lanes_of, squares_of, vectors_of};
 use crate::tolerances::ULP;
 use core::f64::consts::{PI, TAU};
@@ -33,7 +33,7 @@ pub trait Technique: Copy + Debug {
         *self
     }
     /// What the pdf is multiplied by then: lines have one per unit of width.
-    fn density_scaled(&self, _factor: f32) -> f32 {
+    fn pdf_scaled(&self, _factor: f32) -> f32 {
         1.0
     }
 }
@@ -146,7 +146,8 @@ pub fn scale<T: Technique>(light: &T, u: [f32; 2]) {
         let other = T::prepare::<f32>(&[light.scaled(factor)]).sample(squares_of(&[u]));
         let (mut expected, other) = (figures(&one, 0), figures(&other, 0));
         expected[3] *= f64::from(factor);
-        expected[4] *= f64::from(light.density_scaled(factor));
+        expected[4] *= f64::from(light.pdf_scaled(factor));
+        expected[7] /= f64::from(light.pdf_scaled(factor));
         assert_eq!(
             expected.map(f64::to_bits),
             other.map(f64::to_bits),
@@ -249,6 +250,15 @@ impl AreaLight {
         ];
         (vectors, lanes_of(|i| f64::from(of(i).radius)))
     }
+    /// True for a patch that folds back on itself, or nearly: seen along its middle normal, no convex quadrilateral.
+    fn folded(&self) -> bool {
+        let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
+        let twist = sub(sub(w, u), v);
+        let normal = |s: f64, t: f64| cross(along(u, twist, t), along(v, twist, s));
+        let middle = normal(0.5, 0.5);
+        let corners = [normal(0.0, 0.0), normal(1.0, 0.0), normal(0.0, 1.0), normal(1.0, 1.0)];
+        corners.into_iter().any(|corner| !(dot(corner, middle) > 1e-3 * length(corner) * length(middle)))
+    }
     /// Coordinates of a point relative to `a`, rounded as the shape's own are.
     fn offset(&self) -> V3 {
         wide(core::array::from_fn(|k| self.a[k] - self.p[k]))
@@ -293,15 +303,22 @@ impl Technique for AreaLight {
             (LightShape::Line, _) => Box::new(line.by_length(p)),
         }
     }
-    /// Curved lights by area: a rounded direction moves the point by 16 ulp of the distance, and the cosine there by that over the radius
-    /// and the cosine. Samples that the light itself hides have the pdf of their own point.
+    /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
+    /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
+    /// have the pdf of their own point.
     fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
-        if self.by != Measure::Area
-            || !matches!(self.shape, LightShape::Sphere | LightShape::Cylinder | LightShape::Patch)
-        {
+        let curved = matches!(self.shape, LightShape::Sphere | LightShape::Cylinder | LightShape::Patch);
+        if self.shape != LightShape::Line && !(curved && self.by == Measure::Area) {
             return Some(0.0);
         }
         let cos = dot(s.direction.at(0), s.normal.at(0));
+        if self.shape == LightShape::Line {
+            let allowed = 32.0 * ULP / cos.abs();
+            return (allowed < 0.05).then_some(allowed);
+        }
+        if self.shape == LightShape::Patch && self.folded() {
+            return None;
+        }
         let (size, reach) = match self.shape {
             LightShape::Patch => {
                 (length(wide(self.b)).min(length(wide(self.c))), f64::from(s.distance) + length(wide(self.n)))
@@ -342,7 +359,13 @@ impl Technique for AreaLight {
         let sine = length(cross(b, c)) / (length(b) * length(c));
         let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
         let slim = if flat { 8.0 / sine } else { 0.0 };
-        Some((distance * distance / (cos * area), (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP))
+        let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP;
+        if flat || self.shape == LightShape::Disk {
+            // the direction determines the distance, by its cosine, of which the pdf is a third power
+            let distance = dot(a, normal).abs() / (length(normal) * cos);
+            return Some((distance * distance / (cos * area), 3.0 * known));
+        }
+        Some((distance * distance / (cos * area), known))
     }
     /// Flat shapes by projected solid angle, seen from their own plane or a corner but for rounding, have directions of any length up to 1.
     fn unit_to(&self) -> f64 {
@@ -355,7 +378,7 @@ impl Technique for AreaLight {
         let coarse = flat && edge_on && self.by == Measure::ProjectedSolidAngle || touched;
         if coarse { 1.0 } else { 12.0 * ULP }
     }
-    fn density_scaled(&self, factor: f32) -> f32 {
+    fn pdf_scaled(&self, factor: f32) -> f32 {
         if self.shape == LightShape::Line { factor } else { 1.0 }
     }
     fn scaled(&self, factor: f32) -> Self {

@@ -4,17 +4,16 @@
 //! `cargo bench -p etendue-benches --bench summary -- cone` selects routines by name, `-- --markdown` prints the format of the README, `--
 //! --instructions` counts instructions instead (requires Valgrind), `-- rays --json=FILE` also writes the rays to FILE (an absolute path).
 //!
-//! `-- --tables` writes the tables of costs and errors in the READMEs and the documentation, and `-- --check-tables` measures nothing and
-//! fails where their rows and the routines differ.
+//! `-- --tables` writes the tables of costs and errors in the README and the documentation. `tests/tables.rs` fails where their rows and the
+//! routines differ.
 //!
 //! Figures are medians of repetitions. The widths take turns, so that a change of the processor's clock affects all of them alike.
 
 mod instructions;
-mod tables;
 
 use etendue::{f32x4, f32x8};
 use etendue_benches::rays::{How, Kind, Workload};
-use etendue_benches::{Routine, SAMPLES, routines};
+use etendue_benches::{Routine, SAMPLES, routines, tables};
 use etendue_render::accel::Stack;
 use std::hint::black_box;
 use std::time::Instant;
@@ -53,10 +52,6 @@ fn main() {
     let given = |flag: &str| arguments.iter().any(|a| a == flag);
     if given(instructions::CHILD) {
         return instructions::child(&filter);
-    }
-    if given("--check-tables") {
-        let names: Vec<String> = routines::<f32>().into_iter().map(|routine| routine.name).collect();
-        return finish(tables::check(&names));
     }
     let (markdown, counted) = (given("--markdown"), given("--instructions"));
     let what = if counted { "instructions/sample" } else { "ns/sample, median" };

@@ -25,6 +25,8 @@ lanewise! {
 struct Crossing<R: Real> {
     distance: R,
     height: R,
+    /// Position across the axis, in units of the greatest length.
+    across: Vec2<R>,
     /// Ahead of the ray, and between the ends to within the rounding of the direction.
     valid: R::Mask,
 }
@@ -65,15 +67,17 @@ impl<R: Real> PlacedCylinder<R> {
         let crossing = |t: R| {
             let height = w.z.mul_add(t, o.z);
             let valid = t.gt(zero) & height.ge(-slack) & height.le(length + slack);
-            Crossing { distance: t, height, valid }
+            Crossing { distance: t, height, across: Vec2::lit([0.0; 2]), valid }
         };
         let (near, far) = (crossing(near), crossing(far));
         // a ray along the axis meets nothing
         let touches = across.abs().le((radius + slack) * a.sqrt()) & radius.gt(zero) & length.gt(zero) & a.gt(zero);
         let hit = (near.valid | far.valid) & touches;
+        let t = R::blend(near.valid, near.distance, far.distance);
         let first = Crossing {
-            distance: R::blend(near.valid, near.distance, far.distance) / scale,
+            distance: t / scale,
             height: R::blend(near.valid, near.height, far.height) / scale,
+            across: Vec2::new(w.x.mul_add(t, o.x), w.y.mul_add(t, o.y)),
             valid: hit,
         };
         (first, hit)
@@ -84,12 +88,11 @@ impl<R: Real> Surface<R> for PlacedCylinder<R> {
     #[inline(always)]
     fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
         let zero = R::lit(0.0);
-        let (Crossing { distance, height, .. }, hit) = self.meet(w);
+        let (Crossing { distance, height, across, .. }, hit) = self.meet(w);
         let most = R::lit(f64::from(f32::MAX));
         let distance = distance.keep(hit).clamped(zero, most);
-        let offset = self.frame.to_local(w.mul_add(distance, -self.end));
-        let turns = atan2_turns(offset.y, offset.x);
-        let across = Vec3::new(offset.x, offset.y, zero);
+        let turns = atan2_turns(across.y, across.x);
+        let across = Vec3::new(across.x, across.y, zero);
         let normal = self.frame.to_world((across * across.max_abs().pow2_scale()).normalize());
         SurfaceHit { distance, normal, uv: Vec2::new(unit_interval(quotient(height, self.length)), turns) }
     }

@@ -26,7 +26,8 @@ lanewise! {
     /// assert_eq!(sampler.pdf(s.direction), s.pdf);
     /// ```
     ///
-    /// Surface coordinates (u, v): the barycentric coordinates of `v1` and `v2`.
+    /// Surface coordinates (u, v): the barycentric coordinates of `v1` and `v2`, so that vertex normals interpolate as
+    /// (1−u−v)·n0 + u·n1 + v·n2.
     pub struct Triangle {
         /// First vertex v0, in the coordinates of the scene.
         pub v0: Vec3<R>,

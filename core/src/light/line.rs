@@ -1,6 +1,6 @@
 //! Line lights.
 
-use super::sample::{LightSample, direction_to};
+use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
 use super::surface::quotient;
 use crate::lanewise::lanewise;
@@ -15,6 +15,9 @@ lanewise! {
     /// that the estimator is `f · L · width · cosθ · weight()`; it compares techniques of this light with each other. No other technique
     /// can hit the line, so `delta` holds and [`hit`](LightSampler::hit) always misses. A line of length 0, or a point on the line,
     /// gives pdf 0. Surface coordinates: the part of the length, and 0.
+    ///
+    /// The pdf of a sample is accurate to 1e−6 relative; that of a direction to 3e−7/sinγ, which is as well as a rounded direction
+    /// determines the point.
     pub struct Line {
         /// One end, in the coordinates of the scene.
         pub p: Vec3<R>,
@@ -74,11 +77,10 @@ impl<R: Real> PlacedLine<R> {
         let height = quotient(area, length) / scale;
         Self { origin, end, edge, foot: along.cross(across), height, length: length / scale }
     }
-    /// Distance to the line in a direction of the plane through it, and the sine of the angle between both.
+    /// Distance to the line in a direction of the plane through it.
     #[inline(always)]
-    fn reach(&self, w: Vec3<R>) -> (R, R) {
-        let sine = w.dot(self.foot);
-        (quotient(self.height, sine).greater(R::lit(0.0)), sine)
+    fn reach(&self, w: Vec3<R>) -> R {
+        quotient(self.height, w.dot(self.foot)).greater(R::lit(0.0))
     }
     #[inline(always)]
     fn sample(&self, DirectionSample { direction, distance }: DirectionSample<R>, pdf: R) -> LightSample<R> {
@@ -107,7 +109,7 @@ fn finite<R: Real>(pdf: R) -> R {
 }
 
 macro_rules! line_sampler {
-    ($(#[$doc:meta])* $name:ident $({ $arc:ident: $kind:ident })?, |$this:ident, $u:ident| $draw:expr, |$self:ident, $w:ident| $pdf:expr, $invert:expr) => {
+    ($(#[$doc:meta])* $name:ident $({ $arc:ident: $kind:ident })?, |$this:ident, $u:ident| $draw:expr, |$self:ident, $w:ident, $reach:ident| $pdf:expr, $invert:expr) => {
         lanewise! {
             $(#[$doc])*
             pub struct $name {
@@ -119,12 +121,13 @@ macro_rules! line_sampler {
             #[inline(always)]
             fn sample(&self, u: Vec2<R>) -> LightSample<R> {
                 let ($this, $u) = (self, u.x);
-                let drawn = $draw;
-                self.line.sample(drawn, self.pdf(drawn.direction))
+                let drawn: DirectionSample<R> = $draw;
+                let ($self, $w, $reach) = (self, drawn.direction, drawn.distance);
+                self.line.sample(drawn, finite($pdf))
             }
             #[inline(always)]
             fn pdf(&self, w: Vec3<R>) -> R {
-                let ($self, $w) = (self, w);
+                let ($self, $w, $reach) = (self, w, self.line.reach(w));
                 finite($pdf)
             }
             #[inline(always)]
@@ -147,24 +150,21 @@ line_sampler!(
     /// A [`Line`] sampled by length from a point.
     LineByLength,
     |s, u| direction_to(s.line.edge.mul_add(u, s.line.end)),
-    |s, w| {
-        let (distance, sine) = s.line.reach(w);
-        super::sample::solid_angle_pdf(distance, sine * s.line.length)
-    },
-    s.line.sample(DirectionSample { direction: w, distance: s.line.reach(w).0 }, R::lit(0.0)).uv.x
+    |s, w, distance| solid_angle_pdf(distance, w.dot(s.line.foot) * s.line.length),
+    s.line.sample(DirectionSample { direction: w, distance: s.line.reach(w) }, R::lit(0.0)).uv.x
 );
 line_sampler!(
     /// A [`Line`] sampled by angle from a point.
     LineByAngle { arc: SphericalSegment },
     |s, u| s.arc.sample_direction(u),
-    |s, w| s.arc.pdf(w) * s.line.reach(w).0,
+    |s, w, distance| s.arc.pdf(w) * distance,
     s.arc.invert(w)
 );
 line_sampler!(
     /// A [`Line`] sampled by projected solid angle from a point on a surface.
     LineByProjectedSolidAngle { arc: ProjectedSegment },
     |s, u| s.arc.sample_direction(u),
-    |s, w| s.arc.pdf(w) * s.line.reach(w).0,
+    |s, w, distance| s.arc.pdf(w) * distance,
     s.arc.invert(w)
 );
 

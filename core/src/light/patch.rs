@@ -4,6 +4,7 @@ use super::sampler::ByArea;
 use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint, quotient};
 use crate::lanewise::lanewise;
 use crate::real::Real;
+use crate::spherical::to_unit;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{PatchSurface, Warp};
 
@@ -33,8 +34,7 @@ impl<R: Real> BilinearPatch<R> {
     /// times distance²/|cosθ'|. The pdf of a direction is that of the nearest point in it.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> PatchByArea<R> {
-        let surface = PatchSurface { p: self.p - p, u: self.u, v: self.v, w: self.w };
-        ByArea { origin: p, surface: PlacedPatch { surface } }
+        ByArea { origin: p, surface: PlacedPatch::new(PatchSurface { p: self.p - p, u: self.u, v: self.v, w: self.w }) }
     }
 }
 
@@ -45,10 +45,25 @@ lanewise! {
     /// A bilinear patch relative to the shading point. Its surface coordinates are (s, t).
     pub struct PlacedPatch {
         surface: PatchSurface<R>,
+        /// The same in units in which no coordinate exceeds 2, so that products neither over- nor underflow.
+        small: PatchSurface<R>,
+        /// 1 over that unit.
+        scale: R,
     }
 }
 
 impl<R: Real> PlacedPatch<R> {
+    #[inline(always)]
+    fn new(surface: PatchSurface<R>) -> Self {
+        let PatchSurface { p, u, v, w } = surface;
+        let ([p, u, v, w], scale) = to_unit([p, u, v, w]);
+        Self { surface, small: PatchSurface { p, u, v, w }, scale }
+    }
+    /// Unit normal and its length before that, |∂s×∂t|, in units.
+    #[inline(always)]
+    fn normal(&self, st: Vec2<R>) -> (Vec3<R>, R) {
+        self.small.normal(st).unit_and_length()
+    }
     /// (s, t) of the nearest point in the direction `ray` and its distance, in [0, 1]² where the ray hits; and whether it does.
     ///
     /// The line of constant s that meets the ray makes the plane through both contain the shading point: a quadratic equation in s
@@ -56,11 +71,7 @@ impl<R: Real> PlacedPatch<R> {
     #[inline(always)]
     fn meet(&self, ray: Vec3<R>) -> (Vec2<R>, R, R::Mask) {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
-        let PatchSurface { p, u, v, w } = self.surface;
-        let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs()).greater(w.max_abs());
-        let finite = reach.lt(R::lit(1e37));
-        let scale = reach.pow2_scale();
-        let [p, u, v, w] = [p, u, v, w].map(|e| e.keep(finite) * scale);
+        let PatchSurface { p, u, v, w } = self.small;
         let twist = (w - u) - v;
         let (a, b, c) = (ray.dot(u.cross(twist)), ray.dot(p.cross(twist) + u.cross(v)), ray.dot(p.cross(v)));
         let root = (b * b - R::lit(4.0) * a * c).greater(zero).sqrt();
@@ -76,13 +87,13 @@ impl<R: Real> PlacedPatch<R> {
             let beyond = |x: R| (x - x.clamped(zero, one)).abs();
             let other = twist.mul_add(t.clamped(zero, one), u);
             let inside = beyond(s).le(slack(ray.cross(other).length())) & beyond(t).le(slack(across.length()));
-            (Vec2::new(s.clamped(zero, one), t.clamped(zero, one)), distance, inside & distance.gt(zero) & finite)
+            (Vec2::new(s.clamped(zero, one), t.clamped(zero, one)), distance, inside & distance.gt(zero))
         };
         let first = candidate(quotient(R::lit(-2.0) * c, sum));
         let second = candidate(quotient(-half * sum, a));
         let take = second.2 & (!first.2 | second.1.lt(first.1));
         let st = Vec2::blend(take, second.0, first.0);
-        (st, R::blend(take, second.1, first.1) / scale, first.2 | second.2)
+        (st, R::blend(take, second.1, first.1) / self.scale, first.2 | second.2)
     }
 }
 
@@ -91,7 +102,7 @@ impl<R: Real> Surface<R> for PlacedPatch<R> {
     fn at(&self, w: Vec3<R>) -> SurfaceHit<R> {
         let (uv, distance, hit) = self.meet(w);
         let distance = distance.keep(hit).clamped(R::lit(0.0), R::lit(f64::from(f32::MAX)));
-        SurfaceHit { distance, normal: self.surface.normal(uv).unit_and_length().0, uv }
+        SurfaceHit { distance, normal: self.normal(uv).0, uv }
     }
 }
 
@@ -103,10 +114,9 @@ impl<R: Real> AreaSurface<R> for PlacedPatch<R> {
         let position = self.surface.p + self.surface.offset(uv);
         let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
         let finite = below(position.x) & below(position.y) & below(position.z);
-        let normal = self.surface.normal(uv).unit_and_length().0;
         SurfacePoint {
             position: position.keep(finite),
-            normal: normal.keep(finite),
+            normal: self.normal(uv).0,
             uv,
             inverse_pdf: self.inverse_pdf(uv),
         }
@@ -116,8 +126,8 @@ impl<R: Real> AreaSurface<R> for PlacedPatch<R> {
         // |∂s×∂t| over the density of (s, t) is what a flat light has for its area
         let pdf = self.surface.parameters().pdf(uv);
         let some = pdf.gt(R::lit(0.0));
-        let length = self.surface.normal(uv).unit_and_length().1;
-        (length / R::blend(some, pdf, R::lit(1.0))).keep(some & length.lt(R::lit(1e37)))
+        let area = self.normal(uv).1 / R::blend(some, pdf, R::lit(1.0)) / self.scale / self.scale;
+        area.keep(some & area.lt(R::lit(1e37)))
     }
     #[inline(always)]
     fn contains(&self, w: Vec3<R>) -> R::Mask {
@@ -134,9 +144,9 @@ impl<R: Real> AreaSurface<R> for PlacedPatch<R> {
         let mut sum = R::lit(0.0);
         for (s, a) in nodes {
             for (t, b) in nodes {
-                sum += R::lit(a * b) * self.surface.normal(Vec2::lit([s, t])).unit_and_length().1;
+                sum += R::lit(a * b) * self.normal(Vec2::lit([s, t])).1;
             }
         }
-        sum
+        sum / self.scale / self.scale
     }
 }

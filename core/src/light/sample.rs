@@ -21,8 +21,8 @@ pub struct LightSample<R: Real> {
     pub direction: Vec3<R>,
     /// Distance to the light along that direction, in the unit of the coordinates; [`FAR`] for lights at infinity.
     pub distance: R,
-    /// Probability density of the direction, per steradian; 0 in lanes that hold no sample (a degenerate light, a point on the light, a
-    /// ray that misses). Where `delta` holds it is only what the estimator divides by.
+    /// Probability density of the direction, per steradian; 0 in lanes that hold no sample (a degenerate light, a point in the
+    /// plane of a flat light, a ray that misses). Where `delta` holds it is only what the estimator divides by.
     pub pdf: R,
     /// Unit normal of the light at the sampled point; for lights without a surface, the direction back to the shading point. Not
     /// meaningful where `pdf` is 0.
@@ -104,6 +104,20 @@ pub struct AreaSample<R: Real> {
     pub pdf: R,
     /// Surface coordinates in [0, 1]², as in [`LightSample`].
     pub uv: Vec2<R>,
+}
+
+impl<R: Real> AreaSample<R> {
+    /// True where there is a sample.
+    #[inline(always)]
+    pub fn valid(&self) -> R::Mask {
+        self.pdf.gt(R::lit(LEAST_PDF))
+    }
+    /// 1/pdf, an area, where the sample is [`valid`](Self::valid); 0 elsewhere. Always finite.
+    #[inline(always)]
+    pub fn weight(&self) -> R {
+        let valid = self.valid();
+        (R::lit(1.0) / R::blend(valid, self.pdf, R::lit(1.0))).keep(valid)
+    }
 }
 
 /// Pdf per steradian of a point that is uniform by area: distance²/(|cosθ'| area), given `along` = |cosθ'| area; 0 where that is not finite.

@@ -20,10 +20,10 @@ use crate::warp::Warp;
 /// then call as often as needed: what depends on the light and the point alone is computed by the `by_…` method that returned the sampler.
 ///
 /// `sample(u).pdf` and `pdf(sample(u).direction)` are the same bits. The exceptions are curved lights (sphere, cylinder, bilinear patch)
-/// *by area*, whose density a rounded direction determines only as well as it determines the point; there the sample reports the pdf of
+/// *by area*, and lines: a rounded direction determines their pdf only as well as it determines the point, so a sample reports the pdf of
 /// the point that was drawn.
 ///
-/// Degenerate input (a light without extent, a shading point on the light) gives pdf 0, never NaN, infinity or a panic.
+/// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic.
 ///
 /// ```
 /// use etendue::{Frame, LightSampler, Real, Vec2, Vec3, Warp, estimate::Heuristic, warp::CosineHemisphere};
@@ -55,14 +55,15 @@ pub trait LightSampler<R: Real> {
     fn hit(&self, w: Vec3<R>) -> LightSample<R>;
     /// The shading point.
     fn origin(&self) -> Vec3<R>;
-    /// Draws a point of the light for `u` in [0, 1)², with its pdf per unit area: distance² / |cosθ'| times less than per steradian.
+    /// Draws a point of the light for `u` in [0, 1)², with its pdf per unit area: distance² / |cosθ'| times less than per steradian. Test
+    /// [`AreaSample::valid`] or multiply by [`AreaSample::weight`]: where the pdf is 0, the point may be the shading point itself.
     #[inline(always)]
     fn area_sample(&self, u: Vec2<R>) -> AreaSample<R> {
         let LightSample { direction, distance, pdf, normal, uv, .. } = self.sample(u);
         let some = pdf.gt(R::lit(0.0)) & distance.lt(R::lit(super::FAR));
         let positive = R::blend(some, distance, R::lit(1.0));
         let pdf = (pdf / positive * direction.dot(normal).abs() / positive).keep(some);
-        AreaSample { point: direction.mul_add(distance, self.origin()), normal, pdf, uv }
+        area_sample(direction.mul_add(distance, self.origin()), normal, pdf, uv)
     }
 }
 
@@ -116,8 +117,16 @@ impl<R: Real, S: AreaSurface<R>> LightSampler<R> for ByArea<R, S> {
         let point = self.surface.draw(u);
         let some = point.inverse_pdf.gt(R::lit(0.0));
         let pdf = (R::lit(1.0) / R::blend(some, point.inverse_pdf, R::lit(1.0))).keep(some);
-        AreaSample { point: point.position + self.origin, normal: point.normal, pdf, uv: point.uv }
+        area_sample(point.position + self.origin, point.normal, pdf, point.uv)
     }
+}
+
+/// Coordinates end at the largest number, and a pdf that is not finite counts as none.
+#[inline(always)]
+fn area_sample<R: Real>(point: Vec3<R>, normal: Vec3<R>, pdf: R, uv: Vec2<R>) -> AreaSample<R> {
+    let most = R::lit(super::FAR);
+    let point = Vec3::new(point.x.clamped(-most, most), point.y.clamped(-most, most), point.z.clamped(-most, most));
+    AreaSample { point, normal, pdf: pdf.keep(pdf.lt(R::lit(1e37))), uv }
 }
 
 /// A hit where the pdf is positive, a miss elsewhere.

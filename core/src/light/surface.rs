@@ -2,7 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::real::{Real, unit_interval};
-use crate::spherical::to_unit;
+use crate::spherical::{compensated_dot, compensated_height, cross_dw, to_unit};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{AreaTriangle, ConcentricDisk, UniformSphere, Warp};
 use core::f64::consts::PI;
@@ -89,8 +89,14 @@ impl<R: Real> AffinePlane<R> {
     #[inline(always)]
     pub(super) fn new(origin: Vec3<R>, first: Vec3<R>, second: Vec3<R>) -> Self {
         let ([origin, first, second], scale) = to_unit([origin, first, second]);
-        let cross = first.cross(second);
-        let (normal, length) = cross.unit_and_length();
+        // each edge in a unit of its own, however different their lengths are; the height over a plane that the point nearly touches is
+        // a small difference
+        let (unit_first, unit_second) = (first.max_abs().pow2_scale(), second.max_abs().pow2_scale());
+        let exact = cross_dw(first * unit_first, second * unit_second);
+        let (normal, sine) = (exact[0] + exact[1]).unit_and_length();
+        let height = quotient(compensated_height(origin, exact), sine);
+        let length = sine / unit_first / unit_second;
+        let cross = normal * length;
         Self {
             origin,
             first,
@@ -98,7 +104,7 @@ impl<R: Real> AffinePlane<R> {
             cross,
             normal,
             length,
-            height: origin.dot(normal),
+            height,
             along_first: origin.cross(first),
             along_second: origin.cross(second),
             unit: R::lit(1.0) / scale,
@@ -262,7 +268,7 @@ impl<R: Real, const N: usize> PlacedPolygon<R, N> {
         let mut plane = AffinePlane::new(origin, edges[1], edges[N - 1]);
         // the first three corners may be in line
         plane.normal = normal;
-        plane.height = (origin.keep(finite) * (R::lit(1.0) / plane.unit)).dot(normal);
+        plane.height = compensated_dot(origin.keep(finite) * (R::lit(1.0) / plane.unit), normal);
         let (origin, edges) = (origin.keep(finite), edges.map(|e| e.keep(finite)));
         Self { origin, edges, plane, sizes, total, normal, area: length * R::lit(0.5) }
     }
@@ -368,7 +374,7 @@ lanewise! {
 impl<R: Real> PlacedDisk<R> {
     #[inline(always)]
     pub(super) fn new(center: Vec3<R>, normal: Vec3<R>, radius: R) -> Self {
-        Self { center, frame: Frame::new(normal), radius, height: center.dot(normal) }
+        Self { center, frame: Frame::new(normal), radius, height: compensated_dot(center, normal) }
     }
     /// Position on the unit disk, beyond it too.
     #[inline(always)]

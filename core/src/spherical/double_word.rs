@@ -8,7 +8,7 @@ use crate::vector::Vec3;
 
 /// a·b, rounded once.
 #[inline(always)]
-pub(super) fn compensated_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
+pub(crate) fn compensated_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
     let [sum, rest] = dot_dw(a, b);
     sum + rest
 }
@@ -35,7 +35,7 @@ pub(super) fn rounded_sum<R: Real>([a, ra]: [R; 2], [b, rb]: [R; 2]) -> R {
 
 /// p·n for an unevaluated sum n, rounded once: the height of a far point over a plane is a small difference.
 #[inline(always)]
-pub(super) fn compensated_height<R: Real>(p: Vec3<R>, n: [Vec3<R>; 2]) -> R {
+pub(crate) fn compensated_height<R: Real>(p: Vec3<R>, n: [Vec3<R>; 2]) -> R {
     let [sum, rest] = height_dw(p, n);
     sum + rest
 }
@@ -49,7 +49,7 @@ pub(super) fn height_dw<R: Real>(p: Vec3<R>, [n, more]: [Vec3<R>; 2]) -> [R; 2] 
 
 /// u×v, as an unevaluated sum.
 #[inline(always)]
-pub(super) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
+pub(crate) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
     let cross = |a: R, b: R, c: R, d: R| {
         let (ab, cd) = (a * b, c * d);
         let (sum, error) = two_sum(ab, -cd);

@@ -34,7 +34,7 @@ impl Work<'_> {
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, s)| s.reflects.any()) {
             let mut u = light[p];
             let mut chosen = if let Some(allocated) = allocated.get(p) {
-                world.lights.told(allocated.light, allocated.share)
+                world.lights.allocated(allocated.light, allocated.share)
             } else {
                 let number = choice.map_or(u.x, |choice| choice[p]);
                 let near = world.lights.near(surface.point, surface.normal);

@@ -46,10 +46,11 @@ pub(super) fn area_lights(input: &mut Input<'_>) {
     // These edges are not perpendicular, as those of a rectangle have to be. A flat shape must be clearly out of the plane of the point;
     // most of all a polygon, whose corners are rounded, or a shape over a horizon.
     let [v, e, f] = [a, b, c].map(wide);
-    let normal = cross(e, f);
+    let normal = if shape == LightShape::Disk { e } else { cross(e, f) };
     let elevation = dot(v, normal).abs() / (length(v) * length(normal));
     let strict = by == Measure::ProjectedSolidAngle || shape == LightShape::Polygon;
-    let flat = matches!(shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon);
+    let flat =
+        matches!(shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon | LightShape::Disk);
     let lifted = elevation > 1e-3 && length(v) > 1e-3 && length(normal) > 1e-3;
     let fair = !flat || lifted && (!strict || elevation > 0.05 && length(v) > 0.05 && length(normal) > 0.05);
     if shape != LightShape::Rectangle && fair {

@@ -27,16 +27,19 @@ struct Table {
 }
 
 /// What one run measured.
-pub(crate) struct Measured {
+pub struct Measured {
     /// Nanoseconds per sample in f32, f32x4 and f32x8.
-    pub(crate) times: HashMap<String, [f64; 3]>,
+    pub times: HashMap<String, [f64; 3]>,
     /// Greatest errors of a sample and a pdf.
     errors: HashMap<String, [f64; 2]>,
 }
 
 impl Measured {
-    /// With the errors that the property tests print. Runs them.
-    pub(crate) fn new(times: HashMap<String, [f64; 3]>) -> Result<Self, String> {
+    /// Takes the times, and runs the property tests for the errors that they print.
+    ///
+    /// # Errors
+    /// If the tests cannot be run, or fail.
+    pub fn new(times: HashMap<String, [f64; 3]>) -> Result<Self, String> {
         let output = Command::new(env!("CARGO"))
             .args(["test", "--locked", "-p", "etendue-tests", "--test", "warps"])
             .current_dir(root())
@@ -324,12 +327,18 @@ impl Cell {
 }
 
 /// Writes all tables.
-pub(crate) fn write(measured: &Measured) -> Result<(), String> {
+///
+/// # Errors
+/// If a file or its markers are missing, or a row names a routine that was not measured.
+pub fn write(measured: &Measured) -> Result<(), String> {
     tables().iter().try_for_each(|table| table.write(measured))
 }
 
-/// Checks that the tables in the documentation have the rows of the routines, and that there are such routines.
-pub(crate) fn check(routines: &[String]) -> Result<(), String> {
+/// Checks that the tables in the documentation have the rows of the routines, and that the routines exist.
+///
+/// # Errors
+/// What differs, and in which file.
+pub fn check(routines: &[String]) -> Result<(), String> {
     for table in tables() {
         table.check()?;
         for cell in table.rows.iter().flatten() {
