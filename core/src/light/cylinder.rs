@@ -5,6 +5,7 @@ use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint, quot
 use crate::lanewise::lanewise;
 use crate::math::atan2_turns;
 use crate::real::{Real, unit_interval};
+use crate::spherical::to_unit;
 use crate::vector::{Frame, Vec2, Vec3};
 use core::f64::consts::PI;
 
@@ -47,9 +48,9 @@ impl<R: Real> PlacedCylinder<R> {
     fn meet(&self, w: Vec3<R>) -> (Crossing<R>, R::Mask) {
         let zero = R::lit(0.0);
         // in units of the greatest length, so that squares neither over- nor underflow
-        let scale = self.end.max_abs().greater(self.radius.abs()).greater(self.length).pow2_scale();
-        let (w, o) = (self.frame.to_local(w), self.frame.to_local(self.end * -scale));
-        let (radius, length) = (self.radius * scale, self.length * scale);
+        let sizes = Vec3::new(self.radius, self.length, zero);
+        let ([end, Vec3 { x: radius, y: length, .. }], scale) = to_unit([self.end, sizes]);
+        let (w, o) = (self.frame.to_local(w), self.frame.to_local(-end));
         let a = w.x.mul_add(w.x, w.y * w.y);
         let b = w.x.mul_add(o.x, w.y * o.y);
         let c = Vec3::new(o.x, o.y, zero).length_squared_minus_square(radius);

@@ -374,6 +374,8 @@ lanewise! {
 impl<R: Real> PlacedDisk<R> {
     #[inline(always)]
     pub(super) fn new(center: Vec3<R>, normal: Vec3<R>, radius: R) -> Self {
+        let finite = center.max_abs().lt(R::lit(f64::INFINITY));
+        let (center, radius) = (center.keep(finite), radius.keep(finite));
         Self { center, frame: Frame::new(normal), radius, height: compensated_dot(center, normal) }
     }
     /// Position on the unit disk, beyond it too.
