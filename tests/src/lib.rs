@@ -12,7 +12,7 @@
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
 //! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights.
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
-//! - [`stats`]: p-values.
+//! - [`stats`] has p-values.
 
 pub mod checks;
 pub mod fuzz_bodies;

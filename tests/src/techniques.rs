@@ -257,7 +257,7 @@ impl AreaLight {
         let normal = |s: f64, t: f64| cross(along(u, twist, t), along(v, twist, s));
         let middle = normal(0.5, 0.5);
         let corners = [normal(0.0, 0.0), normal(1.0, 0.0), normal(0.0, 1.0), normal(1.0, 1.0)];
-        corners.into_iter().any(|corner| !(dot(corner, middle) > 1e-3 * length(corner) * length(middle)))
+        !corners.into_iter().all(|corner| dot(corner, middle) > 1e-3 * length(corner) * length(middle))
     }
     /// Coordinates of a point relative to `a`, rounded as the shape's own are.
     fn offset(&self) -> V3 {
