@@ -223,15 +223,9 @@ fn choice() -> Table {
 const LIGHTS: &[&str] =
     &["light", "by", "x1", "x8", "prepared, x1", "prepared, x8", "pdf, x8", "invert, x8", "all fields, x8"];
 
-/// A build without fused multiply-add writes the table of what that costs, any other build all the others.
 fn tables() -> Vec<Table> {
-    let file = "core/src/light.rs";
-    if cfg!(target_feature = "fma") {
-        vec![warps(), Table { file, name: "lights", header: LIGHTS, rows: lights() }, sequences(), choice()]
-    } else {
-        let rows = lights().into_iter().map(|row| row[..6].to_vec()).collect();
-        vec![Table { file, name: "lights without flags", header: &LIGHTS[..6], rows }]
-    }
+    let lights = Table { file: "core/src/light.rs", name: "lights", header: LIGHTS, rows: lights() };
+    vec![warps(), lights, sequences(), choice()]
 }
 
 fn processor() -> String {
