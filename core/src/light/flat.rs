@@ -56,7 +56,8 @@ impl<R: Real> Triangle<R> {
     /// Uniform over the surface, seen from the point `p`: [`AreaTriangle`](crate::warp::AreaTriangle).
     ///
     /// - pdf: distance²/(|cosθ'| A) per steradian, with A the area and θ' the angle at the light.
-    /// - Greatest error of the pdf: 32 ulp / |cosθ'|.
+    /// - Greatest error of the pdf that the tests allow: (48 + 24/sinα + (36 + 24/sinα)/|cosθ'|)·2⁻²⁴ relative, with α the angle
+    ///   between the edges.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> TriangleByArea<R> {
         ByArea { origin: p, surface: self.placed(p) }
@@ -129,7 +130,8 @@ impl<R: Real> Parallelogram<R> {
     fn placed(&self, p: Vec3<R>) -> PlacedParallelogram<R> {
         PlacedParallelogram::new(self.p - p, self.u, self.v)
     }
-    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, to 32 ulp / |cosθ'|.
+    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, with the error of
+    /// [`Triangle::by_area`].
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> ParallelogramByArea<R> {
         ByArea { origin: p, surface: self.placed(p) }
@@ -183,7 +185,8 @@ impl<R: Real> Rectangle<R> {
     fn placed(&self, p: Vec3<R>) -> PlacedParallelogram<R> {
         PlacedParallelogram::new(self.p - p, self.u, self.v)
     }
-    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, to 32 ulp / |cosθ'|.
+    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, with the error of
+    /// [`Triangle::by_area`].
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> ParallelogramByArea<R> {
         ByArea { origin: p, surface: self.placed(p) }

@@ -33,7 +33,8 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     pub fn splat(s: Polygon<R::Scalar, N>) -> Self {
         Self { corners: s.corners.map(Vec3::splat) }
     }
-    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, to 32 ulp / |cosθ'|.
+    /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, which follows from
+    /// the rounded corners.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> PolygonByArea<R, N> {
         ByArea { origin: p, surface: PlacedPolygon::new(self.corners, p) }

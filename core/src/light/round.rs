@@ -44,7 +44,8 @@ impl<R: Real> Sphere<R> {
     /// Uniform over the surface: (1 + R/d)/2 of the samples, at the distance d, face away and have `emits` false.
     ///
     /// - pdf of a sample: distance²/(|cosθ'| 4πR²) per steradian, of the point that was drawn.
-    /// - pdf of a direction: that of the nearest point in it, which a rounded direction determines to (d/R) 10⁻⁷ of the radius.
+    /// - pdf of a direction: that of the nearest point in it, which a rounded direction determines only as well as it
+    ///   determines the point.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> SphereByArea<R> {
         ByArea { origin: p, surface: self.placed(p) }
@@ -102,7 +103,7 @@ impl<R: Real> Disk<R> {
     ///
     /// - Formula: x = c + R(q₀s + q₁t), q uniform on the unit disk, s and t perpendicular to the normal.
     /// - Domain: u in [0, 1)²; any unit normal, radius > 0.
-    /// - pdf: distance²/(|cosθ'| πR²) per steradian, to 32 ulp / |cosθ'|.
+    /// - pdf: distance²/(|cosθ'| πR²) per steradian; the tests allow a relative error of (48 + 36/|cosθ'|)·2⁻²⁴.
     /// - Degenerate: a radius of 0, a point in the plane: pdf 0.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> DiskByArea<R> {
@@ -147,7 +148,8 @@ impl<R: Real> Cylinder<R> {
     /// - Formula: x = p + u₀·axis + R(s cosφ + t sinφ), φ = 2πu₁, s and t perpendicular to the axis.
     /// - Domain: u in [0, 1)²; any axis that is not 0, radius > 0.
     /// - pdf of a sample: distance²/(|cosθ'| 2πR·|axis|) per steradian, of the point that was drawn; of a direction: that of the nearest
-    ///   point in it, which a rounded direction determines to (d/R) 10⁻⁷ of the radius.
+    ///   point in it, which a rounded direction determines only as well as it
+    ///   determines the point.
     /// - Degenerate: a radius or axis of 0: pdf 0.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> CylinderByArea<R> {
