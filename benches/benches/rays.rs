@@ -1,8 +1,8 @@
 //! Rays of every kind, traced in every way. Criterion's throughput is in rays per second, its time per ray.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use etendue_benches::rays::{How, Kind, Workload};
-use etendue_render::accel::Stack;
+use etendue_render::bvh::Stack;
+use etendue_routines::rays::{How, Kind, Workload};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

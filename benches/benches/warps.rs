@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etendue::{f32x4, f32x8};
-use etendue_benches::{Routine, SAMPLES, routines};
+use etendue_routines::{Routine, SAMPLES, routines};
 use std::time::{Duration, Instant};
 
 /// One iteration is one sample at every width, so that criterion's time is the time per sample.

@@ -8,8 +8,9 @@
 //! rays together; "groups" is what the renderer does: 64 rays as one shaft if that is narrow, else as a stream.
 
 use etendue::{Mask, u32x8};
-use etendue_benches::baseline::{self, Baseline};
-use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, Rays, ShapeSet, Stack, V8, Way, X8};
+use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, ShapeSet, Stack, Traversal};
+use etendue_render::packet::{M8, V8, X8};
+use etendue_routines::baseline::{self, Baseline};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -95,12 +96,12 @@ struct Found {
     distances: f64,
 }
 
-fn closest(accel: &Accel, groups: &[Group], stack: &mut Stack) -> Found {
+fn closest(bvh: &Bvh, groups: &[Group], stack: &mut Stack) -> Found {
     let mut found = Found { hits: 0, distances: 0.0 };
     for group in groups {
-        let rays: [Rays; GROUP] = std::array::from_fn(|p| accel.rays(group[p].origin, group[p].direction));
+        let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
         let mut hits = group.map(|p| Hits::none(p.limit));
-        accel.closest(&rays, &group.map(|p| p.active), &mut hits, stack);
+        bvh.closest(&rays, &group.map(|p| p.active), &mut hits, stack);
         for hits in &hits {
             let bits = hits.any().bits();
             found.hits += u64::from(bits.count_ones());
@@ -111,13 +112,13 @@ fn closest(accel: &Accel, groups: &[Group], stack: &mut Stack) -> Found {
     found
 }
 
-fn occluded(accel: &Accel, groups: &[Group], stack: &mut Stack) -> Found {
+fn occluded(bvh: &Bvh, groups: &[Group], stack: &mut Stack) -> Found {
     let mut hits = 0;
     for group in groups {
-        let rays: [Rays; GROUP] = std::array::from_fn(|p| accel.rays(group[p].origin, group[p].direction));
+        let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
         let before = group.map(|p| p.active);
         let mut open = before;
-        accel.occluded(&rays, &mut open, &group.map(|p| p.limit), &[u32x8::splat(NOTHING); GROUP], stack);
+        bvh.occluded(&rays, &mut open, &group.map(|p| p.limit), &[u32x8::splat(NOTHING); GROUP], stack);
         hits += before.iter().zip(&open).map(|(b, o)| u64::from((b.bits() & !o.bits()).count_ones())).sum::<u64>();
     }
     Found { hits, distances: 0.0 }
@@ -167,11 +168,11 @@ fn run() -> Result<(), String> {
         .chunks_exact(9)
         .map(|t| std::array::from_fn(|v| std::array::from_fn(|k| t[3 * v + k])))
         .collect();
-    let shapes = ShapeSet::new(&[]).map_err(|e| e.to_string())?;
+    let shapes = ShapeSet::new(std::iter::empty()).map_err(|e| e.to_string())?;
     let start = Instant::now();
-    let mut accel = Accel::new(&triangles, shapes).map_err(|e| e.to_string())?;
+    let mut bvh = Bvh::new(&triangles, shapes).map_err(|e| e.to_string())?;
     let build = start.elapsed().as_secs_f64();
-    let per_triangle = accel.bytes() as f64 / triangles.len() as f64;
+    let per_triangle = bvh.bytes() as f64 / triangles.len() as f64;
     println!("{path}: {} triangles, built in {build:.3} s, {per_triangle:.1} bytes per triangle", triangles.len());
     let baseline = (only.is_empty() || only.contains("obvhs")).then(|| Baseline::new(&triangles));
     let mut stack = Stack::default();
@@ -210,14 +211,15 @@ fn run() -> Result<(), String> {
             report("any obvhs", measure(repetitions, rays.len(), all));
         }
         let groups = groups(&rays);
-        for (way, name) in [(Way::Single, "single"), (Way::Stream, "stream"), (Way::Choose, "groups")] {
+        for (way, name) in [(Traversal::Single, "single"), (Traversal::Stream, "stream"), (Traversal::Choose, "groups")]
+        {
             if !only.is_empty() && !only.contains(name) {
                 continue;
             }
-            accel = accel.with_way(way);
-            let speed = measure(repetitions, rays.len(), || closest(&accel, &groups, &mut stack));
+            bvh = bvh.with_traversal(way);
+            let speed = measure(repetitions, rays.len(), || closest(&bvh, &groups, &mut stack));
             report(&format!("closest {name}"), speed);
-            let speed = measure(repetitions, rays.len(), || occluded(&accel, &groups, &mut stack));
+            let speed = measure(repetitions, rays.len(), || occluded(&bvh, &groups, &mut stack));
             report(&format!("any {name}"), speed);
         }
     }

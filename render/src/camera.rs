@@ -1,41 +1,79 @@
-//! The pinhole camera, in packets of eight rays.
+//! The camera of an image: a pinhole, a thin lens, or a lens in a barrel.
 
-use crate::accel::{V8, X8};
-use crate::scene;
+mod pinhole;
+mod thin_lens;
+mod vignetting;
 
-/// A pinhole camera for an image of a given size.
+pub use pinhole::Pinhole;
+pub use thin_lens::{Slopes, ThinLens};
+pub use vignetting::{Barrel, Pupil};
+
+use crate::packet::{M8, V8, X8};
+use crate::scene::CameraSettings;
+use etendue::warp::ConcentricDisk;
+use etendue::{Real, Vec2, Warp, u32x8};
+
+/// Where eight rays pass the film and the lens. It is drawn once for each sample, and the camera and the sensor both read it.
 #[derive(Clone, Copy, Debug)]
-pub struct Pinhole {
-    origin: [f32; 3],
-    /// Direction at the top left corner, and its change per pixel across and down the image.
-    corner: [f32; 3],
-    across: [f32; 3],
-    down: [f32; 3],
+pub struct CameraSample {
+    /// Positions in pixels, from the top left of the image.
+    pub film: Vec2<X8>,
+    /// Points of the lens, in units of its radius; the centre for a pinhole.
+    pub lens: Vec2<X8>,
 }
 
-impl Pinhole {
-    /// The pinhole of `camera` for an image of `width` × `height` pixels.
-    pub fn new(camera: &scene::CameraSettings, width: u32, height: u32) -> Self {
-        let [kx, ky] = camera.tan_half(width, height);
-        let (f, r, u) = (camera.forward, camera.right, camera.up);
-        let vector = |f: &dyn Fn(usize) -> f64| std::array::from_fn(|k| f(k) as f32);
+impl CameraSample {
+    /// Samples at columns `x` and rows `y` with random pairs for the position in the pixel and, if the camera has a lens, on the lens.
+    #[inline(always)]
+    pub fn new(x: u32x8, y: u32x8, film: Vec2<X8>, lens: Option<Vec2<X8>>) -> Self {
         Self {
-            origin: vector(&|k| camera.origin[k]),
-            corner: vector(&|k| f[k] - kx * r[k] + ky * u[k]),
-            across: vector(&|k| 2.0 * kx * r[k] / f64::from(width)),
-            down: vector(&|k| -2.0 * ky * u[k] / f64::from(height)),
+            film: Vec2::new(X8::from_uint(x) + film.x, X8::from_uint(y) + film.y),
+            lens: lens.map_or(Vec2::default(), |u| ConcentricDisk.sample(u)),
         }
     }
-    /// Origin and unit direction of the rays through positions in pixels from the top left.
-    #[inline]
-    pub fn ray(&self, x: X8, y: X8) -> (V8, V8) {
-        let (origin, direction) = self.through(x, y);
-        (origin, direction.normalize())
+}
+
+/// The model that generates camera rays.
+#[derive(Clone, Copy, Debug)]
+pub enum Camera {
+    /// All rays leave from one point.
+    Pinhole(Pinhole),
+    /// Rays leave from all points of a lens.
+    ThinLens(ThinLens),
+    /// Rays leave from the points of a lens that a barrel does not block.
+    Barrel(ThinLens, Barrel),
+    /// Each pixel is a point of the lens, as seen from one point of the film.
+    Pupil(Pupil),
+}
+
+impl Camera {
+    /// A scene's camera, for an image of `width` × `height` pixels.
+    pub fn new(camera: &CameraSettings, width: u32, height: u32) -> Self {
+        match &camera.lens {
+            None => Self::Pinhole(Pinhole::new(camera, width, height)),
+            Some(lens) => Self::ThinLens(ThinLens::new(camera, lens, width, height)),
+        }
     }
-    /// Like [`Pinhole::ray`], with directions whose component along the camera's axis is 1.
+    /// Origins and unit directions of eight rays.
+    #[inline(always)]
+    pub fn rays(&self, CameraSample { film, lens }: &CameraSample) -> (V8, V8) {
+        match self {
+            Self::Pinhole(pinhole) => pinhole.ray(film.x, film.y),
+            Self::ThinLens(thin) | Self::Barrel(thin, _) => thin.ray(film.x, film.y, *lens),
+            Self::Pupil(pupil) => pupil.ray(film.x, film.y),
+        }
+    }
+    /// The lanes whose rays pass the lens; `None` if all do. Blocked rays count as black samples.
     #[inline]
-    pub fn through(&self, x: X8, y: X8) -> (V8, V8) {
-        let direction = V8::from(self.down).mul_add(y, V8::from(self.across).mul_add(x, V8::from(self.corner)));
-        (V8::from(self.origin), direction)
+    pub fn open(&self, CameraSample { film, lens }: &CameraSample) -> Option<M8> {
+        match self {
+            Self::Pinhole(_) | Self::ThinLens(_) => None,
+            Self::Barrel(_, barrel) => Some(barrel.open(film.x, film.y, *lens)),
+            Self::Pupil(pupil) => Some(pupil.open(film.x, film.y)),
+        }
+    }
+    /// Whether samples have a point on the lens.
+    pub const fn has_lens(&self) -> bool {
+        matches!(self, Self::ThinLens(_) | Self::Barrel(..))
     }
 }

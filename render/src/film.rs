@@ -1,6 +1,6 @@
 //! Accumulates the mean and variance of pixels into an image.
 
-use crate::accel::{V8, X8};
+use crate::packet::{V8, X8};
 use etendue::{Real, estimate::Welford};
 
 /// The finished estimate of one pixel.

@@ -1,5 +1,6 @@
 //! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and image crates.
 
+use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};
 use exr::block::chunk::CompressedBlock;
 use exr::prelude::{
@@ -7,51 +8,14 @@ use exr::prelude::{
     ReadChannels, ReadLayers, WritableImage,
 };
 use std::fmt;
-use std::io::{BufWriter, Cursor, Write};
-use std::path::{Path, PathBuf};
-
-/// Why an image file could not be read or written.
-#[derive(Debug)]
-pub struct ImageError {
-    path: PathBuf,
-    what: String,
-}
-
-impl fmt::Display for ImageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.path.display(), self.what)
-    }
-}
-
-impl std::error::Error for ImageError {}
-
-fn failed(path: &Path, what: impl fmt::Display) -> ImageError {
-    ImageError { path: path.to_owned(), what: what.to_string() }
-}
-
-/// Replaces a file atomically: writes a temporary file beside it, then renames it.
-pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
-    let mut name = path.file_name().ok_or_else(|| failed(path, "not a file name"))?.to_owned();
-    name.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(name);
-    let write = || {
-        let mut file = std::fs::File::create(&part)?;
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        std::fs::rename(&part, path)
-    };
-    write().map_err(|error| {
-        // the error of the write says more than that of the clean-up
-        let _ = std::fs::remove_file(&part);
-        failed(path, format!("cannot write: {error}"))
-    })
-}
+use std::io::{BufWriter, Cursor};
+use std::path::Path;
 
 /// Checks before rendering that an image can be written.
 ///
 /// # Errors
 /// Fails if the folder does not exist, or if `path` is itself a folder.
-pub fn check_writable(path: &Path) -> Result<(), ImageError> {
+pub fn check_writable(path: &Path) -> Result<(), FileError> {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if path.file_name().is_none() || path.is_dir() {
         return Err(failed(path, "cannot write: this is a folder"));
@@ -69,7 +33,7 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 ///
 /// # Errors
 /// Fails if the file cannot be written; an existing file then remains unchanged.
-pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
+pub fn write_exr(path: &Path, film: &Film) -> Result<(), FileError> {
     let plane = |f: &dyn Fn(&Pixel) -> f32| FlatSamples::F32(film.pixels.iter().map(f).collect());
     let mut channels = Vec::new();
     for (k, name) in CHANNELS.into_iter().enumerate() {
@@ -92,7 +56,7 @@ pub fn write_exr(path: &Path, film: &Film) -> Result<(), ImageError> {
 ///
 /// # Errors
 /// Fails if the file cannot be written; an existing file then remains unchanged.
-pub fn write_png(path: &Path, film: &Film) -> Result<(), ImageError> {
+pub fn write_png(path: &Path, film: &Film) -> Result<(), FileError> {
     let data: Vec<[u8; 3]> = film.pixels.iter().map(|p| tone_map(p.mean)).collect();
     let bytes = encode_png([film.width, film.height], &data).map_err(|error| failed(path, error))?;
     replace(path, &bytes)
@@ -133,7 +97,7 @@ const MOST_EXPANSION: u128 = 2048;
 
 /// Checks that an image is not empty, and that a file of this length can hold it, before memory is allocated: a header may claim any
 /// size.
-fn believe(path: &Path, [width, height]: [u128; 2], bits_per_pixel: u128, file: usize) -> Result<(), ImageError> {
+fn believe(path: &Path, [width, height]: [u128; 2], bits_per_pixel: u128, file: usize) -> Result<(), FileError> {
     let pixels = width.saturating_mul(height);
     if pixels == 0 {
         return Err(failed(path, format!("the image is empty: {width} × {height} pixels")));
@@ -166,8 +130,8 @@ pub struct Picture {
 ///
 /// # Errors
 /// Fails if the file is missing, damaged or of another format, or has more than 2²⁸ pixels.
-pub fn read(path: &Path) -> Result<Picture, ImageError> {
-    let bytes = crate::scene::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
+pub fn read(path: &Path) -> Result<Picture, FileError> {
+    let bytes = crate::files::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode(path, &bytes)
 }
 
@@ -175,23 +139,51 @@ pub fn read(path: &Path) -> Result<Picture, ImageError> {
 ///
 /// # Errors
 /// Fails if the bytes are damaged or of another format, or hold more than 2²⁸ pixels.
-pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, ImageError> {
+pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
     // OpenEXR's magic number
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
         return decode_exr(bytes, path);
     }
+    // PNG's signature
+    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+        return decode_png(bytes, path);
+    }
     let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR or PNG image: {error}"));
-    let format = image_files::guess_format(bytes).map_err(|error| not_one(&error))?;
-    let reader = || image_files::ImageReader::with_format(Cursor::new(bytes), format);
-    let (width, height) = reader().into_dimensions().map_err(|error| not_one(&error))?;
-    // a PNG may have one bit per pixel
+    let decoder = image_files::codecs::hdr::HdrDecoder::new(Cursor::new(bytes)).map_err(|error| not_one(&error))?;
+    let [width, height] = [decoder.metadata().width, decoder.metadata().height];
+    // a run of equal pixels takes few bytes
     believe(path, [width.into(), height.into()], 1, bytes.len())?;
-    let image = reader().decode().map_err(|error| not_one(&error))?;
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let encoded = format == image_files::ImageFormat::Png;
-    let decode = |x: f32| if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) };
-    let radiance = image.into_rgb32f().pixels().map(|p| if encoded { p.0.map(decode) } else { p.0 }).collect();
-    Ok(Picture { width, height, radiance, variance: None })
+    let image = image_files::DynamicImage::from_decoder(decoder).map_err(|error| not_one(&error))?;
+    let radiance = image.into_rgb32f().pixels().map(|p| p.0).collect();
+    Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
+}
+
+/// Reads a PNG file of any depth and colour type; transparency is ignored.
+fn decode_png(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
+    let not_one = |error: png::DecodingError| failed(path, format!("not a valid PNG image: {error}"));
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let header = decoder.read_header_info().map_err(not_one)?;
+    let (width, height) = (header.width, header.height);
+    // one bit per pixel at least
+    believe(path, [width.into(), height.into()], 1, bytes.len())?;
+    let mut reader = decoder.read_info().map_err(not_one)?;
+    let size = reader.output_buffer_size().ok_or_else(|| failed(path, "too large"))?;
+    let mut data = vec![0; size];
+    let frame = reader.next_frame(&mut data).map_err(not_one)?;
+    let channels = frame.color_type.samples();
+    let linear = |x: f32| if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) };
+    let samples: Vec<f32> = match frame.bit_depth {
+        png::BitDepth::Sixteen => {
+            let pairs = data[..frame.buffer_size()].chunks_exact(2);
+            pairs.map(|b| linear(f32::from(u16::from_be_bytes([b[0], b[1]])) / 65535.0)).collect()
+        }
+        _ => data[..frame.buffer_size()].iter().map(|&b| linear(f32::from(b) / 255.0)).collect(),
+    };
+    // grey, or grey and alpha, have one colour channel
+    let color = |p: &[f32]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
+    let radiance = samples.chunks_exact(channels).map(color).collect();
+    Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
 }
 
 impl From<&Film> for Picture {
@@ -209,7 +201,7 @@ impl From<&Film> for Picture {
 ///
 /// # Errors
 /// Fails if the file is missing or damaged, has no R, G, B, or has more than 2²⁸ pixels.
-pub fn read_exr(path: &Path) -> Result<Picture, ImageError> {
+pub fn read_exr(path: &Path) -> Result<Picture, FileError> {
     let bytes = std::fs::read(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode_exr(&bytes, path)
 }
@@ -218,7 +210,7 @@ pub fn read_exr(path: &Path) -> Result<Picture, ImageError> {
 ///
 /// # Errors
 /// Fails if the file is damaged, has no R, G, B, or has more than 2²⁸ pixels.
-pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, ImageError> {
+pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
     let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {error}"));
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(not_one)?;
     for header in &meta.headers {

@@ -7,14 +7,16 @@ mod direct;
 mod paths;
 mod surface;
 
-use crate::accel::{Accel, BuildError, GROUP, Hits, M8, Rays, ShapeSet, Stack, V8, X8};
+use crate::bvh::{BuildError, Bvh, GROUP, Hits, Rays, ShapeSet, Stack};
+use crate::camera::{Camera, CameraSample};
 use crate::film::{Film, Pixel, PixelSum};
-use crate::lens::Camera;
-use crate::lights::{Lights, Technique};
-use crate::sampler::{CHOICE, Packet, Sampler, Source};
+use crate::lights::Lights;
+use crate::packet::{M8, V8, X8};
+use crate::sampler::{CHOICE, LENS, Packet, Sampler, Source};
 use crate::scene::{CameraSettings, Material, Scene, Shape};
 use crate::sensor::{Exposure, Sensor};
 use crate::sky::Sky;
+use crate::technique::Technique;
 use adaptive::Effort;
 use allocation::{Allocated, Blocks};
 use bsdf::Finish;
@@ -22,7 +24,7 @@ use direct::keep;
 use etendue::{Mask, Real, Vec2, u32x8};
 use rayon::prelude::*;
 use std::sync::Arc;
-use surface::{Surface, normal_of};
+use surface::Surface;
 
 /// Everything an image depends on besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +69,7 @@ pub struct RayCount {
 /// A scene ready to be rendered.
 #[derive(Debug)]
 pub struct World {
-    accel: Accel,
+    bvh: Bvh,
     shapes: Vec<Shape>,
     /// Normals of the shapes; 0 for spheres.
     normals: Vec<[f32; 3]>,
@@ -99,8 +101,8 @@ impl World {
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        let accel = Accel::new(&scene.triangles, ShapeSet::new(&scene.shapes)?)?;
-        Ok(Self::with(scene, accel))
+        let bvh = Bvh::new(&scene.triangles, ShapeSet::new(scene.shapes.iter().map(|s| &s.geometry))?)?;
+        Ok(Self::with(scene, bvh))
     }
 
     /// Like [`World::new`], but takes the triangles out of the scene and builds the tree in their memory.
@@ -108,19 +110,19 @@ impl World {
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
-        let shapes = ShapeSet::new(&scene.shapes)?;
-        let accel = Accel::taking(std::mem::take(&mut scene.triangles), shapes)?;
-        let world = Self::with(scene, accel);
+        let shapes = ShapeSet::new(scene.shapes.iter().map(|s| &s.geometry))?;
+        let bvh = Bvh::taking(std::mem::take(&mut scene.triangles), shapes)?;
+        let world = Self::with(scene, bvh);
         scene.triangle_materials = Vec::new();
         Ok(world)
     }
 
-    fn with(scene: &Scene, accel: Accel) -> Self {
+    fn with(scene: &Scene, bvh: Bvh) -> Self {
         let one = scene.triangle_materials.windows(2).all(|w| w[0] == w[1]);
         let place_materials = if one {
             Vec::new()
         } else {
-            accel.order().iter().map(|&id| scene.triangle_materials[id as usize]).collect()
+            bvh.order().iter().map(|&id| scene.triangle_materials[id as usize]).collect()
         };
         let albedo = |material: &Material| match *material {
             Material::Diffuse(albedo) => albedo,
@@ -133,12 +135,12 @@ impl World {
             deltas: Lights::deltas(scene),
             sky,
             only_diffuse: scene.materials.iter().all(|m| matches!(m, Material::Diffuse(_))),
-            normals: scene.shapes.iter().map(|s| normal_of(&s.geometry)).collect(),
+            normals: scene.shapes.iter().map(|s| s.geometry.normal()).collect(),
             shapes: scene.shapes.clone(),
             camera: scene.camera.clone(),
             diagonal: scene.film.diagonal,
             sensor: Sensor::default(),
-            accel,
+            bvh,
             albedos: scene.materials.iter().map(albedo).collect(),
             finishes: scene.materials.iter().map(bsdf::finish).collect(),
             place_materials,
@@ -148,7 +150,7 @@ impl World {
 
     /// Size of the trees and their primitives in bytes.
     pub fn bytes(&self) -> usize {
-        self.accel.bytes()
+        self.bvh.bytes()
     }
 
     /// Whether the plain integrator suffices: diffuse surfaces and area lights, sampled by a single technique.
@@ -267,6 +269,9 @@ struct Work<'a> {
     settings: &'a Settings,
     camera: Camera,
     exposure: Option<Exposure>,
+    /// Whether samples need a point of the lens.
+    lens: bool,
+    samples: [CameraSample; GROUP],
     source: Source,
     count: RayCount,
     stack: Stack,
@@ -293,11 +298,14 @@ impl<'a> Work<'a> {
             camera.has_lens(),
             settings.width,
         );
+        let exposure = world.exposure(settings.width, settings.height);
         Self {
             world,
             settings,
             camera,
-            exposure: world.exposure(settings.width, settings.height),
+            lens: camera.has_lens() || exposure.is_some(),
+            samples: [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP],
+            exposure,
             source,
             count: RayCount::default(),
             stack: Stack::default(),
@@ -382,12 +390,12 @@ impl<'a> Work<'a> {
     fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated]) -> [V8; GROUP] {
         let plain = self.world.plain(self.settings.technique);
         let mut radiance = if plain { self.group(packets, allocated) } else { self.paths(packets) };
-        for (radiance, packet) in radiance.iter_mut().zip(packets) {
-            if let Some(open) = self.camera.open(&self.source, packet) {
+        for (radiance, sample) in radiance.iter_mut().zip(&self.samples[..packets.len()]) {
+            if let Some(open) = self.camera.open(sample) {
                 *radiance = keep(*radiance, open);
             }
             if let Some(exposure) = &self.exposure {
-                *radiance = *radiance * exposure.weight(&self.source, packet);
+                *radiance = *radiance * exposure.weight(sample);
             }
         }
         radiance
@@ -406,13 +414,15 @@ impl<'a> Work<'a> {
                 Some(allocated) => self.source.film_and_light_of(packet, allocated.light, allocated.sample),
                 None => self.source.film_and_light(packet),
             };
-            let (origin, direction) = self.camera.through(&self.source, packet, film);
+            let lens = self.lens.then(|| self.source.pair(packet, LENS));
+            self.samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
+            let (origin, direction) = self.camera.rays(&self.samples[p]);
             light[p] = second;
-            rays[p] = world.accel.rays(origin, direction);
+            rays[p] = world.bvh.rays(origin, direction);
             active[p] = packet.active;
             self.count.camera += u64::from(packet.active.bits().count_ones());
         }
-        world.accel.closest(&rays[..count], &active[..count], &mut hits[..count], &mut self.stack);
+        world.bvh.closest(&rays[..count], &active[..count], &mut hits[..count], &mut self.stack);
 
         let mut radiance = [V8::default(); GROUP];
         let mut surfaces = std::mem::take(&mut self.surfaces);

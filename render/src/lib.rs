@@ -1,24 +1,32 @@
-//! A direct-lighting renderer that measures light sampling techniques: it reads scenes and writes images with their variance.
+//! A direct-lighting renderer: it reads scenes and writes images with their variance.
+//!
+//! Modules import one way, from the last line of this list to the first:
+//!
+//! - [`packet`], [`geometry`], [`options`]: packets of eight numbers, the forms of shapes, and what command lines share.
+//! - [`film`], [`files`], [`image`], [`compare`]: pixels, and images in files.
+//! - [`scene`]: scene files.
+//! - [`bvh`]: what rays hit.
+//! - [`camera`], [`sensor`], [`sampler`], [`technique`], [`sky`], [`lights`]: the numbers and directions of a sample.
+//! - [`integrator`]: images.
 
-pub mod accel;
-pub mod atlas;
+pub mod bvh;
 pub mod camera;
-pub mod chart;
 pub mod compare;
-pub mod figure;
+pub mod files;
 pub mod film;
+pub mod geometry;
 pub mod image;
 pub mod integrator;
-pub mod lens;
 pub mod lights;
+pub mod options;
+pub mod packet;
 pub mod sampler;
 pub mod scene;
-pub mod selftest;
 pub mod sensor;
 pub mod sky;
-pub mod vignetting;
+pub mod technique;
 
 pub use integrator::{RayCount, Settings, World};
-pub use lights::Technique;
 pub use sampler::Sampler;
 pub use sensor::Sensor;
+pub use technique::Technique;

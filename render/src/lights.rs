@@ -1,56 +1,15 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
 
-use crate::accel::{M8, NOTHING, V8, X8, select};
+use crate::bvh::NOTHING;
+use crate::packet::{M8, V8, X8, select};
 use crate::scene::{DeltaLight, Geometry, Scene};
 use crate::sky::Sky;
+use crate::technique::Measure;
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2,
     Vec3, u32x8,
 };
 use std::sync::Arc;
-
-/// How a light is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum Technique {
-    /// Directions uniform over the hemisphere; rays hit lights by chance
-    UniformHemisphere,
-    /// Directions in proportion to the cosine; rays hit lights by chance
-    CosineHemisphere,
-    /// Points uniform over a light's area
-    Area,
-    /// Directions uniform over the solid angle of a light
-    SolidAngle,
-    /// Directions uniform over the projected solid angle of a light
-    ProjectedSolidAngle,
-    /// Directions by the BSDF: the cosine, or the visible normals of a rough metal
-    Brdf,
-    /// Solid-angle and brdf, combined by the balance heuristic
-    MisBalance,
-    /// Solid-angle and brdf, combined by the power heuristic
-    MisPower,
-}
-
-impl Technique {
-    /// The measure by which it samples lights; solid angle for techniques that sample none.
-    pub fn measure(self) -> Measure {
-        match self {
-            Self::Area => Measure::Area,
-            Self::ProjectedSolidAngle => Measure::Projected,
-            _ => Measure::SolidAngle,
-        }
-    }
-}
-
-/// The measure by which points of a light are uniform.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
-    /// Area of the light.
-    Area,
-    /// Solid angle at the shading point.
-    SolidAngle,
-    /// Solid angle projected on the surface there.
-    Projected,
-}
 
 const SPHERE: u32 = 0;
 const TRIANGLE: u32 = 1;
@@ -155,37 +114,14 @@ pub struct Chosen {
     pub shape: u32x8,
 }
 
-fn area(geometry: &Geometry) -> f64 {
-    let cross = |a: [f32; 3], b: [f32; 3], o: [f32; 3]| {
-        let edge = |p: [f32; 3]| Vec3::<f64>::from(std::array::from_fn(|k| f64::from(p[k]) - f64::from(o[k])));
-        edge(a).cross(edge(b)).length()
-    };
-    match *geometry {
-        Geometry::Sphere { radius, .. } => 4.0 * std::f64::consts::PI * f64::from(radius).powi(2),
-        Geometry::Triangle([a, b, c]) => 0.5 * cross(b, c, a),
-        Geometry::Parallelogram { u, v, .. } => cross(u, v, [0.0; 3]),
-    }
-}
-
 /// Squared radius of a sphere around all surfaces.
 fn squared_radius(scene: &Scene) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let mut add = |p: [f32; 3], pad: f32| {
+    let boxes = scene.shapes.iter().map(|shape| shape.geometry.bounds());
+    for [least, most] in scene.triangles.iter().flatten().map(|&p| [p, p]).chain(boxes) {
         for k in 0..3 {
-            low[k] = low[k].min(f64::from(p[k] - pad));
-            high[k] = high[k].max(f64::from(p[k] + pad));
-        }
-    };
-    scene.triangles.iter().flatten().for_each(|&p| add(p, 0.0));
-    for shape in &scene.shapes {
-        match shape.geometry {
-            Geometry::Sphere { center, radius } => add(center, radius),
-            Geometry::Triangle(corners) => corners.into_iter().for_each(|p| add(p, 0.0)),
-            Geometry::Parallelogram { p, u, v } => {
-                for (s, t) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-                    add(std::array::from_fn(|k| p[k] + s * u[k] + t * v[k]), 0.0);
-                }
-            }
+            low[k] = low[k].min(f64::from(least[k]));
+            high[k] = high[k].max(f64::from(most[k]));
         }
     }
     let squared: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>() / 4.0;
@@ -222,7 +158,7 @@ impl Lights {
                 }
             };
             let sides = if emission.two_sided { 2.0 } else { 1.0 };
-            let power = sum(emission.radiance) * area(&shape.geometry) * sides;
+            let power = sum(emission.radiance) * shape.geometry.area() * sides;
             let kind = kind | if emission.two_sided { TWO_SIDED } else { 0 };
             table.push(geometry, emission.radiance, kind, index as u32, power);
         }
@@ -363,7 +299,7 @@ impl Lights {
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let mut mixed: Option<Drawn> = None;
         for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
-            let here = crate::accel::equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
+            let here = crate::packet::equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
             let [a, b, c] = chosen.vectors();
             let sample = match kind {
                 SPHERE => chosen.sphere(measure, p, normal, u),
@@ -599,6 +535,6 @@ impl Chosen {
     }
     #[inline]
     fn two_sided(&self) -> M8 {
-        !crate::accel::equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
+        !crate::packet::equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
     }
 }

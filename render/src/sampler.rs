@@ -7,7 +7,7 @@
 //! The samples of a well-distributed set are not independent, so their spread does not measure the error. A pixel therefore
 //! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means.
 
-use crate::accel::{M8, X8};
+use crate::packet::{M8, X8};
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex,
 };

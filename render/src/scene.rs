@@ -15,11 +15,13 @@ mod terrain;
 mod tests;
 mod transform;
 
+use crate::files::read_file;
+pub use crate::geometry::Geometry;
 pub use lights::{DeltaLight, Environment, SkyRadiance};
 pub use materials::Material;
 use std::path::Path;
 use std::sync::Arc;
-use std::{fmt, fs, io};
+use std::{fmt, io};
 
 /// The contents of a scene file, in world space.
 #[derive(Clone, Debug)]
@@ -112,29 +114,6 @@ pub struct Shape {
     pub material: u32,
     /// Emitted light; `None` if the shape is no light.
     pub emission: Option<Emission>,
-}
-
-/// The form of a [`Shape`].
-#[derive(Clone, Debug, PartialEq)]
-pub enum Geometry {
-    /// A whole sphere; its normal points outwards.
-    Sphere {
-        /// Centre.
-        center: [f32; 3],
-        /// Radius, greater than 0.
-        radius: f32,
-    },
-    /// The corners of a triangle; the normal is (v1 − v0) × (v2 − v0).
-    Triangle([[f32; 3]; 3]),
-    /// The parallelogram `p + s u + t v` for s, t in \[0,1\]; the normal is u × v.
-    Parallelogram {
-        /// One corner.
-        p: [f32; 3],
-        /// First edge from that corner.
-        u: [f32; 3],
-        /// Second edge from that corner.
-        v: [f32; 3],
-    },
 }
 
 /// Constant emission of a surface.
@@ -278,14 +257,6 @@ pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
 fn rounded(rgb: [f64; 3]) -> Option<[f32; 3]> {
     let rgb = rgb.map(|x| x as f32);
     rgb.iter().all(|x| x.is_finite()).then_some(rgb)
-}
-
-/// Reads a regular file; refuses pipes and devices, which may block or never end.
-pub(crate) fn read_file(path: &Path) -> io::Result<Vec<u8>> {
-    if !fs::metadata(path)?.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
-    }
-    fs::read(path)
 }
 
 fn utf8<'a>(bytes: &'a [u8], file: &Arc<str>) -> Result<&'a str, Message> {

@@ -3,12 +3,10 @@
 //! The film lies at the distance z behind the lens where its shorter side spans the camera's field of view. The scene sets the
 //! film's diagonal (35 mm by default). Camera space is in metres, as in pbrt.
 
-use crate::accel::X8;
-use crate::lens::Slopes;
-use crate::sampler::{FILM, LENS, Packet, Source};
+use crate::camera::{CameraSample, Slopes};
+use crate::packet::X8;
 use crate::scene;
-use etendue::warp::ConcentricDisk;
-use etendue::{Real, Warp};
+use etendue::Real;
 use std::f64::consts::PI;
 
 /// The quantity that a pixel measures.
@@ -66,11 +64,8 @@ impl Exposure {
     }
     /// The weights by which the radiance of eight samples contributes to the measurement.
     #[inline]
-    pub fn weight(&self, source: &Source, packet: &Packet) -> X8 {
-        let film = source.pair(packet, FILM);
-        let lens = ConcentricDisk.sample(source.pair(packet, LENS));
-        let [x, y] = [X8::from_uint(packet.x) + film.x, X8::from_uint(packet.y) + film.y];
-        let q = lens * X8::lit(self.ratio) + self.slopes.at(x, y);
+    pub fn weight(&self, CameraSample { film, lens }: &CameraSample) -> X8 {
+        let q = *lens * X8::lit(self.ratio) + self.slopes.at(film.x, film.y);
         let square = X8::lit(1.0) + q.length_squared();
         X8::lit(PI * self.ratio.powi(2) * self.area) / (square * square)
     }

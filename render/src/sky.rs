@@ -1,8 +1,8 @@
 //! Light from infinitely far away, looked up and sampled in packets.
 
-use crate::accel::{V8, X8};
-use crate::lights::Measure;
+use crate::packet::{V8, X8};
 use crate::scene;
+use crate::technique::Measure;
 use etendue::light::ImageEnvironment;
 use etendue::{ConstantEnvironment, LightSample, LightSampler, Vec2, Vec3, Warp, u32x8};
 

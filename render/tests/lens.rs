@@ -2,9 +2,9 @@
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Vec2, f32x8, u32x8};
+use etendue_render::camera::Camera;
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
-use etendue_render::lens::Camera;
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 use std::path::Path;

@@ -8,7 +8,8 @@
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
-use etendue_render::accel::{Accel, GROUP, Hits, M8, NOTHING, ShapeSet, Stack, Way};
+use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, ShapeSet, Stack, Traversal};
+use etendue_render::packet::M8;
 
 type Triangle = [[f32; 3]; 3];
 type Ray = ([f32; 3], [f32; 3]);
@@ -166,15 +167,14 @@ struct Found {
     free: Vec<u32>,
 }
 
-fn trace(accel: &Accel, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found {
+fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found {
     let axis = |p: usize, f: &dyn Fn(usize) -> f32| f32x8::from_fn(|i| f(8 * p + i));
     let vector = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
         Vec3::new(axis(p, &|i| f(i)[0]), axis(p, &|i| f(i)[1]), axis(p, &|i| f(i)[2]))
     };
-    let packets: Vec<_> =
-        (0..GROUP).map(|p| accel.rays(vector(p, &|i| rays[i].0), vector(p, &|i| rays[i].1))).collect();
+    let packets: Vec<_> = (0..GROUP).map(|p| bvh.rays(vector(p, &|i| rays[i].0), vector(p, &|i| rays[i].1))).collect();
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); GROUP];
-    accel.closest(&packets, active, &mut hits, stack);
+    bvh.closest(&packets, active, &mut hits, stack);
     let bits = |x: f32x8, i: usize| x.to_array()[i].to_bits();
     let each = (0..8 * GROUP).map(|i| {
         let (h, i) = (&hits[i / 8], i % 8);
@@ -185,13 +185,13 @@ fn trace(accel: &Accel, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found
     let limits = [0.5, 1.0, 1.000_001].map(|c| hits.map(|h| h.distance * f32x8::splat(c)));
     let free = limits.iter().flat_map(|limit| {
         let mut open: Vec<_> = active.to_vec();
-        accel.occluded(&packets, &mut open, limit, &[u32x8::splat(NOTHING); GROUP], stack);
+        bvh.occluded(&packets, &mut open, limit, &[u32x8::splat(NOTHING); GROUP], stack);
         open.into_iter().map(|m| m.bits()).collect::<Vec<_>>()
     });
     let free = free.collect();
     // closest hits with limits at the hits
     let mut until = hits.map(|h| Hits::none(h.distance));
-    accel.closest(&packets, active, &mut until, stack);
+    bvh.closest(&packets, active, &mut until, stack);
     assert!(until.iter().zip(active).all(|(u, &a)| !(u.any() & a).any()), "a hit at the limit counts");
     Found { hits: each, free }
 }
@@ -205,9 +205,9 @@ fn campaign(groups: usize, seed: u32) -> [u64; 2] {
         for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
             let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
             let placed: Vec<Triangle> = mesh.iter().map(|t| t.map(place)).collect();
-            let accel = |way| Accel::new(&placed, ShapeSet::new(&[]).unwrap()).unwrap().with_way(way);
-            let oracle = accel(Way::Exhaustive);
-            let ways = [Way::Choose, Way::Stream, Way::Single].map(|way| (way, accel(way)));
+            let tree = |way| Bvh::new(&placed, ShapeSet::new(std::iter::empty()).unwrap()).unwrap().with_traversal(way);
+            let oracle = tree(Traversal::Exhaustive);
+            let ways = [Traversal::Choose, Traversal::Stream, Traversal::Single].map(|way| (way, tree(way)));
             for index in 0..groups * KINDS {
                 let kind = index % KINDS;
                 let rays = group(kind, &mesh, &mut random).into_iter().filter_map(|(o, d)| {
@@ -223,8 +223,8 @@ fn campaign(groups: usize, seed: u32) -> [u64; 2] {
                     |p: usize| if index % 3 == 0 { M8::from_bits((index * 37 + p * 91) as u32 & 0xff) } else { all };
                 let active: Vec<_> = (0..GROUP).map(mask).collect();
                 let expected = trace(&oracle, &rays, &active, &mut stack);
-                for (way, accel) in &ways {
-                    let found = trace(accel, &rays, &active, &mut stack);
+                for (way, bvh) in &ways {
+                    let found = trace(bvh, &rays, &active, &mut stack);
                     for (i, (f, e)) in found.hits.iter().zip(&expected.hits).enumerate() {
                         let [f32::INFINITY, _] = [f32::from_bits(e[0]), 0.0] else {
                             assert_eq!(f, e, "{way:?}, {name} × {scale} + {shift}, kind {kind}: ray {i} {:?}", rays[i]);
@@ -267,8 +267,8 @@ fn closed_meshes_do_not_leak() {
     let mut stack = Stack::default();
     for scale in [1e-6_f32, 1.0, 1e6] {
         let mesh: Vec<Triangle> = cube(7).iter().map(|t| t.map(|v| v.map(|x| x * scale))).collect();
-        for way in [Way::Choose, Way::Stream, Way::Single] {
-            let accel = Accel::new(&mesh, ShapeSet::new(&[]).unwrap()).unwrap().with_way(way);
+        for way in [Traversal::Choose, Traversal::Stream, Traversal::Single] {
+            let bvh = Bvh::new(&mesh, ShapeSet::new(std::iter::empty()).unwrap()).unwrap().with_traversal(way);
             for index in 0..300 {
                 let center = random.point().map(|x| 0.9 * x * scale);
                 let rays = (0..8 * GROUP).map(|_| {
@@ -279,7 +279,7 @@ fn closed_meshes_do_not_leak() {
                     let length = d.iter().map(|x| x * x).sum::<f64>().sqrt();
                     (center, d.map(|x| (x / length) as f32))
                 });
-                let found = trace(&accel, &rays.collect::<Vec<_>>(), &[M8::splat(true); GROUP], &mut stack);
+                let found = trace(&bvh, &rays.collect::<Vec<_>>(), &[M8::splat(true); GROUP], &mut stack);
                 assert!(found.hits.iter().all(|h| h[1] != NOTHING), "a leak at scale {scale}, {way:?}");
             }
         }

@@ -2,7 +2,7 @@
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
-use etendue_render::accel::{Accel, Hits, NOTHING, ShapeSet, Stack, Way};
+use etendue_render::bvh::{Bvh, Hits, NOTHING, ShapeSet, Stack, Traversal};
 
 type V = [f64; 3];
 
@@ -34,18 +34,18 @@ fn random(i: u32, dimension: u32) -> [f32; 2] {
 
 /// Checks a group of eight packets; returns the number of hits. Distances are accurate to 1e−6 of the scene's `scale`, 8 roundings of its
 /// coordinates.
-fn check(triangles: &[[[f32; 3]; 3]], accel: &Accel, rays: &[([f32; 3], [f32; 3])], scale: f32) -> usize {
+fn check(triangles: &[[[f32; 3]; 3]], bvh: &Bvh, rays: &[([f32; 3], [f32; 3])], scale: f32) -> usize {
     let lanes = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
         let axis = |k: usize| f32x8::from_fn(|i| f(8 * p + i)[k]);
         Vec3::new(axis(0), axis(1), axis(2))
     };
-    let packets: Vec<_> = (0..8).map(|p| accel.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
+    let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
     let all = [<f32x8 as Real>::Mask::splat(true); 8];
     let (far, mut stack) = (f32x8::splat(f32::INFINITY), Stack::default());
     let mut hits = [Hits::none(far); 8];
-    accel.closest(&packets, &all, &mut hits, &mut stack);
+    bvh.closest(&packets, &all, &mut hits, &mut stack);
     let mut open = all;
-    accel.occluded(&packets, &mut open, &[far; 8], &[u32x8::splat(NOTHING); 8], &mut stack);
+    bvh.occluded(&packets, &mut open, &[far; 8], &[u32x8::splat(NOTHING); 8], &mut stack);
     let mut count = 0;
     for (i, (o, d)) in rays.iter().enumerate() {
         let (o, d) = (o.map(f64::from), d.map(f64::from));
@@ -66,8 +66,8 @@ fn check(triangles: &[[[f32; 3]; 3]], accel: &Accel, rays: &[([f32; 3], [f32; 3]
     count
 }
 
-fn accel(triangles: &[[[f32; 3]; 3]]) -> Accel {
-    Accel::new(triangles, ShapeSet::new(&[]).unwrap()).unwrap()
+fn tree(triangles: &[[[f32; 3]; 3]]) -> Bvh {
+    Bvh::new(triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap()
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn packets_find_what_is_there() {
                 [1, 2, 3].map(|k| std::array::from_fn(|a| (center[a] + 0.2 * point(i, k)[a]) * scale))
             })
             .collect();
-        let accel = accel(&triangles);
+        let bvh = tree(&triangles);
         let mut hits = 0;
         for group in 0..40_u32 {
             let tilt = [1.0, -1.0, 0.0][group as usize / 4 % 3];
@@ -103,7 +103,7 @@ fn packets_find_what_is_there() {
                     (o.map(|x| x * scale), d.map(|x| x / length))
                 })
                 .collect();
-            hits += check(&triangles, &accel, &rays, scale);
+            hits += check(&triangles, &bvh, &rays, scale);
         }
         assert!((400..2500).contains(&hits), "{hits} of 2560 rays hit at scale {scale}");
     }
@@ -112,14 +112,14 @@ fn packets_find_what_is_there() {
 #[test]
 fn identical_triangles_build() {
     let one = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0_f32]];
-    let accel = accel(&vec![one; 100_000]);
+    let bvh = tree(&vec![one; 100_000]);
     let rays = vec![([0.0, 0.0, 2.0], [0.0, 0.0, -1.0]); 64];
-    assert_eq!(check(&[one], &accel, &rays, 1.0), 64);
+    assert_eq!(check(&[one], &bvh, &rays, 1.0), 64);
     // the triangle of lower index wins a tie
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY))];
-    let ray = accel.rays([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into());
-    accel.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Stack::default());
-    assert_eq!(accel.order()[hits[0].place.to_array()[0] as usize], 0);
+    let ray = bvh.rays([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into());
+    bvh.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Stack::default());
+    assert_eq!(bvh.order()[hits[0].place.to_array()[0] as usize], 0);
 }
 
 /// 60,000 triangles: a sheet, 20,000 coincident ones, and some that are distant and large.
@@ -143,10 +143,10 @@ fn many() -> Vec<[[f32; 3]; 3]> {
 #[test]
 fn trees_of_many_parts_are_whole() {
     let triangles = many();
-    let accel = accel(&triangles);
-    let mut order = accel.order().to_vec();
+    let bvh = tree(&triangles);
+    let mut order = bvh.order().to_vec();
     for (place, &id) in (0..).zip(&order) {
-        assert_eq!(&accel.corners(place), triangles[id as usize].as_flattened(), "place {place}");
+        assert_eq!(&bvh.corners(place), triangles[id as usize].as_flattened(), "place {place}");
     }
     order.sort_unstable();
     assert!(order.into_iter().eq(0..triangles.len() as u32), "a triangle is missing or duplicated");
@@ -164,11 +164,11 @@ fn trees_of_many_parts_are_whole() {
         Vec3::new(axis(0), axis(1), axis(2))
     };
     let all = [<f32x8 as Real>::Mask::splat(true); 8];
-    let found = [Way::Choose, Way::Stream, Way::Single, Way::Exhaustive].map(|way| {
-        let accel = self::accel(&triangles).with_way(way);
-        let packets: Vec<_> = (0..8).map(|p| accel.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
+    let found = [Traversal::Choose, Traversal::Stream, Traversal::Single, Traversal::Exhaustive].map(|way| {
+        let bvh = tree(&triangles).with_traversal(way);
+        let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
         let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
-        accel.closest(&packets, &all, &mut hits, &mut Stack::default());
+        bvh.closest(&packets, &all, &mut hits, &mut Stack::default());
         hits.map(|h| (h.distance.to_array().map(f32::to_bits), h.place.to_array()))
     });
     let met = found[3].iter().flat_map(|(_, places)| places).filter(|&&place| place != NOTHING).count();
@@ -181,10 +181,10 @@ fn trees_do_not_depend_on_threads() {
     let triangles = many();
     let built = [1, 2, 5].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| format!("{:?}", accel(&triangles)))
+        pool.install(|| format!("{:?}", tree(&triangles)))
     });
     assert!(built[1] == built[0] && built[2] == built[0], "the tree depends on the number of threads");
     // nor does the tree depend on the ownership of the triangles
-    let own = Accel::taking(triangles, ShapeSet::new(&[]).unwrap()).unwrap();
+    let own = Bvh::taking(triangles, ShapeSet::new(std::iter::empty()).unwrap()).unwrap();
     assert!(format!("{own:?}") == built[0], "the tree depends on the ownership of the triangles");
 }

@@ -2,7 +2,7 @@
 
 use etendue::{Mask, Real, u32x8};
 use etendue_render::Sampler;
-use etendue_render::accel::X8;
+use etendue_render::packet::X8;
 use etendue_render::sampler::{CHOICE, FILM, LENS, LIGHT, Packet, Source};
 
 type M8 = <X8 as Real>::Mask;

@@ -1,10 +1,10 @@
 //! Vignetting of a lens in a barrel, as seen from points of the film.
 
+use etendue_render::camera::{Barrel, Pupil};
+use etendue_render::camera::{Camera, ThinLens};
 use etendue_render::compare::Comparison;
 use etendue_render::film::Film;
 use etendue_render::image::Picture;
-use etendue_render::lens::{Camera, ThinLens};
-use etendue_render::vignetting::{Barrel, Pupil};
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
 use std::path::Path;

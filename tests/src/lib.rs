@@ -1,33 +1,4 @@
-//! Oracles, generators, tolerances, and the properties that every warp has.
-//!
-//! A property is a plain function of a [`Fixture`](properties::Fixture) (a warp with its parameters) and usually a point of the unit
-//! square. It panics when the property is broken, with the fixture, the argument and the figure. The tests in `tests/` run the properties
-//! over the regimes of [`generators`]; the fuzz targets run them over arbitrary bytes. `README.md` beside this crate says how to add a
-//! warp.
-//!
-//! - [`oracle`]: closed forms, double-double arithmetic and quadrature; nothing here calls the code under test.
-//! - [`generators`]: arguments biased towards the places where methods fail.
-//! - [`tolerances`]: the one table of tolerances, each with its reason.
-//! - [`suite`]: all properties over all regimes.
-//! - [`fuzz_bodies`]: the bodies of the fuzz targets.
-//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights.
-//! - [`mutants`]: well-known defects of renderers, which the properties must detect.
-//! - [`stats`] has p-values.
-
-pub mod checks;
-pub mod fuzz_bodies;
-pub mod generators;
-// the atlas's file itself, so that neither this library nor the fuzz targets depend on the renderer
-#[path = "../../render/src/atlas/double_double.rs"]
-pub mod double_double;
-pub mod fixtures;
-pub mod mutants;
-pub mod oracle;
-pub mod properties;
-pub mod stats;
-pub mod suite;
-pub mod techniques;
-pub mod tolerances;
+//! Tests of the core. What they share with the fuzz targets is in `etendue-properties`, in the folder `properties`.
 
 /// The README's example, compiled and run as a doctest.
 #[cfg(doctest)]

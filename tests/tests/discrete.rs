@@ -2,7 +2,7 @@
 
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::{Uint, Vec2, Warp, Warp1, f32x4, f32x8, u32x4, u32x8};
-use etendue_tests::generators::Random;
+use etendue_properties::generators::Random;
 
 const STEPS: u32 = 1 << 24;
 fn step(i: u32) -> f32 {

@@ -4,11 +4,11 @@ use core::f64::consts::{PI, TAU};
 use etendue::discrete::TableError;
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8};
-use etendue_tests::generators::{self, Random};
-use etendue_tests::oracle::{V3, length, sub};
-use etendue_tests::properties::{Coordinates, squares_of, vectors_of};
-use etendue_tests::stats;
-use etendue_tests::tolerances::{SIGNIFICANCE, ULP};
+use etendue_oracle::{V3, length, sub};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::properties::{Coordinates, squares_of, vectors_of};
+use etendue_properties::stats;
+use etendue_properties::tolerances::{SIGNIFICANCE, ULP};
 
 use EnvironmentMap::{EqualArea, Equirectangular};
 const MAPS: [EnvironmentMap; 2] = [EqualArea, Equirectangular];

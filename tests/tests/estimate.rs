@@ -3,8 +3,8 @@
 use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, log_variance_error, technique_pdf};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8};
-use etendue_tests::checks::{self, EXTREMES, HEURISTICS};
-use etendue_tests::stats;
+use etendue_properties::checks::{self, EXTREMES, HEURISTICS};
+use etendue_properties::stats;
 
 #[test]
 fn weights_sum_to_one_at_every_extreme() {

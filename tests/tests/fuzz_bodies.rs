@@ -1,9 +1,9 @@
 //! The bodies of the fuzz targets without a fuzzer: on the committed seeds, which include past findings, and on random bytes.
 
-use etendue_tests::fixtures::ProjectedTriangle;
-use etendue_tests::fuzz_bodies::{TARGETS, Target};
-use etendue_tests::generators::Random;
-use etendue_tests::properties;
+use etendue_properties::fixtures::ProjectedTriangle;
+use etendue_properties::fuzz_bodies::{TARGETS, Target};
+use etendue_properties::generators::Random;
+use etendue_properties::properties;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

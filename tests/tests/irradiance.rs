@@ -3,11 +3,11 @@
 use core::f64::consts::PI;
 use etendue::estimate::Welford;
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
-use etendue_tests::generators::Random;
-use etendue_tests::oracle::{V3, along, cross, dot, length, projected_cap, projected_polygon, sub, unit, wide};
-use etendue_tests::properties::Coordinates;
-use etendue_tests::stats;
-use etendue_tests::tolerances::{GRID, GRID_AREA, ULP};
+use etendue_oracle::{V3, along, cross, dot, length, projected_cap, projected_polygon, sub, unit, wide};
+use etendue_properties::generators::Random;
+use etendue_properties::properties::Coordinates;
+use etendue_properties::stats;
+use etendue_properties::tolerances::{GRID, GRID_AREA, ULP};
 
 /// Mean over the midpoints of a 1024 × 1024 grid: accurate to 1/12n² where the integrand is smooth, to n^(−3/2) across kinks.
 fn mean(n: V3, sample: impl Fn(Vec2<f32x8>) -> LightSample<f32x8>) -> f64 {
@@ -57,7 +57,7 @@ fn spheres() {
         let axis = sub(wide(center), wide(p));
         let radius = (ratio * length(axis)) as f32;
         let sigma = (f64::from(radius) / length(axis)).asin();
-        let (s, _) = etendue_tests::oracle::basis(unit(axis));
+        let (s, _) = etendue_oracle::basis(unit(axis));
         let n = along(unit(axis).map(|x| x * f64::cos(omega)), s, f64::sin(omega));
         let truth = projected_cap(sigma, omega);
         // errors are relative to the unclipped projected solid angle, so that a sliver above the horizon may err as much as a whole sphere

@@ -2,8 +2,8 @@
 
 use etendue::sequence::{Independent, JointSobol, JointStratified, OwenSobol, Sequence};
 use etendue::{Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
-use etendue_tests::stats;
-use etendue_tests::tolerances::SIGNIFICANCE;
+use etendue_properties::stats;
+use etendue_properties::tolerances::SIGNIFICANCE;
 
 fn point(sequence: &impl Sequence, pixel: u32, sample: u32) -> [f64; 8] {
     let mut all = [0.0; 8];

@@ -5,11 +5,11 @@ use etendue::{
     ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, PointLight, Real,
     Rectangle, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
 };
-use etendue_tests::generators::{self, Random};
-use etendue_tests::oracle::{
+use etendue_oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, perpendicular_disk, projected_polygon, sub, unit,
 };
-use etendue_tests::properties::{Coordinates, squares_of, vectors_of};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::properties::{Coordinates, squares_of, vectors_of};
 
 /// Mean of f over an n × n grid of `u`.
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {

@@ -3,8 +3,8 @@
 use core::f64::consts::PI;
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
 use etendue::{Real, f32x8};
-use etendue_tests::checks::{self, Greatest};
-use etendue_tests::generators::Random;
+use etendue_properties::checks::{self, Greatest};
+use etendue_properties::generators::Random;
 
 #[test]
 fn sin_cos_turns() {

@@ -3,13 +3,13 @@
 
 use etendue::Real;
 use etendue::estimate::Heuristic;
-use etendue_tests::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
-use etendue_tests::generators::{self, Case};
-use etendue_tests::mutants::{
+use etendue_properties::fixtures::{Cap, ConcentricDisk, Cone, CosineHemisphere, Triangle};
+use etendue_properties::generators::{self, Case};
+use etendue_properties::mutants::{
     AreaBetweenThresholds, ConeOverflow, CosineWarp, Defect, DroppedGrazing, ExcessInSample, FlatCentre,
     NonZeroOffTheCone, PaddedDisk, SelfClampingBarycentrics, Sound, SoundDisk, UnguardedCap, UnitsInTheSwitch, plant,
 };
-use etendue_tests::{checks, suite, techniques};
+use etendue_properties::{checks, suite, techniques};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The properties that detected a defect, each with its regimes; empty if none did.

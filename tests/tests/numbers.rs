@@ -9,7 +9,7 @@ use etendue::sequence::{Independent, Sequence};
 use etendue::spherical::SphericalCap;
 use etendue::warp::{UniformHemisphere, Warp};
 use etendue::{LightSample, LightSampler, Real, Sphere, Vec2, Vec3, f32x8, u32x8};
-use etendue_tests::stats;
+use etendue_properties::stats;
 
 const BATCHES: u32 = 64;
 const PACKETS: u32 = 2048;

@@ -1,8 +1,8 @@
 //! The oracles against each other: closed forms, quadrature, special values.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
-use etendue_tests::generators::Random;
-use etendue_tests::oracle::*;
+use etendue_oracle::*;
+use etendue_properties::generators::Random;
 
 #[test]
 fn octant_and_facing_disk() {

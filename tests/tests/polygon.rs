@@ -1,9 +1,9 @@
 //! Polygons as lights: irradiance against Lambert's formula, coincident corners, lanes, arbitrary bits.
 
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8};
-use etendue_tests::generators::{self, Random};
-use etendue_tests::oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
-use etendue_tests::properties::{Coordinates, squares_of, vectors_of};
+use etendue_oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::properties::{Coordinates, squares_of, vectors_of};
 
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
     let at = |i: usize| (i as f64 + 0.5) / n as f64;

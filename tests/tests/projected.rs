@@ -4,12 +4,12 @@
 use core::f64::consts::PI;
 use etendue::spherical::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
-use etendue_tests::generators::{self, Random};
-use etendue_tests::oracle::{
+use etendue_oracle::{
     V3, above_horizon, along, basis, cross, dot, lambert, length, projected_cap_by_rings, sum_dw, unit, wide,
 };
-use etendue_tests::properties::Fixture;
-use etendue_tests::tolerances::{PROJECTED_POLYGON, ULP};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::properties::Fixture;
+use etendue_properties::tolerances::{PROJECTED_POLYGON, ULP};
 
 /// Bound on the relative variance; that of a rounded quotient is 1e−14.
 const VARIANCE: f64 = 1e-10;
@@ -63,7 +63,7 @@ fn spheres() {
                 let center = narrow(axis.map(|x| x * distance));
                 let radius = (ratio * distance) as f32;
                 let c = wide(center);
-                let cos = etendue_tests::oracle::dot(c, n) / length(c);
+                let cos = etendue_oracle::dot(c, n) / length(c);
                 let inside = f64::from(radius) > length(c);
                 let sigma = if inside { PI / 2.0 } else { (f64::from(radius) / length(c)).asin() };
                 let truth = projected_cap_by_rings(sigma, if inside { 1.0 } else { cos });
@@ -106,11 +106,11 @@ fn flats() {
                 let [u, v] = axes.map(|a| a.map(|x| (x * size * distance) as f32));
                 let p = narrow(core::array::from_fn(|i| middle[i] * distance - f64::from(u[i] + v[i]) / 3.0));
                 let facing = unit(cross(wide(u), wide(v)));
-                if etendue_tests::oracle::dot(facing, middle).abs() < 0.2 || length(cross(axes[0], axes[1])) < 0.3 {
+                if etendue_oracle::dot(facing, middle).abs() < 0.2 || length(cross(axes[0], axes[1])) < 0.3 {
                     continue;
                 }
                 // make the light's emitting side face the point
-                let (u, v) = if etendue_tests::oracle::dot(facing, middle) < 0.0 { (u, v) } else { (v, u) };
+                let (u, v) = if etendue_oracle::dot(facing, middle) < 0.0 { (u, v) } else { (v, u) };
                 let (s, _) = basis(middle);
                 let normal = narrow(along(middle.map(|x| x * omega.cos()), s, omega.sin()));
                 let n = sum_dw(wide(normal), &[]);

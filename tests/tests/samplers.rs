@@ -1,10 +1,10 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
 use etendue::{LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
-use etendue_tests::generators::Random;
-use etendue_tests::oracle::{cross, dot, length, sub, wide};
-use etendue_tests::properties::{Coordinates, squares_of};
-use etendue_tests::techniques::{self, AreaLight, LightShape, Measure, Technique};
+use etendue_oracle::{cross, dot, length, sub, wide};
+use etendue_properties::generators::Random;
+use etendue_properties::properties::{Coordinates, squares_of};
+use etendue_properties::techniques::{self, AreaLight, LightShape, Measure, Technique};
 
 /// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
 fn light(kind: usize, round: u32, random: &mut Random) -> AreaLight {

@@ -4,8 +4,8 @@ use etendue::discrete::TableError;
 use etendue::select::{Choice, LightBound, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Uint, Vec2, Vec3, f32x4, f32x8, u32x8};
-use etendue_tests::stats;
-use etendue_tests::tolerances::SIGNIFICANCE;
+use etendue_properties::stats;
+use etendue_properties::tolerances::SIGNIFICANCE;
 
 /// Frequencies are the pmf, the pmf sums to 1, the number left is uniform, and widths agree.
 fn check(

@@ -2,8 +2,8 @@
 
 use etendue::sequence::{CounterRng, Independent, Sequence, Stratified};
 use etendue::{Uint, Vec2, f32x8, u32x8};
-use etendue_tests::stats;
-use etendue_tests::tolerances::SIGNIFICANCE;
+use etendue_properties::stats;
+use etendue_properties::tolerances::SIGNIFICANCE;
 
 /// A name, and a function of a counter.
 type Counted<'a, T> = (&'a str, &'a dyn Fn(u32) -> T);

@@ -2,9 +2,9 @@
 
 use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
-use etendue_tests::generators::AlongCurve;
-use etendue_tests::stats;
-use etendue_tests::tolerances::SIGNIFICANCE;
+use etendue_properties::generators::AlongCurve;
+use etendue_properties::stats;
+use etendue_properties::tolerances::SIGNIFICANCE;
 
 /// The position of a pixel along the Z-order curve.
 fn position(x: u32, y: u32) -> u32 {

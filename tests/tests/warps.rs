@@ -1,15 +1,15 @@
 //! Every property of every warp in every regime, and how many were checked. `-- --nocapture` prints the greatest figure of each (warp,
 //! regime, property).
 
-use etendue_tests::fixtures::{
+use etendue_properties::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, Exponential, GgxVisibleNormals, Hexagon,
     Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap,
     ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle,
     UniformHemisphere, UniformSphere, nearest_hit,
 };
-use etendue_tests::generators::{self, Case, Random};
-use etendue_tests::properties::{self, Fixture};
-use etendue_tests::suite;
+use etendue_properties::generators::{self, Case, Random};
+use etendue_properties::properties::{self, Fixture};
+use etendue_properties::suite;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::sync::Mutex;
 

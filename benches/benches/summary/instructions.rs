@@ -2,7 +2,7 @@
 //! call of a marker function.
 
 use etendue::{f32x4, f32x8};
-use etendue_benches::{Routine, SAMPLES, without_tables};
+use etendue_routines::{Routine, SAMPLES, without_tables};
 use std::fs;
 use std::hint::black_box;
 use std::path::Path;

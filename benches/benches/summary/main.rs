@@ -12,9 +12,9 @@
 mod instructions;
 
 use etendue::{f32x4, f32x8};
-use etendue_benches::rays::{How, Kind, Workload};
-use etendue_benches::{Routine, SAMPLES, routines, tables};
-use etendue_render::accel::Stack;
+use etendue_render::bvh::Stack;
+use etendue_routines::rays::{How, Kind, Workload};
+use etendue_routines::{Routine, SAMPLES, routines, tables};
 use std::hint::black_box;
 use std::time::Instant;
 

@@ -6,8 +6,9 @@
 
 use super::allocation::{APART, Allocated, Blocks, Weights};
 use super::{Work, z_order};
-use crate::accel::{GROUP, M8, V8};
+use crate::bvh::GROUP;
 use crate::film::{Pixel, PixelSum};
+use crate::packet::{M8, V8};
 use crate::sampler::Packet;
 use etendue::estimate::Welford;
 use etendue::{Mask, Real, u32x8};

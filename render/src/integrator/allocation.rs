@@ -6,9 +6,11 @@
 //! the samples of neighbouring pixels, never on the pixel's own samples: that keeps the estimate unbiased.
 
 use super::{TILE, Work};
-use crate::accel::{GROUP, Hits, M8, Rays, X8};
-use crate::lens::Camera;
-use crate::lights::{FEW, Technique};
+use crate::bvh::{GROUP, Hits, Rays};
+use crate::camera::Camera;
+use crate::lights::FEW;
+use crate::packet::{M8, X8};
+use crate::technique::Technique;
 use etendue::{Mask, Real, u32x8};
 
 /// Greatest number of lights whose variances the adaptive sampler measures separately.
@@ -173,11 +175,11 @@ impl Work<'_> {
                 let at = |of: &dyn Fn(usize) -> u32| X8::from(std::array::from_fn(|lane| of(place(p, lane)) as f32));
                 let (x, y) = (at(&|i| x0 + (i % across) as u32), at(&|i| y0 + (i / across) as u32));
                 let (origin, direction) = camera.ray(x, y);
-                *ray = world.accel.rays(origin, direction);
+                *ray = world.bvh.rays(origin, direction);
             }
             let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
             let active = [M8::splat(true); GROUP];
-            world.accel.closest(&rays[..count], &active[..count], &mut hits[..count], &mut self.stack);
+            world.bvh.closest(&rays[..count], &active[..count], &mut hits[..count], &mut self.stack);
             self.count.corner += (across * down - start).min(8 * GROUP) as u64;
             for (p, (hits, rays)) in hits[..count].iter().zip(&rays).enumerate() {
                 let surface = world.surface(hits, rays);

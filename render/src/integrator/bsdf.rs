@@ -1,6 +1,6 @@
 //! BSDFs in packets: diffuse surfaces, perfect mirrors and rough metals.
 
-use crate::accel::{M8, V8, X8, equal, max, min, select};
+use crate::packet::{M8, V8, X8, equal, max, min, select};
 use crate::scene::Material;
 use etendue::warp::{CosineHemisphere, GgxVisibleNormals, UniformHemisphere};
 use etendue::{Frame, Real, Vec2, Warp, u32x8};
@@ -55,7 +55,7 @@ impl Metal {
             alpha: select(mask, yes.alpha, no.alpha),
             eta: V8::blend(mask, yes.eta, no.eta),
             k: V8::blend(mask, yes.k, no.k),
-            kind: crate::accel::pick(mask, yes.kind, no.kind),
+            kind: crate::packet::pick(mask, yes.kind, no.kind),
         }
     }
     /// Lanes of perfect mirrors.

@@ -3,7 +3,8 @@
 use super::Work;
 use super::allocation::Allocated;
 use super::surface::{Surface, emitted};
-use crate::accel::{GROUP, Hits, M8, NOTHING, SHAPE, V8, X8, pick, select};
+use crate::bvh::{GROUP, Hits, NOTHING, SHAPE};
+use crate::packet::{M8, V8, X8, pick, select};
 use etendue::warp::{CosineHemisphere, UniformHemisphere};
 use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 
@@ -49,13 +50,13 @@ impl Work<'_> {
             let some = sample.pdf.gt(zero) & chosen.pmf.gt(zero);
             lit[p] = surface.reflects & sample.emits & some & cos.gt(zero);
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[p] = world.accel.rays(surface.point, sample.direction);
+            rays[p] = world.bvh.rays(surface.point, sample.direction);
             limit[p] = sample.distance * X8::lit(SPARED);
             target[p] = chosen.shape;
             let density = select(lit[p], sample.pdf * chosen.pmf, one);
             reflected[p] = product(surface.albedo, chosen.radiance) * (cos * X8::lit(INV_PI) / density);
         }
-        world.accel.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        world.bvh.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
         for p in 0..count {
             reflected[p] = keep(reflected[p], lit[p]);
         }
@@ -73,7 +74,7 @@ impl Work<'_> {
         let mut weight = [X8::lit(1.0); GROUP];
         for (p, surface) in surfaces.iter().enumerate() {
             let local: V8 = if cosine { CosineHemisphere.sample(light[p]) } else { UniformHemisphere.sample(light[p]) };
-            rays[p] = world.accel.rays(surface.point, Frame::new(surface.normal).to_world(local));
+            rays[p] = world.bvh.rays(surface.point, Frame::new(surface.normal).to_world(local));
             lit[p] = surface.reflects;
             self.count.shadow += u64::from(surface.reflects.bits().count_ones());
             // f·L·cosθ/pdf: with f = albedo/π, the pdf cosθ/π leaves the albedo, the pdf 1/(2π) leaves 2 cosθ times the albedo
@@ -82,7 +83,7 @@ impl Work<'_> {
             }
         }
         // finding the hit light is cheap; only rays that hit one need an occlusion test
-        world.accel.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
+        world.bvh.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
         let mut reflected = [V8::default(); GROUP];
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut limit = [infinite; GROUP];
@@ -100,7 +101,7 @@ impl Work<'_> {
             target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
             limit[p] = hits[p].distance * X8::lit(SPARED);
         }
-        world.accel.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        world.bvh.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
         for p in 0..count {
             reflected[p] = keep(reflected[p], lit[p]);
         }

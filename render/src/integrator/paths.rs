@@ -9,9 +9,11 @@ use super::bsdf::{Bsdf, Finish, Metal, PLAIN};
 use super::direct::{SPARED, keep, product};
 use super::surface::{Surface, emitted};
 use super::{Technique, Work, World};
-use crate::accel::{GROUP, Hits, M8, NOTHING, Rays, SHAPE, V8, X8, pick, select};
+use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE};
+use crate::camera::CameraSample;
 use crate::lights::Lights;
-use crate::sampler::{CHOICE, FILM, Packet, SURFACE};
+use crate::packet::{M8, V8, X8, pick, select};
+use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE};
 use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::{Mask, Real, Vec2, u32x8};
 
@@ -77,8 +79,10 @@ impl Work<'_> {
             } else {
                 self.source.pair(packet, FILM)
             };
-            let (origin, direction) = self.camera.through(&self.source, packet, film);
-            self.rays[0][p] = world.accel.rays(origin, direction);
+            let lens = self.lens.then(|| self.source.pair(packet, LENS));
+            self.samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
+            let (origin, direction) = self.camera.rays(&self.samples[p]);
+            self.rays[0][p] = world.bvh.rays(origin, direction);
             active[p] = packet.active;
             self.count.camera += u64::from(packet.active.bits().count_ones());
         }
@@ -136,7 +140,7 @@ impl Work<'_> {
         let mut depth = 0;
         loop {
             let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
-            world.accel.closest(&self.rays[0][..count], &active[..count], &mut hits[..count], &mut self.stack);
+            world.bvh.closest(&self.rays[0][..count], &active[..count], &mut hits[..count], &mut self.stack);
             let mut on = false;
             for p in 0..count {
                 if !active[p].any() {
@@ -229,12 +233,12 @@ impl Work<'_> {
                 Some(heuristic) => heuristic.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0],
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[p] = world.accel.rays(surface.point, sample.direction);
+            rays[p] = world.bvh.rays(surface.point, sample.direction);
             limit[p] = sample.distance * X8::lit(SPARED);
             target[p] = chosen.shape;
             found[p] = product(value, chosen.radiance) * (weight / pdf);
         }
-        world.accel.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        world.bvh.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
         for p in 0..count {
             reflected[p] += keep(found[p], lit[p]);
         }
@@ -276,10 +280,10 @@ impl Work<'_> {
             share[p] = value * (one / own[p]);
             lit[p] = surface.reflects & some;
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[p] = world.accel.rays(surface.point, direction);
+            rays[p] = world.bvh.rays(surface.point, direction);
         }
         // finding the hit light is cheap; only rays that hit one need an occlusion test
-        world.accel.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
+        world.bvh.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut limit = [infinite; GROUP];
         for (p, end) in ends.iter().enumerate() {
@@ -324,7 +328,7 @@ impl Work<'_> {
             };
             share[p] = product(share[p], radiance) * weight;
         }
-        world.accel.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        world.bvh.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
         for p in 0..count {
             reflected[p] += keep(share[p], lit[p]);
         }
@@ -353,6 +357,6 @@ impl End {
         let share = product(self.throughput, metal.reflectance(cos));
         self.throughput = V8::blend(lanes, share, self.throughput);
         let direction = surface.normal.mul_add(cos + cos, rays.direction).normalize();
-        world.accel.rays(surface.point, direction)
+        world.bvh.rays(surface.point, direction)
     }
 }

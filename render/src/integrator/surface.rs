@@ -1,9 +1,10 @@
 //! The surfaces that rays hit: point, normal, emission and albedo.
 
 use super::World;
-use crate::accel::{Hits, M8, Rays, SHAPE, V8, X8};
+use crate::bvh::{Hits, Rays, SHAPE};
+use crate::packet::{M8, V8, X8};
 use crate::scene::{Geometry, Shape};
-use etendue::{Mask, Real, Vec3, u32x8};
+use etendue::{Mask, Real, u32x8};
 
 /// The hit points of eight rays.
 #[derive(Clone, Copy)]
@@ -44,16 +45,16 @@ impl World {
     fn mesh(&self, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) {
         let places = hits.place.as_array();
         let first = places[lanes.bits().trailing_zeros() as usize & 7];
-        let uniform = (crate::accel::equal(hits.place, u32x8::splat(first)) | !lanes).all();
+        let uniform = (crate::packet::equal(hits.place, u32x8::splat(first)) | !lanes).all();
         let (v0, v1, v2, albedo);
         if uniform {
-            let c = self.accel.corners(first);
+            let c = self.bvh.corners(first);
             let corner = |k: usize| V8::from([c[k], c[k + 1], c[k + 2]]);
             (v0, v1, v2) = (corner(0), corner(3), corner(6));
             albedo = V8::from(self.albedo(first));
         } else {
             let rows: [[f32; 9]; 8] =
-                std::array::from_fn(|i| if lanes.lane(i) { self.accel.corners(places[i]) } else { [0.0; 9] });
+                std::array::from_fn(|i| if lanes.lane(i) { self.bvh.corners(places[i]) } else { [0.0; 9] });
             let c = X8::transpose(rows.map(|r| X8::from(&r[..8])));
             let last = X8::from(rows.map(|r| r[8]));
             (v0, v1, v2) = (V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last));
@@ -94,7 +95,7 @@ impl World {
         while lanes.any() {
             let lane = lanes.bits().trailing_zeros() as usize & 7;
             let place = hits.place.as_array()[lane];
-            let here = lanes & crate::accel::equal(hits.place, u32x8::splat(place));
+            let here = lanes & crate::packet::equal(hits.place, u32x8::splat(place));
             let index = (place & !SHAPE) as usize;
             let shape = &self.shapes[index];
             let outward = match shape.geometry {
@@ -122,7 +123,7 @@ impl World {
                     Geometry::Sphere { center, radius } => outward.mul_add(X8::splat(radius), center.into()),
                     _ => rays.direction.mul_add(hits.distance, rays.origin),
                 };
-                let point = lift(point, normal, X8::splat(self.accel.shapes.reach()));
+                let point = lift(point, normal, X8::splat(self.bvh.shapes.reach()));
                 surface.point = V8::blend(here, point, surface.point);
                 surface.normal = V8::blend(here, normal, surface.normal);
                 surface.albedo = V8::blend(here, albedo.into(), surface.albedo);
@@ -138,17 +139,6 @@ pub(super) fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> O
     let emission = shape.emission?;
     let front = outward.dot(direction).lt(X8::lit(0.0));
     Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
-}
-
-/// The unit normal of a flat shape; 0 for a sphere.
-pub(super) fn normal_of(geometry: &Geometry) -> [f32; 3] {
-    let [a, b] = match *geometry {
-        Geometry::Sphere { .. } => return [0.0; 3],
-        Geometry::Triangle([a, b, c]) => [b, c].map(|p| std::array::from_fn(|k| f64::from(p[k]) - f64::from(a[k]))),
-        Geometry::Parallelogram { u, v, .. } => [u, v].map(|e| e.map(f64::from)),
-    };
-    let normal = Vec3::<f64>::from(a).cross(b.into()).normalize();
-    [normal.x as f32, normal.y as f32, normal.z as f32]
 }
 
 /// The normal on the side of the incoming ray.

@@ -4,7 +4,8 @@ use super::lexer::shortened;
 use super::params::Params;
 use super::transform::{Transform, sub, unit};
 use super::{Message, rounded};
-use crate::image::{ImageError, Picture};
+use crate::files::FileError;
+use crate::image::Picture;
 use etendue::light::EnvironmentMap;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
@@ -80,7 +81,7 @@ pub(super) fn read(
     kind: &str,
     params: &mut Params,
     ctm: &Transform,
-    open: &dyn Fn(&str) -> Result<Picture, ImageError>,
+    open: &dyn Fn(&str) -> Result<Picture, FileError>,
     warnings: &mut Vec<Message>,
 ) -> Result<Source, Message> {
     if !["point", "spot", "distant", "infinite"].contains(&kind) {
@@ -174,7 +175,7 @@ fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
 fn picture(
     params: &Params,
     name: &str,
-    open: &dyn Fn(&str) -> Result<Picture, ImageError>,
+    open: &dyn Fn(&str) -> Result<Picture, FileError>,
     scale: f64,
     warnings: &mut Vec<Message>,
 ) -> Result<Option<SkyRadiance>, Message> {

@@ -3,6 +3,7 @@
 use super::*;
 use etendue::light::EnvironmentMap;
 use exr::prelude::write_rgb_file;
+use std::fs;
 
 fn light(text: &str) -> DeltaLight {
     let scene = read(&world(text));

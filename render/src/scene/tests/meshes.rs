@@ -1,6 +1,7 @@
 //! Mesh files in all three encodings, and malformed files.
 
 use super::*;
+use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 

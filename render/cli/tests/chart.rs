@@ -1,0 +1,354 @@
+//! Runs `etendue chart` and `etendue figure` as a user would, and checks their measurements.
+
+use etendue_laboratory::chart::measure::{Row, Rows};
+use etendue_laboratory::chart::reference::Reference;
+use etendue_laboratory::chart::{self, Options};
+use etendue_render::compare::Comparison;
+use etendue_render::image::Picture;
+use etendue_render::{Sampler, Settings, Technique, World, scene};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+use std::{env, fs, process, thread};
+
+/// A temporary folder for a test, removed when the test ends.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> Self {
+        static NEXT: AtomicU32 = AtomicU32::new(0);
+        let name = format!("etendue-chart-{}-{}", process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
+        let path = env::temp_dir().join(name);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+    fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+        command.current_dir(&self.0).args(arguments.split(' '));
+        command
+    }
+    /// Runs the program, which must succeed, and returns its standard output.
+    fn succeed(&self, arguments: &str) -> String {
+        let output = self.command(arguments).output().unwrap();
+        text(&output, 0).0
+    }
+    /// Runs the program, which must exit with code 2, and returns its message.
+    fn fail(&self, arguments: &str) -> String {
+        let output = self.command(arguments).output().unwrap();
+        let error = text(&output, 2).1;
+        assert!(!error.contains("panicked"), "{error}");
+        error
+    }
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn text(output: &Output, code: i32) -> (String, String) {
+    let [out, error] = [&output.stdout, &output.stderr].map(|b| String::from_utf8(b.clone()).unwrap());
+    assert_eq!(output.status.code(), Some(code), "{out}\n{error}");
+    (out, error)
+}
+
+const SMALL: &str = "chart triangle-light --size 32x32 --spp 1,4 --techniques area,solid-angle --samplers independent";
+
+#[test]
+fn a_run_is_resumed_and_its_page_needs_nothing_else() {
+    let folder = Folder::new();
+    let out = folder.succeed(&format!("{SMALL} --replicates 2 -o out"));
+    assert!(
+        out.contains("triangle-light") && out.contains("area, independent") && out.contains("report.html"),
+        "{out}"
+    );
+    let table = folder.read("out/measurements.csv");
+    assert_eq!(table.lines().count(), 1 + 2 * 2 * 2, "{table}");
+    // interleaved: no technique has successive replicates
+    let order: Vec<_> = table.lines().skip(1).map(|l| l.split(',').nth(2).unwrap()).collect();
+    assert_eq!(order, ["area", "solid-angle"].repeat(4));
+
+    let page = folder.read("out/report.html");
+    let outside = page.replace("http://www.w3.org/2000/svg", "");
+    for word in ["http:", "https:", "@import", "url(", "<link", "{{"] {
+        assert!(!outside.contains(word), "the page has {word}");
+    }
+    for word in [
+        "commit",
+        "opt-level",
+        "data-series=\"area/independent\"",
+        "data:image/png;base64,",
+        "clip-path",
+        "--replicates 2",
+    ] {
+        assert!(page.contains(word), "the page lacks {word}");
+    }
+    let open = |tag: &str| page.matches(&format!("<{tag}")).count() - page.matches(&format!("</{tag}>")).count();
+    assert_eq!(["svg", "figure", "table", "div"].map(open), [0; 4]);
+    for name in ["error-time", "error-samples", "efficiency"] {
+        let svg = folder.read(&format!("out/triangle-light-{name}.svg"));
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && svg.contains("solid-angle"), "{name}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+    }
+
+    // the same command measures nothing; one more replicate adds four lines and removes an incomplete one
+    assert!(
+        folder.succeed(&format!("{SMALL} --replicates 2 -o out")).contains("8 measurements come from an earlier run")
+    );
+    assert_eq!(folder.read("out/measurements.csv"), table);
+    fs::write(folder.0.join("out/measurements.csv"), format!("{table}0123,triangle-li")).unwrap();
+    folder.succeed(&format!("{SMALL} --replicates 3 -o out"));
+    let more = folder.read("out/measurements.csv");
+    assert!(more.starts_with(&table) && more.lines().count() == 1 + 3 * 2 * 2, "{more}");
+    // a technique that equals another one in a scene is left out, with a note
+    let out =
+        folder.succeed("chart delta-lights --quick --size 16x16 --spp 4 --replicates 2 --samplers latin -o other");
+    assert!(out.contains("cosine-hemisphere is left out: it gives the same image as uniform-hemisphere"), "{out}");
+    assert!(!folder.read("other/measurements.csv").contains("cosine-hemisphere"));
+    // other settings are measured anew, and the earlier measurements are kept
+    let out = folder.succeed(&format!("{SMALL} --replicates 2 --seed 9 -o out"));
+    assert!(out.contains("12 measurements with other settings"), "{out}");
+    assert!(folder.read("out/measurements.csv").starts_with(&more));
+}
+
+#[test]
+fn faults_are_reported() {
+    let folder = Folder::new();
+    let says = |arguments: &str, words: &[&str]| {
+        let error = folder.fail(arguments);
+        assert!(words.iter().all(|w| error.contains(w)), "{arguments}: {error}");
+    };
+    says("chart none.pbrt", &["none.pbrt"]);
+    says("chart quads --spp 0", &["--spp", "0"]);
+    says("chart quads --techniques luck", &["luck"]);
+    says("chart quads --target=-1", &["--target"]);
+    says("chart quads sphere-light --reference a.exr", &["--reference"]);
+    says("chart quads --reference a.exr", &["a.exr"]);
+    says("chart quads --spp 3 --samplers stratified-4d", &["nothing to measure", "stratified-4d"]);
+    says("figure luck", &["luck"]);
+    // hemisphere sampling does not apply to rough metals
+    says(
+        "chart plates --techniques uniform-hemisphere --reference-spp 32 --size 8x8",
+        &["nothing to measure", "rough"],
+    );
+    fs::create_dir(folder.0.join("out")).unwrap();
+    fs::write(folder.0.join("out/measurements.csv"), "a,b\n1,2\n").unwrap();
+    says(&format!("{SMALL} -o out"), &["measurements.csv", "line 1"]);
+    fs::remove_file(folder.0.join("out/measurements.csv")).unwrap();
+    folder.succeed(&format!("{SMALL} --replicates 1 -o out"));
+    let table = folder.read("out/measurements.csv");
+    fs::write(folder.0.join("out/measurements.csv"), table.replacen(",1,0,", ",1,one,", 1)).unwrap();
+    says(&format!("{SMALL} -o out"), &["measurements.csv", "line 2", "\"one\"", "replicate"]);
+    fs::write(folder.0.join("file"), "").unwrap();
+    says(&format!("{SMALL} -o file"), &["file"]);
+    says("figure importance -o file", &["file"]);
+    // a reference whose size is not a multiple of the image's
+    folder.succeed("render quads --size 9x9 --spp 4 -o a.exr");
+    says("chart quads --reference a.exr --size 8x8", &["a.exr", "9x9", "8x8"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_leaves_a_report() {
+    let folder = Folder::new();
+    let command = "chart quads --size 64x64 --spp 1,2,4,1048576 --replicates 1000 --techniques area --samplers independent -o out";
+    let mut child = folder.command(command).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let table = folder.0.join("out/measurements.csv");
+    let start = Instant::now();
+    while fs::read_to_string(&table).map_or(0, |t| t.lines().count()) < 3 {
+        assert!(start.elapsed() < Duration::from_secs(60), "nothing is measured");
+        thread::sleep(Duration::from_millis(5));
+    }
+    // a million samples per pixel would take minutes: the second signal ends the program at once, and the table remains
+    for _ in 0..2 {
+        let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        assert!(killed.success());
+        thread::sleep(Duration::from_millis(300));
+        if child.try_wait().unwrap().is_some() {
+            break;
+        }
+    }
+    child.wait().unwrap();
+    let before = fs::read_to_string(&table).unwrap();
+    // now with many quick images
+    let command = command.replace(",1048576", "");
+    let child = folder.command(&command).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    while fs::read_to_string(&table).unwrap().lines().count() < before.lines().count() + 3 {
+        assert!(start.elapsed() < Duration::from_secs(60), "nothing is measured");
+        thread::sleep(Duration::from_millis(5));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let (out, _) = text(&child.wait_with_output().unwrap(), 0);
+    assert!(out.contains("stopped early") && out.contains("3 measurements come from an earlier run"), "{out}");
+    assert!(fs::read_to_string(&table).unwrap().starts_with(&before));
+    assert!(folder.read("out/report.html").contains("stopped early"));
+}
+
+fn options(output: &Path, scene: &str) -> Options {
+    Options {
+        scenes: vec![scene.to_owned()],
+        output: output.to_owned(),
+        techniques: vec![Technique::Area, Technique::SolidAngle],
+        samplers: vec![Sampler::Independent, Sampler::Stratified],
+        spp: vec![4, 16, 64],
+        replicates: Some(6),
+        reference: None,
+        reference_error: 0.0,
+        reference_spp: None,
+        size: Some((64, 64)),
+        seed: 5,
+        threads: 0,
+        baseline: Technique::Area,
+        target: None,
+        time_limit: None,
+        warps: false,
+        quick: false,
+    }
+}
+
+fn all(rows: &Rows) -> impl Iterator<Item = &Row> {
+    rows.values().flatten()
+}
+
+/// The table holds the error of the image of each seed, and the error is the one that the image's own variance predicts.
+#[test]
+fn errors_are_those_of_the_images() {
+    let folder = Folder::new();
+    let outcome = chart::measure(&options(&folder.0, "quads"), &Arc::new(AtomicBool::new(false))).unwrap();
+    let world = World::new(&scene::load("quads").unwrap()).unwrap();
+    let reference = Reference::builtin("quads").unwrap().shrunk([64, 64]).unwrap();
+    let mut seeds: Vec<u64> = all(&outcome.rows).map(|r| r.seed).collect();
+    seeds.sort_unstable();
+    seeds.dedup();
+    assert_eq!(seeds.len(), 2 * 2 * 3 * 6, "each image has a seed of its own");
+    for (key, rows) in &outcome.rows {
+        let settings = Settings {
+            width: 64,
+            height: 64,
+            spp: key.spp,
+            technique: key.technique,
+            depth: Settings::DEPTH,
+            sampler: key.sampler,
+            sets: 1,
+            seed: rows[0].seed,
+        };
+        let image = Picture::from(&world.render(&settings, |_| ()).0);
+        let comparison = Comparison::new(&reference.picture, &image, reference.error).unwrap();
+        assert!((rows[0].squared / comparison.mse - 1.0).abs() < 1e-12, "{key:?}");
+        assert!(rows[0].seconds > 0.0 && rows[0].camera == 64 * 64 * u64::from(key.spp));
+    }
+    let summary = &outcome.summaries[0];
+    for series in &summary.series {
+        for point in &series.points {
+            // predicted by the images' own variances: the mean over pixels of the variance of the mean
+            let of = |seed| {
+                let (technique, sampler) = (series.way.technique, series.way.sampler);
+                let settings = Settings {
+                    width: 64,
+                    height: 64,
+                    spp: point.spp,
+                    technique,
+                    depth: Settings::DEPTH,
+                    sampler,
+                    sets: 0,
+                    seed,
+                };
+                let film = world.render(&settings, |_| ()).0;
+                film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>() / (3.0 * 64.0 * 64.0)
+            };
+            let predicted = (100..103).map(of).sum::<f64>() / 3.0;
+            let ratio = point.mse.value / predicted;
+            // one set of strata has less error than the two or four that provide a variance
+            let range = if series.way.sampler == Sampler::Independent { 0.88..1.12 } else { 0.4..0.9 };
+            assert!(range.contains(&ratio), "{} {}: {ratio}", series.way.title(), point.spp);
+            assert!(point.bias.abs() < 4.5, "{} {}: bias {}", series.way.title(), point.spp, point.bias);
+        }
+        let slope = series.slope.as_ref().unwrap();
+        let truth = if series.way.sampler == Sampler::Independent { -1.03..-0.97 } else { -1.5..-1.1 };
+        assert!(truth.contains(&slope.value) && slope.half < 0.1, "{}: {slope:?}", series.way.title());
+    }
+}
+
+/// The error of a reference with as few samples as the images themselves is subtracted.
+#[test]
+fn the_references_own_error_is_taken_off() {
+    let folder = Folder::new();
+    let measured = |reference_spp: Option<u32>, name: &str| {
+        let output = folder.0.join(name);
+        let options =
+            Options { reference_spp, spp: vec![64], replicates: Some(8), ..options(&output, "triangle-light") };
+        let outcome = chart::measure(&options, &Arc::new(AtomicBool::new(false))).unwrap();
+        let error = outcome.plan.scenes[0].reference.error;
+        let summary = outcome.summaries.into_iter().next().unwrap();
+        let area = summary.series.into_iter().find(|s| s.way.technique == Technique::Area).unwrap();
+        (area.points[0].mse, error)
+    };
+    let ((precise, none), (rough, some)) = (measured(None, "precise"), measured(Some(32), "rough"));
+    // the rough reference's error is a good part of the measured one, and hardly any of it remains
+    assert!(some > 0.05 * rough.value && none < 1e-3 * precise.value, "{some:e} {none:e} {precise:?}");
+    assert!((rough.value / precise.value - 1.0).abs() < 0.05, "{rough:?} {precise:?}");
+}
+
+/// Every warp has a time at each width, takes longer with one lane than with eight, and has an error of rounding only.
+#[test]
+fn warps_are_fast_and_good() {
+    let measured = chart::warps::measure(&AtomicBool::new(false), |_, _| ());
+    assert!(measured.len() > 20);
+    for m in &measured {
+        let [one, _, eight] = m.nanoseconds.each_ref().map(|t| t.value);
+        println!("{:50} {one:8.2} {eight:8.2} ns, {:.1e} {:.1e}", m.name, m.point, m.density);
+        assert!(eight > 0.0 && one > eight, "{}: {one} {eight}", m.name);
+        // the map of visible normals is infinitely steep for normals on the horizon
+        let limit = if m.name.starts_with("GGX") { 1e-2 } else { 4e-6 };
+        assert!((1e-9..limit).contains(&m.point) && (0.0..1e-5).contains(&m.density), "{m:?}");
+    }
+    let csv = chart::warps::csv(&measured);
+    assert_eq!(csv.lines().count(), measured.len() + 1);
+    assert!(!chart::warps::figure(&measured).drawing.file().contains("NaN"));
+}
+
+/// The numbers in a line of a figure's output.
+fn numbers(line: &str) -> Vec<f64> {
+    let line = line.replace('−', "-");
+    let words = line.split(|c: char| !(c.is_ascii_digit() || ".-e".contains(c)));
+    words.filter_map(|w| w.parse().ok()).collect()
+}
+
+#[test]
+fn figures_say_their_numbers() {
+    let folder = Folder::new();
+    let line = |out: &str, start: &str| {
+        numbers(out.lines().find_map(|l| l.trim().strip_prefix(start)).unwrap_or_else(|| panic!("{start} in {out}")))
+    };
+    let out = folder.succeed("figure importance");
+    let [gain, loss] = ["pdf 0.1 | 4.6 | 0.1: variance", "pdf 1.2 | 0.2 | 1.2: variance"].map(|s| line(&out, s)[0]);
+    assert!((gain / 6.67 - 1.0).abs() < 0.01 && (loss / 5.34 - 1.0).abs() < 0.03, "{out}");
+    assert!(line(&out, "pdf proportional to f: variance")[0] < 1e-20, "{out}");
+
+    let out = folder.succeed("figure stratification");
+    for (name, rate) in
+        [("edge, independent", -1.0), ("edge, jittered", -1.5), ("x, independent", -1.0), ("x, jittered", -2.0)]
+    {
+        let found = line(&out, &format!("{name}: slope"));
+        let (slope, half, share, around) = (found[0], found[1], found[3], found[4]);
+        assert!((slope - rate).abs() < 2.0 * half && half < 0.03, "{out}");
+        assert!((share - 1.0).abs() < 2.0 * around && around < 0.1, "{out}");
+    }
+
+    let out = folder.succeed("figure cap-solid-angle-vs-projected");
+    assert!(line(&out, "by projected solid angle")[0] < 1e-11, "{out}");
+    let irradiance = line(&out, "irradiance per radiance");
+    assert!(irradiance[..2].iter().all(|x| (x - irradiance[2]).abs() < 2e-6), "{out}");
+    folder.succeed("figure area-factors");
+    for name in ["importance", "stratification", "cap-solid-angle-vs-projected", "area-factors"] {
+        let svg = folder.read(&format!("figures/{name}.svg"));
+        assert_eq!(svg.matches("<g").count(), svg.matches("</g>").count(), "{name}");
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && !svg.contains("NaN"), "{name}");
+    }
+}

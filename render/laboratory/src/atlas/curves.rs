@@ -1,0 +1,235 @@
+//! The maps of disks and line segments by definition, set up in 106 bits, integrated and inverted in f64.
+
+use super::pose::V3;
+use core::f64::consts::FRAC_PI_2;
+use etendue_oracle::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
+
+/// Solves f(x) = `target` for an increasing f with f(0) = 0 and f(`end`) = `top`, by false position (Illinois), with bisection if that is
+/// slow.
+pub(super) fn root(end: f64, top: f64, target: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut low, mut high) = (0.0, end);
+    let (mut f_low, mut f_high) = (-target, top - target);
+    if f_high <= 0.0 {
+        return end;
+    }
+    for step in 0..80 {
+        let width = high - low;
+        let x = if step % 4 == 3 { low + 0.5 * width } else { low + width * (f_low / (f_low - f_high)) };
+        let value = f(x) - target;
+        if value.abs() <= 1e-15 * target || width <= 1e-15 * high {
+            return x;
+        }
+        if value < 0.0 {
+            (low, f_low) = (x, value);
+            f_high *= 0.5;
+        } else {
+            (high, f_high) = (x, value);
+            f_low *= 0.5;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// The 16 Gauss-Legendre nodes on [0, 1] with their weights.
+fn nodes() -> [(f64, f64); 16] {
+    core::array::from_fn(|i| {
+        let n = 16.0;
+        let mut x = (core::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).cos();
+        let mut slope = 1.0;
+        for _ in 0..50 {
+            let (mut p, mut last) = (x, 1.0);
+            for k in 2..=16 {
+                let k = f64::from(k);
+                (p, last) = (((2.0 * k - 1.0) * x * p - (k - 1.0) * last) / k, p);
+            }
+            slope = n * (x * p - last) / (x * x - 1.0);
+            x -= p / slope;
+        }
+        (0.5 + 0.5 * x, 1.0 / ((1.0 - x * x) * slope * slope))
+    })
+}
+fn integral(nodes: &[(f64, f64); 16], low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    (high - low) * nodes.iter().map(|&(x, weight)| weight * f(low + (high - low) * x)).sum::<f64>()
+}
+
+/// The elliptic cone of a disk as seen from the point. With χ the eccentric angle from the major axis, dΩ = sinα sinβ dχ/(1+D), where
+/// D² = cos²β cos²χ + cos²α sin²χ is the squared height of the rim. u₀ sets χ, quadrant by quadrant, and 1−cosθ is the fraction u₁ of
+/// that of the rim.
+#[derive(Clone, Debug)]
+pub struct Ellipse {
+    /// Minor axis, major axis and the cone's axis.
+    axes: [V3; 3],
+    /// Sines of the half-angles α and β.
+    pub(super) sines: [f64; 2],
+    cosines: [f64; 2],
+    nodes: [(f64, f64); 16],
+    /// Values of χ, and the integral of 1/(1+D) up to each.
+    panels: Vec<[f64; 2]>,
+    solid_angle: f64,
+}
+impl Ellipse {
+    /// The cone of a disk with normal `n` of any length.
+    #[must_use]
+    pub fn new(center: V3, n: V3, radius: f64) -> Self {
+        let (c, n, r) = (dd(center), dd(n), Dd::from(radius));
+        let signed = dot(c, n) / length(n);
+        let (z, towards) = (signed.abs(), normalized(n.map(|x| if signed.to_f64() < 0.0 { -x } else { x })));
+        let power = dot(c, c) - r * r;
+        let twice = z * r + z * r;
+        let h = (power * power + twice * twice).sqrt();
+        let alpha = 0.5 * twice.to_f64().atan2(power.to_f64());
+        let sin = alpha.sin();
+        let cos = if power.to_f64() >= 0.0 { alpha.cos() } else { (twice / h).to_f64() / (2.0 * sin) };
+        let beta = radius.atan2(h.to_f64().sqrt() * cos);
+        let (sines, cosines) = ([sin, beta.sin()], [cos, beta.cos()]);
+        // the cone's axis is c − sin²β (c − z n)
+        let offset = add(c, times(towards, -z));
+        let axis = add(times(towards, z), times(offset, Dd::from(cosines[1] * cosines[1])));
+        let axis = normalized(if length(axis).to_f64() > 0.0 { axis } else { towards });
+        let across = cross(n, c);
+        let across = if length(across).to_f64() > 0.0 {
+            normalized(across)
+        } else {
+            let a = narrow(axis);
+            let t = etendue::Frame::new(etendue::Vec3::new(a[0], a[1], a[2])).t;
+            dd([t.x, t.y, t.z])
+        };
+        let axes = [normalized(cross(across, axis)), across, axis].map(narrow);
+        let mut this = Self { axes, sines, cosines, nodes: nodes(), panels: vec![[0.0; 2]], solid_angle: 0.0 };
+        // finer near the major axis, where the integrand of a large disk has a kink
+        let mut sum = 0.0;
+        for k in (0..40).rev() {
+            let (low, high) = (this.panels[this.panels.len() - 1][0], FRAC_PI_2 * 0.5_f64.powi(k));
+            sum += integral(&this.nodes, low, high, |chi| 1.0 / (1.0 + this.rim(chi)));
+            this.panels.push([high, sum]);
+        }
+        if z.to_f64() > 0.0 && radius > 0.0 {
+            this.solid_angle = 4.0 * sines[0] * sines[1] * sum;
+        }
+        this
+    }
+    fn rim(&self, chi: f64) -> f64 {
+        (self.cosines[1] * chi.cos()).hypot(self.cosines[0] * chi.sin())
+    }
+    /// Solid angle in steradians.
+    #[must_use]
+    pub fn solid_angle(&self) -> f64 {
+        self.solid_angle
+    }
+    /// The direction for `u`.
+    #[must_use]
+    pub fn at(&self, u: [f64; 2]) -> V3 {
+        let turned = 4.0 * u[0];
+        let quadrant = (turned as usize).min(3);
+        let part = (turned - [0.0, 2.0, 2.0, 4.0][quadrant]).abs();
+        let target = part * self.panels[self.panels.len() - 1][1];
+        let i = self.panels.iter().position(|p| p[1] >= target).unwrap_or(self.panels.len() - 1).max(1);
+        let ([low, before], [high, after]) = (self.panels[i - 1], self.panels[i]);
+        let up_to = |step: f64| integral(&self.nodes, low, low + step, |chi| 1.0 / (1.0 + self.rim(chi)));
+        let chi = low + root(high - low, after - before, target - before, up_to);
+        let (s, c) = chi.sin_cos();
+        let (x, y) = (self.sines[0] * s, self.sines[1] * c);
+        // 1−D² is the squared radius of the rim
+        let (squared, d) = (x * x + y * y, self.rim(chi));
+        let k = u[1] * squared / (1.0 + d);
+        let factor = (u[1] * (2.0 - k) / (1.0 + d)).sqrt();
+        let x = x * factor * [1.0, 1.0, -1.0, -1.0][quadrant];
+        let y = y * factor * [1.0, -1.0, -1.0, 1.0][quadrant];
+        core::array::from_fn(|i| self.axes[0][i] * x + self.axes[1][i] * y + self.axes[2][i] * (1.0 - k))
+    }
+}
+
+/// One end of an [`Arc`]: its direction, the tangent towards the other end, and sinγ and cosθ there with their derivatives by the angle.
+#[derive(Clone, Debug)]
+struct End {
+    way: V3,
+    turn: V3,
+    sine: [f64; 2],
+    cosine: [f64; 2],
+    half: f64,
+}
+impl End {
+    /// sinγ cosθ at angle x from this end.
+    fn product(&self, x: f64) -> f64 {
+        let (s, c) = x.sin_cos();
+        ((self.sine[0] * c + self.sine[1] * s) * (self.cosine[0] * c + self.cosine[1] * s)).max(0.0)
+    }
+}
+
+/// The arc of a segment as seen from the point, possibly clipped to a horizon.
+#[derive(Clone, Debug)]
+pub struct Arc {
+    ends: [End; 2],
+    /// Angle that the segment subtends, in radians.
+    pub angle: f64,
+    /// Unit vector along the perpendicular to the line.
+    pub(super) foot: V3,
+    nodes: [(f64, f64); 16],
+    /// ∫ sinγ cosθ over the arc.
+    pub whole: f64,
+}
+impl Arc {
+    /// The arc from `a` to `a + edge`, clipped to the horizon of a normal if given.
+    #[must_use]
+    pub fn new(a: Dd3, edge: Dd3, normal: Option<Dd3>) -> Self {
+        let b = add(a, edge);
+        let plane = cross(a, edge);
+        let (mut from, mut to) = (a, b);
+        let mut seen = length(plane).to_f64() > 0.0;
+        if let Some(n) = normal {
+            let (low, high) = (dot(a, n), dot(b, n));
+            let there = |part: Dd| add(a, times(edge, part));
+            let crosses = (low.to_f64() < 0.0) != (high.to_f64() < 0.0);
+            if crosses && low.to_f64() < 0.0 {
+                from = there(low / (low - high));
+            } else if crosses {
+                to = there(low / (low - high));
+            }
+            seen &= low.to_f64() > 0.0 || high.to_f64() > 0.0;
+        }
+        let pole = normalized(plane);
+        let foot = normalized(cross(edge, plane));
+        let n = normal.map_or([Dd::default(); 3], normalized);
+        let end = |p: Dd3, sign: f64| {
+            let way = normalized(p);
+            let turn = times(cross(pole, way), Dd::from(sign));
+            // exactly on the horizon
+            let height = dot(way, n).to_f64();
+            let cosine = [if height < 1e-25 { 0.0 } else { height }, dot(turn, n).to_f64()];
+            let sine = [(length(plane) / (length(p) * length(edge))).to_f64(), dot(turn, foot).to_f64()];
+            End { way: narrow(way), turn: narrow(turn), sine, cosine, half: 0.0 }
+        };
+        let angle = length(cross(from, to)).atan2(dot(from, to)).to_f64();
+        let mut this = Self {
+            ends: [end(from, 1.0), end(to, -1.0)],
+            angle: if seen { angle } else { 0.0 },
+            foot: narrow(foot),
+            nodes: nodes(),
+            whole: 0.0,
+        };
+        let halves = [0, 1].map(|i| this.up_to(i, 0.5 * this.angle));
+        this.ends[0].half = halves[0];
+        this.ends[1].half = halves[1];
+        this.whole = halves[0] + halves[1];
+        this
+    }
+    fn up_to(&self, end: usize, x: f64) -> f64 {
+        integral(&self.nodes, 0.0, x, |x| self.ends[end].product(x))
+    }
+    /// Angle from the first end up to which the integral is the fraction `u` of the whole.
+    #[must_use]
+    pub fn angle_of(&self, u: f64) -> f64 {
+        let near = u * self.whole <= self.ends[0].half;
+        let (end, target) = if near { (0, u * self.whole) } else { (1, (1.0 - u) * self.whole) };
+        let x = root(0.5 * self.angle, self.ends[end].half, target, |x| self.up_to(end, x));
+        if near { x } else { self.angle - x }
+    }
+    /// The direction at an angle from the first end.
+    #[must_use]
+    pub fn at(&self, x: f64) -> V3 {
+        let near = x <= 0.5 * self.angle;
+        let (end, x) = if near { (&self.ends[0], x) } else { (&self.ends[1], self.angle - x) };
+        let (s, c) = x.sin_cos();
+        core::array::from_fn(|i| end.way[i] * c + end.turn[i] * s)
+    }
+}

@@ -1,0 +1,136 @@
+//! Solid angles of triangles and rectangles, and their maps by definition, in 106 bits.
+
+use super::curves::root;
+use super::pose::V3;
+use etendue_oracle::double_double::{Dd, Dd3, add, cross, dot, length, narrow, normalized, times};
+
+/// Solid angle of a triangle with corners a, b, c and a·(b×c) = `volume`, by Van Oosterom and Strackee.
+fn solid_angle(a: Dd3, b: Dd3, c: Dd3, volume: Dd) -> Dd {
+    let [la, lb, lc] = [a, b, c].map(length);
+    let under = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+    Dd::from(2.0) * volume.abs().atan2(under)
+}
+
+/// A triangle and Arvo's map about its vertex `v1`: the area swept from `v0` is u₀Ω, and 1−cos of the angle from `v1` is the fraction u₁
+/// of its greatest value.
+#[derive(Clone, Debug)]
+pub struct Fan {
+    units: [Dd3; 3],
+    /// tan(Ω/2) = g0/(g1+g2)
+    g: [Dd; 3],
+    pub(super) solid_angle: Dd,
+}
+impl Fan {
+    /// The triangle of a vertex and the edges to the other two.
+    #[must_use]
+    pub fn new(v0: Dd3, e1: Dd3, e2: Dd3) -> Self {
+        let (v1, v2) = (add(v0, e1), add(v0, e2));
+        // from edges: the volume of a small triangle is a product, not a difference
+        let volume = dot(v0, cross(e1, e2));
+        let units = [v0, v1, v2].map(normalized);
+        let lengths = length(v0) * length(v1) * length(v2);
+        let one = Dd::from(1.0);
+        let g0 = if lengths.to_f64() > 0.0 { volume.abs() / lengths } else { Dd::default() };
+        let g = [g0, dot(add(units[0], units[1]), units[2]), one + dot(units[0], units[1])];
+        let touches = g0.to_f64() <= 0.0;
+        let omega = if touches { Dd::default() } else { solid_angle(v0, v1, v2, volume) };
+        Self { units, g, solid_angle: omega }
+    }
+    /// Solid angle in steradians.
+    #[must_use]
+    pub fn solid_angle(&self) -> f64 {
+        self.solid_angle.to_f64()
+    }
+    /// Unit vector to the point of the edge `v0 v2` for `u₀`.
+    #[must_use]
+    pub fn swept(&self, u0: Dd) -> Dd3 {
+        // near v2 the remaining angle is small
+        let (s, c) = (Dd::from(0.5) * u0 * self.solid_angle).sin_cos();
+        let [a, _, b] = self.units;
+        let alpha = self.g[0] * c - self.g[1] * s;
+        let beta = self.g[2] * s;
+        let both = beta * (alpha + beta * dot(a, b));
+        normalized(add(times(a, (alpha - beta) * (alpha + beta)), times(b, both + both)))
+    }
+    /// The direction for `u`.
+    #[must_use]
+    pub fn at(&self, u: (Dd, f64)) -> V3 {
+        let (p, apex) = (self.swept(u.0), self.units[1]);
+        let (normal, cos) = (cross(apex, p), dot(apex, p));
+        let one = Dd::from(1.0);
+        let versine = if cos.to_f64() > 0.0 { dot(normal, normal) / (one + cos) } else { one - cos };
+        let k = Dd::from(u.1) * versine;
+        let tangent = normalized(cross(normal, apex));
+        let sin = (k * (Dd::from(2.0) - k)).sqrt();
+        narrow(add(times(apex, one - k), times(tangent, sin)))
+    }
+    /// Solid angle up to the point [`swept`](Self::swept) for `u₀`, which is u₀Ω if the map is correct.
+    #[must_use]
+    pub fn area_swept(&self, u0: f64) -> f64 {
+        let p = self.swept(Dd::from(u0));
+        let [a, b, _] = self.units;
+        solid_angle(a, b, p, dot(p, cross(a, b))).to_f64()
+    }
+}
+
+/// A rectangle and the map of Ureña et al.: the strip up to x has solid angle u₀Ω, and y/√(x²+y²+z²) is linear in u₁.
+#[derive(Clone, Debug)]
+pub struct Window {
+    corner: Dd3,
+    axes: [Dd3; 2],
+    near: [Dd; 2],
+    size: [Dd; 2],
+    height: Dd,
+    pub(super) solid_angle: f64,
+}
+impl Window {
+    pub(super) fn new(p: Dd3, u: Dd3, v: Dd3) -> Self {
+        let axes = [normalized(u), normalized(v)];
+        let normal = normalized(cross(u, v));
+        let near = axes.map(|a| dot(p, a));
+        let mut window = Self {
+            corner: p,
+            axes,
+            near,
+            size: [length(u), length(v)],
+            height: dot(p, normal).abs(),
+            solid_angle: 0.0,
+        };
+        window.solid_angle = window.strip(window.size[0]);
+        window
+    }
+    /// Solid angle of the strip from the near side in x to `dx` beyond it.
+    fn strip(&self, dx: Dd) -> f64 {
+        if self.height.to_f64() <= 0.0 || dx.to_f64() <= 0.0 {
+            return 0.0;
+        }
+        let at = |x: Dd, y: Dd| [self.near[0] + x, self.near[1] + y, self.height];
+        let zero = Dd::default();
+        let [a, b, c, d] = [at(zero, zero), at(dx, zero), at(dx, self.size[1]), at(zero, self.size[1])];
+        let volume = self.height * dx * self.size[1];
+        (solid_angle(a, b, c, volume) + solid_angle(a, c, d, volume)).to_f64()
+    }
+    pub(super) fn at(&self, u: [f64; 2]) -> V3 {
+        let target = u[0] * self.solid_angle;
+        // in terms of the angle at the foot of the perpendicular, in which the strip grows evenly
+        let z = self.height;
+        let (x0, x1) = (self.near[0], self.near[0] + self.size[0]);
+        let turn = self.size[0] * z;
+        let whole = turn.to_f64().atan2((z * z + x0 * x1).to_f64());
+        // x − x₀ = (z² + x₀²) t/(z − x₀ t), t = tan of the angle from the near side
+        let moved = |angle: f64| {
+            let (s, c) = (Dd::from(angle.sin()), Dd::from(angle.cos()));
+            let dx = (z * z + x0 * x0) * s / (z * c - x0 * s);
+            if dx.to_f64() >= 0.0 && dx.to_f64() <= self.size[0].to_f64() { dx } else { self.size[0] }
+        };
+        let angle = root(whole, self.solid_angle, target, |angle| self.strip(moved(angle)));
+        let dx = if u[0] > 0.0 { moved(angle) } else { Dd::default() };
+        let x = x0 + dx;
+        let d = (x * x + z * z).sqrt();
+        let sine = |y: Dd| y / (d * d + y * y).sqrt();
+        let (y0, y1) = (self.near[1], self.near[1] + self.size[1]);
+        let h = sine(y0) + Dd::from(u[1]) * (sine(y1) - sine(y0));
+        let y = d * h / (Dd::from(1.0) - h * h).sqrt();
+        narrow(normalized(add(self.corner, add(times(self.axes[0], dx), times(self.axes[1], y - y0)))))
+    }
+}

@@ -1,0 +1,397 @@
+//! Measures the error and time of techniques and samplers, and writes a report with charts.
+
+pub mod charts;
+pub mod machine;
+pub mod measure;
+pub mod pictures;
+pub mod plot;
+pub mod reference;
+pub mod report;
+pub mod stats;
+pub mod summary;
+pub mod warps;
+
+use crate::selftest;
+use clap::{Args, ValueEnum};
+use etendue_render::files;
+use etendue_render::options::{name, size};
+use etendue_render::{Sampler, Settings, Technique, World, scene};
+use indicatif::{ProgressBar, ProgressStyle};
+use measure::{ChartedScene, Key, Plan, Table};
+use reference::Reference;
+use std::error::Error;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use summary::{Summary, Way};
+
+/// Options of `etendue chart`.
+#[derive(Args, Clone, Debug)]
+pub struct Options {
+    /// Names of built-in scenes, or paths of pbrt-v4 files
+    #[arg(default_values_t = ["quads", "sphere-light", "triangle-light"].map(String::from))]
+    pub scenes: Vec<String>,
+    /// Folder for the report; measurements it already holds are not repeated
+    #[arg(short, long, default_value = "chart")]
+    pub output: PathBuf,
+    /// How to sample the lights [default: all techniques]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub techniques: Vec<Technique>,
+    /// How to generate the random numbers [default: all samplers]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub samplers: Vec<Sampler>,
+    /// Samples per pixel [default: 1,2,4,…,1024; with --quick 1,4,16,64]
+    #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
+    pub spp: Vec<u32>,
+    /// Number of images per measurement, with different seeds [default: 5]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub replicates: Option<u32>,
+    /// Reference image [default: the built-in one of the scene, or else one rendered now]
+    #[arg(long, value_name = "EXR")]
+    pub reference: Option<PathBuf>,
+    /// Mean squared standard error of the reference, used if its file has no variance
+    #[arg(long, value_name = "MSE", default_value_t = 0.0)]
+    pub reference_error: f64,
+    /// Render the reference with this many samples per pixel [default without a built-in one: 4096; with --quick 1024]
+    #[arg(long, value_name = "SPP", conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(32..=1 << 22))]
+    pub reference_spp: Option<u32>,
+    /// Image size in pixels [default: from the scene; with --quick half of that]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
+    /// Seed of the random numbers; different seeds give independent measurements
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Number of threads; 0 means one per core
+    #[arg(long, default_value_t = 0)]
+    pub threads: usize,
+    /// The technique that all others are compared with
+    #[arg(long, value_enum, default_value = "area")]
+    pub baseline: Technique,
+    /// Mean squared error to reach [default: the error of the best technique at the median sample count]
+    #[arg(long, value_name = "MSE")]
+    pub target: Option<f64>,
+    /// Stop measuring after this many seconds and report what has been measured [default with --quick: 150]
+    #[arg(long, value_name = "SECONDS")]
+    pub time_limit: Option<u64>,
+    /// Also measure the time and greatest error of each warp of the library
+    #[arg(long)]
+    pub warps: bool,
+    /// Measure small images with few samples, in less than three minutes
+    #[arg(long)]
+    pub quick: bool,
+}
+
+/// FNV-1a: unlike the standard library's hasher, the same in every version.
+pub(crate) fn hash(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// Hash of the executable: measurements of another build do not count.
+fn build() -> u64 {
+    std::env::current_exe().and_then(std::fs::read).map_or(0, |bytes| hash(&bytes))
+}
+
+/// The requested values without duplicates, or all values if none is requested.
+fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
+    let all = if asked.is_empty() { T::value_variants() } else { asked };
+    let mut list: Vec<T> = Vec::new();
+    for value in all {
+        if !list.contains(value) {
+            list.push(value.clone());
+        }
+    }
+    list
+}
+
+/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image. Stratified-4d uses as many
+/// as its few sizes need.
+fn sets(sampler: Sampler) -> u32 {
+    u32::from(sampler != Sampler::Stratified4d)
+}
+
+/// Why a sampler does not support this many samples; `None` if it does.
+fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
+    sampler.check(spp, sets(sampler), lens).err()
+}
+
+/// The techniques that apply to a scene and differ from one another there, and notes on those that are left out.
+fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique]) -> (Vec<Technique>, Vec<String>) {
+    let (mut list, mut images, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+    for &technique in asked {
+        let mut leave = |why: &str| notes.push(format!("{}: {} is left out: {why}", subject.name, name(technique)));
+        if !selftest::applies(technique, scene) {
+            leave(
+                "it finds reflections of lights in this scene's rough metals too rarely for its error to be measured",
+            );
+            continue;
+        }
+        let [width, height] = subject.size.map(|side| side.min(64));
+        let sampler = Sampler::Independent;
+        let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, sets: 1, seed: 1 };
+        let pixels = subject.world.render(&settings, |_| ()).0.pixels;
+        match images.iter().position(|other| *other == pixels) {
+            Some(first) => leave(&format!("it gives the same image as {} in this scene", name(list[first]))),
+            None => {
+                list.push(technique);
+                images.push(pixels);
+            }
+        }
+    }
+    (list, notes)
+}
+
+/// A scene ready to be measured, the techniques to measure, and notes for the report.
+struct Prepared {
+    subject: ChartedScene,
+    techniques: Vec<Technique>,
+    notes: Vec<String>,
+}
+
+/// Loads a scene and its reference.
+fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepared, Box<dyn Error>> {
+    let scene = scene::load(name)?;
+    let mut notes: Vec<String> = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
+    let (width, height) = options.size.unwrap_or_else(|| {
+        let shrink = |side: u32| if options.quick { (side / 2).max(1) } else { side };
+        (shrink(scene.film.width), shrink(scene.film.height))
+    });
+    let size = [width, height];
+    let world = World::new(&scene)?;
+    let is_builtin = scene::builtin().iter().any(|(builtin, _)| *builtin == name);
+    let own = if is_builtin && options.reference_spp.is_none() {
+        Reference::builtin(name).and_then(|r| r.shrunk(size).ok())
+    } else {
+        None
+    };
+    let reference = if let Some(path) = &options.reference {
+        let of_size = Reference::read(path, options.reference_error)?.shrunk(size);
+        of_size.map_err(|what| format!("{}: {what}", path.display()))?
+    } else if let Some(own) = own {
+        own
+    } else {
+        let spp = options.reference_spp.unwrap_or(if options.quick { 1024 } else { 4096 });
+        let bar = bar(u64::from(width) * u64::from(height), &format!("reference of {name}"))?;
+        let reference = Reference::render(&world, size, spp, |done| bar.inc(done));
+        bar.finish_and_clear();
+        reference
+    };
+    let mut bytes = Vec::new();
+    // all settings of the scene as text; the mesh as bytes
+    write!(bytes, "{:?}{:?}{:?}{circumstances}{}", scene.camera, scene.materials, scene.shapes, options.seed)?;
+    bytes.extend(scene.triangles.iter().flatten().flatten().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
+    let lens = scene.camera.lens.is_some();
+    let subject = ChartedScene { name: name.to_owned(), world, size, lens, settings: hash(&bytes), reference };
+    let (techniques, left_out) = techniques(&scene, &subject, &chosen(&options.techniques));
+    notes.extend(left_out);
+    Ok(Prepared { subject, techniques, notes })
+}
+
+/// A progress bar, which draws nothing unless stderr is a terminal.
+fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
+    Ok(ProgressBar::new(total).with_style(style).with_message(what.to_owned()))
+}
+
+/// A flag that Ctrl-C sets: measuring stops after the current image. A second Ctrl-C ends the program.
+///
+/// # Errors
+/// Fails if the signal handler cannot be installed.
+pub fn interrupt() -> Result<Arc<AtomicBool>, ctrlc::Error> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&flag);
+    ctrlc::set_handler(move || {
+        if set.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    })?;
+    Ok(flag)
+}
+
+/// Sets `stop` after this many seconds.
+fn alarm(stop: &Arc<AtomicBool>, seconds: Option<u64>) {
+    if let Some(seconds) = seconds {
+        let stop = Arc::clone(stop);
+        std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_secs(seconds));
+            stop.store(true, Ordering::Relaxed);
+        });
+    }
+}
+
+/// Everything a report is made of.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The planned measurements.
+    pub plan: Plan,
+    /// The finished measurements.
+    pub rows: measure::Rows,
+    /// One summary per scene.
+    pub summaries: Vec<Summary>,
+    /// Names and values of the circumstances that the measurements depend on, such as the machine.
+    pub facts: Vec<(&'static str, String)>,
+    /// Warnings and remarks for the reader.
+    pub notes: Vec<String>,
+}
+
+/// Runs and summarises the measurements.
+///
+/// # Errors
+/// Fails if a scene or reference cannot be read, or the table cannot be written.
+pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box<dyn Error>> {
+    let start = Instant::now();
+    if options.reference.is_some() && options.scenes.len() != 1 {
+        return Err("--reference needs exactly one scene".into());
+    }
+    if !(0.0..f64::INFINITY).contains(&options.reference_error) {
+        return Err(format!("--reference-error {}: must be finite and at least 0", options.reference_error).into());
+    }
+    if options.target.is_some_and(|t| !t.is_finite() || t <= 0.0) {
+        return Err("--target: must be finite and greater than 0".into());
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let facts = machine::facts(pool.current_num_threads());
+    // a new commit does not matter as long as the executable stays the same
+    let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
+    let circumstances = format!("{kept:?}{:016x}", build());
+    let mut notes = Vec::new();
+    let mut scenes: Vec<ChartedScene> = Vec::new();
+    let mut techniques = Vec::new();
+    for scene in &options.scenes {
+        if scenes.iter().any(|s| s.name == *scene) {
+            continue;
+        }
+        let prepared = pool.install(|| prepare(options, scene, &circumstances).map_err(|e| e.to_string()))?;
+        notes.extend(prepared.notes);
+        scenes.push(prepared.subject);
+        techniques.push(prepared.techniques);
+    }
+    let default =
+        if options.quick { (0..4).map(|k| 1 << (2 * k)).collect() } else { (0..11).map(|k| 1 << k).collect() };
+    let mut spps: Vec<u32> = if options.spp.is_empty() { default } else { options.spp.clone() };
+    spps.sort_unstable();
+    spps.dedup();
+    let mut keys = Vec::new();
+    for (scene, techniques) in techniques.iter().enumerate() {
+        for &spp in &spps {
+            for &sampler in &chosen(&options.samplers) {
+                for &technique in techniques {
+                    match inapplicable(sampler, spp, scenes[scene].lens) {
+                        Some(reason) if !notes.contains(&reason) => notes.push(reason),
+                        Some(_) => (),
+                        None => keys.push(Key { scene, technique, sampler, spp }),
+                    }
+                }
+            }
+        }
+    }
+    if keys.is_empty() {
+        return Err(format!("nothing to measure: {}", notes.join("; ")).into());
+    }
+    let replicates = options.replicates.unwrap_or(5);
+    let plan = Plan { scenes, keys, replicates, seed: options.seed };
+
+    std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
+    let file = options.output.join("measurements.csv");
+    let (mut table, mut rows, others) = Table::open(&file, &plan)?;
+    if others > 0 {
+        notes.push(format!("{}: {others} measurements with other settings are kept but not shown", file.display()));
+    }
+    let found: usize = rows.values().map(Vec::len).sum();
+    if found > 0 {
+        notes.push(format!("{found} measurements come from an earlier run"));
+    }
+    let limit = options.time_limit.or(options.quick.then_some(150));
+    alarm(stop, limit.map(|l| l.saturating_sub(start.elapsed().as_secs())));
+    let bar = bar(plan.work(&rows), "measuring")?;
+    pool.install(|| plan.run(&mut table, &mut rows, stop, |done| bar.inc(done)).map_err(|e| e.to_string()))?;
+    bar.finish_and_clear();
+
+    let all = plan.keys.len() * plan.replicates as usize;
+    let done: usize = rows.values().map(Vec::len).sum();
+    if done < all {
+        notes.push(format!("stopped early: {done} of {all} measurements; run the same command again for the rest"));
+    }
+    let baseline = Way { technique: options.baseline, sampler: Sampler::Independent };
+    let summaries = (0..plan.scenes.len())
+        .map(|scene| Summary::new(&plan, &rows, scene, baseline, options.target))
+        .filter(|s| !s.series.is_empty())
+        .collect();
+    Ok(Outcome { plan, rows, summaries, facts, notes })
+}
+
+/// Prefix of a scene's file names: its name with special characters replaced, and a number if two scenes share it.
+fn stem(summaries: &[Summary], scene: &str) -> String {
+    let of = |name: &str| -> String {
+        let stem = Path::new(name).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        stem.chars().map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '_' }).collect()
+    };
+    let before = summaries.iter().take_while(|s| s.scene != scene).filter(|s| of(&s.scene) == of(scene)).count();
+    if before == 0 { of(scene) } else { format!("{}-{}", of(scene), before + 1) }
+}
+
+/// Measures the time and error of the warps and writes warps.svg and warps.csv.
+fn measure_warps(folder: &Path, stop: &AtomicBool) -> Result<(charts::Figure, String), Box<dyn Error>> {
+    let bar = bar(0, "warps")?;
+    let measured = warps::measure(stop, |done, all| {
+        bar.set_length(all);
+        bar.set_position(done);
+    });
+    bar.finish_and_clear();
+    let figure = warps::figure(&measured);
+    files::replace(&folder.join("warps.svg"), figure.drawing.file().as_bytes())?;
+    files::replace(&folder.join("warps.csv"), warps::csv(&measured).as_bytes())?;
+    Ok((figure, warps::table(&measured)))
+}
+
+/// Measures, writes the report and prints a summary.
+///
+/// # Errors
+/// Fails if a scene or reference cannot be read, or a file cannot be written.
+pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
+    let stop = interrupt()?;
+    let outcome = measure(options, &stop)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let mut figures = Vec::new();
+    for summary in &outcome.summaries {
+        let mut list = vec![charts::error_over_time(summary), charts::error_over_samples(summary)];
+        list.extend(charts::efficiency(summary));
+        list.extend(charts::time_to_error(summary));
+        for figure in &list {
+            let file = format!("{}-{}.svg", stem(&outcome.summaries, &summary.scene), figure.file);
+            files::replace(&options.output.join(file), figure.drawing.file().as_bytes())?;
+        }
+        figures.push(list);
+    }
+    let pictures: Vec<pictures::Panel> =
+        pool.install(|| outcome.summaries.iter().map(|s| pictures::panel(&outcome, s)).collect());
+    for panel in &pictures {
+        for picture in &panel.pictures {
+            let file = format!("{}-{}.png", stem(&outcome.summaries, &panel.scene), picture.file);
+            files::replace(&options.output.join(file), &picture.png)?;
+        }
+    }
+    let warps = if options.warps { Some(measure_warps(&options.output, &stop)?) } else { None };
+    let page = options.output.join("report.html");
+    files::replace(&page, report::page(&outcome, &figures, &pictures, warps.as_ref(), command).as_bytes())?;
+
+    let mut out = std::io::stdout().lock();
+    for summary in &outcome.summaries {
+        writeln!(out, "{}", summary.scene)?;
+        for (index, series) in summary.series.iter().enumerate() {
+            let gain = summary.gains.iter().find(|g| g.series == index);
+            let gain = gain.map_or_else(|| "?".to_owned(), |g| plot::short(g.gain.value));
+            let slope = series.slope.as_ref().map_or_else(|| "?".to_owned(), charts::with_interval);
+            writeln!(out, "  {:36} slope {slope:18} efficiency {gain} at {} spp", series.way.title(), summary.spp)?;
+        }
+    }
+    for note in &outcome.notes {
+        writeln!(out, "{note}")?;
+    }
+    writeln!(out, "wrote {}", page.display())?;
+    Ok(())
+}

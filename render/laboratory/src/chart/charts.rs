@@ -1,0 +1,145 @@
+//! Draws the charts of a scene.
+
+use super::plot::{Bar, Bars, Chart, Dot, Drawing, Line, Scale, short};
+use super::stats::Estimate;
+use super::summary::{Point, Series, Summary};
+
+/// A chart with a file name and a caption.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// Name of the chart in file names.
+    pub file: &'static str,
+    /// The drawing.
+    pub drawing: Drawing,
+    /// Caption for a page.
+    pub caption: String,
+}
+
+/// Formats a value ± half of its interval.
+#[must_use]
+pub fn with_interval(e: &Estimate) -> String {
+    if e.half.is_finite() { format!("{:.3} ± {:.3}", e.value, e.half) } else { format!("{:.3} ± ?", e.value) }
+}
+
+/// Identifier of a series in a page: technique/sampler.
+#[must_use]
+pub fn id(series: &Series) -> String {
+    format!(
+        "{}/{}",
+        etendue_render::options::name(series.way.technique),
+        etendue_render::options::name(series.way.sampler)
+    )
+}
+
+fn lines(
+    summary: &Summary,
+    name: impl Fn(&Series) -> String,
+    x: impl Fn(&Point) -> Bar,
+    sure: impl Fn(&Point) -> bool,
+) -> Vec<Line> {
+    let line = |series: &Series| Line {
+        id: id(series),
+        name: name(series),
+        color: series.way.technique as usize,
+        dash: series.way.sampler as usize,
+        joined: true,
+        mark: 1.0,
+        dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: sure(p) }).collect(),
+    };
+    summary.series.iter().map(line).collect()
+}
+
+/// Draws error against time.
+#[must_use]
+pub fn error_over_time(summary: &Summary) -> Figure {
+    let chart = Chart {
+        title: format!("{}: error against time", summary.scene),
+        x_label: "seconds per image".to_owned(),
+        y_label: "mean squared error".to_owned(),
+        scales: [Scale::Log, Scale::Log],
+        lines: lines(summary, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
+        guides: vec![-1.0, -1.5],
+        equal: false,
+    };
+    let caption =
+        "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over \
+                   replicates. Hollow points have an interval too wide to support a claim."
+            .to_owned();
+    Figure { file: "error-time", drawing: chart.draw(), caption }
+}
+
+/// Draws error against samples per pixel, with slopes.
+#[must_use]
+pub fn error_over_samples(summary: &Summary) -> Figure {
+    let name = |s: &Series| match &s.slope {
+        Some(slope) => format!("{} {}", s.way.title(), with_interval(slope).replace('-', "−")),
+        None => format!("{} slope ?", s.way.title()),
+    };
+    let chart = Chart {
+        title: format!("{}: error against samples", summary.scene),
+        x_label: "samples per pixel".to_owned(),
+        y_label: "mean squared error".to_owned(),
+        scales: [Scale::Binary, Scale::Log],
+        lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp)), |p| p.mse.is_sure()),
+        guides: vec![-1.0, -1.5],
+        equal: false,
+    };
+    let caption =
+        "Slopes of log error over log samples are fitted to each replicate: mean and 95 % interval.".to_owned();
+    Figure { file: "error-samples", drawing: chart.draw(), caption }
+}
+
+/// Draws efficiency relative to the baseline; `None` if there is none.
+#[must_use]
+pub fn efficiency(summary: &Summary) -> Option<Figure> {
+    let baseline = &summary.series[summary.baseline?];
+    let rows = summary.gains.iter().map(|g| {
+        let series = &summary.series[g.series];
+        // the interval is that of a logarithm
+        let factor = 1.0 + g.gain.half / g.gain.value;
+        let bar = Bar { value: g.gain.value, low: g.gain.value / factor, high: g.gain.value * factor };
+        let sure = g.gain.is_sure() || g.series == summary.baseline.unwrap_or(usize::MAX);
+        (id(series), series.way.title(), series.way.technique as usize, bar, sure)
+    });
+    let bars = Bars {
+        title: format!("{}: efficiency at {} samples per pixel", summary.scene, summary.spp),
+        label: format!("1/(error × time), relative to {}", baseline.way.title()),
+        rows: rows.collect(),
+        origin: 1.0,
+        unit: "×".to_owned(),
+    };
+    let caption =
+        "Further right is better: 10 means the same error in a tenth of the time, as long as error falls as 1/time. \
+                   Ratios compare replicates rendered in the same round."
+            .to_owned();
+    Some(Figure { file: "efficiency", drawing: bars.draw(), caption })
+}
+
+/// Draws the seconds each series takes to reach the target error; `None` if no series reaches it.
+#[must_use]
+pub fn time_to_error(summary: &Summary) -> Option<Figure> {
+    let rows: Vec<_> = summary
+        .series
+        .iter()
+        .filter_map(|s| {
+            let (seconds, beyond) = s.seconds_to(summary.target)?;
+            Some((id(s), s.way.title(), s.way.technique as usize, Bar::exact(seconds), !beyond))
+        })
+        .collect();
+    let least = rows.iter().map(|r| r.3.value).fold(f64::INFINITY, f64::min);
+    if !least.is_finite() || summary.target <= 0.0 {
+        return None;
+    }
+    let bars = Bars {
+        title: format!("{}: time to a mean squared error of {}", summary.scene, short(summary.target)),
+        label: "seconds".to_owned(),
+        rows,
+        origin: least * 0.7,
+        unit: " s".to_owned(),
+    };
+    let caption =
+        "Shorter is better. Hollow bars are extrapolated by the slope of the nearest two points, or rest on times with wide \
+                   intervals."
+            .to_owned();
+    Some(Figure { file: "time-to-error", drawing: bars.draw(), caption })
+}

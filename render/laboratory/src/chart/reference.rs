@@ -1,0 +1,159 @@
+//! Reference images and their own error.
+
+use etendue_render::image::{self, Picture};
+use etendue_render::{Sampler, Settings, Technique, World};
+use std::path::Path;
+
+/// An image that serves as the truth, with a known error.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// The image.
+    pub picture: Picture,
+    /// Mean squared standard error of the image.
+    pub error: f64,
+    /// Origin of the image.
+    pub about: String,
+}
+
+/// Images of built-in scenes by an independent renderer, 256×256 with 32,768 samples per pixel, and their mean squared standard
+/// errors.
+const BUILTIN: [(&str, f64, &[u8]); 3] = [
+    ("sphere-light", 4.8e-9, include_bytes!("../../../tests/references/sphere-light.exr")),
+    ("triangle-light", 2.6e-8, include_bytes!("../../../tests/references/triangle-light.exr")),
+    ("quads", 1.9e-8, include_bytes!("../../../tests/references/quads.exr")),
+];
+
+/// Relative uncertainty of a reference's error.
+pub const KNOWN_TO: f64 = 0.05;
+
+impl Reference {
+    /// The reference that comes with the program for a built-in scene, if there is one.
+    ///
+    /// # Panics
+    /// Panics if the embedded file is damaged.
+    #[must_use]
+    pub fn builtin(scene: &str) -> Option<Self> {
+        let (name, error, bytes) = BUILTIN.iter().find(|(name, ..)| *name == scene)?;
+        let picture = image::decode(Path::new(name), bytes).expect("the embedded reference is valid");
+        let about = "by an independent renderer, 32,768 samples per pixel".to_owned();
+        Some(Self { picture, error: *error, about })
+    }
+
+    /// Reads a reference from a file. Its error is that of the file's variance, or `error` if the file has none.
+    ///
+    /// # Errors
+    /// Fails if the file cannot be read or holds a radiance that is not finite.
+    pub fn read(path: &Path, error: f64) -> Result<Self, Box<dyn std::error::Error>> {
+        let picture = image::read_exr(path)?;
+        if let Some(i) = picture.radiance.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+            let (x, y, p) = (i % picture.width, i / picture.width, picture.radiance[i]);
+            return Err(format!("{}: pixel ({x}, {y}) of the reference is not finite: {p:?}", path.display()).into());
+        }
+        let own = picture.variance.as_ref().map(|v| mean(v)).filter(|v| v.is_finite());
+        Ok(Self { picture, error: own.unwrap_or(error), about: format!("the file {}", path.display()) })
+    }
+
+    /// Renders a reference with multiple importance sampling and stratified samples.
+    pub fn render(world: &World, [width, height]: [u32; 2], spp: u32, progress: impl Fn(u64) + Sync) -> Self {
+        // a seed that no measurement uses
+        let (technique, sampler, seed) = (Technique::MisPower, Sampler::Stratified, 0x5eed_0f7e_fe7e_ce00);
+        let settings = Settings {
+            width,
+            height,
+            spp: spp.next_multiple_of(4).max(32),
+            technique,
+            depth: Settings::DEPTH,
+            sampler,
+            sets: 0,
+            seed,
+        };
+        let picture = Picture::from(&world.render(&settings, progress).0);
+        let error = picture.variance.as_ref().map_or(f64::INFINITY, |v| mean(v));
+        let about = format!("rendered by this program, mis-power, stratified, {} samples per pixel", settings.spp);
+        Self { picture, error, about }
+    }
+
+    /// Shrinks the reference: each pixel becomes the mean of a square of pixels.
+    ///
+    /// # Errors
+    /// Fails if the reference's sides are not the same integer multiple of the new ones.
+    pub fn shrunk(self, [width, height]: [u32; 2]) -> Result<Self, String> {
+        let (w, h) = (width as usize, height as usize);
+        let Picture { width: from_w, height: from_h, .. } = self.picture;
+        let factor = from_w / w.max(1);
+        if factor == 0 || w * factor != from_w || h * factor != from_h {
+            return Err(format!(
+                "the reference is {from_w}x{from_h} pixels, which is not an integer multiple of the image's {w}x{h}"
+            ));
+        }
+        if factor == 1 {
+            return Ok(self);
+        }
+        let count = (factor * factor) as f64;
+        let radiance = (0..w * h)
+            .map(|i| {
+                let at = |k: usize| (i / w * factor + k / factor) * from_w + i % w * factor + k % factor;
+                std::array::from_fn(|c| {
+                    let sum: f64 = (0..factor * factor).map(|k| f64::from(self.picture.radiance[at(k)][c])).sum();
+                    (sum / count) as f32
+                })
+            })
+            .collect();
+        let picture = Picture { width: w, height: h, radiance, variance: None };
+        let about = format!("{}, averaged over {factor}×{factor} pixels", self.about);
+        Ok(Self { picture, error: self.error / count, about })
+    }
+
+    /// Mean squared difference and mean difference of an image from the reference.
+    #[must_use]
+    pub fn difference(&self, radiance: impl ExactSizeIterator<Item = [f32; 3]>) -> (f64, f64) {
+        let count = 3.0 * radiance.len() as f64;
+        let (mut squared, mut sum) = (0.0, 0.0);
+        for (a, b) in radiance.zip(&self.picture.radiance) {
+            for k in 0..3 {
+                let d = f64::from(a[k]) - f64::from(b[k]);
+                squared += d * d;
+                sum += d;
+            }
+        }
+        (squared / count, sum / count)
+    }
+}
+
+fn mean(values: &[[f32; 3]]) -> f64 {
+    values.iter().flatten().map(|&x| f64::from(x)).sum::<f64>() / (3.0 * values.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_references_are_those_of_the_tests() {
+        for (name, mean) in [("sphere-light", 0.230_541), ("triangle-light", 0.297_986), ("quads", 0.123_276)] {
+            let reference = Reference::builtin(name).unwrap();
+            assert!((super::mean(&reference.picture.radiance) - mean).abs() < 1e-6, "{name}");
+            let error = reference.error;
+            let small = reference.shrunk([64, 64]).unwrap();
+            assert!((super::mean(&small.picture.radiance) - mean).abs() < 1e-6, "{name}");
+            assert_eq!((small.picture.radiance.len(), small.error), (64 * 64, error / 16.0));
+        }
+        assert!(Reference::builtin("terrain").is_none());
+        for size in [[100, 100], [256, 128], [512, 512], [64, 32]] {
+            assert!(Reference::builtin("quads").unwrap().shrunk(size).is_err(), "{size:?}");
+        }
+    }
+
+    /// A small rendered image agrees, within its noise, with a larger image that is shrunk.
+    #[test]
+    fn a_pixel_is_the_mean_of_its_parts() {
+        let world = World::new(&etendue_render::scene::load("quads").unwrap()).unwrap();
+        let reference = Reference::builtin("quads").unwrap().shrunk([32, 32]).unwrap();
+        let rendered = Reference::render(&world, [32, 32], 4096, |_| ());
+        let (squared, mean) = reference.difference(rendered.picture.radiance.iter().copied());
+        let expected = reference.error + rendered.error;
+        // with 1024 pixels of different variances, the mean square is accurate to some per cent
+        assert!((squared / expected - 1.0).abs() < 0.5, "{squared:e} {expected:e}");
+        assert!(mean.abs() < 5.0 * (expected / 1024.0).sqrt(), "{mean:e} {expected:e}");
+    }
+}

@@ -1,0 +1,135 @@
+//! Figures for a lecture on light sampling, each with the numbers it illustrates.
+
+mod convergence;
+mod images;
+mod integrals;
+mod shapes;
+mod sheet;
+mod vignetting;
+
+use clap::{Args, ValueEnum};
+use etendue_render::Technique;
+use etendue_render::files;
+use std::error::Error;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Options of `etendue figure`.
+#[derive(Args, Clone, Debug)]
+pub struct Options {
+    /// The figure to draw
+    #[arg(value_enum)]
+    pub name: Name,
+    /// Folder for NAME.svg
+    #[arg(short, long, default_value = "figures")]
+    pub output: PathBuf,
+    /// Number of threads; 0 means one per core
+    #[arg(long, default_value_t = 0)]
+    pub threads: usize,
+    /// Seed of the random numbers; different seeds give independent figures
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+}
+
+/// The figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Name {
+    /// 16 shadow rays over the hemisphere, or towards the lights
+    HemisphereVsArea,
+    /// A sphere light sampled by area, or by the cone it subtends
+    SphereAreaVsCone,
+    /// A triangle light sampled by area, solid angle and projected solid angle
+    TriangleAreaVsSolidAngle,
+    /// The factors of the integrand over a triangle light
+    AreaFactors,
+    /// A cap cut by the horizon, sampled by solid angle and by projected solid angle
+    CapSolidAngleVsProjected,
+    /// How well four samples estimate their own variance
+    SampleVariance,
+    /// Independent and stratified samples, 1 to 1024 per pixel
+    QuadsConvergence,
+    /// Importance sampling with a pdf that matches the integrand, and with one that does not
+    Importance,
+    /// Convergence rates of independent and jittered samples, with their integrands
+    Stratification,
+    /// Variance and cost of each technique in each scene
+    Efficiency,
+    /// Pixel and light sampled separately, or jointly
+    Padding,
+    /// The lens as seen from points of the film, in and out of focus, vignetted by its barrel
+    Vignetting,
+    /// Pixel, lens and light sampled separately, or jointly
+    Defocus,
+    /// All figures
+    All,
+}
+
+/// A figure and the lines of text that it illustrates.
+struct Finding {
+    svg: sheet::Svg,
+    headline: Vec<String>,
+}
+
+/// The context in which figures are drawn.
+struct Studio<'a> {
+    options: &'a Options,
+    stop: &'a Arc<AtomicBool>,
+}
+
+/// The technique of this name, if there is one.
+fn technique(name: &str) -> Option<Technique> {
+    Technique::from_str(name, false).ok()
+}
+
+impl Studio<'_> {
+    fn draw(&self, name: Name) -> Result<Finding, Box<dyn Error>> {
+        match name {
+            Name::HemisphereVsArea => self.hemisphere_vs_area(),
+            Name::SphereAreaVsCone => self.sphere_area_vs_cone(),
+            Name::TriangleAreaVsSolidAngle => self.triangle_area_vs_solid_angle(),
+            Name::SampleVariance => self.sample_variance(),
+            Name::AreaFactors => Ok(shapes::area_factors()),
+            Name::CapSolidAngleVsProjected => Ok(shapes::cap_solid_angle_vs_projected()),
+            Name::Importance => Ok(integrals::importance(self.options.seed)),
+            Name::Stratification => Ok(integrals::stratification(self.options.seed)),
+            Name::QuadsConvergence => self.quads_convergence(),
+            Name::Efficiency => self.efficiency(),
+            Name::Padding => self.padding(),
+            Name::Vignetting => self.vignetting(),
+            Name::Defocus => self.defocus(),
+            Name::All => Err("all is not one figure".into()),
+        }
+    }
+}
+
+/// Draws one figure or all figures, and prints their numbers.
+///
+/// # Errors
+/// Fails if a file cannot be written, or if Ctrl-C stops it.
+pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
+    let stop = crate::chart::interrupt()?;
+    std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let names: Vec<Name> = match options.name {
+        Name::All => Name::value_variants().iter().copied().filter(|n| *n != Name::All).collect(),
+        one => vec![one],
+    };
+    let studio = Studio { options, stop: &stop };
+    for name in names {
+        let title = etendue_render::options::name(name);
+        let finding = pool.install(|| studio.draw(name).map_err(|e| e.to_string()))?;
+        if stop.load(Ordering::Relaxed) {
+            return Err(format!("interrupted while drawing {title}").into());
+        }
+        let path = options.output.join(format!("{title}.svg"));
+        files::replace(&path, finding.svg.file().as_bytes())?;
+        let mut out = std::io::stdout().lock();
+        writeln!(out, "{title}: wrote {}", path.display())?;
+        for line in &finding.headline {
+            writeln!(out, "  {line}")?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,11 @@
+//! Measures the renderer and the library: the error of every technique against its time, and where the library loses accuracy.
+//!
+//! - [`chart`]: error against time on scenes, as a report with charts.
+//! - [`atlas`]: greatest errors of every shape over size, elevation, distance and aspect ratio, beside textbook formulas.
+//! - [`figure`]: figures about light sampling, with the numbers behind them.
+//! - [`selftest`]: images of one scene by all techniques and samplers, which must agree.
+
+pub mod atlas;
+pub mod chart;
+pub mod figure;
+pub mod selftest;

@@ -1,0 +1,246 @@
+//! Interleaves incoherent rays to hide memory latency: each ray takes one step in turn, and prefetches what its next step will visit.
+
+use super::packets::{STACK, Stack, each_bit, push_in_order};
+use super::single_ray::{Leaves, Nearest, Single};
+use super::tree::{Node, Tree, prefetch};
+use super::{Hits, Rays};
+use crate::packet::X8;
+use etendue::Mask;
+
+/// Number of interleaved rays.
+pub(super) const TOGETHER: usize = 8;
+
+/// A child to visit, and the distance at which the ray enters it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Child {
+    first: u32,
+    /// Number of primitives of a leaf; 0 for an inner node.
+    count: u32,
+    near: f32,
+}
+
+/// Greatest number of pending children of one ray in [`Later`].
+const MOST: usize = 24;
+
+/// The traversal state of one ray.
+#[derive(Clone, Debug)]
+pub(super) struct Walk {
+    ray: Single,
+    /// The nearest hit so far, or the limit.
+    nearest: Nearest,
+    /// Index of the ray in the group: 8·packet + lane.
+    index: usize,
+    height: usize,
+    stack: Box<[Child; STACK + MOST]>,
+}
+
+impl Default for Walk {
+    fn default() -> Self {
+        Self {
+            ray: Single::default(),
+            nearest: Nearest::default(),
+            index: 0,
+            height: 0,
+            stack: Box::new([Child::default(); STACK + MOST]),
+        }
+    }
+}
+
+impl Walk {
+    fn start(&mut self, index: usize, rays: &[Rays], nearest: Nearest, later: &mut Later) {
+        self.ray = Single::new(&rays[index >> 3], index & 7);
+        (self.index, self.nearest, self.height) = (index, nearest, 0);
+        for &child in later.take(index) {
+            push_in_order(&mut self.stack[..], &mut self.height, 0, child, |c| c.near);
+        }
+    }
+}
+
+/// The nodes from which each ray of a group continues on its own.
+#[derive(Debug)]
+pub(super) struct Later {
+    children: Box<[[Child; MOST]; 64]>,
+    count: [u8; 64],
+    /// Bit set of the rays with pending nodes.
+    rays: u64,
+}
+
+impl Default for Later {
+    fn default() -> Self {
+        Self { children: Box::new([[Child::default(); MOST]; 64]), count: [0; 64], rays: 0 }
+    }
+}
+
+impl Later {
+    /// Adds an inner node for each of `rays`; `near` is a lower bound of their entry distances. Returns false and adds nothing if a ray
+    /// has no room.
+    #[inline]
+    pub(super) fn add(&mut self, rays: u64, node: u32, near: f32) -> bool {
+        let mut room = true;
+        each_ray(rays, |i| room &= usize::from(self.count[i]) < MOST);
+        if room {
+            each_ray(rays, |i| {
+                self.children[i][usize::from(self.count[i])] = Child { first: node, count: 0, near };
+                self.count[i] += 1;
+            });
+            self.rays |= rays;
+        }
+        room
+    }
+    /// Removes all rays except `rays`.
+    fn keep(&mut self, rays: u64) {
+        each_ray(self.rays & !rays, |i| self.count[i] = 0);
+        self.rays &= rays;
+    }
+    fn next(&self) -> Option<usize> {
+        (self.rays != 0).then_some(self.rays.trailing_zeros() as usize & 63)
+    }
+    fn take(&mut self, index: usize) -> &[Child] {
+        self.rays &= !(1 << index);
+        &self.children[index][..usize::from(std::mem::take(&mut self.count[index]))]
+    }
+}
+
+/// Calls `f` with the index of each set bit.
+#[inline(always)]
+pub(super) fn each_ray(mut bits: u64, mut f: impl FnMut(usize)) {
+    while bits != 0 {
+        f(bits.trailing_zeros() as usize & 63);
+        bits &= bits - 1;
+    }
+}
+
+/// The result of one step.
+enum Step {
+    On,
+    Hidden,
+    Over,
+}
+
+impl<P: Leaves> Tree<P> {
+    /// A child of a node, which is prefetched.
+    #[inline(always)]
+    fn child(&self, node: &Node, near: &[f32; 8], slot: usize) -> Child {
+        let (first, count) = (node.first[slot], u32::from(node.count[slot]));
+        if count == 0 {
+            prefetch(&self.nodes[first as usize..=first as usize]);
+        } else {
+            self.primitives.prefetch(first as usize..(first + count) as usize);
+        }
+        Child { first, count, near: near[slot] }
+    }
+
+    /// Visits one node or leaf. `ANY` means any-hit, otherwise closest-hit.
+    #[inline(always)]
+    fn step<const ANY: bool>(&self, walk: &mut Walk) -> Step {
+        let Walk { ray, nearest, height, stack, .. } = walk;
+        let child = loop {
+            if *height == 0 {
+                return Step::Over;
+            }
+            *height -= 1;
+            let child = stack[*height];
+            if ANY || child.near <= nearest.distance {
+                break child;
+            }
+        };
+        let first = child.first as usize;
+        if child.count != 0 {
+            let (leaf, near) = (first..first + child.count as usize, X8::splat(child.near));
+            if !ANY {
+                self.primitives.closest_of_leaf(leaf, ray, near, nearest);
+            } else if self.primitives.leaf_hides(leaf, ray, near, nearest.distance) {
+                return Step::Hidden;
+            }
+            return Step::On;
+        }
+        let node = &self.nodes[first];
+        let (near, mask) = ray.enter::<8>(node, X8::splat(nearest.distance));
+        let near = near.to_array();
+        let floor = *height;
+        each_bit(mask.bits(), |slot| {
+            let child = self.child(node, &near, slot);
+            if ANY {
+                stack[*height] = child;
+                *height += 1;
+            } else {
+                push_in_order(&mut stack[..], height, floor, child, |c| c.near);
+            }
+        });
+        Step::On
+    }
+
+    /// Traces all pending rays. `nearest` has the limit of each ray and receives its hit. With `ANY`, returns the rays that hit
+    /// something instead.
+    #[inline]
+    fn walk<const ANY: bool>(&self, rays: &[Rays], nearest: &mut [Nearest; 64], stack: &mut Stack) -> u64 {
+        let Stack { walks, later, .. } = stack;
+        let mut order: [usize; TOGETHER] = std::array::from_fn(|i| i);
+        let (mut going, mut hidden) = (0, 0);
+        while let Some(index) = later.next().filter(|_| going < TOGETHER) {
+            walks[going].start(index, rays, nearest[index], later);
+            going += 1;
+        }
+        while going > 0 {
+            let mut place = 0;
+            while place < going {
+                let walk = &mut walks[order[place] % TOGETHER];
+                let step = self.step::<ANY>(walk);
+                if let Step::On = step {
+                    place += 1;
+                    continue;
+                }
+                hidden |= u64::from(matches!(step, Step::Hidden)) << walk.index;
+                nearest[walk.index] = walk.nearest;
+                if let Some(index) = later.next() {
+                    walk.start(index, rays, nearest[index], later);
+                } else {
+                    going -= 1;
+                    order.swap(place, going);
+                }
+            }
+        }
+        hidden
+    }
+
+    /// Finds the nearest hits of the pending rays, if nearer than those in `hits`.
+    pub(super) fn closest_together(&self, rays: &[Rays], hits: &mut [Hits], stack: &mut Stack) {
+        let mut nearest = [Nearest::default(); 64];
+        let waiting = stack.later.rays;
+        each_ray(waiting, |i| nearest[i] = hits[i >> 3].nearest(i & 7));
+        self.walk::<false>(rays, &mut nearest, stack);
+        each_ray(waiting, |i| hits[i >> 3].put(i & 7, &nearest[i]));
+    }
+
+    /// Returns the pending rays among `open` that are occluded before their limit.
+    pub(super) fn hidden_together(&self, rays: &[Rays], open: u64, limit: &[X8], stack: &mut Stack) -> u64 {
+        let mut nearest = [Nearest::default(); 64];
+        stack.later.keep(open);
+        each_ray(stack.later.rays, |i| nearest[i].distance = limit[i >> 3].as_array()[i & 7]);
+        self.walk::<true>(rays, &mut nearest, stack)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Later, MOST};
+
+    /// If one ray has no room, no ray is changed; rays that are removed or taken have room again.
+    #[test]
+    fn later_is_all_or_nothing() {
+        let mut later = Later::default();
+        for node in 0..MOST as u32 {
+            assert!(later.add(0b10, node, 0.5));
+        }
+        assert!(!later.add(0b11, 99, 0.5));
+        assert_eq!(later.rays, 0b10);
+        assert_eq!(later.next(), Some(1));
+        let nodes: Vec<u32> = later.take(1).iter().map(|child| child.first).collect();
+        assert_eq!(nodes, (0..MOST as u32).collect::<Vec<_>>());
+        assert_eq!(later.next(), None);
+        assert!(later.add(0b11, 7, 0.5));
+        later.keep(0b01);
+        assert!(later.take(1).is_empty());
+        assert_eq!(later.take(0).len(), 1);
+    }
+}

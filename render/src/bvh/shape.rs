@@ -1,0 +1,150 @@
+//! Intersection with spheres and emitters.
+
+use super::build::Costs;
+use super::tree::{BuildError, Primitives, Tree};
+use super::{Hits, Rays, SHAPE};
+use crate::geometry::Geometry;
+use crate::packet::{M8, V8, X8, equal, max, pick, select};
+use etendue::{Mask, Real, Vec3, u32x8};
+use std::ops::Range;
+
+/// A packet tests one shape after another, each in about the time of a node.
+const COSTS: Costs = Costs { most: 4, leaf: 0.0, primitive: 1.0 };
+
+/// A shape, prepared for intersection.
+#[derive(Clone, Copy, Debug)]
+enum Solid {
+    Sphere {
+        center: [f32; 3],
+        radius: f32,
+    },
+    /// A triangle or parallelogram p + s·u + t·v, where s and t are dot products with the dual vectors.
+    Flat {
+        p: [f32; 3],
+        normal: [f32; 3],
+        dual: [[f32; 3]; 2],
+        triangle: bool,
+    },
+}
+
+#[derive(Debug)]
+pub(super) struct Solids {
+    solids: Vec<Solid>,
+    ids: Vec<u32>,
+}
+
+/// All shapes of a scene. Ids are indices into the scene's list; in hits, they have the bit [`SHAPE`] set.
+#[derive(Debug)]
+pub struct ShapeSet {
+    tree: Tree<Solids>,
+    reach: f32,
+}
+
+type V64 = Vec3<f64>;
+
+fn wide(v: [f32; 3]) -> V64 {
+    v.map(f64::from).into()
+}
+
+fn narrow(v: V64) -> [f32; 3] {
+    [v.x as f32, v.y as f32, v.z as f32]
+}
+
+fn flat(p: [f32; 3], u: V64, v: V64, triangle: bool) -> Solid {
+    let normal = u.cross(v);
+    let inverse = 1.0 / normal.length_squared();
+    let dual = [v.cross(normal) * inverse, normal.cross(u) * inverse].map(narrow);
+    Solid::Flat { p, normal: narrow(normal.normalize()), dual, triangle }
+}
+
+fn solid(geometry: &Geometry) -> Solid {
+    match *geometry {
+        Geometry::Sphere { center, radius } => Solid::Sphere { center, radius },
+        Geometry::Triangle([a, b, c]) => flat(a, wide(b) - wide(a), wide(c) - wide(a), true),
+        Geometry::Parallelogram { p, u, v } => flat(p, wide(u), wide(v), false),
+    }
+}
+
+impl ShapeSet {
+    /// Prepares the shapes.
+    ///
+    /// # Errors
+    /// Fails if there are more than 2³¹ − 1 shapes.
+    pub fn new<'a>(shapes: impl Iterator<Item = &'a Geometry>) -> Result<Self, BuildError> {
+        let shapes: Vec<_> = shapes.collect();
+        let boxes: Vec<_> = shapes.iter().map(|shape| shape.bounds()).collect();
+        let reach = boxes.iter().flatten().flatten().fold(0.0_f32, |m, x| m.max(x.abs()));
+        let tree = Tree::build(
+            boxes,
+            COSTS,
+            |_| (),
+            |_, ids, _| Solids { solids: ids.iter().map(|&i| solid(shapes[i as usize])).collect(), ids },
+        )?;
+        Ok(Self { tree, reach })
+    }
+    /// Greatest magnitude of a coordinate.
+    pub fn reach(&self) -> f32 {
+        self.reach
+    }
+    pub(super) fn tree(&self) -> &Tree<Solids> {
+        &self.tree
+    }
+}
+
+/// Distances at which the rays hit the solid, and the lanes where these are positive and less than the limit.
+#[inline]
+fn intersect(solid: &Solid, rays: &Rays, limit: X8) -> (X8, M8) {
+    let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+    match solid {
+        Solid::Sphere { center, radius } => {
+            // uses the foot of the perpendicular instead of |c − o|², which keeps the edges of distant spheres accurate
+            let to_center = V8::from(*center) - rays.origin;
+            let along = to_center.dot(rays.direction);
+            let foot = rays.direction.mul_add(-along, to_center);
+            let r = X8::splat(*radius);
+            let square = r.mul_add(r, -foot.length_squared());
+            let half = max(square, zero).sqrt();
+            let near = along - half;
+            let distance = select(near.gt(zero), near, along + half);
+            (distance, square.ge(zero) & distance.gt(zero) & distance.lt(limit))
+        }
+        Solid::Flat { p, normal, dual, triangle } => {
+            let to_corner = V8::from(*p) - rays.origin;
+            let normal = V8::from(*normal);
+            let slope = rays.direction.dot(normal);
+            let some = slope.abs().gt(zero);
+            let distance = to_corner.dot(normal) / select(some, slope, one);
+            let point = rays.direction.mul_add(distance, -to_corner);
+            let (s, t) = (point.dot(dual[0].into()), point.dot(dual[1].into()));
+            let far_side = if *triangle { (s + t).le(one) } else { s.le(one) & t.le(one) };
+            let inside = s.ge(zero) & t.ge(zero) & far_side;
+            (distance, some & inside & distance.gt(zero) & distance.lt(limit))
+        }
+    }
+}
+
+impl Primitives for Solids {
+    #[inline]
+    fn closest(&self, range: Range<usize>, rays: &Rays, _near: X8, active: M8, hits: &mut Hits) {
+        for (solid, &id) in self.solids[range.clone()].iter().zip(&self.ids[range]) {
+            let (distance, hit) = intersect(solid, rays, hits.distance);
+            let hit = hit & active;
+            hits.distance = select(hit, distance, hits.distance);
+            hits.place = pick(hit, u32x8::splat(id | SHAPE), hits.place);
+        }
+    }
+    #[inline]
+    fn occluded(&self, range: Range<usize>, rays: &Rays, _near: X8, active: M8, limit: X8, skip: u32x8) -> M8 {
+        let mut hidden = M8::splat(false);
+        for (solid, &id) in self.solids[range.clone()].iter().zip(&self.ids[range]) {
+            let others = active & !equal(skip, u32x8::splat(id));
+            if others.any() {
+                hidden = hidden | intersect(solid, rays, limit).1 & others;
+            }
+        }
+        hidden
+    }
+    fn bytes(&self) -> usize {
+        size_of_val(&self.solids[..]) + size_of_val(&self.ids[..])
+    }
+}

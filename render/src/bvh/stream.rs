@@ -1,0 +1,251 @@
+//! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
+
+use super::interleaved::each_ray;
+use super::packets::{Stack, common_sign, each_bit, push_in_order, slabs};
+use super::single_ray::{Leaves, Single};
+use super::tree::{Node, Primitives, Tree};
+use super::{GROUP, Hits, NOTHING, Rays, WIDTH};
+use crate::packet::{M8, X8, max, min, select};
+use etendue::{Mask, Real, u32x8};
+use wide::i8x32;
+
+/// With fewer rays than this, each continues alone, as sharing the traversal no longer pays.
+const FEW: u32 = 5;
+
+/// Marks a visit of an inner node.
+const INNER: u32 = u32::MAX;
+
+/// A child to visit, and the set of rays that enter it: bit 8·packet + lane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Visit {
+    rays: u64,
+    /// Index of the inner node, or of the leaf's parent.
+    node: u32,
+    /// Slot of the leaf, or [`INNER`] for an inner node.
+    slot: u32,
+    near: f32,
+}
+
+/// A group of rays. Bit k of `OCTANT` is set if all rays run towards − along axis k; 8 means that they disagree.
+struct Stream<'a, const OCTANT: usize> {
+    rays: &'a [Rays],
+}
+
+/// The octant of a group, as in [`Stream`].
+fn octant(rays: &[Rays]) -> usize {
+    common_sign(rays).map_or(8, |sign| (0..3).fold(0, |octant, k| octant | usize::from(sign[k]) << k))
+}
+
+impl<const OCTANT: usize> Stream<'_, OCTANT> {
+    /// The set of rays that enter each child, and with `ORDER` the least entry distance of each child.
+    #[inline(always)]
+    fn enter<const ORDER: bool>(&self, node: &Node, among: u64, limit: impl Fn(usize) -> X8) -> ([u64; WIDTH], X8) {
+        let negative = |k: usize| OCTANT >> k & 1;
+        let first = |k: usize| X8::from(node.planes[negative(k)][k]);
+        let last = |k: usize| X8::from(node.planes[1 - negative(k)][k]);
+        let (first, last) = ([first(0), first(1), first(2)], [last(0), last(1), last(2)]);
+        let mut nearest = X8::lit(f64::INFINITY);
+        let mut entered = [[0_i8; 8]; GROUP];
+        for ((r, entered), p) in self.rays.iter().zip(&mut entered).zip(0..) {
+            let mut lanes = (among >> (8 * p)) as u32 & 0xff;
+            if lanes == 0 {
+                continue;
+            }
+            let limit = limit(p);
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize & 7;
+                lanes &= lanes - 1;
+                let at = |x: &X8| X8::splat(x.as_array()[lane]);
+                let axis = |k: usize, inverse: &X8, a: &X8, b: &X8| {
+                    let inverse = at(inverse);
+                    let a = first[k].mul_add(inverse, at(a));
+                    let b = last[k].mul_add(inverse, at(b));
+                    if OCTANT < 8 { (a, b) } else { (min(a, b), max(a, b)) }
+                };
+                let side = |k: usize| (&r.offset[negative(k)], &r.offset[1 - negative(k)]);
+                let ((ax, bx), (ay, by), (az, bz)) = (side(0), side(1), side(2));
+                let (nx, fx) = axis(0, &r.inverse.x, &ax.x, &bx.x);
+                let (ny, fy) = axis(1, &r.inverse.y, &ay.y, &by.y);
+                let (nz, fz) = axis(2, &r.inverse.z, &az.z, &bz.z);
+                let near = max(max(nx, ny), max(nz, X8::lit(0.0)));
+                let far = min(min(fx, fy), min(fz, at(&limit)));
+                let mask = near.le(far);
+                entered[lane] = mask.bits() as i8;
+                if ORDER {
+                    nearest = min(nearest, select(mask, near, X8::lit(f64::INFINITY)));
+                }
+            }
+        }
+        let (low, high) = entered.as_flattened().split_at(32);
+        let half = |bytes: &[i8]| i8x32::new(bytes.try_into().expect("32 bytes"));
+        let (mut low, mut high) = (half(low), half(high));
+        let mut rays = [0; WIDTH];
+        for child in (0..WIDTH).rev() {
+            rays[child] = u64::from(low.to_bitmask()) | u64::from(high.to_bitmask()) << 32;
+            (low, high) = (low + low, high + high);
+        }
+        (rays, nearest)
+    }
+}
+
+/// The bit set of the active rays.
+fn bits(active: &[M8]) -> u64 {
+    active.iter().zip(0..).fold(0, |bits, (a, p)| bits | u64::from(a.bits()) << (8 * p))
+}
+
+impl<P: Primitives + Leaves> Tree<P> {
+    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`.
+    pub(super) fn closest_stream(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
+        if self.count == 0 {
+            return;
+        }
+        by_octant!(octant(rays), else 8, self.closest_stream_in_octant(rays, active, hits, stack));
+    }
+
+    fn closest_stream_in_octant<const OCTANT: usize>(
+        &self,
+        rays: &[Rays],
+        active: &[M8],
+        hits: &mut [Hits],
+        stack: &mut Stack,
+    ) {
+        let stream = Stream::<OCTANT> { rays };
+        let mut height = 1;
+        stack.visits[0] = Visit { rays: bits(active), node: 0, slot: INNER, near: 0.0 };
+        while height > 0 {
+            height -= 1;
+            let Visit { rays: among, node: place, slot, .. } = stack.visits[height];
+            let node = &self.nodes[place as usize];
+            if slot != INNER {
+                let slot = slot as usize & 7;
+                let leaf = node.leaf(slot);
+                for ((rays, hits), p) in rays.iter().zip(&mut *hits).zip(0..) {
+                    let lanes = (among >> (8 * p)) as u32 & 0xff;
+                    if lanes == 0 {
+                        continue;
+                    }
+                    let (near, _) = slabs::<false>(node, slot, rays, [false; 3], hits.distance);
+                    // one triangle after another or one ray after another, whichever are fewer
+                    if lanes.count_ones() as usize >= leaf.len() {
+                        self.primitives.closest(leaf.clone(), rays, near, M8::from_bits(lanes), hits);
+                        continue;
+                    }
+                    each_bit(lanes, |lane| {
+                        let mut nearest = hits.nearest(lane);
+                        let near = near.as_array()[lane];
+                        if near <= nearest.distance {
+                            let (ray, near) = (Single::new(rays, lane), X8::splat(near));
+                            self.primitives.closest_of_leaf(leaf.clone(), &ray, near, &mut nearest);
+                            hits.put(lane, &nearest);
+                        }
+                    });
+                }
+                continue;
+            }
+            if among.count_ones() < FEW {
+                if OCTANT < 8 || !stack.later.add(among, place, stack.visits[height].near) {
+                    each_ray(among, |i| {
+                        let (p, lane) = (i >> 3, i & 7);
+                        let mut nearest = hits[p].nearest(lane);
+                        self.closest_single(place, &Single::new(&rays[p], lane), &mut nearest, stack);
+                        hits[p].put(lane, &nearest);
+                    });
+                }
+                continue;
+            }
+            let (entered, near) = stream.enter::<true>(node, among, |p| hits[p].distance);
+            let near = near.to_array();
+            // the nearest child goes to the top of the stack
+            let floor = height;
+            for slot in 0..(node.children as usize).min(WIDTH) {
+                if entered[slot] == 0 {
+                    continue;
+                }
+                let inner = node.count[slot] == 0;
+                let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
+                let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
+                push_in_order(&mut stack.visits[..], &mut height, floor, child, |c| c.near);
+            }
+        }
+        if OCTANT == 8 {
+            self.closest_together(rays, hits, stack);
+        }
+    }
+
+    /// Clears the lanes of `active` that are occluded before `limit`.
+    pub(super) fn occluded_stream(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack) {
+        if self.count == 0 {
+            return;
+        }
+        by_octant!(octant(rays), else 8, self.occluded_stream_in_octant(rays, active, limit, stack));
+    }
+
+    fn occluded_stream_in_octant<const OCTANT: usize>(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        limit: &[X8],
+        stack: &mut Stack,
+    ) {
+        let stream = Stream::<OCTANT> { rays };
+        let mut open = bits(active);
+        let mut height = 1;
+        stack.visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
+        while height > 0 && open != 0 {
+            height -= 1;
+            let Visit { rays: among, node: place, .. } = stack.visits[height];
+            let among = among & open;
+            if among.count_ones() < FEW {
+                if OCTANT < 8 || !stack.later.add(among, place, 0.0) {
+                    each_ray(among, |i| {
+                        let (p, lane) = (i >> 3, i & 7);
+                        let hides =
+                            self.hides_single(place, &Single::new(&rays[p], lane), limit[p].as_array()[lane], stack);
+                        open &= !(u64::from(hides) << i);
+                    });
+                }
+                continue;
+            }
+            let node = &self.nodes[place as usize];
+            let (entered, _) = stream.enter::<false>(node, among, |p| limit[p]);
+            for slot in 0..(node.children as usize).min(WIDTH) {
+                if entered[slot] == 0 {
+                    continue;
+                }
+                if node.count[slot] == 0 {
+                    stack.visits[height] =
+                        Visit { rays: entered[slot], node: node.first[slot], slot: INNER, near: 0.0 };
+                    height += 1;
+                    continue;
+                }
+                let leaf = node.leaf(slot);
+                let entered = entered[slot] & open;
+                for ((rays, &limit), p) in rays.iter().zip(limit).zip(0..) {
+                    let lanes = (entered >> (8 * p)) as u32 & 0xff;
+                    if lanes == 0 {
+                        continue;
+                    }
+                    let (near, _) = slabs::<false>(node, slot, rays, [false; 3], limit);
+                    if lanes.count_ones() as usize >= leaf.len() {
+                        let none = u32x8::splat(NOTHING);
+                        let hidden =
+                            self.primitives.occluded(leaf.clone(), rays, near, M8::from_bits(lanes), limit, none);
+                        open &= !(u64::from(hidden.bits()) << (8 * p));
+                        continue;
+                    }
+                    each_bit(lanes, |lane| {
+                        let (ray, near) = (Single::new(rays, lane), X8::splat(near.as_array()[lane]));
+                        let hidden = self.primitives.leaf_hides(leaf.clone(), &ray, near, limit.as_array()[lane]);
+                        open &= !(u64::from(hidden) << (8 * p + lane));
+                    });
+                }
+            }
+        }
+        if OCTANT == 8 {
+            open &= !self.hidden_together(rays, open, limit, stack);
+        }
+        for (p, active) in active.iter_mut().enumerate() {
+            *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! Intersection of one triangle with eight rays, and of one ray with all triangles of a leaf.
+
+use super::build::Costs;
+use super::packets::each_bit;
+use super::single_ray::{Leaves, Nearest, Single};
+use super::tree::{Bounded, Bounds, BuildError, Primitives, Tree, greater, lesser};
+use super::{Hits, NOTHING, Rays};
+use crate::packet::{M8, V8, X8, max, min, pick, select};
+use etendue::{Mask, Real, Vec3, u32x8};
+use std::ops::Range;
+
+/// A packet tests one triangle after another, a single ray all triangles of a leaf at once.
+const COSTS: Costs = Costs { most: 8, leaf: 0.7, primitive: 0.2 };
+
+/// The corners of a triangle.
+pub(super) type Corners = [[f32; 3]; 3];
+
+impl Bounded for Corners {
+    #[inline]
+    fn bounds(&self) -> Bounds {
+        let [a, b, c] = self;
+        let all = |pick: fn(f32, f32) -> f32| std::array::from_fn(|k| pick(pick(a[k], b[k]), c[k]));
+        [all(lesser), all(greater)]
+    }
+    #[inline]
+    fn middle(&self, axis: usize) -> f32 {
+        let [a, b, c] = self.map(|corner| corner[axis]);
+        0.5 * lesser(lesser(a, b), c) + 0.5 * greater(greater(a, b), c)
+    }
+}
+
+/// Mesh triangles in leaf order. A leaf of n triangles stores each of the nine coordinates n times in a row, so that one load of eight
+/// lanes fetches a coordinate of all its triangles (and whatever follows).
+#[derive(Debug)]
+pub(super) struct Soup {
+    coordinates: Vec<f32>,
+    /// For each triangle, 16 times its index in its leaf plus the leaf's number of triangles.
+    leaves: Vec<u8>,
+    /// For each triangle, the caller's index.
+    ids: Vec<u32>,
+}
+
+impl Soup {
+    pub(super) fn tree(triangles: Vec<Corners>) -> Result<Tree<Self>, BuildError> {
+        let by_coordinate = |leaf: &mut [Corners]| {
+            let mut turned = [0.0; 9 * COSTS.most];
+            let all = leaf.len();
+            let coordinates = leaf.as_flattened_mut().as_flattened_mut();
+            for (i, triangle) in coordinates.chunks_exact(9).enumerate() {
+                triangle.iter().enumerate().for_each(|(k, &x)| turned[k * all + i] = x);
+            }
+            coordinates.copy_from_slice(&turned[..9 * all]);
+        };
+        Tree::build(triangles, COSTS, by_coordinate, |triangles, ids, nodes| {
+            let mut leaves = vec![0; ids.len()];
+            for node in nodes {
+                for leaf in (0..node.children as usize).map(|slot| node.leaf(slot)) {
+                    let all = leaf.len() as u8;
+                    leaves[leaf].iter_mut().zip(0..).for_each(|(l, before)| *l = before << 4 | all);
+                }
+            }
+            let mut coordinates = triangles.into_flattened().into_flattened();
+            // room for eight-lane loads beyond the last leaf
+            coordinates.extend([0.0; 8]);
+            Self { coordinates, leaves, ids }
+        })
+    }
+    #[inline]
+    pub(super) fn corners(&self, place: u32) -> [f32; 9] {
+        let leaf = self.leaves[place as usize];
+        let (before, all) = (usize::from(leaf >> 4), usize::from(leaf & 15));
+        let start = 9 * (place as usize - before) + before;
+        std::array::from_fn(|k| self.coordinates[start + k * all])
+    }
+    #[inline]
+    pub(super) fn ids(&self) -> &[u32] {
+        &self.ids
+    }
+    /// The lower rank wins a tie: the caller's index for triangles, a greater rank for shapes, and the least for misses, so that a
+    /// hit exactly at the limit does not count.
+    fn rank(&self, place: u32) -> u64 {
+        match self.ids.get(place as usize) {
+            Some(&id) => u64::from(id) + 1,
+            None if place == NOTHING => 0,
+            None => u64::MAX,
+        }
+    }
+    /// Lanes of `tie` where the triangle at `place` has a lower rank than the hit in `hits`.
+    #[cold]
+    fn goes_first(&self, tie: M8, place: u32, hits: &Hits) -> M8 {
+        let first = (0..8).filter(|&i| tie.lane(i) && self.rank(place) < self.rank(hits.place.as_array()[i]));
+        M8::from_bits(first.fold(0, |bits, i| bits | 1 << i))
+    }
+    /// Corners of one triangle of a leaf, broadcast to all lanes.
+    #[inline(always)]
+    fn one(&self, leaf: &Range<usize>, index: usize) -> [V8; 3] {
+        let data = &self.coordinates[9 * leaf.start..9 * leaf.end];
+        let at = |k: usize| X8::splat(data[k * leaf.len() + index]);
+        let corner = |k: usize| Vec3::new(at(k), at(k + 1), at(k + 2));
+        [corner(0), corner(3), corner(6)]
+    }
+    /// Corners of the triangles of a leaf, one per lane; the values of the other lanes are arbitrary.
+    #[inline(always)]
+    fn all(&self, leaf: &Range<usize>) -> [V8; 3] {
+        let all = leaf.len();
+        let data = &self.coordinates[9 * leaf.start..9 * leaf.start + 8 * all + 8];
+        let at = |k: usize| {
+            let lanes: [f32; 8] = data[k * all..k * all + 8].try_into().expect("8 numbers");
+            X8::from(lanes)
+        };
+        let corner = |k: usize| Vec3::new(at(k), at(k + 1), at(k + 2));
+        [corner(0), corner(3), corner(6)]
+    }
+}
+
+/// Edge functions of a triangle seen along a ray, and their sum.
+struct Projected {
+    inside: M8,
+    weights: [X8; 3],
+    sum: X8,
+    relative: [V8; 3],
+}
+
+/// Projects the corners along each ray and evaluates the three edge functions.
+///
+/// The projection of a corner depends only on the corner and the ray, and each edge function is a difference of two rounded products,
+/// whose sign is correct or 0. Two triangles that share an edge therefore never both miss a ray between them, nor do all triangles
+/// around a vertex. (After Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection", with a rotation instead of the shear,
+/// so that lanes need not agree on an axis.)
+#[inline(always)]
+fn project(corners: [V8; 3], origin: V8, [s, t]: [V8; 2]) -> Projected {
+    let [a, b, c] = corners;
+    let relative = [a - origin, b - origin, c - origin];
+    let [a, b, c] = relative;
+    let (ax, ay, bx, by, cx, cy) = (a.dot(s), a.dot(t), b.dot(s), b.dot(t), c.dot(s), c.dot(t));
+    let weights = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
+    let [u, v, w] = weights;
+    let zero = X8::lit(0.0);
+    let least = min(min(u, v), w);
+    let most = max(max(u, v), w);
+    let sum = u + v + w;
+    Projected { inside: (least.ge(zero) | most.le(zero)) & sum.abs().gt(zero), weights, sum, relative }
+}
+
+impl Projected {
+    /// Distances along the rays, and the reciprocal of the sum of weights.
+    ///
+    /// The weights of slivers, and thus their distances, may be nothing but rounding error. Distances are at least `near`, where the
+    /// ray enters the box of the leaf. No traversal cuts a ray shorter than that, so the hit does not depend on the traversal.
+    #[inline(always)]
+    fn distance(&self, direction: V8, near: X8) -> (X8, X8) {
+        let [a, b, c] = self.relative;
+        let (z0, z1, z2) = (a.dot(direction), b.dot(direction), c.dot(direction));
+        let inverse = X8::lit(1.0) / select(self.inside, self.sum, X8::lit(1.0));
+        let [u, v, w] = self.weights;
+        (max(u.mul_add(z0, v.mul_add(z1, w * z2)) * inverse, near), inverse)
+    }
+}
+
+impl Primitives for Soup {
+    #[inline]
+    fn closest(&self, leaf: Range<usize>, rays: &Rays, near: X8, active: M8, hits: &mut Hits) {
+        for index in 0..leaf.len() {
+            let projected = project(self.one(&leaf, index), rays.origin, rays.frame);
+            let inside = projected.inside & active;
+            if inside.any() {
+                let place = (leaf.start + index) as u32;
+                let (distance, inverse) = projected.distance(rays.direction, near);
+                let candidate = inside & distance.gt(X8::lit(0.0)) & distance.le(hits.distance);
+                let mut nearer = candidate & distance.lt(hits.distance);
+                let tie = candidate & !nearer;
+                if tie.any() {
+                    nearer = nearer | self.goes_first(tie, place, hits);
+                }
+                hits.distance = select(nearer, distance, hits.distance);
+                hits.place = pick(nearer, u32x8::splat(place), hits.place);
+                hits.b1 = select(nearer, projected.weights[1] * inverse, hits.b1);
+                hits.b2 = select(nearer, projected.weights[2] * inverse, hits.b2);
+            }
+        }
+    }
+    #[inline]
+    fn occluded(&self, leaf: Range<usize>, rays: &Rays, near: X8, active: M8, limit: X8, _skip: u32x8) -> M8 {
+        let mut hidden = M8::splat(false);
+        for index in 0..leaf.len() {
+            let projected = project(self.one(&leaf, index), rays.origin, rays.frame);
+            let inside = projected.inside & active;
+            if inside.any() {
+                let (distance, _) = projected.distance(rays.direction, near);
+                hidden = hidden | inside & distance.gt(X8::lit(0.0)) & distance.lt(limit);
+            }
+        }
+        hidden
+    }
+    fn bytes(&self) -> usize {
+        size_of_val(&self.coordinates[..]) + size_of_val(&self.leaves[..]) + size_of_val(&self.ids[..])
+    }
+}
+
+impl Leaves for Soup {
+    #[inline(always)]
+    fn prefetch(&self, leaf: Range<usize>) {
+        super::tree::prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
+    }
+    #[inline(always)]
+    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest) {
+        let projected = project(self.all(&leaf), ray.origin, ray.frame);
+        let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
+        if inside == 0 {
+            return;
+        }
+        let (distance, inverse) = projected.distance(ray.direction, near);
+        let candidate = distance.gt(X8::lit(0.0)) & distance.le(X8::splat(nearest.distance));
+        let (b1, b2) = (projected.weights[1] * inverse, projected.weights[2] * inverse);
+        each_bit(inside & candidate.bits(), |lane| {
+            let distance = distance.as_array()[lane];
+            let place = (leaf.start + lane) as u32;
+            if distance < nearest.distance
+                || distance == nearest.distance && self.rank(place) < self.rank(nearest.place)
+            {
+                *nearest = Nearest { distance, place, b1: b1.as_array()[lane], b2: b2.as_array()[lane] };
+            }
+        });
+    }
+    #[inline(always)]
+    fn leaf_hides(&self, leaf: Range<usize>, ray: &Single, near: X8, limit: f32) -> bool {
+        let projected = project(self.all(&leaf), ray.origin, ray.frame);
+        let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
+        if inside == 0 {
+            return false;
+        }
+        let (distance, _) = projected.distance(ray.direction, near);
+        inside & (distance.gt(X8::lit(0.0)) & distance.lt(X8::splat(limit))).bits() != 0
+    }
+}

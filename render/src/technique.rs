@@ -1,0 +1,44 @@
+//! How lights are sampled.
+
+/// How a light is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Technique {
+    /// Directions uniform over the hemisphere; rays hit lights by chance
+    UniformHemisphere,
+    /// Directions in proportion to the cosine; rays hit lights by chance
+    CosineHemisphere,
+    /// Points uniform over a light's area
+    Area,
+    /// Directions uniform over the solid angle of a light
+    SolidAngle,
+    /// Directions uniform over the projected solid angle of a light
+    ProjectedSolidAngle,
+    /// Directions by the BSDF: the cosine, or the visible normals of a rough metal
+    Brdf,
+    /// Solid-angle and brdf, combined by the balance heuristic
+    MisBalance,
+    /// Solid-angle and brdf, combined by the power heuristic
+    MisPower,
+}
+
+impl Technique {
+    /// The measure by which it samples lights; solid angle for techniques that sample none.
+    pub fn measure(self) -> Measure {
+        match self {
+            Self::Area => Measure::Area,
+            Self::ProjectedSolidAngle => Measure::Projected,
+            _ => Measure::SolidAngle,
+        }
+    }
+}
+
+/// The measure by which points of a light are uniform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Area of the light.
+    Area,
+    /// Solid angle at the shading point.
+    SolidAngle,
+    /// Solid angle projected on the surface there.
+    Projected,
+}

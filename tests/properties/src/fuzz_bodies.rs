@@ -1,0 +1,229 @@
+//! Bodies of the fuzz targets: plain functions of bytes that assert properties. The fuzzer supplies the bytes; a test runs the same
+//! functions on the committed seeds and on random bytes.
+//!
+//! Every body reads its bytes as numbers at which methods break ([`Input`]): signed zeros, subnormal numbers, ulps about 1, the ends of the
+//! f32 range; vectors that are equal, opposite, collinear, or a few ulps from that.
+
+mod lights;
+mod numbers;
+mod sequences;
+mod shapes;
+mod surfaces;
+
+use crate::generators::{self, EDGES, NASTY};
+use arbitrary::Unstructured;
+
+/// A fuzz target.
+#[derive(Clone, Copy, Debug)]
+pub struct Target {
+    /// Name of the binary and of the folder with its seeds.
+    pub name: &'static str,
+    /// The function that runs one input.
+    pub body: fn(&[u8]),
+    /// Weight of this target in the random test: the more work an input is, the lower.
+    pub share: u32,
+}
+
+macro_rules! targets {
+    ($($(#[doc = $doc:literal])+ $name:ident: $module:ident, $share:literal;)+) => {
+        $(
+            $(#[doc = $doc])+
+            ///
+            /// # Panics
+            /// If a property is broken.
+            pub fn $name(bytes: &[u8]) {
+                $module::$name(&mut Input::new(bytes));
+            }
+        )+
+        /// All targets except those of files, which are the renderer's.
+        pub const TARGETS: &[Target] = &[$(Target { name: stringify!($name), body: $name, share: $share }),+];
+    };
+}
+targets! {
+    /// Cones of any 1−cosσ.
+    cone: shapes, 700;
+    /// Warps without parameters: disks, hemispheres, the sphere, triangles in the plane, octahedral maps.
+    fixed_warps: shapes, 700;
+    /// Densities on the line, and the bilinear density.
+    line_warps: shapes, 700;
+    /// Microsurfaces of any roughness, viewed from anywhere.
+    visible_normals: shapes, 400;
+    /// Spheres by solid angle.
+    spherical_cap: shapes, 400;
+    /// Spheres by projected solid angle.
+    projected_cap: shapes, 30;
+    /// Triangles by solid angle.
+    spherical_triangle: shapes, 150;
+    /// Parallelograms by solid angle.
+    spherical_parallelogram: shapes, 100;
+    /// Rectangles by solid angle, including malformed ones.
+    spherical_rectangle: shapes, 150;
+    /// Polygons by solid angle, including malformed ones.
+    spherical_polygon: shapes, 100;
+    /// Disks by solid angle.
+    spherical_disk: shapes, 100;
+    /// Lines by angle.
+    spherical_segment: shapes, 150;
+    /// Lines by projected solid angle.
+    projected_segment: shapes, 100;
+    /// Triangles by projected solid angle.
+    projected_triangle: shapes, 50;
+    /// Parallelograms and pentagons by projected solid angle.
+    projected_polygon: shapes, 50;
+    /// Triangles and rectangles by solid angle, warped towards the cosine.
+    cosine_warped: shapes, 100;
+    /// Disks in space, by area.
+    disk_surface: surfaces, 200;
+    /// Spheres in space, by area.
+    sphere_surface: surfaces, 200;
+    /// Sides of cylinders, by area.
+    cylinder_side: surfaces, 200;
+    /// Bilinear patches, by area.
+    patch_surface: surfaces, 20;
+    /// Lights with a surface, and lines, by every technique.
+    area_lights: lights, 700;
+    /// Lights without a surface.
+    distant_lights: lights, 700;
+    /// An environment image, in either mapping.
+    environment: numbers, 300;
+    /// Tables of one and two dimensions.
+    piecewise_constant: numbers, 500;
+    /// Vose's alias tables.
+    alias_table: numbers, 600;
+    /// Choices among lights of any power and place.
+    light_choice: numbers, 500;
+    /// Every sequence, at any index.
+    sequence: sequences, 500;
+    /// Strata and nets of each sequence, from any start.
+    strata: sequences, 100;
+    /// Elementary functions.
+    math: numbers, 600;
+    /// MIS weights, reservoirs and running variances.
+    estimate: numbers, 600;
+    /// Masks and counters.
+    bits: numbers, 600;
+}
+
+/// The fuzzer's bytes, read as numbers at which methods break. Missing bytes are zeros.
+#[derive(Debug)]
+pub struct Input<'a>(Unstructured<'a>);
+
+impl<'a> Input<'a> {
+    /// Reads from `bytes`.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self(Unstructured::new(bytes))
+    }
+    /// An integer below `n`.
+    fn below(&mut self, n: u8) -> u8 {
+        self.0.arbitrary::<u8>().unwrap_or(0) % n
+    }
+    /// 32 bits.
+    fn word(&mut self) -> u32 {
+        self.0.arbitrary().unwrap_or(0)
+    }
+    /// 64 bits.
+    fn seed(&mut self) -> u64 {
+        self.0.arbitrary().unwrap_or(0)
+    }
+    /// A multiple of 2⁻²⁴ in [0, 1), often one of [`EDGES`].
+    fn unit(&mut self) -> f32 {
+        if self.below(3) == 0 {
+            EDGES[self.below(EDGES.len() as u8) as usize]
+        } else {
+            (self.word() >> 8) as f32 / 16_777_216.0
+        }
+    }
+    /// A point of the unit square.
+    fn square(&mut self) -> [f32; 2] {
+        [self.unit(), self.unit()]
+    }
+    /// A number in [−2, 2).
+    fn ordinary(&mut self) -> f32 {
+        (self.word() >> 8) as f32 / 4_194_304.0 - 2.0
+    }
+    /// Any finite number, biased towards those that break methods.
+    fn number(&mut self) -> f32 {
+        let sign = |word: u32, x: f32| if word & 1 == 1 { -x } else { x };
+        match self.below(8) {
+            0 => NASTY[self.below(NASTY.len() as u8) as usize],
+            1 => {
+                let word = self.word();
+                sign(word, f32::from_bits(1.0_f32.to_bits() - 4 + (word >> 1) % 9))
+            }
+            2 => {
+                let word = self.word();
+                sign(word, f32::from_bits(word >> 9))
+            }
+            3 | 4 => {
+                let exponent = f32::from(self.below(60)) - 30.0;
+                self.ordinary() * (2.0 * exponent).exp2()
+            }
+            5 => {
+                let x = f32::from_bits(self.word());
+                if x.is_finite() { x } else { 0.0 }
+            }
+            _ => self.ordinary(),
+        }
+    }
+    /// A finite number ≥ 0, biased in the same way.
+    fn weight(&mut self) -> f32 {
+        self.number().abs()
+    }
+    /// A vector, often related to one of `before`.
+    fn vector(&mut self, before: &[[f32; 3]]) -> [f32; 3] {
+        let kind = self.below(10);
+        if let (true, false) = (kind < 5, before.is_empty()) {
+            let v = before[self.below(before.len() as u8) as usize];
+            return match kind {
+                0 => v,
+                1 => v.map(|x| -x),
+                2 => {
+                    let scale = self.ordinary();
+                    v.map(|x| x * scale).map(|x| if x.is_finite() { x } else { f32::MAX })
+                }
+                3 => v.map(|x| if x.abs() < 1e38 { f32::from_bits(x.to_bits() ^ u32::from(self.below(4))) } else { x }),
+                _ => {
+                    let w = before[self.below(before.len() as u8) as usize];
+                    let sum = [v[0] + w[1], v[1] + w[2], v[2] + w[0]];
+                    if sum.iter().all(|x| x.is_finite()) { sum } else { v }
+                }
+            };
+        }
+        match kind {
+            0 | 5 => [self.number(), self.number(), self.number()],
+            1 | 6 => {
+                let mut v = [0.0; 3];
+                v[self.below(3) as usize] = self.number();
+                v
+            }
+            2 | 7 => {
+                // the whole vector is far or tiny
+                let scale = (2.0 * (f32::from(self.below(80)) - 40.0)).exp2();
+                [(); 3].map(|()| self.ordinary() * scale)
+            }
+            _ => [(); 3].map(|()| self.ordinary()),
+        }
+    }
+    /// A unit vector, up to rounding.
+    fn direction(&mut self) -> [f32; 3] {
+        let v = self.vector(&[]).map(f64::from);
+        let length = etendue_oracle::length(v);
+        if length > 0.0 { v.map(|x| (x / length) as f32) } else { [0.0, 0.0, 1.0] }
+    }
+    /// Between 1 and `most` weights.
+    fn weights(&mut self, most: u8) -> Vec<f32> {
+        let n = 1 + self.below(most);
+        (0..n).map(|_| self.weight()).collect()
+    }
+    /// One of the cases that a generator makes, from a seed in the input.
+    fn case<S: Copy>(&mut self, cases: impl Fn(usize, u64) -> Vec<generators::Case<S>>) -> generators::Case<S> {
+        let all = cases(1, self.seed());
+        all[self.below(all.len() as u8) as usize]
+    }
+}
+
+/// Whether all lengths are 0 or within this factor of 1, so that a factor of 2^±20 neither overflows nor underflows.
+fn scalable(lengths: &[f32], within: f32) -> bool {
+    lengths.iter().all(|x| *x == 0.0 || (1.0 / within..within).contains(&x.abs()))
+}

@@ -1,0 +1,106 @@
+//! Lights.
+
+use super::{Input, scalable};
+use crate::properties;
+use crate::techniques::{self, AreaLight, LightShape, Measure, Technique};
+use etendue::{
+    ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
+};
+use etendue_oracle::{V3, cross, dot, length, sub, wide};
+
+/// Lights with a surface: packets of eight that mix two lights of one kind.
+pub(super) fn area_lights(input: &mut Input<'_>) {
+    let (shape, by) = AreaLight::KINDS[input.below(AreaLight::KINDS.len() as u8) as usize];
+    let mut one = || {
+        let p = input.vector(&[]);
+        let a = input.vector(&[p]);
+        // normals are unit vectors
+        let b = if shape == LightShape::Disk { input.direction() } else { input.vector(&[a, p]) };
+        let c = input.vector(&[a, b]);
+        let n = if shape == LightShape::Patch { input.vector(&[b, c]) } else { input.direction() };
+        (AreaLight { shape, by, p, a, b, c, n, radius: input.number() }, input.square())
+    };
+    let (first, second) = (one(), one());
+    let pick = |i: usize| if i % 3 == 1 { second } else { first };
+    techniques::any_bits(&core::array::from_fn(|i| pick(i).0), &core::array::from_fn(|i| pick(i).1));
+    let (light, u) = first;
+    techniques::measure(&light, u);
+    let AreaLight { p, a, b, c, n, radius, .. } = light;
+    // the area of a shape is a square of lengths, and even smaller if the shape is slim
+    let [e, f, g] = [b, c, n].map(wide);
+    let roomy = |e: V3, f: V3| length(cross(e, f)) > 1e-18 + 1e-4 * length(e) * length(f);
+    let spread = if shape == LightShape::Patch {
+        // for a patch, at each of its four corners
+        let [x, y] = [sub(g, e), sub(g, f)];
+        roomy(e, f) && roomy(e, x) && roomy(f, y) && roomy(x, y)
+    } else {
+        length(cross(e, f)) == 0.0 || roomy(e, f)
+    };
+    if scalable(&[p, a, b, c, n].concat(), 1e6) && scalable(&[radius], 1e6) && spread {
+        techniques::scale(&light, u);
+    }
+    // at the scale of rooms, more properties hold
+    let [p, a] = [[0.0; 3], input.vector(&[]).map(|x| x.clamp(-2.0, 2.0))];
+    let [b, c, n] = [(); 3].map(|()| input.direction());
+    let near = AreaLight { p, a, b, c, n, radius: input.unit(), ..light };
+    // These edges are not perpendicular, as those of a rectangle have to be. A flat shape must be clearly out of the plane of the point;
+    // most of all a polygon, whose corners are rounded, or a shape over a horizon.
+    let [v, e, f] = [a, b, c].map(wide);
+    let normal = if shape == LightShape::Disk { e } else { cross(e, f) };
+    let elevation = dot(v, normal).abs() / (length(v) * length(normal));
+    let strict = by == Measure::ProjectedSolidAngle || shape == LightShape::Polygon;
+    let flat =
+        matches!(shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon | LightShape::Disk);
+    let lifted = elevation > 1e-3 && length(v) > 1e-3 && length(normal) > 1e-3;
+    let fair = !flat || lifted && (!strict || elevation > 0.05 && length(v) > 0.05 && length(normal) > 0.05);
+    if shape != LightShape::Rectangle && fair {
+        techniques::one_pdf(&near, u);
+    }
+}
+
+/// A light without a surface.
+#[derive(Clone, Copy, Debug)]
+struct Distant {
+    kind: u8,
+    p: [f32; 3],
+    a: [f32; 3],
+    n: [f32; 3],
+    x: f32,
+    y: f32,
+}
+impl Technique for Distant {
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+        let of = |i: usize| lanes[i % lanes.len()];
+        let vector = |pick: fn(&Self) -> [f32; 3]| -> Vec3<R> { properties::vectors_of(|i| pick(&of(i))) };
+        let number = |pick: fn(&Self) -> f32| -> R { properties::lanes_of(|i| f64::from(pick(&of(i)))) };
+        let (p, position, n) = (vector(|d| d.p), vector(|d| d.a), vector(|d| d.n));
+        match lanes[0].kind {
+            0 => Box::new(PointLight { position }.prepare(p)),
+            1 => {
+                let (cos_inner, cos_outer) = (number(|d| d.x), number(|d| d.y));
+                Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.prepare(p))
+            }
+            2 => Box::new(DirectionalLight::new(n).prepare(p)),
+            3 => Box::new(Sun::new(n, number(|d| d.x)).by_solid_angle()),
+            4 => Box::new(ConstantEnvironment.by_solid_angle()),
+            _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),
+        }
+    }
+    /// Delta lights have no density.
+    fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
+        (!s.delta).then_some(0.0)
+    }
+}
+
+/// Lights without a surface: packets of eight that mix two lights of one kind.
+pub(super) fn distant_lights(input: &mut Input<'_>) {
+    let kind = input.below(6);
+    let mut one = || {
+        let (p, n) = (input.vector(&[]), input.direction());
+        (Distant { kind, p, a: input.vector(&[p]), n, x: input.number(), y: input.number() }, input.square())
+    };
+    let (first, second) = (one(), one());
+    let pick = |i: usize| if i % 3 == 1 { second } else { first };
+    techniques::any_bits(&core::array::from_fn(|i| pick(i).0), &core::array::from_fn(|i| pick(i).1));
+    techniques::one_pdf(&first.0, first.1);
+}

@@ -1,0 +1,232 @@
+//! Flat shapes by solid angle.
+
+use super::{Case, Random, combine, frame, narrow};
+use crate::fixtures::{CosineRectangle, CosineTriangle, Hexagon, Parallelogram, Rectangle, Triangle};
+
+/// Computes a corner and two edges in the given frame.
+type Place<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
+
+/// Corner and two edges of flat shapes, `each` random ones in every regime.
+fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        let mut push = |name, f: &mut Place<'_>| {
+            let axes = frame(&mut random);
+            all.push((name, f(&mut random, axes).map(narrow)));
+        };
+        // a shape in the plane z = 1 of the frame, near the axis
+        let facing = |r: &mut Random, a: [[f64; 3]; 3], size: f64, shift: f64| {
+            let (x, y) = (r.range(-1.0, 1.0) * shift, r.range(-1.0, 1.0) * shift);
+            let angle = r.range(0.6, 2.4);
+            let e1 = combine(&a, size, 0.0, 0.0);
+            let e2 = combine(&a, size * angle.cos(), size * angle.sin(), 0.0);
+            let v0 = combine(&a, x - 0.4 * size, y - 0.3 * size, 1.0);
+            [v0, e1, e2]
+        };
+        push("ordinary", &mut |r, a| facing(r, a, 1.0, 0.7));
+        push("small 1e-2", &mut |r, a| facing(r, a, 1e-2, 0.7));
+        push("tiny 1e-5", &mut |r, a| facing(r, a, 1e-5, 0.7));
+        push("tiny 1e-7", &mut |r, a| facing(r, a, 1e-7, 0.7));
+        push("tiny 1e-9", &mut |r, a| facing(r, a, 1e-9, 0.7));
+        push("far 1e9", &mut |r, a| facing(r, a, 1e-9, 0.7).map(|v| v.map(|x| x * 1e12)));
+        let upright = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        push("on the axis, 1e-4", &mut |r, _| facing(r, upright, 1e-4, 1e-4));
+        push("on the axis, 1e-9", &mut |r, _| facing(r, upright, 1e-9, 1e-9));
+        push("large 6", &mut |r, a| facing(r, a, 6.0, 1.0));
+        push("near-hemisphere 30", &mut |r, a| facing(r, a, 30.0, 3.0));
+        push("near-hemisphere 1e3", &mut |r, a| facing(r, a, 1e3, 30.0));
+        push("near-hemisphere 1e5", &mut |r, a| facing(r, a, 1e5, 1e3));
+        push("oblique", &mut |r, a| {
+            let v0 = combine(&a, r.range(-1.0, 1.0), 2.0, 1.0);
+            [v0, combine(&a, 1.0, 0.2, 0.6), combine(&a, -0.5, 0.4, -0.8)]
+        });
+        push("grazing 1e-2", &mut |r, a| {
+            [combine(&a, r.range(-1.0, 1.0), 2.0, 1e-2), combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)]
+        });
+        push("grazing 1e-4", &mut |r, a| {
+            [combine(&a, r.range(-1.0, 1.0), 2.0, 1e-4), combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)]
+        });
+        push("sliver 1e2", &mut |r, a| {
+            [combine(&a, -0.5, r.range(-1.0, 1.0), 1.0), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.5, 1e-2, 0.0)]
+        });
+        push("sliver 1e4", &mut |r, a| {
+            [combine(&a, -0.5, r.range(-1.0, 1.0), 1.0), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.5, 1e-4, 0.0)]
+        });
+        push("sliver 1e4 from its end", &mut |r, a| {
+            [combine(&a, r.range(0.1, 1.0), 0.0, 1.0), combine(&a, 1e-4, 0.0, 0.0), combine(&a, 0.0, 1.0, 0.0)]
+        });
+        push("near a vertex", &mut |r, a| {
+            [combine(&a, 1e-3 * r.range(-1.0, 1.0), 1e-3, 1e-3), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.3, 0.9, 0.0)]
+        });
+        push("near an edge", &mut |r, a| {
+            [combine(&a, -0.5, 1e-3 * r.range(-1.0, 1.0), 1e-3), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.3, 0.9, 0.0)]
+        });
+    }
+    all
+}
+
+/// Corner and edges of flat shapes so nearly in a plane with the viewpoint that f32 barely resolves on which side it lies.
+#[must_use]
+pub fn nearly_in_plane(each: usize, seed: u64) -> Vec<[[f32; 3]; 3]> {
+    let mut random = Random::new(seed);
+    let mut one = |height: f64| {
+        let a = frame(&mut random);
+        if random.word() & 1 == 0 {
+            let v0 = combine(&a, random.range(-1.0, 1.0), 2.0, height);
+            return [v0, combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow);
+        }
+        // the far edge is perpendicular to the view, so that all of it is about as far as its ends
+        let v0 = combine(&a, random.range(-0.1, 0.1), random.range(0.2, 2.0), height);
+        [v0, combine(&a, -0.3, 1.0, 0.0), combine(&a, 0.3, 1.0, 0.0)].map(narrow)
+    };
+    [1e-5, 1e-6, 1e-7, 1e-8].into_iter().flat_map(|height| (0..each).map(|_| one(height)).collect::<Vec<_>>()).collect()
+}
+
+/// Triangles in every regime.
+#[must_use]
+pub fn triangles(each: usize, seed: u64) -> Vec<Case<Triangle>> {
+    flats(each, seed)
+        .into_iter()
+        .enumerate()
+        .map(|(i, (name, [v0, e1, e2]))| {
+            let by_edges = Triangle::by_edges(v0, e1, e2);
+            // moving a corner to the viewpoint would lose a tiny shape, and the sum rounds: the result is another shape, but an exact one
+            let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
+            let by_vertices = Triangle::by_vertices(v0, add(v0, e1), add(v0, e2));
+            let whole = !(name.contains("tiny") || name.contains("far") || name.contains("sliver 1e4"));
+            (name, if whole && i % 2 == 0 { by_vertices } else { by_edges })
+        })
+        .collect()
+}
+
+/// Parallelograms in every regime.
+#[must_use]
+pub fn parallelograms(each: usize, seed: u64) -> Vec<Case<Parallelogram>> {
+    flats(each, seed).into_iter().map(|(name, [p, u, v])| (name, Parallelogram::new(p, u, v))).collect()
+}
+
+/// Two perpendicular vectors of random orientation whose products with 8-bit numbers are exact in f32, and their unit normal: columns of
+/// the rotation by a quaternion of small integers.
+fn exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
+    let mut pick = || (random.word() % 13) as f64 - 6.0;
+    let (a, b, c, d) = (pick() + 0.5, pick(), pick(), pick());
+    let u = [a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c)];
+    let v = [2.0 * (b * c - a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d + a * b)];
+    [u, v, etendue_oracle::unit(etendue_oracle::cross(u, v))]
+}
+
+/// Rounds to 8 bits.
+fn coarse(x: f64) -> f64 {
+    let unit = (x.abs().log2().floor() - 7.0).exp2();
+    (x / unit).round() * unit
+}
+
+/// A rectangle's size, and its corner in a frame whose z axis is the normal.
+type SizeAndCorner = ([f64; 2], [f64; 3]);
+
+/// Rectangles in every regime; rounding leaves their right angles exact.
+#[must_use]
+pub fn rectangles(each: usize, seed: u64) -> Vec<Case<Rectangle>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        let mut push = |name, f: &dyn Fn(&mut Random) -> SizeAndCorner| {
+            let a = exact_axes(&mut random);
+            let unit = [a[0], a[1], a[2]].map(etendue_oracle::unit);
+            let (size, corner) = f(&mut random);
+            let edge = |k: usize| a[k].map(|x| x * coarse(size[k] / etendue_oracle::length(a[k])));
+            let (mut u, mut v) = (edge(0), edge(1));
+            if random.word() & 1 == 0 {
+                (u, v) = (v, u);
+            }
+            all.push((
+                name,
+                Rectangle::new(narrow(combine(&unit, corner[0], corner[1], corner[2])), narrow(u), narrow(v)),
+            ));
+        };
+        let facing = |r: &mut Random, size: f64, shift: f64| {
+            let at = |r: &mut Random| r.range(-1.0, 1.0) * shift - 0.5 * size;
+            ([size, size * r.range(0.5, 1.0)], [at(r), at(r), 1.0])
+        };
+        push("ordinary", &|r| facing(r, 1.0, 0.7));
+        push("ordinary, aside", &|r| facing(r, 1.0, 3.0));
+        push("small 1e-2", &|r| facing(r, 1e-2, 1.0));
+        push("tiny 1e-5", &|r| facing(r, 1e-5, 1.0));
+        push("tiny 1e-7", &|r| facing(r, 1e-7, 1.0));
+        push("tiny 1e-9", &|r| facing(r, 1e-9, 1.0));
+        push("tiny 1e-9 below", &|r| facing(r, 1e-9, 1e-9));
+        push("far 1e9", &|r| {
+            let (size, corner) = facing(r, 1e-9, 1.0);
+            (size.map(|x| x * 1e12), corner.map(|x| x * 1e12))
+        });
+        push("large 6", &|r| facing(r, 6.0, 1.0));
+        push("near-hemisphere 30", &|r| facing(r, 30.0, 3.0));
+        push("near-hemisphere 1e3", &|r| facing(r, 1e3, 30.0));
+        push("near-hemisphere 1e5", &|r| facing(r, 1e5, 1e3));
+        push("grazing 1e-2", &|r| ([1.0, 1.0], [r.range(-1.0, 1.0), 2.0, 1e-2]));
+        push("grazing 1e-4", &|r| ([1.0, 1.0], [r.range(-1.0, 1.0), 2.0, 1e-4]));
+        push("grazing 1e-4, diagonal", &|r| ([1.0, 0.6], [r.range(0.2, 1.0), r.range(-2.0, -1.0), 1e-4]));
+        push("sliver 1e2", &|r| ([1.0, 1e-2], [-0.5, r.range(-1.0, 1.0), 1.0]));
+        push("sliver 1e4", &|r| ([1.0, 1e-4], [-0.5, r.range(-1.0, 1.0), 1.0]));
+        push("sliver 1e4 from its end", &|r| ([1e-4, 1.0], [r.range(0.1, 1.0), 0.0, 1.0]));
+        push("near a vertex", &|r| ([1.0, 0.9], [1e-3 * r.range(-1.0, 1.0), 1e-3, 1e-3]));
+        push("near an edge", &|r| ([1.0, 0.9], [-0.5, 1e-3 * r.range(-1.0, 1.0), 1e-3]));
+        // tilted rectangles on the z axis of the world, where the granularity is less than 1
+        let tilt = exact_axes(&mut random);
+        let length = etendue_oracle::length(tilt[0]);
+        for (name, size) in [("on the axis, 1e-4", 1e-4), ("on the axis, 1e-9", 1e-9)] {
+            let edge = |k: usize, size: f64| tilt[k].map(|x| x * coarse(size / length));
+            let (u, v) = (edge(0, size), edge(1, 0.7 * size));
+            let p = [-0.4 * (u[0] + v[0]), -0.3 * (u[1] + v[1]), 1.0];
+            all.push((name, Rectangle::new(narrow(p), narrow(u), narrow(v))));
+        }
+    }
+    all
+}
+
+/// Convex hexagons, from the semi-axes and the centre of their circumscribed ellipse.
+#[must_use]
+pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, size, center) in [
+            ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0]),
+            ("tiny 1e-3", [1e-3, 1e-3], [0.2, 0.3, 1.0]),
+            ("close", [3.0, 2.0], [0.5, -0.3, 0.7]),
+            ("near-hemisphere", [30.0, 20.0], [1.0, 2.0, 1.0]),
+            ("grazing 1e-2", [1.0, 1.0], [3.0, 0.0, 1e-2]),
+            ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0]),
+        ] {
+            let axes = frame(&mut random);
+            let corner = |i: usize, random: &mut Random| {
+                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
+                let [x, y, z] = center;
+                narrow(combine(&axes, x + size[0] * angle.cos(), y + size[1] * angle.sin(), z))
+            };
+            all.push((name, Hexagon::new(core::array::from_fn(|i| corner(i, &mut random)))));
+        }
+    }
+    all
+}
+
+/// Shapes with random normals, from the regimes where the cosine varies over the shape and from the extremes of size.
+fn with_normals<S, W>(shapes: Vec<Case<S>>, seed: u64, of: impl Fn(S, [f32; 3]) -> W) -> Vec<Case<W>> {
+    const KEPT: [&str; 7] = ["ordinary", "ordinary, aside", "small 1e-2", "tiny 1e-5", "far 1e9", "large 6", "oblique"];
+    let mut random = Random::new(seed);
+    let kept = shapes.into_iter().filter(|case| KEPT.contains(&case.0));
+    kept.map(|(name, shape)| (name, of(shape, narrow(random.direction())))).collect()
+}
+
+/// Triangles on surfaces of any orientation.
+#[must_use]
+pub fn cosine_triangles(each: usize, seed: u64) -> Vec<Case<CosineTriangle>> {
+    with_normals(triangles(each, seed), seed, |shape, normal| CosineTriangle { shape, normal })
+}
+
+/// Rectangles on surfaces of any orientation.
+#[must_use]
+pub fn cosine_rectangles(each: usize, seed: u64) -> Vec<Case<CosineRectangle>> {
+    with_normals(rectangles(each, seed), seed, |shape, normal| CosineRectangle { shape, normal })
+}

@@ -1,0 +1,161 @@
+//! Flat shapes over a horizon.
+
+use super::{Case, Random, combine, frame, narrow};
+use crate::fixtures::{ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle};
+
+/// How a flat shape is placed relative to the horizon.
+#[derive(Clone, Copy, Debug)]
+enum Lie {
+    /// The sine of the elevation of its middle; the azimuth is random.
+    At(f64),
+    /// The height of the horizon above its middle, in units of its size.
+    Cut(f64),
+    /// The horizon passes through its first corner.
+    Corner,
+    /// The zenith, in coordinates along its edges.
+    Zenith(f64, f64),
+}
+
+/// Flat shapes relative to a horizon, in every regime: corner, two edges and normal.
+#[must_use]
+pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
+    use Lie::{At, Corner, Cut, Zenith};
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        // size, length over width, distance from the point of its plane nearest to the viewpoint, and placement
+        for (name, size, aspect, shift, lie) in [
+            ("ordinary", 1.0, 1.0, 0.7, At(0.6)),
+            ("overhead", 1.0, 1.0, 0.7, At(0.95)),
+            ("small 1e-2", 1e-2, 1.0, 0.7, At(0.5)),
+            ("tiny 1e-4", 1e-4, 1.0, 0.7, At(0.5)),
+            ("tiny 1e-7", 1e-7, 1.0, 0.7, At(0.5)),
+            ("tiny 1e-7 overhead", 1e-7, 1.0, 0.7, At(1.0)),
+            ("huge 30", 30.0, 1.0, 3.0, At(0.8)),
+            ("huge 30, tilted", 30.0, 1.0, 3.0, At(0.2)),
+            ("near-hemisphere 1e3", 1e3, 1.0, 30.0, At(1.0)),
+            ("near-hemisphere 1e3, tilted", 1e3, 1.0, 30.0, At(0.5)),
+            ("sliver 1e2", 1.0, 1e2, 0.7, At(0.5)),
+            ("sliver 1e3 overhead", 2.0, 1e3, 0.3, At(0.97)),
+            ("grazing 1e-2", 1.0, 1.0, 100.0, At(0.5)),
+            ("low 1e-3", 1e-4, 1.0, 0.7, At(1e-3)),
+            ("cut", 1.0, 1.0, 0.7, Cut(0.0)),
+            ("cut, middle below", 1.0, 1.0, 0.7, Cut(0.2)),
+            ("cut, middle above", 1.0, 1.0, 0.7, Cut(-0.2)),
+            ("cut, huge 30", 30.0, 1.0, 3.0, Cut(0.1)),
+            ("cut, tiny 1e-4", 1e-4, 1.0, 0.7, Cut(0.1)),
+            ("cut, tiny 1e-6", 1e-6, 1.0, 0.7, Cut(-0.1)),
+            ("cut, sliver 1e2", 1.0, 1e2, 0.7, Cut(0.0)),
+            ("almost below", 1.0, 1.0, 0.7, Cut(0.33)),
+            ("horizon through a corner", 1.0, 1.0, 0.7, Corner),
+            ("horizon through a corner, tiny 1e-5", 1e-5, 1.0, 0.7, Corner),
+            ("zenith inside", 1.0, 1.0, 0.7, Zenith(0.3, 0.4)),
+            ("zenith inside, tiny 1e-6", 1e-6, 1.0, 0.7, Zenith(0.3, 0.4)),
+            ("zenith inside, huge 30", 30.0, 1.0, 3.0, Zenith(0.3, 0.4)),
+            ("zenith inside, sliver 1e2", 1.0, 1e2, 0.7, Zenith(0.3, 0.4)),
+            ("zenith on an edge", 1.0, 1.0, 0.7, Zenith(0.3, 0.0)),
+            ("zenith on an edge, huge 30", 30.0, 1.0, 3.0, Zenith(0.3, 0.0)),
+            ("zenith on a corner", 1.0, 1.0, 0.7, Zenith(0.0, 0.0)),
+            ("zenith off an edge by 1e-3", 1.0, 1.0, 0.7, Zenith(0.3, -1e-3)),
+            ("zenith off an edge by 1e-6", 1.0, 1.0, 0.7, Zenith(0.6, -1e-6)),
+        ] {
+            let axes = frame(&mut random);
+            let angle = random.range(0.8, 2.2);
+            let e1 = combine(&axes, size, 0.0, 0.0);
+            let e2 = combine(&axes, size / aspect * angle.cos(), size / aspect * angle.sin(), 0.0);
+            let (x, y) = (random.range(-1.0, 1.0) * shift, random.range(0.5, 1.0) * shift);
+            let corner = combine(&axes, x - 0.4 * size, y - 0.3 * size / aspect, 1.0);
+            let at = |s: f64, t: f64| core::array::from_fn::<f64, 3, _>(|i| corner[i] + e1[i] * s + e2[i] * t);
+            let [a, b] = {
+                let (a, b) = etendue_oracle::basis(etendue_oracle::unit(at(0.33, 0.33)));
+                let turn = random.range(0.0, core::f64::consts::TAU);
+                [a, b].map(|_| core::array::from_fn::<f64, 3, _>(|i| a[i] * turn.cos() + b[i] * turn.sin()))
+            };
+            let middle = etendue_oracle::unit(at(0.33, 0.33));
+            // the unit vector perpendicular to p that is nearest to v
+            let upright = |p: [f64; 3], v: [f64; 3]| {
+                let p = etendue_oracle::unit(p);
+                etendue_oracle::unit(etendue_oracle::along(v, p, -etendue_oracle::dot(v, p)))
+            };
+            let normal = match lie {
+                At(sin) => {
+                    let cos = f64::sqrt(1.0 - sin * sin);
+                    core::array::from_fn(|i| middle[i] * sin + a[i] * cos)
+                }
+                Cut(below) => {
+                    // up to its sign, the plane through p whose tangent is b
+                    let reach = size / aspect / etendue_oracle::length(at(0.33, 0.33));
+                    let lift = f64::atan(reach * below);
+                    let up = upright(middle, b);
+                    core::array::from_fn(|i| up[i] * lift.cos() - middle[i] * lift.sin())
+                }
+                Corner => upright(corner, b),
+                Zenith(s, t) => etendue_oracle::unit(at(s, t)),
+            };
+            // any length is allowed
+            let normal = normal.map(|x: f64| x * random.magnitude(0.1, 10.0));
+            all.push((name, [corner, e1, e2, normal].map(narrow)));
+        }
+        // exactly aligned with the coordinate planes
+        let upright = [[0.2, 0.0, 1.0], [1.0, 0.0, 0.0], [0.5, random.range(0.2, 1.0), 0.0], [0.0, 0.0, 1.0]];
+        all.push(("azimuth of an edge", upright.map(narrow)));
+        let lying = [[-1.0, 2.0, 0.0], [1.5, 0.0, 0.0], [0.5, 0.2, random.range(0.2, 1.0)], [0.0, 0.0, 1.0]];
+        all.push(("an edge on the horizon", lying.map(narrow)));
+    }
+    all
+}
+
+/// Triangles relative to a horizon, in every regime.
+#[must_use]
+pub fn projected_triangles(each: usize, seed: u64) -> Vec<Case<ProjectedTriangle>> {
+    let add = |a: [f32; 3], b: [f32; 3]| core::array::from_fn(|k| a[k] + b[k]);
+    over_horizon(each, seed)
+        .into_iter()
+        .enumerate()
+        .map(|(i, (name, [v, a, b, n]))| {
+            let whole = !(name.contains("tiny") || name.contains("sliver") || name.contains("low"));
+            let by_vertices = whole && i % 2 == 0;
+            let of = ProjectedTriangle::by_vertices;
+            (name, if by_vertices { of(v, add(v, a), add(v, b), n) } else { ProjectedTriangle::by_edges(v, a, b, n) })
+        })
+        .filter(|(_, t)| t.projected_solid_angle() > 0.0)
+        .collect()
+}
+
+/// Parallelograms relative to a horizon, in every regime.
+#[must_use]
+pub fn projected_parallelograms(each: usize, seed: u64) -> Vec<Case<ProjectedParallelogram>> {
+    over_horizon(each, seed)
+        .into_iter()
+        .map(|(name, [p, u, v, n])| (name, ProjectedParallelogram::new(p, u, v, n)))
+        .filter(|(_, t)| t.projected_solid_angle() > 0.0)
+        .collect()
+}
+
+/// Convex pentagons relative to a horizon.
+#[must_use]
+pub fn projected_pentagons(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon>> {
+    let mut random = Random::new(seed);
+    let mut all = Vec::new();
+    for _ in 0..each {
+        for (name, size, center, normal) in [
+            ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0], [0.3, 0.2, 0.8]),
+            ("small 1e-2", [1e-2, 1e-2], [0.2, 0.3, 1.0], [0.3, -0.2, 0.8]),
+            ("cut", [0.6, 0.4], [0.2, 0.3, 1.0], [1.0, 0.0, -0.1]),
+            ("close", [3.0, 2.0], [0.5, -0.3, 0.7], [1.0, 0.5, 0.3]),
+            ("zenith inside", [3.0, 2.0], [0.5, -0.3, 0.7], [0.1, 0.2, 1.0]),
+            ("grazing 1e-1", [1.0, 1.0], [3.0, 0.0, 1e-1], [0.5, 0.2, 0.8]),
+        ] {
+            let axes = frame(&mut random);
+            let corner = |i: usize, random: &mut Random| {
+                let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 5.0;
+                let [x, y, z] = center;
+                narrow(combine(&axes, x + size[0] * angle.cos(), y + size[1] * angle.sin(), z))
+            };
+            let corners = core::array::from_fn(|i| corner(i, &mut random));
+            let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));
+            all.push((name, ProjectedPentagon::new(corners, normal)));
+        }
+    }
+    all
+}

@@ -1,0 +1,77 @@
+//! Segments.
+
+use super::{Case, Random, combine, frame, narrow};
+use crate::fixtures::{ProjectedSegment, Segment};
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+/// Line segments in every regime, alone and relative to a horizon.
+#[must_use]
+pub fn segments(each: usize, seed: u64) -> (Vec<Case<Segment>>, Vec<Case<ProjectedSegment>>) {
+    let (plain, over) = segment_parameters(each, seed);
+    let plain = plain.into_iter().map(|(name, [a, edge])| (name, Segment::new(a, edge))).collect();
+    let over = over.into_iter().map(|(name, [a, edge, n])| (name, ProjectedSegment::new(a, edge, n)));
+    (plain, over.filter(|(_, s)| s.seen()).collect())
+}
+
+/// `name, place` as a string, allocated once per pair.
+fn joined(name: &'static str, place: &'static str) -> &'static str {
+    static NAMES: Mutex<BTreeMap<[&str; 2], &str>> = Mutex::new(BTreeMap::new());
+    let mut names = NAMES.lock().expect("nothing panics here");
+    names.entry([name, place]).or_insert_with(|| Box::leak(format!("{name}, {place}").into_boxed_str()))
+}
+
+/// Parameters of [`segments`]: one end and the edge from it, and for the second list the surface's normal. The table has end and edge in a
+/// plane with the viewpoint, and the inner table the tilt of the normal and the first end's height over the horizon.
+#[must_use]
+#[expect(clippy::type_complexity, reason = "vectors")]
+pub fn segment_parameters(each: usize, seed: u64) -> (Vec<Case<[[f32; 3]; 2]>>, Vec<Case<[[f32; 3]; 3]>>) {
+    let mut random = Random::new(seed);
+    let (mut plain, mut projected) = (Vec::new(), Vec::new());
+    for _ in 0..each {
+        for (name, a, edge) in [
+            ("ordinary", [1.0, -0.3], [0.2, 0.9]),
+            ("oblique", [1.0, 0.2], [1.5, 0.4]),
+            ("small 1e-3", [1.0, 0.3], [4e-4, 1e-3]),
+            ("tiny 1e-5", [1.0, 0.3], [4e-6, 1e-5]),
+            ("tiny 1e-9", [1.0, 0.3], [4e-10, 1e-9]),
+            ("far 1e9", [1e12, 3e11], [400.0, 1e3]),
+            ("end-on 1e-2", [1.0, 0.0], [1.0, 1e-2]),
+            ("end-on 1e-4", [1.0, 0.0], [1.0, 1e-4]),
+            ("long 1e2", [1.0, -40.0], [3.0, 100.0]),
+            ("long 1e5", [1.0, -4e4], [1e3, 1e5]),
+            ("long 1e5, from its end", [1.0, -0.1], [1e3, 1e5]),
+            ("close 1e-3", [1e-3, -0.5], [1e-3, 1.0]),
+            ("close 1e-6", [1e-6, -0.5], [0.0, 1.0]),
+            ("touching an end 1e-3", [1e-3, 0.0], [3e-4, 1.0]),
+        ] {
+            let axes = frame(&mut random);
+            let [p, e] = [a, edge].map(|v| narrow(combine(&axes, v[0], v[1], 0.0)));
+            plain.push((name, [p, e]));
+            // relative to the distance, so that small segments cross the horizon too
+            let size = f64::hypot(edge[0], edge[1]).min(1.0) / f64::hypot(a[0], a[1]).max(1.0);
+            for (place, tilt, lift) in [
+                ("overhead", 0.7, 0.7),
+                ("turned", -0.5, 0.6),
+                ("cut", 0.6, -0.1 * size),
+                ("cut at the other end", -0.6, 0.2 * size),
+                ("low 1e-2", 0.3, 1e-2),
+            ] {
+                // the first end's height is the normal's component along its direction
+                let unit = etendue_oracle::unit([a[0], a[1], 0.0]);
+                let side = [-unit[1], unit[0], 0.0];
+                let towards = side[0] * edge[0] + side[1] * edge[1] > 0.0;
+                let tilt = if towards { tilt } else { -tilt };
+                let rest = f64::sqrt((1.0 - lift * lift - tilt * tilt).max(0.01));
+                let mix = |k: usize| unit[k] * lift + side[k] * tilt;
+                let normal = combine(&axes, mix(0), mix(1), rest);
+                projected.push((joined(name, place), [p, e, narrow(normal)]));
+            }
+        }
+    }
+    let level = [0.0, 0.0, 1.0];
+    projected.push(("an end on the horizon", [[1.0, 0.5, 0.0], [0.5, 1.0, 2.0], level]));
+    projected.push(("half the sky", [[-1e4, 0.0, 1.0], [2e4, 0.0, 0.0], level]));
+    projected.push(("a sliver of sky", [[1.0, 0.0, -1.0], [1e3, 0.0, 3.0], level]));
+    (plain, projected)
+}

@@ -1,0 +1,558 @@
+//! The properties. Each is a plain function that panics when its property is broken.
+
+use crate::generators::Random;
+use crate::stats;
+use crate::tolerances::{self, SIGNIFICANCE, Tolerance, ULP, ULP_F64};
+use core::fmt::Debug;
+use etendue::spherical::DirectionSample;
+use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8, f64x4};
+use etendue_oracle::{V3, cross, integrate, length, sub};
+
+/// Points of the plane or of space, one in each lane.
+pub trait Coordinates<R: Real>: Copy {
+    /// Lane `i`, exactly; z = 0 on the plane.
+    fn at(self, i: usize) -> V3;
+    /// A packet whose lane `i` is `points[i % points.len()]`, rounded.
+    fn gather(points: &[V3]) -> Self;
+}
+/// A packet whose lane `i` is `f(i)`, rounded.
+pub fn lanes_of<R: Real>(f: impl Fn(usize) -> f64) -> R {
+    R::from_fn(|i| R::Scalar::lit(f(i)))
+}
+/// A packet of vectors whose lane `i` is `f(i)`.
+pub fn vectors_of<R: Real>(f: impl Fn(usize) -> [f32; 3]) -> Vec3<R> {
+    let axis = |k: usize| lanes_of(|i| f64::from(f(i)[k]));
+    Vec3::new(axis(0), axis(1), axis(2))
+}
+/// A packet of points of the unit square whose lane `i` is `us[i % us.len()]`.
+#[must_use]
+pub fn squares_of<R: Real>(us: &[[f32; 2]]) -> Vec2<R> {
+    Coordinates::gather(&us.iter().map(|u| [f64::from(u[0]), f64::from(u[1]), 0.0]).collect::<Vec<_>>())
+}
+impl<R: Real> Coordinates<R> for Vec2<R> {
+    fn at(self, i: usize) -> V3 {
+        [self.x.lane_f64(i), self.y.lane_f64(i), 0.0]
+    }
+    fn gather(p: &[V3]) -> Self {
+        let axis = |k: usize| lanes_of(|i| p[i % p.len()][k]);
+        Self::new(axis(0), axis(1))
+    }
+}
+impl<R: Real> Coordinates<R> for Vec3<R> {
+    fn at(self, i: usize) -> V3 {
+        [self.x.lane_f64(i), self.y.lane_f64(i), self.z.lane_f64(i)]
+    }
+    fn gather(p: &[V3]) -> Self {
+        let axis = |k: usize| lanes_of(|i| p[i % p.len()][k]);
+        Self::new(axis(0), axis(1), axis(2))
+    }
+}
+
+/// A warp with its parameters (held in f32, hence exact at every precision), and independent knowledge about it.
+pub trait Fixture: Copy + Debug {
+    /// The warp at each precision and width.
+    type Warp<R: Real>: Warp<R, Point = Self::Point<R>>;
+    /// The points that it samples.
+    type Point<R: Real>: Coordinates<R>;
+    /// The warp whose lane `i` is prepared from `lanes[i % lanes.len()]`.
+    fn prepare<R: Real>(lanes: &[Self]) -> Self::Warp<R>;
+    /// The scalar warp in every lane.
+    fn splat<R: Real>(warp: Self::Warp<R::Scalar>) -> Self::Warp<R>;
+    /// Whether the two fit into one packet.
+    fn kin(&self, _other: &Self) -> bool {
+        true
+    }
+    /// The errors that are tolerated.
+    fn tolerance(&self) -> Tolerance;
+    /// All lengths multiplied by a power of two.
+    #[must_use]
+    fn scaled(&self, _factor: f32) -> Self {
+        *self
+    }
+    /// Truth: the pdf at a point of the shape.
+    fn true_pdf(&self, point: V3) -> f64;
+    /// An independent parameterisation of the shape by the unit square: the point, and the measure per unit of the square.
+    fn chart(&self, s: f64, t: f64) -> (V3, f64);
+    /// The inverse of [`Self::chart`].
+    fn locate(&self, point: V3) -> [f64; 2];
+    /// A point outside the shape, at the distance `margin` from its boundary.
+    fn outside(&self, _margin: f64, _random: &mut Random) -> Option<V3> {
+        None
+    }
+    /// Greatest and least diameter of the shape, as distances between points.
+    fn extent(&self) -> [f64; 2];
+    /// Greatest distance of a point of the shape from the origin.
+    fn radius(&self) -> f64 {
+        1.0
+    }
+    /// The point in coordinates that are all rounded alike; a shape that overrides this overrides `distance` too.
+    fn metric(&self, point: V3) -> V3 {
+        point
+    }
+    /// Absolute change of the pdf per unit of rounding, for a pdf that tends to 0 by cancellation.
+    fn pdf_slack(&self, _point: V3) -> f64 {
+        0.0
+    }
+    /// Error of the inverse besides the point's own rounding, in units of rounding.
+    fn inverse_units(&self, _u: [f64; 2]) -> f64 {
+        2.0
+    }
+    /// Error of the inverse besides the point's own rounding, in steps of `u`.
+    fn inverse_steps(&self) -> f64 {
+        2.0
+    }
+    /// Whether some `u` of the grid maps to somewhere near the point: not in tails of probability below 2⁻²⁴.
+    fn reachable(&self, _point: V3) -> bool {
+        true
+    }
+    /// Whether the map jumps within `step` of `u` in the first coordinate: rounding decides on which side of the jump a point falls.
+    fn torn(&self, _u: [f64; 2], _step: f64) -> bool {
+        false
+    }
+    /// Coordinates of a point are rounded in units of `ULP` × this: 1 in general, the extent for a shape on the z axis.
+    fn granularity(&self) -> f64 {
+        1.0
+    }
+    /// Distance between two points; for a shape on the z axis, only its component across the axis.
+    fn distance(&self, a: V3, b: V3) -> f64 {
+        let d = sub(a, b);
+        if self.granularity() < 1.0 { d[0].hypot(d[1]) } else { length(d) }
+    }
+    /// A distance is rounded relative to itself and to this length.
+    fn reach(&self) -> f64 {
+        0.0
+    }
+    /// Distance of the farthest vertex of a flat shape; 0 for others.
+    fn farthest(&self) -> f64 {
+        0.0
+    }
+    /// Relative change of the distance per radian that the direction turns.
+    fn slant(&self, _w: V3) -> f64 {
+        1.0
+    }
+    /// Condition number: relative change of the pdf per relative change of a parameter.
+    fn condition(&self) -> f64 {
+        1.0
+    }
+    /// Change of the pdf per unit of distance that the point moves.
+    fn gradient(&self) -> f64 {
+        0.0
+    }
+    /// Tolerance of the integral over each cell, relative to the whole: coarser where the parameterisation has a kink.
+    fn quadrature(&self) -> f64 {
+        1e-9
+    }
+    /// Whether the second coordinate is an azimuth.
+    const PERIODIC: bool = false;
+    /// Whether the map has two derivatives near `u`.
+    fn smooth(&self, _u: [f64; 2]) -> bool {
+        true
+    }
+    /// Direction and distance, for shapes seen from a point.
+    fn sample_direction<R: Real>(_warp: &Self::Warp<R>, _u: Vec2<R>) -> Option<DirectionSample<R>> {
+        None
+    }
+}
+
+/// All that a warp returns for one `u`.
+#[derive(Clone, Copy, Debug)]
+pub struct Observed {
+    /// `sample(u)`.
+    pub point: V3,
+    /// `pdf(sample(u))`.
+    pub pdf: f64,
+    /// `invert(sample(u))`.
+    pub inverse: [f64; 2],
+    /// Direction and distance of `sample_direction(u)`, or zeros.
+    pub sighting: [f64; 4],
+}
+impl Observed {
+    fn figures(&self) -> [f64; 10] {
+        let ([x, y, z], [u, v], [a, b, c, d]) = (self.point, self.inverse, self.sighting);
+        [x, y, z, self.pdf, u, v, a, b, c, d]
+    }
+}
+
+/// Evaluates a prepared warp in every lane.
+pub fn observe<S: Fixture, R: Real>(warp: &S::Warp<R>, u: Vec2<R>) -> Vec<Observed> {
+    let point = warp.sample(u);
+    let (pdf, inverse, sighting) = (warp.pdf(point), warp.invert(point), S::sample_direction(warp, u));
+    (0..R::LANES)
+        .map(|i| Observed {
+            point: point.at(i),
+            pdf: pdf.lane_f64(i),
+            inverse: [inverse.x.lane_f64(i), inverse.y.lane_f64(i)],
+            sighting: sighting.map_or([0.0; 4], |s| {
+                let [x, y, z] = s.direction.at(i);
+                [x, y, z, s.distance.lane_f64(i)]
+            }),
+        })
+        .collect()
+}
+
+/// Samples one `u` in `R`'s first lane.
+pub fn sample<S: Fixture, R: Real>(s: &S, u: [f32; 2]) -> V3 {
+    S::prepare::<R>(&[*s]).sample(squares_of(&[u])).at(0)
+}
+fn sample_at<S: Fixture>(s: &S, u: [f64; 2]) -> V3 {
+    S::prepare::<f64>(&[*s]).sample(Vec2::new(u[0], u[1])).at(0)
+}
+
+/// **Total**: results are finite for any parameters; pdf ≥ 0; no point lies beyond the radius; the inverse of any finite direction is in
+/// [0, 1)².
+pub fn total<S: Fixture>(s: &S, u: [f32; 2]) {
+    total_at::<S, f32>(s, u);
+    total_at::<S, f64>(s, u);
+}
+fn total_at<S: Fixture, R: Real>(s: &S, u: [f32; 2]) {
+    let warp = S::prepare::<R>(&[*s]);
+    let seen = observe::<S, R>(&warp, squares_of(&[u]))[0];
+    let finite = seen.figures().iter().all(|x| x.is_finite());
+    let closed = |u: [f64; 2]| u.iter().all(|x| (0.0..1.0).contains(x));
+    assert!(finite && seen.pdf >= 0.0 && closed(seen.inverse), "not total: {s:?} at {u:?}: {seen:?}");
+    assert!(
+        // a subnormal length is rounded to its grid
+        length(seen.point) <= s.radius() * (1.0 + 8.0 * ULP) + 4e-45,
+        "not a unit vector, or too far: {s:?} at {u:?}: {seen:?}"
+    );
+    for w in [[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-0.6, 0.8, -0.0], [1e-30, -1e-42, 1.0]] {
+        let point = S::Point::<R>::gather(&[w]);
+        let (pdf, inverse) = (warp.pdf(point).lane_f64(0), warp.invert(point).at(0));
+        assert!(
+            pdf.is_finite() && pdf >= 0.0 && closed([inverse[0], inverse[1]]),
+            "not total: {s:?} for {w:?}: pdf {pdf}, inverse {inverse:?}"
+        );
+    }
+}
+
+/// **Lane-identical**: f32, f32x4 and f32x8 give the same bits, with other parameters in each lane; so do a splatted scalar warp, and f64
+/// and f64x4.
+pub fn lanes<S: Fixture>(subjects: &[S; 8], us: &[[f32; 2]; 8]) {
+    let scalars: Vec<_> =
+        (0..8).map(|i| observe::<S, f32>(&S::prepare::<f32>(&subjects[i..=i]), squares_of(&us[i..=i]))[0]).collect();
+    same(subjects, us, &scalars, &observe::<S, f32x8>(&S::prepare(subjects), squares_of(us)), "f32x8");
+    for half in [0..4, 4..8] {
+        let (subjects, us) = (&subjects[half.clone()], &us[half.clone()]);
+        same(
+            subjects,
+            us,
+            &scalars[half.clone()],
+            &observe::<S, f32x4>(&S::prepare(subjects), squares_of(us)),
+            "f32x4",
+        );
+        let doubles: Vec<_> = (0..4)
+            .map(|i| observe::<S, f64>(&S::prepare::<f64>(&subjects[i..=i]), squares_of(&us[i..=i]))[0])
+            .collect();
+        same(subjects, us, &doubles, &observe::<S, f64x4>(&S::prepare(subjects), squares_of(us)), "f64x4");
+    }
+    let splatted = S::splat::<f32x8>(S::prepare::<f32>(&subjects[..1]));
+    let alone = S::prepare::<f32>(&subjects[..1]);
+    let expected: Vec<_> = us.iter().map(|u| observe::<S, f32>(&alone, squares_of(&[*u]))[0]).collect();
+    same(&[subjects[0]; 8], us, &expected, &observe::<S, f32x8>(&splatted, squares_of(us)), "splat");
+}
+fn same<S: Fixture>(subjects: &[S], us: &[[f32; 2]], expected: &[Observed], packet: &[Observed], name: &str) {
+    for i in 0..expected.len() {
+        let bits = |o: &Observed| o.figures().map(f64::to_bits);
+        assert!(
+            bits(&expected[i]) == bits(&packet[i]),
+            "{name} differs in lane {i}: {:?} at {:?}:\n{:?}\n{:?}",
+            subjects[i],
+            us[i],
+            expected[i],
+            packet[i]
+        );
+    }
+}
+
+/// **Threshold-free**: multiplying all lengths by 2^±20 (and by powers between) changes no bit of a point or a pdf.
+pub fn scale<S: Fixture>(s: &S, u: [f32; 2]) {
+    let one = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
+    for power in [-20, -7, 1, 20] {
+        let factor = 2.0_f32.powi(power);
+        let other = observe::<S, f32>(&S::prepare::<f32>(&[s.scaled(factor)]), squares_of(&[u]))[0];
+        let mut expected = one;
+        expected.sighting[3] = other.sighting[3];
+        assert!(
+            expected.figures().map(f64::to_bits) == other.figures().map(f64::to_bits),
+            "scaled by 2^{power}: {s:?} at {u:?}:\n{one:?}\n{other:?}"
+        );
+    }
+}
+
+/// Rounding error of a point's coordinates, for rounding by `ulp`.
+fn rounding<S: Fixture>(s: &S, ulp: f64) -> f64 {
+    ulp * s.granularity()
+}
+
+/// **Closed**: `sample(invert(w)) = w` and `invert(sample(u)) = u`, as far as a rounded direction allows, at both precisions.
+///
+/// A direction is known to `round_trip` units of its rounding, which makes an error in `u` of that times the pseudo-inverse of the map's
+/// derivative. Where this exceeds 1 % of the square (the azimuth near a pole, shapes too small for a rounded direction), only the first
+/// form is tested: the two points must agree to within the steps of `u` itself, 2⁻²⁴.
+///
+/// Returns the greatest error, in units of the rounding.
+pub fn closed<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
+    closed_at::<S, f32>(s, u, ULP).max(closed_at::<S, f64>(s, u, ULP_F64))
+}
+fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
+    let seen = observe::<S, R>(&S::prepare::<R>(&[*s]), squares_of(&[u]))[0];
+    let known = s.tolerance().round_trip * rounding(s, ulp);
+    let mut greatest = points_agree(s, seen.point, seen.inverse, known);
+    let u = [f64::from(u[0]), f64::from(u[1])];
+    let h = 1.0 / 4096.0;
+    if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || s.torn(u, h) || s.torn(seen.inverse, h) {
+        // at the ends of the square, derivatives vanish or grow without bound; beside a jump, either side is right
+        return greatest / rounding(s, ulp);
+    }
+    let slope = |axis: usize| {
+        let (mut low, mut high) = (u, u);
+        low[axis] = (u[axis] - h).max(0.0);
+        high[axis] = (u[axis] + h).min(1.0 - ULP);
+        let step = high[axis] - low[axis];
+        sub(s.metric(sample_at(s, high)), s.metric(sample_at(s, low))).map(|x| x / step)
+    };
+    let (a, b) = (slope(0), slope(1));
+    let area = length(cross(a, b)).max(1e-300);
+    let both = [(0, length(b)), (1, length(a))];
+    if both.iter().any(|&(axis, across)| u[axis].min(1.0 - u[axis]) <= known * across / area) {
+        // beyond the end of the square, a neighbouring triangle may begin
+        return greatest / rounding(s, ulp);
+    }
+    for (axis, across) in both {
+        let allowed = known * across / area;
+        let grid = s.inverse_units(u) * ULP;
+        let mut error = (seen.inverse[axis] - u[axis]).abs();
+        if S::PERIODIC && axis == 1 {
+            error = error.min(1.0 - error);
+        }
+        assert!(
+            allowed > 0.01 || error <= allowed + grid,
+            "round trip: {s:?} at {u:?}: {:?}, error {error:e}, allowed {allowed:e} + {grid:e}",
+            seen.inverse
+        );
+        if allowed <= 0.01 {
+            greatest = greatest.max((error - grid) * area / across);
+        }
+    }
+    greatest / rounding(s, ulp)
+}
+
+/// **Closed** for points that did not come from `sample`: `sample(invert(w)) = w` at the point `st` of the chart.
+pub fn onto<S: Fixture>(s: &S, st: [f64; 2]) -> f64 {
+    inverse(s, s.chart(st[0], st[1]).0)
+}
+/// **Closed** at a given point: `sample(invert(w)) = w`.
+pub fn inverse<S: Fixture>(s: &S, w: V3) -> f64 {
+    let warp = S::prepare::<f32>(&[*s]);
+    let point = S::Point::<f32>::gather(&[w]);
+    let inverse = warp.invert(point).at(0);
+    points_agree(s, point.at(0), [inverse[0], inverse[1]], s.tolerance().round_trip * rounding(s, ULP))
+        / rounding(s, ULP)
+}
+fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> f64 {
+    if !s.reachable(point) || s.torn(inverse, 16.0 * ULP) {
+        return 0.0;
+    }
+    let again = sample_at(s, inverse);
+    let error = s.distance(again, point);
+    let step = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
+        .map(|d| {
+            // up to 1 inclusive: the last step of the grid is as long as any other
+            let u = [(inverse[0] + d[0]).clamp(0.0, 1.0), (inverse[1] + d[1]).clamp(0.0, 1.0)];
+            s.distance(sample_at(s, u), again)
+        })
+        .into_iter()
+        .fold(0.0, f64::max);
+    let units = s.inverse_steps();
+    assert!(
+        error <= known + units * step,
+        "inverse: {s:?}: {point:?} inverts to {inverse:?}, which maps to a point {error:e} away; allowed {known:e} + {units}·{step:e}"
+    );
+    error - units * step
+}
+
+/// The pdf is the true one, at a sample and at a point of the chart.
+///
+/// Returns the relative error in units in the last place, divided by the condition.
+pub fn pdf<S: Fixture>(s: &S, u: [f32; 2], st: [f64; 2]) -> f64 {
+    // the oracles are accurate to 1e-13
+    density_at::<S, f32>(s, u, st, ULP).max(density_at::<S, f64>(s, u, st, 1e-13))
+}
+fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -> f64 {
+    let mut greatest = 0.0_f64;
+    let warp = S::prepare::<R>(&[*s]);
+    let chart = S::Point::<R>::gather(&[s.chart(st[0], st[1]).0]);
+    for point in [warp.sample(squares_of(&[u])), chart] {
+        let (pdf, truth) = (warp.pdf(point).lane_f64(0), s.true_pdf(point.at(0)));
+        let slack = s.tolerance().pdf * ulp * (s.gradient() + s.pdf_slack(point.at(0)));
+        let allowed = s.tolerance().pdf * ulp * truth * s.condition() + slack;
+        assert!(
+            (pdf - truth).abs() <= allowed && (pdf > 0.0 || truth <= slack),
+            "density: {s:?} at {u:?} or {st:?}: {pdf}, truth {truth}: relative {:e}, allowed {:e}",
+            pdf / truth - 1.0,
+            allowed / truth
+        );
+        if truth > 0.0 {
+            greatest = greatest.max((pdf - truth).abs() * s.tolerance().pdf / allowed);
+        }
+    }
+    greatest
+}
+
+/// The pdf is 0 outside the shape: 16 units in the last place beyond its boundary, and further away.
+pub fn outside<S: Fixture>(s: &S, random: &mut Random) {
+    for margin in [16.0 * ULP, 1e-3, 0.1] {
+        if let Some(w) = s.outside(margin, random) {
+            let pdf = S::prepare::<f32>(&[*s]).pdf(S::Point::<f32>::gather(&[w])).lane_f64(0);
+            assert!(pdf == 0.0, "pdf {pdf} outside {s:?} by {margin:e}, at {w:?}");
+        }
+    }
+}
+
+/// The map takes an area du to du/pdf: its derivative is a five-point formula in f64.
+///
+/// Returns the relative error.
+pub fn jacobian<S: Fixture>(s: &S, u: [f64; 2]) -> f64 {
+    let h = 1e-3;
+    let inner = u.map(|x| 0.05 + 0.9 * x);
+    if !s.smooth(inner) {
+        return 0.0;
+    }
+    let slope = |axis: usize| {
+        let at = |k: f64| {
+            let mut u = inner;
+            u[axis] += k * h;
+            sample_at(s, u)
+        };
+        let (near, far) = (sub(at(1.0), at(-1.0)), sub(at(2.0), at(-2.0)));
+        sub(near.map(|x| x * 8.0), far).map(|x| x / (12.0 * h))
+    };
+    let area = length(cross(slope(0), slope(1)));
+    let point = sample_at(s, inner);
+    let product = area * s.true_pdf(point);
+    let allowed = tolerances::JACOBIAN + 6.0 * ULP_F64 / (h * s.extent()[1]);
+    assert!((product - 1.0).abs() <= allowed, "area × pdf = {product}: {s:?} at {inner:?}, allowed {allowed:e}");
+    (product - 1.0).abs()
+}
+
+/// **Accurate**: f32 agrees with f64 in the same code, for the point and, if there is one, the distance.
+///
+/// Returns the point's error in units of its rounding or the distance's in units in the last place, whichever is greater.
+pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
+    let narrow = observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0];
+    let warp = S::prepare::<f64>(&[*s]);
+    let at = |u: [f64; 2]| observe::<S, f64>(&warp, Vec2::new(u[0], u[1]))[0];
+    let u = u.map(f64::from);
+    let wide = at(u);
+    let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
+        // up to 1 inclusive: rounding may go beyond the last step of the grid
+        .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0), (u[1] + d[1]).clamp(0.0, 1.0)]));
+    let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).fold(0.0, f64::max);
+    let excess =
+        s.distance(narrow.point, wide.point) - s.tolerance().steps * step(&|o| s.distance(o.point, wide.point));
+    let point = excess / rounding(s, ULP);
+    assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
+    let (d, e) = (narrow.sighting[3], wide.sighting[3]);
+    // the distance belongs to the sampled direction, and moves by as many steps
+    let steps = s.tolerance().steps.max(4.0);
+    let excess = (d - e).abs() - steps * step(&|o| (o.sighting[3] - e).abs());
+    let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
+    assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
+    point.max(distance)
+}
+
+/// **Within reach**: no sampled point lies farther than the farthest vertex of a flat shape, however ill-conditioned the distance at
+/// grazing angles.
+///
+/// Returns the excess in units in the last place.
+pub fn within_reach<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
+    let (distance, reach) =
+        (observe::<S, f32>(&S::prepare::<f32>(&[*s]), squares_of(&[u]))[0].sighting[3], s.farthest());
+    if reach == 0.0 {
+        return 0.0;
+    }
+    let excess = (distance / reach - 1.0) / ULP;
+    assert!(excess <= tolerances::REACH, "{excess:e} units beyond the farthest vertex: {s:?} at {u:?}");
+    excess.max(0.0)
+}
+
+/// ∫ pdf = 1 over the independent parameterisation. The f64 code is used where the pdf varies over a shape too small for a rounded
+/// direction.
+pub fn integral<S: Fixture>(s: &S) -> f64 {
+    if s.extent()[1] > tolerances::RESOLVED * s.granularity() || s.gradient() == 0.0 {
+        integral_of::<S, f32>(s, ULP)
+    } else {
+        integral_of::<S, f64>(s, 1e-13)
+    }
+}
+fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
+    let warp = S::prepare::<R>(&[*s]);
+    let mut pdf = |a: f64, b: f64| {
+        let (point, measure) = s.chart(a, b);
+        measure * warp.pdf(S::Point::<R>::gather(&[point])).lane_f64(0)
+    };
+    let sum = integrate(&mut pdf, [0.0; 2], [1.0; 2], s.quadrature());
+    let allowed = s.tolerance().pdf * s.condition() * ulp + s.quadrature() * tolerances::QUADRATURE / 1e-9;
+    assert!((sum - 1.0).abs() <= allowed, "∫pdf = {sum}: {s:?}, allowed error {allowed:e}");
+    (sum - 1.0).abs()
+}
+
+/// χ² of 2²⁰ samples against the true pdf, over 16 × 16 cells of the independent parameterisation. A shape too small for a rounded
+/// direction uses 2¹⁸ samples of the f64 code instead.
+///
+/// Returns the p-value.
+pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
+    if s.extent()[1] > tolerances::RESOLVED * s.granularity() {
+        chi_square_of::<S, f32x8>(s, seed, 1 << 20)
+    } else {
+        chi_square_of::<S, f64x4>(s, seed, 1 << 18)
+    }
+}
+fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
+    const N: usize = 16;
+    let cells = N as f64;
+    let expected: Vec<f64> = (0..N * N)
+        .map(|i| {
+            let (x, y) = ((i % N) as f64 / cells, (i / N) as f64 / cells);
+            let mut f = |a, b| {
+                let (w, measure) = s.chart(a, b);
+                measure * s.true_pdf(w)
+            };
+            integrate(&mut f, [x, y], [x + 1.0 / cells, y + 1.0 / cells], 1e-6) * n as f64
+        })
+        .collect();
+    let warp = S::prepare::<R>(&[*s]);
+    let mut random = Random::new(seed);
+    let mut observed = vec![0_u64; N * N];
+    for _ in 0..n / R::LANES {
+        let mut axis = || R::from_fn(|_| R::Scalar::lit(f64::from(random.unit())));
+        let x = axis();
+        let points = warp.sample(Vec2::new(x, axis()));
+        for i in 0..R::LANES {
+            let [a, b] = s.locate(points.at(i)).map(|x| ((x * cells) as usize).min(N - 1));
+            observed[a + b * N] += 1;
+        }
+    }
+    let p = stats::chi_square(&observed, &expected);
+    assert!(p > SIGNIFICANCE, "χ²: {s:?}: p = {p:e}");
+    p
+}
+
+/// The properties that hold for any parameters whatever.
+pub fn any_bits<S: Fixture>(s: &S, u: [f32; 2]) {
+    total(s, u);
+    lanes(&[*s; 8], &core::array::from_fn(|i| [u[0], (u[1] + i as f32 / 8.0).fract()]));
+}
+
+/// The properties that hold in the regimes of [`generators`](crate::generators), at one `u`.
+pub fn pointwise<S: Fixture>(s: &S, u: [f32; 2], random: &mut Random) {
+    total(s, u);
+    scale(s, u);
+    accurate(s, u);
+    closed(s, u);
+    let st = [random.unit_f64(), random.unit_f64()];
+    pdf(s, u, st);
+    onto(s, st);
+    outside(s, random);
+    jacobian(s, [random.unit_f64(), random.unit_f64()]);
+}

@@ -1,0 +1,391 @@
+//! Lights by one technique each, and the properties of their samples.
+
+use crate::properties::{Coordinates, lanes_of, squares_of, vectors_of};
+use crate::tolerances::ULP;
+use core::f64::consts::{PI, TAU};
+use core::fmt::Debug;
+use etendue::{
+    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle,
+    Sphere, Triangle, Vec2, Vec3, f32x4, f32x8,
+};
+use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
+
+/// A light with its parameters, seen from a point, and one way of sampling it.
+pub trait Technique: Copy + Debug {
+    /// The light prepared for its shading point; lane `i` from `lanes[i % lanes.len()]`.
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>>;
+    /// Relative difference allowed between the pdf of a sample and the pdf of its direction; `None` where the direction says nothing.
+    fn evaluated_to(&self, _sample: &LightSample<f32>) -> Option<f64> {
+        Some(0.0)
+    }
+    /// How far from 1 the length of a direction may be.
+    fn unit_to(&self) -> f64 {
+        12.0 * ULP
+    }
+    /// Truth: density per steradian of a point of the light in the direction `w` at `distance`, and to what part of itself it is known
+    /// for a rounded direction.
+    fn truth(&self, _w: V3, _distance: f64) -> Option<(f64, f64)> {
+        None
+    }
+    /// All lengths times a power of two.
+    #[must_use]
+    fn scaled(&self, _factor: f32) -> Self {
+        *self
+    }
+    /// What the pdf is multiplied by then: lines have one per unit of width.
+    fn pdf_scaled(&self, _factor: f32) -> f32 {
+        1.0
+    }
+}
+
+/// All numbers of one lane of a sample.
+fn figures<R: Real>(s: &LightSample<R>, i: usize) -> [f64; 12] {
+    let ([x, y, z], [nx, ny, nz]) = (s.direction.at(i), s.normal.at(i));
+    let truth = |m: R::Mask| f64::from(u8::from(m.lane(i)));
+    let number = |x: R| x.lane_f64(i);
+    let (u, v) = (number(s.uv.x), number(s.uv.y));
+    [
+        x,
+        y,
+        z,
+        number(s.distance),
+        number(s.pdf),
+        truth(s.emits),
+        truth(s.delta),
+        number(s.weight()),
+        nx,
+        ny,
+        nz,
+        u + 2.0 * v,
+    ]
+}
+
+/// All numbers that a sampler returns in one lane: a sample, the pdf, inverse and hit of its direction, and the area form.
+fn every_figure<R: Real>(sampler: &dyn LightSampler<R>, u: Vec2<R>, i: usize) -> Vec<f64> {
+    let s = sampler.sample(u);
+    let mut all = figures(&s, i).to_vec();
+    let inverse = sampler.invert(s.direction);
+    let number = |x: R| x.lane_f64(i);
+    all.extend([number(sampler.pdf(s.direction)), number(inverse.x), number(inverse.y)]);
+    all.extend(figures(&sampler.hit(s.direction), i));
+    let area = sampler.area_sample(u);
+    all.extend(area.point.at(i));
+    all.push(number(area.pdf));
+    all
+}
+
+/// **Total** and **lane-identical**: every number is finite; pdf, distance and inverse are in range; the direction is a unit vector where
+/// the pdf is not 0; every width gives the same bits.
+pub fn any_bits<T: Technique>(lights: &[T; 8], us: &[[f32; 2]; 8]) {
+    let (eight, four) = (T::prepare::<f32x8>(lights), T::prepare::<f32x4>(&lights[..4]));
+    for i in 0..8 {
+        let (light, u) = (lights[i], us[i]);
+        let sampler = T::prepare::<f32>(&[light]);
+        let alone = sampler.sample(squares_of(&[u]));
+        let one = every_figure(&*sampler, squares_of(&[u]), 0);
+        let [x, y, z, distance, pdf, ..] = figures(&alone, 0);
+        assert!(one.iter().all(|x| x.is_finite()), "not finite: {light:?} at {u:?}: {alone:?}\n{one:?}");
+        assert!(pdf >= 0.0 && distance >= 0.0 && one[12] >= 0.0, "negative: {light:?} at {u:?}: {alone:?}");
+        assert!(one[13..15].iter().all(|x| (0.0..1.0).contains(x)), "inverse: {light:?} at {u:?}: {one:?}");
+        let off = (length([x, y, z]) - 1.0).abs();
+        assert!(
+            pdf == 0.0 || off <= light.unit_to(),
+            "not a unit vector, off by {off:e}: {light:?} at {u:?}: {alone:?}"
+        );
+        let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        let packets = [
+            (8, every_figure(&*eight, squares_of(us), i)),
+            (4, if i < 4 { every_figure(&*four, squares_of(&us[..4]), i) } else { one.clone() }),
+        ];
+        for (width, packet) in packets {
+            assert_eq!(bits(&one), bits(&packet), "{width} lanes, lane {i}: {light:?} at {u:?}:\n{one:?}\n{packet:?}");
+        }
+        let wide = every_figure(&*T::prepare::<f64>(&[light]), squares_of(&[u]), 0);
+        assert!(wide.iter().all(|x| x.is_finite()) && wide[4] >= 0.0, "f64: {light:?} at {u:?}: {wide:?}");
+    }
+}
+
+/// **One pdf**: that of a sample is the one that is evaluated for its direction, to the bit where the direction determines it; and a ray in
+/// that direction hits the light with it.
+pub fn one_pdf<T: Technique>(light: &T, u: [f32; 2]) {
+    let sampler = T::prepare::<f32>(&[*light]);
+    let s = sampler.sample(squares_of(&[u]));
+    let Some(allowed) = light.evaluated_to(&s) else { return };
+    if s.pdf > 0.0 {
+        let evaluated = sampler.pdf(s.direction);
+        let hit = sampler.hit(s.direction);
+        if allowed > 0.0 && hit.distance < 0.999 * s.distance {
+            // another sheet of a twisted patch hides the sample
+            return;
+        }
+        let off = (f64::from(evaluated) / f64::from(s.pdf) - 1.0).abs();
+        let same = if allowed == 0.0 { evaluated.to_bits() == s.pdf.to_bits() } else { off <= allowed };
+        assert!(same, "two pdfs: {evaluated} evaluated, {} sampled, allowed {allowed:e}: {light:?} at {u:?}", s.pdf);
+        let reached = hit.pdf.to_bits() == evaluated.to_bits() && hit.emits == s.emits;
+        assert!(s.delta || reached, "not hit: {hit:?} for {s:?}: {light:?} at {u:?}");
+    }
+}
+
+/// The density is the truth for the point that was drawn.
+pub fn measure<T: Technique>(light: &T, u: [f32; 2]) {
+    let s = T::prepare::<f32>(&[*light]).sample(squares_of(&[u]));
+    let Some((truth, known)) = light.truth(s.direction.at(0), f64::from(s.distance)) else { return };
+    // what is next to a number's end, or known to less than a tenth, tells nothing
+    let fair = (1e-15..1e15).contains(&s.distance) && (1e-30..1e30).contains(&truth);
+    if s.pdf > 0.0 && known < 0.1 && fair {
+        let off = (f64::from(s.pdf) / truth - 1.0).abs();
+        assert!(off <= known, "pdf {} for {truth}: off by {off:e}, allowed {known:e}: {light:?} at {u:?}", s.pdf);
+    }
+}
+
+/// **Threshold-free**: lengths times a power of two change no bit of a direction, and none of a density, but for its exponent.
+pub fn scale<T: Technique>(light: &T, u: [f32; 2]) {
+    let one = T::prepare::<f32>(&[*light]).sample(squares_of(&[u]));
+    for power in [-20, -7, 1, 20] {
+        let factor = 2.0_f32.powi(power);
+        let other = T::prepare::<f32>(&[light.scaled(factor)]).sample(squares_of(&[u]));
+        let (mut expected, other) = (figures(&one, 0), figures(&other, 0));
+        expected[3] *= f64::from(factor);
+        expected[4] *= f64::from(light.pdf_scaled(factor));
+        expected[7] /= f64::from(light.pdf_scaled(factor));
+        assert_eq!(
+            expected.map(f64::to_bits),
+            other.map(f64::to_bits),
+            "scaled by 2^{power}: {light:?} at {u:?}:\n{expected:?}\n{other:?}"
+        );
+    }
+}
+
+/// What is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightShape {
+    /// About `a`, of the radius.
+    Sphere,
+    /// `a`, and edges `b` and `c`.
+    Triangle,
+    /// `a`, and edges `b` and `c`.
+    Parallelogram,
+    /// `a`, and edges `b` and `c`.
+    Rectangle,
+    /// About `a`, with normal `b`, of the radius.
+    Disk,
+    /// From `a` along `b`, of the radius.
+    Cylinder,
+    /// `a`, `a` + `b`, `a` + `b` + `c`, `a` + `c`.
+    Polygon,
+    /// `a`, and from there `b`, `c` and, to the opposite corner, `n`.
+    Patch,
+    /// From `a` along `b`.
+    Line,
+}
+/// How.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Uniform by area; by length of a line.
+    Area,
+    /// Uniform by solid angle; by angle of a line.
+    SolidAngle,
+    /// Uniform by solid angle projected on `n` as a normal.
+    ProjectedSolidAngle,
+    /// Measure solid angle, warped towards the cosine to `n`.
+    CosineWarp,
+}
+
+/// Any light with a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct AreaLight {
+    /// What.
+    pub shape: LightShape,
+    /// How.
+    pub by: Measure,
+    /// The shading point.
+    pub p: [f32; 3],
+    /// Corner or centre.
+    pub a: [f32; 3],
+    /// Edge, normal or axis.
+    pub b: [f32; 3],
+    /// Edge.
+    pub c: [f32; 3],
+    /// Unit normal at the shading point; a patch's third edge.
+    pub n: [f32; 3],
+    /// Radius.
+    pub radius: f32,
+}
+
+impl AreaLight {
+    /// All shapes by all techniques.
+    pub const KINDS: [(LightShape, Measure); 23] = [
+        (LightShape::Sphere, Measure::Area),
+        (LightShape::Sphere, Measure::SolidAngle),
+        (LightShape::Sphere, Measure::ProjectedSolidAngle),
+        (LightShape::Triangle, Measure::Area),
+        (LightShape::Triangle, Measure::SolidAngle),
+        (LightShape::Triangle, Measure::ProjectedSolidAngle),
+        (LightShape::Triangle, Measure::CosineWarp),
+        (LightShape::Parallelogram, Measure::Area),
+        (LightShape::Parallelogram, Measure::SolidAngle),
+        (LightShape::Parallelogram, Measure::ProjectedSolidAngle),
+        (LightShape::Rectangle, Measure::Area),
+        (LightShape::Rectangle, Measure::SolidAngle),
+        (LightShape::Rectangle, Measure::CosineWarp),
+        (LightShape::Disk, Measure::Area),
+        (LightShape::Disk, Measure::SolidAngle),
+        (LightShape::Cylinder, Measure::Area),
+        (LightShape::Polygon, Measure::Area),
+        (LightShape::Polygon, Measure::SolidAngle),
+        (LightShape::Polygon, Measure::ProjectedSolidAngle),
+        (LightShape::Patch, Measure::Area),
+        (LightShape::Line, Measure::Area),
+        (LightShape::Line, Measure::SolidAngle),
+        (LightShape::Line, Measure::ProjectedSolidAngle),
+    ];
+    fn vectors<R: Real>(lanes: &[Self]) -> ([Vec3<R>; 5], R) {
+        let of = |i: usize| lanes[i % lanes.len()];
+        let vectors = [
+            vectors_of(|i| of(i).p),
+            vectors_of(|i| of(i).a),
+            vectors_of(|i| of(i).b),
+            vectors_of(|i| of(i).c),
+            vectors_of(|i| of(i).n),
+        ];
+        (vectors, lanes_of(|i| f64::from(of(i).radius)))
+    }
+    /// True for a patch that folds back on itself, or nearly: seen along its middle normal, no convex quadrilateral.
+    fn folded(&self) -> bool {
+        let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
+        let twist = sub(sub(w, u), v);
+        let normal = |s: f64, t: f64| cross(along(u, twist, t), along(v, twist, s));
+        let middle = normal(0.5, 0.5);
+        let corners = [normal(0.0, 0.0), normal(1.0, 0.0), normal(0.0, 1.0), normal(1.0, 1.0)];
+        !corners.into_iter().all(|corner| dot(corner, middle) > 1e-3 * length(corner) * length(middle))
+    }
+    /// Coordinates of a point relative to `a`, rounded as the shape's own are.
+    fn offset(&self) -> V3 {
+        wide(core::array::from_fn(|k| self.a[k] - self.p[k]))
+    }
+}
+
+impl Technique for AreaLight {
+    fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
+        let ([p, a, b, c, n], radius) = Self::vectors::<R>(lanes);
+        let sphere = Sphere::new(a, radius);
+        let triangle = Triangle { v0: a, e1: b, e2: c };
+        let parallelogram = Parallelogram::new(a, b, c);
+        let rectangle = Rectangle::new(a, b, c);
+        let disk = Disk::new(a, b, radius);
+        let polygon = Polygon::new([a, a + b, a + b + c, a + c]);
+        let line = Line::new(a, b);
+        match (lanes[0].shape, lanes[0].by) {
+            (LightShape::Sphere, Measure::SolidAngle) => Box::new(sphere.by_solid_angle(p)),
+            (LightShape::Sphere, Measure::ProjectedSolidAngle) => Box::new(sphere.by_projected_solid_angle(p, n)),
+            (LightShape::Sphere, _) => Box::new(sphere.by_area(p)),
+            (LightShape::Triangle, Measure::SolidAngle) => Box::new(triangle.by_solid_angle(p)),
+            (LightShape::Triangle, Measure::ProjectedSolidAngle) => Box::new(triangle.by_projected_solid_angle(p, n)),
+            (LightShape::Triangle, Measure::CosineWarp) => Box::new(triangle.by_cosine_warp(p, n)),
+            (LightShape::Triangle, Measure::Area) => Box::new(triangle.by_area(p)),
+            (LightShape::Parallelogram, Measure::SolidAngle) => Box::new(parallelogram.by_solid_angle(p)),
+            (LightShape::Parallelogram, Measure::ProjectedSolidAngle) => {
+                Box::new(parallelogram.by_projected_solid_angle(p, n))
+            }
+            (LightShape::Parallelogram, _) => Box::new(parallelogram.by_area(p)),
+            (LightShape::Rectangle, Measure::SolidAngle) => Box::new(rectangle.by_solid_angle(p)),
+            (LightShape::Rectangle, Measure::CosineWarp) => Box::new(rectangle.by_cosine_warp(p, n)),
+            (LightShape::Rectangle, _) => Box::new(rectangle.by_area(p)),
+            (LightShape::Disk, Measure::SolidAngle) => Box::new(disk.by_solid_angle(p)),
+            (LightShape::Disk, _) => Box::new(disk.by_area(p)),
+            (LightShape::Cylinder, _) => Box::new(Cylinder::new(a, b, radius).by_area(p)),
+            (LightShape::Polygon, Measure::SolidAngle) => Box::new(polygon.by_solid_angle(p)),
+            (LightShape::Polygon, Measure::ProjectedSolidAngle) => Box::new(polygon.by_projected_solid_angle(p, n)),
+            (LightShape::Polygon, _) => Box::new(polygon.by_area(p)),
+            (LightShape::Patch, _) => Box::new(BilinearPatch::new(a, b, c, n).by_area(p)),
+            (LightShape::Line, Measure::SolidAngle) => Box::new(line.by_angle(p)),
+            (LightShape::Line, Measure::ProjectedSolidAngle) => Box::new(line.by_projected_solid_angle(p, n)),
+            (LightShape::Line, _) => Box::new(line.by_length(p)),
+        }
+    }
+    /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
+    /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
+    /// have the pdf of their own point.
+    fn evaluated_to(&self, s: &LightSample<f32>) -> Option<f64> {
+        let curved = matches!(self.shape, LightShape::Sphere | LightShape::Cylinder | LightShape::Patch);
+        if self.shape != LightShape::Line && !(curved && self.by == Measure::Area) {
+            return Some(0.0);
+        }
+        let cos = dot(s.direction.at(0), s.normal.at(0));
+        if self.shape == LightShape::Line {
+            let allowed = 32.0 * ULP / cos.abs();
+            return (allowed < 0.05).then_some(allowed);
+        }
+        if self.shape == LightShape::Patch && self.folded() {
+            return None;
+        }
+        let (size, reach) = match self.shape {
+            LightShape::Patch => {
+                (length(wide(self.b)).min(length(wide(self.c))), f64::from(s.distance) + length(wide(self.n)))
+            }
+            _ => (f64::from(self.radius), f64::from(s.distance) + length(wide(self.b)) + length(self.offset())),
+        };
+        let allowed = 32.0 * ULP * (1.0 + reach / size) / (cos * cos);
+        (s.emits && allowed < 0.05).then_some(allowed)
+    }
+    fn truth(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
+        // of a patch no density is known, and the corners of a polygon are rounded
+        if self.by != Measure::Area || matches!(self.shape, LightShape::Patch | LightShape::Polygon) {
+            return None;
+        }
+        let (a, b, c, r) = (self.offset(), wide(self.b), wide(self.c), f64::from(self.radius));
+        let from = |center: V3| sub(w.map(|x| x * distance), center);
+        // normal, not of unit length, and the area; what a rounded point does to the normal
+        let (normal, area, turned) = match self.shape {
+            LightShape::Sphere => (from(a), 2.0 * TAU * r * r, distance / r.abs()),
+            LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
+            LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
+            LightShape::Disk => (b, PI * r * r, 0.0),
+            LightShape::Cylinder => {
+                let x = from(a);
+                let along = dot(x, b) / dot(b, b);
+                (core::array::from_fn(|k| x[k] - b[k] * along), TAU * r.abs() * length(b), distance / r.abs())
+            }
+            // what is across the direction
+            LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
+            LightShape::Polygon | LightShape::Patch => return None,
+        };
+        // what is subnormal has few digits
+        if !(1e-36..1e36).contains(&area) {
+            return None;
+        }
+        let cos = dot(w, normal).abs() / length(normal);
+        // a product that cancels is known no better than its factors
+        let sine = length(cross(b, c)) / (length(b) * length(c));
+        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
+        let slim = if flat { 8.0 / sine } else { 0.0 };
+        let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP;
+        if flat || self.shape == LightShape::Disk {
+            // the direction determines the distance, by its cosine, of which the pdf is a third power
+            let distance = dot(a, normal).abs() / (length(normal) * cos);
+            return Some((distance * distance / (cos * area), 3.0 * known));
+        }
+        Some((distance * distance / (cos * area), known))
+    }
+    /// Flat shapes by projected solid angle, seen from their own plane or a corner but for rounding, have directions of any length up to 1.
+    fn unit_to(&self) -> f64 {
+        let (v, normal) = (self.offset(), cross(wide(self.b), wide(self.c)));
+        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon);
+        let size = length(wide(self.b)) + length(wide(self.c));
+        let edge_on = !(dot(v, normal).abs() > 1e-4 * length(v) * length(normal) && length(v) > 1e-4 * size);
+        // what is subnormal has few digits
+        let touched = self.shape == LightShape::Line && length(v) < 1e-4 * size || length(v) < 1e-37;
+        let coarse = flat && edge_on && self.by == Measure::ProjectedSolidAngle || touched;
+        if coarse { 1.0 } else { 12.0 * ULP }
+    }
+    fn pdf_scaled(&self, factor: f32) -> f32 {
+        if self.shape == LightShape::Line { factor } else { 1.0 }
+    }
+    fn scaled(&self, factor: f32) -> Self {
+        let times = |v: [f32; 3]| v.map(|x| x * factor);
+        // directions stay
+        let b = if self.shape == LightShape::Disk { self.b } else { times(self.b) };
+        let n = if self.shape == LightShape::Patch { times(self.n) } else { self.n };
+        Self { p: times(self.p), a: times(self.a), b, c: times(self.c), n, radius: self.radius * factor, ..*self }
+    }
+}
