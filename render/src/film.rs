@@ -1,7 +1,7 @@
 //! Accumulates the mean and variance of pixels into an image.
 
 use crate::packet::{V8, X8};
-use etendue::{Real, estimate::Welford};
+use etendue::{Real, estimate::Welford, select::Allocated};
 
 /// The finished estimate of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,10 +61,25 @@ pub struct PixelSum {
     taken: u32,
 }
 
-impl PixelSum {
-    /// Adds eight samples of this pixel and replicate.
+/// Accumulates the samples of one pixel after another.
+pub trait Accumulator {
+    /// What is known of a pixel in the end.
+    type Output: Clone + Copy + Default + Send;
+    /// Adds eight samples of one set, and the lights to which they were allocated, if they were.
+    fn push_packet(&mut self, radiance: V8, allocated: Option<&Allocated<'_, X8>>);
+    /// Adds one sample.
+    fn push(&mut self, radiance: [f32; 3]);
+    /// Ends a set of samples that are not independent.
+    fn end_set(&mut self);
+    /// Returns the pixel, and starts the next one.
+    fn finish(&mut self) -> Self::Output;
+}
+
+impl Accumulator for PixelSum {
+    type Output = Pixel;
+
     #[inline]
-    pub fn push_packet(&mut self, radiance: V8) {
+    fn push_packet(&mut self, radiance: V8, _: Option<&Allocated<'_, X8>>) {
         self.packets += 1;
         self.taken += 8;
         for (lane, x) in self.lanes.iter_mut().zip([radiance.x, radiance.y, radiance.z]) {
@@ -74,14 +89,34 @@ impl PixelSum {
             self.flush();
         }
     }
-    /// Adds one sample.
     #[inline]
-    pub fn push(&mut self, radiance: [f32; 3]) {
+    fn push(&mut self, radiance: [f32; 3]) {
         self.taken += 1;
         for (sum, x) in self.samples.iter_mut().zip(radiance) {
             sum.push(f64::from(x));
         }
     }
+    fn end_set(&mut self) {
+        self.flush();
+        for (sum, samples) in self.replicates.iter_mut().zip(&self.samples) {
+            sum.push(samples.mean());
+        }
+        self.samples = Default::default();
+    }
+    fn finish(&mut self) -> Pixel {
+        self.flush();
+        let sums = if self.replicates[0].count() > 0.0 { self.replicates } else { self.samples };
+        let pixel = Pixel {
+            mean: sums.map(|s| s.mean() as f32),
+            variance: sums.map(|s| (s.variance() / s.count()) as f32),
+            samples: self.taken,
+        };
+        *self = Self::default();
+        pixel
+    }
+}
+
+impl PixelSum {
     fn flush(&mut self) {
         let n = f64::from(self.packets);
         if n == 0.0 {
@@ -95,26 +130,6 @@ impl PixelSum {
         }
         self.lanes = Default::default();
         self.packets = 0;
-    }
-    /// Ends a replicate.
-    pub fn end_replicate(&mut self) {
-        self.flush();
-        for (sum, samples) in self.replicates.iter_mut().zip(&self.samples) {
-            sum.push(samples.mean());
-        }
-        self.samples = Default::default();
-    }
-    /// Returns the pixel and resets the sum.
-    pub fn finish(&mut self) -> Pixel {
-        self.flush();
-        let sums = if self.replicates[0].count() > 0.0 { self.replicates } else { self.samples };
-        let pixel = Pixel {
-            mean: sums.map(|s| s.mean() as f32),
-            variance: sums.map(|s| (s.variance() / s.count()) as f32),
-            samples: self.taken,
-        };
-        *self = Self::default();
-        pixel
     }
     /// Returns the mean and sample count of an unfinished replicate, and resets the sum.
     pub fn take(&mut self) -> ([f64; 3], u32) {

@@ -5,10 +5,11 @@
 //! - [`packet`], [`geometry`], [`options`]: packets of eight numbers, the forms of shapes, and what command lines share.
 //! - [`film`], [`files`], [`image`], [`compare`]: pixels, and images in files.
 //! - [`scene`]: scene files.
-//! - [`bvh`]: what rays hit.
-//! - [`camera`], [`sensor`], [`sampler`], [`technique`], [`sky`], [`lights`]: the numbers and directions of a sample.
+//! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
+//! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
 //! - [`integrator`]: images.
 
+pub mod bsdf;
 pub mod bvh;
 pub mod camera;
 pub mod compare;
@@ -24,6 +25,7 @@ pub mod sampler;
 pub mod scene;
 pub mod sensor;
 pub mod sky;
+pub mod surfaces;
 pub mod technique;
 
 pub use integrator::{RayCount, Settings, World};

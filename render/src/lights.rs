@@ -1,16 +1,19 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
 
 use crate::bvh::NOTHING;
-use crate::packet::{M8, V8, X8, select};
-use crate::scene::{DeltaLight, Geometry, Scene};
+use crate::geometry::Geometry;
+use crate::packet::{M8, V8, X8, equal, select};
+use crate::scene::{DeltaLight, Scene};
 use crate::sky::Sky;
 use crate::technique::Measure;
+use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, PowerLights, SpatialLights};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2,
     Vec3, u32x8,
 };
 use std::sync::Arc;
 
+// kinds of lights, and a flag beside them
 const SPHERE: u32 = 0;
 const TRIANGLE: u32 = 1;
 const PARALLELOGRAM: u32 = 2;
@@ -20,60 +23,181 @@ const DISTANT: u32 = 5;
 const SKY: u32 = 6;
 const KINDS: u32 = 7;
 const TWO_SIDED: u32 = 8;
-/// The largest number of lights among which a packet chooses by comparing with all of them. The choice leaves enough digits of `u` for a
-/// point on the light.
-pub const FEW: usize = 32;
+const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT;
+const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM;
 
-/// Sixteen numbers per light, so that two transpositions gather eight lanes: geometry (9), radiance (3), pmf, start of its interval of u,
-/// kind and sides (bits), index of its shape (bits).
-type Record = [f32; 16];
-
-/// What the choice of a light needs of it: bounds of what it can contribute to a point.
-#[derive(Clone, Copy, Debug)]
-struct Reach {
-    center: [f32; 3],
-    /// Radius of a sphere around the light, in scene units.
-    radius: f32,
-    /// Unit normal of a flat light; 0 for a sphere.
-    normal: [f32; 3],
-    /// 1/4 for a sphere, whose area is four times its cross section; 0 for a flat light.
-    round: f32,
-    /// True for a flat light that emits from both sides.
-    two_sided: bool,
-    /// Power of one side, in units of π.
-    power: f32,
+/// A light, in two halves of eight numbers: two transpositions gather eight lights.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
+struct LightRecord {
+    /// Centre of a sphere, corner of a triangle or parallelogram, position of a point or spot light, direction to a distant light.
+    place: [f32; 3],
+    /// First edge of a triangle or parallelogram, axis of a spot light; a sphere has its radius in x.
+    first: [f32; 3],
+    /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y.
+    second: [f32; 3],
+    /// Radiance; intensity of a point or spot light, irradiance of a distant light.
+    radiance: [f32; 3],
+    /// Its kind, and [`TWO_SIDED`].
+    kind: u32,
+    /// Index of its shape, or [`NOTHING`].
+    shape: u32,
 }
 
-/// The lights of a scene, chosen in proportion to their power or to what they can contribute to a point.
+impl LightRecord {
+    fn halves(&self) -> [[f32; 8]; 2] {
+        let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
+        [
+            [a, b, c, d, e, f, g, h],
+            [i, red, green, blue, f32::from_bits(self.kind), f32::from_bits(self.shape), 0.0, 0.0],
+        ]
+    }
+    /// The bound of what a light with an area contributes, by its power.
+    fn bound(&self, power: f64) -> LightBound {
+        let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
+        let (p, u, v) = (wide(self.place), wide(self.first), wide(self.second));
+        let (center, radius, normal) = match self.kind & KINDS {
+            SPHERE => (p, f64::from(self.first[0]), Vec3::default()),
+            TRIANGLE => {
+                let center = p + (u + v) * (1.0 / 3.0);
+                let corners = [p, p + u, p + v];
+                (center, corners.into_iter().map(|c| (c - center).length()).fold(0.0, f64::max), u.cross(v))
+            }
+            _ => {
+                let center = p + (u + v) * 0.5;
+                (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
+            }
+        };
+        let length = normal.length();
+        let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
+        let two_sided = self.kind & TWO_SIDED != 0;
+        LightBound {
+            center: narrow(center),
+            // the rounding of the centre moves the sphere by less than this
+            radius: (radius * (1.0 + 1e-6)) as f32,
+            normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
+            two_sided: two_sided && length > 0.0,
+            power: power as f32 * if two_sided { 0.5 } else { 1.0 },
+        }
+    }
+}
+
+/// Chooses among any number of lights by their power: a block of neighbours by one number, a light of the block by another.
+#[derive(Debug, Default)]
+struct PowerTable {
+    /// Lights in a block, all but the last one.
+    block: usize,
+    blocks: Vec<f32>,
+    lights: Vec<f32>,
+}
+
+impl PowerTable {
+    fn new(powers: &[f64]) -> Self {
+        let block = if powers.len() <= PowerLights::MOST { powers.len().max(1) } else { powers.len().isqrt() };
+        let greatest = powers.iter().fold(f64::MIN_POSITIVE, |m, &p| m.max(p));
+        // relative to the greatest, so that all sums are finite
+        let powers: Vec<f32> = powers.iter().map(|p| (p / greatest) as f32).collect();
+        let mut table = Self { block, blocks: Vec::new(), lights: vec![0.0; powers.len()] };
+        let sums: Vec<f32> = powers.chunks(block).map(|powers| powers.iter().sum()).collect();
+        for (powers, sums) in powers.chunks(block).zip(table.lights.chunks_mut(block)) {
+            PowerLights::new(powers, sums).expect("a block is small enough");
+        }
+        table.blocks = vec![0.0; sums.len()];
+        PowerLights::new(&sums, &mut table.blocks).expect("less than 2²⁸ lights");
+        table
+    }
+    fn lights_of(&self, block: u32) -> PowerLights<'_> {
+        let start = block as usize * self.block;
+        let end = (start + self.block).min(self.lights.len());
+        PowerLights::from_buffer(self.lights.get(start..end).unwrap_or_default())
+    }
+    /// Chooses by `u`, and by `second` if there are blocks.
+    fn choose(&self, u: X8, second: X8) -> Choice<X8> {
+        let first = PowerLights::from_buffer(&self.blocks);
+        if self.blocks.len() == 1 {
+            return self.lights_of(0).choose(u);
+        }
+        let block: Choice<X8> = first.choose(u);
+        let each: [Choice<f32>; 8] =
+            std::array::from_fn(|i| self.lights_of(block.index.as_array()[i]).choose(second.as_array()[i]));
+        let size = u32x8::splat(self.block as u32);
+        Choice {
+            index: block.index * size + u32x8::new(std::array::from_fn(|i| each[i].index)),
+            pmf: block.pmf * X8::from_fn(|i| each[i].pmf),
+            u: X8::from_fn(|i| each[i].u),
+        }
+    }
+    fn pmf(&self, light: u32) -> f32 {
+        let block = light / self.block as u32;
+        let within: f32 = self.lights_of(block).pmf(light % self.block as u32);
+        if self.blocks.len() == 1 {
+            return within;
+        }
+        let block: f32 = PowerLights::from_buffer(&self.blocks).pmf(block);
+        block * within
+    }
+}
+
+/// The lights of a scene.
 #[derive(Debug)]
 pub struct Lights {
-    records: Vec<Record>,
-    /// One per light if there are 2 to [`FEW`] lights and all have an area; otherwise empty.
-    reaches: Vec<Reach>,
-    /// Upper ends of the intervals of `u`; the last is 1.
-    ends: Vec<f32>,
+    records: Vec<LightRecord>,
+    /// For 2 to [`FEW`] lights that all have an area.
+    spatial: Option<SpatialLights>,
+    powers: PowerTable,
     /// Bit k is set if there is a light of kind k.
     kinds: u32,
     sky: Option<Arc<Sky>>,
-    /// Pmf of each shape of the scene; 0 for shapes that are not lights.
-    shape_probabilities: Vec<f32>,
-    /// Index of the light of each shape.
+    /// Index of the light of each shape; [`NOTHING`] for shapes that are not lights.
     shape_lights: Vec<u32>,
-    sky_probability: f32,
 }
 
-/// What each light can contribute to the points of a packet: power · cosθ cosθ' / d² for its centre. cosθ is that of the direction within
-/// the light's bounding sphere that is nearest to the normal, and d is at least the radius of the sphere. It is 0 only where the light is
-/// below the horizon or faces away.
-pub struct Near {
-    /// Sums of the contributions up to and including each light.
-    ends: [X8; FEW],
+/// How a packet chooses among the lights.
+#[derive(Clone, Copy)]
+pub enum Chooser<'a> {
+    /// This light in every lane.
+    Given(u32),
+    /// By power; the second number is for more lights than one table holds.
+    Power(PowerChoice<'a>),
+    /// By what each light can contribute.
+    Near(LightsAt<X8>),
+    /// By an allocation of the samples.
+    Allocated(Allocated<'a, X8>),
 }
 
-impl Near {
-    /// The contribution of each light.
-    pub fn parts(&self, lights: usize) -> impl Iterator<Item = X8> {
-        (0..lights).map(|k| if k == 0 { self.ends[0] } else { self.ends[k] - self.ends[k - 1] })
+/// A choice by power.
+#[derive(Clone, Copy)]
+pub struct PowerChoice<'a> {
+    table: &'a PowerTable,
+    second: X8,
+}
+
+impl LightChoice<X8> for Chooser<'_> {
+    #[inline(always)]
+    fn choose(&self, u: X8) -> Choice<X8> {
+        match self {
+            Self::Given(light) => Choice { index: u32x8::splat(*light), pmf: X8::lit(1.0), u },
+            Self::Power(by) => by.table.choose(u, by.second),
+            Self::Near(near) => near.choose(u),
+            Self::Allocated(allocated) => allocated.choose(u),
+        }
+    }
+    fn pmf(&self, index: u32x8) -> X8 {
+        match self {
+            Self::Given(light) => X8::lit(1.0).keep(equal(index, u32x8::splat(*light))),
+            Self::Power(by) => X8::from_fn(|i| by.table.pmf(index.as_array()[i])),
+            Self::Near(near) => near.pmf(index),
+            Self::Allocated(allocated) => allocated.pmf(index),
+        }
+    }
+    #[inline]
+    fn pmf_of(&self, light: u32) -> X8 {
+        match self {
+            Self::Near(near) => near.pmf_of(light),
+            Self::Allocated(allocated) => allocated.pmf_of(light),
+            Self::Power(by) => X8::splat(by.table.pmf(light)),
+            Self::Given(_) => self.pmf(u32x8::splat(light)),
+        }
     }
 }
 
@@ -102,13 +226,12 @@ impl From<LightSample<X8>> for Drawn {
 
 /// One light in each lane.
 pub struct Chosen {
-    geometry: [X8; 9],
+    /// As in the light's record.
+    place: V8,
+    first: V8,
+    second: V8,
     /// Radiance; intensity or irradiance for a delta light.
     pub radiance: V8,
-    /// Probability with which it was chosen.
-    pub pmf: X8,
-    /// Start of its interval of `u`, where the choice is by power.
-    start: X8,
     kind: u32x8,
     /// Index of its shape; [`NOTHING`] for a light without one.
     pub shape: u32x8,
@@ -132,48 +255,78 @@ fn sum(rgb: [f32; 3]) -> f64 {
     rgb.iter().map(|&x| f64::from(x)).sum()
 }
 
+/// Records and their powers, in units of π.
+type Powered = Vec<(LightRecord, f64)>;
+
+fn area_lights(scene: &Scene) -> Powered {
+    let light = |(index, shape): (usize, &crate::scene::Shape)| {
+        let emission = shape.emission?;
+        let (kind, [place, first, second]) = match shape.geometry {
+            Geometry::Sphere { center, radius } => (SPHERE, [center, [radius, 0.0, 0.0], [0.0; 3]]),
+            Geometry::Triangle([a, b, c]) => {
+                let edge = |to: [f32; 3]| std::array::from_fn(|k| to[k] - a[k]);
+                (TRIANGLE, [a, edge(b), edge(c)])
+            }
+            Geometry::Parallelogram { p, u, v } => (PARALLELOGRAM, [p, u, v]),
+        };
+        let (sides, flag) = if emission.two_sided { (2.0, TWO_SIDED) } else { (1.0, 0) };
+        let power = sum(emission.radiance) * shape.geometry.area() * sides;
+        let (radiance, shape) = (emission.radiance, index as u32);
+        Some((LightRecord { place, first, second, radiance, kind: kind | flag, shape }, power))
+    };
+    scene.shapes.iter().enumerate().filter_map(light).collect()
+}
+
+fn delta_lights(scene: &Scene) -> Powered {
+    let light = |light: &DeltaLight| {
+        let none = LightRecord { shape: NOTHING, ..LightRecord::default() };
+        match *light {
+            DeltaLight::Point { position: place, intensity: radiance } => {
+                (LightRecord { place, radiance, kind: POINT, ..none }, 4.0 * sum(radiance))
+            }
+            DeltaLight::Spot { position: place, axis: first, cos_inner, cos_outer, intensity: radiance } => {
+                let cone = 2.0 - f64::from(cos_inner) - f64::from(cos_outer);
+                let second = [cos_inner, cos_outer, 0.0];
+                // a cone too narrow for its cosine to differ from 1 still has a chance
+                (LightRecord { place, first, second, radiance, kind: SPOT, ..none }, cone.max(1e-7) * sum(radiance))
+            }
+            DeltaLight::Distant { direction: place, irradiance: radiance } => {
+                (LightRecord { place, radiance, kind: DISTANT, ..none }, sum(radiance) * squared_radius(scene))
+            }
+        }
+    };
+    scene.delta_lights.iter().map(light).collect()
+}
+
 impl Lights {
     /// All lights of a scene: emitting shapes, delta lights, the sky.
     pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Self {
-        let mut table = Table::default();
-        for (index, shape) in scene.shapes.iter().enumerate() {
-            let Some(emission) = shape.emission else { continue };
-            let mut geometry = [0.0; 9];
-            let kind = match shape.geometry {
-                Geometry::Sphere { center, radius } => {
-                    geometry[..3].copy_from_slice(&center);
-                    geometry[3] = radius;
-                    SPHERE
-                }
-                Geometry::Triangle([a, b, c]) => {
-                    geometry[..3].copy_from_slice(&a);
-                    for k in 0..3 {
-                        (geometry[3 + k], geometry[6 + k]) = (b[k] - a[k], c[k] - a[k]);
-                    }
-                    TRIANGLE
-                }
-                Geometry::Parallelogram { p, u, v } => {
-                    geometry.copy_from_slice([p, u, v].as_flattened());
-                    PARALLELOGRAM
-                }
-            };
-            let sides = if emission.two_sided { 2.0 } else { 1.0 };
-            let power = sum(emission.radiance) * shape.geometry.area() * sides;
-            let kind = kind | if emission.two_sided { TWO_SIDED } else { 0 };
-            table.push(geometry, emission.radiance, kind, index as u32, power);
-        }
-        table.deltas(scene);
+        let mut all = area_lights(scene);
+        all.extend(delta_lights(scene));
         if let Some(sky) = &sky {
             // what enters the sphere around the scene
-            table.push([0.0; 9], [0.0; 3], SKY, NOTHING, sky.flux() * squared_radius(scene));
+            let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
+            all.push((record, sky.flux() * squared_radius(scene)));
         }
-        table.finish(scene.shapes.len(), sky)
+        Self::of(all, scene.shapes.len(), sky)
     }
     /// The delta lights of a scene alone.
     pub fn deltas(scene: &Scene) -> Self {
-        let mut table = Table::default();
-        table.deltas(scene);
-        table.finish(scene.shapes.len(), None)
+        Self::of(delta_lights(scene), scene.shapes.len(), None)
+    }
+    fn of(all: Powered, shapes: usize, sky: Option<Arc<Sky>>) -> Self {
+        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS));
+        let bounds = all.iter().map(|(light, power)| light.bound(*power));
+        let few = kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len());
+        let spatial = few.then(|| SpatialLights::new(&bounds.collect::<Vec<_>>()).expect("few lights"));
+        let (records, powers): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        let mut shape_lights = vec![NOTHING; shapes];
+        for (index, record) in (0..).zip(&records) {
+            if let Some(light) = shape_lights.get_mut(record.shape as usize) {
+                *light = index;
+            }
+        }
+        Self { powers: PowerTable::new(&powers), records, spatial, kinds, sky, shape_lights }
     }
     /// Number of lights.
     pub fn len(&self) -> usize {
@@ -183,101 +336,45 @@ impl Lights {
     pub fn is_empty(&self) -> bool {
         self.records.is_empty()
     }
-    /// True if the choice of a light needs a random number of its own.
+    /// True if the choice of a light needs random numbers of its own.
     pub fn many(&self) -> bool {
         self.len() > FEW
     }
     /// True if all lights are delta lights, which need no pair for a point on the light.
     pub fn only_deltas(&self) -> bool {
-        self.kinds & !(1 << POINT | 1 << SPOT | 1 << DISTANT) == 0
+        self.kinds & !ONLY_DELTAS == 0
     }
     /// The number of lights if they are few and all delta lights: then all are sampled, without random numbers.
-    pub fn each(&self) -> Option<usize> {
-        (self.only_deltas() && !self.many()).then(|| self.len())
+    pub fn each(&self) -> Option<u32> {
+        (self.only_deltas() && !self.many()).then(|| self.len() as u32)
     }
-    /// The same light in every lane, with pmf 1.
-    pub fn one(&self, index: usize) -> Chosen {
-        Chosen { pmf: X8::lit(1.0), ..Chosen::new(self.records[index].map(X8::splat)) }
-    }
-    /// Chooses a light per lane by power, and returns what is left of `u`, uniform in [0, 1).
-    #[inline(always)]
-    pub fn choose(&self, u: X8) -> (Chosen, X8) {
-        if let [record] = &self.records[..] {
-            return (Chosen::new(record.map(X8::splat)), u);
-        }
-        let index: [usize; 8] = if self.many() {
-            u.to_array().map(|u| self.ends.partition_point(|&end| end <= u).min(self.ends.len() - 1))
-        } else {
-            let one = X8::lit(1.0);
-            let passed = self.ends[..self.ends.len() - 1]
-                .iter()
-                .fold(X8::lit(0.0), |sum, &end| sum + one.keep(u.ge(X8::splat(end))));
-            passed.to_uint().to_array().map(|i| i as usize)
-        };
-        let chosen = self.gathered(index);
-        let rest = Real::clamped((u - chosen.start) / chosen.pmf, X8::lit(0.0), X8::ONE_MINUS_EPSILON);
-        (chosen, rest)
-    }
-    /// What each light can contribute to points of a surface; `None` where the choice is by power.
-    #[inline(always)]
-    pub fn near(&self, p: V8, normal: V8) -> Option<Near> {
-        if self.reaches.is_empty() {
-            return None;
-        }
-        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
-        let mut ends = [zero; FEW];
-        let mut sum = zero;
-        for (reach, end) in self.reaches.iter().zip(&mut ends) {
-            let to = V8::from(reach.center) - p;
-            let radius = X8::splat(reach.radius);
-            let inverse = one / X8::max(to.length_squared(), radius * radius).sqrt();
-            let cos = X8::min(X8::max((to.dot(normal) + radius) * inverse, zero), one);
-            let facing = -to.dot(V8::from(reach.normal)) * inverse;
-            let facing = X8::max(if reach.two_sided { facing.abs() } else { facing }, zero) + X8::splat(reach.round);
-            sum += cos * facing * (X8::splat(reach.power) * inverse * inverse);
-            *end = sum;
-        }
-        Some(Near { ends })
-    }
-    /// The number of lights if there are 2 to [`FEW`] and all have an area.
+    /// The number of lights among which samples can be allocated: 2 to [`FEW`] that all have an area.
     pub fn few(&self) -> Option<usize> {
-        (!self.reaches.is_empty()).then_some(self.reaches.len())
+        self.spatial.as_ref().map(SpatialLights::len)
     }
-    /// The light that is allocated to each lane, with its share of the samples.
-    #[inline(always)]
-    pub fn allocated(&self, light: u32x8, share: X8) -> Chosen {
-        Chosen { pmf: share, ..self.gathered(light.to_array().map(|i| i as usize)) }
+    /// What each light can contribute to points of surfaces, where samples can be allocated.
+    #[inline]
+    pub fn contributions(&self, p: V8, normal: V8) -> Option<LightsAt<X8>> {
+        self.spatial.as_ref().map(|lights| lights.at(p, normal))
     }
-    /// Chooses a light per lane by `u`, and returns what is left of `u`: by contribution, or by power if `near` is `None`.
+    /// How packets at these points of surfaces choose: by contribution, or by power, with a second number, where lights are many, of
+    /// several kinds or without area.
     #[inline(always)]
-    pub fn choose_near(&self, near: Option<&Near>, u: X8) -> (Chosen, X8) {
-        let Some(Near { ends }) = near else { return self.choose(u) };
-        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
-        let last = self.reaches.len() - 1;
-        let sum = ends[last];
-        let target = u * sum;
-        let (mut index, mut start, mut end) = (zero, zero, ends[0]);
-        for k in 0..last {
-            let passed = target.ge(ends[k]);
-            index += one.keep(passed);
-            start = select(passed, ends[k], start);
-            end = select(passed, ends[k + 1], end);
+    pub fn chooser(&self, p: V8, normal: V8, second: X8) -> Chooser<'_> {
+        match &self.spatial {
+            Some(lights) => Chooser::Near(lights.at(p, normal)),
+            None if self.records.len() == 1 => Chooser::Given(0),
+            None => Chooser::Power(PowerChoice { table: &self.powers, second }),
         }
-        let mut chosen = self.gathered(index.to_uint().to_array().map(|i| i as usize));
-        let width = end - start;
-        let some = width.gt(zero);
-        chosen.pmf = (width / select(some, sum, one)).keep(some);
-        let rest = Real::clamped((target - start) / select(some, width, one), zero, X8::ONE_MINUS_EPSILON);
-        (chosen, rest)
     }
+    /// Lights with these indices.
     #[inline(always)]
-    fn gathered(&self, index: [usize; 8]) -> Chosen {
-        let rows = index.map(|i| &self.records[i]);
-        let half = |start: usize| X8::transpose(rows.map(|r| X8::from(&r[start..start + 8])));
-        let (a, b) = (half(0), half(8));
-        let mut chosen = Chosen::new(std::array::from_fn(|k| if k < 8 { a[k] } else { b[k - 8] }));
-        chosen.start = b[5];
-        chosen
+    pub fn chosen(&self, index: u32x8) -> Chosen {
+        if let [only] = &self.records[..] {
+            return Chosen::new(only.halves().map(|half| half.map(X8::splat)));
+        }
+        let rows = index.to_array().map(|i| self.records[i as usize].halves());
+        Chosen::new([0, 1].map(|half| X8::transpose(rows.map(|row| X8::from(row[half])))))
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky, `radiance` of
     /// `chosen` becomes that of the sampled direction.
@@ -299,15 +396,18 @@ impl Lights {
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let mut mixed: Option<Drawn> = None;
         for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
-            let here = crate::packet::equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
-            let [a, b, c] = chosen.vectors();
+            let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
+            let Chosen { place, first, second, .. } = *chosen;
             let sample = match kind {
                 SPHERE => chosen.sphere(measure, p, normal, u),
                 TRIANGLE => chosen.triangle(measure, p, normal, u),
                 PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
-                POINT => PointLight::new(a).prepare(p).sample(u).into(),
-                SPOT => SpotLight { position: a, axis: b, cos_inner: c.x, cos_outer: c.y }.prepare(p).sample(u).into(),
-                DISTANT => DirectionalLight::new(a).prepare(p).sample(u).into(),
+                POINT => PointLight::new(place).prepare(p).sample(u).into(),
+                SPOT => {
+                    let light = SpotLight { position: place, axis: first, cos_inner: second.x, cos_outer: second.y };
+                    light.prepare(p).sample(u).into()
+                }
+                DISTANT => DirectionalLight::new(place).prepare(p).sample(u).into(),
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
                     let (sample, radiance) = sky.sample(measure, normal, u);
@@ -331,7 +431,7 @@ impl Lights {
     /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
     /// shape from `p`.
     #[inline]
-    pub fn shape_pdf(&self, near: Option<&Near>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
+    pub fn shape_pdf(&self, chooser: &Chooser<'_>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         let pdf = match *geometry {
             Geometry::Sphere { center, radius } => {
                 Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf(w)
@@ -345,138 +445,15 @@ impl Lights {
                 Parallelogram::new(corner.into(), u.into(), v.into()).by_solid_angle(p).pdf(w)
             }
         };
-        pdf * match near {
-            None => X8::splat(self.shape_probabilities[shape]),
-            Some(Near { ends }) => {
-                let (zero, sum) = (X8::lit(0.0), ends[self.reaches.len() - 1]);
-                let light = self.shape_lights[shape] as usize;
-                let before = if light == 0 { zero } else { ends[light - 1] };
-                (ends[light] - before) / select(sum.gt(zero), sum, X8::lit(1.0))
-            }
-        }
+        pdf * chooser.pmf_of(self.shape_lights[shape])
     }
-    /// The same for a direction to the sky.
+    /// The same for a direction to the sky, which is the last of the lights.
     #[inline]
-    pub fn sky_pdf(&self, normal: V8, w: V8) -> X8 {
+    pub fn sky_pdf(&self, chooser: &Chooser<'_>, normal: V8, w: V8) -> X8 {
         match &self.sky {
-            Some(sky) => sky.pdf(Measure::SolidAngle, normal, w) * X8::splat(self.sky_probability),
+            Some(sky) => sky.pdf(Measure::SolidAngle, normal, w) * chooser.pmf_of(self.len() as u32 - 1),
             None => X8::lit(0.0),
         }
-    }
-}
-
-/// Records and powers on their way to [`Lights`].
-#[derive(Default)]
-struct Table {
-    records: Vec<Record>,
-    powers: Vec<f64>,
-    kinds: u32,
-}
-
-impl Table {
-    /// Adds a light; powers are all in units of π.
-    fn push(&mut self, geometry: [f32; 9], radiance: [f32; 3], kind: u32, shape: u32, power: f64) {
-        let mut record = [0.0; 16];
-        record[..9].copy_from_slice(&geometry);
-        record[9..12].copy_from_slice(&radiance);
-        (record[14], record[15]) = (f32::from_bits(kind), f32::from_bits(shape));
-        self.kinds |= 1 << (kind & KINDS);
-        self.records.push(record);
-        self.powers.push(power);
-    }
-    fn deltas(&mut self, scene: &Scene) {
-        for light in &scene.delta_lights {
-            let mut geometry = [0.0; 9];
-            match *light {
-                DeltaLight::Point { position, intensity } => {
-                    geometry[..3].copy_from_slice(&position);
-                    self.push(geometry, intensity, POINT, NOTHING, 4.0 * sum(intensity));
-                }
-                DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity } => {
-                    geometry[..6].copy_from_slice([position, axis].as_flattened());
-                    (geometry[6], geometry[7]) = (cos_inner, cos_outer);
-                    let cone = 2.0 - f64::from(cos_inner) - f64::from(cos_outer);
-                    // a cone too narrow for its cosine to differ from 1 still has a chance
-                    self.push(geometry, intensity, SPOT, NOTHING, cone.max(1e-7) * sum(intensity));
-                }
-                DeltaLight::Distant { direction, irradiance } => {
-                    geometry[..3].copy_from_slice(&direction);
-                    self.push(geometry, irradiance, DISTANT, NOTHING, sum(irradiance) * squared_radius(scene));
-                }
-            }
-        }
-    }
-    fn finish(mut self, shapes: usize, sky: Option<Arc<Sky>>) -> Lights {
-        let total: f64 = self.powers.iter().sum();
-        let mut sum = 0.0;
-        let mut ends = Vec::with_capacity(self.records.len());
-        for (record, power) in self.records.iter_mut().zip(&self.powers) {
-            let start = (sum / total) as f32;
-            sum += power;
-            let end = (sum / total) as f32;
-            (record[12], record[13]) = (end - start, start);
-            ends.push(end);
-        }
-        if let (Some(last), Some(end)) = (self.records.last_mut(), ends.last_mut()) {
-            *end = 1.0;
-            last[12] = 1.0 - last[13];
-        }
-        let mut shape_probabilities = vec![0.0; shapes];
-        let mut shape_lights = vec![0; shapes];
-        let mut sky_probability = 0.0;
-        for (index, record) in (0..).zip(&self.records) {
-            match (record[14].to_bits() & KINDS, record[15].to_bits()) {
-                (SKY, _) => sky_probability = record[12],
-                (_, NOTHING) => {}
-                (_, shape) => {
-                    shape_probabilities[shape as usize] = record[12];
-                    shape_lights[shape as usize] = index;
-                }
-            }
-        }
-        let only_areas = self.kinds & !(1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM) == 0;
-        let few = only_areas && (2..=FEW).contains(&self.records.len());
-        let reaches = if few { self.records.iter().zip(&self.powers).map(reach).collect() } else { Vec::new() };
-        Lights {
-            reaches,
-            records: self.records,
-            ends,
-            kinds: self.kinds,
-            sky,
-            shape_probabilities,
-            shape_lights,
-            sky_probability,
-        }
-    }
-}
-
-/// Bounds of a light with an area.
-fn reach((record, power): (&Record, &f64)) -> Reach {
-    let vector = |k: usize| -> Vec3<f64> { std::array::from_fn(|i| f64::from(record[k + i])).into() };
-    let kind = record[14].to_bits();
-    let (p, u, v) = (vector(0), vector(3), vector(6));
-    let (center, radius, normal) = match kind & KINDS {
-        SPHERE => (p, f64::from(record[3]), Vec3::default()),
-        TRIANGLE => {
-            let center = p + (u + v) * (1.0 / 3.0);
-            let corners = [p, p + u, p + v];
-            (center, corners.into_iter().map(|c| (c - center).length()).fold(0.0, f64::max), u.cross(v))
-        }
-        _ => {
-            let center = p + (u + v) * 0.5;
-            (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
-        }
-    };
-    let length = normal.length();
-    let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
-    Reach {
-        center: narrow(center),
-        // the rounding of the centre moves the sphere by less than this
-        radius: (radius * (1.0 + 1e-6)) as f32,
-        normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
-        round: if length > 0.0 { 0.0 } else { 0.25 },
-        two_sided: kind & TWO_SIDED != 0 && length > 0.0,
-        power: *power as f32 * if kind & TWO_SIDED != 0 { 0.5 } else { 1.0 },
     }
 }
 
@@ -487,26 +464,21 @@ fn projected(sample: impl Fn() -> Drawn) -> Drawn {
 }
 
 impl Chosen {
+    /// From the two halves of the records, one light per lane.
     #[inline(always)]
-    fn new(r: [X8; 16]) -> Self {
+    fn new([a, b]: [[X8; 8]; 2]) -> Self {
         Self {
-            geometry: std::array::from_fn(|k| r[k]),
-            radiance: V8::new(r[9], r[10], r[11]),
-            pmf: r[12],
-            start: r[13],
-            kind: r[14].to_bits(),
-            shape: r[15].to_bits(),
+            place: V8::new(a[0], a[1], a[2]),
+            first: V8::new(a[3], a[4], a[5]),
+            second: V8::new(a[6], a[7], b[0]),
+            radiance: V8::new(b[1], b[2], b[3]),
+            kind: b[4].to_bits(),
+            shape: b[5].to_bits(),
         }
-    }
-    #[inline(always)]
-    fn vectors(&self) -> [V8; 3] {
-        let [a, b, c, d, e, f, g, h, i] = self.geometry;
-        [V8::new(a, b, c), V8::new(d, e, f), V8::new(g, h, i)]
     }
     #[inline]
     fn sphere(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        let [center, b, _] = self.vectors();
-        let light = Sphere { center, radius: b.x };
+        let light = Sphere { center: self.place, radius: self.first.x };
         match measure {
             Measure::Area => light.by_area(p).sample(u).into(),
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
@@ -515,8 +487,7 @@ impl Chosen {
     }
     #[inline]
     fn triangle(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        let [v0, e1, e2] = self.vectors();
-        let light = Triangle { v0, e1, e2 };
+        let light = Triangle { v0: self.place, e1: self.first, e2: self.second };
         match measure {
             Measure::Area => light.by_area(p).sample(u).into(),
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
@@ -525,8 +496,7 @@ impl Chosen {
     }
     #[inline]
     fn parallelogram(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        let [corner, u_edge, v_edge] = self.vectors();
-        let light = Parallelogram { p: corner, u: u_edge, v: v_edge };
+        let light = Parallelogram { p: self.place, u: self.first, v: self.second };
         match measure {
             Measure::Area => light.by_area(p).sample(u).into(),
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
@@ -535,6 +505,6 @@ impl Chosen {
     }
     #[inline]
     fn two_sided(&self) -> M8 {
-        !crate::packet::equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
+        !equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
     }
 }

@@ -125,6 +125,11 @@ impl Sampler {
             _ => Ok(()),
         }
     }
+    /// Whether the samples of a pixel form sets, within which they are not independent.
+    #[must_use]
+    pub fn has_sets(self) -> bool {
+        self != Self::Independent
+    }
     /// Independent sets of samples per pixel if `asked` sets are requested (0: as few as give a variance, if any number does).
     #[must_use]
     pub fn sets(self, spp: u32, asked: u32, lens: bool) -> u32 {

@@ -1,5 +1,7 @@
 //! How lights are sampled.
 
+use etendue::estimate::Heuristic;
+
 /// How a light is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Technique {
@@ -22,6 +24,18 @@ pub enum Technique {
 }
 
 impl Technique {
+    /// Whether rays find the lights by chance, so that no light is sampled.
+    pub fn finds_lights(self) -> bool {
+        matches!(self, Self::UniformHemisphere | Self::CosineHemisphere | Self::Brdf)
+    }
+    /// How samples of a light and of the BSDF are combined, if they are.
+    pub fn heuristic(self) -> Option<Heuristic> {
+        match self {
+            Self::MisBalance => Some(Heuristic::Balance),
+            Self::MisPower => Some(Heuristic::POWER),
+            _ => None,
+        }
+    }
     /// The measure by which it samples lights; solid angle for techniques that sample none.
     pub fn measure(self) -> Measure {
         match self {

@@ -1,9 +1,10 @@
 //! Choice of lights: frequencies against probabilities, sums, limits.
 
 use etendue::discrete::TableError;
-use etendue::select::{Choice, LightBound, PowerLights, SpatialLights, UniformLights};
+use etendue::select::{Choice, FEW, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Real, Uint, Vec2, Vec3, f32x4, f32x8, u32x8};
+use etendue::{Real, Uint, Vec2, f32x4, f32x8, u32x8};
+use etendue_oracle::{dot, length, sub};
 use etendue_properties::stats;
 use etendue_properties::tolerances::SIGNIFICANCE;
 
@@ -43,7 +44,7 @@ fn check(
     let p = stats::chi_square(&counts, &expected);
     assert!(p > SIGNIFICANCE, "{name}: frequencies, p = {p}");
     assert!(stats::uniform(&left) > SIGNIFICANCE, "{name}: number left, p = {}", stats::uniform(&left));
-    if count > 1 {
+    if probabilities.iter().filter(|p| **p > 0.0).count() > 1 {
         let z = stats::correlation(&pairs) * (pairs.len() as f64).sqrt();
         assert!(stats::two_sided(z) > SIGNIFICANCE, "{name}: {z}");
     }
@@ -56,7 +57,7 @@ fn uniform() {
         check("uniform", count as usize, |u| lights.choose(u), |u| lights.choose(u), |k| lights.pmf(k));
     }
     for count in [1, 3, 4_000_000, 1 << 22] {
-        let last = UniformLights { count }.choose(f32::ONE_MINUS_EPSILON);
+        let last: Choice<f32> = UniformLights { count }.choose(f32::ONE_MINUS_EPSILON);
         assert_eq!(last.index, count - 1);
     }
     assert_eq!(UniformLights { count: 0 }.choose(0.5_f32).pmf, 0.0);
@@ -72,10 +73,10 @@ fn power() {
         let lights = PowerLights::new(powers, &mut sums).unwrap();
         check("power", powers.len(), |u| lights.choose(u), |u| lights.choose(u), |k| lights.pmf(k));
         for (k, power) in powers.iter().enumerate() {
-            let pmf = lights.pmf::<f32>(k as u32);
+            let pmf: f32 = lights.pmf(k as u32);
             assert_eq!(*power > 0.0, pmf > 0.0, "{powers:?}");
         }
-        for u in [0.0, f32::ONE_MINUS_EPSILON, 1.0] {
+        for u in [0.0_f32, f32::ONE_MINUS_EPSILON, 1.0] {
             let choice = lights.choose(u);
             assert!(powers[choice.index as usize] > 0.0 && choice.pmf > 0.0);
         }
@@ -83,7 +84,8 @@ fn power() {
     // in proportion, where nothing is lifted
     let mut sums = [0.0; 3];
     let lights = PowerLights::new(&[3.0, 1.0, 4.0], &mut sums).unwrap();
-    assert_eq!([0, 1, 2].map(|k| lights.pmf::<f32>(k)), [0.375, 0.125, 0.5]);
+    let shares: [f32; 3] = [0, 1, 2].map(|k| LightChoice::<f32>::pmf(&lights, k));
+    assert_eq!(shares, [0.375, 0.125, 0.5]);
     for powers in [&[][..], &[0.0, 0.0], &[f32::NAN, -1.0]] {
         let mut sums = vec![7.0; powers.len()];
         let choice = PowerLights::new(powers, &mut sums).unwrap().choose(0.3_f32);
@@ -113,92 +115,127 @@ fn weak_lights_are_found() {
         }
     }
     for (k, &count) in counts.iter().enumerate() {
-        let off = f64::from(count) - f64::from(lights.pmf::<f32>(k as u32)) * 16_777_216.0;
+        let off = f64::from(count) - f64::from(LightChoice::<f32>::pmf(&lights, k as u32)) * 16_777_216.0;
         assert!(count > 0 && off.abs() <= 2.0, "light {k}: {count}, off by {off}");
     }
 }
 
+fn light(center: [f32; 3], radius: f32, power: f32) -> LightBound {
+    LightBound { center, radius, power, ..LightBound::default() }
+}
+
+/// Spheres, a light without power, and a flat one that faces down.
 fn bounds() -> Vec<LightBound> {
-    let light = |x: f32, y: f32, z: f32, radius: f32, power: f32| LightBound { center: [x, y, z], radius, power };
     vec![
-        light(0.0, 0.0, 2.0, 0.5, 1.0),
-        light(3.0, 0.0, 0.0, 0.0, 4.0),
-        light(0.0, 1.0, 0.0, 0.1, 0.0),
-        light(-1.0, -2.0, 5.0, 2.0, 30.0),
-        light(1e4, 0.0, 0.0, 1.0, 0.5),
+        light([0.0, 0.0, 2.0], 0.5, 1.0),
+        light([3.0, 0.0, 0.0], 0.0, 4.0),
+        light([0.0, 1.0, 0.0], 0.1, 0.0),
+        light([-1.0, -2.0, 5.0], 2.0, 30.0),
+        light([1e4, 0.0, 0.0], 1.0, 0.5),
+        LightBound { normal: [0.0, 0.0, -1.0], ..light([1.0, 1.0, 3.0], 0.2, 2.0) },
     ]
+}
+
+/// The weights by the formula, in f64, with the least share of lights that can contribute.
+fn weights(lights: &[LightBound], p: [f32; 3], n: [f32; 3]) -> Vec<f64> {
+    let wide = |v: [f32; 3]| v.map(f64::from);
+    let weight = |light: &LightBound| {
+        let to = sub(wide(light.center), wide(p));
+        let d = length(to).max(f64::from(light.radius));
+        let cos = ((dot(to, wide(n)) + f64::from(light.radius)) / d).clamp(0.0, 1.0);
+        let facing = -dot(to, wide(light.normal)) / d;
+        let facing = if light.normal == [0.0; 3] {
+            0.25
+        } else if light.two_sided {
+            facing.abs()
+        } else {
+            facing.max(0.0)
+        };
+        cos * facing * f64::from(light.power) / (d * d)
+    };
+    let all: Vec<f64> = lights.iter().map(weight).collect();
+    let least = all.iter().sum::<f64>() / 262_144.0;
+    all.into_iter().map(|w| if w > 0.0 { w.max(least) } else { 0.0 }).collect()
 }
 
 #[test]
 fn spatial() {
     let list = bounds();
-    let lights = SpatialLights { lights: &list };
-    for p in [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0], [3.0, 0.0, 0.0], [1e4, 0.5, 0.0], [-1e6, 0.0, 0.0]] {
-        let (one, eight) = (Vec3::from(p), Vec3::<f32x8>::from(p));
-        check("spatial", list.len(), |u| lights.choose(one, u), |u| lights.choose(eight, u), |k| lights.pmf(one, k));
-        for (k, light) in list.iter().enumerate() {
-            assert_eq!(light.power > 0.0, lights.pmf(one, k as u32) > 0.0_f32);
+    let lights = SpatialLights::new(&list).unwrap();
+    let (up, tilted) = ([0.0, 0.0, 1.0], [0.6, 0.0, 0.8]);
+    for p in [[0.0, 0.0, 0.5], [0.0, 0.0, 2.0], [2.5, 0.0, -0.3], [1e4, 0.5, -0.5], [-1e6, 0.0, -1e3], [1.0, 1.0, 3.5]]
+    {
+        for n in [up, tilted] {
+            let (one, eight) = (lights.at::<f32>(p.into(), n.into()), lights.at::<f32x8>(p.into(), n.into()));
+            check("spatial", list.len(), |u| one.choose(u), |u| eight.choose(u), |k| one.pmf(k));
+            let expected = weights(&list, p, n);
+            let sum: f64 = expected.iter().sum();
+            for (k, weight) in expected.iter().enumerate() {
+                let pmf = f64::from(LightChoice::<f32>::pmf(&one, k as u32));
+                assert_eq!(pmf > 0.0, *weight > 0.0, "light {k} from {p:?} over {n:?}");
+                assert!((pmf - weight / sum).abs() < 1e-6, "light {k} from {p:?} over {n:?}: {pmf}, {}", weight / sum);
+            }
         }
     }
-    // the formula, where nothing is lifted: 1/4, 4/9, 30/30 and 0.5/10⁸, which is
-    let pmf = [0, 1, 3].map(|k| f64::from(lights.pmf::<f32>([0.0, 0.0, 0.0].into(), k)));
-    for (pmf, weight) in pmf.iter().zip([0.25, 4.0 / 9.0, 1.0]) {
-        assert!((pmf / pmf_sum(&pmf_all(&lights)) - weight / (0.25 + 4.0 / 9.0 + 1.0)).abs() < 1e-4, "{pmf}");
-    }
-    // the distance is no less than the radius
-    let inside = lights.pmf::<f32>([-1.0, -2.0, 5.0].into(), 3);
-    let surface = lights.pmf::<f32>([-1.0, -2.0, 5.0 + 1e-3].into(), 3);
-    assert!((inside - surface).abs() < 1e-2 && inside > 0.8, "{inside} {surface}");
+    // a light that reaches over the horizon is found, one below it is not; a flat light is found on its bright side only
+    let pmf = |p: [f32; 3], n: [f32; 3]| {
+        let at = lights.at::<f32>(p.into(), n.into());
+        std::array::from_fn::<f32, 6, _>(|k| at.pmf(k as u32))
+    };
+    let low = pmf([0.0, 0.0, 2.4], up);
+    assert!(low[0] > 0.0 && low[1] == 0.0 && low[2] == 0.0 && low[5] > 0.0, "{low:?}");
+    assert_eq!(pmf([1.0, 1.0, 3.1], [0.0, 0.0, -1.0])[5], 0.0);
+    assert_eq!(pmf([1.0, 1.0, 3.1], up)[0], 0.0);
     for none in [&[][..], &list[2..3]] {
-        let choice = SpatialLights { lights: none }.choose([0.0, 1.0, 0.0].into(), 0.3_f32);
-        assert_eq!(choice.pmf, 0.0);
+        let at = SpatialLights::new(none).unwrap().at([0.0, 1.0, 0.0].into(), up.into());
+        assert_eq!(at.choose(0.3_f32).pmf, 0.0);
     }
+    let many = vec![list[0]; FEW + 1];
+    assert_eq!(SpatialLights::new(&many).err(), Some(TableError::Length));
+    assert_eq!(SpatialLights::new(&many[1..]).unwrap().len(), FEW);
 }
 
-fn pmf_all(lights: &SpatialLights) -> Vec<f64> {
-    (0..lights.lights.len() as u32).map(|k| f64::from(lights.pmf::<f32>([0.0, 0.0, 0.0].into(), k))).collect()
-}
-fn pmf_sum(all: &[f64]) -> f64 {
-    all.iter().sum()
+/// A light of 10⁻⁹ of the weight is found by some u of the grid, in its due share.
+#[test]
+fn weak_lights_nearby_are_found() {
+    let list = [light([0.0, 0.0, 1.0], 0.1, 1.0), light([0.0, 1.0, 1.0], 0.1, 1e-9), light([1.0, 0.0, 1.0], 0.1, 1e-9)];
+    let at = SpatialLights::new(&list).unwrap().at::<f32x8>([0.0; 3].into(), [0.0, 0.0, 1.0].into());
+    let mut counts = [0_u32; 3];
+    for i in (0..1 << 24).step_by(8) {
+        let index = at.choose(f32x8::from_fn(|k| (i + k) as f32 / 16_777_216.0)).index;
+        (0..8).for_each(|k| counts[index.lane(k) as usize] += 1);
+    }
+    for (k, &count) in counts.iter().enumerate() {
+        let off = f64::from(count) - f64::from(at.pmf(u32x8::splat(k as u32)).lane(0)) * 16_777_216.0;
+        assert!(count > 0 && off.abs() <= 4.0, "light {k}: {count}, off by {off}");
+    }
 }
 
 #[test]
 fn spatial_choice_knows_no_unit() {
     let list = bounds();
-    let p = [0.7_f32, -0.3, 0.2];
+    let (p, n) = ([0.7_f32, -0.3, 0.2], [0.0_f32, 0.6, 0.8]);
     for exponent in [-60, -20, 20, 60] {
         let scale = 2.0_f32.powi(exponent);
         let scaled: Vec<_> = list
             .iter()
-            .map(|l| LightBound { center: l.center.map(|c| c * scale), radius: l.radius * scale, power: l.power })
+            .map(|l| LightBound { center: l.center.map(|c| c * scale), radius: l.radius * scale, ..*l })
             .collect();
+        let (one, other) = (SpatialLights::new(&list).unwrap(), SpatialLights::new(&scaled).unwrap());
         for k in 0..64 {
             let u = (k as f32 + 0.5) / 64.0;
-            let one: Choice<f32> = SpatialLights { lights: &list }.choose(p.into(), u);
-            let other: Choice<f32> = SpatialLights { lights: &scaled }.choose(p.map(|x| x * scale).into(), u);
+            let one: Choice<f32> = one.at(p.into(), n.into()).choose(u);
+            let other: Choice<f32> = other.at(p.map(|x| x * scale).into(), n.into()).choose(u);
             assert_eq!((one.index, one.pmf, one.u), (other.index, other.pmf, other.u), "2^{exponent}");
         }
     }
-    // limits of single precision: no NaN, no infinity, probabilities positive
+    // limits of single precision: no NaN, no infinity, and a pmf for the light that is above the horizon
     for far in [f32::MAX, 1e-45, 1e30] {
-        let ends = [far, -far].map(|x| LightBound { center: [x, x, x], radius: 0.0, power: 1.0 });
-        for p in [[0.0; 3], [far; 3], [1.0; 3]] {
-            let choice: Choice<f32x4> = SpatialLights { lights: &ends }.choose(p.into(), f32x4::splat(0.7));
+        let ends = [far, -far].map(|x| light([x, x, x], 0.0, 1.0));
+        for p in [[0.0; 3], [-far; 3], [0.5 * far; 3]] {
+            let at = SpatialLights::new(&ends).unwrap().at::<f32x4>(p.into(), [0.0, 0.0, 1.0].into());
+            let choice = at.choose(f32x4::splat(0.7));
             assert!(choice.pmf.lane(2) > 0.0 && choice.pmf.lane(2) <= 1.0, "{far} {p:?} {choice:?}");
         }
-    }
-}
-
-/// A light of no power may be the nearest one, also at no distance at all.
-#[test]
-fn a_dark_light_is_no_nearest() {
-    let dark = LightBound { center: [0.0, 0.0, 0.0], radius: 0.0, power: 0.0 };
-    let lit = LightBound { center: [0.0, 0.0, 1e30], radius: 0.1, power: 1.0 };
-    let lights = [dark, lit];
-    for p in [[0.0_f32, 0.0, 0.0], [0.0, 0.0, 1e-30]] {
-        let table = SpatialLights { lights: &lights };
-        let choice = table.choose(p.into(), 0.5_f32);
-        assert_eq!((choice.index, choice.pmf), (1, 1.0));
-        assert_eq!([0, 1].map(|i| table.pmf::<f32>(p.into(), i)), [0.0, 1.0]);
     }
 }

@@ -12,7 +12,7 @@ use etendue::light::{
     PointLight, Polygon, SpotLight, Sun,
 };
 use etendue::random::DrawExt;
-use etendue::select::{LightBound, PowerLights, SpatialLights, UniformLights};
+use etendue::select::{Allocation, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{
     CounterRng, Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified,
     ZOrder, ZOrderIndex,
@@ -225,17 +225,21 @@ fn tables(count: &mut Count) {
         }
         Err(_) => exit(253),
     }
-    let lights = [1.0, 2.0].map(|x| LightBound { center: [x, 1.0, 0.0], radius: 0.5, power: x });
+    let lights = [1.0, 2.0].map(|x| LightBound { center: [x, 1.0, 0.0], radius: 0.5, power: x, ..LightBound::default() });
     let mut sums = [0.0; 6];
     let Ok(power) = PowerLights::new(&weights, &mut sums) else { exit(252) };
-    let spatial = SpatialLights { lights: &lights };
-    let mut means = [lit(0.0); 3];
+    let Ok(spatial) = SpatialLights::new(&lights) else { exit(251) };
+    let allocation = Allocation::new(&[1.0, 3.0], 8, &mut { Allocation::NONE });
+    let allocated = allocation.samples(0);
+    let mut means = [lit(0.0); 4];
+    let up = [0.0, 1.0, 0.0];
     for u in squares() {
         means[0] += lit(1.0) / UniformLights { count: 6 }.choose(u.x).pmf;
         means[1] += lit(1.0) / power.choose(u.x).pmf;
-        means[2] += lit(1.0) / spatial.choose(ORIGIN.into(), u.x).pmf;
+        means[2] += lit(1.0) / spatial.at(ORIGIN.into(), up.into()).choose(u.x).pmf;
+        means[3] += lit(1.0) / allocated.choose(u.x).pmf;
     }
-    for (mean, truth) in means.into_iter().zip([6.0, 6.0, 2.0]) {
+    for (mean, truth) in means.into_iter().zip([6.0, 6.0, 2.0, 2.0]) {
         count.check(near(sum(mean) / SAMPLES as f32, truth, 1e-2));
     }
 }

@@ -1,6 +1,7 @@
 //! Rays as a renderer traces them through the triangles of a scene: camera rays, shadow rays, and ambient occlusion.
 
 use crate::baseline::{self, Baseline, BaselineRay};
+use etendue::select::LightChoice;
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{CosineHemisphere, Warp};
 use etendue::{Frame, Mask, Real, u32x8};
@@ -237,8 +238,8 @@ impl Point {
     /// Rays to points on lights, sampled by solid angle.
     fn to_light(&self, lights: &Lights, u: etendue::Vec2<X8>) -> Packet {
         let zero = X8::lit(0.0);
-        let (mut chosen, rest) = lights.choose(u.x);
-        let u = etendue::Vec2::new(rest, u.y);
+        let choice = lights.chooser(self.place, self.normal, zero).choose(u.x);
+        let (mut chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
         let sample = lights.sample(&mut chosen, Measure::SolidAngle, self.place, self.normal, u);
         let active = self.met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(self.normal).gt(zero);
         let limit = sample.distance * X8::lit(1.0 - 1.0 / 131_072.0);

@@ -4,14 +4,12 @@
 //! own, so that a pixel that happens to be dark is not left dark. Mean and number of samples are independent, except for the share
 //! that a pixel has in the sum over all pixels.
 
-use super::allocation::{APART, Allocated, Blocks, Weights};
-use super::{Work, z_order};
-use crate::bvh::GROUP;
-use crate::film::{Pixel, PixelSum};
-use crate::packet::{M8, V8};
-use crate::sampler::Packet;
+use super::allocation::{APART, Weights};
+use crate::film::{Accumulator, Pixel, PixelSum};
+use crate::packet::{V8, X8};
+use etendue::Real;
 use etendue::estimate::Welford;
-use etendue::{Mask, Real, u32x8};
+use etendue::select::Allocated;
 
 /// The squared error falls about as N^−1.5 if a pixel's integrand is smooth except for edges. Then Σ cᵢ nᵢ^−1.5 for a given Σ nᵢ is
 /// least with nᵢ ∝ cᵢ^0.4.
@@ -30,7 +28,6 @@ pub(super) struct Effort {
     pub(super) pilot: u32,
     /// Mean number of packets per set over the pixels.
     pub(super) packets: f64,
-    pub(super) sets: u32,
 }
 
 impl Effort {
@@ -38,7 +35,7 @@ impl Effort {
         let packets = f64::from(spp) / f64::from(8 * sets);
         // the greatest power of two up to a quarter, but 2 packets if there are 4 or more: eight points miss too much
         let pilot = (packets / 4.0).log2().floor().exp2().max(if packets < 4.0 { 1.0 } else { 2.0 });
-        Self { pilot: pilot as u32, packets, sets }
+        Self { pilot: pilot as u32, packets }
     }
 }
 
@@ -155,70 +152,15 @@ fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
         .collect()
 }
 
-impl Work<'_> {
-    /// Renders packets `from` to `to` of each set of the pixels of an area, row by row; `range` returns them for a column and row.
-    /// Samples are allocated to the lights by `weights` if given, otherwise by the corners of the pixels.
-    pub(super) fn parts(
-        &mut self,
-        area: [u32; 4],
-        effort: &Effort,
-        weights: Option<&Weights>,
-        range: impl Fn(u32, u32) -> [u32; 2],
-    ) -> Vec<Part> {
-        let sets = effort.sets;
-        let [x0, y0, x1, _] = area;
-        let pixels = z_order(area);
-        let place = |[x, y]: [u32; 2]| ((y - y0) * (x1 - x0) + (x - x0)) as usize;
-        let mut parts = vec![Part::default(); pixels.len()];
-        let items = pixels.iter().flat_map(|&[x, y]| {
-            let [from, to] = range(x, y);
-            (0..sets).flat_map(move |set| (from..to).map(move |packet| ([x, y], set, packet, packet + 1 == to)))
-        });
-        let mut items = items.peekable();
-        let found = if weights.is_none() { self.weights(area, 8 * effort.pilot) } else { None };
-        let weights = weights.or(found.as_ref());
-        let mut blocks = Blocks::new(8 * effort.pilot);
-        let mut allocated = Vec::with_capacity(GROUP);
-        let (mut sum, mut tally) = (PixelSum::default(), Tally::default());
-        let mut packets = Vec::with_capacity(GROUP);
-        let mut group = Vec::with_capacity(GROUP);
-        while items.peek().is_some() {
-            group.clear();
-            group.extend(items.by_ref().take(GROUP));
-            packets.clear();
-            packets.extend(group.iter().map(|&([x, y], set, packet, _)| Packet {
-                x: u32x8::splat(x),
-                y: u32x8::splat(y),
-                sample: u32x8::splat(8 * packet) + u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]),
-                replicate: u32x8::splat(set),
-                active: M8::splat(true),
-            }));
-            allocated.clear();
-            if let Some(weights) = weights {
-                allocated.extend(group.iter().map(|&(pixel, _, packet, _)| blocks.packet(weights, pixel, 8 * packet)));
-            }
-            let radiance = self.radiance(&packets, &allocated);
-            for (p, (&(pixel, set, _, last), radiance)) in group.iter().zip(radiance).enumerate() {
-                sum.push_packet(radiance);
-                tally.push(radiance, allocated.get(p));
-                if last {
-                    let part = &mut parts[place(pixel)];
-                    let (mean, samples) = sum.take();
-                    (part.means[set as usize], part.packets) = (mean, samples / 8);
-                    if set + 1 == sets {
-                        tally.end(part, sets, weights.map_or(0, |weights| weights.lights));
-                        tally = Tally::default();
-                    }
-                }
-            }
-        }
-        parts
-    }
-}
-
-/// Accumulates the variation of a pixel's samples.
-#[derive(Default)]
-struct Tally {
+/// Accumulates a [`Part`].
+#[derive(Clone, Default)]
+pub(super) struct PartSum {
+    /// Number of lights to which the samples are allocated; 0 if they are not.
+    lights: usize,
+    sum: PixelSum,
+    part: Part,
+    /// Number of sets that have ended.
+    sets: usize,
     halves: [Welford<f64>; 3],
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
@@ -228,8 +170,17 @@ struct Tally {
     samples: [u32; APART],
 }
 
-impl Tally {
-    fn push(&mut self, radiance: V8, allocated: Option<&Allocated>) {
+impl PartSum {
+    pub(super) fn new(lights: usize) -> Self {
+        Self { lights, ..Self::default() }
+    }
+}
+
+impl Accumulator for PartSum {
+    type Output = Part;
+
+    fn push_packet(&mut self, radiance: V8, allocated: Option<&Allocated<'_, X8>>) {
+        self.sum.push_packet(radiance, allocated);
         let Some(allocated) = allocated else {
             for half in halves(radiance) {
                 for (spread, x) in self.halves.iter_mut().zip(half) {
@@ -253,16 +204,28 @@ impl Tally {
             }
         }
     }
-    fn end(&self, part: &mut Part, sets: u32, lights: usize) {
-        part.variance = match lights {
+    fn push(&mut self, _: [f32; 3]) {
+        unreachable!("adaptive sets consist of whole packets")
+    }
+    fn end_set(&mut self) {
+        let (mean, samples) = self.sum.take();
+        (self.part.means[self.sets], self.part.packets) = (mean, samples / 8);
+        self.sets += 1;
+    }
+    fn finish(&mut self) -> Part {
+        let mut part = self.part;
+        part.variance = match self.lights {
             0 => self.halves.iter().map(|b| b.variance()).sum(),
             _ => self.between,
         };
-        if (1..=APART).contains(&lights) {
-            part.lights = lights;
+        if (1..=APART).contains(&self.lights) {
+            part.lights = self.lights;
             part.spread = self.spread.map(|spread| spread as f32);
+            let sets = self.sets.max(1) as u32;
             part.taken = self.samples.map(|samples| (samples / sets).checked_ilog2().unwrap_or(0) as u8);
         }
+        *self = Self::new(self.lights);
+        part
     }
 }
 

@@ -1,28 +1,39 @@
-//! The general integrator, for scenes with mirrors, rough metals, delta lights or a sky, and for combined techniques.
+//! Follows camera rays to a surface, and gathers the light that it reflects.
 //!
 //! A camera ray is followed, without random numbers, through perfect mirrors to the first other surface. Then light and surface are
 //! sampled for all lanes at once. A path thus has one reflection besides those at mirrors; mirrors occlude shadow rays. (Rays
 //! between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room, 1.00 ± 0.03, and 1.04 times
 //! as long among three thousand balls.)
 
-use super::bsdf::{Bsdf, Finish, Metal, PLAIN};
-use super::direct::{SPARED, keep, product};
-use super::surface::{Surface, emitted};
-use super::{Technique, Work, World};
-use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE};
-use crate::camera::CameraSample;
-use crate::lights::Lights;
+use super::prepared::PreparedScene;
+use super::settings::{RayCount, Settings};
+use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
+use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Stack};
+use crate::lights::{Chooser, Lights};
 use crate::packet::{M8, V8, X8, pick, select};
-use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE};
-use etendue::estimate::{Heuristic, technique_pdf};
+use crate::surfaces::{Surface, emitted};
+use crate::technique::Technique;
+use etendue::estimate::technique_pdf;
+use etendue::select::{Allocated, LightChoice};
 use etendue::{Mask, Real, Vec2, u32x8};
 
-/// The ends of the paths of a packet.
+/// Fraction of the distance to a light that a shadow ray covers: it stops 2⁻¹⁷ short, so that surfaces touching the light do not
+/// occlude it.
+const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
+
+/// Random numbers of each packet of a group.
+pub(super) struct Numbers {
+    /// For the point on the light, or the direction.
+    pub(super) light: [Vec2<X8>; GROUP],
+    /// For the choice of a light, if there are so many that it needs numbers of its own.
+    pub(super) choice: Option<[Vec2<X8>; GROUP]>,
+    /// For a direction from the BSDF in addition to a light, if the technique combines them.
+    pub(super) surface: Option<[Vec2<X8>; GROUP]>,
+}
+
+/// Where the paths of a packet end, in a scene with mirrors or metals.
 #[derive(Clone, Copy)]
 struct End {
-    /// The reflecting surfaces; their emission is already accounted for.
-    surface: Surface,
-    bsdf: Option<Bsdf>,
     /// Directions of the rays that hit the surfaces.
     direction: V8,
     metal: Option<Metal>,
@@ -30,307 +41,320 @@ struct End {
     throughput: V8,
 }
 
-/// Random numbers of each packet.
-struct Pairs {
-    light: [Vec2<X8>; GROUP],
-    choice: Option<[X8; GROUP]>,
+/// The paths of a group of packets, and their scratch memory.
+pub(super) struct Paths<'a> {
+    scene: &'a PreparedScene,
+    technique: Technique,
+    depth: u32,
+    /// Rays traced so far.
+    pub(super) count: RayCount,
+    stack: Stack,
+    /// Camera rays and shadow rays.
+    rays: Box<[[Rays; GROUP]; 2]>,
+    /// The reflecting surfaces at the ends of the paths.
+    surfaces: Box<[Surface; GROUP]>,
+    ends: Box<[End; GROUP]>,
 }
 
-impl World {
-    /// Materials at the hit points.
-    #[inline]
-    fn metal(&self, hits: &Hits, lanes: M8) -> Metal {
-        let places = hits.place.as_array();
-        let rows: [&Finish; 8] = std::array::from_fn(|i| {
-            if !lanes.lane(i) {
-                return &PLAIN;
-            }
-            let place = places[i];
-            let material = if place & SHAPE == 0 {
-                self.mesh_material(place)
-            } else {
-                self.shapes[(place & !SHAPE) as usize].material
-            };
-            &self.finishes[material as usize]
-        });
-        Metal::new(rows)
-    }
-}
-
-impl Work<'_> {
-    /// Radiance of the samples of a group.
-    pub(super) fn paths(&mut self, packets: &[Packet]) -> [V8; GROUP] {
-        let world = self.world;
-        let technique = self.settings.technique;
-        let count = packets.len();
-        let finds_lights =
-            matches!(technique, Technique::UniformHemisphere | Technique::CosineHemisphere | Technique::Brdf);
-        // techniques that find lights by chance never hit a delta light, so those are sampled
-        let lights = if finds_lights { &world.deltas } else { &world.lights };
-        let pair = finds_lights || !lights.only_deltas();
-
-        let mut light = [Vec2::default(); GROUP];
-        let mut active = [M8::splat(false); GROUP];
-        for (p, packet) in packets.iter().enumerate() {
-            let film = if pair {
-                let [film, second] = self.source.film_and_light(packet);
-                light[p] = second;
-                film
-            } else {
-                self.source.pair(packet, FILM)
-            };
-            let lens = self.lens.then(|| self.source.pair(packet, LENS));
-            self.samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
-            let (origin, direction) = self.camera.rays(&self.samples[p]);
-            self.rays[0][p] = world.bvh.rays(origin, direction);
-            active[p] = packet.active;
-            self.count.camera += u64::from(packet.active.bits().count_ones());
+impl<'a> Paths<'a> {
+    pub(super) fn new(scene: &'a PreparedScene, settings: &Settings) -> Self {
+        let zero = V8::default();
+        Self {
+            scene,
+            technique: settings.technique,
+            depth: settings.depth,
+            count: RayCount::default(),
+            stack: Stack::default(),
+            rays: Box::default(),
+            surfaces: Box::new([Surface::default(); GROUP]),
+            ends: Box::new([End { direction: zero, metal: None, throughput: zero }; GROUP]),
         }
+    }
+
+    /// The lights that are sampled: techniques that find lights by chance never hit a delta light, so they sample those.
+    pub(super) fn sampled(&self) -> &'a Lights {
+        if self.technique.finds_lights() { &self.scene.deltas } else { &self.scene.lights }
+    }
+
+    /// Sets the camera rays of a packet.
+    #[inline(always)]
+    pub(super) fn start(&mut self, packet: usize, (origin, direction): (V8, V8)) {
+        self.rays[0][packet] = self.scene.surfaces.bvh.rays(origin, direction);
+    }
+
+    /// Follows the rays that have been started. Returns the surfaces at their ends, which reflect but whose emission does not count.
+    pub(super) fn surfaces(&mut self, active: &[M8]) -> &[Surface] {
         let mut radiance = [V8::default(); GROUP];
-        let ends = self.follow(count, active, &mut radiance);
-        if world.lights.is_empty() {
+        if self.scene.surfaces.only_diffuse {
+            self.follow::<false>(active, &mut radiance);
+        } else {
+            self.follow::<true>(active, &mut radiance);
+        }
+        &self.surfaces[..active.len()]
+    }
+
+    /// Radiance along the rays that have been started. `allocated` is empty, or allocates each sample to a light.
+    pub(super) fn radiance(
+        &mut self,
+        active: &[M8],
+        numbers: &Numbers,
+        allocated: &[Allocated<'_, X8>],
+    ) -> [V8; GROUP] {
+        for active in active {
+            self.count.camera += u64::from(active.bits().count_ones());
+        }
+        // what a scene does not need is not compiled in
+        if self.scene.surfaces.only_diffuse {
+            self.radiance_with::<false>(active, numbers, allocated)
+        } else {
+            self.radiance_with::<true>(active, numbers, allocated)
+        }
+    }
+
+    fn radiance_with<const METAL: bool>(
+        &mut self,
+        active: &[M8],
+        numbers: &Numbers,
+        allocated: &[Allocated<'_, X8>],
+    ) -> [V8; GROUP] {
+        let mut radiance = [V8::default(); GROUP];
+        self.follow::<METAL>(active, &mut radiance);
+        if self.scene.lights.is_empty() {
             return radiance;
         }
-
-        let choice = lights.many().then(|| {
-            let mut choice = [X8::lit(0.0); GROUP];
-            for (p, packet) in packets.iter().enumerate() {
-                choice[p] = self.source.pair(packet, CHOICE).x;
-            }
-            choice
-        });
-        let pairs = Pairs { light, choice };
-        let heuristic = match technique {
-            Technique::MisBalance => Some(Heuristic::Balance),
-            Technique::MisPower => Some(Heuristic::POWER),
-            _ => None,
-        };
-        let ends = &ends[..count];
+        let count = active.len();
         let mut reflected = [V8::default(); GROUP];
+        let lights = self.sampled();
         match lights.each() {
             Some(each) => {
-                for index in 0..each {
-                    self.by_lights(lights, Some(index), ends, &pairs, heuristic, &mut reflected);
+                for light in 0..each {
+                    self.by_light::<METAL>(lights, Some(light), count, numbers, allocated, &mut reflected);
                 }
             }
-            None => self.by_lights(lights, None, ends, &pairs, heuristic, &mut reflected),
+            None => self.by_light::<METAL>(lights, None, count, numbers, allocated, &mut reflected),
         }
-        if finds_lights {
-            self.by_surface(ends, light, heuristic, &mut reflected);
-        } else if heuristic.is_some() && pair {
-            let mut own = [Vec2::default(); GROUP];
-            for (p, packet) in packets.iter().enumerate() {
-                own[p] = self.source.pair(packet, SURFACE);
-            }
-            self.by_surface(ends, own, heuristic, &mut reflected);
+        if self.technique.finds_lights() {
+            self.by_surface::<METAL>(count, &numbers.light, allocated, &mut reflected);
+        } else if let Some(surface) = &numbers.surface {
+            self.by_surface::<METAL>(count, surface, allocated, &mut reflected);
         }
         for p in 0..count {
-            radiance[p] += product(ends[p].throughput, reflected[p]);
+            radiance[p] += if METAL { product(self.ends[p].throughput, reflected[p]) } else { reflected[p] };
         }
         radiance
     }
 
     /// Follows the rays of a group through mirrors, and adds the radiance of the lights and the sky that they hit.
-    fn follow(&mut self, count: usize, mut active: [M8; GROUP], radiance: &mut [V8; GROUP]) -> [End; GROUP] {
-        let world = self.world;
-        let one = V8::from([1.0; 3]);
-        let nowhere =
-            End { surface: Surface::default(), bsdf: None, direction: V8::default(), metal: None, throughput: one };
-        let mut ends = [nowhere; GROUP];
-        let mut depth = 0;
-        loop {
+    #[inline(always)]
+    fn follow<const METAL: bool>(&mut self, active: &[M8], radiance: &mut [V8; GROUP]) {
+        let Self { scene, stack, rays, surfaces, ends, .. } = self;
+        let (world, count) = (&scene.surfaces, active.len());
+        let mut going = [M8::splat(false); GROUP];
+        going[..count].copy_from_slice(active);
+        if METAL {
+            surfaces[..count].fill(Surface::default());
+            let one = V8::from([1.0; 3]);
+            ends[..count].fill(End { direction: V8::default(), metal: None, throughput: one });
+        }
+        for depth in 0.. {
             let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
-            world.bvh.closest(&self.rays[0][..count], &active[..count], &mut hits[..count], &mut self.stack);
+            world.bvh.closest(&rays[0][..count], &going[..count], &mut hits[..count], stack);
             let mut on = false;
             for p in 0..count {
-                if !active[p].any() {
+                if METAL && !going[p].any() {
                     continue;
                 }
-                let (rays, here) = (self.rays[0][p], active[p]);
-                let end = &mut ends[p];
-                let surface = world.surface(&hits[p], &rays);
+                let (ray, here) = (rays[0][p], going[p]);
+                let surface = world.hit(&hits[p], &ray);
                 let mut seen = surface.emission;
-                if let Some(sky) = &world.sky {
+                if let Some(sky) = &scene.sky {
                     let missed = here & !hits[p].any();
                     if missed.any() {
-                        seen = V8::blend(missed, sky.radiance(rays.direction), seen);
+                        seen = V8::blend(missed, sky.radiance(ray.direction), seen);
                     }
                 }
-                radiance[p] += keep(product(end.throughput, seen), here);
-                let reflects = surface.reflects & here;
-                if world.only_diffuse {
-                    end.surface = surface;
-                    active[p] = M8::splat(false);
+                if !METAL {
+                    radiance[p] = seen;
+                    surfaces[p] = surface;
                     continue;
                 }
+                let end = &mut ends[p];
+                radiance[p] += keep(product(end.throughput, seen), here);
+                let reflects = surface.reflects & here;
                 let metal = world.metal(&hits[p], reflects);
                 let mirrors = metal.mirrors() & reflects;
-                end.settle(&surface, reflects & !mirrors, rays.direction, metal);
-                active[p] = M8::splat(false);
-                if mirrors.any() && depth < self.settings.depth {
-                    active[p] = mirrors;
+                end.settle(&mut surfaces[p], &surface, reflects & !mirrors, ray.direction, metal);
+                going[p] = M8::splat(false);
+                if mirrors.any() && depth < self.depth {
+                    going[p] = mirrors;
                     on = true;
-                    self.rays[0][p] = end.reflect(&surface, &metal, mirrors, &rays, world);
+                    let (origin, direction) = end.reflect(&surface, &metal, mirrors, ray.direction);
+                    rays[0][p] = world.bvh.rays(origin, direction);
                     self.count.mirror += u64::from(mirrors.bits().count_ones());
                 }
             }
             if !on {
-                break;
-            }
-            depth += 1;
-        }
-        for (p, end) in ends[..count].iter_mut().enumerate() {
-            if end.surface.reflects.any() {
-                let direction = if world.only_diffuse { self.rays[0][p].direction } else { end.direction };
-                end.bsdf = Some(Bsdf::new(end.surface.normal, end.surface.albedo, direction, end.metal));
+                return;
             }
         }
-        ends
     }
 
-    /// Reflected light by sampling one of the lights, or a given light, with its MIS weight if there is a heuristic.
-    fn by_lights(
+    /// The BSDF at the end of a path.
+    #[inline(always)]
+    fn bsdf<const METAL: bool>(&self, p: usize) -> Bsdf<METAL> {
+        let Surface { normal, albedo, .. } = self.surfaces[p];
+        if METAL {
+            let End { direction, metal, .. } = self.ends[p];
+            Bsdf::new(normal, albedo, direction, metal)
+        } else {
+            Bsdf::new(normal, albedo, V8::default(), None)
+        }
+    }
+
+    /// Adds the light reflected by sampling a light, with its MIS weight if the technique combines two: the `given` one, the
+    /// `allocated` one of each sample, or one chosen at random.
+    #[inline(always)]
+    fn by_light<const METAL: bool>(
         &mut self,
         lights: &Lights,
-        given: Option<usize>,
-        ends: &[End],
-        pairs: &Pairs,
-        heuristic: Option<Heuristic>,
+        given: Option<u32>,
+        count: usize,
+        numbers: &Numbers,
+        allocated: &[Allocated<'_, X8>],
         reflected: &mut [V8; GROUP],
     ) {
-        let world = self.world;
-        let measure = self.settings.technique.measure();
+        let measure = self.technique.measure();
+        let heuristic = self.technique.heuristic();
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
-        let count = ends.len();
-        let rays = &mut self.rays[1];
         let mut lit = [M8::splat(false); GROUP];
         let mut limit = [zero; GROUP];
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut found = [V8::default(); GROUP];
-        for (p, end) in ends.iter().enumerate() {
-            let (Some(bsdf), surface) = (&end.bsdf, &end.surface) else { continue };
-            let mut u = pairs.light[p];
-            let mut chosen = match given {
-                Some(index) => lights.one(index),
-                None => {
-                    let number = pairs.choice.map_or(u.x, |choice| choice[p]);
-                    let near = lights.near(surface.point, surface.normal);
-                    let (chosen, rest) = lights.choose_near(near.as_ref(), number);
-                    if pairs.choice.is_none() {
-                        u.x = rest;
-                    }
-                    chosen
-                }
+        for p in (0..count).filter(|&p| self.surfaces[p].reflects.any()) {
+            let surface = self.surfaces[p];
+            let bsdf = self.bsdf::<METAL>(p);
+            let mut u = numbers.light[p];
+            let [number, second] = numbers.choice.map_or([u.x, zero], |choice| [choice[p].x, choice[p].y]);
+            let chooser = match (given, allocated.get(p)) {
+                (Some(light), _) => Chooser::Given(light),
+                (None, Some(allocated)) => Chooser::Allocated(*allocated),
+                (None, None) => lights.chooser(surface.point, surface.normal, second),
             };
+            let choice = chooser.choose(number);
+            if numbers.choice.is_none() {
+                u.x = choice.u;
+            }
+            let mut chosen = lights.chosen(choice.index);
             let sample = lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
-            let some = sample.pdf.gt(zero) & chosen.pmf.gt(zero);
+            let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
             lit[p] = surface.reflects & sample.emits & some & cos.gt(zero);
-            let (value, surface_pdf) = bsdf.evaluate(sample.direction);
-            let pdf = select(lit[p], sample.pdf * chosen.pmf, one);
-            let weight = match heuristic {
-                None => one,
-                Some(heuristic) => heuristic.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0],
+            let Evaluated { color, factor, pdf: surface_pdf } = bsdf.evaluate(sample.direction);
+            let pdf = select(lit[p], sample.pdf * choice.pmf, one);
+            let factor = match heuristic {
+                None => factor,
+                Some(by) => factor * by.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0],
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[p] = world.bvh.rays(surface.point, sample.direction);
+            self.rays[1][p] = self.scene.surfaces.bvh.rays(surface.point, sample.direction);
             limit[p] = sample.distance * X8::lit(SPARED);
             target[p] = chosen.shape;
-            found[p] = product(value, chosen.radiance) * (weight / pdf);
+            found[p] = product(color, chosen.radiance) * (factor / pdf);
         }
-        world.bvh.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
-        for p in 0..count {
-            reflected[p] += keep(found[p], lit[p]);
-        }
+        self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
     }
 
-    /// Reflected light by sampling the BSDF or the hemisphere, with its MIS weight if there is a heuristic.
-    fn by_surface(
+    /// Adds the light reflected by sampling the BSDF or the hemisphere, with its MIS weight if the technique combines two.
+    fn by_surface<const METAL: bool>(
         &mut self,
-        ends: &[End],
-        pairs: [Vec2<X8>; GROUP],
-        heuristic: Option<Heuristic>,
+        count: usize,
+        pairs: &[Vec2<X8>; GROUP],
+        allocated: &[Allocated<'_, X8>],
         reflected: &mut [V8; GROUP],
     ) {
-        let world = self.world;
-        let technique = self.settings.technique;
-        let count = ends.len();
-        let (one, infinite) = (X8::lit(1.0), X8::lit(f64::INFINITY));
-        let rays = &mut self.rays[1];
+        let (scene, world) = (self.scene, &self.scene.surfaces);
+        let heuristic = self.technique.heuristic();
+        let (zero, one, infinite) = (X8::lit(0.0), X8::lit(1.0), X8::lit(f64::INFINITY));
         let mut lit = [M8::splat(false); GROUP];
         let mut hits = [Hits::none(infinite); GROUP];
-        // f·cosθ/pdf, and the pdf
-        let mut share = [V8::default(); GROUP];
+        let mut found = [V8::default(); GROUP];
+        let mut factors = [zero; GROUP];
         let mut own = [one; GROUP];
-        for (p, end) in ends.iter().enumerate() {
-            let (Some(bsdf), surface) = (&end.bsdf, &end.surface) else { continue };
-            let direction = match technique {
-                Technique::UniformHemisphere => bsdf.uniform(pairs[p]),
-                Technique::CosineHemisphere => bsdf.by_cosine(pairs[p]),
-                _ => bsdf.sample(pairs[p]),
-            };
-            let (value, pdf) = bsdf.evaluate(direction);
-            let pdf = match technique {
-                Technique::UniformHemisphere => bsdf.uniform_pdf(direction),
-                Technique::CosineHemisphere => bsdf.cosine_pdf(direction),
-                _ => pdf,
-            };
-            let some = pdf.gt(X8::lit(0.0));
+        for p in (0..count).filter(|&p| self.surfaces[p].reflects.any()) {
+            let surface = &self.surfaces[p];
+            let Scattered { direction, color, factor, pdf } = self.bsdf::<METAL>(p).sample(self.technique, pairs[p]);
+            let some = pdf.gt(zero);
             own[p] = select(some, pdf, one);
-            share[p] = value * (one / own[p]);
+            (found[p], factors[p]) = (color, factor);
             lit[p] = surface.reflects & some;
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[p] = world.bvh.rays(surface.point, direction);
+            self.rays[1][p] = world.bvh.rays(surface.point, direction);
         }
         // finding the hit light is cheap; only rays that hit one need an occlusion test
-        world.bvh.closest_shape(&rays[..count], &lit[..count], &mut hits[..count], &mut self.stack);
+        world.bvh.closest_shape(&self.rays[1][..count], &lit[..count], &mut hits[..count], &mut self.stack);
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut limit = [infinite; GROUP];
-        for (p, end) in ends.iter().enumerate() {
+        for p in 0..count {
             if !lit[p].any() {
                 continue;
             }
-            let point = end.surface.point;
-            let direction = rays[p].direction;
+            let Surface { point, normal, .. } = self.surfaces[p];
+            let rays = &self.rays[1][p];
+            let direction = rays.direction;
             let sent = lit[p];
             let met = sent & hits[p].any();
+            let missed = sent & !hits[p].any();
             let mut radiance = V8::default();
-            let mut light_pdf = X8::lit(0.0);
-            let combined = heuristic.is_some() && met.any();
-            let near = if combined { world.lights.near(point, end.surface.normal) } else { None };
+            let mut light_pdf = zero;
+            let weighted = heuristic.is_some() && (met.any() || scene.sky.is_some());
+            let chooser = weighted.then(|| match allocated.get(p) {
+                Some(allocated) => Chooser::Allocated(*allocated),
+                None => scene.lights.chooser(point, normal, zero),
+            });
             lit[p] = M8::splat(false);
-            world.each_shape(&hits[p], met, &rays[p], |index, here, shape, outward| {
+            world.each_shape(&hits[p], met, rays, |index, here, shape, outward| {
                 if let Some((emitted, here)) = emitted(here, shape, outward, direction) {
                     radiance = V8::blend(here, emitted, radiance);
                     lit[p] = lit[p] | here;
-                    if heuristic.is_some() && here.any() {
-                        let pdf = world.lights.shape_pdf(near.as_ref(), index, &shape.geometry, point, direction);
+                    if let Some(chooser) = chooser.as_ref().filter(|_| here.any()) {
+                        let pdf = scene.lights.shape_pdf(chooser, index, &shape.geometry, point, direction);
                         light_pdf = select(here, pdf, light_pdf);
                     }
                 }
             });
             target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
             limit[p] = hits[p].distance * X8::lit(SPARED);
-            if let Some(sky) = &world.sky {
-                let missed = sent & !hits[p].any();
-                if missed.any() {
-                    radiance = V8::blend(missed, sky.radiance(direction), radiance);
-                    lit[p] = lit[p] | missed;
-                    if heuristic.is_some() {
-                        let pdf = world.lights.sky_pdf(end.surface.normal, direction);
-                        light_pdf = select(missed, pdf, light_pdf);
-                    }
+            if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
+                radiance = V8::blend(missed, sky.radiance(direction), radiance);
+                lit[p] = lit[p] | missed;
+                if let Some(chooser) = &chooser {
+                    light_pdf = select(missed, scene.lights.sky_pdf(chooser, normal, direction), light_pdf);
                 }
             }
-            let weight = match heuristic {
-                None => one,
-                Some(heuristic) => heuristic.weights([own[p], light_pdf])[0],
+            let factor = match heuristic {
+                None => factors[p],
+                Some(by) => factors[p] * by.weights([own[p], light_pdf])[0],
             };
-            share[p] = product(share[p], radiance) * weight;
+            found[p] = product(found[p], radiance) * factor;
         }
-        world.bvh.occluded(&rays[..count], &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
+    }
+
+    /// Adds what arrives along the shadow rays that are not occluded.
+    #[inline(always)]
+    fn add_unoccluded(
+        &mut self,
+        count: usize,
+        found: &[V8; GROUP],
+        mut lit: [M8; GROUP],
+        limit: &[X8; GROUP],
+        target: &[u32x8; GROUP],
+        reflected: &mut [V8; GROUP],
+    ) {
+        let (rays, bvh) = (&self.rays[1][..count], &self.scene.surfaces.bvh);
+        bvh.occluded(rays, &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
         for p in 0..count {
-            reflected[p] += keep(share[p], lit[p]);
+            reflected[p] += keep(found[p], lit[p]);
         }
     }
 }
@@ -338,11 +362,10 @@ impl Work<'_> {
 impl End {
     /// Ends the paths of these lanes at a surface.
     #[inline]
-    fn settle(&mut self, surface: &Surface, lanes: M8, direction: V8, metal: Metal) {
+    fn settle(&mut self, own: &mut Surface, surface: &Surface, lanes: M8, direction: V8, metal: Metal) {
         if !lanes.any() {
             return;
         }
-        let own = &mut self.surface;
         own.point = V8::blend(lanes, surface.point, own.point);
         own.normal = V8::blend(lanes, surface.normal, own.normal);
         own.albedo = V8::blend(lanes, surface.albedo, own.albedo);
@@ -350,13 +373,22 @@ impl End {
         self.direction = V8::blend(lanes, direction, self.direction);
         self.metal = Some(self.metal.map_or(metal, |other| Metal::select(lanes, &metal, &other)));
     }
-    /// Reflects the rays of these lanes at mirrors.
+    /// Reflects the rays of these lanes at mirrors; returns their origins and directions.
     #[inline]
-    fn reflect(&mut self, surface: &Surface, metal: &Metal, lanes: M8, rays: &Rays, world: &World) -> Rays {
-        let cos = -rays.direction.dot(surface.normal);
+    fn reflect(&mut self, surface: &Surface, metal: &Metal, lanes: M8, direction: V8) -> (V8, V8) {
+        let cos = -direction.dot(surface.normal);
         let share = product(self.throughput, metal.reflectance(cos));
         self.throughput = V8::blend(lanes, share, self.throughput);
-        let direction = surface.normal.mul_add(cos + cos, rays.direction).normalize();
-        world.bvh.rays(surface.point, direction)
+        (surface.point, surface.normal.mul_add(cos + cos, direction).normalize())
     }
+}
+
+#[inline]
+pub(super) fn keep(v: V8, mask: M8) -> V8 {
+    V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
+}
+
+#[inline]
+fn product(a: V8, b: V8) -> V8 {
+    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
 }

@@ -8,8 +8,9 @@ use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, Ta
 use etendue::estimate::{Heuristic, Reservoir, Welford};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
-use etendue::select::{Choice, LightBound, PowerLights, SpatialLights, UniformLights};
+use etendue::select::{Allocation, Choice, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x8, u32x8};
+use etendue_oracle::{dot, length, sub};
 
 /// Weights, some of them 0 and rarely one invalid, with the error that an invalid one must give.
 fn weights(input: &mut Input<'_>, most: u8) -> (Vec<f32>, Option<TableError>) {
@@ -170,7 +171,7 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     let u = input.unit();
     let count = input.word() >> 10;
     let uniform = UniformLights { count };
-    let choice = uniform.choose(u);
+    let choice: Choice<f32> = uniform.choose(u);
     assert!(count == 0 || choice.index < count && choice.pmf > 0.0 && (0.0..1.0).contains(&choice.u));
     let mut powers = input.weights(20);
     let mut sums = vec![0.0; powers.len()];
@@ -184,13 +185,53 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
         .map(|&power| {
             let center = input.vector(&before);
             before.push(center);
-            LightBound { center, radius: input.weight(), power }
+            let normal = if input.word() % 2 == 0 { [0.0; 3] } else { input.direction() };
+            LightBound { center, radius: input.weight(), normal, two_sided: input.word() % 2 == 0, power }
         })
         .collect();
-    let p = input.vector(&before);
-    let lights = SpatialLights { lights: &bounds };
-    let (one, eight): (Vec3<f32>, Vec3<f32x8>) = (p.into(), p.into());
-    chosen(lights.choose(one, u), |k| lights.pmf(one, k), lights.choose(eight, f32x8::splat(u)), &powers);
+    let (p, n) = (input.vector(&before), input.direction());
+    let lights = SpatialLights::new(&bounds).expect("few lights");
+    let (one, eight) = (lights.at::<f32>(p.into(), n.into()), lights.at::<f32x8>(p.into(), n.into()));
+    // what cannot contribute counts as without power
+    let able: Vec<f32> = one.weights().collect();
+    for ((bound, able), power) in bounds.iter().zip(&able).zip(&powers) {
+        let wide = |v: [f32; 3]| v.map(f64::from);
+        let to = sub(wide(bound.center), wide(p));
+        let room = 1e-5 * length(to) + 1e-5 * (length(wide(bound.center)) + length(wide(p)));
+        let facing = bound.normal == [0.0; 3] || bound.two_sided || -dot(to, wide(bound.normal)) > room;
+        let away = dot(to, wide(bound.normal)).abs() > room || bound.normal == [0.0; 3];
+        let above = dot(to, wide(n)) + f64::from(bound.radius) > room;
+        assert!(*able >= 0.0 && (*power > 0.0 || *able == 0.0), "{bound:?} {able:e}");
+        assert!(!(facing && away && above && *power > 0.0) || *able > 0.0, "{bound:?} from {p:?} over {n:?} is lost");
+    }
+    chosen(one.choose(u), |k| one.pmf(k), eight.choose(f32x8::splat(u)), &able);
+    // allocation: every sample of a block belongs to one light, in proportion to the shares
+    let weights = input.weights(20);
+    let size = 32 << (input.word() % 6);
+    let mut before = Allocation::NONE;
+    let block = Allocation::new(&weights, size, &mut before);
+    assert_eq!(before.iter().sum::<u32>(), if weights.is_empty() { 0 } else { size });
+    for (light, &count) in (0..).zip(&before[..weights.len()]) {
+        assert!(count.is_power_of_two(), "{weights:?}: {before:?}");
+        assert_eq!(block.share(light), count as f32 / size as f32);
+    }
+    let mut found = Allocation::NONE;
+    for first in (0..size).step_by(8) {
+        let samples = block.samples::<f32x8>(first);
+        for lane in 0..8 {
+            let one = block.samples::<f32>(first + lane as u32);
+            let light = samples.light.lane(lane);
+            assert_eq!(
+                (one.light, one.sample, one.share),
+                (light, samples.sample.lane(lane), samples.share.lane(lane))
+            );
+            if !weights.is_empty() {
+                assert_eq!((one.sample, one.share), (found[light as usize], block.share(light)));
+                found[light as usize] += 1;
+            }
+        }
+    }
+    assert!(weights.is_empty() || found == before);
 }
 
 /// Elementary functions: within the documented errors in the documented domains, finite everywhere, identical in every lane.

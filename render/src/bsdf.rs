@@ -2,14 +2,15 @@
 
 use crate::packet::{M8, V8, X8, equal, max, min, select};
 use crate::scene::Material;
+use crate::technique::Technique;
 use etendue::warp::{CosineHemisphere, GgxVisibleNormals, UniformHemisphere};
-use etendue::{Frame, Real, Vec2, Warp, u32x8};
+use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
 /// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α, η (3), k (3), kind (bits). A mirror
 /// has its reflectance in place of η, and k = 0.
-pub(super) type Finish = [f32; 8];
+pub type Finish = [f32; 8];
 
 // kind 0 is diffuse
 const MIRROR: u32 = 1;
@@ -17,10 +18,10 @@ const METAL: u32 = 2;
 const ROUGH: u32 = 3;
 
 /// The record of a diffuse surface, with an arbitrary valid roughness.
-pub(super) const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+pub const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
 
 /// The record of a material.
-pub(super) fn finish(material: &Material) -> Finish {
+pub fn finish(material: &Material) -> Finish {
     let kind = |kind| f32::from_bits(kind);
     match *material {
         Material::Diffuse(_) => PLAIN,
@@ -34,7 +35,7 @@ pub(super) fn finish(material: &Material) -> Finish {
 
 /// Parameters of the metal in each lane.
 #[derive(Clone, Copy)]
-pub(super) struct Metal {
+pub struct Metal {
     alpha: X8,
     eta: V8,
     k: V8,
@@ -44,13 +45,13 @@ pub(super) struct Metal {
 impl Metal {
     /// Gathers one record per lane.
     #[inline]
-    pub(super) fn new(rows: [&Finish; 8]) -> Self {
+    pub fn new(rows: [&Finish; 8]) -> Self {
         let r = X8::transpose(rows.map(|r| X8::from(&r[..])));
         Self { alpha: r[0], eta: V8::new(r[1], r[2], r[3]), k: V8::new(r[4], r[5], r[6]), kind: r[7].to_bits() }
     }
     /// `yes` where the mask is true, `no` elsewhere.
     #[inline]
-    pub(super) fn select(mask: M8, yes: &Self, no: &Self) -> Self {
+    pub fn select(mask: M8, yes: &Self, no: &Self) -> Self {
         Self {
             alpha: select(mask, yes.alpha, no.alpha),
             eta: V8::blend(mask, yes.eta, no.eta),
@@ -60,22 +61,22 @@ impl Metal {
     }
     /// Lanes of perfect mirrors.
     #[inline]
-    pub(super) fn mirrors(&self) -> M8 {
+    pub fn mirrors(&self) -> M8 {
         equal(self.kind, u32x8::splat(MIRROR)) | equal(self.kind, u32x8::splat(METAL))
     }
     /// Lanes of rough metals.
     #[inline]
-    pub(super) fn rough(&self) -> M8 {
+    pub fn rough(&self) -> M8 {
         equal(self.kind, u32x8::splat(ROUGH))
     }
     /// Reflectance of a perfect mirror at this cosine of the angle of incidence, per channel.
     #[inline]
-    pub(super) fn reflectance(&self, cos: X8) -> V8 {
+    pub fn reflectance(&self, cos: X8) -> V8 {
         V8::blend(equal(self.kind, u32x8::splat(MIRROR)), self.eta, self.fresnel(cos))
     }
     /// Reflectance of a smooth conductor for unpolarised light, per channel.
     #[inline]
-    pub(super) fn fresnel(&self, cos: X8) -> V8 {
+    pub fn fresnel(&self, cos: X8) -> V8 {
         let of = |eta, k| fresnel(cos, eta, k);
         V8::new(of(self.eta.x, self.k.x), of(self.eta.y, self.k.y), of(self.eta.z, self.k.z))
     }
@@ -110,70 +111,112 @@ fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
     X8::lit(0.5) * (across + along)
 }
 
-/// The BSDFs of eight surfaces for given outgoing directions.
+/// The BSDFs of eight surfaces for given outgoing directions. `METAL` compiles the code of rough metals in.
 #[derive(Clone, Copy)]
-pub(super) struct Bsdf {
-    frame: Frame<X8>,
+pub struct Bsdf<const METAL: bool> {
+    normal: V8,
     albedo: V8,
-    /// Lanes of rough metals, the metals, and the outgoing directions in the shading frame.
-    rough: Option<(M8, Metal, V8)>,
+    rough: Option<Rough>,
 }
 
-impl Bsdf {
+/// Rough metals in some of the lanes.
+#[derive(Clone, Copy)]
+struct Rough {
+    lanes: M8,
+    metal: Metal,
+    frame: Frame<X8>,
+    /// Outgoing directions in the frame.
+    view: V8,
+}
+
+/// A BSDF for a pair of directions.
+pub struct Evaluated {
+    /// f·cosθ is the product of `color` and `factor`.
+    pub color: V8,
+    /// The part that all channels share.
+    pub factor: X8,
+    /// Pdf of a direction sampled from the BSDF (solid angle, 1/sr); 0 below the horizon.
+    pub pdf: X8,
+}
+
+/// A direction sampled from a BSDF or over the hemisphere.
+pub struct Scattered {
+    /// Unit direction in world space.
+    pub direction: V8,
+    /// f·cosθ/pdf is the product of `color` and `factor`.
+    pub color: V8,
+    /// The part that all channels share.
+    pub factor: X8,
+    /// Pdf of the direction (solid angle, 1/sr); 0 where there is no sample.
+    pub pdf: X8,
+}
+
+impl<const METAL: bool> Bsdf<METAL> {
     /// The BSDFs of surfaces with this normal and albedo for camera rays along `direction`.
-    #[inline]
-    pub(super) fn new(normal: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
-        let frame = Frame::new(normal);
-        let rough = metal.map(|m| (m.rough(), m, frame.to_local(-direction)));
-        Self { frame, albedo, rough: rough.filter(|(lanes, ..)| etendue::Mask::any(*lanes)) }
+    #[inline(always)]
+    pub fn new(normal: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
+        let rough = metal.filter(|metal| METAL && metal.rough().any()).map(|metal| {
+            let frame = Frame::new(normal);
+            Rough { lanes: metal.rough(), metal, frame, view: frame.to_local(-direction) }
+        });
+        Self { normal, albedo, rough }
     }
-    /// f·cosθ for the unit vector `w`, and the pdf of [`sample`](Self::sample) (solid angle, 1/sr); both are 0 below the horizon.
-    #[inline]
-    pub(super) fn evaluate(&self, w: V8) -> (V8, X8) {
-        let local = self.frame.to_local(w);
-        let above = local.z.gt(X8::lit(0.0));
-        let mut pdf: X8 = CosineHemisphere.pdf(local).keep(above);
-        let mut value = self.albedo * (local.z * X8::lit(INV_PI)).keep(above);
-        if let Some((lanes, metal, view)) = &self.rough {
-            let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
-            let m = (local + *view).normalize();
-            let density = normals.reflected_pdf(m).keep(above);
-            // f cosθ = F D G₂/(4 cosθᵢ) and the pdf is D G₁/(4 cosθᵢ), so their quotient is F G₂/G₁
-            let share = density * shadowing(metal.alpha, view.z, local.z);
-            value = V8::blend(*lanes, metal.fresnel(view.dot(m)) * share, value);
-            pdf = select(*lanes, density, pdf);
+    /// Evaluates the BSDF for the unit vector `w`; 0 below the horizon, where diffuse lanes of a scene without metals have a negative
+    /// `factor`.
+    #[inline(always)]
+    pub fn evaluate(&self, w: V8) -> Evaluated {
+        let cos = w.dot(self.normal);
+        let above = cos.gt(X8::lit(0.0));
+        let factor = cos * X8::lit(INV_PI);
+        let pdf = factor.keep(above);
+        if !METAL {
+            return Evaluated { color: self.albedo, factor, pdf };
         }
-        (value, pdf)
+        let value = self.albedo * factor.keep(above);
+        let one = X8::lit(1.0);
+        let Some(Rough { lanes, metal, frame, view }) = &self.rough else {
+            return Evaluated { color: value, factor: one, pdf };
+        };
+        let local = frame.to_local(w);
+        let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
+        let m = (local + *view).normalize();
+        let density = normals.reflected_pdf(m).keep(above);
+        // f cosθ = F D G₂/(4 cosθᵢ) and the pdf is D G₁/(4 cosθᵢ), so their quotient is F G₂/G₁
+        let share = density * shadowing(metal.alpha, view.z, local.z);
+        let color = V8::blend(*lanes, metal.fresnel(view.dot(m)) * share, value);
+        Evaluated { color, factor: one, pdf: select(*lanes, density, pdf) }
     }
-    /// Samples a direction: by the cosine, or by visible normals for rough metals.
-    #[inline]
-    pub(super) fn sample(&self, u: Vec2<X8>) -> V8 {
-        let mut local: V8 = CosineHemisphere.sample(u);
-        if let Some((lanes, metal, view)) = &self.rough {
+    /// Samples a direction for the technique: uniform or by the cosine over the hemisphere, and otherwise from the BSDF, which is by the
+    /// cosine for diffuse surfaces and by visible normals for rough metals.
+    #[inline(always)]
+    pub fn sample(&self, technique: Technique, u: Vec2<X8>) -> Scattered {
+        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+        let frame = Frame::new(self.normal);
+        let uniform = technique == Technique::UniformHemisphere;
+        let mut local: V8 = if uniform { UniformHemisphere.sample(u) } else { CosineHemisphere.sample(u) };
+        let by_cosine = uniform || technique == Technique::CosineHemisphere;
+        if !METAL {
+            // f = albedo/π: the pdf cosθ/π leaves the albedo, the pdf 1/(2π) leaves 2 cosθ times the albedo
+            let (factor, pdf): (X8, X8) = if uniform {
+                (local.z * X8::lit(2.0), UniformHemisphere.pdf(local))
+            } else {
+                (one, CosineHemisphere.pdf(local))
+            };
+            return Scattered { direction: frame.to_world(local), color: self.albedo, factor, pdf };
+        }
+        if let Some(Rough { lanes, metal, view, .. }) = self.rough.as_ref().filter(|_| !by_cosine) {
             let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
             local = V8::blend(*lanes, normals.reflect(normals.sample(u)), local);
         }
-        self.frame.to_world(local)
-    }
-    /// Samples a cosine-distributed direction, for any BSDF.
-    #[inline]
-    pub(super) fn by_cosine(&self, u: Vec2<X8>) -> V8 {
-        self.frame.to_world(CosineHemisphere.sample(u))
-    }
-    /// The pdf of [`by_cosine`](Self::by_cosine) (solid angle, 1/sr).
-    #[inline]
-    pub(super) fn cosine_pdf(&self, w: V8) -> X8 {
-        CosineHemisphere.pdf(self.frame.to_local(w))
-    }
-    /// Samples a direction uniform over the hemisphere, for any BSDF.
-    #[inline]
-    pub(super) fn uniform(&self, u: Vec2<X8>) -> V8 {
-        self.frame.to_world(UniformHemisphere.sample(u))
-    }
-    /// The pdf of [`uniform`](Self::uniform) (solid angle, 1/sr).
-    #[inline]
-    pub(super) fn uniform_pdf(&self, w: V8) -> X8 {
-        UniformHemisphere.pdf(self.frame.to_local(w))
+        let direction = frame.to_world(local);
+        let Evaluated { color, pdf, .. } = self.evaluate(direction);
+        let pdf = match technique {
+            Technique::UniformHemisphere => UniformHemisphere.pdf(frame.to_local(direction)),
+            Technique::CosineHemisphere => CosineHemisphere.pdf(frame.to_local(direction)),
+            _ => pdf,
+        };
+        let some = pdf.gt(zero);
+        Scattered { direction, color: color * (one / select(some, pdf, one)), factor: one, pdf }
     }
 }
 
@@ -242,7 +285,7 @@ mod tests {
                 let cos = (1.0 - sin * sin).sqrt();
                 let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
                 let toward = V8::from([-sin, 0.0, -cos]);
-                let bsdf = Bsdf::new(normal, V8::default(), toward, Some(metal));
+                let bsdf = Bsdf::<true>::new(normal, V8::default(), toward, Some(metal));
                 let n = 1024_u16;
                 let (mut sampled, mut weight, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
                 for i in 0..n {
@@ -251,13 +294,12 @@ mod tests {
                             X8::splat((f32::from(i) + 0.5) / f32::from(n)),
                             X8::from_fn(|lane| (f32::from(j) + lane as f32 + 0.5) / f32::from(n)),
                         );
-                        let w = bsdf.sample(u);
-                        let (value, pdf) = bsdf.evaluate(w);
+                        let Scattered { color: value, pdf, .. } = bsdf.sample(Technique::Brdf, u);
                         let uniform: V8 = UniformHemisphere.sample(u);
-                        let (at, d) = bsdf.evaluate(uniform);
+                        let Evaluated { color: at, pdf: d, .. } = bsdf.evaluate(uniform);
                         for lane in 0..8 {
                             if pdf.lane(lane) > 0.0 {
-                                sampled += f64::from(value.x.lane(lane) / pdf.lane(lane));
+                                sampled += f64::from(value.x.lane(lane));
                                 weight += 1.0;
                             }
                             grid += f64::from(at.x.lane(lane)) * std::f64::consts::TAU;

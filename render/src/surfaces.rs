@@ -1,20 +1,24 @@
-//! The surfaces that rays hit: point, normal, emission and albedo.
+//! The surfaces of a scene: what rays hit, with its material.
 
-use super::World;
-use crate::bvh::{Hits, Rays, SHAPE};
-use crate::packet::{M8, V8, X8};
-use crate::scene::{Geometry, Shape};
+use crate::bsdf::{Finish, Metal, PLAIN, finish};
+use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
+use crate::packet::{M8, V8, X8, equal};
+use crate::scene::{Geometry, Material, Scene, Shape};
 use etendue::{Mask, Real, u32x8};
 
 /// The hit points of eight rays.
 #[derive(Clone, Copy)]
-pub(super) struct Surface {
-    pub(super) point: V8,
-    pub(super) normal: V8,
-    pub(super) albedo: V8,
-    pub(super) emission: V8,
+pub struct Surface {
+    /// Positions, moved off the surface towards the ray by more than their error.
+    pub point: V8,
+    /// Unit normals on the side of the ray.
+    pub normal: V8,
+    /// Albedo per channel; 1 for metals and mirrors.
+    pub albedo: V8,
+    /// Radiance emitted towards the ray.
+    pub emission: V8,
     /// Lanes that reflect.
-    pub(super) reflects: M8,
+    pub reflects: M8,
 }
 
 impl Default for Surface {
@@ -24,11 +28,75 @@ impl Default for Surface {
     }
 }
 
-impl World {
+/// Everything that rays can hit.
+#[derive(Debug)]
+pub struct Surfaces {
+    /// The trees of triangles and shapes.
+    pub bvh: Bvh,
+    /// Spheres and emitters.
+    shapes: Vec<Shape>,
+    /// Normals of the shapes; 0 for spheres.
+    normals: Vec<[f32; 3]>,
+    /// Albedos of the materials; white for metals and mirrors that are not black.
+    albedos: Vec<[f32; 3]>,
+    finishes: Vec<Finish>,
+    /// Material of each triangle in tree order; empty if all have the same.
+    place_materials: Vec<u32>,
+    /// Material of all triangles if `place_materials` is empty.
+    one_material: u32,
+    /// Whether all materials are diffuse.
+    pub only_diffuse: bool,
+}
+
+impl Surfaces {
+    /// Builds the trees of a scene.
+    ///
+    /// # Errors
+    /// Fails if there are more primitives than a tree can index.
+    pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+        Ok(Self::with(scene, Bvh::new(&scene.triangles, Self::shapes(scene)?)?))
+    }
+    /// Like [`Surfaces::new`], but takes the triangles out of the scene and builds the tree in their memory.
+    ///
+    /// # Errors
+    /// Fails if there are more primitives than a tree can index.
+    pub fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
+        let shapes = Self::shapes(scene)?;
+        let bvh = Bvh::taking(std::mem::take(&mut scene.triangles), shapes)?;
+        let surfaces = Self::with(scene, bvh);
+        scene.triangle_materials = Vec::new();
+        Ok(surfaces)
+    }
+    fn shapes(scene: &Scene) -> Result<ShapeSet, BuildError> {
+        ShapeSet::new(scene.shapes.iter().map(|shape| &shape.geometry))
+    }
+    fn with(scene: &Scene, bvh: Bvh) -> Self {
+        let one = scene.triangle_materials.windows(2).all(|w| w[0] == w[1]);
+        let place_materials = if one {
+            Vec::new()
+        } else {
+            bvh.order().iter().map(|&id| scene.triangle_materials[id as usize]).collect()
+        };
+        let albedo = |material: &Material| match *material {
+            Material::Diffuse(albedo) => albedo,
+            _ if material.is_black() => [0.0; 3],
+            Material::Mirror(_) | Material::Conductor { .. } => [1.0; 3],
+        };
+        Self {
+            only_diffuse: scene.materials.iter().all(|m| matches!(m, Material::Diffuse(_))),
+            normals: scene.shapes.iter().map(|s| s.geometry.normal()).collect(),
+            shapes: scene.shapes.clone(),
+            bvh,
+            albedos: scene.materials.iter().map(albedo).collect(),
+            finishes: scene.materials.iter().map(finish).collect(),
+            place_materials,
+            one_material: scene.triangle_materials.first().copied().unwrap_or(0),
+        }
+    }
     /// Geometry and material where eight rays hit the scene.
     // a call would copy the result
     #[inline(always)]
-    pub(super) fn surface(&self, hits: &Hits, rays: &Rays) -> Surface {
+    pub fn hit(&self, hits: &Hits, rays: &Rays) -> Surface {
         let shapes = hits.shapes();
         let meshes = hits.any() & !shapes;
         let mut surface = Surface::default();
@@ -36,7 +104,7 @@ impl World {
             self.mesh(hits, meshes, rays.direction, &mut surface);
         }
         if shapes.any() {
-            self.shapes(hits, shapes, rays, &mut surface);
+            self.solid(hits, shapes, rays, &mut surface);
         }
         surface
     }
@@ -45,7 +113,7 @@ impl World {
     fn mesh(&self, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) {
         let places = hits.place.as_array();
         let first = places[lanes.bits().trailing_zeros() as usize & 7];
-        let uniform = (crate::packet::equal(hits.place, u32x8::splat(first)) | !lanes).all();
+        let uniform = (equal(hits.place, u32x8::splat(first)) | !lanes).all();
         let (v0, v1, v2, albedo);
         if uniform {
             let c = self.bvh.corners(first);
@@ -85,17 +153,17 @@ impl World {
 
     /// Material of a triangle, by its place in tree order.
     #[inline]
-    pub(super) fn mesh_material(&self, place: u32) -> u32 {
+    fn mesh_material(&self, place: u32) -> u32 {
         self.place_materials.get(place as usize).copied().unwrap_or(self.one_material)
     }
 
     /// Calls `f` for each shape that some lanes have hit, with its index, the lanes, the shape and its outward normals at the hits.
     #[inline]
-    pub(super) fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(usize, M8, &Shape, V8)) {
+    pub fn each_shape(&self, hits: &Hits, mut lanes: M8, rays: &Rays, mut f: impl FnMut(usize, M8, &Shape, V8)) {
         while lanes.any() {
             let lane = lanes.bits().trailing_zeros() as usize & 7;
             let place = hits.place.as_array()[lane];
-            let here = lanes & crate::packet::equal(hits.place, u32x8::splat(place));
+            let here = lanes & equal(hits.place, u32x8::splat(place));
             let index = (place & !SHAPE) as usize;
             let shape = &self.shapes[index];
             let outward = match shape.geometry {
@@ -110,7 +178,7 @@ impl World {
     }
 
     /// Adds the spheres and emitters that eight rays hit.
-    fn shapes(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
+    fn solid(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
         self.each_shape(hits, lanes, rays, |_, here, shape, outward| {
             if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
                 surface.emission = V8::blend(lit, radiance, surface.emission);
@@ -131,11 +199,30 @@ impl World {
             }
         });
     }
+
+    /// Materials at the hit points of these lanes.
+    #[inline]
+    pub fn metal(&self, hits: &Hits, lanes: M8) -> Metal {
+        let places = hits.place.as_array();
+        let rows: [&Finish; 8] = std::array::from_fn(|i| {
+            if !lanes.lane(i) {
+                return &PLAIN;
+            }
+            let place = places[i];
+            let material = if place & SHAPE == 0 {
+                self.mesh_material(place)
+            } else {
+                self.shapes[(place & !SHAPE) as usize].material
+            };
+            &self.finishes[material as usize]
+        });
+        Metal::new(rows)
+    }
 }
 
 /// Radiance that a shape emits against the rays, and the lanes where it does.
 #[inline]
-pub(super) fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(V8, M8)> {
+pub fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(V8, M8)> {
     let emission = shape.emission?;
     let front = outward.dot(direction).lt(X8::lit(0.0));
     Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))

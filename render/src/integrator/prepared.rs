@@ -1,0 +1,38 @@
+//! A scene with its trees and tables.
+
+use crate::bvh::BuildError;
+use crate::lights::Lights;
+use crate::scene::Scene;
+use crate::sky::Sky;
+use crate::surfaces::Surfaces;
+use std::sync::Arc;
+
+/// Everything that paths need of a scene.
+#[derive(Debug)]
+pub(super) struct PreparedScene {
+    pub(super) surfaces: Surfaces,
+    pub(super) lights: Lights,
+    /// The delta lights among `lights`.
+    pub(super) deltas: Lights,
+    pub(super) sky: Option<Arc<Sky>>,
+}
+
+impl PreparedScene {
+    pub(super) fn new(scene: &Scene) -> Result<Self, BuildError> {
+        Ok(Self::with(scene, Surfaces::new(scene)?))
+    }
+    /// Takes the triangles out of the scene.
+    pub(super) fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
+        let sky = Self::sky(scene);
+        // the power of distant lights depends on the size of the scene
+        let (lights, deltas) = (Lights::new(scene, sky.clone()), Lights::deltas(scene));
+        Ok(Self { surfaces: Surfaces::from_scene(scene)?, lights, deltas, sky })
+    }
+    fn with(scene: &Scene, surfaces: Surfaces) -> Self {
+        let sky = Self::sky(scene);
+        Self { surfaces, lights: Lights::new(scene, sky.clone()), deltas: Lights::deltas(scene), sky }
+    }
+    fn sky(scene: &Scene) -> Option<Arc<Sky>> {
+        scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)))
+    }
+}

@@ -1,0 +1,54 @@
+//! What an image depends on besides the scene, and what it cost.
+
+use crate::sampler::Sampler;
+use crate::technique::Technique;
+use std::ops::AddAssign;
+
+/// Everything an image depends on besides the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Pixels across, at least 1.
+    pub width: u32,
+    /// Pixels down, at least 1.
+    pub height: u32,
+    /// Samples per pixel, at least 1.
+    pub spp: u32,
+    /// How to sample the lights.
+    pub technique: Technique,
+    /// Greatest number of perfect mirrors along a camera ray.
+    pub depth: u32,
+    /// How to generate the random numbers.
+    pub sampler: Sampler,
+    /// Independent sets of samples per pixel: 1, 2 or 4, or 0 for as few as give a variance, see [`Sampler::sets`]. The variance of
+    /// a pixel is that of the means of its sets; with 1 set it is infinite.
+    pub sets: u32,
+    /// Seed of the random numbers; different seeds give independent images.
+    pub seed: u64,
+}
+
+impl Settings {
+    /// The default depth.
+    pub const DEPTH: u32 = 8;
+}
+
+/// Numbers of rays traced for an image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCount {
+    /// Rays from the camera.
+    pub camera: u64,
+    /// Rays reflected by mirrors.
+    pub mirror: u64,
+    /// Rays towards a light, or over the hemisphere to find one.
+    pub shadow: u64,
+    /// Rays through the corners of pixels, which find the lights that matter there.
+    pub corner: u64,
+}
+
+impl AddAssign for RayCount {
+    fn add_assign(&mut self, other: Self) {
+        self.camera += other.camera;
+        self.mirror += other.mirror;
+        self.shadow += other.shadow;
+        self.corner += other.corner;
+    }
+}

@@ -1,0 +1,316 @@
+//! Renders the samples of a square of pixels.
+
+use super::adaptive::PartSum;
+use super::allocation::{Blocks, Weights};
+use super::paths::{Numbers, Paths, keep};
+use super::prepared::PreparedScene;
+use super::settings::{RayCount, Settings};
+use crate::bvh::GROUP;
+use crate::camera::{Camera, CameraSample};
+use crate::film::Accumulator;
+use crate::packet::{M8, V8, X8};
+use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
+use crate::sensor::Exposure;
+use etendue::select::{Allocated, Allocation};
+use etendue::{Mask, Real, Vec2, u32x8};
+
+/// Side of the square of pixels that a thread renders at a time.
+pub(super) const TILE: u32 = 16;
+
+/// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
+const POWER: f32 = 0.8;
+
+/// Renders tiles, and keeps the scratch memory for it.
+pub(super) struct TileRenderer<'a> {
+    scene: &'a PreparedScene,
+    settings: &'a Settings,
+    camera: Camera,
+    exposure: Option<Exposure>,
+    /// Whether samples need a point of the lens.
+    lens: bool,
+    source: Source,
+    paths: Paths<'a>,
+}
+
+/// The pixels of an area [x0, y0, x1, y1) along a Z-order curve, so that successive pixels are close in the image.
+fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
+    let even = |i: u32| (0..4).fold(0, |n, bit| n | (i >> (2 * bit) & 1) << bit);
+    let all = (0..TILE * TILE).map(|i| [x0 + even(i), y0 + even(i >> 1)]);
+    all.filter(|&[x, y]| x < x1 && y < y1).collect()
+}
+
+/// Successive samples of one set of a pixel.
+#[derive(Clone, Copy)]
+struct Run {
+    pixel: [u32; 2],
+    set: u32,
+    /// The next sample, and the end, counted within the set.
+    next: u32,
+    end: u32,
+    last_set: bool,
+}
+
+/// Lanes of a packet that belong to one run.
+struct Piece {
+    packet: usize,
+    lanes: std::ops::Range<usize>,
+    run: Run,
+    /// Whether the run ends with these lanes.
+    ends: bool,
+}
+
+impl<'a> TileRenderer<'a> {
+    pub(super) fn new(
+        scene: &'a PreparedScene,
+        settings: &'a Settings,
+        camera: Camera,
+        exposure: Option<Exposure>,
+    ) -> Self {
+        let Settings { sampler, seed, spp, sets, width, .. } = *settings;
+        Self {
+            scene,
+            settings,
+            camera,
+            lens: camera.has_lens() || exposure.is_some(),
+            exposure,
+            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width),
+            paths: Paths::new(scene, settings),
+        }
+    }
+
+    /// Rays traced so far.
+    pub(super) const fn count(&self) -> RayCount {
+        self.paths.count
+    }
+
+    /// Renders all samples of the pixels of an area [x0, y0, x1, y1), row by row.
+    pub(super) fn all<A: Accumulator>(&mut self, area: [u32; 4], sum: A) -> Vec<A::Output> {
+        let Settings { spp, .. } = *self.settings;
+        let span = if self.source.span() == 0 { spp } else { self.source.span() };
+        let whole = span.is_multiple_of(8);
+        let weights = if whole { self.weights(area, span) } else { None };
+        self.samples(area, span, spp / span, weights.as_ref(), sum, |_| [0, span])
+    }
+
+    /// Renders packets `from` to `to` of each of the `sets` of pixels of an area, row by row; `range` returns them for a pixel. Samples
+    /// are allocated to the lights by `weights` if given, otherwise by the corners of the pixels.
+    pub(super) fn parts(
+        &mut self,
+        area: [u32; 4],
+        [pilot, sets]: [u32; 2],
+        weights: Option<&Weights>,
+        range: impl Fn([u32; 2]) -> [u32; 2],
+    ) -> Vec<<PartSum as Accumulator>::Output> {
+        let found = if weights.is_none() { self.weights(area, 8 * pilot) } else { None };
+        let weights = weights.or(found.as_ref());
+        let sum = PartSum::new(weights.map_or(0, |weights| weights.lights));
+        self.samples(area, 8 * pilot, sets, weights, sum, |pixel| range(pixel).map(|packet| 8 * packet))
+    }
+
+    /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,
+    /// if given, in blocks of which the first has `block` samples.
+    fn samples<A: Accumulator>(
+        &mut self,
+        area: [u32; 4],
+        block: u32,
+        sets: u32,
+        weights: Option<&Weights>,
+        mut sum: A,
+        range: impl Fn([u32; 2]) -> [u32; 2],
+    ) -> Vec<A::Output> {
+        let [x0, y0, x1, _] = area;
+        let pixels = z_order(area);
+        // samples that are independent of each other have no sets that end
+        let (span, end_sets) = (self.source.span(), self.settings.sampler.has_sets());
+        // packets of a single pixel and set are summed in lanes, others sample by sample
+        let whole = pixels.iter().all(|&pixel| range(pixel).iter().all(|sample| sample.is_multiple_of(8)));
+        let mut runs = pixels.iter().flat_map(|&pixel| {
+            let [next, end] = range(pixel);
+            let run = move |set: u32| Run { pixel, set, next, end, last_set: set + 1 == sets };
+            (0..sets).map(run).filter(|run| run.next < run.end)
+        });
+        let mut run = runs.next();
+        let mut outputs = vec![A::Output::default(); pixels.len()];
+        let mut blocks = Blocks::new(block);
+        let (mut packets, mut pieces, mut allocations) = (Vec::new(), Vec::new(), Vec::new());
+        while run.is_some() {
+            packets.clear();
+            pieces.clear();
+            allocations.clear();
+            while packets.len() < GROUP
+                && let Some(first) = run
+            {
+                if let Some(weights) = weights {
+                    allocations.push(blocks.at(weights, first.pixel, first.next));
+                }
+                packets.push(Self::packet(&mut run, &mut runs, span, packets.len(), &mut pieces));
+            }
+            let allocated: [Option<Allocated<'_, X8>>; GROUP] = std::array::from_fn(|p| {
+                let (allocation, sample): &(Allocation, u32) = allocations.get(p)?;
+                Some(allocation.samples(*sample))
+            });
+            let count = allocations.len();
+            let radiance = match allocated {
+                [Some(first), ..] => {
+                    let all: [Allocated<'_, X8>; GROUP] = std::array::from_fn(|p| allocated[p].unwrap_or(first));
+                    self.radiance(&packets, &all[..count])
+                }
+                _ => self.radiance(&packets, &[]),
+            };
+            for Piece { packet, lanes, run, ends } in pieces.drain(..) {
+                let radiance = radiance[packet];
+                if whole {
+                    sum.push_packet(radiance, allocated[packet].as_ref());
+                } else {
+                    lanes.for_each(|lane| sum.push(radiance.lane(lane).into()));
+                }
+                if ends && end_sets {
+                    sum.end_set();
+                }
+                if ends && run.last_set {
+                    let [x, y] = run.pixel;
+                    outputs[((y - y0) * (x1 - x0) + (x - x0)) as usize] = sum.finish();
+                }
+            }
+        }
+        outputs
+    }
+
+    /// The next eight samples of successive runs.
+    #[inline]
+    fn packet(
+        run: &mut Option<Run>,
+        runs: &mut impl Iterator<Item = Run>,
+        span: u32,
+        packet: usize,
+        pieces: &mut Vec<Piece>,
+    ) -> Packet {
+        let lanes = u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
+        let first = run.unwrap_or_else(|| unreachable!("there is a run"));
+        if first.end - first.next >= 8 {
+            let (next, ends) = (first.next + 8, first.next + 8 == first.end);
+            pieces.push(Piece { packet, lanes: 0..8, run: first, ends });
+            *run = if ends { runs.next() } else { Some(Run { next, ..first }) };
+            let [x, y] = first.pixel.map(u32x8::splat);
+            let sample = u32x8::splat(first.set * span + first.next) + lanes;
+            return Packet { x, y, sample, replicate: u32x8::splat(first.set), active: M8::splat(true) };
+        }
+        let (mut x, mut y, mut sample, mut replicate) = ([0; 8], [0; 8], [0; 8], [0; 8]);
+        let mut filled = 0;
+        while filled < 8
+            && let Some(current) = *run
+        {
+            let taken = (current.end - current.next).min(8 - filled);
+            let range = filled as usize..(filled + taken) as usize;
+            for lane in range.clone() {
+                [x[lane], y[lane]] = current.pixel;
+                sample[lane] = current.set * span + current.next + lane as u32 - filled;
+                replicate[lane] = current.set;
+            }
+            filled += taken;
+            let (next, ends) = (current.next + taken, current.next + taken == current.end);
+            pieces.push(Piece { packet, lanes: range, run: current, ends });
+            *run = if ends { runs.next() } else { Some(Run { next, ..current }) };
+        }
+        // the last packet of a tile repeats its last sample
+        for lane in filled as usize..8 {
+            let last = filled as usize - 1;
+            (x[lane], y[lane], sample[lane], replicate[lane]) = (x[last], y[last], sample[last], replicate[last]);
+        }
+        Packet {
+            x: u32x8::new(x),
+            y: u32x8::new(y),
+            sample: u32x8::new(sample),
+            replicate: u32x8::new(replicate),
+            active: M8::from_bits((1 << filled) - 1),
+        }
+    }
+
+    /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
+    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> [V8; GROUP] {
+        let Self { source, paths, camera, settings, .. } = self;
+        let lights = paths.sampled();
+        // delta lights alone need no point on the light
+        let point = settings.technique.finds_lights() || !lights.only_deltas();
+        let own = |dimension: u32| {
+            let mut pairs = [Vec2::default(); GROUP];
+            pairs.iter_mut().zip(packets).for_each(|(pair, packet)| *pair = source.pair(packet, dimension));
+            pairs
+        };
+        let mut numbers = Numbers {
+            light: [Vec2::default(); GROUP],
+            choice: lights.many().then(|| own(CHOICE)),
+            surface: (point && settings.technique.heuristic().is_some()).then(|| own(SURFACE)),
+        };
+        let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];
+        let mut active = [M8::splat(false); GROUP];
+        for (p, packet) in packets.iter().enumerate() {
+            let film = if point {
+                let [film, light] = match allocated.get(p) {
+                    Some(allocated) => source.film_and_light_of(packet, allocated.light, allocated.sample),
+                    None => source.film_and_light(packet),
+                };
+                numbers.light[p] = light;
+                film
+            } else {
+                source.pair(packet, FILM)
+            };
+            let lens = self.lens.then(|| source.pair(packet, LENS));
+            samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
+            paths.start(p, camera.rays(&samples[p]));
+            active[p] = packet.active;
+        }
+        let mut radiance = paths.radiance(&active[..packets.len()], &numbers, allocated);
+        for (radiance, sample) in radiance.iter_mut().zip(&samples[..packets.len()]) {
+            if let Some(open) = camera.open(sample) {
+                *radiance = keep(*radiance, open);
+            }
+            if let Some(exposure) = &self.exposure {
+                *radiance = *radiance * exposure.weight(sample);
+            }
+        }
+        radiance
+    }
+
+    /// Weights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
+    /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
+    fn weights(&mut self, area: [u32; 4], size: u32) -> Option<Weights> {
+        let lights = self.scene.lights.few()?;
+        // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
+        let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
+        if !fits || self.settings.technique.finds_lights() || !self.source.allocates() {
+            return None;
+        }
+        let [x0, y0, x1, y1] = area;
+        let (across, down) = ((x1 - x0 + 1) as usize, (y1 - y0 + 1) as usize);
+        let mut corners = vec![0.0; across * down * lights];
+        for start in (0..across * down).step_by(8 * GROUP) {
+            let count = (across * down - start).div_ceil(8).min(GROUP);
+            let place = |p: usize, lane: usize| (start + 8 * p + lane).min(across * down - 1);
+            for p in 0..count {
+                let at = |of: &dyn Fn(usize) -> u32| X8::from(std::array::from_fn(|lane| of(place(p, lane)) as f32));
+                let (x, y) = (at(&|i| x0 + (i % across) as u32), at(&|i| y0 + (i / across) as u32));
+                let sample = CameraSample { film: Vec2::new(x, y), lens: Vec2::default() };
+                self.paths.start(p, self.camera.rays(&sample));
+            }
+            let surfaces = self.paths.surfaces(&[M8::splat(true); GROUP][..count]);
+            for (p, surface) in surfaces.iter().enumerate() {
+                let Some(parts) = self.scene.lights.contributions(surface.point, surface.normal) else { continue };
+                for (k, part) in parts.weights().enumerate() {
+                    let part = part.keep(surface.reflects).to_array();
+                    for (lane, part) in part.into_iter().enumerate() {
+                        corners[place(p, lane) * lights + k] = part;
+                    }
+                }
+            }
+            self.paths.count.corner += (across * down - start).min(8 * GROUP) as u64;
+        }
+        let mut of = Vec::with_capacity((TILE * TILE) as usize * lights);
+        for (y, x) in (0..down - 1).flat_map(|y| (0..across - 1).map(move |x| (y, x))) {
+            let corner = |dx: usize, dy: usize| ((y + dy) * across + x + dx) * lights;
+            let four = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+            of.extend((0..lights).map(|k| four.iter().map(|c| corners[c + k]).sum::<f32>().powf(POWER)));
+        }
+        Some(Weights { lights, of, area, begun: Vec::new() })
+    }
+}
