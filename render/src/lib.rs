@@ -7,7 +7,7 @@
 //! - [`scene`]: scene files.
 //! - [`bvh`]: what rays hit.
 //! - [`camera`], [`sensor`], [`sampler`], [`technique`], [`sky`], [`lights`]: the numbers and directions of a sample.
-//! - [`integrator`]: images.
+//! - [`integrator`], [`progressive`]: images of a given number of samples, or of a given error or time.
 
 pub mod bvh;
 pub mod camera;
@@ -20,6 +20,7 @@ pub mod integrator;
 pub mod lights;
 pub mod options;
 pub mod packet;
+pub mod progressive;
 pub mod sampler;
 pub mod scene;
 pub mod sensor;
