@@ -77,7 +77,8 @@ fn kind(file: fs::FileType) -> Option<&'static str> {
 /// Fails if the file cannot be written, with the reason.
 pub fn check_replaceable(path: &Path) -> Result<(), FileError> {
     let refused = |why: &dyn fmt::Display| failed(path, format!("cannot write: {why}"));
-    if path.file_name().is_none() || path.is_dir() {
+    let ends_in_separator = path.to_string_lossy().ends_with(std::path::is_separator);
+    if path.file_name().is_none() || ends_in_separator || path.is_dir() {
         return Err(refused(&"this is a folder"));
     }
     match fs::symlink_metadata(path) {

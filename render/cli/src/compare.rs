@@ -9,11 +9,11 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// The EXR file of the reference
+    /// EXR file of the reference
     reference: PathBuf,
-    /// The EXR file of the image
+    /// EXR file of the image
     image: PathBuf,
-    /// The mean squared standard error of the reference, which is used if its file has no variance
+    /// Take this as the mean squared standard error of a reference whose file has no variance
     #[arg(long, default_value_t = 0.0)]
     reference_error: f64,
     /// Print the result as one JSON object

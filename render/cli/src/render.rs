@@ -16,12 +16,12 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// The name of a built-in scene, or the path of a pbrt-v4 file
+    /// Name of a built-in scene, or path of a pbrt-v4 file
     scene: String,
-    /// The EXR file to write; the PNG is written beside it [default: the scene's film filename, or SCENE.exr]
+    /// Write the image to this EXR file, and a PNG beside it [default: the scene's film filename, or SCENE.exr]
     #[arg(short, long, value_name = "OUT.exr")]
     output: Option<PathBuf>,
-    /// The number of samples per pixel [default: from the scene]
+    /// Take this many samples per pixel [default: from the scene]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
     spp: Option<u32>,
     /// Refine the image until this many seconds have passed since the start of the first pass
@@ -30,28 +30,28 @@ pub(crate) struct Options {
     /// Refine the image until its estimated error (relative RMS) is at most this, such as 0.01 or 1%
     #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat"])]
     error: Option<f64>,
-    /// How to sample the lights
+    /// Sample the lights by this technique
     #[arg(long, value_enum, default_value = "solid-angle")]
     technique: Technique,
-    /// The greatest number of perfect mirrors along a camera ray
+    /// Follow a camera ray through at most this many perfect mirrors
     #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
     depth: u32,
-    /// How to generate the random numbers [default: adaptive from 32 samples on, sobol for fewer, independent for an odd number]
+    /// Generate the random numbers by this sampler [default: adaptive from 32 samples on, else sobol, or independent for odd numbers]
     #[arg(long, value_enum)]
     sampler: Option<Sampler>,
-    /// What a pixel measures; irradiance and power need a camera with a lens
+    /// Measure this quantity; irradiance and power need a camera with a lens
     #[arg(long, value_enum, default_value = "radiance")]
     sensor: Sensor,
-    /// The number of independent sets of samples per pixel: with 1 the error is least, but not known [default: 2 or 4, if the number of samples allows]
+    /// Split the samples of a pixel into this many independent sets: with 1 the error is least, but not known [default: 2 or 4, if the number of samples allows]
     #[arg(long, value_name = "1|2|4", value_parser = sets)]
     sets: Option<u32>,
-    /// The size of the image in pixels [default: from the scene]
+    /// Render an image of this size in pixels [default: from the scene]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// The seed of the random numbers; different seeds give independent images
+    /// Seed the random numbers with this; different seeds give independent images
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
-    /// The number of threads; 0 means one per core
+    /// Use this many threads; 0 means one per core
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
     /// Render the same image this many times, for timing
@@ -208,7 +208,7 @@ impl Studio<'_> {
             let error = known.and_then(|p| p.error).map_or_else(|| "not known".to_owned(), percent);
             bar.set_message(format!("{spp} spp, error {error}{aim}{time}"));
             if plan.goal.seconds.is_none() {
-                bar.reset();
+                bar.set_position(0);
             }
         };
         let finish = |known: &Progress| self.write(&known.film, known.spp, known.error);

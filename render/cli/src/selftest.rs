@@ -12,19 +12,19 @@ use std::time::Instant;
 pub(crate) struct Options {
     /// Names of built-in scenes, or paths of pbrt-v4 files [default: all built-in scenes]
     scenes: Vec<String>,
-    /// The number of samples per pixel
+    /// Take this many samples per pixel
     #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(2..=1 << 22))]
     spp: u32,
-    /// The width and height of the images in pixels
+    /// Render images of this width and height in pixels
     #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=4096))]
     side: u32,
-    /// The seed of the random numbers; different seeds give independent images
+    /// Seed the random numbers with this; different seeds give independent images
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// The greatest number of perfect mirrors along a camera ray
+    /// Follow a camera ray through at most this many perfect mirrors
     #[arg(long, default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
     depth: u32,
-    /// The number of threads; 0 means one per core
+    /// Use this many threads; 0 means one per core
     #[arg(long, default_value_t = 0)]
     threads: usize,
 }

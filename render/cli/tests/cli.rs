@@ -275,6 +275,7 @@ fn bad_arguments_are_reported() {
     }
     fails_untouched(&folder, &["render", "quads", "-o", "none/kept.exr"], &["none", "does not exist"]);
     fails_untouched(&folder, &["render", "quads", "-o", "."], &["folder"]);
+    fails_untouched(&folder, &["render", "quads", "-o", "new.exr/"], &["folder"]);
     fails_untouched(&folder, &["render"], &["SCENE"]);
     fails_untouched(&folder, &["paint"], &["paint"]);
 }

@@ -214,7 +214,7 @@ fn describe(name: &str, bytes: &[u8], error: &ParseError, byte: Option<usize>, w
     let full = error.to_string();
     let reason = match full.rsplit("Error: ").next().unwrap_or(&full) {
         // the crate shows its grammar, or "ParseFloatError { kind: Invalid }"
-        rust if rust.starts_with("Parse") || rust.starts_with("error at") => "not a number of the declared type",
+        rust if rust.contains('{') || rust.starts_with("error at") => "not a number of the declared type",
         reason => reason,
     };
     let line = error.line().unwrap_or(1);
