@@ -68,13 +68,13 @@ pub struct Progress {
     pub film: Film,
     /// Its estimated error, see [`relative_error`].
     pub error: Option<f64>,
-    /// Samples per pixel of all passes.
+    /// Samples per pixel of the image.
     pub spp: u64,
-    /// The passes, in order.
+    /// The passes of the image, in order.
     pub passes: Vec<Pass>,
     /// Seconds from the start of the first pass to the end of the last.
     pub seconds: f64,
-    /// Rays of all passes.
+    /// Rays of all passes, also of those that are no part of the image.
     pub rays: RayCount,
 }
 
@@ -88,8 +88,8 @@ const GROWTH: u32 = 8;
 const WORTH: f64 = 1.0 / 16.0;
 /// The part of the remaining time that a pass may be predicted to take.
 const SPARE: f64 = 0.97;
-/// Samples per second and thread of a slow scene, for the first pass alone.
-const SLOW: f64 = 2.5e5;
+/// Samples per second and thread that the first pass may count on; it may be slower by a factor of 4.
+const SLOW: f64 = 1e6;
 
 /// What to render until when.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,7 +159,9 @@ impl Plan {
 /// Renders an image in passes until its goal is reached. `progress` receives the number of newly finished pixels of a pass, `start`
 /// what is known before each pass and its number of samples, and `finish` what is known after it.
 ///
-/// The first pass always completes. After it, a pass begins only if it is predicted to end in time.
+/// The first pass always completes. After it, a pass begins only if it is predicted to end in time. Passes that are too small for the
+/// sampler of larger ones are a preview: they are no part of the image as soon as there is a larger one, since their error is too large
+/// for their weight.
 ///
 /// # Errors
 /// Fails if no number of samples has a variance, but the goal is an error; if `finish` fails; or if the error of the image is
@@ -174,13 +176,14 @@ pub fn render(
     let (settings, goal, power) = (plan.settings, plan.goal, plan.power());
     let counts = plan.counts()?;
     let pixels = f64::from(settings.width) * f64::from(settings.height);
+    // smaller passes have another sampler
+    let full = counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST)).unwrap_or(counts[0]);
     let began = Instant::now();
     let mut next = at_most(&counts, first(goal, pixels)).unwrap_or(counts[0]);
     let mut known: Option<Progress> = None;
     let mut weight = 0.0;
-    loop {
+    for index in 0.. {
         start(known.as_ref(), next);
-        let index = known.as_ref().map_or(0, |p| p.passes.len() as u64);
         let pass_began = Instant::now();
         let of_pass =
             Settings { spp: next, sampler: plan.sampler_of(next), seed: seed(settings.seed, index), ..settings };
@@ -188,24 +191,26 @@ pub fn render(
         let [seconds, pass_seconds] = [began, pass_began].map(|start| start.elapsed().as_secs_f64());
         let pass = Pass { spp: next, sampler: of_pass.sampler, seed: of_pass.seed, seconds: pass_seconds };
         let own = f64::from(next).powf(power);
-        weight += own;
         let mean = match known.take() {
-            None => {
-                let error = relative_error(&film);
-                Progress { film, error, spp: next.into(), passes: vec![pass], seconds, rays }
-            }
-            Some(mut mean) => {
+            Some(mut mean) if mean.passes.iter().all(|p| p.sampler == pass.sampler) => {
+                weight += own;
                 add(&mut mean.film, &film, own / weight);
                 mean.error = relative_error(&mean.film);
                 mean.spp += u64::from(next);
                 mean.passes.push(pass);
-                mean.seconds = seconds;
-                mean.rays = sum(mean.rays, rays);
-                mean
+                Progress { seconds, rays: sum(mean.rays, rays), ..mean }
+            }
+            // the first pass with the sampler of all that follow
+            earlier => {
+                weight = own;
+                let rays = earlier.map_or(rays, |mean| sum(mean.rays, rays));
+                let error = relative_error(&film);
+                Progress { film, error, spp: next.into(), passes: vec![pass], seconds, rays }
             }
         };
         finish(&mean)?;
-        match decide(&mean, goal, weight, power, &counts, began.elapsed().as_secs_f64()) {
+        let counts = if next < full { &counts[..] } else { &counts[counts.partition_point(|&n| n < full)..] };
+        match decide(&mean, goal, weight, power, counts, full, began.elapsed().as_secs_f64()) {
             Some(spp) => next = spp,
             None if goal.error.is_some() && mean.error.is_none() => {
                 return Err("the relative error is not known, because the image is black".into());
@@ -214,10 +219,10 @@ pub fn render(
         }
         known = Some(mean);
     }
+    unreachable!("passes end before their indices do")
 }
 
-/// Greatest number of samples that the first pass may have: [`FIRST`], or fewer if even a slow scene should leave three quarters of
-/// the time.
+/// Greatest number of samples that the first pass may have: [`FIRST`], or fewer if they might take more than a quarter of the time.
 fn first(goal: Goal, pixels: f64) -> f64 {
     let threads = rayon::current_num_threads() as f64;
     goal.seconds.map_or(f64::from(FIRST), |s| (s / 4.0 * threads * SLOW / pixels).min(f64::from(FIRST)))
@@ -231,11 +236,20 @@ fn at_least(counts: &[u32], n: f64) -> Option<u32> {
     counts.iter().copied().find(|&count| f64::from(count) >= n)
 }
 
-/// The number of samples of the next pass; `None` if the goal is reached, or cannot be approached in time.
-fn decide(mean: &Progress, goal: Goal, weight: f64, power: f64, counts: &[u32], seconds: f64) -> Option<u32> {
+/// The number of samples of the next pass; `None` if the goal is reached, or cannot be approached in time. `full` is the least number
+/// with the sampler of large passes.
+fn decide(
+    mean: &Progress,
+    goal: Goal,
+    weight: f64,
+    power: f64,
+    counts: &[u32],
+    full: u32,
+    seconds: f64,
+) -> Option<u32> {
     let largest = mean.passes.iter().map(|p| p.spp).max()?;
     let last = mean.passes.last()?;
-    let mut next = f64::from(largest.saturating_mul(GROWTH));
+    let mut next = f64::from(largest.saturating_mul(GROWTH).max(full));
     if let Some(target) = goal.error {
         let error = mean.error?;
         if error <= target {
@@ -367,7 +381,12 @@ mod tests {
         let mean =
             Progress { film, error: Some(0.02), spp: 64, passes: vec![pass], seconds: 1.0, rays: RayCount::default() };
         let weight = 64_f64.powf(1.5);
-        let next = |seconds, error| decide(&mean, Goal { seconds, error }, weight, 1.5, &counts, 1.0);
+        let next = |seconds, error| decide(&mean, Goal { seconds, error }, weight, 1.5, &counts, 2, 1.0);
+        // after a preview, the least number for the sampler of larger passes
+        let preview = Progress { passes: vec![Pass { spp: 2, ..pass }], spp: 2, ..mean.clone() };
+        let after =
+            |seconds| decide(&preview, Goal { seconds: Some(seconds), error: None }, 2.8, 1.5, &counts, 32, 1.0);
+        assert_eq!([100.0, 17.0, 9.5].map(after), [Some(32), Some(16), Some(16)]);
         // reached
         assert_eq!(next(None, Some(0.02)), None);
         // half of the error: three times the weight, 2.08 times the samples
