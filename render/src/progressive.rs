@@ -179,7 +179,8 @@ pub fn render(
     // smaller passes have another sampler
     let full = counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST)).unwrap_or(counts[0]);
     let began = Instant::now();
-    let mut next = at_most(&counts, first(goal, pixels)).unwrap_or(counts[0]);
+    // a preview only measures the time
+    let mut next = at_most(&counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
     let mut known: Option<Progress> = None;
     let mut weight = 0.0;
     for index in 0.. {
