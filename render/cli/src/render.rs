@@ -192,21 +192,20 @@ impl Studio<'_> {
     fn refine(&self, plan: &Plan) -> Result<Image, String> {
         let pixels = u64::from(self.settings.width) * u64::from(self.settings.height);
         let (length, template) = match plan.goal.seconds {
-            Some(seconds) => ((seconds * 1000.0) as u64, "{wide_bar} {elapsed}  {msg}"),
-            None => (pixels, "{wide_bar} {percent:>3} % of a pass, {elapsed}  {msg}"),
+            Some(seconds) => ((seconds * 1000.0) as u64, format!("{{wide_bar}} {{elapsed}} of {seconds} s  {{msg}}")),
+            None => (pixels, "{wide_bar} {percent:>3} % of a pass, {elapsed}  {msg}".to_owned()),
         };
-        let bar = bar(length, template);
+        let bar = bar(length, &template);
         self.interrupt.watch(&bar, &self.output.exr);
         let began = Instant::now();
         let advance = |done: u64| match plan.goal.seconds {
             Some(_) => bar.set_position(began.elapsed().as_millis() as u64),
             None => bar.inc(done),
         };
-        let aim = plan.goal.error.map_or_else(String::new, |target| format!(" of {}", percent(target)));
-        let time = plan.goal.seconds.map_or_else(String::new, |seconds| format!(", {seconds} s in all"));
+        let aim = plan.goal.error.map_or_else(String::new, |target| format!(", {} wanted", percent(target)));
         let start = |known: Option<&Progress>, spp: u32| {
-            let error = known.and_then(|p| p.error).map_or_else(|| "not known".to_owned(), percent);
-            bar.set_message(format!("{spp} spp, error {error}{aim}{time}"));
+            let error = known.and_then(|p| p.error).map_or_else(|| "not known yet".to_owned(), percent);
+            bar.set_message(format!("error {error}{aim}; next {spp} spp"));
             if plan.goal.seconds.is_none() {
                 bar.set_position(0);
             }
