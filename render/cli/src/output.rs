@@ -24,8 +24,8 @@ impl Output {
         let exr = match (asked, &scene.film.filename) {
             (Some(path), _) => path.to_owned(),
             // scenes for other renderers often ask for other formats
-            (None, Some(file)) => Path::new(file).with_extension("exr"),
-            (None, None) => PathBuf::from(format!("{}.exr", scene.name)),
+            (None, Some(file)) if !file.is_empty() => Path::new(file).with_extension("exr"),
+            (None, _) => PathBuf::from(format!("{}.exr", scene.name)),
         };
         let png = exr.with_extension("png");
         // what a device is matters more than how its name ends
