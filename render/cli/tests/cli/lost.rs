@@ -132,8 +132,9 @@ fn only_regular_files_are_replaced() {
 #[test]
 fn a_png_that_fails_does_not_hide_the_exr() {
     let folder = Folder::new();
-    let child = folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "512", "-o", "a.exr"]);
-    thread::sleep(Duration::from_millis(600));
+    let child =
+        folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "512", "--threads", "1", "-o", "a.exr"]);
+    thread::sleep(Duration::from_millis(1500));
     assert!(!folder.path("a.exr").exists(), "this test needs a rendering that takes longer");
     fs::create_dir(folder.path("a.png")).unwrap();
     let output = child.wait_with_output().unwrap();
@@ -184,11 +185,15 @@ fn messages_are_plain() {
     assert!(!error.contains("did you mean") && error.contains("sphere-light"), "{error}");
 }
 
-/// Interrupts a rendering after this time; returns its message.
+/// Interrupts a rendering after a second, or later if it is not `ready`; returns its message.
 #[cfg(unix)]
-fn interrupted(folder: &Folder, more: &[&str], after: Duration) -> String {
+fn interrupted(folder: &Folder, more: &[&str], ready: impl Fn() -> bool) -> String {
     let child = folder.spawn(&[&["render", "quads", "--size", "256x256", "-o", "a.exr"], more].concat());
-    thread::sleep(after);
+    thread::sleep(Duration::from_secs(1));
+    let start = Instant::now();
+    while !ready() && start.elapsed() < Duration::from_secs(60) {
+        thread::sleep(Duration::from_millis(20));
+    }
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     let error = String::from_utf8(output.stderr).unwrap();
@@ -201,16 +206,15 @@ fn interrupted(folder: &Folder, more: &[&str], after: Duration) -> String {
 #[test]
 fn an_interruption_says_what_is_on_disk() {
     let folder = Folder::new();
-    let short = Duration::from_millis(400);
-    let error = interrupted(&folder, &["--spp", "65536"], short);
+    let error = interrupted(&folder, &["--spp", "65536"], || true);
     assert_eq!(error, "interrupted: nothing was written; a.exr does not exist\n");
     assert!(folder.names().is_empty());
     folder.write("a.exr", "an image");
-    let error = interrupted(&folder, &["--spp", "65536"], short);
+    let error = interrupted(&folder, &["--spp", "65536"], || true);
     assert_eq!(error, "interrupted: nothing was written; a.exr is unchanged\n");
     assert_eq!(fs::read(folder.path("a.exr")).unwrap(), b"an image");
     // a later pass
-    let error = interrupted(&folder, &["--time", "60"], Duration::from_secs(4));
+    let error = interrupted(&folder, &["--time", "120"], || folder.names().contains(&"a.png".to_owned()));
     assert!(
         error.starts_with("interrupted: a.exr holds an image of ") && error.contains("estimated error "),
         "{error}"
