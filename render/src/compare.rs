@@ -12,8 +12,14 @@ pub struct Comparison {
     pub mean: [f64; 3],
     /// The difference of largest magnitude, its pixel (column, row) and its channel (0 to 2).
     pub largest: (f64, [usize; 2], usize),
-    /// What the variances predict; `None` if the image has no finite variance.
+    /// Mean of the reference over pixels and channels.
+    pub reference_mean: f64,
+    /// Greatest value of the reference over pixels and channels: the peak of [`Comparison::psnr`].
+    pub peak: f64,
+    /// What the variances predict; `None` if the image or the reference has no finite variance.
     pub predicted: Option<Prediction>,
+    /// Why nothing is predicted; empty if it is.
+    pub unknown: &'static str,
 }
 
 /// The difference expected of two images that estimate the same values.
@@ -28,9 +34,31 @@ pub struct Prediction {
     pub z_mse: f64,
 }
 
+/// Whether two images estimate the same values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// All values are equal.
+    Identical,
+    /// The difference is what the variances predict.
+    Agree,
+    /// The difference is greater than the variances explain.
+    Differ,
+    /// The images do not tell.
+    Unknown,
+}
+
+/// Images differ if a |z| is at least this. Two images of the same values do so with a probability of 3e−5: 6.8e−6 for each of the
+/// four z.
+pub const LIMIT: f64 = 4.5;
+
+/// Images whose values differ by at most this fraction of the peak are equal up to the rounding of f32.
+const ROUNDING: f64 = 1e-6;
+
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
 impl Comparison {
     /// Compares two pictures of one size. `reference_error` is the mean squared standard error of the reference, used if it has
-    /// no variance of its own.
+    /// no finite variance of its own. A reference without a variance layer is exact if `reference_error` is 0.
     ///
     /// # Errors
     /// Fails if the sizes differ or a radiance is not finite.
@@ -64,10 +92,23 @@ impl Comparison {
         }
         let mse = squared / (3.0 * count);
         let at = [largest.1 % image.width, largest.1 / image.width];
-        let predicted = image.variance.as_ref().filter(|v| v.iter().flatten().all(|x| x.is_finite())).map(|variance| {
+        let values = || reference.radiance.iter().flatten().map(|&x| f64::from(x));
+        let finite = |picture: &Picture| {
+            picture.variance.clone().filter(|v| v.iter().flatten().all(|x| x.is_finite() && *x >= 0.0))
+        };
+        let (image_variance, reference_variance) = (finite(image), finite(reference));
+        // a reference without a layer of variance is exact, but one that does not know its variance is not
+        let is_judged = reference_variance.is_some() || reference.variance.is_none() || reference_error > 0.0;
+        let unknown = match (&image_variance, is_judged) {
+            (Some(_), true) => "",
+            (Some(_), false) => "the reference has no variance",
+            (None, _) if reference_variance.is_some() => "the image has no variance",
+            (None, _) => "neither image has a variance",
+        };
+        let predicted = image_variance.filter(|_| is_judged).map(|variance| {
             let own = |i: usize, k: usize| f64::from(variance[i][k]);
             let other =
-                |i: usize, k: usize| reference.variance.as_ref().map_or(reference_error, |v| f64::from(v[i][k]));
+                |i: usize, k: usize| reference_variance.as_ref().map_or(reference_error, |v| f64::from(v[i][k]));
             let total = |k: usize| (0..variance.len()).map(|i| own(i, k) + other(i, k)).sum::<f64>();
             let totals = [total(0), total(1), total(2)];
             // the channels of a pixel share their samples, so only pixels are independent
@@ -81,24 +122,96 @@ impl Comparison {
                 z_mse: ratio(bias, (spread / count).sqrt()),
             }
         });
-        Ok(Self { mse, mean, largest: (largest.0, at, largest.2), predicted })
+        Ok(Self {
+            mse,
+            mean,
+            largest: (largest.0, at, largest.2),
+            reference_mean: values().sum::<f64>() / (3.0 * count),
+            peak: values().fold(0.0, f64::max),
+            predicted,
+            unknown,
+        })
+    }
+
+    /// The relative RMS error: √mse over the mean of the reference. `None` if the reference is black.
+    #[must_use]
+    pub fn relative_rms(&self) -> Option<f64> {
+        (self.reference_mean > 0.0).then(|| self.mse.sqrt() / self.reference_mean)
+    }
+
+    /// The peak signal-to-noise ratio in dB, 10 log₁₀(peak² / mse), where the peak is the greatest value of the reference. `None` if
+    /// it is infinite or the reference is black.
+    #[must_use]
+    pub fn psnr(&self) -> Option<f64> {
+        (self.mse > 0.0 && self.peak > 0.0).then(|| 10.0 * (self.peak * self.peak / self.mse).log10())
+    }
+
+    /// Whether the pixels differ by so much less than the variances predict that the images seem to share their random numbers, as
+    /// images of one seed do. (Otherwise, a variance is too large.)
+    #[must_use]
+    pub fn shares_noise(&self) -> bool {
+        self.largest.0 != 0.0 && self.predicted.as_ref().is_some_and(|p| p.z_mse <= -LIMIT)
+    }
+
+    /// Whether the images agree, and why.
+    #[must_use]
+    pub fn verdict(&self) -> (Verdict, String) {
+        if self.largest.0 == 0.0 {
+            return (Verdict::Identical, "all values are equal".into());
+        }
+        if self.largest.0.abs() <= self.peak * ROUNDING {
+            return (Verdict::Agree, "the values are equal up to rounding".into());
+        }
+        let Some(p) = &self.predicted else {
+            return (Verdict::Unknown, self.unknown.into());
+        };
+        let (k, z) = (0..3).map(|k| (k, p.z[k])).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or((0, 0.0));
+        if z.abs() >= LIMIT {
+            let channel = CHANNELS[k];
+            return (Verdict::Differ, format!("the means of {channel} are {:.1} standard deviations apart", z.abs()));
+        }
+        if p.z_mse >= LIMIT {
+            let what = "the pixels differ by more than the variances predict";
+            return (Verdict::Differ, format!("{what}, by {:.1} standard deviations", p.z_mse));
+        }
+        if self.shares_noise() {
+            return (Verdict::Unknown, "the images seem to share their random numbers".into());
+        }
+        (Verdict::Agree, format!("all |z| are less than {LIMIT}"))
     }
 
     /// The comparison as a JSON object.
     pub fn to_json(&self) -> Value {
         let (value, pixel, channel) = self.largest;
-        let mut object = json!({
+        let (verdict, reason) = self.verdict();
+        let p = self.predicted.as_ref();
+        json!({
             "mse": self.mse,
+            "relative_rms": self.relative_rms(),
+            "psnr": self.psnr(),
+            "peak": self.peak,
             "mean_difference": self.mean,
-            "largest": { "difference": value, "pixel": pixel, "channel": (["R", "G", "B"][channel]) },
-        });
-        if let Some(p) = &self.predicted {
-            object["predicted_mse"] = json!(p.mse);
-            object["mse_over_predicted"] = json!(self.mse / p.mse);
-            object["z_mse"] = json!(p.z_mse);
-            object["z"] = json!(p.z);
+            "largest": { "difference": value, "pixel": pixel, "channel": CHANNELS[channel] },
+            "predicted_mse": p.map(|p| p.mse),
+            "mse_over_predicted": p.and_then(|p| (p.mse > 0.0).then(|| self.mse / p.mse)),
+            "z_mse": p.map(|p| p.z_mse),
+            "z": p.map(|p| p.z),
+            "verdict": verdict.name(),
+            "reason": reason,
+        })
+    }
+}
+
+impl Verdict {
+    /// The verdict in words.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Identical => "identical",
+            Self::Agree => "agree",
+            Self::Differ => "differ",
+            Self::Unknown => "not known",
         }
-        object
     }
 }
 
@@ -112,8 +225,19 @@ impl std::fmt::Display for Comparison {
         let (value, [x, y], channel) = self.largest;
         let [r, g, b] = self.mean;
         writeln!(f, "mse                {:.6e}", self.mse)?;
+        match self.relative_rms() {
+            Some(error) => writeln!(f, "relative RMS error {:.4} % of the reference's mean", 100.0 * error)?,
+            None => {
+                writeln!(f, "relative RMS error not known, because the mean of the reference is not greater than 0")?
+            }
+        }
+        match self.psnr() {
+            Some(psnr) => writeln!(f, "PSNR               {psnr:.2} dB at a peak of {:.6}", self.peak)?,
+            None if self.mse == 0.0 => writeln!(f, "PSNR               infinite")?,
+            None => writeln!(f, "PSNR               not known, because no value of the reference is greater than 0")?,
+        }
         writeln!(f, "mean difference    {r:+.6e} {g:+.6e} {b:+.6e}")?;
-        writeln!(f, "largest difference {value:+.6e} in {} at pixel ({x}, {y})", ["R", "G", "B"][channel])?;
+        writeln!(f, "largest difference {value:+.6e} in {} at pixel ({x}, {y})", CHANNELS[channel])?;
         match &self.predicted {
             Some(p) => {
                 let [r, g, b] = p.z;
@@ -121,12 +245,19 @@ impl std::fmt::Display for Comparison {
                     f,
                     "predicted mse      {:.6e} (measured/predicted {:.4}, z {:+.2})",
                     p.mse,
-                    self.mse / p.mse,
+                    if p.mse > 0.0 { self.mse / p.mse } else { f64::NAN },
                     p.z_mse
                 )?;
-                write!(f, "z of the mean      {r:+.2} {g:+.2} {b:+.2}")
+                writeln!(f, "z of the mean      {r:+.2} {g:+.2} {b:+.2}")?;
             }
-            None => write!(f, "the image has no variance, so the difference cannot be judged"),
+            None => writeln!(
+                f,
+                "z                  not known, because {}; an image has one if its pixels consist of two or more sets, and \
+                 --reference-error gives that of the reference",
+                self.unknown
+            )?,
         }
+        let (verdict, reason) = self.verdict();
+        write!(f, "verdict            {}: {reason}", verdict.name())
     }
 }

@@ -11,21 +11,6 @@ use std::fmt;
 use std::io::{BufWriter, Cursor};
 use std::path::Path;
 
-/// Checks before rendering that an image can be written.
-///
-/// # Errors
-/// Fails if the folder does not exist, or if `path` is itself a folder.
-pub fn check_writable(path: &Path) -> Result<(), FileError> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if path.file_name().is_none() || path.is_dir() {
-        return Err(failed(path, "cannot write: this is a folder"));
-    }
-    if !folder.is_dir() {
-        return Err(failed(path, format!("cannot write: the folder {} does not exist", folder.display())));
-    }
-    Ok(())
-}
-
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
 /// Writes an EXR file with the channels R, G, B, the variance of the mean (`variance.R`, …) and the sample count (`samples.N`).

@@ -7,7 +7,7 @@
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
-//! - [`integrator`]: images.
+//! - [`integrator`], [`progressive`]: images of a given number of samples, or of a given error or time.
 
 pub mod bsdf;
 pub mod bvh;
@@ -21,6 +21,7 @@ pub mod integrator;
 pub mod lights;
 pub mod options;
 pub mod packet;
+pub mod progressive;
 pub mod sampler;
 pub mod scene;
 pub mod sensor;

@@ -1,6 +1,7 @@
 //! What the command lines of the renderer and of its laboratory share.
 
 use clap::ValueEnum;
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Parses `WxH`.
 ///
@@ -23,4 +24,18 @@ pub fn size(text: &str) -> Result<(u32, u32), String> {
 #[must_use]
 pub fn name(value: impl ValueEnum) -> String {
     value.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+}
+
+/// The threads of a command: `threads`, or one per core if it is 0. More than 64 threads, or than four per core if that is more, only
+/// cost time; the number is then reduced, and a warning on standard error says so.
+///
+/// # Errors
+/// Fails if the system cannot start the threads.
+pub fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let most = (4 * cores).max(64);
+    if threads > most {
+        eprintln!("warning: --threads {threads} is more than {cores} core(s) can use: {most} threads are used");
+    }
+    ThreadPoolBuilder::new().num_threads(threads.min(most)).build()
 }

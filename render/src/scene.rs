@@ -19,7 +19,7 @@ use crate::files::read_file;
 pub use crate::geometry::Geometry;
 pub use lights::{DeltaLight, Environment, SkyRadiance};
 pub use materials::Material;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::{fmt, io};
 
@@ -48,6 +48,8 @@ pub struct Scene {
     pub environment: Option<Environment>,
     /// Warnings about ignored parts of the file, in the order of the file.
     pub warnings: Vec<Message>,
+    /// The files that were read: the scene file itself if [`load`] read it, included files, meshes and images.
+    pub inputs: Vec<PathBuf>,
 }
 
 /// The image to be written.
@@ -163,6 +165,9 @@ impl fmt::Display for SceneError {
             SceneError::Io { path, error } => {
                 write!(f, "cannot read {path:?}: {error}")?;
                 if error.kind() == io::ErrorKind::NotFound {
+                    if let Some(near) = nearest(path) {
+                        write!(f, "; did you mean {near}?")?;
+                    }
                     let names = BUILTIN.map(|(name, ..)| name).join(", ");
                     write!(f, "; built-in scenes: {names}")?;
                 }
@@ -243,7 +248,34 @@ pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
     let failed = |error| SceneError::Io { path: name_or_path.to_string(), error };
     let bytes = read_file(path).map_err(failed)?;
     let text = utf8(&bytes, &Arc::from(name_or_path))?;
-    parse(text, name_or_path, path.parent().unwrap_or(Path::new("")))
+    let mut scene = parse(text, name_or_path, path.parent().unwrap_or(Path::new("")))?;
+    scene.inputs.push(path.to_owned());
+    Ok(scene)
+}
+
+/// The built-in scene whose name is the fewest letters away from `name`, if it is at most two letters or, as in "quads.pbrt", an
+/// extension away.
+fn nearest(name: &str) -> Option<&'static str> {
+    let name = name.strip_suffix(".pbrt").unwrap_or(name).to_lowercase();
+    let near = DESCRIBED.iter().map(|(builtin, _)| (edits(&name, builtin), *builtin)).min()?;
+    // two edits turn any name of two letters into another
+    (near.0 <= 2 && near.0 < near.1.len().min(name.len())).then_some(near.1)
+}
+
+/// The least number of letters to insert, delete or replace that turns `a` into `b` (Levenshtein 1966).
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = i;
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
 }
 
 /// Reads a scene from `text`. Messages call it `file`; file names in it are relative to `dir`.

@@ -1,5 +1,10 @@
 //! Runs the program as a user would, and checks output, messages and exit codes.
 
+#[path = "cli/lost.rs"]
+mod lost;
+#[path = "cli/refined.rs"]
+mod refined;
+
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -109,9 +114,11 @@ fn json_has_the_fields_that_it_should() {
     ]);
     let report = json(&text);
     let expected = [
+        "error",
         "height",
         "mean",
         "output",
+        "passes",
         "rays",
         "sampler",
         "scene",
@@ -268,6 +275,7 @@ fn bad_arguments_are_reported() {
     }
     fails_untouched(&folder, &["render", "quads", "-o", "none/kept.exr"], &["none", "does not exist"]);
     fails_untouched(&folder, &["render", "quads", "-o", "."], &["folder"]);
+    fails_untouched(&folder, &["render", "quads", "-o", "new.exr/"], &["folder"]);
     fails_untouched(&folder, &["render"], &["SCENE"]);
     fails_untouched(&folder, &["paint"], &["paint"]);
 }
@@ -283,12 +291,26 @@ fn compare_tells_images_apart() {
     render("one.exr", "32x32", "1", "0");
     render("small.exr", "31x32", "4", "0");
 
-    let expected = ["largest", "mean_difference", "mse", "mse_over_predicted", "predicted_mse", "z", "z_mse"];
+    let expected = [
+        "largest",
+        "mean_difference",
+        "mse",
+        "mse_over_predicted",
+        "peak",
+        "predicted_mse",
+        "psnr",
+        "reason",
+        "relative_rms",
+        "verdict",
+        "z",
+        "z_mse",
+    ];
     let same = json(&folder.succeed(&["compare", "a.exr", "a.exr", "--json"]));
     assert_eq!(keys(&same), expected);
     assert_eq!(same["mse"], 0.0);
     assert_eq!(same["z"], serde_json::json!([0.0, 0.0, 0.0]));
     assert_eq!(same["largest"]["difference"], 0.0);
+    assert_eq!((&same["verdict"], &same["psnr"]), (&Value::from("identical"), &Value::Null));
 
     let two = json(&folder.succeed(&["compare", "a.exr", "b.exr", "--json"]));
     assert!(two["mse"].as_f64().unwrap() > 0.0);
@@ -296,12 +318,56 @@ fn compare_tells_images_apart() {
     assert!(two["z_mse"].as_f64().unwrap().abs() < 4.5, "{two}");
     let pixel = two["largest"]["pixel"].as_array().unwrap();
     assert!(pixel.iter().all(|x| x.as_u64().unwrap() < 32), "{two}");
-    assert!(folder.succeed(&["compare", "a.exr", "b.exr"]).contains("z of the mean"));
+    assert_eq!(two["verdict"], "agree");
+    let number = |key: &str| two[key].as_f64().unwrap();
+    let a = etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
+    let values: Vec<f64> = a.radiance.iter().flatten().map(|&x| f64::from(x)).collect();
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let peak = values.iter().copied().fold(0.0, f64::max);
+    assert!((number("relative_rms") / (number("mse").sqrt() / mean) - 1.0).abs() < 1e-9, "{two}");
+    assert_eq!(number("peak"), peak);
+    assert!((number("psnr") - 10.0 * (peak * peak / number("mse")).log10()).abs() < 1e-9, "{two}");
+    let text = folder.succeed(&["compare", "a.exr", "b.exr"]);
+    for part in ["z of the mean", "relative RMS error ", "PSNR ", "verdict            agree: all |z| are less than 4.5"]
+    {
+        assert!(text.contains(part), "{text}");
+    }
+    // a light of another size
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/quads.pbrt");
+    let other = fs::read_to_string(path).unwrap().replacen("\"rgb L\" [", "\"float scale\" 1.2 \"rgb L\" [", 1);
+    folder.write("other.pbrt", other);
+    folder.succeed(&["render", "other.pbrt", "-o", "other.exr", "--size", "32x32", "--spp", "64", "--seed", "2"]);
+    let differ = json(&folder.succeed(&["compare", "a.exr", "other.exr", "--json"]));
+    assert_eq!(differ["verdict"], "differ", "{differ}");
 
-    // an image with one sample has no variance
-    let blind = json(&folder.succeed(&["compare", "a.exr", "one.exr", "--json"]));
-    assert_eq!(keys(&blind), ["largest", "mean_difference", "mse"]);
-    assert!(folder.succeed(&["compare", "a.exr", "one.exr"]).contains("no variance"));
+    // an image with one sample has no variance, and no z, on whichever side it is
+    for (reference, image, why) in [
+        ("a.exr", "one.exr", "the image has no variance"),
+        ("one.exr", "a.exr", "the reference has no variance"),
+        ("one.exr", "other-one.exr", "neither image has a variance"),
+    ] {
+        render("other-one.exr", "32x32", "1", "9");
+        let blind = json(&folder.succeed(&["compare", reference, image, "--json"]));
+        assert_eq!(keys(&blind), expected);
+        assert_eq!(["z", "z_mse", "predicted_mse"].map(|key| &blind[key]), [&Value::Null; 3]);
+        assert_eq!((&blind["verdict"], &blind["reason"]), (&"not known".into(), &why.into()));
+        let text = folder.succeed(&["compare", reference, image]);
+        assert!(text.contains(&format!("z                  not known, because {why}")), "{text}");
+        assert!(!text.contains("0.00 ") && text.contains(&format!("verdict            not known: {why}")), "{text}");
+    }
+    let mse = json(&folder.succeed(&["compare", "one.exr", "a.exr", "--json"]))["mse"].to_string();
+    let told = json(&folder.succeed(&["compare", "one.exr", "a.exr", "--reference-error", &mse, "--json"]));
+    assert!(told["z"].is_array() && told["verdict"] == "agree", "{told}");
+
+    // images of one seed share their noise
+    let shared = ["32x32", "--sampler", "independent", "--seed", "0"];
+    for (name, spp) in [("few.exr", "32"), ("many.exr", "64")] {
+        folder.succeed(&[&["render", "quads", "-o", name, "--spp", spp, "--size"], &shared[..]].concat());
+    }
+    let output = folder.run(&["compare", "many.exr", "few.exr"]);
+    let [out, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    assert!(output.status.success() && error.contains("warning: ") && error.contains("same seed?"), "{error}");
+    assert!(out.contains("not known: the images seem to share their random numbers"), "{out}");
 
     // invalid input
     let error = folder.fail(&["compare", "a.exr", "small.exr"]);
@@ -353,6 +419,14 @@ fn selftest_prints_a_table() {
     );
     assert!(folder.fail(&["selftest", "none.pbrt"]).contains("none.pbrt"));
     assert!(folder.names().is_empty());
+
+    // a light that touches the ground
+    folder.write("touching.pbrt", scene("").replace("Translate 0 3 0", "Translate 0 1 0"));
+    let text = folder.succeed(&["selftest", "touching.pbrt", "--side", "24", "--spp", "64"]);
+    let said =
+        "  area                  not compared, because a light touches a surface there, and its variance is infinite\n";
+    assert!(text.contains(said) && text.ends_with(", all agree\n"), "{text}");
+    assert!(!text.contains("area                  independent") && text.contains("solid-angle           independent"));
 }
 
 #[test]

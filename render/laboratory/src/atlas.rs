@@ -55,7 +55,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let folder = &options.output;
     // fail before the measurements, not after them
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let pool = etendue_render::options::pool(options.threads)?;
     let detail = Detail::new(options.quick);
     let style = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
     let bar = ProgressBar::new(cells(&kinds, detail) as u64).with_style(style);

@@ -253,7 +253,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     if options.target.is_some_and(|t| !t.is_finite() || t <= 0.0) {
         return Err("--target: must be finite and greater than 0".into());
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let pool = etendue_render::options::pool(options.threads)?;
     let facts = machine::facts(pool.current_num_threads());
     // a new commit does not matter as long as the executable stays the same
     let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
@@ -355,7 +355,7 @@ fn measure_warps(folder: &Path, stop: &AtomicBool) -> Result<(charts::Figure, St
 pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     let stop = interrupt()?;
     let outcome = measure(options, &stop)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let pool = etendue_render::options::pool(options.threads)?;
     let mut figures = Vec::new();
     for summary in &outcome.summaries {
         let mut list = vec![charts::error_over_time(summary), charts::error_over_samples(summary)];

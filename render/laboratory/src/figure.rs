@@ -111,7 +111,7 @@ impl Studio<'_> {
 pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let stop = crate::chart::interrupt()?;
     std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
+    let pool = etendue_render::options::pool(options.threads)?;
     let names: Vec<Name> = match options.name {
         Name::All => Name::value_variants().iter().copied().filter(|n| *n != Name::All).collect(),
         one => vec![one],

@@ -1,5 +1,7 @@
 //! Renders a scene with every applicable technique and sampler, and checks that the images agree.
 
+mod touching;
+
 use clap::ValueEnum;
 use etendue_render::film::Film;
 use etendue_render::scene::{Material, Scene};
@@ -43,11 +45,22 @@ pub fn applies(technique: Technique, scene: &Scene) -> bool {
     !(blind && scene.materials.iter().any(Material::is_glossy))
 }
 
-/// Renders the scene with every applicable technique and sampler that can estimate its variance from this many samples.
+/// Why a technique is not compared on a scene; `None` if it is.
+pub fn left_out(technique: Technique, scene: &Scene) -> Option<&'static str> {
+    if !applies(technique, scene) {
+        Some("it finds the highlights of a rough metal so rarely that its variance does not reveal its error")
+    } else if technique == Technique::Area && touching::touches(scene) {
+        Some("a light touches a surface there, and its variance is infinite")
+    } else {
+        None
+    }
+}
+
+/// Renders the scene with every technique that is not [`left_out`] and every sampler that can estimate its variance from this many samples.
 pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
     let mut rows = Vec::new();
     let mut images = 0;
-    for &technique in Technique::value_variants().iter().filter(|&&t| applies(t, scene)) {
+    for &technique in Technique::value_variants().iter().filter(|&&t| left_out(t, scene).is_none()) {
         let Effort { side, spp, seed, depth } = *effort;
         let lens = scene.camera.lens.is_some();
         for &sampler in Sampler::value_variants().iter().filter(|s| s.check(spp, 0, lens).is_ok()) {

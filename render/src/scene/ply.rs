@@ -100,7 +100,7 @@ fn is_index_list(name: &str) -> bool {
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Other>::new().read_header(&mut reader);
-    let header = header.map_err(|error| describe(name, bytes, &error, None, "the header"))?;
+    let header = header.map_err(|error| describe_header(name, bytes, &error))?;
     check_header(&header, bytes, reader.get_ref().len()).map_err(|why| format!("{name}: header: {why}"))?;
 
     let mut mesh = Mesh { points: Vec::new(), faces: Vec::new(), has_normals: false, warnings: Vec::new() };
@@ -182,10 +182,41 @@ fn check_header(header: &Header, bytes: &[u8], body: usize) -> Result<(), String
     }
 }
 
-/// A one-line message: the file, the line or byte, the text of that line and the innermost reason.
+/// Why the header cannot be read, in a one-line message that starts with the file and the line.
+fn describe_header(name: &str, bytes: &[u8], error: &ParseError) -> String {
+    let line = error.line().unwrap_or(1);
+    let text = bytes.split(|&b| b == b'\n').nth(line - 1).unwrap_or_default();
+    let is_last = bytes.iter().filter(|&&b| b == b'\n').count() < line;
+    let shown = shortened(String::from_utf8_lossy(&text[..text.len().min(240)]).trim());
+    let full = error.to_string();
+    if line == 1 && error.line().is_some() {
+        format!("{name}:1: the header: {shown:?}: a PLY file starts with the line \"ply\"")
+    } else if error.kind() == ErrorKind::InvalidData {
+        format!("{name}: the header is not UTF-8")
+    } else if error.line().is_none() && error.kind() == ErrorKind::InvalidInput {
+        // a whole header, except for one line
+        format!("{name}: the header has no valid line \"format\", such as \"format ascii 1.0\"")
+    } else if is_last || error.kind() == ErrorKind::UnexpectedEof {
+        format!("{name}:{line}: the file ends within the header: the line \"end_header\" is missing")
+    } else if let Some(what) = full.split_once("Unexpected 'ply'").map(|_| "a second line \"ply\"") {
+        format!("{name}:{line}: the header: {shown:?}: {what}")
+    } else if full.contains("contradicting") {
+        format!("{name}:{line}: the header: {shown:?}: contradicts an earlier line \"format\"")
+    } else if full.contains("without preceding") {
+        format!("{name}:{line}: the header: {shown:?}: no line \"element\" precedes this property")
+    } else {
+        format!("{name}:{line}: the header: {shown:?}: not a valid line of a header, which ends with \"end_header\"")
+    }
+}
+
+/// Why an element cannot be read, in a one-line message with the file, the line or byte, and the text of that line.
 fn describe(name: &str, bytes: &[u8], error: &ParseError, byte: Option<usize>, what: &str) -> String {
     let full = error.to_string();
-    let reason = full.rsplit("Error: ").next().unwrap_or(&full);
+    let reason = match full.rsplit("Error: ").next().unwrap_or(&full) {
+        // the crate shows its grammar, or "ParseFloatError { kind: Invalid }"
+        rust if rust.contains('{') || rust.starts_with("error at") => "not a number of the declared type",
+        reason => reason,
+    };
     let line = error.line().unwrap_or(1);
     let ended = error.kind() == ErrorKind::UnexpectedEof;
     match byte {

@@ -9,6 +9,7 @@ use super::{
     Scene, lights, materials, read_file, rounded, utf8,
 };
 use crate::image;
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -46,6 +47,7 @@ struct Reader<'a> {
     in_world: bool,
     open_files: Vec<PathBuf>,
     included: usize,
+    inputs: RefCell<Vec<PathBuf>>,
 }
 
 /// Reads a whole scene; only a built-in scene may name `builtin:` meshes.
@@ -68,6 +70,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
         in_world: false,
         open_files: Vec::new(),
         included: 0,
+        inputs: RefCell::default(),
     };
     let file: Arc<str> = Arc::from(file);
     reader.file(text, file.clone(), dir)?;
@@ -101,6 +104,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
         delta_lights: reader.delta_lights,
         environment: reader.environment,
         warnings: out.warnings,
+        inputs: reader.inputs.into_inner(),
     })
 }
 
@@ -275,11 +279,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Resolves a file name relative to the file that names it, else relative to the main file, as in pbrt.
+    /// Resolves the name of a file to be read, relative to the file that names it, else relative to the main file, as in pbrt.
     fn resolve(&self, name: &str, dir: &Path) -> PathBuf {
         let near = dir.join(name);
         let main = self.main_dir.join(name);
-        if !near.exists() && main.exists() { main } else { near }
+        let path = if !near.exists() && main.exists() { main } else { near };
+        self.inputs.borrow_mut().push(path.clone());
+        path
     }
 
     fn transform(&mut self, word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {

@@ -175,6 +175,13 @@ fn errors_before_the_world() {
         assert!(message.starts_with(&format!("a.pbrt:{line}: ")) && message.contains(part), "{message}\n{text}");
     }
     assert!(matches!(load("no-such-scene"), Err(SceneError::Io { .. })));
+    for (name, near) in [("qads", "quads"), ("Quads", "quads"), ("skyy.pbrt", "sky"), ("cornellbox", "cornell-box")] {
+        let message = load(name).unwrap_err().to_string();
+        assert!(message.contains(&format!("; did you mean {near}?; built-in scenes: ")), "{message}");
+    }
+    for name in ["ab", "", "no-such-scene"] {
+        assert!(!load(name).unwrap_err().to_string().contains("did you mean"), "{name}");
+    }
     assert!(load("no-such-scene").unwrap_err().to_string().contains("built-in scenes: sphere-light, "));
     assert!(load(".").unwrap_err().to_string().contains("not a regular file"));
 }

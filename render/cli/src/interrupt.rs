@@ -1,0 +1,45 @@
+//! What Ctrl-C does to a rendering: it clears the progress bar, says which image is in the file, and exits with code 130.
+
+use indicatif::ProgressBar;
+use std::path::Path;
+use std::process;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// What to say when the program is interrupted.
+#[derive(Debug)]
+pub(crate) struct Status {
+    /// The progress bar to clear.
+    pub(crate) bar: ProgressBar,
+    /// Which image, if any, is on disk.
+    pub(crate) text: String,
+}
+
+/// The status, shared with the handler of Ctrl-C.
+#[derive(Clone, Debug)]
+pub(crate) struct Interrupt(Arc<Mutex<Status>>);
+
+impl Interrupt {
+    /// Installs the handler.
+    pub(crate) fn new() -> Result<Self, ctrlc::Error> {
+        let status = Status { bar: ProgressBar::hidden(), text: "nothing was written".into() };
+        let interrupt = Self(Arc::new(Mutex::new(status)));
+        let handler = interrupt.clone();
+        ctrlc::set_handler(move || {
+            let status = handler.lock();
+            status.bar.finish_and_clear();
+            eprintln!("interrupted: {}", status.text);
+            process::exit(130);
+        })?;
+        Ok(interrupt)
+    }
+    /// Locks the status. The handler waits for it, so files that are written meanwhile are complete when the program ends.
+    pub(crate) fn lock(&self) -> MutexGuard<'_, Status> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+    /// Takes note of the bar to clear and the file that is not written yet.
+    pub(crate) fn watch(&self, bar: &ProgressBar, file: &Path) {
+        let state = if file.exists() { "is unchanged" } else { "does not exist" };
+        let text = format!("nothing was written; {} {state}", file.display());
+        *self.lock() = Status { bar: bar.clone(), text };
+    }
+}

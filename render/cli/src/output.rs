@@ -1,0 +1,65 @@
+//! The files that `render` writes: their names, the checks before rendering, and their contents.
+
+use etendue_render::film::Film;
+use etendue_render::scene::Scene;
+use etendue_render::sensor::Exposure;
+use etendue_render::{files, image};
+use std::path::{Path, PathBuf};
+
+/// The files of an image.
+#[derive(Debug)]
+pub(crate) struct Output {
+    /// The EXR file.
+    pub(crate) exr: PathBuf,
+    /// The PNG file beside it.
+    pub(crate) png: PathBuf,
+}
+
+impl Output {
+    /// The files to write: those that the user asked for, or those that the scene's film or name asks for.
+    ///
+    /// # Errors
+    /// Fails if the name does not end in `.exr`, if a file cannot be written, or if the scene has been read from it.
+    pub(crate) fn new(asked: Option<&Path>, scene: &Scene) -> Result<Self, String> {
+        let exr = match (asked, &scene.film.filename) {
+            (Some(path), _) => path.to_owned(),
+            // scenes for other renderers often ask for other formats
+            (None, Some(file)) if !file.is_empty() => Path::new(file).with_extension("exr"),
+            (None, _) => PathBuf::from(format!("{}.exr", scene.name)),
+        };
+        let png = exr.with_extension("png");
+        // what a device is matters more than how its name ends
+        files::check_replaceable(&exr).map_err(|error| error.to_string())?;
+        if !exr.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
+            return Err(format!(
+                "--output {}: the name must end in .exr; the PNG is written beside the EXR file, under the same name",
+                exr.display()
+            ));
+        }
+        files::check_replaceable(&png).map_err(|error| error.to_string())?;
+        for file in [&exr, &png] {
+            if scene.inputs.iter().any(|input| files::is_same(input, file)) {
+                let what =
+                    if *file == exr { "the image".to_owned() } else { format!("the PNG beside {}", exr.display()) };
+                let shown = file.display();
+                return Err(format!(
+                    "{shown}: the scene has been read from this file, so {what} cannot be written to it: choose another name with -o"
+                ));
+            }
+        }
+        Ok(Self { exr, png })
+    }
+
+    /// Writes both files. The PNG is exposed so that its middle looks the same with every sensor.
+    ///
+    /// # Errors
+    /// Fails if a file cannot be written; the message says what has been written.
+    pub(crate) fn write(&self, film: &Film, exposure: Option<&Exposure>) -> Result<(), String> {
+        image::write_exr(&self.exr, film).map_err(|error| error.to_string())?;
+        let written = match exposure {
+            None => image::write_png(&self.png, film),
+            Some(exposure) => image::write_png(&self.png, &film.scaled(1.0 / exposure.on_axis())),
+        };
+        written.map_err(|error| format!("{error}; {} was written, but its PNG was not", self.exr.display()))
+    }
+}

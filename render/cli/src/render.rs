@@ -1,0 +1,323 @@
+//! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
+
+use crate::interrupt::Interrupt;
+use crate::output::Output;
+use clap::Args;
+use etendue_render::film::Film;
+use etendue_render::options::{name, pool, size};
+use etendue_render::progressive::{self, Goal, Pass, Plan, Progress, default_sampler, relative_error};
+use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World, scene};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+use std::error::Error;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Instant;
+
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Name of a built-in scene, or path of a pbrt-v4 file
+    scene: String,
+    /// Write the image to this EXR file, and a PNG beside it [default: the scene's film filename, or SCENE.exr]
+    #[arg(short, long, value_name = "OUT.exr")]
+    output: Option<PathBuf>,
+    /// Take this many samples per pixel [default: from the scene]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
+    spp: Option<u32>,
+    /// Refine the image until this many seconds have passed since the start of the first pass
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["spp", "repeat"])]
+    time: Option<f64>,
+    /// Refine the image until its estimated error (relative RMS) is at most this, such as 0.01 or 1%
+    #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat"])]
+    error: Option<f64>,
+    /// Sample the lights by this technique
+    #[arg(long, value_enum, default_value = "solid-angle")]
+    technique: Technique,
+    /// Follow a camera ray through at most this many perfect mirrors
+    #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    depth: u32,
+    /// Generate the random numbers by this sampler [default: adaptive from 32 samples on, else sobol, or independent for odd numbers]
+    #[arg(long, value_enum)]
+    sampler: Option<Sampler>,
+    /// Measure this quantity; irradiance and power need a camera with a lens
+    #[arg(long, value_enum, default_value = "radiance")]
+    sensor: Sensor,
+    /// Split the samples of a pixel into this many independent sets: with 1 the error is least, but not known [default: 2 or 4, if the number of samples allows]
+    #[arg(long, value_name = "1|2|4", value_parser = sets)]
+    sets: Option<u32>,
+    /// Render an image of this size in pixels [default: from the scene]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<(u32, u32)>,
+    /// Seed the random numbers with this; different seeds give independent images
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Use this many threads; 0 means one per core
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// Render the same image this many times, for timing
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeat: u32,
+    /// Print the result as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Parses `--sets`.
+fn sets(text: &str) -> Result<u32, String> {
+    [1, 2, 4].into_iter().find(|n| text == n.to_string()).ok_or_else(|| "must be 1, 2 or 4".to_owned())
+}
+
+/// Parses `--time`.
+fn seconds(text: &str) -> Result<f64, String> {
+    let valid = text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0);
+    valid.ok_or_else(|| "must be a number of seconds greater than 0, such as 10 or 0.5".to_owned())
+}
+
+/// Parses `--error`: a fraction or a percentage.
+fn fraction(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let value = text.strip_suffix('%').map_or_else(|| number(text), |percent| number(percent).map(|x| x / 100.0));
+    // f32 holds the mean of a pixel to 6e-8 of itself
+    let valid = value.filter(|x| (1e-6..=1.0).contains(x));
+    valid.ok_or_else(|| "must be from 1e-6 to 1, or a percentage, such as 0.01 or 1%".to_owned())
+}
+
+/// A finished image and what it took.
+struct Image {
+    film: Film,
+    rays: RayCount,
+    /// Samples per pixel.
+    spp: u64,
+    /// The sampler of most samples.
+    sampler: Sampler,
+    /// Sets per pixel of each pass.
+    sets: u32,
+    /// Seconds of each repetition.
+    seconds: Vec<f64>,
+    /// Empty unless there was a goal.
+    passes: Vec<Pass>,
+}
+
+/// Renders, writes and reports.
+pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
+    let interrupt = Interrupt::new()?;
+    let start = Instant::now();
+    let mut scene = scene::load(&options.scene)?;
+    let load = start.elapsed().as_secs_f64();
+    for warning in &scene.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let (width, height) = options.size.unwrap_or((scene.film.width, scene.film.height));
+    let lens = scene.camera.lens.is_some();
+    let sets = options.sets.unwrap_or(0);
+    let spp = options.spp.unwrap_or(scene.pixel_samples);
+    let settings = Settings {
+        width,
+        height,
+        spp,
+        technique: options.technique,
+        depth: options.depth,
+        sampler: options.sampler.unwrap_or_else(|| default_sampler(spp, sets, lens)),
+        sets,
+        seed: options.seed,
+    };
+    if options.sensor != Sensor::Radiance && !lens {
+        let (sensor, scene) = (name(options.sensor), &options.scene);
+        return Err(format!(
+            "--sensor {sensor}: the camera of {scene} is a pinhole: it needs a \"lensradius\" greater than 0"
+        )
+        .into());
+    }
+    let goal = Goal { seconds: options.time, error: options.error };
+    let plan = (goal != Goal::default()).then_some(Plan { settings, sampler: options.sampler, lens, goal });
+    match &plan {
+        None => settings.sampler.check(spp, sets, lens).map_err(|what| format!("--sampler: {what}"))?,
+        Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
+    }
+    let output = Output::new(options.output.as_deref(), &scene)?;
+
+    let pool = pool(options.threads)?;
+    let start = Instant::now();
+    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(options.sensor);
+    let build = start.elapsed().as_secs_f64();
+
+    let studio = Studio { world: &world, settings, output: &output, interrupt: &interrupt };
+    let image = pool.install(|| match &plan {
+        None => studio.once(options.repeat, lens),
+        Some(plan) => studio.refine(plan),
+    })?;
+
+    if options.json {
+        writeln!(
+            io::stdout(),
+            "{}",
+            to_json(options, &settings, &image, &output, [load, build], pool.current_num_threads())
+        )?;
+    } else {
+        print(options, &settings, &scene.name, &image, &output, [load, build])?;
+    }
+    Ok(())
+}
+
+/// Everything that an image is made with.
+struct Studio<'a> {
+    world: &'a World,
+    settings: Settings,
+    output: &'a Output,
+    interrupt: &'a Interrupt,
+}
+
+impl Studio<'_> {
+    /// Renders the same image `repeat` times and writes it.
+    fn once(&self, repeat: u32, lens: bool) -> Result<Image, String> {
+        let Settings { width, height, spp, sampler, sets, .. } = self.settings;
+        let pixels = u64::from(width) * u64::from(height);
+        let bar = bar(pixels * u64::from(repeat), "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
+        self.interrupt.watch(&bar, &self.output.exr);
+        let mut seconds = Vec::new();
+        let mut last = None;
+        for _ in 0..repeat {
+            let start = Instant::now();
+            last = Some(self.world.render(&self.settings, |done| bar.inc(done)));
+            seconds.push(start.elapsed().as_secs_f64());
+        }
+        let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
+        bar.finish_and_clear();
+        self.write(&film, spp.into(), relative_error(&film))?;
+        let sets = sampler.sets(spp, sets, lens);
+        Ok(Image { film, rays, spp: spp.into(), sampler, sets, seconds, passes: Vec::new() })
+    }
+
+    /// Renders passes and writes the image after each.
+    fn refine(&self, plan: &Plan) -> Result<Image, String> {
+        let pixels = u64::from(self.settings.width) * u64::from(self.settings.height);
+        let (length, template) = match plan.goal.seconds {
+            Some(seconds) => ((seconds * 1000.0) as u64, format!("{{wide_bar}} {{elapsed}} of {seconds} s  {{msg}}")),
+            None => (pixels, "{wide_bar} {percent:>3} % of a pass, {elapsed}  {msg}".to_owned()),
+        };
+        let bar = bar(length, &template);
+        self.interrupt.watch(&bar, &self.output.exr);
+        let began = Instant::now();
+        let advance = |done: u64| match plan.goal.seconds {
+            Some(_) => bar.set_position(began.elapsed().as_millis() as u64),
+            None => bar.inc(done),
+        };
+        let aim = plan.goal.error.map_or_else(String::new, |target| format!(", {} wanted", percent(target)));
+        let start = |known: Option<&Progress>, spp: u32| {
+            let error = known.and_then(|p| p.error).map_or_else(|| "not known yet".to_owned(), percent);
+            bar.set_message(format!("error {error}{aim}; next {spp} spp"));
+            if plan.goal.seconds.is_none() {
+                bar.set_position(0);
+            }
+        };
+        let finish = |known: &Progress| self.write(&known.film, known.spp, known.error);
+        let done = progressive::render(self.world, plan, advance, start, finish);
+        bar.finish_and_clear();
+        let Progress { film, spp, passes, seconds, rays, .. } = done?;
+        let largest = passes.iter().max_by_key(|p| p.spp).unwrap_or_else(|| unreachable!("there is a first pass"));
+        let (sampler, sets) = (largest.sampler, largest.sampler.sets(largest.spp, plan.settings.sets, plan.lens));
+        Ok(Image { film, rays, spp, sampler, sets, seconds: vec![seconds], passes })
+    }
+
+    fn write(&self, film: &Film, spp: u64, error: Option<f64>) -> Result<(), String> {
+        let mut status = self.interrupt.lock();
+        self.output.write(film, self.world.exposure(film.width, film.height).as_ref())?;
+        let error = error.map_or_else(|| "not known".to_owned(), percent);
+        status.text =
+            format!("{} holds an image of {spp} samples per pixel, estimated error {error}", self.output.exr.display());
+        Ok(())
+    }
+}
+
+/// A progress bar, which draws nothing unless stderr is a terminal.
+fn bar(length: u64, template: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(length).with_style(style)
+}
+
+/// A fraction as a percentage with three digits.
+fn percent(x: f64) -> String {
+    let x = 100.0 * x;
+    let digits = (2 - x.log10().floor() as i32).clamp(0, 8) as usize;
+    format!("{x:.digits$} %")
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn to_json(
+    options: &Options,
+    settings: &Settings,
+    image: &Image,
+    output: &Output,
+    time: [f64; 2],
+    threads: usize,
+) -> Value {
+    let rays = image.rays;
+    let passes = image.passes.iter();
+    let passes: Vec<Value> = passes
+        .map(|p| json!({ "spp": p.spp, "sampler": name(p.sampler), "seed": p.seed, "seconds": p.seconds }))
+        .collect();
+    json!({
+        "scene": options.scene,
+        "width": settings.width,
+        "height": settings.height,
+        "spp": image.spp,
+        "sets": image.sets,
+        "technique": name(settings.technique),
+        "sampler": name(image.sampler),
+        "sensor": name(options.sensor),
+        "seed": settings.seed,
+        "threads": threads,
+        "seconds": { "load": time[0], "build": time[1], "render": image.seconds },
+        "rays": { "camera": rays.camera, "mirror": rays.mirror, "shadow": rays.shadow, "corner": rays.corner },
+        "mean": image.film.mean(),
+        "error": relative_error(&image.film),
+        "passes": if passes.is_empty() { Value::Null } else { passes.into() },
+        "output": output.exr.to_string_lossy(),
+    })
+}
+
+fn print(
+    options: &Options,
+    settings: &Settings,
+    scene: &str,
+    image: &Image,
+    output: &Output,
+    [load, build]: [f64; 2],
+) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    let Settings { width, height, technique, .. } = settings;
+    let (technique, sampler) = (name(*technique), name(image.sampler));
+    writeln!(out, "{scene}: {width}x{height}, {} samples per pixel, {technique}, {sampler}", image.spp)?;
+    if !image.passes.is_empty() {
+        let spp: Vec<String> = image.passes.iter().map(|p| p.spp.to_string()).collect();
+        writeln!(out, "passes of {} samples per pixel", spp.join(", "))?;
+    }
+    let render = median(&image.seconds);
+    writeln!(out, "load {load:.3} s, build {build:.3} s, render {render:.3} s")?;
+    let rays = image.rays;
+    let rate = rays.camera as f64 / render / 1e6;
+    writeln!(out, "{rate:.1} million samples/s; {} camera rays, {} shadow rays", rays.camera, rays.shadow)?;
+    let [r, g, b] = image.film.mean();
+    match options.sensor {
+        Sensor::Radiance => writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?,
+        Sensor::Irradiance | Sensor::Power => {
+            writeln!(out, "mean {} {r:.6e} {g:.6e} {b:.6e}", name(options.sensor))?;
+        }
+    }
+    match relative_error(&image.film) {
+        Some(error) => writeln!(out, "estimated error {} (relative RMS)", percent(error))?,
+        None if [r, g, b].iter().sum::<f64>() > 0.0 => {
+            writeln!(out, "estimated error not known, because a pixel is a single set of samples")?;
+        }
+        None => writeln!(out, "estimated error not known, because the image is black")?,
+    }
+    if let Some(target) = options.error.filter(|target| relative_error(&image.film).is_none_or(|e| e > *target)) {
+        writeln!(out, "the time did not suffice for an error of {}", percent(target))?;
+    }
+    writeln!(out, "wrote {} and {}", output.exr.display(), output.png.display())
+}

@@ -1,0 +1,83 @@
+//! `etendue selftest`: prints a table of images that should agree.
+
+use clap::{Args, ValueEnum};
+use etendue_laboratory::selftest::{self, Effort};
+use etendue_render::options::{name, pool};
+use etendue_render::{Settings, Technique, World, scene};
+use std::error::Error;
+use std::io::{self, Write};
+use std::time::Instant;
+
+#[derive(Args)]
+pub(crate) struct Options {
+    /// Names of built-in scenes, or paths of pbrt-v4 files [default: all built-in scenes]
+    scenes: Vec<String>,
+    /// Take this many samples per pixel
+    #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(2..=1 << 22))]
+    spp: u32,
+    /// Render images of this width and height in pixels
+    #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    side: u32,
+    /// Seed the random numbers with this; different seeds give independent images
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Follow a camera ray through at most this many perfect mirrors
+    #[arg(long, default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    depth: u32,
+    /// Use this many threads; 0 means one per core
+    #[arg(long, default_value_t = 0)]
+    threads: usize,
+}
+
+/// Prints the table; returns whether all images agree.
+pub(crate) fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
+    let mut names = options.scenes.clone();
+    if names.is_empty() {
+        names.extend(scene::builtin().iter().map(|(name, _)| (*name).to_owned()));
+    }
+    let effort = Effort { side: options.side, spp: options.spp, seed: options.seed, depth: options.depth };
+    let pool = pool(options.threads)?;
+    let scenes = names.iter().map(|name| scene::load(name)).collect::<Result<Vec<_>, _>>()?;
+    let start = Instant::now();
+    let (mut worst, mut images) = (0.0_f64, 0);
+    writeln!(
+        io::stdout(),
+        "{side}x{side} pixels, {spp} samples per pixel, seed {seed}; z compares each image with all others of its scene",
+        side = options.side,
+        spp = options.spp,
+        seed = options.seed
+    )?;
+    for scene in &scenes {
+        let world = pool.install(|| World::new(scene))?;
+        let rows = pool.install(|| selftest::rows(scene, &world, &effort));
+        let mut out = io::stdout().lock();
+        writeln!(out, "{}", scene.name)?;
+        for row in &rows {
+            let [r, g, b] = row.mean;
+            let [x, y, z] = row.z;
+            let technique = name(row.technique);
+            let sampler = name(row.sampler);
+            let mark = if selftest::worst(std::slice::from_ref(row)) < selftest::LIMIT { "" } else { "  disagrees" };
+            writeln!(
+                out,
+                "  {technique:21} {sampler:13} {r:.6} {g:.6} {b:.6}   ± {:.1e}   z {x:+.2} {y:+.2} {z:+.2}{mark}",
+                row.error.iter().fold(0.0_f64, |m, &e| m.max(e))
+            )?;
+        }
+        for &technique in Technique::value_variants() {
+            if let Some(why) = selftest::left_out(technique, scene) {
+                writeln!(out, "  {:21} not compared, because {why}", name(technique))?;
+            }
+        }
+        worst = worst.max(selftest::worst(&rows));
+        images += rows.len();
+    }
+    let seconds = start.elapsed().as_secs_f64();
+    let verdict = if worst < selftest::LIMIT { "all agree" } else { "NOT all agree" };
+    writeln!(
+        io::stdout(),
+        "{} scenes, {images} images, {seconds:.1} s: greatest |z| {worst:.2}, {verdict}",
+        scenes.len()
+    )?;
+    Ok(worst < selftest::LIMIT)
+}

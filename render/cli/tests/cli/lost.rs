@@ -1,0 +1,225 @@
+//! Nothing is lost: `render` writes nothing over the files of its scene or over what is not an image, and says what it has written.
+
+use super::{Folder, json, scene};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use std::{fs, thread};
+
+const SMALL: [&str; 4] = ["--size", "8x8", "--spp", "2"];
+
+impl Folder {
+    fn render(&self, scene: &str, more: &[&str]) -> String {
+        self.succeed(&[&["render", scene], more, &SMALL].concat())
+    }
+    /// Renders, which must fail and leave all files as they are.
+    fn refuse(&self, scene: &str, more: &[&str], message: &[&str]) {
+        let contents = || {
+            let path = |name: &String| self.path(name);
+            self.names().iter().map(path).filter(|p| p.is_file()).map(|p| fs::read(p).unwrap()).collect::<Vec<_>>()
+        };
+        let (names, before) = (self.names(), contents());
+        let error = self.fail(&[&["render", scene], more, &SMALL].concat());
+        for part in message {
+            assert!(error.contains(part), "{more:?}: {error:?} should contain {part:?}");
+        }
+        assert!(self.names() == names && contents() == before, "{more:?}: {names:?}, then {:?}", self.names());
+    }
+    fn spawn(&self, arguments: &[&str]) -> Child {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+        command.current_dir(&self.0).args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().unwrap()
+    }
+}
+
+#[test]
+fn the_files_of_a_scene_are_not_overwritten() {
+    let folder = Folder::new();
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    for name in ["sky.pbrt", "sky.exr"] {
+        fs::copy(shipped.join(name), folder.path(name)).unwrap();
+    }
+    let sky = fs::read(folder.path("sky.exr")).unwrap();
+    folder.render("sky.pbrt", &[]);
+    folder.render("sky", &[]);
+    assert_eq!(fs::read(folder.path("sky.exr")).unwrap(), sky);
+    assert_eq!(folder.names(), ["sky-render.exr", "sky-render.png", "sky.exr", "sky.pbrt"]);
+
+    let read = "the scene has been read from this file";
+    folder.refuse("sky.pbrt", &["-o", "sky.exr"], &["sky.exr: ", read, "-o"]);
+    folder.refuse("sky.pbrt", &["-o", "../nowhere/../sky.exr"], &["nowhere"]);
+    let absolute = folder.path("sky.exr");
+    folder.refuse("sky.pbrt", &["-o", absolute.to_str().unwrap()], &[read]);
+    fs::hard_link(&absolute, folder.path("same.exr")).unwrap();
+    folder.refuse("sky.pbrt", &["-o", "same.exr"], &["same.exr: ", read]);
+    folder.refuse("sky.pbrt", &["-o", "sky.pbrt"], &["sky.pbrt", "must end in .exr"]);
+
+    // the scene, an included file and a mesh, whatever their names
+    let mesh = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+                property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    folder.write("mesh.exr", mesh);
+    folder.write("part.exr", "Shape \"plymesh\" \"string filename\" \"mesh.exr\"");
+    folder.write("main.exr", scene("Include \"part.exr\""));
+    for name in ["main.exr", "part.exr", "mesh.exr"] {
+        folder.refuse("main.exr", &["-o", name], &[name, read]);
+    }
+    // the image that the scene's film asks for, and the PNG beside an image
+    let film = scene("LightSource \"infinite\" \"string filename\" \"sky.exr\"");
+    let film = film.replace("Film \"rgb\"", "Film \"rgb\" \"string filename\" \"sky.png\"");
+    folder.write("film.pbrt", film);
+    folder.refuse("film.pbrt", &[], &["sky.exr: ", read, "choose another name with -o"]);
+    fs::copy(folder.path("sky-render.png"), folder.path("map.png")).unwrap();
+    folder.write("map.pbrt", scene("LightSource \"infinite\" \"string filename\" \"map.png\""));
+    folder.refuse("map.pbrt", &[], &["map.png: ", read, "the PNG beside map.exr"]);
+    folder.render("map.pbrt", &["-o", "other.exr"]);
+}
+
+#[test]
+fn an_image_has_a_name_that_fits() {
+    let folder = Folder::new();
+    folder.write("y.png", "a picture");
+    for name in ["y.png", "x.jpg", "x", ".exr", "x.exr.gz", "x."] {
+        folder.refuse("quads", &["-o", name], &[&format!("--output {name}: the name must end in .exr"), "PNG"]);
+    }
+    folder.render("quads", &["-o", "X.EXR"]);
+    assert_eq!(folder.names(), ["X.EXR", "X.png", "y.png"]);
+    // a name as long as names can be
+    let long = format!("{}.exr", "x".repeat(251));
+    folder.render("quads", &["-o", &long]);
+    let longer = format!("{}.exr", "x".repeat(252));
+    folder.refuse("quads", &["-o", &longer], &["xxx.exr: cannot write"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn only_regular_files_are_replaced() {
+    use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+    use std::os::unix::net::UnixListener;
+    let folder = Folder::new();
+    assert!(Command::new("mkfifo").arg(folder.path("pipe.exr")).status().unwrap().success());
+    let _socket = UnixListener::bind(folder.path("socket.exr")).unwrap();
+    folder.write("target.exr", "an image");
+    symlink("target.exr", folder.path("link.exr")).unwrap();
+    symlink("nowhere.exr", folder.path("dangling.exr")).unwrap();
+    for (name, kind) in [
+        ("pipe.exr", "a named pipe"),
+        ("socket.exr", "a socket"),
+        ("link.exr", "a symbolic link"),
+        ("dangling.exr", "a symbolic link"),
+    ] {
+        folder.refuse("quads", &["-o", name], &[name, "cannot write: this is ", kind]);
+    }
+    assert!(fs::symlink_metadata(folder.path("pipe.exr")).unwrap().file_type().is_fifo());
+    assert!(fs::symlink_metadata(folder.path("link.exr")).unwrap().file_type().is_symlink());
+    // so is the PNG
+    symlink("target.exr", folder.path("a.png")).unwrap();
+    folder.refuse("quads", &["-o", "a.exr"], &["a.png: cannot write: this is a symbolic link"]);
+
+    let mode =
+        |name: &str, bits: u32| fs::set_permissions(folder.path(name), fs::Permissions::from_mode(bits)).unwrap();
+    let mode_of = |name: &str| fs::metadata(folder.path(name)).unwrap().permissions().mode() & 0o7777;
+    let plain = folder.write("plain", "");
+    folder.render("quads", &["-o", "b.exr"]);
+    assert_eq!(mode_of("b.exr"), fs::metadata(plain).unwrap().permissions().mode() & 0o7777, "the umask");
+    mode("b.exr", 0o640);
+    mode("b.png", 0o606);
+    folder.render("quads", &["-o", "b.exr"]);
+    assert_eq!((mode_of("b.exr"), mode_of("b.png")), (0o640, 0o606));
+    mode("b.png", 0o444);
+    folder.refuse("quads", &["-o", "b.exr"], &["b.png: cannot write: this file is read-only"]);
+}
+
+#[test]
+fn a_png_that_fails_does_not_hide_the_exr() {
+    let folder = Folder::new();
+    let child =
+        folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "512", "--threads", "1", "-o", "a.exr"]);
+    thread::sleep(Duration::from_millis(1500));
+    assert!(!folder.path("a.exr").exists(), "this test needs a rendering that takes longer");
+    fs::create_dir(folder.path("a.png")).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{error}");
+    assert!(
+        error.contains("a.png: cannot write: ") && error.contains("a.exr was written, but its PNG was not"),
+        "{error}"
+    );
+    etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
+    assert_eq!(folder.names(), ["a.exr", "a.png"]);
+}
+
+#[test]
+fn too_many_threads_are_reduced() {
+    let folder = Folder::new();
+    let start = Instant::now();
+    let output = folder.run(&[&["render", "quads", "--threads", "100000", "--json"], &SMALL[..]].concat());
+    assert!(start.elapsed() < Duration::from_secs(20));
+    let error = String::from_utf8(output.stderr).unwrap();
+    let threads = json(&String::from_utf8(output.stdout).unwrap())["threads"].as_u64().unwrap();
+    assert!((64..10_000).contains(&threads), "{threads}");
+    assert!(error.contains("--threads 100000") && error.contains(&format!("{threads} threads are used")), "{error}");
+    let output = folder.run(&["selftest", "quads", "--side", "2", "--spp", "2", "--threads", "100000"]);
+    assert!(String::from_utf8(output.stderr).unwrap().contains("--threads 100000"));
+}
+
+#[test]
+fn messages_are_plain() {
+    let folder = Folder::new();
+    for (header, why) in [
+        (
+            "ply\nformat ascii 1.0\nelement ver",
+            "mesh.ply:3: the file ends within the header: the line \"end_header\" is missing",
+        ),
+        ("ply\nformat ascii 1.0\nelement vertex x\n", "mesh.ply:3: the header: \"element vertex x\": not a valid line"),
+    ] {
+        folder.write("mesh.ply", header);
+        folder.write("mesh.pbrt", scene("Shape \"plymesh\" \"string filename\" \"mesh.ply\""));
+        let error = folder.fail(&["render", "mesh.pbrt"]);
+        assert!(error.contains("mesh.pbrt:5: ") && error.contains(why) && !error.contains(['{', '}']), "{error}");
+    }
+    let error = folder.fail(&["render", "qads"]);
+    assert!(error.contains("did you mean quads?") && error.contains("mirror-room"), "{error}");
+    assert!(folder.fail(&["render", "quads.pbrt"]).contains("did you mean quads?"));
+    assert!(folder.fail(&["selftest", "cornel-bux"]).contains("did you mean cornell-box?"));
+    let error = folder.fail(&["render", "teapot"]);
+    assert!(!error.contains("did you mean") && error.contains("sphere-light"), "{error}");
+}
+
+/// Interrupts a rendering after a second, or later if it is not `ready`; returns its message.
+#[cfg(unix)]
+fn interrupted(folder: &Folder, more: &[&str], ready: impl Fn() -> bool) -> String {
+    let child = folder.spawn(&[&["render", "quads", "--size", "256x256", "-o", "a.exr"], more].concat());
+    thread::sleep(Duration::from_secs(1));
+    let start = Instant::now();
+    while !ready() && start.elapsed() < Duration::from_secs(60) {
+        thread::sleep(Duration::from_millis(20));
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{error}");
+    assert!(output.stdout.is_empty() && error.starts_with("interrupted: "), "{error}");
+    error
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interruption_says_what_is_on_disk() {
+    let folder = Folder::new();
+    let error = interrupted(&folder, &["--spp", "65536"], || true);
+    assert_eq!(error, "interrupted: nothing was written; a.exr does not exist\n");
+    assert!(folder.names().is_empty());
+    folder.write("a.exr", "an image");
+    let error = interrupted(&folder, &["--spp", "65536"], || true);
+    assert_eq!(error, "interrupted: nothing was written; a.exr is unchanged\n");
+    assert_eq!(fs::read(folder.path("a.exr")).unwrap(), b"an image");
+    // a later pass
+    let error = interrupted(&folder, &["--time", "120"], || folder.names().contains(&"a.png".to_owned()));
+    assert!(
+        error.starts_with("interrupted: a.exr holds an image of ") && error.contains("estimated error "),
+        "{error}"
+    );
+    let image = etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
+    assert!(image.variance.unwrap().iter().flatten().all(|v| v.is_finite()));
+    assert_eq!(folder.names(), ["a.exr", "a.png"]);
+}

@@ -1,0 +1,129 @@
+//! Images that are refined until their error or the time is what was asked for, and the error that images claim.
+
+use super::{Folder, json, keys};
+use etendue_laboratory::chart::reference::Reference;
+use etendue_render::compare::Comparison;
+use etendue_render::image;
+use serde_json::Value;
+
+/// The error that a rendering claims, the error measured against a reference, and the report.
+fn claimed_and_measured(scene: &str, more: &[&str]) -> (f64, f64, Value) {
+    let folder = Folder::new();
+    let arguments = [&["render", scene, "--size", "128x128", "-o", "a.exr", "--json"], more].concat();
+    let report = json(&folder.succeed(&arguments));
+    let picture = image::read_exr(&folder.path("a.exr")).unwrap();
+    let reference = Reference::builtin(scene).unwrap().shrunk([128, 128]).unwrap();
+    let comparison = Comparison::new(&reference.picture, &picture, reference.error).unwrap();
+    let measured = (comparison.mse - reference.error).max(0.0).sqrt() / comparison.reference_mean;
+    (report["error"].as_f64().unwrap(), measured, report)
+}
+
+#[test]
+fn the_error_asked_for_is_reached() {
+    for scene in ["quads", "triangle-light", "sphere-light"] {
+        let (claimed, measured, report) = claimed_and_measured(scene, &["--error", "0.01"]);
+        println!("{scene}: {claimed:.5} claimed, {measured:.5} measured, {}", report["passes"]);
+        assert!(claimed <= 0.01, "{report}");
+        assert!((measured / claimed - 1.0).abs() < 0.2, "{scene}: {claimed} claimed, {measured} measured");
+        let passes = report["passes"].as_array().unwrap();
+        let spp: Vec<u64> = passes.iter().map(|p| p["spp"].as_u64().unwrap()).collect();
+        assert_eq!((spp[0], spp.iter().sum::<u64>()), (64, report["spp"].as_u64().unwrap()));
+        assert!(spp.windows(2).all(|w| w[0] <= w[1] && w[1] <= 8 * w[0]), "{spp:?}");
+        assert_eq!(keys(&passes[0]), ["sampler", "seconds", "seed", "spp"]);
+        assert_eq!((&report["sampler"], &passes[0]["seed"]), (&"adaptive".into(), &0.into()));
+    }
+    // several passes, and the same in percent
+    let (claimed, measured, report) = claimed_and_measured("quads", &["--error", "0.2%", "--seed", "5"]);
+    assert!(claimed <= 0.002 && (measured / claimed - 1.0).abs() < 0.2, "{claimed} claimed, {measured} measured");
+    let passes = report["passes"].as_array().unwrap();
+    assert!(passes.len() > 1 && passes[0]["seed"] == 5 && passes[1]["seed"] != 5, "{report}");
+}
+
+#[test]
+fn the_time_asked_for_is_kept() {
+    let (claimed, measured, report) = claimed_and_measured("quads", &["--time", "1.5"]);
+    println!("{claimed:.5} claimed, {measured:.5} measured, {report}");
+    assert!((measured / claimed - 1.0).abs() < 0.2, "{claimed} claimed, {measured} measured");
+    let seconds = report["seconds"]["render"].as_array().unwrap();
+    assert_eq!(seconds.len(), 1);
+    // other processes may take the processor in between
+    assert!((0.5..3.0).contains(&seconds[0].as_f64().unwrap()), "{report}");
+    // a preview by another sampler is no part of the image
+    let passes = report["passes"].as_array().unwrap();
+    assert!(passes.iter().all(|p| p["sampler"] == "adaptive" && p["spp"].as_u64() >= Some(32)), "{report}");
+    // the first of both goals ends the rendering
+    let (claimed, _, report) = claimed_and_measured("quads", &["--time", "60", "--error", "0.05"]);
+    assert!(claimed <= 0.05 && report["seconds"]["render"][0].as_f64().unwrap() < 10.0, "{report}");
+    let (claimed, _, report) = claimed_and_measured("quads", &["--time", "0.3", "--error", "1e-6"]);
+    assert!(claimed > 1e-6 && report["seconds"]["render"][0].as_f64().unwrap() < 3.0, "{report}");
+}
+
+#[test]
+fn passes_do_not_depend_on_threads() {
+    let folder = Folder::new();
+    let bytes = |threads: &str| {
+        let arguments = ["render", "quads", "--size", "40x30", "--error", "0.005", "-o", "a.exr", "--threads", threads];
+        folder.succeed(&arguments);
+        std::fs::read(folder.path("a.exr")).unwrap()
+    };
+    assert_eq!(bytes("1"), bytes("3"));
+    // every sampler has valid numbers of samples
+    for sampler in ["independent", "stratified", "stratified-4d", "latin", "sobol", "sobol-4d", "z-order", "adaptive"] {
+        for scene in ["quads", "defocus"] {
+            let arguments = ["render", scene, "--size", "16x16", "--error", "5%", "--sampler", sampler, "--json"];
+            let report = json(&folder.succeed(&arguments));
+            assert!(report["error"].as_f64().unwrap() <= 0.05 && report["sampler"] == sampler, "{report}");
+        }
+    }
+}
+
+#[test]
+fn goals_that_cannot_be() {
+    let folder = Folder::new();
+    for (more, message) in [
+        (&["--error", "0.01", "--sets", "1"][..], "--error: with --sets 1, a pixel has no variance"),
+        (&["--error", "0.01", "--spp", "4"], "--spp"),
+        (&["--time", "1", "--spp", "4"], "--spp"),
+        (&["--time", "1", "--repeat", "4"], "--repeat"),
+        (&["--time=0"], "greater than 0"),
+        (&["--time=-1"], "greater than 0"),
+        (&["--time=inf"], "greater than 0"),
+        (&["--error=0"], "0.01 or 1%"),
+        (&["--error=-1%"], "0.01 or 1%"),
+        (&["--error=nan"], "0.01 or 1%"),
+        (&["--error=101%"], "0.01 or 1%"),
+    ] {
+        let error = folder.fail(&[&["render", "quads", "--size", "8x8"], more].concat());
+        assert!(error.contains(message), "{more:?}: {error}");
+    }
+    assert!(folder.names().is_empty());
+    // without a variance, time is still a goal
+    let report = json(&folder.succeed(&["render", "quads", "--size", "8x8", "--time", "0.2", "--sets", "1", "--json"]));
+    assert!(report["error"].is_null() && report["sets"] == 1, "{report}");
+    // nothing is known about the error of a black image
+    folder.write("black.pbrt", super::scene("").replace("AreaLightSource", "Translate 0 -9 0 AreaLightSource"));
+    let error = folder.fail(&["render", "black.pbrt", "--size", "8x8", "--error", "1%"]);
+    assert!(error.contains("the image is black"), "{error}");
+}
+
+#[test]
+fn the_default_sampler_knows_its_error() {
+    let folder = Folder::new();
+    for (spp, sampler) in
+        [("1", "independent"), ("2", "sobol"), ("3", "independent"), ("16", "sobol"), ("32", "adaptive")]
+    {
+        let report = json(&folder.succeed(&["render", "quads", "--size", "16x16", "--spp", spp, "--json"]));
+        assert_eq!(report["sampler"], sampler, "{spp}");
+        assert_eq!(report["error"].is_null(), spp == "1", "{report}");
+        assert!(report["passes"].is_null());
+        let text = folder.succeed(&["render", "quads", "--size", "16x16", "--spp", spp]);
+        assert!(text.contains(sampler), "{text}");
+        assert!(text.contains(if spp == "1" { "estimated error not known" } else { " % (relative RMS)" }), "{text}");
+    }
+    // the error is that of the variance in the file
+    let report = json(&folder.succeed(&["render", "quads", "--size", "64x64", "--spp", "64", "--json", "-o", "a.exr"]));
+    let picture = image::read_exr(&folder.path("a.exr")).unwrap();
+    let mean = |values: &[[f32; 3]]| values.iter().flatten().map(|&x| f64::from(x)).sum::<f64>() / (3.0 * 64.0 * 64.0);
+    let expected = mean(&picture.variance.unwrap()).sqrt() / mean(&picture.radiance);
+    assert!((report["error"].as_f64().unwrap() / expected - 1.0).abs() < 1e-9, "{report}");
+}

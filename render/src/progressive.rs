@@ -1,0 +1,405 @@
+//! Renders an image pass by pass until its error or the time is what was asked for.
+//!
+//! Each pass is a whole image with a seed of its own. A pass of n samples has a squared error of about n^−p, with p = 1.5 for nets
+//! and p = 1 for independent samples, so passes are averaged with weights n^p. The weights depend on the numbers of samples alone,
+//! never on the samples. The number of samples of a pass, and the decision to stop, depend on the time, or on the error of the whole
+//! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
+
+use crate::film::Film;
+use crate::integrator::{RayCount, Settings, World};
+use crate::sampler::Sampler;
+use std::time::Instant;
+
+/// The sampler with the least error in equal time among those that report the variance of `spp` samples in `sets` sets (see
+/// [`Settings::sets`]): [`Sampler::Adaptive`] from two sets of 16 samples on, else [`Sampler::Sobol`] for an even number of samples,
+/// else [`Sampler::Independent`]. If one set is asked for, no variance is, and a net has the least error.
+#[must_use]
+pub fn default_sampler(spp: u32, sets: u32, lens: bool) -> Sampler {
+    let fits = |s: &Sampler| s.check(spp, sets, lens).is_ok() && (sets == 1 || reports_variance(*s, spp, sets, lens));
+    [Sampler::Adaptive, Sampler::Sobol].into_iter().find(fits).unwrap_or(Sampler::Independent)
+}
+
+/// Whether pixels of `spp` samples in `sets` sets (see [`Settings::sets`]) have a finite variance.
+#[must_use]
+pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bool {
+    match sampler {
+        // each of its samples is a set
+        Sampler::Independent => spp > 1,
+        _ => sampler.sets(spp, sets, lens) > 1,
+    }
+}
+
+/// The estimated relative RMS error of an image: √(mean variance) / mean, over pixels and channels. `None` if a variance is not
+/// known, or if the image is black.
+#[must_use]
+pub fn relative_error(film: &Film) -> Option<f64> {
+    let count = 3.0 * film.pixels.len() as f64;
+    let variance = film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>() / count;
+    let mean = film.mean().iter().sum::<f64>() / 3.0;
+    (variance.is_finite() && mean > 0.0).then(|| variance.sqrt() / mean)
+}
+
+/// When an image is finished: as soon as one of these is reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Goal {
+    /// Seconds since the start of the first pass.
+    pub seconds: Option<f64>,
+    /// The relative RMS error, see [`relative_error`].
+    pub error: Option<f64>,
+}
+
+/// A pass that is finished.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pass {
+    /// Samples per pixel.
+    pub spp: u32,
+    /// How its random numbers were generated.
+    pub sampler: Sampler,
+    /// Seed of its random numbers.
+    pub seed: u64,
+    /// Seconds that it took.
+    pub seconds: f64,
+}
+
+/// The mean of the passes so far.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// The image.
+    pub film: Film,
+    /// Its estimated error, see [`relative_error`].
+    pub error: Option<f64>,
+    /// Samples per pixel of the image.
+    pub spp: u64,
+    /// The passes of the image, in order.
+    pub passes: Vec<Pass>,
+    /// Seconds from the start of the first pass to the end of the last.
+    pub seconds: f64,
+    /// Rays of all passes, also of those that are no part of the image.
+    pub rays: RayCount,
+}
+
+/// Most samples per pixel of a pass.
+const MOST: u32 = 1 << 22;
+/// Samples per pixel of the first pass.
+const FIRST: u32 = 64;
+/// A pass has at most this many times the samples of the largest so far, so that its time and error can be predicted.
+const GROWTH: u32 = 8;
+/// A pass of fewer samples than this fraction of the largest so far is not worth its time: it has less than 2 % of the weight.
+const WORTH: f64 = 1.0 / 16.0;
+/// The part of the remaining time that a pass may be predicted to take.
+const SPARE: f64 = 0.97;
+/// Samples per second and thread that the first pass may count on; it may be slower by a factor of 4.
+const SLOW: f64 = 1e6;
+
+/// What to render until when.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// The settings of the first pass, except for `spp` and `sampler`, which are chosen for each pass.
+    pub settings: Settings,
+    /// The sampler of all passes; `None` for [`default_sampler`] of each pass.
+    pub sampler: Option<Sampler>,
+    /// Whether the camera has a lens.
+    pub lens: bool,
+    /// When the image is finished.
+    pub goal: Goal,
+}
+
+impl Goal {
+    /// The names of the options that give the goal, for messages.
+    #[must_use]
+    pub const fn option(&self) -> &'static str {
+        if self.error.is_some() { "error" } else { "time" }
+    }
+}
+
+impl Plan {
+    fn sampler_of(&self, spp: u32) -> Sampler {
+        self.sampler.unwrap_or_else(|| default_sampler(spp, self.settings.sets, self.lens))
+    }
+    /// Checks that the goal can be judged.
+    ///
+    /// # Errors
+    /// Fails if the goal is an error, but no number of samples has a variance.
+    pub fn check(&self) -> Result<(), String> {
+        self.counts().map(|_| ())
+    }
+    /// The numbers of samples that a pass may have, in increasing order: powers of two, or the counts of a joint grid.
+    fn counts(&self) -> Result<Vec<u32>, String> {
+        let (sets, lens) = (self.settings.sets, self.lens);
+        let all: Vec<u32> = if self.sampler == Some(Sampler::Stratified4d) {
+            let cells = |n: u32| n.checked_pow(if lens { 6 } else { 4 }).filter(|&cells| cells <= MOST);
+            let replicates = || [1, 2, 4].into_iter().filter(|&r| sets == 0 || r == sets);
+            let mut all: Vec<u32> = (1..).map_while(cells).flat_map(|n| replicates().map(move |r| r * n)).collect();
+            all.sort_unstable();
+            all
+        } else {
+            (0..=MOST.ilog2()).map(|bits| 1 << bits).collect()
+        };
+        let is_valid = |&n: &u32| self.sampler_of(n).check(n, sets, lens).is_ok();
+        let has_variance = |&n: &u32| reports_variance(self.sampler_of(n), n, sets, lens);
+        let valid: Vec<u32> = all.into_iter().filter(is_valid).collect();
+        let judging: Vec<u32> = valid.iter().copied().filter(has_variance).collect();
+        if !judging.is_empty() {
+            return Ok(judging);
+        }
+        if self.goal.error.is_some() || valid.is_empty() {
+            return Err(format!("with --sets {sets}, a pixel has no variance, so the error is not known"));
+        }
+        Ok(valid)
+    }
+    /// The exponent of the number of samples in the squared error, and so in the weight of a pass.
+    const fn power(&self) -> f64 {
+        match self.sampler {
+            Some(Sampler::Independent) => 1.0,
+            _ => 1.5,
+        }
+    }
+}
+
+/// Renders an image in passes until its goal is reached. `progress` receives the number of newly finished pixels of a pass, `start`
+/// what is known before each pass and its number of samples, and `finish` what is known after it.
+///
+/// The first pass always completes. After it, a pass begins only if it is predicted to end in time. Passes that are too small for the
+/// sampler of larger ones are a preview: they are no part of the image as soon as there is a larger one, since their error is too large
+/// for their weight.
+///
+/// # Errors
+/// Fails if no number of samples has a variance, but the goal is an error; if `finish` fails; or if the error of the image is
+/// unknown because it is black.
+pub fn render(
+    world: &World,
+    plan: &Plan,
+    progress: impl Fn(u64) + Sync,
+    mut start: impl FnMut(Option<&Progress>, u32),
+    mut finish: impl FnMut(&Progress) -> Result<(), String>,
+) -> Result<Progress, String> {
+    let (settings, goal, power) = (plan.settings, plan.goal, plan.power());
+    let counts = plan.counts()?;
+    let pixels = f64::from(settings.width) * f64::from(settings.height);
+    // smaller passes have another sampler
+    let full = counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST)).unwrap_or(counts[0]);
+    let began = Instant::now();
+    // a preview only measures the time
+    let mut next = at_most(&counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
+    let mut known: Option<Progress> = None;
+    let mut weight = 0.0;
+    for index in 0.. {
+        start(known.as_ref(), next);
+        let pass_began = Instant::now();
+        let of_pass =
+            Settings { spp: next, sampler: plan.sampler_of(next), seed: seed(settings.seed, index), ..settings };
+        let (film, rays) = world.render(&of_pass, &progress);
+        let [seconds, pass_seconds] = [began, pass_began].map(|start| start.elapsed().as_secs_f64());
+        let pass = Pass { spp: next, sampler: of_pass.sampler, seed: of_pass.seed, seconds: pass_seconds };
+        let own = f64::from(next).powf(power);
+        let mean = match known.take() {
+            Some(mut mean) if mean.passes.iter().all(|p| p.sampler == pass.sampler) => {
+                weight += own;
+                add(&mut mean.film, &film, own / weight);
+                mean.error = relative_error(&mean.film);
+                mean.spp += u64::from(next);
+                mean.passes.push(pass);
+                Progress { seconds, rays: sum(mean.rays, rays), ..mean }
+            }
+            // the first pass with the sampler of all that follow
+            earlier => {
+                weight = own;
+                let rays = earlier.map_or(rays, |mean| sum(mean.rays, rays));
+                let error = relative_error(&film);
+                Progress { film, error, spp: next.into(), passes: vec![pass], seconds, rays }
+            }
+        };
+        finish(&mean)?;
+        let counts = if next < full { &counts[..] } else { &counts[counts.partition_point(|&n| n < full)..] };
+        match decide(&mean, goal, weight, power, counts, full, began.elapsed().as_secs_f64()) {
+            Some(spp) => next = spp,
+            None if goal.error.is_some() && mean.error.is_none() => {
+                return Err("the relative error is not known, because the image is black".into());
+            }
+            None => return Ok(mean),
+        }
+        known = Some(mean);
+    }
+    unreachable!("passes end before their indices do")
+}
+
+/// Greatest number of samples that the first pass may have: [`FIRST`], or fewer if they might take more than a quarter of the time.
+fn first(goal: Goal, pixels: f64) -> f64 {
+    let threads = rayon::current_num_threads() as f64;
+    goal.seconds.map_or(f64::from(FIRST), |s| (s / 4.0 * threads * SLOW / pixels).min(f64::from(FIRST)))
+}
+
+fn at_most(counts: &[u32], n: f64) -> Option<u32> {
+    counts.iter().copied().rfind(|&count| f64::from(count) <= n)
+}
+
+fn at_least(counts: &[u32], n: f64) -> Option<u32> {
+    counts.iter().copied().find(|&count| f64::from(count) >= n)
+}
+
+/// The number of samples of the next pass; `None` if the goal is reached, or cannot be approached in time. `full` is the least number
+/// with the sampler of large passes.
+fn decide(
+    mean: &Progress,
+    goal: Goal,
+    weight: f64,
+    power: f64,
+    counts: &[u32],
+    full: u32,
+    seconds: f64,
+) -> Option<u32> {
+    let largest = mean.passes.iter().map(|p| p.spp).max()?;
+    let last = mean.passes.last()?;
+    let mut next = f64::from(largest.saturating_mul(GROWTH).max(full));
+    if let Some(target) = goal.error {
+        let error = mean.error?;
+        if error <= target {
+            return None;
+        }
+        // the squared error is c / Σ n^power
+        let missing = weight * ((error / target).powi(2) - 1.0);
+        let needed = at_least(counts, missing.powf(power.recip()).max(f64::from(last.spp)));
+        next = next.min(needed.map_or(f64::INFINITY, f64::from));
+    }
+    if let Some(time) = goal.seconds {
+        next = next.min((time - seconds) * SPARE * f64::from(last.spp) / last.seconds);
+        if next < f64::from(largest) * WORTH {
+            return None;
+        }
+    }
+    at_most(counts, next)
+}
+
+/// A seed for each pass, that of the first being the seed itself: the output function of SplitMix64 (Steele, Lea and Flood 2014).
+fn seed(seed: u64, pass: u64) -> u64 {
+    if pass == 0 {
+        return seed;
+    }
+    let mut z = seed.wrapping_add(pass.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Moves the mean towards a pass that has this share of all weights.
+fn add(mean: &mut Film, pass: &Film, share: f64) {
+    for (a, b) in mean.pixels.iter_mut().zip(&pass.pixels) {
+        for k in 0..3 {
+            let [x, y] = [a.mean[k], b.mean[k]].map(f64::from);
+            let [v, w] = [a.variance[k], b.variance[k]].map(f64::from);
+            a.mean[k] = (x + share * (y - x)) as f32;
+            a.variance[k] = ((1.0 - share).powi(2) * v + share * share * w) as f32;
+        }
+        a.samples = a.samples.saturating_add(b.samples);
+    }
+}
+
+fn sum(a: RayCount, b: RayCount) -> RayCount {
+    RayCount {
+        camera: a.camera + b.camera,
+        mirror: a.mirror + b.mirror,
+        shadow: a.shadow + b.shadow,
+        corner: a.corner + b.corner,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::Pixel;
+
+    #[test]
+    fn the_default_sampler_reports_a_variance_if_any_does() {
+        for lens in [false, true] {
+            for spp in 2..200 {
+                assert!(reports_variance(default_sampler(spp, 0, lens), spp, 0, lens), "{spp}");
+            }
+        }
+        let chosen = [1, 2, 3, 16, 31, 32, 33, 64].map(|spp| default_sampler(spp, 0, false));
+        use Sampler::{Adaptive, Independent, Sobol};
+        assert_eq!(chosen, [Independent, Sobol, Independent, Sobol, Independent, Adaptive, Adaptive, Adaptive]);
+        assert_eq!([8, 16].map(|spp| default_sampler(spp, 1, false)), [Sobol, Adaptive]);
+        assert_eq!(default_sampler(32, 4, false), Sobol);
+    }
+
+    #[test]
+    fn the_error_is_that_of_the_variances() {
+        let film = |mean: [f32; 3], variance: [f32; 3]| Film {
+            width: 2,
+            height: 1,
+            pixels: vec![
+                Pixel { mean, variance, samples: 4 },
+                Pixel { mean: [2.0; 3], variance: [0.0; 3], samples: 4 },
+            ],
+        };
+        let error = relative_error(&film([1.0, 2.0, 3.0], [0.06, 0.12, 0.06])).unwrap();
+        assert!((error - (0.24_f64 / 6.0).sqrt() / 2.0).abs() < 1e-7, "{error}");
+        assert_eq!(relative_error(&film([1.0; 3], [f32::INFINITY; 3])), None);
+        assert_eq!(relative_error(&film([-2.0; 3], [0.0; 3])), None);
+    }
+
+    #[test]
+    fn passes_are_averaged_by_their_weights() {
+        let film = |mean: f32, variance: f32, samples| Film {
+            width: 1,
+            height: 1,
+            pixels: vec![Pixel { mean: [mean; 3], variance: [variance; 3], samples }],
+        };
+        let mut mean = film(1.0, 8.0, 4);
+        add(&mut mean, &film(2.0, 4.0, 8), 0.75);
+        add(&mut mean, &film(5.0, 2.0, 16), 0.5);
+        // weights 1/8, 3/8 and 1/2
+        assert_eq!(mean, film(0.125 + 0.75 + 2.5, 8.0 / 64.0 + 4.0 * 9.0 / 64.0 + 0.5, 28));
+        assert_eq!(seed(7, 0), 7);
+        // the first output of SplitMix64 of the seed 0
+        assert_eq!(seed(0, 1), 0xe220_a839_7b1d_cdaf);
+    }
+
+    #[test]
+    fn samplers_have_counts_with_a_variance() {
+        let plan = |sampler, sets, lens, error| {
+            let technique = crate::Technique::Area;
+            let (sampler, settings) =
+                (Some(sampler), Settings { width: 1, height: 1, spp: 1, technique, depth: 0, sampler, sets, seed: 0 });
+            Plan { settings, sampler, lens, goal: Goal { seconds: None, error } }.counts()
+        };
+        let of = |sampler, sets, lens| plan(sampler, sets, lens, Some(0.1));
+        assert_eq!(of(Sampler::Sobol, 0, false).unwrap()[..3], [2, 4, 8]);
+        assert_eq!(of(Sampler::Sobol, 4, false).unwrap()[..2], [4, 8]);
+        assert_eq!(of(Sampler::Adaptive, 0, false).unwrap()[..2], [32, 64]);
+        assert_eq!(of(Sampler::Adaptive, 4, false).unwrap()[0], 64);
+        assert_eq!(of(Sampler::Stratified4d, 0, false).unwrap()[..6], [2, 4, 32, 64, 162, 324]);
+        assert_eq!(of(Sampler::Stratified4d, 0, true).unwrap()[..4], [2, 4, 128, 256]);
+        assert!(of(Sampler::Sobol, 1, false).unwrap_err().contains("--sets"));
+        assert_eq!(plan(Sampler::Sobol, 1, false, None).unwrap()[..2], [1, 2]);
+    }
+
+    #[test]
+    fn the_next_pass_fits_the_goal() {
+        let counts: Vec<u32> = (1..=22).map(|bits| 1 << bits).collect();
+        let film = Film { width: 0, height: 0, pixels: Vec::new() };
+        let pass = Pass { spp: 64, sampler: Sampler::Sobol, seed: 0, seconds: 1.0 };
+        let mean =
+            Progress { film, error: Some(0.02), spp: 64, passes: vec![pass], seconds: 1.0, rays: RayCount::default() };
+        let weight = 64_f64.powf(1.5);
+        let next = |seconds, error| decide(&mean, Goal { seconds, error }, weight, 1.5, &counts, 2, 1.0);
+        // after a preview, the least number for the sampler of larger passes
+        let preview = Progress { passes: vec![Pass { spp: 2, ..pass }], spp: 2, ..mean.clone() };
+        let after =
+            |seconds| decide(&preview, Goal { seconds: Some(seconds), error: None }, 2.8, 1.5, &counts, 32, 1.0);
+        assert_eq!([100.0, 17.0, 9.5].map(after), [Some(32), Some(16), Some(16)]);
+        // reached
+        assert_eq!(next(None, Some(0.02)), None);
+        // half of the error: three times the weight, 2.08 times the samples
+        assert_eq!(next(None, Some(0.01)), Some(256));
+        assert_eq!(next(None, Some(0.019)), Some(64));
+        assert_eq!(next(None, Some(1e-5)), Some(512));
+        // nine seconds are left, but a pass has at most eight times the samples
+        assert_eq!(next(Some(10.0), None), Some(512));
+        assert_eq!(next(Some(9.0), None), Some(256));
+        assert_eq!(next(Some(1.5), None), Some(16));
+        assert_eq!(next(Some(1.05), None), None);
+        assert_eq!(next(Some(10.0), Some(0.019)), Some(64));
+        assert_eq!(next(Some(1.6), Some(1e-5)), Some(32));
+    }
+}
