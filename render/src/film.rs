@@ -65,8 +65,9 @@ pub struct PixelSum {
 pub trait Accumulator {
     /// What is known of a pixel in the end.
     type Output: Clone + Copy + Default + Send;
-    /// Adds eight samples of one set, and the lights to which they were allocated, if they were.
-    fn push_packet(&mut self, radiance: V8, allocated: Option<&Allocated<'_, X8>>);
+    /// Adds eight samples of one set, with the part of their radiance that the camera sees directly, and the lights to which they were
+    /// allocated, if they were.
+    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>);
     /// Adds one sample.
     fn push(&mut self, radiance: [f32; 3]);
     /// Ends a set of samples that are not independent.
@@ -79,7 +80,7 @@ impl Accumulator for PixelSum {
     type Output = Pixel;
 
     #[inline]
-    fn push_packet(&mut self, radiance: V8, _: Option<&Allocated<'_, X8>>) {
+    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_, X8>>) {
         self.packets += 1;
         self.taken += 8;
         for (lane, x) in self.lanes.iter_mut().zip([radiance.x, radiance.y, radiance.z]) {

@@ -107,7 +107,7 @@ impl World {
         let pilot = effort.pilot;
         let (first, mut rays) =
             self.tiles(camera, settings, |renderer, area| renderer.parts(area, [pilot, sets], None, |_| [0, pilot]));
-        let (packets, weights) = adaptive::allot(&first, width, &effort);
+        let (packets, weights) = adaptive::allot(&first, width, sets, &effort);
         let (second, more) = self.tiles(camera, settings, |renderer, area| {
             let range = |[x, y]: [u32; 2]| [pilot, packets[(y * width + x) as usize]];
             let parts = renderer.parts(area, [pilot, sets], weights.as_ref(), range);

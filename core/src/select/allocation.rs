@@ -8,13 +8,14 @@ const LEAST: f32 = 0.02;
 
 /// Allocates a block of samples to a few lights in advance, instead of choosing a light at random for each sample.
 ///
-/// Each light receives a power of two of successive samples, at least one, which are well distributed on their own if they are points
-/// of a net. No light is sampled more or less often than it should be, which is most of the noise of a random choice among lights of
+/// Each light receives some successive samples, at least one, which are well distributed on their own if they are points of a net: a
+/// power of two, except for a light that dominates, which also receives what is left. No light is sampled more or less often than it should be, which is most of the noise of a random choice among lights of
 /// different colours. The shares depend only on the weights, so the estimate is unbiased as long as the weights do not depend on the
 /// samples.
 ///
-/// - Formula: beginning with one sample each, the light of the greatest weight per sample doubles its number as long as samples are
-///   left. A light of no weight counts as 2 % of the sum.
+/// - Formula: beginning with one sample each, the light of the greatest weight per sample doubles its number. If too few samples are
+///   left for that, the greatest light that can double does so if it has a tenth as much weight per sample, and otherwise the light of
+///   the greatest weight receives the rest. All weights are raised by 2 % of the sum.
 /// - Domain: 1 to [`FEW`] lights, and a block of at least as many samples, which must be a power of two.
 /// - Degenerate: without any weight, the samples are shared evenly.
 ///
@@ -54,20 +55,19 @@ impl Allocation {
         for (worth, weight) in worth.iter_mut().zip(weights) {
             *worth = weight + least;
         }
-        // doubles the count of the light with the greatest weight per sample; the least count divides the rest, so that none remain
+        // doubles the number of the light with the greatest weight per sample, as long as samples are left
         while left > 0 {
-            let mut best = usize::MAX;
-            for k in (0..lights).filter(|&k| each[k] <= left) {
-                if best == usize::MAX || worth[k] > worth[best] {
-                    best = k;
-                }
-            }
-            if best == usize::MAX {
-                break;
-            }
-            left -= each[best];
-            each[best] *= 2;
-            worth[best] *= 0.5;
+            let greatest = |able: &dyn Fn(usize) -> bool| {
+                (0..lights).filter(|&k| able(k)).reduce(|best, k| if worth[k] > worth[best] { k } else { best })
+            };
+            let Some(best) = greatest(&|_| true) else { break };
+            // too few are left to double the greatest, but if it dominates, they are still worth most there
+            let able = if each[best] <= left { Some(best) } else { greatest(&|k| each[k] <= left) };
+            let able = able.filter(|&k| worth[k] >= 0.1 * worth[best]);
+            let (chosen, more) = able.map_or((best, left), |k| (k, each[k]));
+            left -= more;
+            worth[chosen] *= each[chosen] as f32 / (each[chosen] + more) as f32;
+            each[chosen] += more;
         }
         let mut light: [u32; FEW] = core::array::from_fn(|k| k as u32);
         // by decreasing number, then by index: insertion, as sorting needs memory

@@ -46,14 +46,15 @@ pub(super) struct Part {
     means: [[f64; 3]; 4],
     /// Packets in each set.
     packets: u32,
-    /// Variance of the means of four samples each, summed over the channels. For allocated samples, the sum of squared differences.
+    /// Variance of the means of four samples each, summed over the channels; for allocated samples, of what the camera sees directly. For
+    /// samples allocated to more than `APART` lights, the sum of squared differences of successive samples.
     variance: f64,
     /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
     lights: usize,
     /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light.
     spread: [f32; APART],
-    /// log₂ of the number of samples of each light per set.
-    taken: [u8; APART],
+    /// Number of samples of each light per set.
+    taken: [u32; APART],
 }
 
 impl Part {
@@ -77,7 +78,7 @@ impl Part {
 
 /// Packets per set for each pixel, from the variance of the pilot; and the weights of the lights, if samples are allocated to at most
 /// `APART` lights.
-pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, Option<Weights>) {
+pub(super) fn allot(parts: &[Part], width: u32, sets: u32, effort: &Effort) -> (Vec<u32>, Option<Weights>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let mut weights = None;
     let wanted: Vec<f64> = if lights == 0 {
@@ -88,12 +89,16 @@ pub(super) fn allot(parts: &[Part], width: u32, effort: &Effort) -> (Vec<u32>, O
         let mut of = vec![0.0; parts.len() * lights];
         for k in 0..lights {
             let spread: Vec<_> = parts.iter().map(|part| f64::from(part.spread[k])).collect();
-            let pairs: Vec<_> = parts.iter().map(|part| f64::from((1_u32 << part.taken[k]) >> 1)).collect();
+            let pairs: Vec<_> = parts.iter().map(|part| f64::from(part.taken[k] / 2)).collect();
             for (of, mean) in of.chunks_mut(lights).zip(mean_around(&spread, &pairs, columns)) {
                 of[k] = mean.powf(POWER) as f32;
             }
         }
-        let sums = of.chunks(lights).map(|each| each.iter().map(|&w| f64::from(w)).sum()).collect();
+        // the error of what the camera sees directly falls with all samples
+        let seen: Vec<_> = parts.iter().map(|part| 16.0 * f64::from(sets) * part.variance).collect();
+        let reflected = of.chunks(lights).map(|each| each.iter().map(|&w| f64::from(w)).sum::<f64>());
+        let both = |(w, seen): (f64, f64)| (w.powf(1.0 / POWER) + seen).powf(POWER);
+        let sums = reflected.zip(mean_around(&seen, &vec![1.0; parts.len()], columns)).map(both).collect();
         let area = [0, 0, width, (parts.len() / columns) as u32];
         weights = Some(Weights { lights, of, area, begun: parts.iter().map(|part| part.taken).collect() });
         sums
@@ -164,7 +169,7 @@ pub(super) struct PartSum {
     halves: [Welford<f64>; 3],
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
-    /// The same sum for each light, times its squared share.
+    /// The sum of reflected light for each light, times its squared share.
     spread: [f64; APART],
     /// Number of samples of each light.
     samples: [u32; APART],
@@ -179,20 +184,26 @@ impl PartSum {
 impl Accumulator for PartSum {
     type Output = Part;
 
-    fn push_packet(&mut self, radiance: V8, allocated: Option<&Allocated<'_, X8>>) {
-        self.sum.push_packet(radiance, allocated);
-        let Some(allocated) = allocated else {
-            for half in halves(radiance) {
-                for (spread, x) in self.halves.iter_mut().zip(half) {
-                    spread.push(x);
-                }
+    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>) {
+        self.sum.push_packet(radiance, seen, allocated);
+        // the samples of a packet that is shared among lights differ by their lights: only what does not depend on them is compared
+        for half in halves(if allocated.is_some() { seen } else { radiance }) {
+            for (spread, x) in self.halves.iter_mut().zip(half) {
+                spread.push(x);
             }
-            return;
-        };
+        }
+        let Some(allocated) = allocated else { return };
         let (light, share) = (allocated.light.to_array(), allocated.share.to_array());
-        let channels = [radiance.x, radiance.y, radiance.z].map(|channel| channel.to_array());
-        for k in [0, 2, 4, 6].into_iter().filter(|&k| light[k] == light[k + 1]) {
-            let square = channels.iter().map(|c| f64::from(c[k] - c[k + 1]).powi(2)).sum::<f64>();
+        let square = |v: V8, k: usize| {
+            let [a, b] = [k, k + 1].map(|k| v.lane(k));
+            [a.x - b.x, a.y - b.y, a.z - b.z].into_iter().map(|d| f64::from(d).powi(2)).sum::<f64>()
+        };
+        let reflected = radiance - seen;
+        for k in [0, 2, 4, 6] {
+            if light[k] != light[k + 1] {
+                continue;
+            }
+            let square = square(reflected, k);
             self.between += square;
             if let Some(spread) = self.spread.get_mut(light[k] as usize) {
                 *spread += square * f64::from(share[k]).powi(2);
@@ -214,15 +225,16 @@ impl Accumulator for PartSum {
     }
     fn finish(&mut self) -> Part {
         let mut part = self.part;
-        part.variance = match self.lights {
-            0 => self.halves.iter().map(|b| b.variance()).sum(),
-            _ => self.between,
-        };
+        part.variance = self.halves.iter().map(|b| b.variance()).sum();
+        if self.lights > APART {
+            // in the unit of the other sum: a difference of two samples has 16 times the variance of the mean of four
+            part.variance = self.between + part.variance * 16.0 * f64::from(4 * part.packets) * self.sets as f64;
+        }
         if (1..=APART).contains(&self.lights) {
             part.lights = self.lights;
             part.spread = self.spread.map(|spread| spread as f32);
             let sets = self.sets.max(1) as u32;
-            part.taken = self.samples.map(|samples| (samples / sets).checked_ilog2().unwrap_or(0) as u8);
+            part.taken = self.samples.map(|samples| samples / sets);
         }
         *self = Self::new(self.lights);
         part

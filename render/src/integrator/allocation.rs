@@ -13,8 +13,8 @@ pub(super) struct Weights {
     pub(super) lights: usize,
     pub(super) of: Vec<f32>,
     pub(super) area: [u32; 4],
-    /// log₂ of the samples per set that each light received in the first block of each pixel; empty if that block is not done.
-    pub(super) begun: Vec<[u8; APART]>,
+    /// Samples per set that each light received in the first block of each pixel; empty if that block is not done.
+    pub(super) begun: Vec<[u32; APART]>,
 }
 
 impl Weights {
@@ -52,7 +52,7 @@ impl Blocks {
         if let Some(begun) = weights.begun.get(index) {
             from = self.first;
             for (before, begun) in before.iter_mut().zip(&begun[..weights.lights]) {
-                *before = 1 << begun;
+                *before = *begun;
             }
         }
         loop {

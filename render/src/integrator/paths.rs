@@ -21,6 +21,30 @@ use etendue::{Mask, Real, Vec2, u32x8};
 /// occlude it.
 const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
 
+/// Radiance along camera rays.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Radiance {
+    /// Radiance of the lights and the sky that the camera sees.
+    pub(super) seen: V8,
+    /// Radiance reflected by surfaces.
+    pub(super) reflected: V8,
+}
+
+impl Radiance {
+    pub(super) fn total(&self) -> V8 {
+        self.seen + self.reflected
+    }
+    /// The same radiance where the mask is true, and 0 elsewhere.
+    #[inline]
+    pub(super) fn keep(&self, mask: M8) -> Self {
+        Self { seen: keep(self.seen, mask), reflected: keep(self.reflected, mask) }
+    }
+    #[inline]
+    pub(super) fn times(&self, weight: X8) -> Self {
+        Self { seen: self.seen * weight, reflected: self.reflected * weight }
+    }
+}
+
 /// Random numbers of each packet of a group.
 pub(super) struct Numbers {
     /// For the point on the light, or the direction.
@@ -84,11 +108,10 @@ impl<'a> Paths<'a> {
 
     /// Follows the rays that have been started. Returns the surfaces at their ends, which reflect but whose emission does not count.
     pub(super) fn surfaces(&mut self, active: &[M8]) -> &[Surface] {
-        let mut radiance = [V8::default(); GROUP];
         if self.scene.surfaces.only_diffuse {
-            self.follow::<false>(active, &mut radiance);
+            self.follow::<false>(active, &mut [Radiance::default(); GROUP]);
         } else {
-            self.follow::<true>(active, &mut radiance);
+            self.follow::<true>(active, &mut [Radiance::default(); GROUP]);
         }
         &self.surfaces[..active.len()]
     }
@@ -99,7 +122,7 @@ impl<'a> Paths<'a> {
         active: &[M8],
         numbers: &Numbers,
         allocated: &[Allocated<'_, X8>],
-    ) -> [V8; GROUP] {
+    ) -> [Radiance; GROUP] {
         for active in active {
             self.count.camera += u64::from(active.bits().count_ones());
         }
@@ -116,8 +139,8 @@ impl<'a> Paths<'a> {
         active: &[M8],
         numbers: &Numbers,
         allocated: &[Allocated<'_, X8>],
-    ) -> [V8; GROUP] {
-        let mut radiance = [V8::default(); GROUP];
+    ) -> [Radiance; GROUP] {
+        let mut radiance = [Radiance::default(); GROUP];
         self.follow::<METAL>(active, &mut radiance);
         if self.scene.lights.is_empty() {
             return radiance;
@@ -139,14 +162,15 @@ impl<'a> Paths<'a> {
             self.by_surface::<METAL>(count, surface, allocated, &mut reflected);
         }
         for p in 0..count {
-            radiance[p] += if METAL { product(self.ends[p].throughput, reflected[p]) } else { reflected[p] };
+            let reflected = reflected[p];
+            radiance[p].reflected = if METAL { product(self.ends[p].throughput, reflected) } else { reflected };
         }
         radiance
     }
 
     /// Follows the rays of a group through mirrors, and adds the radiance of the lights and the sky that they hit.
     #[inline(always)]
-    fn follow<const METAL: bool>(&mut self, active: &[M8], radiance: &mut [V8; GROUP]) {
+    fn follow<const METAL: bool>(&mut self, active: &[M8], radiance: &mut [Radiance; GROUP]) {
         let Self { scene, stack, rays, surfaces, ends, .. } = self;
         let (world, count) = (&scene.surfaces, active.len());
         let mut going = [M8::splat(false); GROUP];
@@ -174,12 +198,12 @@ impl<'a> Paths<'a> {
                     }
                 }
                 if !METAL {
-                    radiance[p] = seen;
+                    radiance[p].seen = seen;
                     surfaces[p] = surface;
                     continue;
                 }
                 let end = &mut ends[p];
-                radiance[p] += keep(product(end.throughput, seen), here);
+                radiance[p].seen += keep(product(end.throughput, seen), here);
                 let reflects = surface.reflects & here;
                 let metal = world.metal(&hits[p], reflects);
                 let mirrors = metal.mirrors() & reflects;
@@ -384,7 +408,7 @@ impl End {
 }
 
 #[inline]
-pub(super) fn keep(v: V8, mask: M8) -> V8 {
+fn keep(v: V8, mask: M8) -> V8 {
     V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
 }
 

@@ -2,13 +2,13 @@
 
 use super::adaptive::PartSum;
 use super::allocation::{Blocks, Weights};
-use super::paths::{Numbers, Paths, keep};
+use super::paths::{Numbers, Paths, Radiance};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample};
 use crate::film::Accumulator;
-use crate::packet::{M8, V8, X8};
+use crate::packet::{M8, X8};
 use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
 use crate::sensor::Exposure;
 use etendue::select::{Allocated, Allocation};
@@ -160,9 +160,10 @@ impl<'a> TileRenderer<'a> {
             for Piece { packet, lanes, run, ends } in pieces.drain(..) {
                 let radiance = radiance[packet];
                 if whole {
-                    sum.push_packet(radiance, allocated[packet].as_ref());
+                    sum.push_packet(radiance.total(), radiance.seen, allocated[packet].as_ref());
                 } else {
-                    lanes.for_each(|lane| sum.push(radiance.lane(lane).into()));
+                    let total = radiance.total();
+                    lanes.for_each(|lane| sum.push(total.lane(lane).into()));
                 }
                 if ends && end_sets {
                     sum.end_set();
@@ -227,7 +228,7 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
-    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> [V8; GROUP] {
+    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> [Radiance; GROUP] {
         let Self { source, paths, camera, settings, .. } = self;
         let lights = paths.sampled();
         // delta lights alone need no point on the light
@@ -263,10 +264,10 @@ impl<'a> TileRenderer<'a> {
         let mut radiance = paths.radiance(&active[..packets.len()], &numbers, allocated);
         for (radiance, sample) in radiance.iter_mut().zip(&samples[..packets.len()]) {
             if let Some(open) = camera.open(sample) {
-                *radiance = keep(*radiance, open);
+                *radiance = radiance.keep(open);
             }
             if let Some(exposure) = &self.exposure {
-                *radiance = *radiance * exposure.weight(sample);
+                *radiance = radiance.times(exposure.weight(sample));
             }
         }
         radiance
