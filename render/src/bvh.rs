@@ -27,16 +27,16 @@ mod frustum;
 mod interleaved;
 mod packets;
 mod parallel_build;
-mod shape;
+mod shapes;
 mod single_ray;
 mod stream;
 mod tree;
-mod triangle;
+mod triangles;
 
-use frustum::Shaft;
-pub use packets::Stack;
+use frustum::Frustum;
+pub use packets::Scratch;
 use packets::slabs;
-pub use shape::ShapeSet;
+pub use shapes::ShapeSet;
 use single_ray::Nearest;
 pub use tree::BuildError;
 use tree::{Primitives, Tree};
@@ -164,7 +164,7 @@ impl Hits {
 /// How groups of packets traverse the tree of triangles. The hits do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Traversal {
-    /// As one frustum if the group fits into a narrow shaft, otherwise as a stream.
+    /// As one frustum if the group fits into a narrow one, otherwise as a stream.
     #[default]
     Choose,
     /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes alone; in
@@ -179,7 +179,7 @@ pub enum Traversal {
 /// Everything rays can hit: mesh triangles in a tree, and shapes that are intersected as such.
 #[derive(Debug)]
 pub struct Bvh {
-    triangles: Tree<triangle::Soup>,
+    triangles: Tree<triangles::TriangleLeaves>,
     way: Traversal,
     /// Spheres and emitters.
     pub shapes: ShapeSet,
@@ -203,7 +203,7 @@ impl Bvh {
     /// # Errors
     /// Fails if there are more than 2³¹ − 1 triangles.
     pub fn taking(triangles: Vec<[[f32; 3]; 3]>, shapes: ShapeSet) -> Result<Self, BuildError> {
-        let triangles = triangle::Soup::tree(triangles)?;
+        let triangles = triangles::TriangleLeaves::tree(triangles)?;
         let reach = triangles.reach().max(shapes.reach());
         Ok(Self { triangles, way: Traversal::default(), shapes, reach })
     }
@@ -221,49 +221,49 @@ impl Bvh {
     ///
     /// All slices must have the same length, at most [`GROUP`].
     #[inline]
-    pub fn closest(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
-        let shaft = self.shaft(rays, active);
-        self.closest_of_shapes(rays, active, shaft.as_ref(), hits, stack);
-        match (&shaft, self.way) {
-            (Some(shaft), _) => self.triangles.closest(rays, active, Some(shaft), hits, stack),
-            (None, Traversal::Single) => self.triangles.closest_one_by_one(rays, active, hits, stack),
+    pub fn closest(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], scratch: &mut Scratch) {
+        let frustum = self.frustum(rays, active);
+        self.closest_of_shapes(rays, active, frustum.as_ref(), hits, scratch);
+        match (&frustum, self.way) {
+            (Some(frustum), _) => self.triangles.closest(rays, active, Some(frustum), hits, scratch),
+            (None, Traversal::Single) => self.triangles.closest_one_by_one(rays, active, hits, scratch),
             (None, Traversal::Exhaustive) => self.triangles.each_leaf(|leaf, node, slot| {
                 for ((rays, &active), hits) in rays.iter().zip(active).zip(&mut *hits) {
                     let (near, entered) = slabs::<false>(node, slot, rays, [false; 3], X8::lit(f64::INFINITY));
                     self.triangles.primitives().closest(leaf.clone(), rays, near, active & entered, hits);
                 }
             }),
-            (None, _) => self.triangles.closest_stream(rays, active, hits, stack),
+            (None, _) => self.triangles.closest_stream(rays, active, hits, scratch),
         }
     }
     /// Like [`Bvh::closest`], for shapes only.
     #[inline]
-    pub fn closest_shape(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
-        let shaft = self.shaft(rays, active);
-        self.closest_of_shapes(rays, active, shaft.as_ref(), hits, stack);
+    pub fn closest_shape(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], scratch: &mut Scratch) {
+        let frustum = self.frustum(rays, active);
+        self.closest_of_shapes(rays, active, frustum.as_ref(), hits, scratch);
     }
-    /// Nearest hits of shapes, packet by packet if there is no shaft, as shapes are few.
+    /// Nearest hits of shapes, packet by packet if there is no frustum, as shapes are few.
     #[inline]
     fn closest_of_shapes(
         &self,
         rays: &[Rays],
         active: &[M8],
-        shaft: Option<&Shaft>,
+        frustum: Option<&Frustum>,
         hits: &mut [Hits],
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
-        if shaft.is_some() {
-            return self.shapes.tree().closest(rays, active, shaft, hits, stack);
+        if frustum.is_some() {
+            return self.shapes.tree().closest(rays, active, frustum, hits, scratch);
         }
         for p in (0..rays.len()).filter(|&p| active[p].any()) {
-            self.shapes.tree().closest(&rays[p..=p], &active[p..=p], None, &mut hits[p..=p], stack);
+            self.shapes.tree().closest(&rays[p..=p], &active[p..=p], None, &mut hits[p..=p], scratch);
         }
     }
     /// Clears the lanes of `active` that are occluded by something nearer than `limit`, other than the shape `target` (an index
     /// without [`SHAPE`], or [`NOTHING`]).
     #[inline]
-    pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], stack: &mut Stack) {
-        let shaft = self.shaft(rays, active);
+    pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], scratch: &mut Scratch) {
+        let frustum = self.frustum(rays, active);
         // a single shape does not occlude itself
         let own = |(&a, &t): (&M8, &u32x8)| !(a & !equal(t, u32x8::splat(0))).any();
         let none = match self.shapes.tree().count() {
@@ -272,14 +272,14 @@ impl Bvh {
             _ => false,
         };
         if !none {
-            self.occluded_by_shapes(rays, active, limit, target, shaft.as_ref(), stack);
+            self.occluded_by_shapes(rays, active, limit, target, frustum.as_ref(), scratch);
             if !active.iter().any(|a| a.any()) {
                 return;
             }
         }
-        match (&shaft, self.way) {
-            (Some(shaft), _) => self.triangles.occluded(rays, active, limit, target, Some(shaft), stack),
-            (None, Traversal::Single) => self.triangles.occluded_one_by_one(rays, active, limit, stack),
+        match (&frustum, self.way) {
+            (Some(frustum), _) => self.triangles.occluded(rays, active, limit, target, Some(frustum), scratch),
+            (None, Traversal::Single) => self.triangles.occluded_one_by_one(rays, active, limit, scratch),
             (None, Traversal::Exhaustive) => self.triangles.each_leaf(|leaf, node, slot| {
                 for (p, active) in active.iter_mut().enumerate() {
                     let (near, entered) = slabs::<false>(node, slot, &rays[p], [false; 3], X8::lit(f64::INFINITY));
@@ -287,7 +287,7 @@ impl Bvh {
                     *active = *active & !soup.occluded(leaf.clone(), &rays[p], near, lanes, limit[p], target[p]);
                 }
             }),
-            (None, _) => self.triangles.occluded_stream(rays, active, limit, stack),
+            (None, _) => self.triangles.occluded_stream(rays, active, limit, scratch),
         }
     }
     /// Occlusion by shapes, like [`Self::closest_of_shapes`].
@@ -298,23 +298,23 @@ impl Bvh {
         active: &mut [M8],
         limit: &[X8],
         target: &[u32x8],
-        shaft: Option<&Shaft>,
-        stack: &mut Stack,
+        frustum: Option<&Frustum>,
+        scratch: &mut Scratch,
     ) {
         let shapes = self.shapes.tree();
-        if shaft.is_some() {
-            return shapes.occluded(rays, active, limit, target, shaft, stack);
+        if frustum.is_some() {
+            return shapes.occluded(rays, active, limit, target, frustum, scratch);
         }
         for p in 0..rays.len() {
             if active[p].any() {
-                shapes.occluded(&rays[p..=p], &mut active[p..=p], &limit[p..=p], &target[p..=p], None, stack);
+                shapes.occluded(&rays[p..=p], &mut active[p..=p], &limit[p..=p], &target[p..=p], None, scratch);
             }
         }
     }
-    /// The narrow shaft of the group, if there is one and the traversal may use it.
+    /// The narrow frustum of the group, if there is one and the traversal may use it.
     #[inline]
-    fn shaft(&self, rays: &[Rays], active: &[M8]) -> Option<Shaft> {
-        if self.way == Traversal::Choose { Shaft::new(rays, active) } else { None }
+    fn frustum(&self, rays: &[Rays], active: &[M8]) -> Option<Frustum> {
+        if self.way == Traversal::Choose { Frustum::new(rays, active) } else { None }
     }
     /// The corners of the mesh triangle at a place.
     #[inline]

@@ -7,7 +7,7 @@ mod direct;
 mod paths;
 mod surface;
 
-use crate::bvh::{BuildError, Bvh, GROUP, Hits, Rays, ShapeSet, Stack};
+use crate::bvh::{BuildError, Bvh, GROUP, Hits, Rays, Scratch, ShapeSet};
 use crate::camera::{Camera, CameraSample};
 use crate::film::{Film, Pixel, PixelSum};
 use crate::lights::Lights;
@@ -274,7 +274,7 @@ struct Work<'a> {
     samples: [CameraSample; GROUP],
     source: Source,
     count: RayCount,
-    stack: Stack,
+    stack: Scratch,
     /// Camera rays and shadow rays of a group.
     rays: Box<[[Rays; GROUP]; 2]>,
     /// Surfaces hit by the camera rays of a group.
@@ -308,7 +308,7 @@ impl<'a> Work<'a> {
             exposure,
             source,
             count: RayCount::default(),
-            stack: Stack::default(),
+            stack: Scratch::default(),
             rays: Box::default(),
             surfaces: Vec::with_capacity(GROUP),
         }

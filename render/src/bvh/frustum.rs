@@ -8,7 +8,7 @@ use etendue::{Mask, Real};
 /// A frustum that contains all rays of a group. All rays run the same way along one axis; across it, they are bounded by their least
 /// and greatest slopes. One test finds the children of a node that any ray of the group can enter.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shaft {
+pub(super) struct Frustum {
     axis: usize,
     negative: bool,
     /// Least and greatest origin, widened.
@@ -22,8 +22,8 @@ pub(super) struct Shaft {
 /// Groups whose slopes differ by more than this share too few leaves: they are faster as a stream.
 const SPREAD: f32 = 0.02;
 
-impl Shaft {
-    /// The shaft of the active rays; `None` if they share no axis or spread too far.
+impl Frustum {
+    /// The frustum of the active rays; `None` if they share no axis or spread too far.
     pub(super) fn new(rays: &[Rays], active: &[M8]) -> Option<Self> {
         let first = active.iter().position(|a| a.any())?;
         let lane = active[first].bits().trailing_zeros() as usize & 7;

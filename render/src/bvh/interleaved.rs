@@ -1,7 +1,7 @@
 //! Interleaves incoherent rays to hide memory latency: each ray takes one step in turn, and prefetches what its next step will visit.
 
-use super::packets::{STACK, Stack, each_bit, push_in_order};
-use super::single_ray::{Leaves, Nearest, Single};
+use super::packets::{STACK, Scratch, each_bit, push_in_order};
+use super::single_ray::{Leaves, Nearest, SingleRay};
 use super::tree::{Node, Tree, prefetch};
 use super::{Hits, Rays};
 use crate::packet::X8;
@@ -25,7 +25,7 @@ const MOST: usize = 24;
 /// The traversal state of one ray.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
-    ray: Single,
+    ray: SingleRay,
     /// The nearest hit so far, or the limit.
     nearest: Nearest,
     /// Index of the ray in the group: 8·packet + lane.
@@ -37,7 +37,7 @@ pub(super) struct Walk {
 impl Default for Walk {
     fn default() -> Self {
         Self {
-            ray: Single::default(),
+            ray: SingleRay::default(),
             nearest: Nearest::default(),
             index: 0,
             height: 0,
@@ -48,7 +48,7 @@ impl Default for Walk {
 
 impl Walk {
     fn start(&mut self, index: usize, rays: &[Rays], nearest: Nearest, later: &mut Later) {
-        self.ray = Single::new(&rays[index >> 3], index & 7);
+        self.ray = SingleRay::new(&rays[index >> 3], index & 7);
         (self.index, self.nearest, self.height) = (index, nearest, 0);
         for &child in later.take(index) {
             push_in_order(&mut self.stack[..], &mut self.height, 0, child, |c| c.near);
@@ -173,8 +173,8 @@ impl<P: Leaves> Tree<P> {
     /// Traces all pending rays. `nearest` has the limit of each ray and receives its hit. With `ANY`, returns the rays that hit
     /// something instead.
     #[inline]
-    fn walk<const ANY: bool>(&self, rays: &[Rays], nearest: &mut [Nearest; 64], stack: &mut Stack) -> u64 {
-        let Stack { walks, later, .. } = stack;
+    fn walk<const ANY: bool>(&self, rays: &[Rays], nearest: &mut [Nearest; 64], scratch: &mut Scratch) -> u64 {
+        let Scratch { walks, later, .. } = scratch;
         let mut order: [usize; TOGETHER] = std::array::from_fn(|i| i);
         let (mut going, mut hidden) = (0, 0);
         while let Some(index) = later.next().filter(|_| going < TOGETHER) {
@@ -204,20 +204,20 @@ impl<P: Leaves> Tree<P> {
     }
 
     /// Finds the nearest hits of the pending rays, if nearer than those in `hits`.
-    pub(super) fn closest_together(&self, rays: &[Rays], hits: &mut [Hits], stack: &mut Stack) {
+    pub(super) fn closest_together(&self, rays: &[Rays], hits: &mut [Hits], scratch: &mut Scratch) {
         let mut nearest = [Nearest::default(); 64];
-        let waiting = stack.later.rays;
+        let waiting = scratch.later.rays;
         each_ray(waiting, |i| nearest[i] = hits[i >> 3].nearest(i & 7));
-        self.walk::<false>(rays, &mut nearest, stack);
+        self.walk::<false>(rays, &mut nearest, scratch);
         each_ray(waiting, |i| hits[i >> 3].put(i & 7, &nearest[i]));
     }
 
     /// Returns the pending rays among `open` that are occluded before their limit.
-    pub(super) fn hidden_together(&self, rays: &[Rays], open: u64, limit: &[X8], stack: &mut Stack) -> u64 {
+    pub(super) fn hidden_together(&self, rays: &[Rays], open: u64, limit: &[X8], scratch: &mut Scratch) -> u64 {
         let mut nearest = [Nearest::default(); 64];
-        stack.later.keep(open);
-        each_ray(stack.later.rays, |i| nearest[i].distance = limit[i >> 3].as_array()[i & 7]);
-        self.walk::<true>(rays, &mut nearest, stack)
+        scratch.later.keep(open);
+        each_ray(scratch.later.rays, |i| nearest[i].distance = limit[i >> 3].as_array()[i & 7]);
+        self.walk::<true>(rays, &mut nearest, scratch)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::interleaved::{Later, TOGETHER, Walk};
 use super::stream::Visit;
 use super::tree::{DEPTH, Node, Primitives, Tree};
-use super::{Hits, Rays, Shaft, WIDTH};
+use super::{Frustum, Hits, Rays, WIDTH};
 use crate::packet::{M8, X8, max, min};
 use etendue::{Mask, Real, u32x8};
 
@@ -34,14 +34,14 @@ pub(super) fn slabs<const COMMON: bool>(node: &Node, slot: usize, rays: &Rays, s
 
 /// Scratch memory for traversals, to be reused.
 #[derive(Debug)]
-pub struct Stack {
+pub struct Scratch {
     pub(super) pending: Box<[Pending; STACK]>,
     pub(super) visits: Box<[Visit; STACK]>,
     pub(super) walks: [Walk; TOGETHER],
     pub(super) later: Later,
 }
 
-impl Default for Stack {
+impl Default for Scratch {
     fn default() -> Self {
         Self {
             pending: Box::new([Pending::default(); STACK]),
@@ -81,22 +81,22 @@ pub(super) fn push_in_order<T: Copy>(
     *height += 1;
 }
 
-/// A group of packets that traverses a tree: as one shaft around all of them, or as a single packet.
-struct Traversal<'a, const COMMON: bool> {
+/// A group of packets that traverses a tree: as one frustum around all of them, or as a single packet.
+struct Packets<'a, const COMMON: bool> {
     rays: &'a [Rays],
     sign: [bool; 3],
-    shaft: Option<&'a Shaft>,
+    frustum: Option<&'a Frustum>,
     /// Index of an active lane of the first packet.
     lead: usize,
 }
 
-impl<const COMMON: bool> Traversal<'_, COMMON> {
+impl<const COMMON: bool> Packets<'_, COMMON> {
     /// The bit set of the children that may be entered within `reach`, and with `ORDER` their entry distances: lower bounds for a
-    /// shaft, otherwise those of the packet's leading lane.
+    /// frustum, otherwise those of the packet's leading lane.
     #[inline(always)]
     fn enter<const ORDER: bool>(&self, node: &Node, limit: X8, active: M8, reach: f32) -> (u32, [f32; WIDTH]) {
-        if let Some(shaft) = self.shaft {
-            let (near, mask) = shaft.enter(node, reach);
+        if let Some(frustum) = self.frustum {
+            let (near, mask) = frustum.enter(node, reach);
             return (mask.bits(), if ORDER { near.to_array() } else { [0.0; WIDTH] });
         }
         let mut bits = 0;
@@ -139,35 +139,37 @@ impl<P: Primitives> Tree<P> {
         &self,
         rays: &[Rays],
         active: &[M8],
-        shaft: Option<&Shaft>,
+        frustum: Option<&Frustum>,
         hits: &mut [Hits],
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
         if self.count == 0 {
             return;
         }
         let lead = active[0].bits().trailing_zeros() as usize & 7;
         match common_sign(rays) {
-            Some(sign) => self.closest_with(&Traversal::<true> { rays, sign, shaft, lead }, active, hits, stack),
-            None => self.closest_with(&Traversal::<false> { rays, sign: [false; 3], shaft, lead }, active, hits, stack),
+            Some(sign) => self.closest_with(&Packets::<true> { rays, sign, frustum, lead }, active, hits, scratch),
+            None => {
+                self.closest_with(&Packets::<false> { rays, sign: [false; 3], frustum, lead }, active, hits, scratch)
+            }
         }
     }
 
     fn closest_with<const COMMON: bool>(
         &self,
-        traversal: &Traversal<'_, COMMON>,
+        packets: &Packets<'_, COMMON>,
         active: &[M8],
         hits: &mut [Hits],
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
-        let stack = &mut *stack.pending;
+        let stack = &mut *scratch.pending;
         let mut height = 0;
         // the greatest remaining search distance of any ray
         let mut reach = farthest(hits, active);
         let mut place = 0_usize;
         loop {
             let node = &self.nodes[place];
-            let (bits, near) = traversal.enter::<true>(node, hits[0].distance, active[0], reach);
+            let (bits, near) = packets.enter::<true>(node, hits[0].distance, active[0], reach);
             // the nearest child goes to the top of the stack
             let floor = height;
             each_bit(bits, |slot| {
@@ -180,8 +182,8 @@ impl<P: Primitives> Tree<P> {
                 }
                 height -= 1;
                 let Pending { parent, slot, near } = stack[height];
-                // without a shaft, `near` bounds only the leading lane, and leaves are tested again below
-                if traversal.shaft.is_some() && near > reach {
+                // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
+                if packets.frustum.is_some() && near > reach {
                     continue;
                 }
                 let (node, slot) = (&self.nodes[parent as usize], slot as usize);
@@ -190,8 +192,8 @@ impl<P: Primitives> Tree<P> {
                     break first;
                 }
                 let mut visited = false;
-                for (p, rays) in traversal.rays.iter().enumerate() {
-                    let (near, entered) = traversal.lanes(node, slot, p, hits[p].distance, active[p]);
+                for (p, rays) in packets.rays.iter().enumerate() {
+                    let (near, entered) = packets.lanes(node, slot, p, hits[p].distance, active[p]);
                     if entered.any() {
                         self.primitives.closest(first..first + count, rays, near, entered, &mut hits[p]);
                         visited = true;
@@ -211,8 +213,8 @@ impl<P: Primitives> Tree<P> {
         active: &mut [M8],
         limit: &[X8],
         skip: &[u32x8],
-        shaft: Option<&Shaft>,
-        stack: &mut Stack,
+        frustum: Option<&Frustum>,
+        scratch: &mut Scratch,
     ) {
         if self.count == 0 {
             return;
@@ -220,15 +222,15 @@ impl<P: Primitives> Tree<P> {
         let lead = active[0].bits().trailing_zeros() as usize & 7;
         match common_sign(rays) {
             Some(sign) => {
-                self.occluded_with(&Traversal::<true> { rays, sign, shaft, lead }, active, limit, skip, stack)
+                self.occluded_with(&Packets::<true> { rays, sign, frustum, lead }, active, limit, skip, scratch)
             }
             None => {
                 self.occluded_with(
-                    &Traversal::<false> { rays, sign: [false; 3], shaft, lead },
+                    &Packets::<false> { rays, sign: [false; 3], frustum, lead },
                     active,
                     limit,
                     skip,
-                    stack,
+                    scratch,
                 );
             }
         }
@@ -236,20 +238,20 @@ impl<P: Primitives> Tree<P> {
 
     fn occluded_with<const COMMON: bool>(
         &self,
-        traversal: &Traversal<'_, COMMON>,
+        packets: &Packets<'_, COMMON>,
         active: &mut [M8],
         limit: &[X8],
         skip: &[u32x8],
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
-        let stack = &mut *stack.pending;
+        let stack = &mut *scratch.pending;
         let reach = limit.iter().zip(&*active).fold(X8::lit(0.0), |m, (&l, &a)| max(m, l.keep(a)));
         let reach = reach.to_array().into_iter().fold(0.0, f32::max);
         let mut height = 0;
         let mut place = 0_u32;
         loop {
             let node = &self.nodes[place as usize];
-            let (mut bits, _) = traversal.enter::<false>(node, limit[0], active[0], reach);
+            let (mut bits, _) = packets.enter::<false>(node, limit[0], active[0], reach);
             let mut closed = false;
             while bits != 0 {
                 let slot = bits.trailing_zeros() as usize & 7;
@@ -261,8 +263,8 @@ impl<P: Primitives> Tree<P> {
                     continue;
                 }
                 let range = first as usize..first as usize + count;
-                for (p, rays) in traversal.rays.iter().enumerate() {
-                    let (near, entered) = traversal.lanes(node, slot, p, limit[p], active[p]);
+                for (p, rays) in packets.rays.iter().enumerate() {
+                    let (near, entered) = packets.lanes(node, slot, p, limit[p], active[p]);
                     if entered.any() {
                         let hidden = self.primitives.occluded(range.clone(), rays, near, entered, limit[p], skip[p]);
                         active[p] = active[p] & !hidden;

@@ -1,6 +1,6 @@
 //! Single-ray traversal: tests all children of a node at once, and all triangles of a leaf at once.
 
-use super::packets::{Pending, Stack, each_bit, push_in_order};
+use super::packets::{Pending, Scratch, each_bit, push_in_order};
 use super::tree::{Node, Tree};
 use super::{Hits, Rays};
 use crate::packet::{M8, V8, X8, max, min};
@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// One ray of a packet, in every lane, with the same numbers as in the packet, so that its hits are the same, bit for bit.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Single {
+pub(super) struct SingleRay {
     pub(super) origin: V8,
     pub(super) direction: V8,
     pub(super) frame: [V8; 2],
@@ -28,7 +28,7 @@ pub(super) struct Nearest {
     pub(super) b2: f32,
 }
 
-impl Single {
+impl SingleRay {
     #[inline(always)]
     pub(super) fn new(rays: &Rays, lane: usize) -> Self {
         let spread = |v: &V8| {
@@ -67,31 +67,31 @@ impl Single {
 /// Primitives that test one ray against a whole leaf at once.
 pub(super) trait Leaves {
     /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`.
-    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest);
+    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest);
     /// Prefetches a leaf.
     fn prefetch(&self, leaf: Range<usize>);
     /// Whether a primitive of a leaf occludes one ray before `limit`.
-    fn leaf_hides(&self, leaf: Range<usize>, ray: &Single, near: X8, limit: f32) -> bool;
+    fn leaf_hides(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, limit: f32) -> bool;
 }
 
 impl<P: Leaves> Tree<P> {
     /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`.
-    pub(super) fn closest_one_by_one(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
+    pub(super) fn closest_one_by_one(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], scratch: &mut Scratch) {
         for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
             each_bit(active.bits(), |lane| {
                 let mut nearest = hits.nearest(lane);
-                self.closest_single(0, &Single::new(rays, lane), &mut nearest, stack);
+                self.closest_single(0, &SingleRay::new(rays, lane), &mut nearest, scratch);
                 hits.put(lane, &nearest);
             });
         }
     }
 
     /// Clears the lanes of `active` that are occluded before `limit`, one by one.
-    pub(super) fn occluded_one_by_one(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack) {
+    pub(super) fn occluded_one_by_one(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], scratch: &mut Scratch) {
         for ((rays, active), limit) in rays.iter().zip(active).zip(limit) {
             let mut open = active.bits();
             each_bit(open, |lane| {
-                let hidden = self.hides_single(0, &Single::new(rays, lane), limit.as_array()[lane], stack);
+                let hidden = self.hides_single(0, &SingleRay::new(rays, lane), limit.as_array()[lane], scratch);
                 open &= !(u32::from(hidden) << lane);
             });
             *active = M8::from_bits(open);
@@ -100,20 +100,20 @@ impl<P: Leaves> Tree<P> {
 
     /// Finds the nearest hit of one ray below a node, if nearer than `nearest`.
     #[inline]
-    pub(super) fn closest_single(&self, from: u32, ray: &Single, nearest: &mut Nearest, stack: &mut Stack) {
+    pub(super) fn closest_single(&self, from: u32, ray: &SingleRay, nearest: &mut Nearest, scratch: &mut Scratch) {
         if self.count != 0 {
-            by_octant!(ray.octant, else 7, self.closest_in_octant(from as usize, ray, nearest, stack));
+            by_octant!(ray.octant, else 7, self.closest_in_octant(from as usize, ray, nearest, scratch));
         }
     }
 
     fn closest_in_octant<const OCTANT: usize>(
         &self,
         from: usize,
-        ray: &Single,
+        ray: &SingleRay,
         nearest: &mut Nearest,
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
-        let stack = &mut *stack.pending;
+        let stack = &mut *scratch.pending;
         let mut height = 0;
         let mut place = from;
         loop {
@@ -163,12 +163,18 @@ impl<P: Leaves> Tree<P> {
 
     /// Whether something below a node occludes one ray before `limit`.
     #[inline]
-    pub(super) fn hides_single(&self, from: u32, ray: &Single, limit: f32, stack: &mut Stack) -> bool {
-        self.count != 0 && by_octant!(ray.octant, else 7, self.hides_in_octant(from, ray, limit, stack))
+    pub(super) fn hides_single(&self, from: u32, ray: &SingleRay, limit: f32, scratch: &mut Scratch) -> bool {
+        self.count != 0 && by_octant!(ray.octant, else 7, self.hides_in_octant(from, ray, limit, scratch))
     }
 
-    fn hides_in_octant<const OCTANT: usize>(&self, from: u32, ray: &Single, limit: f32, stack: &mut Stack) -> bool {
-        let stack = &mut *stack.pending;
+    fn hides_in_octant<const OCTANT: usize>(
+        &self,
+        from: u32,
+        ray: &SingleRay,
+        limit: f32,
+        scratch: &mut Scratch,
+    ) -> bool {
+        let stack = &mut *scratch.pending;
         let mut height = 0;
         let mut place = from;
         let reach = X8::splat(limit);

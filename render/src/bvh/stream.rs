@@ -1,8 +1,8 @@
 //! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
 
 use super::interleaved::each_ray;
-use super::packets::{Stack, common_sign, each_bit, push_in_order, slabs};
-use super::single_ray::{Leaves, Single};
+use super::packets::{Scratch, common_sign, each_bit, push_in_order, slabs};
+use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Node, Primitives, Tree};
 use super::{GROUP, Hits, NOTHING, Rays, WIDTH};
 use crate::packet::{M8, X8, max, min, select};
@@ -95,11 +95,11 @@ fn bits(active: &[M8]) -> u64 {
 
 impl<P: Primitives + Leaves> Tree<P> {
     /// Finds the nearest hits of a group of packets, if nearer than those in `hits`.
-    pub(super) fn closest_stream(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
+    pub(super) fn closest_stream(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], scratch: &mut Scratch) {
         if self.count == 0 {
             return;
         }
-        by_octant!(octant(rays), else 8, self.closest_stream_in_octant(rays, active, hits, stack));
+        by_octant!(octant(rays), else 8, self.closest_stream_in_octant(rays, active, hits, scratch));
     }
 
     fn closest_stream_in_octant<const OCTANT: usize>(
@@ -107,14 +107,14 @@ impl<P: Primitives + Leaves> Tree<P> {
         rays: &[Rays],
         active: &[M8],
         hits: &mut [Hits],
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
         let stream = Stream::<OCTANT> { rays };
         let mut height = 1;
-        stack.visits[0] = Visit { rays: bits(active), node: 0, slot: INNER, near: 0.0 };
+        scratch.visits[0] = Visit { rays: bits(active), node: 0, slot: INNER, near: 0.0 };
         while height > 0 {
             height -= 1;
-            let Visit { rays: among, node: place, slot, .. } = stack.visits[height];
+            let Visit { rays: among, node: place, slot, .. } = scratch.visits[height];
             let node = &self.nodes[place as usize];
             if slot != INNER {
                 let slot = slot as usize & 7;
@@ -134,7 +134,7 @@ impl<P: Primitives + Leaves> Tree<P> {
                         let mut nearest = hits.nearest(lane);
                         let near = near.as_array()[lane];
                         if near <= nearest.distance {
-                            let (ray, near) = (Single::new(rays, lane), X8::splat(near));
+                            let (ray, near) = (SingleRay::new(rays, lane), X8::splat(near));
                             self.primitives.closest_of_leaf(leaf.clone(), &ray, near, &mut nearest);
                             hits.put(lane, &nearest);
                         }
@@ -143,11 +143,11 @@ impl<P: Primitives + Leaves> Tree<P> {
                 continue;
             }
             if among.count_ones() < FEW {
-                if OCTANT < 8 || !stack.later.add(among, place, stack.visits[height].near) {
+                if OCTANT < 8 || !scratch.later.add(among, place, scratch.visits[height].near) {
                     each_ray(among, |i| {
                         let (p, lane) = (i >> 3, i & 7);
                         let mut nearest = hits[p].nearest(lane);
-                        self.closest_single(place, &Single::new(&rays[p], lane), &mut nearest, stack);
+                        self.closest_single(place, &SingleRay::new(&rays[p], lane), &mut nearest, scratch);
                         hits[p].put(lane, &nearest);
                     });
                 }
@@ -164,20 +164,20 @@ impl<P: Primitives + Leaves> Tree<P> {
                 let inner = node.count[slot] == 0;
                 let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
                 let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
-                push_in_order(&mut stack.visits[..], &mut height, floor, child, |c| c.near);
+                push_in_order(&mut scratch.visits[..], &mut height, floor, child, |c| c.near);
             }
         }
         if OCTANT == 8 {
-            self.closest_together(rays, hits, stack);
+            self.closest_together(rays, hits, scratch);
         }
     }
 
     /// Clears the lanes of `active` that are occluded before `limit`.
-    pub(super) fn occluded_stream(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack) {
+    pub(super) fn occluded_stream(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], scratch: &mut Scratch) {
         if self.count == 0 {
             return;
         }
-        by_octant!(octant(rays), else 8, self.occluded_stream_in_octant(rays, active, limit, stack));
+        by_octant!(octant(rays), else 8, self.occluded_stream_in_octant(rays, active, limit, scratch));
     }
 
     fn occluded_stream_in_octant<const OCTANT: usize>(
@@ -185,22 +185,26 @@ impl<P: Primitives + Leaves> Tree<P> {
         rays: &[Rays],
         active: &mut [M8],
         limit: &[X8],
-        stack: &mut Stack,
+        scratch: &mut Scratch,
     ) {
         let stream = Stream::<OCTANT> { rays };
         let mut open = bits(active);
         let mut height = 1;
-        stack.visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
+        scratch.visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
         while height > 0 && open != 0 {
             height -= 1;
-            let Visit { rays: among, node: place, .. } = stack.visits[height];
+            let Visit { rays: among, node: place, .. } = scratch.visits[height];
             let among = among & open;
             if among.count_ones() < FEW {
-                if OCTANT < 8 || !stack.later.add(among, place, 0.0) {
+                if OCTANT < 8 || !scratch.later.add(among, place, 0.0) {
                     each_ray(among, |i| {
                         let (p, lane) = (i >> 3, i & 7);
-                        let hides =
-                            self.hides_single(place, &Single::new(&rays[p], lane), limit[p].as_array()[lane], stack);
+                        let hides = self.hides_single(
+                            place,
+                            &SingleRay::new(&rays[p], lane),
+                            limit[p].as_array()[lane],
+                            scratch,
+                        );
                         open &= !(u64::from(hides) << i);
                     });
                 }
@@ -213,7 +217,7 @@ impl<P: Primitives + Leaves> Tree<P> {
                     continue;
                 }
                 if node.count[slot] == 0 {
-                    stack.visits[height] =
+                    scratch.visits[height] =
                         Visit { rays: entered[slot], node: node.first[slot], slot: INNER, near: 0.0 };
                     height += 1;
                     continue;
@@ -234,7 +238,7 @@ impl<P: Primitives + Leaves> Tree<P> {
                         continue;
                     }
                     each_bit(lanes, |lane| {
-                        let (ray, near) = (Single::new(rays, lane), X8::splat(near.as_array()[lane]));
+                        let (ray, near) = (SingleRay::new(rays, lane), X8::splat(near.as_array()[lane]));
                         let hidden = self.primitives.leaf_hides(leaf.clone(), &ray, near, limit.as_array()[lane]);
                         open &= !(u64::from(hidden) << (8 * p + lane));
                     });
@@ -242,7 +246,7 @@ impl<P: Primitives + Leaves> Tree<P> {
             }
         }
         if OCTANT == 8 {
-            open &= !self.hidden_together(rays, open, limit, stack);
+            open &= !self.hidden_together(rays, open, limit, scratch);
         }
         for (p, active) in active.iter_mut().enumerate() {
             *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);

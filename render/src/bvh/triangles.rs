@@ -2,7 +2,7 @@
 
 use super::build::Costs;
 use super::packets::each_bit;
-use super::single_ray::{Leaves, Nearest, Single};
+use super::single_ray::{Leaves, Nearest, SingleRay};
 use super::tree::{Bounded, Bounds, BuildError, Primitives, Tree, greater, lesser};
 use super::{Hits, NOTHING, Rays};
 use crate::packet::{M8, V8, X8, max, min, pick, select};
@@ -32,7 +32,7 @@ impl Bounded for Corners {
 /// Mesh triangles in leaf order. A leaf of n triangles stores each of the nine coordinates n times in a row, so that one load of eight
 /// lanes fetches a coordinate of all its triangles (and whatever follows).
 #[derive(Debug)]
-pub(super) struct Soup {
+pub(super) struct TriangleLeaves {
     coordinates: Vec<f32>,
     /// For each triangle, 16 times its index in its leaf plus the leaf's number of triangles.
     leaves: Vec<u8>,
@@ -40,7 +40,7 @@ pub(super) struct Soup {
     ids: Vec<u32>,
 }
 
-impl Soup {
+impl TriangleLeaves {
     pub(super) fn tree(triangles: Vec<Corners>) -> Result<Tree<Self>, BuildError> {
         let by_coordinate = |leaf: &mut [Corners]| {
             let mut turned = [0.0; 9 * COSTS.most];
@@ -157,7 +157,7 @@ impl Projected {
     }
 }
 
-impl Primitives for Soup {
+impl Primitives for TriangleLeaves {
     #[inline]
     fn closest(&self, leaf: Range<usize>, rays: &Rays, near: X8, active: M8, hits: &mut Hits) {
         for index in 0..leaf.len() {
@@ -197,13 +197,13 @@ impl Primitives for Soup {
     }
 }
 
-impl Leaves for Soup {
+impl Leaves for TriangleLeaves {
     #[inline(always)]
     fn prefetch(&self, leaf: Range<usize>) {
         super::tree::prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
     }
     #[inline(always)]
-    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest) {
+    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) {
         let projected = project(self.all(&leaf), ray.origin, ray.frame);
         let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
         if inside == 0 {
@@ -223,7 +223,7 @@ impl Leaves for Soup {
         });
     }
     #[inline(always)]
-    fn leaf_hides(&self, leaf: Range<usize>, ray: &Single, near: X8, limit: f32) -> bool {
+    fn leaf_hides(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, limit: f32) -> bool {
         let projected = project(self.all(&leaf), ray.origin, ray.frame);
         let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
         if inside == 0 {
