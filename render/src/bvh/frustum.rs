@@ -1,9 +1,10 @@
-//! The common frustum of a group of packets.
+//! Packet traversal: a group moves through the tree as one frustum, or a packet on its own.
 
-use super::Rays;
-use super::tree::Node;
+use super::node::{Node, Stack, WIDTH, push_in_order, slabs};
+use super::rays::{Hits, Rays, common_sign, each_bit};
+use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, select};
-use etendue::{Mask, Real};
+use etendue::{Mask, Real, u32x8};
 
 /// A frustum that contains all rays of a group. All rays run the same way along one axis; across it, they are bounded by their least
 /// and greatest slopes. One test finds the children of a node that any ray of the group can enter.
@@ -95,4 +96,209 @@ impl Frustum {
         // a distance is at least the step along the axis
         (near, mask)
     }
+}
+
+/// A child to visit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pending {
+    /// Index of the parent node. (For occlusion, index of the node itself.)
+    parent: u32,
+    /// Slot of the child in its parent.
+    slot: u32,
+    /// Lower bound of the entry distance.
+    near: f32,
+}
+
+/// A group of packets that traverses a tree: as one frustum around all of them, or as a single packet.
+struct Packets<'a, const COMMON: bool> {
+    rays: &'a [Rays],
+    sign: [bool; 3],
+    frustum: Option<&'a Frustum>,
+    /// Index of an active lane of the first packet.
+    lead: usize,
+}
+
+impl<const COMMON: bool> Packets<'_, COMMON> {
+    /// The bit set of the children that may be entered within `reach`, and with `ORDER` their entry distances: lower bounds for a
+    /// frustum, otherwise those of the packet's leading lane.
+    #[inline(always)]
+    fn enter<const ORDER: bool>(&self, node: &Node, limit: X8, active: M8, reach: f32) -> (u32, [f32; WIDTH]) {
+        if let Some(frustum) = self.frustum {
+            let (near, mask) = frustum.enter(node, reach);
+            return (mask.bits(), if ORDER { near.to_array() } else { [0.0; WIDTH] });
+        }
+        let mut bits = 0;
+        let mut nearest = [0.0; WIDTH];
+        for (slot, nearest) in nearest.iter_mut().enumerate().take(node.children as usize) {
+            let (near, hit) = slabs::<COMMON>(node, slot, &self.rays[0], self.sign, limit);
+            bits |= u32::from((hit & active).any()) << slot;
+            if ORDER {
+                *nearest = near.as_array()[self.lead];
+            }
+        }
+        (bits, nearest)
+    }
+
+    /// The entry distances of a packet into a leaf, and the lanes that enter it.
+    #[inline(always)]
+    fn lanes(&self, node: &Node, slot: usize, p: usize, limit: X8, active: M8) -> (X8, M8) {
+        let (near, entered) = slabs::<COMMON>(node, slot, &self.rays[p], self.sign, limit);
+        (near, entered & active)
+    }
+}
+
+impl<P: Primitives> Tree<P> {
+    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`.
+    pub(super) fn closest(
+        &self,
+        rays: &[Rays],
+        active: &[M8],
+        frustum: Option<&Frustum>,
+        hits: &mut [Hits],
+        stack: &mut Stack<Pending>,
+    ) {
+        if self.count == 0 {
+            return;
+        }
+        let lead = active[0].bits().trailing_zeros() as usize & 7;
+        match common_sign(rays) {
+            Some(sign) => self.closest_with(&Packets::<true> { rays, sign, frustum, lead }, active, hits, stack),
+            None => self.closest_with(&Packets::<false> { rays, sign: [false; 3], frustum, lead }, active, hits, stack),
+        }
+    }
+
+    fn closest_with<const COMMON: bool>(
+        &self,
+        packets: &Packets<'_, COMMON>,
+        active: &[M8],
+        hits: &mut [Hits],
+        stack: &mut Stack<Pending>,
+    ) {
+        let stack = &mut *stack.0;
+        let mut height = 0;
+        // the greatest remaining search distance of any ray
+        let mut reach = farthest(hits, active);
+        let mut place = 0_usize;
+        loop {
+            let node = &self.nodes[place];
+            let (bits, near) = packets.enter::<true>(node, hits[0].distance, active[0], reach);
+            // the nearest child goes to the top of the stack
+            let floor = height;
+            each_bit(bits, |slot| {
+                let child = Pending { parent: place as u32, slot: slot as u32, near: near[slot] };
+                push_in_order(&mut stack[..], &mut height, floor, child, |c| c.near);
+            });
+            place = loop {
+                if height == 0 {
+                    return;
+                }
+                height -= 1;
+                let Pending { parent, slot, near } = stack[height];
+                // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
+                if packets.frustum.is_some() && near > reach {
+                    continue;
+                }
+                let (node, slot) = (&self.nodes[parent as usize], slot as usize);
+                let (first, count) = (node.first[slot] as usize, usize::from(node.count[slot]));
+                if count == 0 {
+                    break first;
+                }
+                let mut visited = false;
+                for (p, rays) in packets.rays.iter().enumerate() {
+                    let (near, entered) = packets.lanes(node, slot, p, hits[p].distance, active[p]);
+                    if entered.any() {
+                        self.primitives.closest(first..first + count, rays, near, entered, &mut hits[p]);
+                        visited = true;
+                    }
+                }
+                if visited {
+                    reach = farthest(hits, active);
+                }
+            };
+        }
+    }
+
+    /// Clears the lanes of `active` that something other than `skip` occludes before `limit`.
+    pub(super) fn occluded(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        limit: &[X8],
+        skip: &[u32x8],
+        frustum: Option<&Frustum>,
+        stack: &mut Stack<Pending>,
+    ) {
+        if self.count == 0 {
+            return;
+        }
+        let lead = active[0].bits().trailing_zeros() as usize & 7;
+        match common_sign(rays) {
+            Some(sign) => {
+                self.occluded_with(&Packets::<true> { rays, sign, frustum, lead }, active, limit, skip, stack)
+            }
+            None => {
+                self.occluded_with(
+                    &Packets::<false> { rays, sign: [false; 3], frustum, lead },
+                    active,
+                    limit,
+                    skip,
+                    stack,
+                );
+            }
+        }
+    }
+
+    fn occluded_with<const COMMON: bool>(
+        &self,
+        packets: &Packets<'_, COMMON>,
+        active: &mut [M8],
+        limit: &[X8],
+        skip: &[u32x8],
+        stack: &mut Stack<Pending>,
+    ) {
+        let stack = &mut *stack.0;
+        let reach = limit.iter().zip(&*active).fold(X8::lit(0.0), |m, (&l, &a)| max(m, l.keep(a)));
+        let reach = reach.to_array().into_iter().fold(0.0, f32::max);
+        let mut height = 0;
+        let mut place = 0_u32;
+        loop {
+            let node = &self.nodes[place as usize];
+            let (mut bits, _) = packets.enter::<false>(node, limit[0], active[0], reach);
+            let mut closed = false;
+            while bits != 0 {
+                let slot = bits.trailing_zeros() as usize & 7;
+                bits &= bits - 1;
+                let (first, count) = (node.first[slot], usize::from(node.count[slot]));
+                if count == 0 {
+                    stack[height].parent = first;
+                    height += 1;
+                    continue;
+                }
+                let range = first as usize..first as usize + count;
+                for (p, rays) in packets.rays.iter().enumerate() {
+                    let (near, entered) = packets.lanes(node, slot, p, limit[p], active[p]);
+                    if entered.any() {
+                        let hidden = self.primitives.occluded(range.clone(), rays, near, entered, limit[p], skip[p]);
+                        active[p] = active[p] & !hidden;
+                        closed |= !active[p].any();
+                    }
+                }
+                if closed && !active.iter().any(|a| a.any()) {
+                    return;
+                }
+            }
+            if height == 0 {
+                return;
+            }
+            height -= 1;
+            place = stack[height].parent;
+        }
+    }
+}
+
+/// The greatest remaining search distance of an active ray.
+#[inline]
+fn farthest(hits: &[Hits], active: &[M8]) -> f32 {
+    let most = hits.iter().zip(active).fold(X8::lit(0.0), |m, (h, &a)| max(m, h.distance.keep(a)));
+    most.to_array().into_iter().fold(0.0, f32::max)
 }

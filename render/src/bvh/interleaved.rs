@@ -1,30 +1,21 @@
 //! Interleaves incoherent rays to hide memory latency: each ray takes one step in turn, and prefetches what its next step will visit.
 
-use super::packets::{STACK, Scratch, each_bit, push_in_order};
-use super::single_ray::{Leaves, Nearest, SingleRay};
-use super::tree::{Node, Tree, prefetch};
-use super::{Hits, Rays};
+use super::node::{Node, STACK, prefetch, push_in_order};
+use super::rays::{Hits, Nearest, Rays, each_bit, each_ray};
+use super::single_ray::{Child, Leaves, SingleRay};
+use super::tree::Tree;
 use crate::packet::X8;
 use etendue::Mask;
 
 /// Number of interleaved rays.
-pub(super) const TOGETHER: usize = 8;
-
-/// A child to visit, and the distance at which the ray enters it.
-#[derive(Clone, Copy, Debug, Default)]
-struct Child {
-    first: u32,
-    /// Number of primitives of a leaf; 0 for an inner node.
-    count: u32,
-    near: f32,
-}
+const TOGETHER: usize = 8;
 
 /// Greatest number of pending children of one ray in [`Later`].
 const MOST: usize = 24;
 
 /// The traversal state of one ray.
 #[derive(Clone, Debug)]
-pub(super) struct Walk {
+struct Walk {
     ray: SingleRay,
     /// The nearest hit so far, or the limit.
     nearest: Nearest,
@@ -101,13 +92,11 @@ impl Later {
     }
 }
 
-/// Calls `f` with the index of each set bit.
-#[inline(always)]
-pub(super) fn each_ray(mut bits: u64, mut f: impl FnMut(usize)) {
-    while bits != 0 {
-        f(bits.trailing_zeros() as usize & 63);
-        bits &= bits - 1;
-    }
+/// Memory for interleaved rays, to be reused.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    walks: [Walk; TOGETHER],
+    pub(super) later: Later,
 }
 
 /// The result of one step.

@@ -1,8 +1,9 @@
 //! Intersection with spheres and emitters.
 
 use super::build::Costs;
-use super::tree::{BuildError, Primitives, Tree};
-use super::{Hits, Rays, SHAPE};
+use super::node::BuildError;
+use super::rays::{Hits, Rays, SHAPE};
+use super::tree::{Primitives, Tree};
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal, max, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};

@@ -1,8 +1,8 @@
 //! Single-ray traversal: tests all children of a node at once, and all triangles of a leaf at once.
 
-use super::packets::{Pending, Scratch, each_bit, push_in_order};
-use super::tree::{Node, Tree};
-use super::{Hits, Rays};
+use super::node::{Node, Stack, push_in_order};
+use super::rays::{Hits, Nearest, Rays, by_octant, each_bit};
+use super::tree::Tree;
 use crate::packet::{M8, V8, X8, max, min};
 use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
@@ -17,15 +17,6 @@ pub(super) struct SingleRay {
     pub(super) offset: [V8; 2],
     /// Bit k is set if the ray runs towards − along axis k.
     octant: usize,
-}
-
-/// The nearest hit of one ray.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Nearest {
-    pub(super) distance: f32,
-    pub(super) place: u32,
-    pub(super) b1: f32,
-    pub(super) b2: f32,
 }
 
 impl SingleRay {
@@ -64,6 +55,15 @@ impl SingleRay {
     }
 }
 
+/// A child to visit, and the distance at which the ray enters it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Child {
+    pub(super) first: u32,
+    /// Number of primitives of a leaf; 0 for an inner node.
+    pub(super) count: u32,
+    pub(super) near: f32,
+}
+
 /// Primitives that test one ray against a whole leaf at once.
 pub(super) trait Leaves {
     /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`.
@@ -76,22 +76,22 @@ pub(super) trait Leaves {
 
 impl<P: Leaves> Tree<P> {
     /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`.
-    pub(super) fn closest_one_by_one(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], scratch: &mut Scratch) {
+    pub(super) fn closest_one_by_one(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack<Child>) {
         for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
             each_bit(active.bits(), |lane| {
                 let mut nearest = hits.nearest(lane);
-                self.closest_single(0, &SingleRay::new(rays, lane), &mut nearest, scratch);
+                self.closest_single(0, &SingleRay::new(rays, lane), &mut nearest, stack);
                 hits.put(lane, &nearest);
             });
         }
     }
 
     /// Clears the lanes of `active` that are occluded before `limit`, one by one.
-    pub(super) fn occluded_one_by_one(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], scratch: &mut Scratch) {
+    pub(super) fn occluded_one_by_one(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack<Child>) {
         for ((rays, active), limit) in rays.iter().zip(active).zip(limit) {
             let mut open = active.bits();
             each_bit(open, |lane| {
-                let hidden = self.hides_single(0, &SingleRay::new(rays, lane), limit.as_array()[lane], scratch);
+                let hidden = self.hides_single(0, &SingleRay::new(rays, lane), limit.as_array()[lane], stack);
                 open &= !(u32::from(hidden) << lane);
             });
             *active = M8::from_bits(open);
@@ -100,9 +100,9 @@ impl<P: Leaves> Tree<P> {
 
     /// Finds the nearest hit of one ray below a node, if nearer than `nearest`.
     #[inline]
-    pub(super) fn closest_single(&self, from: u32, ray: &SingleRay, nearest: &mut Nearest, scratch: &mut Scratch) {
+    pub(super) fn closest_single(&self, from: u32, ray: &SingleRay, nearest: &mut Nearest, stack: &mut Stack<Child>) {
         if self.count != 0 {
-            by_octant!(ray.octant, else 7, self.closest_in_octant(from as usize, ray, nearest, scratch));
+            by_octant!(ray.octant, else 7, self.closest_in_octant(from as usize, ray, nearest, stack));
         }
     }
 
@@ -111,9 +111,9 @@ impl<P: Leaves> Tree<P> {
         from: usize,
         ray: &SingleRay,
         nearest: &mut Nearest,
-        scratch: &mut Scratch,
+        stack: &mut Stack<Child>,
     ) {
-        let stack = &mut *scratch.pending;
+        let stack = &mut *stack.0;
         let mut height = 0;
         let mut place = from;
         loop {
@@ -121,7 +121,7 @@ impl<P: Leaves> Tree<P> {
             let (near, mask) = ray.enter::<OCTANT>(node, X8::splat(nearest.distance));
             let near = near.to_array();
             let child =
-                |slot: usize| Pending { parent: node.first[slot], slot: u32::from(node.count[slot]), near: near[slot] };
+                |slot: usize| Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
             let mut bits = mask.bits();
             if bits != 0 {
                 let mut next = child(bits.trailing_zeros() as usize & 7);
@@ -136,19 +136,19 @@ impl<P: Leaves> Tree<P> {
                     }
                     push_in_order(&mut stack[..], &mut height, floor, other, |c| c.near);
                 }
-                if next.slot == 0 {
-                    place = next.parent as usize;
+                if next.count == 0 {
+                    place = next.first as usize;
                     continue;
                 }
-                let first = next.parent as usize;
-                self.primitives.closest_of_leaf(first..first + next.slot as usize, ray, X8::splat(next.near), nearest);
+                let first = next.first as usize;
+                self.primitives.closest_of_leaf(first..first + next.count as usize, ray, X8::splat(next.near), nearest);
             }
             place = loop {
                 if height == 0 {
                     return;
                 }
                 height -= 1;
-                let Pending { parent: first, slot: count, near } = stack[height];
+                let Child { first, count, near } = stack[height];
                 if near > nearest.distance {
                     continue;
                 }
@@ -163,8 +163,8 @@ impl<P: Leaves> Tree<P> {
 
     /// Whether something below a node occludes one ray before `limit`.
     #[inline]
-    pub(super) fn hides_single(&self, from: u32, ray: &SingleRay, limit: f32, scratch: &mut Scratch) -> bool {
-        self.count != 0 && by_octant!(ray.octant, else 7, self.hides_in_octant(from, ray, limit, scratch))
+    pub(super) fn hides_single(&self, from: u32, ray: &SingleRay, limit: f32, stack: &mut Stack<Child>) -> bool {
+        self.count != 0 && by_octant!(ray.octant, else 7, self.hides_in_octant(from, ray, limit, stack))
     }
 
     fn hides_in_octant<const OCTANT: usize>(
@@ -172,9 +172,9 @@ impl<P: Leaves> Tree<P> {
         from: u32,
         ray: &SingleRay,
         limit: f32,
-        scratch: &mut Scratch,
+        stack: &mut Stack<Child>,
     ) -> bool {
-        let stack = &mut *scratch.pending;
+        let stack = &mut *stack.0;
         let mut height = 0;
         let mut place = from;
         let reach = X8::splat(limit);
@@ -187,7 +187,7 @@ impl<P: Leaves> Tree<P> {
                 bits &= bits - 1;
                 let (first, count) = (node.first[slot], usize::from(node.count[slot]));
                 if count == 0 {
-                    stack[height].parent = first;
+                    stack[height].first = first;
                     height += 1;
                     continue;
                 }
@@ -200,7 +200,7 @@ impl<P: Leaves> Tree<P> {
                 return false;
             }
             height -= 1;
-            place = stack[height].parent;
+            place = stack[height].first;
         }
     }
 }

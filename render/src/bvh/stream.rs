@@ -1,10 +1,10 @@
 //! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
 
-use super::interleaved::each_ray;
-use super::packets::{Scratch, common_sign, each_bit, push_in_order, slabs};
-use super::single_ray::{Leaves, SingleRay};
-use super::tree::{Node, Primitives, Tree};
-use super::{GROUP, Hits, NOTHING, Rays, WIDTH};
+use super::interleaved;
+use super::node::{Node, Stack, WIDTH, push_in_order, slabs};
+use super::rays::{GROUP, Hits, NOTHING, Rays, by_octant, each_bit, each_ray, octant};
+use super::single_ray::{Child, Leaves, SingleRay};
+use super::tree::{Primitives, Tree};
 use crate::packet::{M8, X8, max, min, select};
 use etendue::{Mask, Real, u32x8};
 use wide::i8x32;
@@ -17,7 +17,7 @@ const INNER: u32 = u32::MAX;
 
 /// A child to visit, and the set of rays that enter it: bit 8·packet + lane.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Visit {
+struct Visit {
     rays: u64,
     /// Index of the inner node, or of the leaf's parent.
     node: u32,
@@ -26,14 +26,17 @@ pub(super) struct Visit {
     near: f32,
 }
 
+/// Memory for streams, to be reused.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    visits: Stack<Visit>,
+    pub(super) single_ray: Stack<Child>,
+    interleaved: interleaved::Scratch,
+}
+
 /// A group of rays. Bit k of `OCTANT` is set if all rays run towards − along axis k; 8 means that they disagree.
 struct Stream<'a, const OCTANT: usize> {
     rays: &'a [Rays],
-}
-
-/// The octant of a group, as in [`Stream`].
-fn octant(rays: &[Rays]) -> usize {
-    common_sign(rays).map_or(8, |sign| (0..3).fold(0, |octant, k| octant | usize::from(sign[k]) << k))
 }
 
 impl<const OCTANT: usize> Stream<'_, OCTANT> {
@@ -111,10 +114,10 @@ impl<P: Primitives + Leaves> Tree<P> {
     ) {
         let stream = Stream::<OCTANT> { rays };
         let mut height = 1;
-        scratch.visits[0] = Visit { rays: bits(active), node: 0, slot: INNER, near: 0.0 };
+        scratch.visits.0[0] = Visit { rays: bits(active), node: 0, slot: INNER, near: 0.0 };
         while height > 0 {
             height -= 1;
-            let Visit { rays: among, node: place, slot, .. } = scratch.visits[height];
+            let Visit { rays: among, node: place, slot, .. } = scratch.visits.0[height];
             let node = &self.nodes[place as usize];
             if slot != INNER {
                 let slot = slot as usize & 7;
@@ -143,11 +146,16 @@ impl<P: Primitives + Leaves> Tree<P> {
                 continue;
             }
             if among.count_ones() < FEW {
-                if OCTANT < 8 || !scratch.later.add(among, place, scratch.visits[height].near) {
+                if OCTANT < 8 || !scratch.interleaved.later.add(among, place, scratch.visits.0[height].near) {
                     each_ray(among, |i| {
                         let (p, lane) = (i >> 3, i & 7);
                         let mut nearest = hits[p].nearest(lane);
-                        self.closest_single(place, &SingleRay::new(&rays[p], lane), &mut nearest, scratch);
+                        self.closest_single(
+                            place,
+                            &SingleRay::new(&rays[p], lane),
+                            &mut nearest,
+                            &mut scratch.single_ray,
+                        );
                         hits[p].put(lane, &nearest);
                     });
                 }
@@ -164,11 +172,11 @@ impl<P: Primitives + Leaves> Tree<P> {
                 let inner = node.count[slot] == 0;
                 let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
                 let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
-                push_in_order(&mut scratch.visits[..], &mut height, floor, child, |c| c.near);
+                push_in_order(&mut scratch.visits.0[..], &mut height, floor, child, |c| c.near);
             }
         }
         if OCTANT == 8 {
-            self.closest_together(rays, hits, scratch);
+            self.closest_together(rays, hits, &mut scratch.interleaved);
         }
     }
 
@@ -190,20 +198,20 @@ impl<P: Primitives + Leaves> Tree<P> {
         let stream = Stream::<OCTANT> { rays };
         let mut open = bits(active);
         let mut height = 1;
-        scratch.visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
+        scratch.visits.0[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
         while height > 0 && open != 0 {
             height -= 1;
-            let Visit { rays: among, node: place, .. } = scratch.visits[height];
+            let Visit { rays: among, node: place, .. } = scratch.visits.0[height];
             let among = among & open;
             if among.count_ones() < FEW {
-                if OCTANT < 8 || !scratch.later.add(among, place, 0.0) {
+                if OCTANT < 8 || !scratch.interleaved.later.add(among, place, 0.0) {
                     each_ray(among, |i| {
                         let (p, lane) = (i >> 3, i & 7);
                         let hides = self.hides_single(
                             place,
                             &SingleRay::new(&rays[p], lane),
                             limit[p].as_array()[lane],
-                            scratch,
+                            &mut scratch.single_ray,
                         );
                         open &= !(u64::from(hides) << i);
                     });
@@ -217,7 +225,7 @@ impl<P: Primitives + Leaves> Tree<P> {
                     continue;
                 }
                 if node.count[slot] == 0 {
-                    scratch.visits[height] =
+                    scratch.visits.0[height] =
                         Visit { rays: entered[slot], node: node.first[slot], slot: INNER, near: 0.0 };
                     height += 1;
                     continue;
@@ -246,7 +254,7 @@ impl<P: Primitives + Leaves> Tree<P> {
             }
         }
         if OCTANT == 8 {
-            open &= !self.hidden_together(rays, open, limit, scratch);
+            open &= !self.hidden_together(rays, open, limit, &mut scratch.interleaved);
         }
         for (p, active) in active.iter_mut().enumerate() {
             *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);

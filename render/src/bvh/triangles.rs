@@ -1,10 +1,10 @@
 //! Intersection of one triangle with eight rays, and of one ray with all triangles of a leaf.
 
 use super::build::Costs;
-use super::packets::each_bit;
-use super::single_ray::{Leaves, Nearest, SingleRay};
-use super::tree::{Bounded, Bounds, BuildError, Primitives, Tree, greater, lesser};
-use super::{Hits, NOTHING, Rays};
+use super::node::{Bounded, Bounds, BuildError, greater, lesser, prefetch};
+use super::rays::{Hits, NOTHING, Nearest, Rays, each_bit};
+use super::single_ray::{Leaves, SingleRay};
+use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
@@ -200,7 +200,7 @@ impl Primitives for TriangleLeaves {
 impl Leaves for TriangleLeaves {
     #[inline(always)]
     fn prefetch(&self, leaf: Range<usize>) {
-        super::tree::prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
+        prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
     }
     #[inline(always)]
     fn closest_of_leaf(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) {
