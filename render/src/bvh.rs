@@ -21,10 +21,11 @@ use crate::packet::{M8, V8, X8, equal};
 use etendue::{Mask, Real, u32x8};
 use frustum::Frustum;
 pub use node::BuildError;
-use node::{Stack, slabs};
+use node::Stack;
+use rays::any;
 pub use rays::{GROUP, Hits, NOTHING, Rays, SHAPE};
 pub use shapes::ShapeSet;
-use tree::{Primitives, Tree};
+use tree::Tree;
 
 /// Scratch memory for traversals, to be reused.
 #[derive(Debug, Default)]
@@ -94,105 +95,67 @@ impl Bvh {
     /// All slices must have the same length, at most [`GROUP`].
     #[inline]
     pub fn closest(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], scratch: &mut Scratch) {
-        let frustum = self.frustum(rays, active);
-        self.closest_of_shapes(rays, active, frustum.as_ref(), hits, scratch);
-        match (&frustum, self.way) {
-            (Some(frustum), _) => self.triangles.closest(rays, active, Some(frustum), hits, &mut scratch.frustum),
-            (None, Traversal::Single) => {
-                self.triangles.closest_one_by_one(rays, active, hits, &mut scratch.stream.single_ray)
-            }
-            (None, Traversal::Exhaustive) => self.triangles.each_leaf(|leaf, node, slot| {
-                for ((rays, &active), hits) in rays.iter().zip(active).zip(&mut *hits) {
-                    let (near, entered) = slabs::<false>(node, slot, rays, [false; 3], X8::lit(f64::INFINITY));
-                    self.triangles.primitives().closest(leaf.clone(), rays, near, active & entered, hits);
-                }
-            }),
-            (None, _) => self.triangles.closest_stream(rays, active, hits, &mut scratch.stream),
-        }
+        let mut lanes = [M8::splat(false); GROUP];
+        lanes[..active.len()].copy_from_slice(active);
+        self.trace::<false>(rays, &mut lanes[..active.len()], hits, scratch);
     }
     /// Like [`Bvh::closest`], for shapes only.
     #[inline]
     pub fn closest_shape(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], scratch: &mut Scratch) {
+        let mut lanes = [M8::splat(false); GROUP];
+        lanes[..active.len()].copy_from_slice(active);
         let frustum = self.frustum(rays, active);
-        self.closest_of_shapes(rays, active, frustum.as_ref(), hits, scratch);
-    }
-    /// Nearest hits of shapes, packet by packet if there is no frustum, as shapes are few.
-    #[inline]
-    fn closest_of_shapes(
-        &self,
-        rays: &[Rays],
-        active: &[M8],
-        frustum: Option<&Frustum>,
-        hits: &mut [Hits],
-        scratch: &mut Scratch,
-    ) {
-        if frustum.is_some() {
-            return self.shapes.tree().closest(rays, active, frustum, hits, &mut scratch.frustum);
-        }
-        for p in (0..rays.len()).filter(|&p| active[p].any()) {
-            self.shapes.tree().closest(&rays[p..=p], &active[p..=p], None, &mut hits[p..=p], &mut scratch.frustum);
-        }
+        self.trace_shapes::<false>(rays, &mut lanes[..active.len()], frustum.as_ref(), hits, scratch);
     }
     /// Clears the lanes of `active` that are occluded by something nearer than `limit`, other than the shape `target` (an index
     /// without [`SHAPE`], or [`NOTHING`]).
     #[inline]
     pub fn occluded(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], target: &[u32x8], scratch: &mut Scratch) {
+        let mut hits = [Hits::none(X8::lit(0.0)); GROUP];
+        for ((hits, &limit), &target) in hits.iter_mut().zip(limit).zip(target) {
+            (hits.distance, hits.place) = (limit, target | u32x8::splat(SHAPE));
+        }
+        self.trace::<true>(rays, active, &mut hits[..limit.len()], scratch);
+    }
+    /// Finds the nearest hits of a group. With `ANY`, clears the lanes of `active` that hit something before the distances in `hits`,
+    /// other than the shape in `hits`.
+    #[inline]
+    fn trace<const ANY: bool>(&self, rays: &[Rays], active: &mut [M8], hits: &mut [Hits], scratch: &mut Scratch) {
         let frustum = self.frustum(rays, active);
         // a single shape does not occlude itself
-        let own = |(&a, &t): (&M8, &u32x8)| !(a & !equal(t, u32x8::splat(0))).any();
-        let none = match self.shapes.tree().count() {
-            0 => true,
-            1 => active.iter().zip(target).all(own),
-            _ => false,
-        };
+        let own = |(&a, hits): (&M8, &Hits)| !(a & !equal(hits.place, u32x8::splat(SHAPE))).any();
+        let none = ANY && self.shapes.tree().count() == 1 && active.iter().zip(&*hits).all(own);
         if !none {
-            self.occluded_by_shapes(rays, active, limit, target, frustum.as_ref(), scratch);
-            if !active.iter().any(|a| a.any()) {
+            self.trace_shapes::<ANY>(rays, active, frustum.as_ref(), hits, scratch);
+            if ANY && !any(active) {
                 return;
             }
         }
+        let Scratch { frustum: stack, stream } = scratch;
         match (&frustum, self.way) {
-            (Some(frustum), _) => {
-                self.triangles.occluded(rays, active, limit, target, Some(frustum), &mut scratch.frustum)
-            }
-            (None, Traversal::Single) => {
-                self.triangles.occluded_one_by_one(rays, active, limit, &mut scratch.stream.single_ray)
-            }
-            (None, Traversal::Exhaustive) => self.triangles.each_leaf(|leaf, node, slot| {
-                for (p, active) in active.iter_mut().enumerate() {
-                    let (near, entered) = slabs::<false>(node, slot, &rays[p], [false; 3], X8::lit(f64::INFINITY));
-                    let (soup, lanes) = (self.triangles.primitives(), *active & entered);
-                    *active = *active & !soup.occluded(leaf.clone(), &rays[p], near, lanes, limit[p], target[p]);
-                }
-            }),
-            (None, _) => self.triangles.occluded_stream(rays, active, limit, &mut scratch.stream),
+            (Some(_), _) => self.triangles.packets::<ANY>(rays, active, frustum.as_ref(), hits, stack),
+            (None, Traversal::Single) => self.triangles.one_by_one::<ANY>(rays, active, hits, &mut stream.single_ray),
+            (None, Traversal::Exhaustive) => self.triangles.every_leaf::<ANY>(rays, active, hits),
+            (None, _) => self.triangles.stream::<ANY>(rays, active, hits, stream),
         }
     }
-    /// Occlusion by shapes, like [`Self::closest_of_shapes`].
+    /// Like [`Self::trace`], for shapes only: packet by packet if there is no frustum, as shapes are few.
     #[inline]
-    fn occluded_by_shapes(
+    fn trace_shapes<const ANY: bool>(
         &self,
         rays: &[Rays],
         active: &mut [M8],
-        limit: &[X8],
-        target: &[u32x8],
         frustum: Option<&Frustum>,
+        hits: &mut [Hits],
         scratch: &mut Scratch,
     ) {
-        let shapes = self.shapes.tree();
+        let (shapes, stack) = (self.shapes.tree(), &mut scratch.frustum);
         if frustum.is_some() {
-            return shapes.occluded(rays, active, limit, target, frustum, &mut scratch.frustum);
+            return shapes.packets::<ANY>(rays, active, frustum, hits, stack);
         }
         for p in 0..rays.len() {
             if active[p].any() {
-                shapes.occluded(
-                    &rays[p..=p],
-                    &mut active[p..=p],
-                    &limit[p..=p],
-                    &target[p..=p],
-                    None,
-                    &mut scratch.frustum,
-                );
+                shapes.packets::<ANY>(&rays[p..=p], &mut active[p..=p], None, &mut hits[p..=p], stack);
             }
         }
     }

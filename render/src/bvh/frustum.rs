@@ -1,10 +1,10 @@
 //! Packet traversal: a group moves through the tree as one frustum, or a packet on its own.
 
 use super::node::{Node, Stack, WIDTH, push_in_order, slabs};
-use super::rays::{Hits, Rays, common_sign, each_bit};
+use super::rays::{Hits, Rays, any, common_sign};
 use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, select};
-use etendue::{Mask, Real, u32x8};
+use etendue::{Mask, Real};
 
 /// A frustum that contains all rays of a group. All rays run the same way along one axis; across it, they are bounded by their least
 /// and greatest slopes. One test finds the children of a node that any ray of the group can enter.
@@ -98,12 +98,15 @@ impl Frustum {
     }
 }
 
+/// Marks an inner node.
+const INNER: u32 = u32::MAX;
+
 /// A child to visit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pending {
-    /// Index of the parent node. (For occlusion, index of the node itself.)
-    parent: u32,
-    /// Slot of the child in its parent.
+    /// Index of the inner node, or of the leaf's parent.
+    node: u32,
+    /// Slot of the leaf, or [`INNER`] for an inner node.
     slot: u32,
     /// Lower bound of the entry distance.
     near: f32,
@@ -119,113 +122,36 @@ struct Packets<'a, const COMMON: bool> {
 }
 
 impl<const COMMON: bool> Packets<'_, COMMON> {
-    /// The bit set of the children that may be entered within `reach`, and with `ORDER` their entry distances: lower bounds for a
+    /// The bit set of the children that may be entered within `reach`. For closest hits also their entry distances: lower bounds for a
     /// frustum, otherwise those of the packet's leading lane.
     #[inline(always)]
-    fn enter<const ORDER: bool>(&self, node: &Node, limit: X8, active: M8, reach: f32) -> (u32, [f32; WIDTH]) {
+    fn enter<const ANY: bool>(&self, node: &Node, limit: X8, active: M8, reach: f32) -> (u32, [f32; WIDTH]) {
         if let Some(frustum) = self.frustum {
             let (near, mask) = frustum.enter(node, reach);
-            return (mask.bits(), if ORDER { near.to_array() } else { [0.0; WIDTH] });
+            return (mask.bits(), if ANY { [0.0; WIDTH] } else { near.to_array() });
         }
         let mut bits = 0;
         let mut nearest = [0.0; WIDTH];
         for (slot, nearest) in nearest.iter_mut().enumerate().take(node.children as usize) {
             let (near, hit) = slabs::<COMMON>(node, slot, &self.rays[0], self.sign, limit);
             bits |= u32::from((hit & active).any()) << slot;
-            if ORDER {
+            if !ANY {
                 *nearest = near.as_array()[self.lead];
             }
         }
         (bits, nearest)
     }
-
-    /// The entry distances of a packet into a leaf, and the lanes that enter it.
-    #[inline(always)]
-    fn lanes(&self, node: &Node, slot: usize, p: usize, limit: X8, active: M8) -> (X8, M8) {
-        let (near, entered) = slabs::<COMMON>(node, slot, &self.rays[p], self.sign, limit);
-        (near, entered & active)
-    }
 }
 
 impl<P: Primitives> Tree<P> {
-    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`.
-    pub(super) fn closest(
-        &self,
-        rays: &[Rays],
-        active: &[M8],
-        frustum: Option<&Frustum>,
-        hits: &mut [Hits],
-        stack: &mut Stack<Pending>,
-    ) {
-        if self.count == 0 {
-            return;
-        }
-        let lead = active[0].bits().trailing_zeros() as usize & 7;
-        match common_sign(rays) {
-            Some(sign) => self.closest_with(&Packets::<true> { rays, sign, frustum, lead }, active, hits, stack),
-            None => self.closest_with(&Packets::<false> { rays, sign: [false; 3], frustum, lead }, active, hits, stack),
-        }
-    }
-
-    fn closest_with<const COMMON: bool>(
-        &self,
-        packets: &Packets<'_, COMMON>,
-        active: &[M8],
-        hits: &mut [Hits],
-        stack: &mut Stack<Pending>,
-    ) {
-        let stack = &mut *stack.0;
-        let mut height = 0;
-        // the greatest remaining search distance of any ray
-        let mut reach = farthest(hits, active);
-        let mut place = 0_usize;
-        loop {
-            let node = &self.nodes[place];
-            let (bits, near) = packets.enter::<true>(node, hits[0].distance, active[0], reach);
-            // the nearest child goes to the top of the stack
-            let floor = height;
-            each_bit(bits, |slot| {
-                let child = Pending { parent: place as u32, slot: slot as u32, near: near[slot] };
-                push_in_order(&mut stack[..], &mut height, floor, child, |c| c.near);
-            });
-            place = loop {
-                if height == 0 {
-                    return;
-                }
-                height -= 1;
-                let Pending { parent, slot, near } = stack[height];
-                // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
-                if packets.frustum.is_some() && near > reach {
-                    continue;
-                }
-                let (node, slot) = (&self.nodes[parent as usize], slot as usize);
-                let (first, count) = (node.first[slot] as usize, usize::from(node.count[slot]));
-                if count == 0 {
-                    break first;
-                }
-                let mut visited = false;
-                for (p, rays) in packets.rays.iter().enumerate() {
-                    let (near, entered) = packets.lanes(node, slot, p, hits[p].distance, active[p]);
-                    if entered.any() {
-                        self.primitives.closest(first..first + count, rays, near, entered, &mut hits[p]);
-                        visited = true;
-                    }
-                }
-                if visited {
-                    reach = farthest(hits, active);
-                }
-            };
-        }
-    }
-
-    /// Clears the lanes of `active` that something other than `skip` occludes before `limit`.
-    pub(super) fn occluded(
+    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
+    /// something instead.
+    pub(super) fn packets<const ANY: bool>(
         &self,
         rays: &[Rays],
         active: &mut [M8],
-        limit: &[X8],
-        skip: &[u32x8],
         frustum: Option<&Frustum>,
+        hits: &mut [Hits],
         stack: &mut Stack<Pending>,
     ) {
         if self.count == 0 {
@@ -234,65 +160,89 @@ impl<P: Primitives> Tree<P> {
         let lead = active[0].bits().trailing_zeros() as usize & 7;
         match common_sign(rays) {
             Some(sign) => {
-                self.occluded_with(&Packets::<true> { rays, sign, frustum, lead }, active, limit, skip, stack)
+                self.packets_with::<ANY, true>(&Packets { rays, sign, frustum, lead }, active, hits, stack);
             }
             None => {
-                self.occluded_with(
-                    &Packets::<false> { rays, sign: [false; 3], frustum, lead },
-                    active,
-                    limit,
-                    skip,
-                    stack,
-                );
+                let sign = [false; 3];
+                self.packets_with::<ANY, false>(&Packets { rays, sign, frustum, lead }, active, hits, stack);
             }
         }
     }
 
-    fn occluded_with<const COMMON: bool>(
+    fn packets_with<const ANY: bool, const COMMON: bool>(
         &self,
         packets: &Packets<'_, COMMON>,
         active: &mut [M8],
-        limit: &[X8],
-        skip: &[u32x8],
+        hits: &mut [Hits],
         stack: &mut Stack<Pending>,
     ) {
-        let stack = &mut *stack.0;
-        let reach = limit.iter().zip(&*active).fold(X8::lit(0.0), |m, (&l, &a)| max(m, l.keep(a)));
-        let reach = reach.to_array().into_iter().fold(0.0, f32::max);
+        let stack = &mut stack.0[..];
         let mut height = 0;
+        // the greatest remaining search distance of any ray
+        let mut reach = farthest(hits, active);
         let mut place = 0_u32;
         loop {
             let node = &self.nodes[place as usize];
-            let (mut bits, _) = packets.enter::<false>(node, limit[0], active[0], reach);
-            let mut closed = false;
+            let (mut bits, near) = packets.enter::<ANY>(node, hits[0].distance, active[0], reach);
+            // the nearest child goes to the top of the stack
+            let floor = height;
             while bits != 0 {
                 let slot = bits.trailing_zeros() as usize & 7;
                 bits &= bits - 1;
-                let (first, count) = (node.first[slot], usize::from(node.count[slot]));
-                if count == 0 {
-                    stack[height].parent = first;
-                    height += 1;
+                let inner = node.count[slot] == 0;
+                if ANY && !inner {
+                    if self.visit_leaf::<ANY, COMMON>(packets, node, slot, active, hits) && !any(active) {
+                        return;
+                    }
                     continue;
                 }
-                let range = first as usize..first as usize + count;
-                for (p, rays) in packets.rays.iter().enumerate() {
-                    let (near, entered) = packets.lanes(node, slot, p, limit[p], active[p]);
-                    if entered.any() {
-                        let hidden = self.primitives.occluded(range.clone(), rays, near, entered, limit[p], skip[p]);
-                        active[p] = active[p] & !hidden;
-                        closed |= !active[p].any();
-                    }
-                }
-                if closed && !active.iter().any(|a| a.any()) {
+                let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
+                let child = Pending { node: to, slot: leaf, near: near[slot] };
+                push_in_order(stack, &mut height, floor, child, |c| c.near);
+            }
+            place = loop {
+                if height == 0 {
                     return;
                 }
-            }
-            if height == 0 {
-                return;
-            }
-            height -= 1;
-            place = stack[height].parent;
+                height -= 1;
+                let Pending { node, slot, near } = stack[height];
+                // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
+                if !ANY && packets.frustum.is_some() && near > reach {
+                    continue;
+                }
+                if slot == INNER {
+                    break node;
+                }
+                let node = &self.nodes[node as usize];
+                if self.visit_leaf::<ANY, COMMON>(packets, node, slot as usize & 7, active, hits) {
+                    reach = farthest(hits, active);
+                }
+            };
         }
+    }
+
+    /// Tests the rays that enter a leaf. Returns whether there are any; with `ANY`, whether a packet has no active rays any more.
+    #[inline(always)]
+    fn visit_leaf<const ANY: bool, const COMMON: bool>(
+        &self,
+        packets: &Packets<'_, COMMON>,
+        node: &Node,
+        slot: usize,
+        active: &mut [M8],
+        hits: &mut [Hits],
+    ) -> bool {
+        let leaf = node.leaf(slot);
+        let mut changed = false;
+        for ((rays, active), hits) in packets.rays.iter().zip(active).zip(hits) {
+            let (near, entered) = slabs::<COMMON>(node, slot, rays, packets.sign, hits.distance);
+            let entered = entered & *active;
+            if entered.any() {
+                let hidden = self.primitives.test_packet::<ANY>(leaf.clone(), rays, near, entered, hits);
+                *active = *active & !hidden;
+                changed |= !ANY || !active.any();
+            }
+        }
+        changed
     }
 }
 

@@ -1,7 +1,7 @@
 //! Interleaves incoherent rays to hide memory latency: each ray takes one step in turn, and prefetches what its next step will visit.
 
 use super::node::{Node, STACK, prefetch, push_in_order};
-use super::rays::{Hits, Nearest, Rays, each_bit, each_ray};
+use super::rays::{Hits, Nearest, Rays, each_bit};
 use super::single_ray::{Child, Leaves, SingleRay};
 use super::tree::Tree;
 use crate::packet::X8;
@@ -38,9 +38,10 @@ impl Default for Walk {
 }
 
 impl Walk {
-    fn start(&mut self, index: usize, rays: &[Rays], nearest: Nearest, later: &mut Later) {
-        self.ray = SingleRay::new(&rays[index >> 3], index & 7);
-        (self.index, self.nearest, self.height) = (index, nearest, 0);
+    fn start(&mut self, index: usize, rays: &[Rays], hits: &[Hits], later: &mut Later) {
+        let (p, lane) = (index >> 3, index & 7);
+        self.ray = SingleRay::new(&rays[p], lane);
+        (self.index, self.nearest, self.height) = (index, hits[p].nearest(lane), 0);
         for &child in later.take(index) {
             push_in_order(&mut self.stack[..], &mut self.height, 0, child, |c| c.near);
         }
@@ -68,9 +69,9 @@ impl Later {
     #[inline]
     pub(super) fn add(&mut self, rays: u64, node: u32, near: f32) -> bool {
         let mut room = true;
-        each_ray(rays, |i| room &= usize::from(self.count[i]) < MOST);
+        each_bit(rays, |i| room &= usize::from(self.count[i]) < MOST);
         if room {
-            each_ray(rays, |i| {
+            each_bit(rays, |i| {
                 self.children[i][usize::from(self.count[i])] = Child { first: node, count: 0, near };
                 self.count[i] += 1;
             });
@@ -80,7 +81,7 @@ impl Later {
     }
     /// Removes all rays except `rays`.
     fn keep(&mut self, rays: u64) {
-        each_ray(self.rays & !rays, |i| self.count[i] = 0);
+        each_bit(self.rays & !rays, |i| self.count[i] = 0);
         self.rays &= rays;
     }
     fn next(&self) -> Option<usize> {
@@ -133,17 +134,10 @@ impl<P: Leaves> Tree<P> {
                 break child;
             }
         };
-        let first = child.first as usize;
         if child.count != 0 {
-            let (leaf, near) = (first..first + child.count as usize, X8::splat(child.near));
-            if !ANY {
-                self.primitives.closest_of_leaf(leaf, ray, near, nearest);
-            } else if self.primitives.leaf_hides(leaf, ray, near, nearest.distance) {
-                return Step::Hidden;
-            }
-            return Step::On;
+            return if self.test_child::<ANY>(&child, ray, nearest) { Step::Hidden } else { Step::On };
         }
-        let node = &self.nodes[first];
+        let node = &self.nodes[child.first as usize];
         let (near, mask) = ray.enter::<8>(node, X8::splat(nearest.distance));
         let near = near.to_array();
         let floor = *height;
@@ -159,15 +153,21 @@ impl<P: Leaves> Tree<P> {
         Step::On
     }
 
-    /// Traces all pending rays. `nearest` has the limit of each ray and receives its hit. With `ANY`, returns the rays that hit
+    /// Finds the nearest hits of the pending rays, if nearer than those in `hits`. With `ANY`, returns the rays among `open` that hit
     /// something instead.
-    #[inline]
-    fn walk<const ANY: bool>(&self, rays: &[Rays], nearest: &mut [Nearest; 64], scratch: &mut Scratch) -> u64 {
-        let Scratch { walks, later, .. } = scratch;
+    pub(super) fn interleaved<const ANY: bool>(
+        &self,
+        rays: &[Rays],
+        open: u64,
+        hits: &mut [Hits],
+        scratch: &mut Scratch,
+    ) -> u64 {
+        let Scratch { walks, later } = scratch;
+        later.keep(open);
         let mut order: [usize; TOGETHER] = std::array::from_fn(|i| i);
         let (mut going, mut hidden) = (0, 0);
         while let Some(index) = later.next().filter(|_| going < TOGETHER) {
-            walks[going].start(index, rays, nearest[index], later);
+            walks[going].start(index, rays, hits, later);
             going += 1;
         }
         while going > 0 {
@@ -180,9 +180,11 @@ impl<P: Leaves> Tree<P> {
                     continue;
                 }
                 hidden |= u64::from(matches!(step, Step::Hidden)) << walk.index;
-                nearest[walk.index] = walk.nearest;
+                if !ANY {
+                    hits[walk.index >> 3].put(walk.index & 7, &walk.nearest);
+                }
                 if let Some(index) = later.next() {
-                    walk.start(index, rays, nearest[index], later);
+                    walk.start(index, rays, hits, later);
                 } else {
                     going -= 1;
                     order.swap(place, going);
@@ -190,23 +192,6 @@ impl<P: Leaves> Tree<P> {
             }
         }
         hidden
-    }
-
-    /// Finds the nearest hits of the pending rays, if nearer than those in `hits`.
-    pub(super) fn closest_together(&self, rays: &[Rays], hits: &mut [Hits], scratch: &mut Scratch) {
-        let mut nearest = [Nearest::default(); 64];
-        let waiting = scratch.later.rays;
-        each_ray(waiting, |i| nearest[i] = hits[i >> 3].nearest(i & 7));
-        self.walk::<false>(rays, &mut nearest, scratch);
-        each_ray(waiting, |i| hits[i >> 3].put(i & 7, &nearest[i]));
-    }
-
-    /// Returns the pending rays among `open` that are occluded before their limit.
-    pub(super) fn hidden_together(&self, rays: &[Rays], open: u64, limit: &[X8], scratch: &mut Scratch) -> u64 {
-        let mut nearest = [Nearest::default(); 64];
-        scratch.later.keep(open);
-        each_ray(scratch.later.rays, |i| nearest[i].distance = limit[i >> 3].as_array()[i & 7]);
-        self.walk::<true>(rays, &mut nearest, scratch)
     }
 }
 

@@ -141,17 +141,17 @@ pub(super) fn octant(rays: &[Rays]) -> usize {
 
 /// Calls a function that is specialised to the octant of the rays, or to `other` if there is none.
 macro_rules! by_octant {
-    ($octant:expr, else $other:literal, $this:ident.$function:ident $arguments:tt) => {
+    ($octant:expr, else $other:literal, $this:ident.$function:ident::<$any:ident> $arguments:tt) => {
         match $octant {
-            0 => $this.$function::<0> $arguments,
-            1 => $this.$function::<1> $arguments,
-            2 => $this.$function::<2> $arguments,
-            3 => $this.$function::<3> $arguments,
-            4 => $this.$function::<4> $arguments,
-            5 => $this.$function::<5> $arguments,
-            6 => $this.$function::<6> $arguments,
-            7 => $this.$function::<7> $arguments,
-            _ => $this.$function::<$other> $arguments,
+            0 => $this.$function::<$any, 0> $arguments,
+            1 => $this.$function::<$any, 1> $arguments,
+            2 => $this.$function::<$any, 2> $arguments,
+            3 => $this.$function::<$any, 3> $arguments,
+            4 => $this.$function::<$any, 4> $arguments,
+            5 => $this.$function::<$any, 5> $arguments,
+            6 => $this.$function::<$any, 6> $arguments,
+            7 => $this.$function::<$any, 7> $arguments,
+            _ => $this.$function::<$any, $other> $arguments,
         }
     };
 }
@@ -159,18 +159,16 @@ pub(super) use by_octant;
 
 /// Calls `f` with the index of each set bit.
 #[inline(always)]
-pub(super) fn each_bit(mut bits: u32, mut f: impl FnMut(usize)) {
-    while bits != 0 {
-        f(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
-    }
-}
-
-/// Calls `f` with the index of each set bit, like [`each_bit`].
-#[inline(always)]
-pub(super) fn each_ray(mut bits: u64, mut f: impl FnMut(usize)) {
+pub(super) fn each_bit(bits: impl Into<u64>, mut f: impl FnMut(usize)) {
+    let mut bits = bits.into();
     while bits != 0 {
         f(bits.trailing_zeros() as usize & 63);
         bits &= bits - 1;
     }
+}
+
+/// Whether a ray of the group is active.
+#[inline]
+pub(super) fn any(active: &[M8]) -> bool {
+    active.iter().any(|a| a.any())
 }

@@ -66,141 +66,120 @@ pub(super) struct Child {
 
 /// Primitives that test one ray against a whole leaf at once.
 pub(super) trait Leaves {
-    /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`.
-    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest);
+    /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`. With `ANY`, returns whether there is one
+    /// instead.
+    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool;
     /// Prefetches a leaf.
     fn prefetch(&self, leaf: Range<usize>);
-    /// Whether a primitive of a leaf occludes one ray before `limit`.
-    fn leaf_hides(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, limit: f32) -> bool;
 }
 
 impl<P: Leaves> Tree<P> {
-    /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`.
-    pub(super) fn closest_one_by_one(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack<Child>) {
+    /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that
+    /// hit something instead.
+    pub(super) fn one_by_one<const ANY: bool>(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        hits: &mut [Hits],
+        stack: &mut Stack<Child>,
+    ) {
         for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
-            each_bit(active.bits(), |lane| {
-                let mut nearest = hits.nearest(lane);
-                self.closest_single(0, &SingleRay::new(rays, lane), &mut nearest, stack);
-                hits.put(lane, &nearest);
-            });
-        }
-    }
-
-    /// Clears the lanes of `active` that are occluded before `limit`, one by one.
-    pub(super) fn occluded_one_by_one(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack<Child>) {
-        for ((rays, active), limit) in rays.iter().zip(active).zip(limit) {
             let mut open = active.bits();
-            each_bit(open, |lane| {
-                let hidden = self.hides_single(0, &SingleRay::new(rays, lane), limit.as_array()[lane], stack);
-                open &= !(u32::from(hidden) << lane);
-            });
+            each_bit(open, |lane| open &= !(u32::from(self.lane::<ANY>(0, rays, lane, hits, stack)) << lane));
             *active = M8::from_bits(open);
         }
     }
 
-    /// Finds the nearest hit of one ray below a node, if nearer than `nearest`.
+    /// Traces one ray of a packet through the nodes below `from`. With `ANY`, returns whether it hits something, and leaves `hits` as
+    /// they are.
     #[inline]
-    pub(super) fn closest_single(&self, from: u32, ray: &SingleRay, nearest: &mut Nearest, stack: &mut Stack<Child>) {
-        if self.count != 0 {
-            by_octant!(ray.octant, else 7, self.closest_in_octant(from as usize, ray, nearest, stack));
+    pub(super) fn lane<const ANY: bool>(
+        &self,
+        from: u32,
+        rays: &Rays,
+        lane: usize,
+        hits: &mut Hits,
+        stack: &mut Stack<Child>,
+    ) -> bool {
+        if self.count == 0 {
+            return false;
         }
+        let (ray, mut nearest) = (SingleRay::new(rays, lane), hits.nearest(lane));
+        let hidden = by_octant!(ray.octant, else 7, self.single_ray::<ANY>(from, &ray, &mut nearest, stack));
+        if !ANY {
+            hits.put(lane, &nearest);
+        }
+        hidden
     }
 
-    fn closest_in_octant<const OCTANT: usize>(
+    fn single_ray<const ANY: bool, const OCTANT: usize>(
         &self,
-        from: usize,
+        from: u32,
         ray: &SingleRay,
         nearest: &mut Nearest,
         stack: &mut Stack<Child>,
-    ) {
-        let stack = &mut *stack.0;
+    ) -> bool {
+        let stack = &mut stack.0[..];
         let mut height = 0;
         let mut place = from;
         loop {
-            let node = &self.nodes[place];
+            let node = &self.nodes[place as usize];
             let (near, mask) = ray.enter::<OCTANT>(node, X8::splat(nearest.distance));
             let near = near.to_array();
             let child =
                 |slot: usize| Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
             let mut bits = mask.bits();
-            if bits != 0 {
-                let mut next = child(bits.trailing_zeros() as usize & 7);
-                bits &= bits - 1;
+            let mut take = || {
+                let slot = bits.trailing_zeros() as usize & 7;
+                let some = bits != 0;
+                bits &= bits.wrapping_sub(1);
+                some.then(|| child(slot))
+            };
+            if ANY {
+                while let Some(child) = take() {
+                    if child.count == 0 {
+                        stack[height] = child;
+                        height += 1;
+                    } else if self.test_child::<ANY>(&child, ray, nearest) {
+                        return true;
+                    }
+                }
+            } else if let Some(mut next) = take() {
                 // the nearest child is visited next; the others go to the stack, nearer ones on top
                 let floor = height;
-                while bits != 0 {
-                    let mut other = child(bits.trailing_zeros() as usize & 7);
-                    bits &= bits - 1;
+                while let Some(mut other) = take() {
                     if other.near < next.near {
                         (next, other) = (other, next);
                     }
-                    push_in_order(&mut stack[..], &mut height, floor, other, |c| c.near);
+                    push_in_order(stack, &mut height, floor, other, |c| c.near);
                 }
                 if next.count == 0 {
-                    place = next.first as usize;
+                    place = next.first;
                     continue;
                 }
-                let first = next.first as usize;
-                self.primitives.closest_of_leaf(first..first + next.count as usize, ray, X8::splat(next.near), nearest);
+                self.test_child::<ANY>(&next, ray, nearest);
             }
             place = loop {
                 if height == 0 {
-                    return;
+                    return false;
                 }
                 height -= 1;
-                let Child { first, count, near } = stack[height];
-                if near > nearest.distance {
+                let child = stack[height];
+                if !ANY && child.near > nearest.distance {
                     continue;
                 }
-                let first = first as usize;
-                if count == 0 {
-                    break first;
+                if ANY || child.count == 0 {
+                    break child.first;
                 }
-                self.primitives.closest_of_leaf(first..first + count as usize, ray, X8::splat(near), nearest);
+                self.test_child::<ANY>(&child, ray, nearest);
             };
         }
     }
 
-    /// Whether something below a node occludes one ray before `limit`.
-    #[inline]
-    pub(super) fn hides_single(&self, from: u32, ray: &SingleRay, limit: f32, stack: &mut Stack<Child>) -> bool {
-        self.count != 0 && by_octant!(ray.octant, else 7, self.hides_in_octant(from, ray, limit, stack))
-    }
-
-    fn hides_in_octant<const OCTANT: usize>(
-        &self,
-        from: u32,
-        ray: &SingleRay,
-        limit: f32,
-        stack: &mut Stack<Child>,
-    ) -> bool {
-        let stack = &mut *stack.0;
-        let mut height = 0;
-        let mut place = from;
-        let reach = X8::splat(limit);
-        loop {
-            let node = &self.nodes[place as usize];
-            let (near, mask) = ray.enter::<OCTANT>(node, reach);
-            let mut bits = mask.bits();
-            while bits != 0 {
-                let slot = bits.trailing_zeros() as usize & 7;
-                bits &= bits - 1;
-                let (first, count) = (node.first[slot], usize::from(node.count[slot]));
-                if count == 0 {
-                    stack[height].first = first;
-                    height += 1;
-                    continue;
-                }
-                let near = X8::splat(near.as_array()[slot]);
-                if self.primitives.leaf_hides(first as usize..first as usize + count, ray, near, limit) {
-                    return true;
-                }
-            }
-            if height == 0 {
-                return false;
-            }
-            height -= 1;
-            place = stack[height].first;
-        }
+    /// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`].
+    #[inline(always)]
+    pub(super) fn test_child<const ANY: bool>(&self, leaf: &Child, ray: &SingleRay, nearest: &mut Nearest) -> bool {
+        let first = leaf.first as usize;
+        self.primitives.test_ray::<ANY>(first..first + leaf.count as usize, ray, X8::splat(leaf.near), nearest)
     }
 }

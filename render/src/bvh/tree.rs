@@ -1,19 +1,25 @@
 //! A tree of bounding boxes with up to eight children per node.
 
 use super::build::Costs;
-use super::node::{Bounded, BuildError, Node, WIDTH};
+use super::node::{Bounded, BuildError, Node, WIDTH, slabs};
 use super::parallel_build::build_parts;
 use super::rays::{Hits, Rays};
 use crate::packet::{M8, X8};
-use etendue::u32x8;
+use etendue::Real;
 use std::ops::Range;
 
 /// Primitives in leaf order.
 pub(super) trait Primitives {
-    /// Updates `hits` by nearer hits of the leaf `range`, whose box the rays enter at `near`.
-    fn closest(&self, range: Range<usize>, rays: &Rays, near: X8, active: M8, hits: &mut Hits);
-    /// Lanes that a primitive of the leaf `range` occludes before `limit`, other than the one with id `skip`.
-    fn occluded(&self, range: Range<usize>, rays: &Rays, near: X8, active: M8, limit: X8, skip: u32x8) -> M8;
+    /// Updates `hits` by nearer hits in a leaf, whose box the rays enter at `near`. With `ANY`, returns the lanes that have one
+    /// instead, and does not test the shape at `hits.place`; without, returns no lanes.
+    fn test_packet<const ANY: bool>(
+        &self,
+        leaf: Range<usize>,
+        rays: &Rays,
+        near: X8,
+        active: M8,
+        hits: &mut Hits,
+    ) -> M8;
     /// Size in bytes.
     fn bytes(&self) -> usize;
 }
@@ -48,12 +54,6 @@ impl<P> Tree<P> {
         let planes = self.nodes[0].planes.as_flattened().as_flattened();
         planes.iter().map(|x| x.abs()).filter(|x| x.is_finite()).fold(0.0, f32::max)
     }
-    /// Calls `f` with each leaf, its parent node and its slot there.
-    pub(super) fn each_leaf(&self, mut f: impl FnMut(Range<usize>, &Node, usize)) {
-        for node in &self.nodes {
-            (0..WIDTH).filter(|&slot| node.count[slot] != 0).for_each(|slot| f(node.leaf(slot), node, slot));
-        }
-    }
     /// Number of primitives.
     pub(super) fn count(&self) -> usize {
         self.count
@@ -67,5 +67,18 @@ impl<P: Primitives> Tree<P> {
     /// Size of nodes and primitives in bytes.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + self.primitives.bytes()
+    }
+    /// Finds the nearest hits of packets, or with `ANY` clears the lanes of `active` that hit something, by a test of every leaf,
+    /// regardless of other hits and without the tree above it.
+    pub(super) fn every_leaf<const ANY: bool>(&self, rays: &[Rays], active: &mut [M8], hits: &mut [Hits]) {
+        for node in &self.nodes {
+            for slot in (0..WIDTH).filter(|&slot| node.count[slot] != 0) {
+                for ((rays, active), hits) in rays.iter().zip(&mut *active).zip(&mut *hits) {
+                    let (near, entered) = slabs::<false>(node, slot, rays, [false; 3], X8::lit(f64::INFINITY));
+                    let lanes = *active & entered;
+                    *active = *active & !self.primitives.test_packet::<ANY>(node.leaf(slot), rays, near, lanes, hits);
+                }
+            }
+        }
     }
 }

@@ -159,16 +159,28 @@ impl Projected {
 
 impl Primitives for TriangleLeaves {
     #[inline]
-    fn closest(&self, leaf: Range<usize>, rays: &Rays, near: X8, active: M8, hits: &mut Hits) {
+    fn test_packet<const ANY: bool>(
+        &self,
+        leaf: Range<usize>,
+        rays: &Rays,
+        near: X8,
+        active: M8,
+        hits: &mut Hits,
+    ) -> M8 {
+        let mut hidden = M8::splat(false);
         for index in 0..leaf.len() {
             let projected = project(self.one(&leaf, index), rays.origin, rays.frame);
             let inside = projected.inside & active;
             if inside.any() {
-                let place = (leaf.start + index) as u32;
                 let (distance, inverse) = projected.distance(rays.direction, near);
-                let candidate = inside & distance.gt(X8::lit(0.0)) & distance.le(hits.distance);
-                let mut nearer = candidate & distance.lt(hits.distance);
-                let tie = candidate & !nearer;
+                let ahead = inside & distance.gt(X8::lit(0.0));
+                let mut nearer = ahead & distance.lt(hits.distance);
+                if ANY {
+                    hidden = hidden | nearer;
+                    continue;
+                }
+                let place = (leaf.start + index) as u32;
+                let tie = ahead & distance.le(hits.distance) & !nearer;
                 if tie.any() {
                     nearer = nearer | self.goes_first(tie, place, hits);
                 }
@@ -176,18 +188,6 @@ impl Primitives for TriangleLeaves {
                 hits.place = pick(nearer, u32x8::splat(place), hits.place);
                 hits.b1 = select(nearer, projected.weights[1] * inverse, hits.b1);
                 hits.b2 = select(nearer, projected.weights[2] * inverse, hits.b2);
-            }
-        }
-    }
-    #[inline]
-    fn occluded(&self, leaf: Range<usize>, rays: &Rays, near: X8, active: M8, limit: X8, _skip: u32x8) -> M8 {
-        let mut hidden = M8::splat(false);
-        for index in 0..leaf.len() {
-            let projected = project(self.one(&leaf, index), rays.origin, rays.frame);
-            let inside = projected.inside & active;
-            if inside.any() {
-                let (distance, _) = projected.distance(rays.direction, near);
-                hidden = hidden | inside & distance.gt(X8::lit(0.0)) & distance.lt(limit);
             }
         }
         hidden
@@ -203,16 +203,20 @@ impl Leaves for TriangleLeaves {
         prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
     }
     #[inline(always)]
-    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) {
+    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
         let projected = project(self.all(&leaf), ray.origin, ray.frame);
         let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
         if inside == 0 {
-            return;
+            return false;
         }
         let (distance, inverse) = projected.distance(ray.direction, near);
-        let candidate = distance.gt(X8::lit(0.0)) & distance.le(X8::splat(nearest.distance));
+        let (ahead, limit) = (distance.gt(X8::lit(0.0)), X8::splat(nearest.distance));
+        if ANY {
+            return inside & (ahead & distance.lt(limit)).bits() != 0;
+        }
         let (b1, b2) = (projected.weights[1] * inverse, projected.weights[2] * inverse);
-        each_bit(inside & candidate.bits(), |lane| {
+        each_bit(inside & (ahead & distance.le(limit)).bits(), |lane| {
+            let lane = lane & 7;
             let distance = distance.as_array()[lane];
             let place = (leaf.start + lane) as u32;
             if distance < nearest.distance
@@ -221,15 +225,6 @@ impl Leaves for TriangleLeaves {
                 *nearest = Nearest { distance, place, b1: b1.as_array()[lane], b2: b2.as_array()[lane] };
             }
         });
-    }
-    #[inline(always)]
-    fn leaf_hides(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, limit: f32) -> bool {
-        let projected = project(self.all(&leaf), ray.origin, ray.frame);
-        let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
-        if inside == 0 {
-            return false;
-        }
-        let (distance, _) = projected.distance(ray.direction, near);
-        inside & (distance.gt(X8::lit(0.0)) & distance.lt(X8::splat(limit))).bits() != 0
+        false
     }
 }
