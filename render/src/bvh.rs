@@ -7,7 +7,6 @@
 
 mod build;
 mod frustum;
-mod interleaved;
 mod node;
 mod parallel_build;
 mod rays;
@@ -40,8 +39,8 @@ pub enum Traversal {
     /// As one frustum if the group fits into a narrow one, otherwise as a stream.
     #[default]
     Choose,
-    /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes alone; in
-    /// groups of mixed octants, these rays are interleaved.
+    /// As a stream: the group visits each node once, with the rays that enter it. Below 5 active rays, each finishes
+    /// alone.
     Stream,
     /// Ray by ray.
     Single,
@@ -53,7 +52,7 @@ pub enum Traversal {
 #[derive(Debug)]
 pub struct Bvh {
     triangles: Tree<triangles::TriangleLeaves>,
-    way: Traversal,
+    traversal: Traversal,
     /// Spheres and emitters.
     pub shapes: ShapeSet,
     reach: f32,
@@ -78,12 +77,12 @@ impl Bvh {
     pub fn taking(triangles: Vec<[[f32; 3]; 3]>, shapes: ShapeSet) -> Result<Self, BuildError> {
         let triangles = triangles::TriangleLeaves::tree(triangles)?;
         let reach = triangles.reach().max(shapes.reach());
-        Ok(Self { triangles, way: Traversal::default(), shapes, reach })
+        Ok(Self { triangles, traversal: Traversal::default(), shapes, reach })
     }
     /// The same scene with another traversal, for comparisons.
     #[must_use]
-    pub fn with_traversal(self, way: Traversal) -> Self {
-        Self { way, ..self }
+    pub fn with_traversal(self, traversal: Traversal) -> Self {
+        Self { traversal, ..self }
     }
     /// Prepares rays for this scene.
     #[inline(always)]
@@ -132,7 +131,7 @@ impl Bvh {
             }
         }
         let Scratch { frustum: stack, stream } = scratch;
-        match (&frustum, self.way) {
+        match (&frustum, self.traversal) {
             (Some(_), _) => self.triangles.packets::<ANY>(rays, active, frustum.as_ref(), hits, stack),
             (None, Traversal::Single) => self.triangles.one_by_one::<ANY>(rays, active, hits, &mut stream.single_ray),
             (None, Traversal::Exhaustive) => self.triangles.every_leaf::<ANY>(rays, active, hits),
@@ -162,7 +161,7 @@ impl Bvh {
     /// The narrow frustum of the group, if there is one and the traversal may use it.
     #[inline]
     fn frustum(&self, rays: &[Rays], active: &[M8]) -> Option<Frustum> {
-        if self.way == Traversal::Choose { Frustum::new(rays, active) } else { None }
+        if self.traversal == Traversal::Choose { Frustum::new(rays, active) } else { None }
     }
     /// The corners of the mesh triangle at a place.
     #[inline]

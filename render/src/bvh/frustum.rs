@@ -1,6 +1,6 @@
 //! Packet traversal: a group moves through the tree as one frustum, or a packet on its own.
 
-use super::node::{Node, Stack, WIDTH, push_in_order, slabs};
+use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
 use super::rays::{Hits, Rays, any, common_sign};
 use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, select};
@@ -97,9 +97,6 @@ impl Frustum {
         (near, mask)
     }
 }
-
-/// Marks an inner node.
-const INNER: u32 = u32::MAX;
 
 /// A child to visit.
 #[derive(Clone, Copy, Debug, Default)]

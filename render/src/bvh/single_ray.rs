@@ -13,8 +13,8 @@ pub(super) struct SingleRay {
     pub(super) origin: V8,
     pub(super) direction: V8,
     pub(super) frame: [V8; 2],
-    pub(super) inverse: V8,
-    pub(super) offset: [V8; 2],
+    inverse: V8,
+    offset: [V8; 2],
     /// Bit k is set if the ray runs towards − along axis k.
     octant: usize,
 }
@@ -38,12 +38,10 @@ impl SingleRay {
         }
     }
 
-    /// Entry distances of the children's boxes, and the children entered before the limit. The ray's octant is `OCTANT`, or 8 to
-    /// read it at run time.
+    /// Entry distances of the children's boxes, and the children entered before the limit. `OCTANT` is the ray's.
     #[inline(always)]
-    pub(super) fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
-        let octant = if OCTANT < 8 { OCTANT } else { self.octant };
-        let side = |last: bool, k: usize| usize::from((octant >> k & 1 == 1) != last);
+    fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
+        let side = |last: bool, k: usize| usize::from((OCTANT >> k & 1 == 1) != last);
         let plane = |last: bool, k: usize, inverse: X8| {
             let Vec3 { x, y, z } = self.offset[side(last, k)];
             X8::from(node.planes[side(last, k)][k]).mul_add(inverse, [x, y, z][k])
@@ -58,10 +56,10 @@ impl SingleRay {
 /// A child to visit, and the distance at which the ray enters it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Child {
-    pub(super) first: u32,
+    first: u32,
     /// Number of primitives of a leaf; 0 for an inner node.
-    pub(super) count: u32,
-    pub(super) near: f32,
+    count: u32,
+    near: f32,
 }
 
 /// Primitives that test one ray against a whole leaf at once.
@@ -69,8 +67,6 @@ pub(super) trait Leaves {
     /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`. With `ANY`, returns whether there is one
     /// instead.
     fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool;
-    /// Prefetches a leaf.
-    fn prefetch(&self, leaf: Range<usize>);
 }
 
 impl<P: Leaves> Tree<P> {
@@ -178,7 +174,7 @@ impl<P: Leaves> Tree<P> {
 
     /// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`].
     #[inline(always)]
-    pub(super) fn test_child<const ANY: bool>(&self, leaf: &Child, ray: &SingleRay, nearest: &mut Nearest) -> bool {
+    fn test_child<const ANY: bool>(&self, leaf: &Child, ray: &SingleRay, nearest: &mut Nearest) -> bool {
         let first = leaf.first as usize;
         self.primitives.test_ray::<ANY>(first..first + leaf.count as usize, ray, X8::splat(leaf.near), nearest)
     }

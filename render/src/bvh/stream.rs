@@ -1,7 +1,6 @@
 //! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
 
-use super::interleaved;
-use super::node::{Node, Stack, WIDTH, push_in_order, slabs};
+use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
 use super::rays::{GROUP, Hits, Rays, by_octant, each_bit, octant};
 use super::single_ray::{Child, Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
@@ -11,9 +10,6 @@ use wide::i8x32;
 
 /// With fewer rays than this, each continues alone, as sharing the traversal no longer pays.
 const FEW: u32 = 5;
-
-/// Marks a visit of an inner node.
-const INNER: u32 = u32::MAX;
 
 /// A child to visit, and the set of rays that enter it: bit 8·packet + lane.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,7 +27,6 @@ struct Visit {
 pub(super) struct Scratch {
     visits: Stack<Visit>,
     pub(super) single_ray: Stack<Child>,
-    interleaved: interleaved::Scratch,
 }
 
 /// A group of rays. Bit k of `OCTANT` is set if all rays run towards − along axis k; 8 means that they disagree.
@@ -118,14 +113,14 @@ impl<P: Primitives + Leaves> Tree<P> {
         scratch: &mut Scratch,
     ) {
         let stream = Stream::<OCTANT> { rays };
-        let Scratch { visits, single_ray, interleaved } = scratch;
+        let Scratch { visits, single_ray } = scratch;
         let visits = &mut visits.0[..];
         let mut open = bits(active);
         let mut height = 1;
         visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
         while height > 0 && open != 0 {
             height -= 1;
-            let Visit { rays: among, node: place, slot, near } = visits[height];
+            let Visit { rays: among, node: place, slot, .. } = visits[height];
             let among = among & open;
             let node = &self.nodes[place as usize];
             if !ANY && slot != INNER {
@@ -133,13 +128,11 @@ impl<P: Primitives + Leaves> Tree<P> {
                 continue;
             }
             if among.count_ones() < FEW {
-                if OCTANT < 8 || !interleaved.later.add(among, place, near) {
-                    each_bit(among, |i| {
-                        let p = i >> 3;
-                        let hidden = self.lane::<ANY>(place, &rays[p], i & 7, &mut hits[p], single_ray);
-                        open &= !(u64::from(hidden) << i);
-                    });
-                }
+                each_bit(among, |i| {
+                    let p = i >> 3;
+                    let hidden = self.lane::<ANY>(place, &rays[p], i & 7, &mut hits[p], single_ray);
+                    open &= !(u64::from(hidden) << i);
+                });
                 continue;
             }
             let (entered, near) = stream.enter::<ANY>(node, among, hits);
@@ -159,9 +152,6 @@ impl<P: Primitives + Leaves> Tree<P> {
                 let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
                 push_in_order(visits, &mut height, floor, child, |c| c.near);
             }
-        }
-        if OCTANT == 8 {
-            open &= !self.interleaved::<ANY>(rays, open, hits, interleaved);
         }
         if ANY {
             for (p, active) in active.iter_mut().enumerate() {

@@ -1,7 +1,7 @@
 //! Intersection of one triangle with eight rays, and of one ray with all triangles of a leaf.
 
 use super::build::Costs;
-use super::node::{Bounded, Bounds, BuildError, greater, lesser, prefetch};
+use super::node::{Bounded, Bounds, BuildError, greater, lesser};
 use super::rays::{Hits, NOTHING, Nearest, Rays, each_bit};
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
@@ -198,10 +198,6 @@ impl Primitives for TriangleLeaves {
 }
 
 impl Leaves for TriangleLeaves {
-    #[inline(always)]
-    fn prefetch(&self, leaf: Range<usize>) {
-        prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
-    }
     #[inline(always)]
     fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
         let projected = project(self.all(&leaf), ray.origin, ray.frame);
