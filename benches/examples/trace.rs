@@ -5,7 +5,7 @@
 //! The files hold little-endian f32: nine per triangle; eight per ray, which are the origin, the least distance (0), the unit direction and
 //! the greatest distance. One thread traces the rays 64 at a time in file order. Each line gives the median, least and greatest speed of
 //! the repetitions, the number of hits and, for closest hits, the sum of their distances. "single" traces ray by ray; "stream" traces 64
-//! rays together; "groups" is what the renderer does: 64 rays as one shaft if that is narrow, else as a stream.
+//! rays together; "groups" is what the renderer does: 64 rays as one frustum if that is narrow, else as a stream.
 
 use etendue::{Mask, u32x8};
 use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};

@@ -4,6 +4,14 @@
 //! that test. There are no gaps between adjacent triangles. Directions may have components 0 and −0. Nothing depends on the unit of
 //! length. A hit is strictly nearer than its limit, and of two hits at equal distance the triangle of lower index wins. What a ray
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
+//!
+//! Files import one way, from the last of this list to the first: `rays`, `node`, `build`, `parallel_build`, `tree`, then the
+//! traversals `frustum`, `single_ray`, `stream`, then the primitives `triangles`, `shapes`. Each traversal is one body for closest and
+//! any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are the shapes that do not occlude.
+//!
+//! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
+//! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
+//! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
 
 mod build;
 mod frustum;

@@ -153,7 +153,7 @@ fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
     if kind < 7 {
         return (0..8 * GROUP).map(|_| ray(kind, mesh, random)).collect();
     }
-    // narrow enough for a shaft, or just too wide
+    // narrow enough for a frustum, or just too wide
     let (o, d) = ray(1, mesh, random);
     let spread = if kind == 7 { 0.005 } else { 0.03 };
     (0..8 * GROUP).map(|_| (add(o, random.point(), 0.001), add(d, random.point(), spread))).collect()
