@@ -1,7 +1,7 @@
 //! Rays of every kind, traced in every way. Criterion's throughput is in rays per second, its time per ray.
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use etendue_render::bvh::Stack;
+use etendue_render::bvh::Scratch;
 use etendue_routines::rays::{How, Kind, Workload};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ fn rays(criterion: &mut Criterion) {
             group.throughput(Throughput::Elements(1));
             let rays = workload.rays(kind);
             for (how, name) in How::ALL {
-                let mut stack = Stack::default();
+                let mut stack = Scratch::default();
                 group.bench_function(name, |bencher| {
                     bencher.iter_custom(|iterations| {
                         let calls = iterations.div_ceil(rays);

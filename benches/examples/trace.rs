@@ -5,10 +5,10 @@
 //! The files hold little-endian f32: nine per triangle; eight per ray, which are the origin, the least distance (0), the unit direction and
 //! the greatest distance. One thread traces the rays 64 at a time in file order. Each line gives the median, least and greatest speed of
 //! the repetitions, the number of hits and, for closest hits, the sum of their distances. "single" traces ray by ray; "stream" traces 64
-//! rays together; "groups" is what the renderer does: 64 rays as one shaft if that is narrow, else as a stream.
+//! rays together; "groups" is what the renderer does: 64 rays as one frustum if that is narrow, else as a stream.
 
 use etendue::{Mask, u32x8};
-use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, ShapeSet, Stack, Traversal};
+use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::{M8, V8, X8};
 use etendue_routines::baseline::{self, Baseline};
 use std::process::ExitCode;
@@ -96,7 +96,7 @@ struct Found {
     distances: f64,
 }
 
-fn closest(bvh: &Bvh, groups: &[Group], stack: &mut Stack) -> Found {
+fn closest(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> Found {
     let mut found = Found { hits: 0, distances: 0.0 };
     for group in groups {
         let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
@@ -112,7 +112,7 @@ fn closest(bvh: &Bvh, groups: &[Group], stack: &mut Stack) -> Found {
     found
 }
 
-fn occluded(bvh: &Bvh, groups: &[Group], stack: &mut Stack) -> Found {
+fn occluded(bvh: &Bvh, groups: &[Group], stack: &mut Scratch) -> Found {
     let mut hits = 0;
     for group in groups {
         let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
@@ -175,7 +175,7 @@ fn run() -> Result<(), String> {
     let per_triangle = bvh.bytes() as f64 / triangles.len() as f64;
     println!("{path}: {} triangles, built in {build:.3} s, {per_triangle:.1} bytes per triangle", triangles.len());
     let baseline = (only.is_empty() || only.contains("obvhs")).then(|| Baseline::new(&triangles));
-    let mut stack = Stack::default();
+    let mut stack = Scratch::default();
     let mut rows = Vec::new();
     for path in rays {
         let rays = read_rays(path)?;

@@ -8,7 +8,7 @@
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
-use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, ShapeSet, Stack, Traversal};
+use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::M8;
 
 type Triangle = [[f32; 3]; 3];
@@ -153,7 +153,7 @@ fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
     if kind < 7 {
         return (0..8 * GROUP).map(|_| ray(kind, mesh, random)).collect();
     }
-    // narrow enough for a shaft, or just too wide
+    // narrow enough for a frustum, or just too wide
     let (o, d) = ray(1, mesh, random);
     let spread = if kind == 7 { 0.005 } else { 0.03 };
     (0..8 * GROUP).map(|_| (add(o, random.point(), 0.001), add(d, random.point(), spread))).collect()
@@ -167,7 +167,7 @@ struct Found {
     free: Vec<u32>,
 }
 
-fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found {
+fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> Found {
     let axis = |p: usize, f: &dyn Fn(usize) -> f32| f32x8::from_fn(|i| f(8 * p + i));
     let vector = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
         Vec3::new(axis(p, &|i| f(i)[0]), axis(p, &|i| f(i)[1]), axis(p, &|i| f(i)[2]))
@@ -199,7 +199,7 @@ fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Stack) -> Found {
 /// Traces groups of all kinds on all meshes, scaled and shifted. Returns the numbers of compared rays and of hits.
 fn campaign(groups: usize, seed: u32) -> [u64; 2] {
     let mut random = Random { index: seed };
-    let mut stack = Stack::default();
+    let mut stack = Scratch::default();
     let mut counts = [0; 2];
     for (name, mesh) in meshes(&mut random) {
         for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
@@ -264,7 +264,7 @@ fn ways_agree_with_every_leaf_tested_at_length() {
 #[test]
 fn closed_meshes_do_not_leak() {
     let mut random = Random { index: 77 };
-    let mut stack = Stack::default();
+    let mut stack = Scratch::default();
     for scale in [1e-6_f32, 1.0, 1e6] {
         let mesh: Vec<Triangle> = cube(7).iter().map(|t| t.map(|v| v.map(|x| x * scale))).collect();
         for way in [Traversal::Choose, Traversal::Stream, Traversal::Single] {

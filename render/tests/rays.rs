@@ -2,7 +2,7 @@
 
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
-use etendue_render::bvh::{Bvh, Hits, NOTHING, ShapeSet, Stack, Traversal};
+use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet, Traversal};
 
 type V = [f64; 3];
 
@@ -41,7 +41,7 @@ fn check(triangles: &[[[f32; 3]; 3]], bvh: &Bvh, rays: &[([f32; 3], [f32; 3])], 
     };
     let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
     let all = [<f32x8 as Real>::Mask::splat(true); 8];
-    let (far, mut stack) = (f32x8::splat(f32::INFINITY), Stack::default());
+    let (far, mut stack) = (f32x8::splat(f32::INFINITY), Scratch::default());
     let mut hits = [Hits::none(far); 8];
     bvh.closest(&packets, &all, &mut hits, &mut stack);
     let mut open = all;
@@ -118,7 +118,7 @@ fn identical_triangles_build() {
     // the triangle of lower index wins a tie
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY))];
     let ray = bvh.rays([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into());
-    bvh.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Stack::default());
+    bvh.closest(&[ray], &[<f32x8 as Real>::Mask::splat(true)], &mut hits, &mut Scratch::default());
     assert_eq!(bvh.order()[hits[0].place.to_array()[0] as usize], 0);
 }
 
@@ -168,7 +168,7 @@ fn trees_of_many_parts_are_whole() {
         let bvh = tree(&triangles).with_traversal(way);
         let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
         let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
-        bvh.closest(&packets, &all, &mut hits, &mut Stack::default());
+        bvh.closest(&packets, &all, &mut hits, &mut Scratch::default());
         hits.map(|h| (h.distance.to_array().map(f32::to_bits), h.place.to_array()))
     });
     let met = found[3].iter().flat_map(|(_, places)| places).filter(|&&place| place != NOTHING).count();

@@ -12,7 +12,7 @@
 mod instructions;
 
 use etendue::{f32x4, f32x8};
-use etendue_render::bvh::Stack;
+use etendue_render::bvh::Scratch;
 use etendue_routines::rays::{How, Kind, Workload};
 use etendue_routines::{Routine, SAMPLES, routines, tables};
 use std::hint::black_box;
@@ -105,7 +105,7 @@ fn rays(json: Option<&str>) {
     let mut rows = Vec::new();
     for scene in ["quads", "terrain"] {
         let workload = Workload::new(scene, 512);
-        let mut stack = Stack::default();
+        let mut stack = Scratch::default();
         for (kind, name) in Kind::ALL {
             let rays = workload.rays(kind);
             let rounds: Vec<_> = (0..REPETITIONS)

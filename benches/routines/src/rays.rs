@@ -5,7 +5,7 @@ use etendue::select::LightChoice;
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{CosineHemisphere, Warp};
 use etendue::{Frame, Mask, Real, u32x8};
-use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, ShapeSet, Stack, Traversal};
+use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::camera::Pinhole;
 use etendue_render::packet::{M8, V8, X8};
 use etendue_render::{lights::Lights, scene, technique::Measure};
@@ -124,7 +124,7 @@ impl Workload {
             (0..groups).map(group).collect()
         };
         let lights = Lights::new(&scene, None);
-        let mut stack = Stack::default();
+        let mut stack = Scratch::default();
         let mut from_hits = |camera: &[Group], make: &dyn Fn(&Point, etendue::Vec2<X8>) -> Packet| -> Vec<Group> {
             let group = |(group, index): (&Group, u32)| {
                 let hits = closest(&bvh, group, &mut stack);
@@ -155,7 +155,7 @@ impl Workload {
     }
 
     /// Traces all rays of a kind and returns the number of hits.
-    pub fn trace(&self, kind: Kind, how: How, stack: &mut Stack) -> u64 {
+    pub fn trace(&self, kind: Kind, how: How, stack: &mut Scratch) -> u64 {
         let (groups, rays) = &self.kinds[kind as usize];
         let bvh = match how {
             How::Obvhs if kind.nearest() => {
@@ -206,7 +206,7 @@ fn shuffled(groups: &[Group]) -> Vec<Group> {
     whole.collect()
 }
 
-fn closest(bvh: &Bvh, group: &Group, stack: &mut Stack) -> [Hits; GROUP] {
+fn closest(bvh: &Bvh, group: &Group, stack: &mut Scratch) -> [Hits; GROUP] {
     let rays: [Rays; GROUP] = std::array::from_fn(|p| bvh.rays(group[p].origin, group[p].direction));
     let mut hits = group.map(|p| Hits::none(p.limit));
     bvh.closest(&rays, &group.map(|p| p.active), &mut hits, stack);

@@ -1,7 +1,6 @@
 //! Builds trees: collapses obvhs's binary tree into nodes of eight children. No other file uses obvhs.
 
-use super::WIDTH;
-use super::tree::{Bounded, Node};
+use super::node::{Bounded, Bounds, EMPTY, Node, WIDTH, union};
 use crate::packet::{X8, min};
 use etendue::Real;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
@@ -33,8 +32,13 @@ impl<T: Bounded> Boundable for Boxed<'_, T> {
     }
 }
 
-/// Builds a tree; `None` if it would be deeper than `depth` (many primitives in one place), or if one leaf suffices.
-pub(super) fn build<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Option<Built> {
+/// Builds a tree: with obvhs, or balanced if one leaf suffices or obvhs's tree would be deeper than `depth` (many primitives in one
+/// place).
+pub(super) fn build<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Built {
+    optimized(all, costs, depth).unwrap_or_else(|| balanced(all, costs.most))
+}
+
+fn optimized<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Option<Built> {
     if all.len() <= costs.most || crowded(all) {
         return None;
     }
@@ -206,4 +210,52 @@ impl<'a> Collapse<'a> {
         }
         (nodes, order)
     }
+}
+
+/// Builds a tree by halving along the longest axis of the centres, with depth log₂ n for any input.
+fn balanced<T: Bounded>(all: &[T], most: usize) -> Built {
+    let all: &[Bounds] = &all.iter().map(Bounded::bounds).collect::<Vec<_>>();
+    let mut order: Vec<u32> = (0..all.len() as u32).collect();
+    let mut nodes = vec![Node::default()];
+    let mut pending = if all.is_empty() { vec![] } else { vec![(0..all.len(), 0_usize)] };
+    while let Some((range, place)) = pending.pop() {
+        let mut parts = vec![range];
+        while parts.len() < WIDTH {
+            let Some(largest) = (0..parts.len()).filter(|&i| parts[i].len() > most).max_by_key(|&i| parts[i].len())
+            else {
+                break;
+            };
+            let range = parts[largest].clone();
+            let middle = range.start + range.len() / 2;
+            halve(all, &mut order[range.clone()]);
+            parts[largest] = range.start..middle;
+            parts.push(middle..range.end);
+        }
+        for part in parts {
+            let bounds = order[part.clone()].iter().fold(EMPTY, |a, &i| union(a, all[i as usize]));
+            if part.len() <= most {
+                nodes[place].push(&bounds, part.start as u32, part.len());
+            } else {
+                nodes.push(Node::default());
+                let to = nodes.len() - 1;
+                nodes[place].push(&bounds, to as u32, 0);
+                pending.push((part, to));
+            }
+        }
+    }
+    (nodes, order)
+}
+
+/// Moves the lower half along the longest axis of the centres to the front.
+pub(super) fn halve(all: &[Bounds], part: &mut [u32]) {
+    let center = |i: u32, axis: usize| all[i as usize][0][axis] + all[i as usize][1][axis];
+    let extent = |axis: usize| {
+        let ends = part.iter().fold((f32::INFINITY, f32::NEG_INFINITY), |(lo, hi), &i| {
+            (lo.min(center(i, axis)), hi.max(center(i, axis)))
+        });
+        ends.1 - ends.0
+    };
+    let axis = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let middle = part.len() / 2;
+    part.select_nth_unstable_by(middle, |&a, &b| center(a, axis).total_cmp(&center(b, axis)).then(a.cmp(&b)));
 }

@@ -1,14 +1,15 @@
-//! The common frustum of a group of packets.
+//! Packet traversal: a group moves through the tree as one frustum, or a packet on its own.
 
-use super::Rays;
-use super::tree::Node;
+use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
+use super::rays::{Hits, Rays, any, common_sign};
+use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, select};
 use etendue::{Mask, Real};
 
 /// A frustum that contains all rays of a group. All rays run the same way along one axis; across it, they are bounded by their least
 /// and greatest slopes. One test finds the children of a node that any ray of the group can enter.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shaft {
+pub(super) struct Frustum {
     axis: usize,
     negative: bool,
     /// Least and greatest origin, widened.
@@ -22,8 +23,8 @@ pub(super) struct Shaft {
 /// Groups whose slopes differ by more than this share too few leaves: they are faster as a stream.
 const SPREAD: f32 = 0.02;
 
-impl Shaft {
-    /// The shaft of the active rays; `None` if they share no axis or spread too far.
+impl Frustum {
+    /// The frustum of the active rays; `None` if they share no axis or spread too far.
     pub(super) fn new(rays: &[Rays], active: &[M8]) -> Option<Self> {
         let first = active.iter().position(|a| a.any())?;
         let lane = active[first].bits().trailing_zeros() as usize & 7;
@@ -95,4 +96,156 @@ impl Shaft {
         // a distance is at least the step along the axis
         (near, mask)
     }
+}
+
+/// A child to visit.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Pending {
+    /// Index of the inner node, or of the leaf's parent.
+    node: u32,
+    /// Slot of the leaf, or [`INNER`] for an inner node.
+    slot: u32,
+    /// Lower bound of the entry distance.
+    near: f32,
+}
+
+/// A group of packets that traverses a tree: as one frustum around all of them, or as a single packet.
+struct Packets<'a, const COMMON: bool> {
+    rays: &'a [Rays],
+    sign: [bool; 3],
+    frustum: Option<&'a Frustum>,
+    /// Index of an active lane of the first packet.
+    lead: usize,
+}
+
+impl<const COMMON: bool> Packets<'_, COMMON> {
+    /// The bit set of the children that may be entered within `reach`. For closest hits also their entry distances: lower bounds for a
+    /// frustum, otherwise those of the packet's leading lane.
+    #[inline(always)]
+    fn enter<const ANY: bool>(&self, node: &Node, limit: X8, active: M8, reach: f32) -> (u32, [f32; WIDTH]) {
+        if let Some(frustum) = self.frustum {
+            let (near, mask) = frustum.enter(node, reach);
+            return (mask.bits(), if ANY { [0.0; WIDTH] } else { near.to_array() });
+        }
+        let mut bits = 0;
+        let mut nearest = [0.0; WIDTH];
+        for (slot, nearest) in nearest.iter_mut().enumerate().take(node.children as usize) {
+            let (near, hit) = slabs::<COMMON>(node, slot, &self.rays[0], self.sign, limit);
+            bits |= u32::from((hit & active).any()) << slot;
+            if !ANY {
+                *nearest = near.as_array()[self.lead];
+            }
+        }
+        (bits, nearest)
+    }
+}
+
+impl<P: Primitives> Tree<P> {
+    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
+    /// something instead.
+    pub(super) fn packets<const ANY: bool>(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        frustum: Option<&Frustum>,
+        hits: &mut [Hits],
+        stack: &mut Stack<Pending>,
+    ) {
+        if self.count == 0 {
+            return;
+        }
+        let lead = active[0].bits().trailing_zeros() as usize & 7;
+        match common_sign(rays) {
+            Some(sign) => {
+                self.packets_with::<ANY, true>(&Packets { rays, sign, frustum, lead }, active, hits, stack);
+            }
+            None => {
+                let sign = [false; 3];
+                self.packets_with::<ANY, false>(&Packets { rays, sign, frustum, lead }, active, hits, stack);
+            }
+        }
+    }
+
+    fn packets_with<const ANY: bool, const COMMON: bool>(
+        &self,
+        packets: &Packets<'_, COMMON>,
+        active: &mut [M8],
+        hits: &mut [Hits],
+        stack: &mut Stack<Pending>,
+    ) {
+        let stack = &mut stack.0[..];
+        let mut height = 0;
+        // the greatest remaining search distance of any ray
+        let mut reach = farthest(hits, active);
+        let mut place = 0_u32;
+        loop {
+            let node = &self.nodes[place as usize];
+            let (mut bits, near) = packets.enter::<ANY>(node, hits[0].distance, active[0], reach);
+            // the nearest child goes to the top of the stack
+            let floor = height;
+            while bits != 0 {
+                let slot = bits.trailing_zeros() as usize & 7;
+                bits &= bits - 1;
+                let inner = node.count[slot] == 0;
+                if ANY && !inner {
+                    if self.visit_leaf::<ANY, COMMON>(packets, node, slot, active, hits) && !any(active) {
+                        return;
+                    }
+                    continue;
+                }
+                let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
+                let child = Pending { node: to, slot: leaf, near: near[slot] };
+                push_in_order(stack, &mut height, floor, child, |c| c.near);
+            }
+            place = loop {
+                if height == 0 {
+                    return;
+                }
+                height -= 1;
+                let Pending { node, slot, near } = stack[height];
+                // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
+                if !ANY && packets.frustum.is_some() && near > reach {
+                    continue;
+                }
+                if slot == INNER {
+                    break node;
+                }
+                let node = &self.nodes[node as usize];
+                if self.visit_leaf::<ANY, COMMON>(packets, node, slot as usize & 7, active, hits) {
+                    reach = farthest(hits, active);
+                }
+            };
+        }
+    }
+
+    /// Tests the rays that enter a leaf. Returns whether there are any; with `ANY`, whether a packet has no active rays any more.
+    #[inline(always)]
+    fn visit_leaf<const ANY: bool, const COMMON: bool>(
+        &self,
+        packets: &Packets<'_, COMMON>,
+        node: &Node,
+        slot: usize,
+        active: &mut [M8],
+        hits: &mut [Hits],
+    ) -> bool {
+        let leaf = node.leaf(slot);
+        let mut changed = false;
+        for ((rays, active), hits) in packets.rays.iter().zip(active).zip(hits) {
+            let (near, entered) = slabs::<COMMON>(node, slot, rays, packets.sign, hits.distance);
+            let entered = entered & *active;
+            if entered.any() {
+                let hidden = self.primitives.test_packet::<ANY>(leaf.clone(), rays, near, entered, hits);
+                *active = *active & !hidden;
+                changed |= !ANY || !active.any();
+            }
+        }
+        changed
+    }
+}
+
+/// The greatest remaining search distance of an active ray.
+#[inline]
+fn farthest(hits: &[Hits], active: &[M8]) -> f32 {
+    let most = hits.iter().zip(active).fold(X8::lit(0.0), |m, (h, &a)| max(m, h.distance.keep(a)));
+    most.to_array().into_iter().fold(0.0, f32::max)
 }

@@ -3,9 +3,8 @@
 //! The split depends on the primitives alone, so the tree does not depend on the number of threads. Besides the tree, a build needs
 //! the memory of a few parts and of a second copy of the nodes.
 
-use super::WIDTH;
-use super::build::{Costs, build};
-use super::tree::{Bounded, Bounds, DEPTH, EMPTY, Node, balanced, halve, union};
+use super::build::{Costs, build, halve};
+use super::node::{Bounded, Bounds, DEPTH, EMPTY, Node, WIDTH, union};
 use std::ops::Range;
 
 /// Greatest number of primitives in a part: the builder's data for them fits into the L2 cache.
@@ -52,7 +51,7 @@ pub(super) fn build_parts<T: Bounded>(
     }
     let roots: Vec<_> = parts.iter().map(Part::bounds).collect();
     let over = Costs { most: 1, leaf: 1.0, primitive: 0.0 };
-    let (mut nodes, order) = build(&roots, over, DEPTH_OVER_PARTS).unwrap_or_else(|| balanced(&roots, 1));
+    let (mut nodes, order) = build(&roots, over, DEPTH_OVER_PARTS);
     let mut next = nodes.len();
     let starts: Vec<_> = parts
         .iter()
@@ -110,8 +109,7 @@ fn each_part<T: Bounded>(
 }
 
 fn part<T: Bounded>(items: &mut [T], ids: &mut [u32], first: usize, costs: Costs, leaf: &impl Fn(&mut [T])) -> Part {
-    let built = build(items, costs, DEPTH - DEPTH_OVER_PARTS);
-    let (mut nodes, order) = built.unwrap_or_else(|| balanced(items, costs.most));
+    let (mut nodes, order) = build(items, costs, DEPTH - DEPTH_OVER_PARTS);
     arrange(items, ids, &order);
     for node in &mut nodes {
         for slot in 0..node.children as usize {

@@ -1,34 +1,25 @@
 //! Single-ray traversal: tests all children of a node at once, and all triangles of a leaf at once.
 
-use super::packets::{Pending, Stack, each_bit, push_in_order};
-use super::tree::{Node, Tree};
-use super::{Hits, Rays};
+use super::node::{Node, Stack, push_in_order};
+use super::rays::{Hits, Nearest, Rays, by_octant, each_bit};
+use super::tree::Tree;
 use crate::packet::{M8, V8, X8, max, min};
 use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
 
 /// One ray of a packet, in every lane, with the same numbers as in the packet, so that its hits are the same, bit for bit.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Single {
+pub(super) struct SingleRay {
     pub(super) origin: V8,
     pub(super) direction: V8,
     pub(super) frame: [V8; 2],
-    pub(super) inverse: V8,
-    pub(super) offset: [V8; 2],
+    inverse: V8,
+    offset: [V8; 2],
     /// Bit k is set if the ray runs towards − along axis k.
     octant: usize,
 }
 
-/// The nearest hit of one ray.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Nearest {
-    pub(super) distance: f32,
-    pub(super) place: u32,
-    pub(super) b1: f32,
-    pub(super) b2: f32,
-}
-
-impl Single {
+impl SingleRay {
     #[inline(always)]
     pub(super) fn new(rays: &Rays, lane: usize) -> Self {
         let spread = |v: &V8| {
@@ -47,12 +38,10 @@ impl Single {
         }
     }
 
-    /// Entry distances of the children's boxes, and the children entered before the limit. The ray's octant is `OCTANT`, or 8 to
-    /// read it at run time.
+    /// Entry distances of the children's boxes, and the children entered before the limit. `OCTANT` is the ray's.
     #[inline(always)]
-    pub(super) fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
-        let octant = if OCTANT < 8 { OCTANT } else { self.octant };
-        let side = |last: bool, k: usize| usize::from((octant >> k & 1 == 1) != last);
+    fn enter<const OCTANT: usize>(&self, node: &Node, limit: X8) -> (X8, M8) {
+        let side = |last: bool, k: usize| usize::from((OCTANT >> k & 1 == 1) != last);
         let plane = |last: bool, k: usize, inverse: X8| {
             let Vec3 { x, y, z } = self.offset[side(last, k)];
             X8::from(node.planes[side(last, k)][k]).mul_add(inverse, [x, y, z][k])
@@ -64,137 +53,129 @@ impl Single {
     }
 }
 
+/// A child to visit, and the distance at which the ray enters it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Child {
+    first: u32,
+    /// Number of primitives of a leaf; 0 for an inner node.
+    count: u32,
+    near: f32,
+}
+
 /// Primitives that test one ray against a whole leaf at once.
 pub(super) trait Leaves {
-    /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`.
-    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest);
-    /// Prefetches a leaf.
-    fn prefetch(&self, leaf: Range<usize>);
-    /// Whether a primitive of a leaf occludes one ray before `limit`.
-    fn leaf_hides(&self, leaf: Range<usize>, ray: &Single, near: X8, limit: f32) -> bool;
+    /// Updates `nearest` by a nearer hit of one ray in a leaf, whose box it enters at `near`. With `ANY`, returns whether there is one
+    /// instead.
+    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool;
 }
 
 impl<P: Leaves> Tree<P> {
-    /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`.
-    pub(super) fn closest_one_by_one(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
+    /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that
+    /// hit something instead.
+    pub(super) fn one_by_one<const ANY: bool>(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        hits: &mut [Hits],
+        stack: &mut Stack<Child>,
+    ) {
         for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
-            each_bit(active.bits(), |lane| {
-                let mut nearest = hits.nearest(lane);
-                self.closest_single(0, &Single::new(rays, lane), &mut nearest, stack);
-                hits.put(lane, &nearest);
-            });
-        }
-    }
-
-    /// Clears the lanes of `active` that are occluded before `limit`, one by one.
-    pub(super) fn occluded_one_by_one(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack) {
-        for ((rays, active), limit) in rays.iter().zip(active).zip(limit) {
             let mut open = active.bits();
-            each_bit(open, |lane| {
-                let hidden = self.hides_single(0, &Single::new(rays, lane), limit.as_array()[lane], stack);
-                open &= !(u32::from(hidden) << lane);
-            });
+            each_bit(open, |lane| open &= !(u32::from(self.lane::<ANY>(0, rays, lane, hits, stack)) << lane));
             *active = M8::from_bits(open);
         }
     }
 
-    /// Finds the nearest hit of one ray below a node, if nearer than `nearest`.
+    /// Traces one ray of a packet through the nodes below `from`. With `ANY`, returns whether it hits something, and leaves `hits` as
+    /// they are.
     #[inline]
-    pub(super) fn closest_single(&self, from: u32, ray: &Single, nearest: &mut Nearest, stack: &mut Stack) {
-        if self.count != 0 {
-            by_octant!(ray.octant, else 7, self.closest_in_octant(from as usize, ray, nearest, stack));
+    pub(super) fn lane<const ANY: bool>(
+        &self,
+        from: u32,
+        rays: &Rays,
+        lane: usize,
+        hits: &mut Hits,
+        stack: &mut Stack<Child>,
+    ) -> bool {
+        if self.count == 0 {
+            return false;
         }
+        let (ray, mut nearest) = (SingleRay::new(rays, lane), hits.nearest(lane));
+        let hidden = by_octant!(ray.octant, else 7, self.single_ray::<ANY>(from, &ray, &mut nearest, stack));
+        if !ANY {
+            hits.put(lane, &nearest);
+        }
+        hidden
     }
 
-    fn closest_in_octant<const OCTANT: usize>(
+    fn single_ray<const ANY: bool, const OCTANT: usize>(
         &self,
-        from: usize,
-        ray: &Single,
+        from: u32,
+        ray: &SingleRay,
         nearest: &mut Nearest,
-        stack: &mut Stack,
-    ) {
-        let stack = &mut *stack.pending;
+        stack: &mut Stack<Child>,
+    ) -> bool {
+        let stack = &mut stack.0[..];
         let mut height = 0;
         let mut place = from;
         loop {
-            let node = &self.nodes[place];
+            let node = &self.nodes[place as usize];
             let (near, mask) = ray.enter::<OCTANT>(node, X8::splat(nearest.distance));
             let near = near.to_array();
             let child =
-                |slot: usize| Pending { parent: node.first[slot], slot: u32::from(node.count[slot]), near: near[slot] };
+                |slot: usize| Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
             let mut bits = mask.bits();
-            if bits != 0 {
-                let mut next = child(bits.trailing_zeros() as usize & 7);
-                bits &= bits - 1;
+            let mut take = || {
+                let slot = bits.trailing_zeros() as usize & 7;
+                let some = bits != 0;
+                bits &= bits.wrapping_sub(1);
+                some.then(|| child(slot))
+            };
+            if ANY {
+                while let Some(child) = take() {
+                    if child.count == 0 {
+                        stack[height] = child;
+                        height += 1;
+                    } else if self.test_child::<ANY>(&child, ray, nearest) {
+                        return true;
+                    }
+                }
+            } else if let Some(mut next) = take() {
                 // the nearest child is visited next; the others go to the stack, nearer ones on top
                 let floor = height;
-                while bits != 0 {
-                    let mut other = child(bits.trailing_zeros() as usize & 7);
-                    bits &= bits - 1;
+                while let Some(mut other) = take() {
                     if other.near < next.near {
                         (next, other) = (other, next);
                     }
-                    push_in_order(&mut stack[..], &mut height, floor, other, |c| c.near);
+                    push_in_order(stack, &mut height, floor, other, |c| c.near);
                 }
-                if next.slot == 0 {
-                    place = next.parent as usize;
+                if next.count == 0 {
+                    place = next.first;
                     continue;
                 }
-                let first = next.parent as usize;
-                self.primitives.closest_of_leaf(first..first + next.slot as usize, ray, X8::splat(next.near), nearest);
+                self.test_child::<ANY>(&next, ray, nearest);
             }
             place = loop {
                 if height == 0 {
-                    return;
+                    return false;
                 }
                 height -= 1;
-                let Pending { parent: first, slot: count, near } = stack[height];
-                if near > nearest.distance {
+                let child = stack[height];
+                if !ANY && child.near > nearest.distance {
                     continue;
                 }
-                let first = first as usize;
-                if count == 0 {
-                    break first;
+                if ANY || child.count == 0 {
+                    break child.first;
                 }
-                self.primitives.closest_of_leaf(first..first + count as usize, ray, X8::splat(near), nearest);
+                self.test_child::<ANY>(&child, ray, nearest);
             };
         }
     }
 
-    /// Whether something below a node occludes one ray before `limit`.
-    #[inline]
-    pub(super) fn hides_single(&self, from: u32, ray: &Single, limit: f32, stack: &mut Stack) -> bool {
-        self.count != 0 && by_octant!(ray.octant, else 7, self.hides_in_octant(from, ray, limit, stack))
-    }
-
-    fn hides_in_octant<const OCTANT: usize>(&self, from: u32, ray: &Single, limit: f32, stack: &mut Stack) -> bool {
-        let stack = &mut *stack.pending;
-        let mut height = 0;
-        let mut place = from;
-        let reach = X8::splat(limit);
-        loop {
-            let node = &self.nodes[place as usize];
-            let (near, mask) = ray.enter::<OCTANT>(node, reach);
-            let mut bits = mask.bits();
-            while bits != 0 {
-                let slot = bits.trailing_zeros() as usize & 7;
-                bits &= bits - 1;
-                let (first, count) = (node.first[slot], usize::from(node.count[slot]));
-                if count == 0 {
-                    stack[height].parent = first;
-                    height += 1;
-                    continue;
-                }
-                let near = X8::splat(near.as_array()[slot]);
-                if self.primitives.leaf_hides(first as usize..first as usize + count, ray, near, limit) {
-                    return true;
-                }
-            }
-            if height == 0 {
-                return false;
-            }
-            height -= 1;
-            place = stack[height].parent;
-        }
+    /// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`].
+    #[inline(always)]
+    fn test_child<const ANY: bool>(&self, leaf: &Child, ray: &SingleRay, nearest: &mut Nearest) -> bool {
+        let first = leaf.first as usize;
+        self.primitives.test_ray::<ANY>(first..first + leaf.count as usize, ray, X8::splat(leaf.near), nearest)
     }
 }

@@ -1,23 +1,19 @@
 //! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
 
-use super::interleaved::each_ray;
-use super::packets::{Stack, common_sign, each_bit, push_in_order, slabs};
-use super::single_ray::{Leaves, Single};
-use super::tree::{Node, Primitives, Tree};
-use super::{GROUP, Hits, NOTHING, Rays, WIDTH};
+use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
+use super::rays::{GROUP, Hits, Rays, by_octant, each_bit, octant};
+use super::single_ray::{Child, Leaves, SingleRay};
+use super::tree::{Primitives, Tree};
 use crate::packet::{M8, X8, max, min, select};
-use etendue::{Mask, Real, u32x8};
+use etendue::{Mask, Real};
 use wide::i8x32;
 
 /// With fewer rays than this, each continues alone, as sharing the traversal no longer pays.
 const FEW: u32 = 5;
 
-/// Marks a visit of an inner node.
-const INNER: u32 = u32::MAX;
-
 /// A child to visit, and the set of rays that enter it: bit 8·packet + lane.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Visit {
+struct Visit {
     rays: u64,
     /// Index of the inner node, or of the leaf's parent.
     node: u32,
@@ -26,32 +22,33 @@ pub(super) struct Visit {
     near: f32,
 }
 
+/// Memory for streams, to be reused.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    visits: Stack<Visit>,
+    pub(super) single_ray: Stack<Child>,
+}
+
 /// A group of rays. Bit k of `OCTANT` is set if all rays run towards − along axis k; 8 means that they disagree.
 struct Stream<'a, const OCTANT: usize> {
     rays: &'a [Rays],
 }
 
-/// The octant of a group, as in [`Stream`].
-fn octant(rays: &[Rays]) -> usize {
-    common_sign(rays).map_or(8, |sign| (0..3).fold(0, |octant, k| octant | usize::from(sign[k]) << k))
-}
-
 impl<const OCTANT: usize> Stream<'_, OCTANT> {
-    /// The set of rays that enter each child, and with `ORDER` the least entry distance of each child.
+    /// The set of rays that enter each child, and for closest hits the least entry distance of each child.
     #[inline(always)]
-    fn enter<const ORDER: bool>(&self, node: &Node, among: u64, limit: impl Fn(usize) -> X8) -> ([u64; WIDTH], X8) {
+    fn enter<const ANY: bool>(&self, node: &Node, among: u64, hits: &[Hits]) -> ([u64; WIDTH], X8) {
         let negative = |k: usize| OCTANT >> k & 1;
         let first = |k: usize| X8::from(node.planes[negative(k)][k]);
         let last = |k: usize| X8::from(node.planes[1 - negative(k)][k]);
         let (first, last) = ([first(0), first(1), first(2)], [last(0), last(1), last(2)]);
         let mut nearest = X8::lit(f64::INFINITY);
         let mut entered = [[0_i8; 8]; GROUP];
-        for ((r, entered), p) in self.rays.iter().zip(&mut entered).zip(0..) {
+        for (((r, hits), entered), p) in self.rays.iter().zip(hits).zip(&mut entered).zip(0..) {
             let mut lanes = (among >> (8 * p)) as u32 & 0xff;
             if lanes == 0 {
                 continue;
             }
-            let limit = limit(p);
             while lanes != 0 {
                 let lane = lanes.trailing_zeros() as usize & 7;
                 lanes &= lanes - 1;
@@ -68,10 +65,10 @@ impl<const OCTANT: usize> Stream<'_, OCTANT> {
                 let (ny, fy) = axis(1, &r.inverse.y, &ay.y, &by.y);
                 let (nz, fz) = axis(2, &r.inverse.z, &az.z, &bz.z);
                 let near = max(max(nx, ny), max(nz, X8::lit(0.0)));
-                let far = min(min(fx, fy), min(fz, at(&limit)));
+                let far = min(min(fx, fy), min(fz, at(&hits.distance)));
                 let mask = near.le(far);
                 entered[lane] = mask.bits() as i8;
-                if ORDER {
+                if !ANY {
                     nearest = min(nearest, select(mask, near, X8::lit(f64::INFINITY)));
                 }
             }
@@ -94,66 +91,51 @@ fn bits(active: &[M8]) -> u64 {
 }
 
 impl<P: Primitives + Leaves> Tree<P> {
-    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`.
-    pub(super) fn closest_stream(&self, rays: &[Rays], active: &[M8], hits: &mut [Hits], stack: &mut Stack) {
-        if self.count == 0 {
-            return;
-        }
-        by_octant!(octant(rays), else 8, self.closest_stream_in_octant(rays, active, hits, stack));
-    }
-
-    fn closest_stream_in_octant<const OCTANT: usize>(
+    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
+    /// something instead.
+    pub(super) fn stream<const ANY: bool>(
         &self,
         rays: &[Rays],
-        active: &[M8],
+        active: &mut [M8],
         hits: &mut [Hits],
-        stack: &mut Stack,
+        scratch: &mut Scratch,
+    ) {
+        if self.count != 0 {
+            by_octant!(octant(rays), else 8, self.stream_in_octant::<ANY>(rays, active, hits, scratch));
+        }
+    }
+
+    fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
+        &self,
+        rays: &[Rays],
+        active: &mut [M8],
+        hits: &mut [Hits],
+        scratch: &mut Scratch,
     ) {
         let stream = Stream::<OCTANT> { rays };
+        let Scratch { visits, single_ray } = scratch;
+        let visits = &mut visits.0[..];
+        let mut open = bits(active);
         let mut height = 1;
-        stack.visits[0] = Visit { rays: bits(active), node: 0, slot: INNER, near: 0.0 };
-        while height > 0 {
+        visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
+        while height > 0 && open != 0 {
             height -= 1;
-            let Visit { rays: among, node: place, slot, .. } = stack.visits[height];
+            let Visit { rays: among, node: place, slot, .. } = visits[height];
+            let among = among & open;
             let node = &self.nodes[place as usize];
-            if slot != INNER {
-                let slot = slot as usize & 7;
-                let leaf = node.leaf(slot);
-                for ((rays, hits), p) in rays.iter().zip(&mut *hits).zip(0..) {
-                    let lanes = (among >> (8 * p)) as u32 & 0xff;
-                    if lanes == 0 {
-                        continue;
-                    }
-                    let (near, _) = slabs::<false>(node, slot, rays, [false; 3], hits.distance);
-                    // one triangle after another or one ray after another, whichever are fewer
-                    if lanes.count_ones() as usize >= leaf.len() {
-                        self.primitives.closest(leaf.clone(), rays, near, M8::from_bits(lanes), hits);
-                        continue;
-                    }
-                    each_bit(lanes, |lane| {
-                        let mut nearest = hits.nearest(lane);
-                        let near = near.as_array()[lane];
-                        if near <= nearest.distance {
-                            let (ray, near) = (Single::new(rays, lane), X8::splat(near));
-                            self.primitives.closest_of_leaf(leaf.clone(), &ray, near, &mut nearest);
-                            hits.put(lane, &nearest);
-                        }
-                    });
-                }
+            if !ANY && slot != INNER {
+                self.visit_stream_leaf::<ANY>(rays, among, node, slot as usize & 7, hits);
                 continue;
             }
             if among.count_ones() < FEW {
-                if OCTANT < 8 || !stack.later.add(among, place, stack.visits[height].near) {
-                    each_ray(among, |i| {
-                        let (p, lane) = (i >> 3, i & 7);
-                        let mut nearest = hits[p].nearest(lane);
-                        self.closest_single(place, &Single::new(&rays[p], lane), &mut nearest, stack);
-                        hits[p].put(lane, &nearest);
-                    });
-                }
+                each_bit(among, |i| {
+                    let p = i >> 3;
+                    let hidden = self.lane::<ANY>(place, &rays[p], i & 7, &mut hits[p], single_ray);
+                    open &= !(u64::from(hidden) << i);
+                });
                 continue;
             }
-            let (entered, near) = stream.enter::<true>(node, among, |p| hits[p].distance);
+            let (entered, near) = stream.enter::<ANY>(node, among, hits);
             let near = near.to_array();
             // the nearest child goes to the top of the stack
             let floor = height;
@@ -162,90 +144,59 @@ impl<P: Primitives + Leaves> Tree<P> {
                     continue;
                 }
                 let inner = node.count[slot] == 0;
+                if ANY && !inner {
+                    open &= !self.visit_stream_leaf::<ANY>(rays, entered[slot] & open, node, slot, hits);
+                    continue;
+                }
                 let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
                 let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
-                push_in_order(&mut stack.visits[..], &mut height, floor, child, |c| c.near);
+                push_in_order(visits, &mut height, floor, child, |c| c.near);
             }
         }
-        if OCTANT == 8 {
-            self.closest_together(rays, hits, stack);
+        if ANY {
+            for (p, active) in active.iter_mut().enumerate() {
+                *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);
+            }
         }
     }
 
-    /// Clears the lanes of `active` that are occluded before `limit`.
-    pub(super) fn occluded_stream(&self, rays: &[Rays], active: &mut [M8], limit: &[X8], stack: &mut Stack) {
-        if self.count == 0 {
-            return;
-        }
-        by_octant!(octant(rays), else 8, self.occluded_stream_in_octant(rays, active, limit, stack));
-    }
-
-    fn occluded_stream_in_octant<const OCTANT: usize>(
+    /// Tests the rays of `among` in a leaf. With `ANY`, returns those that hit something.
+    #[inline(always)]
+    fn visit_stream_leaf<const ANY: bool>(
         &self,
         rays: &[Rays],
-        active: &mut [M8],
-        limit: &[X8],
-        stack: &mut Stack,
-    ) {
-        let stream = Stream::<OCTANT> { rays };
-        let mut open = bits(active);
-        let mut height = 1;
-        stack.visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
-        while height > 0 && open != 0 {
-            height -= 1;
-            let Visit { rays: among, node: place, .. } = stack.visits[height];
-            let among = among & open;
-            if among.count_ones() < FEW {
-                if OCTANT < 8 || !stack.later.add(among, place, 0.0) {
-                    each_ray(among, |i| {
-                        let (p, lane) = (i >> 3, i & 7);
-                        let hides =
-                            self.hides_single(place, &Single::new(&rays[p], lane), limit[p].as_array()[lane], stack);
-                        open &= !(u64::from(hides) << i);
-                    });
-                }
+        among: u64,
+        node: &Node,
+        slot: usize,
+        hits: &mut [Hits],
+    ) -> u64 {
+        let leaf = node.leaf(slot);
+        let mut hidden = 0;
+        for ((rays, hits), p) in rays.iter().zip(hits).zip(0..) {
+            let lanes = (among >> (8 * p)) as u32 & 0xff;
+            if lanes == 0 {
                 continue;
             }
-            let node = &self.nodes[place as usize];
-            let (entered, _) = stream.enter::<false>(node, among, |p| limit[p]);
-            for slot in 0..(node.children as usize).min(WIDTH) {
-                if entered[slot] == 0 {
-                    continue;
-                }
-                if node.count[slot] == 0 {
-                    stack.visits[height] =
-                        Visit { rays: entered[slot], node: node.first[slot], slot: INNER, near: 0.0 };
-                    height += 1;
-                    continue;
-                }
-                let leaf = node.leaf(slot);
-                let entered = entered[slot] & open;
-                for ((rays, &limit), p) in rays.iter().zip(limit).zip(0..) {
-                    let lanes = (entered >> (8 * p)) as u32 & 0xff;
-                    if lanes == 0 {
-                        continue;
-                    }
-                    let (near, _) = slabs::<false>(node, slot, rays, [false; 3], limit);
-                    if lanes.count_ones() as usize >= leaf.len() {
-                        let none = u32x8::splat(NOTHING);
-                        let hidden =
-                            self.primitives.occluded(leaf.clone(), rays, near, M8::from_bits(lanes), limit, none);
-                        open &= !(u64::from(hidden.bits()) << (8 * p));
-                        continue;
-                    }
-                    each_bit(lanes, |lane| {
-                        let (ray, near) = (Single::new(rays, lane), X8::splat(near.as_array()[lane]));
-                        let hidden = self.primitives.leaf_hides(leaf.clone(), &ray, near, limit.as_array()[lane]);
-                        open &= !(u64::from(hidden) << (8 * p + lane));
-                    });
-                }
+            let (near, _) = slabs::<false>(node, slot, rays, [false; 3], hits.distance);
+            // one triangle after another or one ray after another, whichever are fewer
+            if lanes.count_ones() as usize >= leaf.len() {
+                let lanes = self.primitives.test_packet::<ANY>(leaf.clone(), rays, near, M8::from_bits(lanes), hits);
+                hidden |= u64::from(lanes.bits()) << (8 * p);
+                continue;
             }
+            each_bit(lanes, |lane| {
+                let mut nearest = hits.nearest(lane);
+                let near = near.as_array()[lane];
+                if ANY || near <= nearest.distance {
+                    let (ray, near) = (SingleRay::new(rays, lane), X8::splat(near));
+                    let hit = self.primitives.test_ray::<ANY>(leaf.clone(), &ray, near, &mut nearest);
+                    hidden |= u64::from(hit) << (8 * p + lane);
+                    if !ANY {
+                        hits.put(lane, &nearest);
+                    }
+                }
+            });
         }
-        if OCTANT == 8 {
-            open &= !self.hidden_together(rays, open, limit, stack);
-        }
-        for (p, active) in active.iter_mut().enumerate() {
-            *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);
-        }
+        hidden
     }
 }

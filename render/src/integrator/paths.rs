@@ -8,7 +8,7 @@
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
-use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Stack};
+use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::lights::{Chooser, Lights};
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::{Surface, emitted};
@@ -72,7 +72,7 @@ pub(super) struct Paths<'a> {
     depth: u32,
     /// Rays traced so far.
     pub(super) count: RayCount,
-    stack: Stack,
+    scratch: Scratch,
     /// Camera rays and shadow rays.
     rays: Box<[[Rays; GROUP]; 2]>,
     /// The reflecting surfaces at the ends of the paths.
@@ -88,7 +88,7 @@ impl<'a> Paths<'a> {
             technique: settings.technique,
             depth: settings.depth,
             count: RayCount::default(),
-            stack: Stack::default(),
+            scratch: Scratch::default(),
             rays: Box::default(),
             surfaces: Box::new([Surface::default(); GROUP]),
             ends: Box::new([End { direction: zero, metal: None, throughput: zero }; GROUP]),
@@ -171,7 +171,7 @@ impl<'a> Paths<'a> {
     /// Follows the rays of a group through mirrors, and adds the radiance of the lights and the sky that they hit.
     #[inline(always)]
     fn follow<const METAL: bool>(&mut self, active: &[M8], radiance: &mut [Radiance; GROUP]) {
-        let Self { scene, stack, rays, surfaces, ends, .. } = self;
+        let Self { scene, scratch, rays, surfaces, ends, .. } = self;
         let (world, count) = (&scene.surfaces, active.len());
         let mut going = [M8::splat(false); GROUP];
         going[..count].copy_from_slice(active);
@@ -182,7 +182,7 @@ impl<'a> Paths<'a> {
         }
         for depth in 0.. {
             let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
-            world.bvh.closest(&rays[0][..count], &going[..count], &mut hits[..count], stack);
+            world.bvh.closest(&rays[0][..count], &going[..count], &mut hits[..count], scratch);
             let mut on = false;
             for p in 0..count {
                 if METAL && !going[p].any() {
@@ -315,7 +315,7 @@ impl<'a> Paths<'a> {
             self.rays[1][p] = world.bvh.rays(surface.point, direction);
         }
         // finding the hit light is cheap; only rays that hit one need an occlusion test
-        world.bvh.closest_shape(&self.rays[1][..count], &lit[..count], &mut hits[..count], &mut self.stack);
+        world.bvh.closest_shape(&self.rays[1][..count], &lit[..count], &mut hits[..count], &mut self.scratch);
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut limit = [infinite; GROUP];
         for p in 0..count {
@@ -376,7 +376,7 @@ impl<'a> Paths<'a> {
         reflected: &mut [V8; GROUP],
     ) {
         let (rays, bvh) = (&self.rays[1][..count], &self.scene.surfaces.bvh);
-        bvh.occluded(rays, &mut lit[..count], &limit[..count], &target[..count], &mut self.stack);
+        bvh.occluded(rays, &mut lit[..count], &limit[..count], &target[..count], &mut self.scratch);
         for p in 0..count {
             reflected[p] += keep(found[p], lit[p]);
         }

@@ -1,10 +1,10 @@
 //! Intersection of one triangle with eight rays, and of one ray with all triangles of a leaf.
 
 use super::build::Costs;
-use super::packets::each_bit;
-use super::single_ray::{Leaves, Nearest, Single};
-use super::tree::{Bounded, Bounds, BuildError, Primitives, Tree, greater, lesser};
-use super::{Hits, NOTHING, Rays};
+use super::node::{Bounded, Bounds, BuildError, greater, lesser};
+use super::rays::{Hits, NOTHING, Nearest, Rays, each_bit};
+use super::single_ray::{Leaves, SingleRay};
+use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
@@ -32,7 +32,7 @@ impl Bounded for Corners {
 /// Mesh triangles in leaf order. A leaf of n triangles stores each of the nine coordinates n times in a row, so that one load of eight
 /// lanes fetches a coordinate of all its triangles (and whatever follows).
 #[derive(Debug)]
-pub(super) struct Soup {
+pub(super) struct TriangleLeaves {
     coordinates: Vec<f32>,
     /// For each triangle, 16 times its index in its leaf plus the leaf's number of triangles.
     leaves: Vec<u8>,
@@ -40,7 +40,7 @@ pub(super) struct Soup {
     ids: Vec<u32>,
 }
 
-impl Soup {
+impl TriangleLeaves {
     pub(super) fn tree(triangles: Vec<Corners>) -> Result<Tree<Self>, BuildError> {
         let by_coordinate = |leaf: &mut [Corners]| {
             let mut turned = [0.0; 9 * COSTS.most];
@@ -157,18 +157,30 @@ impl Projected {
     }
 }
 
-impl Primitives for Soup {
+impl Primitives for TriangleLeaves {
     #[inline]
-    fn closest(&self, leaf: Range<usize>, rays: &Rays, near: X8, active: M8, hits: &mut Hits) {
+    fn test_packet<const ANY: bool>(
+        &self,
+        leaf: Range<usize>,
+        rays: &Rays,
+        near: X8,
+        active: M8,
+        hits: &mut Hits,
+    ) -> M8 {
+        let mut hidden = M8::splat(false);
         for index in 0..leaf.len() {
             let projected = project(self.one(&leaf, index), rays.origin, rays.frame);
             let inside = projected.inside & active;
             if inside.any() {
-                let place = (leaf.start + index) as u32;
                 let (distance, inverse) = projected.distance(rays.direction, near);
-                let candidate = inside & distance.gt(X8::lit(0.0)) & distance.le(hits.distance);
-                let mut nearer = candidate & distance.lt(hits.distance);
-                let tie = candidate & !nearer;
+                let ahead = inside & distance.gt(X8::lit(0.0));
+                let mut nearer = ahead & distance.lt(hits.distance);
+                if ANY {
+                    hidden = hidden | nearer;
+                    continue;
+                }
+                let place = (leaf.start + index) as u32;
+                let tie = ahead & distance.le(hits.distance) & !nearer;
                 if tie.any() {
                     nearer = nearer | self.goes_first(tie, place, hits);
                 }
@@ -178,18 +190,6 @@ impl Primitives for Soup {
                 hits.b2 = select(nearer, projected.weights[2] * inverse, hits.b2);
             }
         }
-    }
-    #[inline]
-    fn occluded(&self, leaf: Range<usize>, rays: &Rays, near: X8, active: M8, limit: X8, _skip: u32x8) -> M8 {
-        let mut hidden = M8::splat(false);
-        for index in 0..leaf.len() {
-            let projected = project(self.one(&leaf, index), rays.origin, rays.frame);
-            let inside = projected.inside & active;
-            if inside.any() {
-                let (distance, _) = projected.distance(rays.direction, near);
-                hidden = hidden | inside & distance.gt(X8::lit(0.0)) & distance.lt(limit);
-            }
-        }
         hidden
     }
     fn bytes(&self) -> usize {
@@ -197,22 +197,22 @@ impl Primitives for Soup {
     }
 }
 
-impl Leaves for Soup {
+impl Leaves for TriangleLeaves {
     #[inline(always)]
-    fn prefetch(&self, leaf: Range<usize>) {
-        super::tree::prefetch(&self.coordinates[9 * leaf.start..9 * leaf.end]);
-    }
-    #[inline(always)]
-    fn closest_of_leaf(&self, leaf: Range<usize>, ray: &Single, near: X8, nearest: &mut Nearest) {
+    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
         let projected = project(self.all(&leaf), ray.origin, ray.frame);
         let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
         if inside == 0 {
-            return;
+            return false;
         }
         let (distance, inverse) = projected.distance(ray.direction, near);
-        let candidate = distance.gt(X8::lit(0.0)) & distance.le(X8::splat(nearest.distance));
+        let (ahead, limit) = (distance.gt(X8::lit(0.0)), X8::splat(nearest.distance));
+        if ANY {
+            return inside & (ahead & distance.lt(limit)).bits() != 0;
+        }
         let (b1, b2) = (projected.weights[1] * inverse, projected.weights[2] * inverse);
-        each_bit(inside & candidate.bits(), |lane| {
+        each_bit(inside & (ahead & distance.le(limit)).bits(), |lane| {
+            let lane = lane & 7;
             let distance = distance.as_array()[lane];
             let place = (leaf.start + lane) as u32;
             if distance < nearest.distance
@@ -221,15 +221,6 @@ impl Leaves for Soup {
                 *nearest = Nearest { distance, place, b1: b1.as_array()[lane], b2: b2.as_array()[lane] };
             }
         });
-    }
-    #[inline(always)]
-    fn leaf_hides(&self, leaf: Range<usize>, ray: &Single, near: X8, limit: f32) -> bool {
-        let projected = project(self.all(&leaf), ray.origin, ray.frame);
-        let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
-        if inside == 0 {
-            return false;
-        }
-        let (distance, _) = projected.distance(ray.direction, near);
-        inside & (distance.gt(X8::lit(0.0)) & distance.lt(X8::splat(limit))).bits() != 0
+        false
     }
 }

@@ -1,8 +1,9 @@
 //! Intersection with spheres and emitters.
 
 use super::build::Costs;
-use super::tree::{BuildError, Primitives, Tree};
-use super::{Hits, Rays, SHAPE};
+use super::node::BuildError;
+use super::rays::{Hits, Rays, SHAPE};
+use super::tree::{Primitives, Tree};
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal, max, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
@@ -125,22 +126,28 @@ fn intersect(solid: &Solid, rays: &Rays, limit: X8) -> (X8, M8) {
 
 impl Primitives for Solids {
     #[inline]
-    fn closest(&self, range: Range<usize>, rays: &Rays, _near: X8, active: M8, hits: &mut Hits) {
-        for (solid, &id) in self.solids[range.clone()].iter().zip(&self.ids[range]) {
+    fn test_packet<const ANY: bool>(
+        &self,
+        leaf: Range<usize>,
+        rays: &Rays,
+        _near: X8,
+        active: M8,
+        hits: &mut Hits,
+    ) -> M8 {
+        let mut hidden = M8::splat(false);
+        for (solid, &id) in self.solids[leaf.clone()].iter().zip(&self.ids[leaf]) {
+            let place = u32x8::splat(id | SHAPE);
+            if ANY {
+                let others = active & !equal(hits.place, place);
+                if others.any() {
+                    hidden = hidden | intersect(solid, rays, hits.distance).1 & others;
+                }
+                continue;
+            }
             let (distance, hit) = intersect(solid, rays, hits.distance);
             let hit = hit & active;
             hits.distance = select(hit, distance, hits.distance);
-            hits.place = pick(hit, u32x8::splat(id | SHAPE), hits.place);
-        }
-    }
-    #[inline]
-    fn occluded(&self, range: Range<usize>, rays: &Rays, _near: X8, active: M8, limit: X8, skip: u32x8) -> M8 {
-        let mut hidden = M8::splat(false);
-        for (solid, &id) in self.solids[range.clone()].iter().zip(&self.ids[range]) {
-            let others = active & !equal(skip, u32x8::splat(id));
-            if others.any() {
-                hidden = hidden | intersect(solid, rays, limit).1 & others;
-            }
+            hits.place = pick(hit, place, hits.place);
         }
         hidden
     }

@@ -1,0 +1,174 @@
+//! Rays in packets of eight, and their hits.
+
+use crate::packet::{M8, V8, X8, below, equal, max};
+use etendue::{Frame, Mask, Real, Vec3, u32x8};
+
+/// Bit of an id that marks a shape (sphere, emitter) instead of a mesh triangle.
+pub const SHAPE: u32 = 1 << 31;
+/// Greatest number of packets in a group.
+pub const GROUP: usize = 8;
+/// The id of a miss.
+pub const NOTHING: u32 = u32::MAX;
+
+/// Eight rays, prepared for traversal.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays {
+    /// Origins.
+    pub origin: V8,
+    /// Unit directions.
+    pub direction: V8,
+    /// Two unit vectors that complete the direction to a frame; vertices are projected onto them along the ray.
+    pub(super) frame: [V8; 2],
+    pub(super) inverse: V8,
+    /// −(origin ± pad)/direction, for the lower and the upper planes of boxes.
+    pub(super) offset: [V8; 2],
+    /// Whether the rays run towards − along each axis; `None` if they disagree along one.
+    pub(super) common_sign: Option<[bool; 3]>,
+    /// Greatest distance by which boxes are widened.
+    pub(super) pad: f32,
+}
+
+impl Default for Rays {
+    fn default() -> Self {
+        let zero = V8::default();
+        Self {
+            origin: zero,
+            direction: zero,
+            frame: [zero; 2],
+            inverse: zero,
+            offset: [zero; 2],
+            common_sign: None,
+            pad: 0.0,
+        }
+    }
+}
+
+impl Rays {
+    /// Prepares eight rays. `reach` is the greatest magnitude of a coordinate in the scene; slabs are widened in proportion to it.
+    #[inline(always)]
+    pub fn new(origin: V8, direction: V8, reach: f32) -> Self {
+        let frame = Frame::new(direction);
+        // components below 1e−18 count as 1e−18, with which a ray never reaches the planes across that axis
+        let invert = |d: X8| X8::lit(1.0) / max(d.abs(), X8::lit(1e-18)).copysign(d);
+        let inverse = Vec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
+        // 2⁻²⁰ of the largest coordinate involved: 16 times the rounding of a vertex relative to the origin
+        let pad = (origin.max_abs() + X8::splat(reach)) * X8::lit(1.0 / 1_048_576.0);
+        let plane = |o: V8, pad: X8| {
+            Vec3::new(-((o.x + pad) * inverse.x), -((o.y + pad) * inverse.y), -((o.z + pad) * inverse.z))
+        };
+        let negative =
+            [direction.x, direction.y, direction.z].map(|d| X8::lit(1.0).copysign(d).lt(X8::lit(0.0)).bits());
+        let common = negative.iter().all(|&bits| bits == 0 || bits == 0xff);
+        Self {
+            origin,
+            direction,
+            frame: [frame.s, frame.t],
+            inverse,
+            offset: [plane(origin, pad), plane(origin, -pad)],
+            common_sign: common.then(|| negative.map(|bits| bits != 0)),
+            pad: pad.to_array().into_iter().fold(0.0, f32::max),
+        }
+    }
+}
+
+/// The nearest hits of eight rays.
+#[derive(Clone, Copy, Debug)]
+pub struct Hits {
+    /// Distances; the rays' limits for misses.
+    pub distance: X8,
+    /// Index of a triangle in leaf order, index of a shape with the bit [`SHAPE`] set, or [`NOTHING`].
+    pub place: u32x8,
+    /// Barycentric coordinates of the triangles' second vertices.
+    pub b1: X8,
+    /// Barycentric coordinates of the triangles' third vertices.
+    pub b2: X8,
+}
+
+impl Hits {
+    /// Misses, with hits to be searched nearer than `limit`.
+    #[inline]
+    pub fn none(limit: X8) -> Self {
+        Self { distance: limit, place: u32x8::splat(NOTHING), b1: X8::lit(0.0), b2: X8::lit(0.0) }
+    }
+    /// Lanes that hit something.
+    #[inline]
+    pub fn any(&self) -> M8 {
+        !equal(self.place, u32x8::splat(NOTHING))
+    }
+    #[inline]
+    pub(super) fn nearest(&self, lane: usize) -> Nearest {
+        Nearest {
+            distance: self.distance.as_array()[lane],
+            place: self.place.as_array()[lane],
+            b1: self.b1.as_array()[lane],
+            b2: self.b2.as_array()[lane],
+        }
+    }
+    #[inline]
+    pub(super) fn put(&mut self, lane: usize, nearest: &Nearest) {
+        self.distance.as_mut_array()[lane] = nearest.distance;
+        self.place.as_mut_array()[lane] = nearest.place;
+        self.b1.as_mut_array()[lane] = nearest.b1;
+        self.b2.as_mut_array()[lane] = nearest.b2;
+    }
+    /// Lanes that hit a shape.
+    #[inline]
+    pub fn shapes(&self) -> M8 {
+        self.any() & !below(self.place, u32x8::splat(SHAPE))
+    }
+}
+
+/// The nearest hit of one ray.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Nearest {
+    pub(super) distance: f32,
+    pub(super) place: u32,
+    pub(super) b1: f32,
+    pub(super) b2: f32,
+}
+
+/// The signs of direction that all rays of a group share, if they do.
+#[inline]
+pub(super) fn common_sign(rays: &[Rays]) -> Option<[bool; 3]> {
+    let sign = rays[0].common_sign?;
+    rays[1..].iter().all(|r| r.common_sign == Some(sign)).then_some(sign)
+}
+
+/// The octant of a group: bit k is set if all rays run towards − along axis k; 8 means that they disagree.
+pub(super) fn octant(rays: &[Rays]) -> usize {
+    common_sign(rays).map_or(8, |sign| (0..3).fold(0, |octant, k| octant | usize::from(sign[k]) << k))
+}
+
+/// Calls a function that is specialised to the octant of the rays, or to `other` if there is none.
+macro_rules! by_octant {
+    ($octant:expr, else $other:literal, $this:ident.$function:ident::<$any:ident> $arguments:tt) => {
+        match $octant {
+            0 => $this.$function::<$any, 0> $arguments,
+            1 => $this.$function::<$any, 1> $arguments,
+            2 => $this.$function::<$any, 2> $arguments,
+            3 => $this.$function::<$any, 3> $arguments,
+            4 => $this.$function::<$any, 4> $arguments,
+            5 => $this.$function::<$any, 5> $arguments,
+            6 => $this.$function::<$any, 6> $arguments,
+            7 => $this.$function::<$any, 7> $arguments,
+            _ => $this.$function::<$any, $other> $arguments,
+        }
+    };
+}
+pub(super) use by_octant;
+
+/// Calls `f` with the index of each set bit.
+#[inline(always)]
+pub(super) fn each_bit(bits: impl Into<u64>, mut f: impl FnMut(usize)) {
+    let mut bits = bits.into();
+    while bits != 0 {
+        f(bits.trailing_zeros() as usize & 63);
+        bits &= bits - 1;
+    }
+}
+
+/// Whether a ray of the group is active.
+#[inline]
+pub(super) fn any(active: &[M8]) -> bool {
+    active.iter().any(|a| a.any())
+}
