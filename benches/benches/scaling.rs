@@ -5,9 +5,9 @@
 //! image has 256 × 256 pixels of 16 samples, by solid angle, rendered on one thread.
 
 use etendue_render::integrator::{Settings, World};
-use etendue_render::technique::Technique;
 use etendue_render::sampler::Sampler;
 use etendue_render::scene::{self, Emission, Geometry, Scene, Shape};
+use etendue_render::technique::Technique;
 use std::path::Path;
 use std::time::Instant;
 

@@ -75,6 +75,11 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     assert_eq!(order, ["area", "solid-angle"].repeat(4));
 
     let page = folder.read("out/report.html");
+    // the first line of output and page names the series with the least error at equal time
+    let line = out.lines().next().unwrap();
+    assert!(line.starts_with("triangle-light — best: ") && line.contains(" with independent"), "{line}");
+    let head = &page[page.find("<h1").unwrap()..page.find("<nav").unwrap()];
+    assert!(head.contains(&format!("<li>{line}</li>")), "{head}");
     let outside = page.replace("http://www.w3.org/2000/svg", "");
     for word in ["http:", "https:", "@import", "url(", "<link", "{{"] {
         assert!(!outside.contains(word), "the page has {word}");
@@ -95,6 +100,7 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
         let svg = folder.read(&format!("out/triangle-light-{name}.svg"));
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && svg.contains("solid-angle"), "{name}");
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        assert_eq!(svg.matches("data-series=").count(), 2, "{name}: one series of each technique");
     }
 
     // the same command measures nothing; one more replicate adds four lines and removes an incomplete one

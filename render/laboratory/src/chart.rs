@@ -12,6 +12,7 @@ pub mod summary;
 pub mod warps;
 
 use crate::selftest;
+use charts::Show;
 use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::options::{name, size};
@@ -358,9 +359,10 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let mut figures = Vec::new();
     for summary in &outcome.summaries {
-        let mut list = vec![charts::error_over_time(summary), charts::error_over_samples(summary)];
-        list.extend(charts::efficiency(summary));
-        list.extend(charts::time_to_error(summary));
+        let mut list =
+            vec![charts::error_over_time(summary, Show::Leaders), charts::error_over_samples(summary, Show::Leaders)];
+        list.extend(charts::efficiency(summary, Show::Leaders));
+        list.extend(charts::time_to_error(summary, Show::Leaders));
         for figure in &list {
             let file = format!("{}-{}.svg", stem(&outcome.summaries, &summary.scene), figure.file);
             files::replace(&options.output.join(file), figure.drawing.file().as_bytes())?;
@@ -381,8 +383,9 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
 
     let mut out = std::io::stdout().lock();
     for summary in &outcome.summaries {
-        writeln!(out, "{}", summary.scene)?;
-        for (index, series) in summary.series.iter().enumerate() {
+        writeln!(out, "{}", summary.headline())?;
+        for &index in &summary.ranking {
+            let series = &summary.series[index];
             let gain = summary.gains.iter().find(|g| g.series == index);
             let gain = gain.map_or_else(|| "?".to_owned(), |g| plot::short(g.gain.value));
             let slope = series.slope.as_ref().map_or_else(|| "?".to_owned(), charts::with_interval);

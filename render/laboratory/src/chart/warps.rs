@@ -254,6 +254,7 @@ pub fn figure(measured: &[Measured]) -> Figure {
         color: i,
         dash: i / super::plot::PALETTE.len(),
         joined: true,
+        shown: true,
         mark: 0.8,
         dots: m.nanoseconds.iter().map(|t| Dot { x: (*t).into(), y: Bar::exact(m.point), sure: t.is_sure() }).collect(),
     };

@@ -3,7 +3,7 @@
 use super::images::ratio_text;
 use super::sheet::Svg;
 use super::{Finding, Studio};
-use crate::chart::charts::{self, with_interval};
+use crate::chart::charts::{self, Show, with_interval};
 use crate::chart::summary::Summary;
 use crate::chart::{self, Outcome};
 use clap::ValueEnum;
@@ -75,7 +75,7 @@ impl Studio<'_> {
         }
         // crops of a box's corner with its shadows
         let world = World::new(&scene::load("quads")?)?;
-        let mut rows = vec![Svg::chart(&charts::error_over_samples(summary).drawing)];
+        let mut rows = vec![Svg::chart(&charts::error_over_samples(summary, Show::All).drawing)];
         for sampler in samplers {
             let crops = [1, 4, 16, 64, 256].map(|spp| {
                 let settings = Settings {
@@ -105,7 +105,7 @@ impl Studio<'_> {
         let mut charts = Vec::new();
         // a scene in which all techniques coincide has nothing to compare
         for summary in outcome.summaries.iter().filter(|s| s.series.len() > 1) {
-            charts.extend(charts::efficiency(summary).map(|f| Svg::chart(&f.drawing)));
+            charts.extend(charts::efficiency(summary, Show::All).map(|f| Svg::chart(&f.drawing)));
             let best = summary.gains.iter().max_by(|a, b| a.gain.value.total_cmp(&b.gain.value));
             headline.push(match best {
                 Some(best) if Some(best.series) != summary.baseline => format!(
@@ -165,7 +165,7 @@ impl Studio<'_> {
         }
         let mut lines = vec![about.to_owned()];
         lines.extend(headline.iter().cloned());
-        let svg = Svg::chart(&charts::error_over_samples(summary).drawing);
+        let svg = Svg::chart(&charts::error_over_samples(summary, Show::All).drawing);
         Ok(Finding { svg: svg.captioned(&lines), headline })
     }
 }

@@ -41,7 +41,7 @@ impl Steps {
 
 fn line(name: String, n: usize, points: impl Iterator<Item = (f64, Bar, bool)>, joined: bool) -> Line {
     let dots = points.map(|(x, y, sure)| Dot { x: Bar::exact(x), y, sure }).collect();
-    Line { id: name.clone(), name, color: n, dash: n, joined, mark: 1.0, dots }
+    Line { id: name.clone(), name, color: n, dash: n, joined, shown: true, mark: 1.0, dots }
 }
 
 /// A curve without dots.

@@ -128,6 +128,7 @@ pub(super) fn cap_solid_angle_vs_projected() -> Finding {
             color,
             dash: 0,
             joined: false,
+            shown: true,
             mark: 0.45,
             dots,
         };
