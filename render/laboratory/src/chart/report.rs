@@ -1,8 +1,9 @@
 //! Writes the report: a self-contained page of charts, tables and images, with a description of the machine.
 
-use super::Outcome;
 use super::charts::{Figure, id, with_interval};
-use super::pictures::Panel;
+use super::measure::Key;
+use super::outcome::Outcome;
+use super::pictures::{Panel, Picture};
 use super::plot::{color, dash, escape, short};
 use super::reference::KNOWN_TO;
 use super::stats::{Estimate, WIDEST};
@@ -105,7 +106,7 @@ pub fn page(
             "<h2>Warps</h2>\n<div class=\"grid\"><figure>{drawing}<figcaption>{caption}</figcaption></figure></div>\n{table}"
         );
     }
-    let used = |f: &dyn Fn(&super::measure::Key) -> usize| {
+    let used = |f: &dyn Fn(&Key) -> usize| {
         let mut list: Vec<usize> = outcome.plan.keys.iter().map(f).collect();
         list.sort_unstable();
         list.dedup();
@@ -140,7 +141,7 @@ pub fn page(
         .collect();
     let mut facts = vec![("command", command.to_owned())];
     facts.extend(outcome.facts.iter().map(|(k, v)| (*k, v.clone())));
-    let list = |f: &dyn Fn(&super::measure::Key) -> u32| {
+    let list = |f: &dyn Fn(&Key) -> u32| {
         let mut list: Vec<u32> = outcome.plan.keys.iter().map(f).collect();
         list.sort_unstable();
         list.dedup();
@@ -175,7 +176,7 @@ pub fn page(
         .iter()
         .map(|s| {
             let pictures = panels.iter().find(|p| p.scene == s.scene).map_or(&[][..], |p| &p.pictures);
-            let one = |p: &super::pictures::Picture| {
+            let one = |p: &Picture| {
                 let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(&p.png));
                 json!({ "kind": p.kind, "title": p.title, "uri": uri })
             };

@@ -2,7 +2,7 @@
 
 use super::images::ratio_text;
 use super::sheet::Svg;
-use super::{Finding, Studio};
+use super::studio::{Finding, Studio};
 use crate::chart::charts::{self, Show, with_interval};
 use crate::chart::summary::Summary;
 use crate::chart::{self, Outcome};
@@ -31,7 +31,7 @@ impl Studio<'_> {
     ) -> Result<Outcome, Box<dyn Error>> {
         let options = chart::Options {
             scenes: scenes.iter().map(|s| (*s).to_owned()).collect(),
-            output: self.options.output.join(folder),
+            output: self.output.join(folder),
             techniques,
             samplers,
             spp,
@@ -40,8 +40,8 @@ impl Studio<'_> {
             reference_error: 0.0,
             reference_spp,
             size: Some((128, 128)),
-            seed: self.options.seed,
-            threads: self.options.threads,
+            seed: self.seed,
+            threads: self.threads,
             baseline: Technique::Area,
             target: None,
             time_limit: Some(3600),
@@ -86,7 +86,7 @@ impl Studio<'_> {
                     depth: Settings::DEPTH,
                     sampler,
                     sets: 1,
-                    seed: self.options.seed,
+                    seed: self.seed,
                 };
                 let film = world.render(&settings, |_| ()).0;
                 let at = |i: usize| &film.pixels[(84 + i / 80) * 256 + 60 + i % 80];

@@ -1,8 +1,8 @@
 //! Figures of integrals with a variance in closed form.
 
-use super::Finding;
 use super::images::ratio_text;
 use super::sheet::Svg;
+use super::studio::Finding;
 use crate::chart::charts::with_interval;
 use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, Chart, Dot, Line, Scale};

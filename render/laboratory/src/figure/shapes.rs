@@ -1,7 +1,7 @@
 //! Figures of one light seen from one point.
 
-use super::Finding;
 use super::sheet::Svg;
+use super::studio::Finding;
 use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, Chart, Dot, Line, Scale, short};
 use etendue::spherical::{ProjectedCap, SphericalCap};
