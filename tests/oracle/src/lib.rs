@@ -15,7 +15,7 @@ mod quadrature;
 mod vectors;
 
 pub use closed_forms::*;
-pub use double_double::exact_sum;
+pub use double_double::{dd, exact_sum};
 pub use flat::triangle_solid_angle;
 pub use greatest::Greatest;
 pub use quadrature::{gauss_legendre, integrate};
