@@ -157,9 +157,10 @@ pub fn efficiency(summary: &Summary, show: Show) -> Option<Figure> {
 #[must_use]
 pub fn time_to_error(summary: &Summary, show: Show) -> Option<Figure> {
     let shown = show.of(summary);
-    let rows = summary.series.iter().enumerate().filter_map(|(index, s)| {
-        let (seconds, beyond) = s.seconds_to(summary.target)?;
-        Some(row(summary, index, Bar::exact(seconds), !beyond, &shown))
+    let rows = summary.series.iter().enumerate().map(|(index, s)| {
+        // unknown times come last
+        let (seconds, beyond) = s.seconds_to(summary.target).unwrap_or((f64::NAN, true));
+        row(summary, index, Bar::exact(seconds), !beyond, &shown)
     });
     let rows = sorted(rows.collect(), true);
     let least = rows.first()?.bar.value;
