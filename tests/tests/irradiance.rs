@@ -59,7 +59,7 @@ fn spheres() {
         let sigma = (f64::from(radius) / length(axis)).asin();
         let (s, _) = etendue_oracle::basis(unit(axis));
         let n = along(unit(axis).map(|x| x * f64::cos(omega)), s, f64::sin(omega));
-        let truth = projected_cap(sigma, omega);
+        let truth = projected_cap(axis, f64::from(radius), n);
         // errors are relative to the unclipped projected solid angle, so that a sliver above the horizon may err as much as a whole sphere
         let scale = PI * sigma.sin().powi(2);
         let light = Sphere { center: packet(center), radius: f32x8::splat(radius) };

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use etendue::spherical::{ProjectedCap, ProjectedSegment, ProjectedTriangle};
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, Warp, f32x8};
 use etendue_oracle::{
-    V3, above_horizon, along, basis, cross, dot, lambert, length, projected_cap_by_rings, sum_dw, unit, wide,
+    V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, length, narrow, projected_cap, unit, wide,
 };
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::Fixture;
@@ -42,9 +42,6 @@ fn estimate(normal: Vec3<f32x8>, seed: u64, sample: impl Fn(Vec2<f32x8>) -> Ligh
 fn packet(v: [f32; 3]) -> Vec3<f32x8> {
     Vec3::new(f32x8::splat(v[0]), f32x8::splat(v[1]), f32x8::splat(v[2]))
 }
-fn narrow(v: V3) -> [f32; 3] {
-    v.map(|x| x as f32)
-}
 
 #[test]
 fn spheres() {
@@ -66,7 +63,7 @@ fn spheres() {
                 let cos = etendue_oracle::dot(c, n) / length(c);
                 let inside = f64::from(radius) > length(c);
                 let sigma = if inside { PI / 2.0 } else { (f64::from(radius) / length(c)).asin() };
-                let truth = projected_cap_by_rings(sigma, if inside { 1.0 } else { cos });
+                let truth = projected_cap(c, f64::from(radius), wide(normal));
                 let light = Sphere { center: packet(center), radius: f32x8::splat(radius) };
                 let up = packet(normal);
                 let origin = packet([0.0; 3]);
@@ -113,8 +110,8 @@ fn flats() {
                 let (u, v) = if etendue_oracle::dot(facing, middle) < 0.0 { (u, v) } else { (v, u) };
                 let (s, _) = basis(middle);
                 let normal = narrow(along(middle.map(|x| x * omega.cos()), s, omega.sin()));
-                let n = sum_dw(wide(normal), &[]);
-                let corner = |edges: &[V3]| sum_dw(wide(p), edges);
+                let n = dd(wide(normal));
+                let corner = |edges: &[V3]| exact_sum(wide(p), edges);
                 let (origin, up) = (packet([0.0; 3]), packet(normal));
                 let (pu, pv) = (packet(u), packet(v));
                 let triangle = Triangle { v0: packet(p), e1: pu, e2: pv };

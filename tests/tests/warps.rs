@@ -29,7 +29,12 @@ fn all<S: Fixture>(warp: &'static str, cases: &[Case<S>], random: usize) -> Resu
     let outcomes = suite::all(cases, random);
     if std::env::args().any(|a| a == "--nocapture") {
         for (property, r) in outcomes.iter().flat_map(|o| o.regimes.iter().map(|r| (o.property, r))) {
-            println!("{property:10} {:28} {:9.3e} {}", r.name, r.figure, if r.broken > 0 { "BROKEN" } else { "" });
+            println!(
+                "{property:10} {:28} {:9.3e} {}",
+                r.name,
+                r.figure.error(),
+                if r.broken > 0 { "BROKEN" } else { "" }
+            );
         }
     }
     let mut regimes: Vec<_> = cases.iter().map(|c| c.0).collect();

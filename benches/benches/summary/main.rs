@@ -12,28 +12,16 @@
 mod instructions;
 
 use etendue::{f32x4, f32x8};
+use etendue_laboratory::cost::{self, Rounds};
 use etendue_render::bvh::Scratch;
 use etendue_routines::rays::{How, Kind, Workload};
-use etendue_routines::{Routine, SAMPLES, routines, tables};
+use etendue_routines::{SAMPLES, routines, tables};
 use std::hint::black_box;
 use std::time::Instant;
 
 const REPETITIONS: usize = 31;
-/// Calls per repetition, which then takes a few hundred microseconds.
-const CALLS: u32 = 64;
-
-fn nanoseconds(routine: &mut Routine) -> f64 {
-    let start = Instant::now();
-    for _ in 0..CALLS {
-        (routine.run)();
-    }
-    start.elapsed().as_secs_f64() * 1e9 / (f64::from(CALLS) * SAMPLES as f64)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
+/// The calls of a round take a few hundred microseconds.
+const ROUNDS: Rounds = Rounds { count: REPETITIONS, calls: 64, samples: SAMPLES };
 
 /// Prints a row; the last column is the speed-up of eight lanes over one.
 fn row(markdown: bool, name: &str, [one, four, eight]: [f64; 3]) {
@@ -75,14 +63,12 @@ fn main() {
     let [one, four, eight] = [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()];
     let widths = one.into_iter().zip(four).zip(eight);
     for ((one, four), eight) in widths.filter(|((one, _), _)| one.name.contains(&filter)) {
-        let mut each = [one, four, eight];
-        for routine in &mut each {
-            nanoseconds(routine);
-        }
-        let rounds: Vec<_> = (0..REPETITIONS).map(|_| each.each_mut().map(nanoseconds)).collect();
-        let [one, four, eight] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k]).collect()));
-        row(markdown, &each[0].name, [one, four, eight]);
-        times.insert(each[0].name.clone(), [one, four, eight]);
+        let name = one.name;
+        let mut each = [one.run, four.run, eight.run];
+        let times_of = cost::measure(&mut each, ROUNDS, |_| true);
+        let [one, four, eight] = [0, 1, 2].map(|k| cost::median(&times_of[k]));
+        row(markdown, &name, [one, four, eight]);
+        times.insert(name, [one, four, eight]);
     }
     if given("--tables") {
         return finish(tables::Measured::new(times).and_then(|measured| tables::write(&measured)));
@@ -117,7 +103,8 @@ fn rays(json: Option<&str>) {
                     })
                 })
                 .collect();
-            let [obvhs, single, groups] = [0, 1, 2].map(|k| median(rounds.iter().map(|r| r[k].0).collect()));
+            let [obvhs, single, groups] =
+                [0, 1, 2].map(|k| cost::median(&rounds.iter().map(|r| r[k].0).collect::<Vec<_>>()));
             let [obvhs_hits, _, hits] = rounds[0].map(|(_, hits)| hits);
             let hit = hits as f64 / rays as f64;
             println!("{:32} {obvhs:15.1} {single:9.1} {groups:9.1} {hit:9.3}", format!("{scene}, {name}"));

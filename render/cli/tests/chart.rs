@@ -75,6 +75,11 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
     assert_eq!(order, ["area", "solid-angle"].repeat(4));
 
     let page = folder.read("out/report.html");
+    // the first line of output and page names the series with the least error at equal time
+    let line = out.lines().next().unwrap();
+    assert!(line.starts_with("triangle-light — best: ") && line.contains(" with independent"), "{line}");
+    let head = &page[page.find("<h1").unwrap()..page.find("<nav").unwrap()];
+    assert!(head.contains(&format!("<li>{line}</li>")), "{head}");
     let outside = page.replace("http://www.w3.org/2000/svg", "");
     for word in ["http:", "https:", "@import", "url(", "<link", "{{"] {
         assert!(!outside.contains(word), "the page has {word}");
@@ -95,6 +100,7 @@ fn a_run_is_resumed_and_its_page_needs_nothing_else() {
         let svg = folder.read(&format!("out/triangle-light-{name}.svg"));
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n") && svg.contains("solid-angle"), "{name}");
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        assert_eq!(svg.matches("data-series=").count(), 2, "{name}: one series of each technique");
     }
 
     // the same command measures nothing; one more replicate adds four lines and removes an incomplete one
@@ -302,11 +308,11 @@ fn warps_are_fast_and_good() {
     assert!(measured.len() > 20);
     for m in &measured {
         let [one, _, eight] = m.nanoseconds.each_ref().map(|t| t.value);
-        println!("{:50} {one:8.2} {eight:8.2} ns, {:.1e} {:.1e}", m.name, m.point, m.density);
+        println!("{:50} {one:8.2} {eight:8.2} ns, {:.1e} {:.1e}", m.name, m.point.error(), m.density.error());
         assert!(eight > 0.0 && one > eight, "{}: {one} {eight}", m.name);
         // the map of visible normals is infinitely steep for normals on the horizon
         let limit = if m.name.starts_with("GGX") { 1e-2 } else { 4e-6 };
-        assert!((1e-9..limit).contains(&m.point) && (0.0..1e-5).contains(&m.density), "{m:?}");
+        assert!((1e-9..limit).contains(&m.point.error()) && (0.0..1e-5).contains(&m.density.error()), "{m:?}");
     }
     let csv = chart::warps::csv(&measured);
     assert_eq!(csv.lines().count(), measured.len() + 1);

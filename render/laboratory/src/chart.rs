@@ -3,6 +3,7 @@
 pub mod charts;
 pub mod machine;
 pub mod measure;
+pub mod outcome;
 pub mod pictures;
 pub mod plot;
 pub mod reference;
@@ -11,13 +12,17 @@ pub mod stats;
 pub mod summary;
 pub mod warps;
 
+use crate::hash::fnv1a;
+use crate::interrupt::interrupt;
 use crate::selftest;
+use charts::Show;
 use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::options::{name, size};
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use indicatif::{ProgressBar, ProgressStyle};
-use measure::{ChartedScene, Key, Plan, Table};
+use measure::{ChartedScene, Key, Plan, Table, inapplicable};
+pub use outcome::Outcome;
 use reference::Reference;
 use std::error::Error;
 use std::io::Write;
@@ -83,14 +88,9 @@ pub struct Options {
     pub quick: bool,
 }
 
-/// FNV-1a: unlike the standard library's hasher, the same in every version.
-pub(crate) fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
-}
-
 /// Hash of the executable: measurements of another build do not count.
 fn build() -> u64 {
-    std::env::current_exe().and_then(std::fs::read).map_or(0, |bytes| hash(&bytes))
+    std::env::current_exe().and_then(std::fs::read).map_or(0, |bytes| fnv1a(&bytes))
 }
 
 /// The requested values without duplicates, or all values if none is requested.
@@ -103,17 +103,6 @@ fn chosen<T: ValueEnum + Clone + PartialEq>(asked: &[T]) -> Vec<T> {
         }
     }
     list
-}
-
-/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image. Stratified-4d uses as many
-/// as its few sizes need.
-fn sets(sampler: Sampler) -> u32 {
-    u32::from(sampler != Sampler::Stratified4d)
-}
-
-/// Why a sampler does not support this many samples; `None` if it does.
-fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
-    sampler.check(spp, sets(sampler), lens).err()
 }
 
 /// The techniques that apply to a scene and differ from one another there, and notes on those that are left out.
@@ -185,7 +174,7 @@ fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepare
     bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(reference.picture.radiance.iter().flatten().flat_map(|x| x.to_le_bytes()));
     let lens = scene.camera.lens.is_some();
-    let subject = ChartedScene { name: name.to_owned(), world, size, lens, settings: hash(&bytes), reference };
+    let subject = ChartedScene { name: name.to_owned(), world, size, lens, settings: fnv1a(&bytes), reference };
     let (techniques, left_out) = techniques(&scene, &subject, &chosen(&options.techniques));
     notes.extend(left_out);
     Ok(Prepared { subject, techniques, notes })
@@ -197,21 +186,6 @@ fn bar(total: u64, what: &str) -> Result<ProgressBar, Box<dyn Error>> {
     Ok(ProgressBar::new(total).with_style(style).with_message(what.to_owned()))
 }
 
-/// A flag that Ctrl-C sets: measuring stops after the current image. A second Ctrl-C ends the program.
-///
-/// # Errors
-/// Fails if the signal handler cannot be installed.
-pub fn interrupt() -> Result<Arc<AtomicBool>, ctrlc::Error> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&flag);
-    ctrlc::set_handler(move || {
-        if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    })?;
-    Ok(flag)
-}
-
 /// Sets `stop` after this many seconds.
 fn alarm(stop: &Arc<AtomicBool>, seconds: Option<u64>) {
     if let Some(seconds) = seconds {
@@ -221,21 +195,6 @@ fn alarm(stop: &Arc<AtomicBool>, seconds: Option<u64>) {
             stop.store(true, Ordering::Relaxed);
         });
     }
-}
-
-/// Everything a report is made of.
-#[derive(Debug)]
-pub struct Outcome {
-    /// The planned measurements.
-    pub plan: Plan,
-    /// The finished measurements.
-    pub rows: measure::Rows,
-    /// One summary per scene.
-    pub summaries: Vec<Summary>,
-    /// Names and values of the circumstances that the measurements depend on, such as the machine.
-    pub facts: Vec<(&'static str, String)>,
-    /// Warnings and remarks for the reader.
-    pub notes: Vec<String>,
 }
 
 /// Runs and summarises the measurements.
@@ -358,9 +317,10 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     let pool = etendue_render::options::pool(options.threads)?;
     let mut figures = Vec::new();
     for summary in &outcome.summaries {
-        let mut list = vec![charts::error_over_time(summary), charts::error_over_samples(summary)];
-        list.extend(charts::efficiency(summary));
-        list.extend(charts::time_to_error(summary));
+        let mut list =
+            vec![charts::error_over_time(summary, Show::Leaders), charts::error_over_samples(summary, Show::Leaders)];
+        list.extend(charts::efficiency(summary, Show::Leaders));
+        list.extend(charts::time_to_error(summary, Show::Leaders));
         for figure in &list {
             let file = format!("{}-{}.svg", stem(&outcome.summaries, &summary.scene), figure.file);
             files::replace(&options.output.join(file), figure.drawing.file().as_bytes())?;
@@ -381,8 +341,9 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
 
     let mut out = std::io::stdout().lock();
     for summary in &outcome.summaries {
-        writeln!(out, "{}", summary.scene)?;
-        for (index, series) in summary.series.iter().enumerate() {
+        writeln!(out, "{}", summary.headline())?;
+        for &index in &summary.ranking {
+            let series = &summary.series[index];
             let gain = summary.gains.iter().find(|g| g.series == index);
             let gain = gain.map_or_else(|| "?".to_owned(), |g| plot::short(g.gain.value));
             let slope = series.slope.as_ref().map_or_else(|| "?".to_owned(), charts::with_interval);

@@ -5,16 +5,17 @@ mod images;
 mod integrals;
 mod shapes;
 mod sheet;
+mod studio;
 mod vignetting;
 
+use crate::interrupt::interrupt;
 use clap::{Args, ValueEnum};
-use etendue_render::Technique;
 use etendue_render::files;
 use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
+use studio::{Finding, Studio};
 
 /// Options of `etendue figure`.
 #[derive(Args, Clone, Debug)]
@@ -66,23 +67,6 @@ pub enum Name {
     All,
 }
 
-/// A figure and the lines of text that it illustrates.
-struct Finding {
-    svg: sheet::Svg,
-    headline: Vec<String>,
-}
-
-/// The context in which figures are drawn.
-struct Studio<'a> {
-    options: &'a Options,
-    stop: &'a Arc<AtomicBool>,
-}
-
-/// The technique of this name, if there is one.
-fn technique(name: &str) -> Option<Technique> {
-    Technique::from_str(name, false).ok()
-}
-
 impl Studio<'_> {
     fn draw(&self, name: Name) -> Result<Finding, Box<dyn Error>> {
         match name {
@@ -92,8 +76,8 @@ impl Studio<'_> {
             Name::SampleVariance => self.sample_variance(),
             Name::AreaFactors => Ok(shapes::area_factors()),
             Name::CapSolidAngleVsProjected => Ok(shapes::cap_solid_angle_vs_projected()),
-            Name::Importance => Ok(integrals::importance(self.options.seed)),
-            Name::Stratification => Ok(integrals::stratification(self.options.seed)),
+            Name::Importance => Ok(integrals::importance(self.seed)),
+            Name::Stratification => Ok(integrals::stratification(self.seed)),
             Name::QuadsConvergence => self.quads_convergence(),
             Name::Efficiency => self.efficiency(),
             Name::Padding => self.padding(),
@@ -109,14 +93,14 @@ impl Studio<'_> {
 /// # Errors
 /// Fails if a file cannot be written, or if Ctrl-C stops it.
 pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
-    let stop = crate::chart::interrupt()?;
+    let stop = interrupt()?;
     std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
     let pool = etendue_render::options::pool(options.threads)?;
     let names: Vec<Name> = match options.name {
         Name::All => Name::value_variants().iter().copied().filter(|n| *n != Name::All).collect(),
         one => vec![one],
     };
-    let studio = Studio { options, stop: &stop };
+    let studio = Studio { output: &options.output, threads: options.threads, seed: options.seed, stop: &stop };
     for name in names {
         let title = etendue_render::options::name(name);
         let finding = pool.install(|| studio.draw(name).map_err(|e| e.to_string()))?;

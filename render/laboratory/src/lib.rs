@@ -2,10 +2,14 @@
 //!
 //! - [`chart`]: error against time on scenes, as a report with charts.
 //! - [`atlas`]: greatest errors of every shape over size, elevation, distance and aspect ratio, beside textbook formulas.
+//! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`figure`]: figures about light sampling, with the numbers behind them.
 //! - [`selftest`]: images of one scene by all techniques and samplers, which must agree.
 
 pub mod atlas;
 pub mod chart;
+pub mod cost;
 pub mod figure;
+mod hash;
+mod interrupt;
 pub mod selftest;

@@ -1,5 +1,4 @@
-//! 106-bit arithmetic on pairs of f64, accurate to about 2⁻¹⁰⁴, and projected solid angles of polygons computed with it. Source: Dekker
-//! 1971; Knuth, TAOCP 2, 4.2.2.
+//! 106-bit arithmetic on pairs of f64, accurate to about 2⁻¹⁰⁴, and vectors of such numbers. Source: Dekker 1971; Knuth, TAOCP 2, 4.2.2.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -162,37 +161,10 @@ pub fn determinant(a: Dd3, b: Dd3, c: Dd3) -> Dd {
     dot(a, cross(b, c))
 }
 
-/// Clips a convex polygon to the hemisphere of `n`.
+/// `v + Σ eᵢ`, unrounded.
 #[must_use]
-pub fn above_horizon(corners: &[Dd3], n: Dd3) -> Vec<Dd3> {
-    let mut above = Vec::new();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let (ha, hb) = (dot(a, n), dot(b, n));
-        if ha.to_f64() >= 0.0 {
-            above.push(a);
-        }
-        if (ha.to_f64() < 0.0) != (hb.to_f64() < 0.0) {
-            let part = ha / (ha - hb);
-            above.push(core::array::from_fn(|k| a[k] + (b[k] - a[k]) * part));
-        }
-    }
-    above
-}
-
-/// Lambert's sum over the edges of a polygon above the horizon of `n`, accurate to 1e−13 for sizes down to 1e−8 of the distance.
-#[must_use]
-pub fn lambert(corners: &[Dd3], n: Dd3) -> f64 {
-    let mut sum = Dd::default();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let normal = cross(a, b);
-        let length = dot(normal, normal).sqrt();
-        if length.to_f64() > 0.0 {
-            sum = sum + length.atan2(dot(a, b)) * dot(normal, n) / length;
-        }
-    }
-    0.5 * (sum / dot(n, n).sqrt()).to_f64().abs()
+pub fn exact_sum(v: [f64; 3], e: &[[f64; 3]]) -> Dd3 {
+    e.iter().fold(dd(v), |sum, e| add(sum, dd(*e)))
 }
 
 #[cfg(test)]

@@ -5,43 +5,38 @@ use core::f64::consts::PI;
 use etendue::LightSample;
 use etendue::estimate::Heuristic;
 use etendue::{Disk, Vec2};
+use etendue_oracle::Greatest;
 
-/// The greatest error found so far, and where.
+/// The greatest error of a function, for comparison with its documentation.
 #[derive(Clone, Copy, Debug)]
-pub struct Greatest {
+pub struct MeasuredError {
     /// What was measured.
     pub name: &'static str,
-    /// The greatest error.
-    pub error: f64,
-    /// The arguments at which it occurs.
-    pub at: [f32; 2],
+    /// The greatest error, and the arguments at which it occurs.
+    pub greatest: Greatest<[f32; 2]>,
 }
-impl Greatest {
+impl MeasuredError {
     /// No error yet.
     #[must_use]
     pub fn of(name: &'static str) -> Self {
-        Self { name, error: 0.0, at: [0.0; 2] }
+        Self { name, greatest: Greatest::NONE }
     }
     /// Takes one more error into account.
     pub fn take(&mut self, error: f64, at: [f32; 2]) {
-        // a NaN counts as infinite
-        let error = if error.is_nan() { f64::INFINITY } else { error };
-        if error > self.error {
-            self.error = error;
-            self.at = at;
-        }
+        self.greatest.take(error, at);
     }
     /// Asserts that the error is at most `documented`, and at least nine tenths of it, so that the documentation stays tight.
     pub fn assert_below(&self, documented: f64) {
-        println!("{:40} {:.3e} at {:?}, documented {documented:.2e}", self.name, self.error, self.at);
-        assert!(self.error <= documented, "{}: {:e} at {:?}", self.name, self.error, self.at);
-        assert!(self.error >= 0.9 * documented, "{}: the figure can be tightened to {:e}", self.name, self.error);
+        let (name, error, at) = (self.name, self.greatest.error(), self.greatest.at());
+        println!("{name:40} {error:.3e} at {at:?}, documented {documented:.2e}");
+        assert!(error <= documented, "{name}: {error:e} at {at:?}");
+        assert!(error >= 0.9 * documented, "{name}: the figure can be tightened to {error:e}");
     }
 }
 
 /// Checks a two-argument arc tangent at every magnitude including the subnormal ones, on the axes, and for signed zeros.
 pub fn atan2(atan2: impl Fn(f32, f32) -> f32) {
-    let mut relative = Greatest::of("atan2, relative");
+    let mut relative = MeasuredError::of("atan2, relative");
     let mut random = Random::new(2);
     for i in 0..1 << 21 {
         let scale = random.magnitude(1e-30, 1e30);
@@ -57,7 +52,8 @@ pub fn atan2(atan2: impl Fn(f32, f32) -> f32) {
     }
     relative.assert_below(2.0e-7);
     // both arguments subnormal, at all ratios on their grid; then a subnormal angle
-    let mut steps = [Greatest::of("atan2 below 64 steps of 2⁻¹⁴⁹"), Greatest::of("atan2 of subnormal numbers")];
+    let mut steps =
+        [MeasuredError::of("atan2 below 64 steps of 2⁻¹⁴⁹"), MeasuredError::of("atan2 of subnormal numbers")];
     for (i, j, side) in (1..256_u32).flat_map(|i| (1..256).flat_map(move |j| [(i, j, 1.0), (i, j, -1.0)])) {
         let (y, x) = (f32::from_bits(i), side * f32::from_bits(j));
         let relative = f64::from(atan2(y, x)) / f64::from(y).atan2(f64::from(x)) - 1.0;

@@ -6,6 +6,7 @@ mod line;
 mod round;
 mod warps;
 
+use etendue_oracle::narrow;
 pub use flat::*;
 pub use horizon::*;
 pub use line::*;
@@ -107,10 +108,6 @@ pub fn unit_or_edge(random: &mut Random) -> f64 {
 
 /// A shape, with the name of the regime that it represents.
 pub type Case<S> = (&'static str, S);
-
-fn narrow(a: [f64; 3]) -> [f32; 3] {
-    a.map(|x| x as f32)
-}
 
 fn frame(random: &mut Random) -> [[f64; 3]; 3] {
     let n = random.direction();

@@ -6,7 +6,7 @@ use crate::tolerances::{self, SIGNIFICANCE, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
 use etendue::spherical::DirectionSample;
 use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8, f64x4};
-use etendue_oracle::{V3, cross, integrate, length, sub};
+use etendue_oracle::{Greatest, V3, cross, integrate, length, sub};
 
 /// Points of the plane or of space, one in each lane.
 pub trait Coordinates<R: Real>: Copy {
@@ -297,12 +297,13 @@ pub fn closed<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
 fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     let seen = observe::<S, R>(&S::prepare::<R>(&[*s]), squares_of(&[u]))[0];
     let known = s.tolerance().round_trip * rounding(s, ulp);
-    let mut greatest = points_agree(s, seen.point, seen.inverse, known);
+    let mut greatest = Greatest::NONE;
+    greatest.take(points_agree(s, seen.point, seen.inverse, known), ());
     let u = [f64::from(u[0]), f64::from(u[1])];
     let h = 1.0 / 4096.0;
     if u.iter().any(|u| !(1e-3..=0.999).contains(u)) || s.torn(u, h) || s.torn(seen.inverse, h) {
         // at the ends of the square, derivatives vanish or grow without bound; beside a jump, either side is right
-        return greatest / rounding(s, ulp);
+        return greatest.error() / rounding(s, ulp);
     }
     let slope = |axis: usize| {
         let (mut low, mut high) = (u, u);
@@ -316,7 +317,7 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
     let both = [(0, length(b)), (1, length(a))];
     if both.iter().any(|&(axis, across)| u[axis].min(1.0 - u[axis]) <= known * across / area) {
         // beyond the end of the square, a neighbouring triangle may begin
-        return greatest / rounding(s, ulp);
+        return greatest.error() / rounding(s, ulp);
     }
     for (axis, across) in both {
         let allowed = known * across / area;
@@ -330,11 +331,12 @@ fn closed_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], ulp: f64) -> f64 {
             "round trip: {s:?} at {u:?}: {:?}, error {error:e}, allowed {allowed:e} + {grid:e}",
             seen.inverse
         );
-        if allowed <= 0.01 {
-            greatest = greatest.max((error - grid) * area / across);
+        // without a derivative, an error in u is no error of the point
+        if allowed <= 0.01 && across > 0.0 {
+            greatest.take((error - grid) * area / across, ());
         }
     }
-    greatest / rounding(s, ulp)
+    greatest.error() / rounding(s, ulp)
 }
 
 /// **Closed** for points that did not come from `sample`: `sample(invert(w)) = w` at the point `st` of the chart.
@@ -362,7 +364,8 @@ fn points_agree<S: Fixture>(s: &S, point: V3, inverse: [f64; 2], known: f64) -> 
             s.distance(sample_at(s, u), again)
         })
         .into_iter()
-        .fold(0.0, f64::max);
+        .collect::<Greatest>()
+        .error();
     let units = s.inverse_steps();
     assert!(
         error <= known + units * step,
@@ -379,7 +382,7 @@ pub fn pdf<S: Fixture>(s: &S, u: [f32; 2], st: [f64; 2]) -> f64 {
     density_at::<S, f32>(s, u, st, ULP).max(density_at::<S, f64>(s, u, st, 1e-13))
 }
 fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -> f64 {
-    let mut greatest = 0.0_f64;
+    let mut greatest = Greatest::NONE;
     let warp = S::prepare::<R>(&[*s]);
     let chart = S::Point::<R>::gather(&[s.chart(st[0], st[1]).0]);
     for point in [warp.sample(squares_of(&[u])), chart] {
@@ -393,10 +396,10 @@ fn density_at<S: Fixture, R: Real>(s: &S, u: [f32; 2], st: [f64; 2], ulp: f64) -
             allowed / truth
         );
         if truth > 0.0 {
-            greatest = greatest.max((pdf - truth).abs() * s.tolerance().pdf / allowed);
+            greatest.take((pdf - truth).abs() * s.tolerance().pdf / allowed, ());
         }
     }
-    greatest
+    greatest.error()
 }
 
 /// The pdf is 0 outside the shape: 16 units in the last place beyond its boundary, and further away.
@@ -447,7 +450,7 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
         // up to 1 inclusive: rounding may go beyond the last step of the grid
         .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0), (u[1] + d[1]).clamp(0.0, 1.0)]));
-    let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).fold(0.0, f64::max);
+    let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).collect::<Greatest>().error();
     let excess =
         s.distance(narrow.point, wide.point) - s.tolerance().steps * step(&|o| s.distance(o.point, wide.point));
     let point = excess / rounding(s, ULP);

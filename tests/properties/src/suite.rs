@@ -2,6 +2,7 @@
 
 use crate::generators::{self, Case, Random};
 use crate::properties::{self, Fixture};
+use etendue_oracle::Greatest;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The result of one property in one regime.
@@ -9,8 +10,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 pub struct Regime {
     /// Its name, from [`generators`].
     pub name: &'static str,
-    /// Greatest figure that the property returned.
-    pub figure: f64,
+    /// Greatest figure that the property returned, and the index of its case.
+    pub figure: Greatest<usize>,
     /// Number of cases in which the property was broken.
     pub broken: usize,
     /// Message of the first of them.
@@ -29,7 +30,7 @@ impl Outcome {
     /// Greatest figure over all regimes.
     #[must_use]
     pub fn greatest(&self) -> f64 {
-        self.regimes.iter().fold(0.0, |most, r| f64::max(most, r.figure))
+        self.regimes.iter().map(|r| r.figure.error()).collect::<Greatest>().error()
     }
     /// The regimes in which the property was broken.
     pub fn broken(&self) -> impl Iterator<Item = &Regime> {
@@ -52,12 +53,12 @@ fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, 
     let mut regimes: Vec<Regime> = Vec::new();
     for (i, (name, subject)) in cases.iter().enumerate() {
         let at = regimes.iter().position(|r| r.name == *name).unwrap_or_else(|| {
-            regimes.push(Regime { name, figure: 0.0, broken: 0, first: String::new() });
+            regimes.push(Regime { name, figure: Greatest::NONE, broken: 0, first: String::new() });
             regimes.len() - 1
         });
         let entry = &mut regimes[at];
         match catch_unwind(AssertUnwindSafe(|| run(subject, i))) {
-            Ok(figure) => entry.figure = entry.figure.max(figure),
+            Ok(figure) => entry.figure.take(figure, i),
             Err(error) => {
                 if entry.broken == 0 {
                     entry.first = message(&*error);
@@ -72,7 +73,7 @@ fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, 
 /// **Within reach**, alone: also for shapes that are too ill-conditioned for the other properties.
 pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> Outcome {
     let square = generators::square(20, 2);
-    each("reach", cases, |s, _| square.iter().map(|&u| properties::within_reach(s, u)).fold(0.0, f64::max))
+    each("reach", cases, |s, _| square.iter().map(|&u| properties::within_reach(s, u)).collect::<Greatest>().error())
 }
 
 /// All properties over the cases, at the edges of the square and at `random` further points.
@@ -82,7 +83,7 @@ pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES
         let square = &square;
         move |s: &S, seed: usize| {
             let mut random = Random::new(seed as u64);
-            square.iter().map(|&u| run(s, u, &mut random)).fold(0.0, f64::max)
+            square.iter().map(|&u| run(s, u, &mut random)).collect::<Greatest>().error()
         }
     };
     // the edges of the chart are included: that is where a density falls to 0
@@ -108,7 +109,7 @@ pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES
         each("closed", cases, at(|s, u, _| properties::closed(s, u))),
         each("density", cases, |s, seed| {
             let mut random = Random::new(seed as u64);
-            square.iter().map(|&u| properties::pdf(s, u, chart(&mut random))).fold(0.0, f64::max)
+            square.iter().map(|&u| properties::pdf(s, u, chart(&mut random))).collect::<Greatest>().error()
         }),
         each("onto", cases, at(|s, _, r| properties::onto(s, [r.unit_f64(), r.unit_f64()]))),
         each("jacobian", cases, at(|s, _, r| properties::jacobian(s, [r.unit_f64(), r.unit_f64()]))),

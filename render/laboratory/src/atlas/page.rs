@@ -1,7 +1,8 @@
 //! Writes the maps, the table and the page.
 
 use super::pose::{Kind, Sweep};
-use super::{ErrorMap, Figures, LIMIT};
+use super::survey::{ErrorMap, Figures, LIMIT};
+use etendue_oracle::Greatest;
 use etendue_render::files;
 use std::error::Error;
 use std::fmt::Write as _;
@@ -256,7 +257,7 @@ pub struct Summary {
     /// Name of the technique, and whether it belongs to the library.
     pub method: (&'static str, bool),
     /// Greatest errors of direction, pdf and round trip, and greatest bias; NaN if not measured.
-    pub greatest: [f64; 4],
+    pub greatest: [Greatest; 4],
     /// Numbers of cells within the contract, of cells with an invalid sample, and of all cells.
     pub cells: [usize; 3],
     /// Numbers of cells whose bias is within the limit, and of all cells with a measured bias.
@@ -278,11 +279,10 @@ pub fn summary(charts: &[ErrorMap]) -> Vec<Summary> {
     for chart in charts {
         let method = (chart.method.name, chart.method.ours);
         let at = all.iter().position(|s| s.kind == chart.kind && s.method == method).unwrap_or_else(|| {
-            let none = [f64::NAN; 4];
             all.push(Summary {
                 kind: chart.kind,
                 method,
-                greatest: none,
+                greatest: [Greatest::NONE; 4],
                 cells: [0; 3],
                 unbiased: [0; 2],
                 cost: chart.cost,
@@ -292,7 +292,9 @@ pub fn summary(charts: &[ErrorMap]) -> Vec<Summary> {
         let entry = &mut all[at];
         for cell in &chart.cells {
             for (most, x) in entry.greatest.iter_mut().zip([cell.direction, cell.pdf, cell.round_trip, cell.bias]) {
-                *most = most.max(x);
+                if !x.is_nan() {
+                    most.take(x, ());
+                }
             }
             entry.cells[0] += usize::from(cell.meets());
             entry.cells[1] += usize::from(cell.invalid > 0.0);
@@ -316,7 +318,7 @@ pub fn table(charts: &[ErrorMap]) -> String {
         "shape", "technique", "direction", "pdf", "round trip", "bias", "within 1e-5", "unbiased", "invalid"
     );
     for s in summary(charts) {
-        let [direction, pdf, round_trip, bias] = s.greatest.map(figure);
+        let [direction, pdf, round_trip, bias] = s.greatest.map(|g| figure(g.measured()));
         let name = format!("{}{}", if s.method.1 { "" } else { "textbook: " }, s.method.0);
         let part = |n: usize| format!("{:.1} %", 100.0 * n as f64 / s.cells[2] as f64);
         let (within, unbiased, invalid) = (part(s.cells[0]), s.unbiased_part(), part(s.cells[1]));
@@ -362,7 +364,8 @@ fn html(charts: &[ErrorMap], sheets: &[(Kind, Sweep, String)], quick: bool) -> S
         let cells: String = s
             .greatest
             .iter()
-            .map(|&x| {
+            .map(|greatest| {
+                let x = greatest.measured();
                 let colour = if x.is_nan() { "#fff".into() } else { blend(&ERRORS, x.max(1e-9).log10()) };
                 let ink = if x > 3e-3 { "#fff" } else { "#000" };
                 format!(r#"<td style="background:{colour};color:{ink}">{}</td>"#, figure(x))

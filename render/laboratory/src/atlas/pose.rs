@@ -1,27 +1,7 @@
 //! Poses of shapes, and the sweeps over them, with lengths that are exact in f32.
 
 use clap::ValueEnum;
-
-/// A vector in f64.
-pub type V3 = [f64; 3];
-
-/// Converts f32 to f64.
-#[must_use]
-pub fn wide(a: [f32; 3]) -> V3 {
-    a.map(f64::from)
-}
-/// Normalizes a vector; 0 stays 0.
-#[must_use]
-pub fn unit(a: V3) -> V3 {
-    let l = a[0].hypot(a[1]).hypot(a[2]);
-    if l > 0.0 { a.map(|x| x / l) } else { a }
-}
-fn narrow(a: V3) -> [f32; 3] {
-    a.map(|x| x as f32)
-}
-fn cross(a: V3, b: V3) -> V3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
+use etendue_oracle::{V3, cross, length as norm, narrow, unit};
 
 /// A kind of shape and the measure by which it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -420,7 +400,7 @@ impl Sweep {
             narrow(towards)
         };
         let edge = |k: usize, size: f64| {
-            let l = axes[k][0].hypot(axes[k][1]).hypot(axes[k][2]);
+            let l = norm(axes[k]);
             axes[k].map(|x| x * coarse(size / l))
         };
         let shape = match kind {

@@ -1,6 +1,6 @@
 //! Baselines: formulas from textbooks and papers in f32, as they are usually implemented. They only serve to show where they fail.
 
-use super::methods::{Draw, Sample};
+use super::sample::{Draw, Sample};
 use core::f32::consts::{FRAC_PI_2, PI, TAU};
 
 type V = [f32; 3];

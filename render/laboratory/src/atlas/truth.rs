@@ -1,51 +1,15 @@
-//! Exact results for a shape seen from a point: solid angles, pdfs and the maps themselves in 106 bits. Nothing here calls the code under
+//! Exact results for a shape seen from a point, by the oracle: solid angles, pdfs and the maps themselves. Nothing here calls the code under
 //! test, except for the directions of projected shapes (see [`Truth::direction`]).
 
-use super::curves::{Arc, Ellipse};
-use super::flat::{Fan, Window};
-use super::pose::{Kind, Pose, Shape, V3, unit, wide};
+use super::pose::{Kind, Pose, Shape};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use etendue::spherical::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
 use etendue::warp::ConcentricDisk;
 use etendue::{Frame, Vec2, Vec3, Warp};
-use etendue_oracle::double_double::{
-    Dd, Dd3, above_horizon, add, cross, dd, dot, lambert, length, narrow, normalized, times,
-};
-
-/// 1−cosσ of a sphere, or 2 from inside.
-#[must_use]
-pub fn cap(center: V3, radius: f64) -> f64 {
-    let (c, r) = (dd(center), Dd::from(radius));
-    let squared = dot(c, c);
-    let power = squared - r * r;
-    if power.to_f64() < 0.0 {
-        return 2.0;
-    }
-    let cos = (power / squared).sqrt();
-    (r * r / squared / (Dd::from(1.0) + cos)).to_f64()
-}
-
-/// Projected solid angle of a sphere above the horizon of `normal`, in closed form, or π from inside.
-#[must_use]
-pub fn projected_cap(center: V3, radius: f64, normal: V3) -> f64 {
-    let (c, r, n) = (dd(center), Dd::from(radius), dd(normal));
-    let squared = dot(c, c);
-    let power = squared - r * r;
-    if power.to_f64() < 0.0 {
-        return PI;
-    }
-    let (sin, cos) = (r / squared.sqrt(), (power / squared).sqrt());
-    let height = dot(c, n) / (squared * dot(n, n)).sqrt();
-    if (height - sin).to_f64() >= 0.0 {
-        return PI * (sin * sin * height).to_f64();
-    }
-    if (height + sin).to_f64() <= 0.0 {
-        return 0.0;
-    }
-    let y = ((sin - height) * (sin + height)).sqrt();
-    // for a thin lune, this is a small difference of three terms
-    (y.atan2(cos) + sin * sin * height * y.atan2(-(cos * height)) - y * cos).to_f64()
-}
+use etendue_oracle::curves::{Arc, Ellipse};
+use etendue_oracle::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
+use etendue_oracle::flat::{Fan, Window};
+use etendue_oracle::{V3, above_horizon, cap, lambert, projected_cap, unit, wide};
 
 #[derive(Clone, Debug)]
 enum Map {
@@ -92,8 +56,8 @@ impl Truth {
         let (map, measure, extent) = match &pose.shape {
             Shape::Sphere { center, radius } => {
                 let (c, r) = (wide(*center), f64::from(*radius));
-                let h = if r > 0.0 { cap(c, r) } else { 0.0 };
-                let sigma = if h >= 2.0 { FRAC_PI_2 } else { (h * (2.0 - h)).sqrt().atan2(1.0 - h) };
+                let (h, sigma) = cap(c, r);
+                let sigma = sigma.min(FRAC_PI_2);
                 if projected {
                     let body = ProjectedCap::new(vector(c), r, vector(wide(pose.normal)));
                     (Map::Lune(Box::new(body)), projected_cap(c, r, wide(pose.normal)), 2.0 * sigma)
@@ -104,7 +68,10 @@ impl Truth {
                 }
             }
             Shape::Disk { center, normal, radius } => {
-                let ellipse = Ellipse::new(wide(*center), wide(*normal), f64::from(*radius));
+                let ellipse = Ellipse::new(wide(*center), wide(*normal), f64::from(*radius), |axis| {
+                    let t = Frame::new(vector(axis)).t;
+                    [t.x, t.y, t.z]
+                });
                 let (measure, extent) = (ellipse.solid_angle(), 2.0 * ellipse.sines[1].min(1.0).asin());
                 (Map::Disk(Box::new(ellipse)), measure, extent)
             }

@@ -1,6 +1,6 @@
 //! Draws the charts of a scene.
 
-use super::plot::{Bar, Bars, Chart, Dot, Drawing, Line, Scale, short};
+use super::plot::{Bar, BarRow, Bars, Chart, Dot, Drawing, Line, Scale, short};
 use super::stats::Estimate;
 use super::summary::{Point, Series, Summary};
 
@@ -13,6 +13,26 @@ pub struct Figure {
     pub drawing: Drawing,
     /// Caption for a page.
     pub caption: String,
+}
+
+/// Which series are shown, until the reader of a page chooses otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Show {
+    /// The best sampler of each technique.
+    Leaders,
+    /// All series.
+    All,
+}
+
+impl Show {
+    /// Indices of the series shown.
+    #[must_use]
+    pub fn of(self, summary: &Summary) -> Vec<usize> {
+        match self {
+            Self::Leaders => summary.leaders(),
+            Self::All => (0..summary.series.len()).collect(),
+        }
+    }
 }
 
 /// Formats a value ± half of its interval.
@@ -33,31 +53,34 @@ pub fn id(series: &Series) -> String {
 
 fn lines(
     summary: &Summary,
+    show: Show,
     name: impl Fn(&Series) -> String,
     x: impl Fn(&Point) -> Bar,
     sure: impl Fn(&Point) -> bool,
 ) -> Vec<Line> {
-    let line = |series: &Series| Line {
+    let shown = show.of(summary);
+    let line = |(index, series): (usize, &Series)| Line {
         id: id(series),
         name: name(series),
         color: series.way.technique as usize,
         dash: series.way.sampler as usize,
         joined: true,
+        shown: shown.contains(&index),
         mark: 1.0,
         dots: series.points.iter().map(|p| Dot { x: x(p), y: p.mse.into(), sure: sure(p) }).collect(),
     };
-    summary.series.iter().map(line).collect()
+    summary.series.iter().enumerate().map(line).collect()
 }
 
 /// Draws error against time.
 #[must_use]
-pub fn error_over_time(summary: &Summary) -> Figure {
+pub fn error_over_time(summary: &Summary, show: Show) -> Figure {
     let chart = Chart {
         title: format!("{}: error against time", summary.scene),
         x_label: "seconds per image".to_owned(),
         y_label: "mean squared error".to_owned(),
         scales: [Scale::Log, Scale::Log],
-        lines: lines(summary, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
+        lines: lines(summary, show, |s| s.way.title(), |p| p.seconds.into(), Point::is_sure),
         guides: vec![-1.0, -1.5],
         equal: false,
     };
@@ -70,7 +93,7 @@ pub fn error_over_time(summary: &Summary) -> Figure {
 
 /// Draws error against samples per pixel, with slopes.
 #[must_use]
-pub fn error_over_samples(summary: &Summary) -> Figure {
+pub fn error_over_samples(summary: &Summary, show: Show) -> Figure {
     let name = |s: &Series| match &s.slope {
         Some(slope) => format!("{} {}", s.way.title(), with_interval(slope).replace('-', "−")),
         None => format!("{} slope ?", s.way.title()),
@@ -80,7 +103,7 @@ pub fn error_over_samples(summary: &Summary) -> Figure {
         x_label: "samples per pixel".to_owned(),
         y_label: "mean squared error".to_owned(),
         scales: [Scale::Binary, Scale::Log],
-        lines: lines(summary, name, |p| Bar::exact(f64::from(p.spp)), |p| p.mse.is_sure()),
+        lines: lines(summary, show, name, |p| Bar::exact(f64::from(p.spp)), |p| p.mse.is_sure()),
         guides: vec![-1.0, -1.5],
         equal: false,
     };
@@ -89,22 +112,37 @@ pub fn error_over_samples(summary: &Summary) -> Figure {
     Figure { file: "error-samples", drawing: chart.draw(), caption }
 }
 
-/// Draws efficiency relative to the baseline; `None` if there is none.
+/// A row for each series with its value, the best first: the greatest, or if `least_first` the least.
+fn sorted(mut rows: Vec<BarRow>, least_first: bool) -> Vec<BarRow> {
+    rows.sort_by(|a, b| b.bar.value.total_cmp(&a.bar.value));
+    if least_first {
+        rows.reverse();
+    }
+    rows
+}
+
+fn row(summary: &Summary, index: usize, bar: Bar, sure: bool, shown: &[usize]) -> BarRow {
+    let series = &summary.series[index];
+    let (color, shown) = (series.way.technique as usize, shown.contains(&index));
+    BarRow { id: id(series), name: series.way.title(), color, bar, sure, shown }
+}
+
+/// Draws efficiency relative to the baseline, the greatest first; `None` if there is no baseline.
 #[must_use]
-pub fn efficiency(summary: &Summary) -> Option<Figure> {
+pub fn efficiency(summary: &Summary, show: Show) -> Option<Figure> {
     let baseline = &summary.series[summary.baseline?];
+    let shown = show.of(summary);
     let rows = summary.gains.iter().map(|g| {
-        let series = &summary.series[g.series];
         // the interval is that of a logarithm
         let factor = 1.0 + g.gain.half / g.gain.value;
         let bar = Bar { value: g.gain.value, low: g.gain.value / factor, high: g.gain.value * factor };
         let sure = g.gain.is_sure() || g.series == summary.baseline.unwrap_or(usize::MAX);
-        (id(series), series.way.title(), series.way.technique as usize, bar, sure)
+        row(summary, g.series, bar, sure, &shown)
     });
     let bars = Bars {
         title: format!("{}: efficiency at {} samples per pixel", summary.scene, summary.spp),
         label: format!("1/(error × time), relative to {}", baseline.way.title()),
-        rows: rows.collect(),
+        rows: sorted(rows.collect(), false),
         origin: 1.0,
         unit: "×".to_owned(),
     };
@@ -115,18 +153,17 @@ pub fn efficiency(summary: &Summary) -> Option<Figure> {
     Some(Figure { file: "efficiency", drawing: bars.draw(), caption })
 }
 
-/// Draws the seconds each series takes to reach the target error; `None` if no series reaches it.
+/// Draws the seconds each series takes to reach the target error, the least first; `None` if no series reaches it.
 #[must_use]
-pub fn time_to_error(summary: &Summary) -> Option<Figure> {
-    let rows: Vec<_> = summary
-        .series
-        .iter()
-        .filter_map(|s| {
-            let (seconds, beyond) = s.seconds_to(summary.target)?;
-            Some((id(s), s.way.title(), s.way.technique as usize, Bar::exact(seconds), !beyond))
-        })
-        .collect();
-    let least = rows.iter().map(|r| r.3.value).fold(f64::INFINITY, f64::min);
+pub fn time_to_error(summary: &Summary, show: Show) -> Option<Figure> {
+    let shown = show.of(summary);
+    let rows = summary.series.iter().enumerate().map(|(index, s)| {
+        // unknown times come last
+        let (seconds, beyond) = s.seconds_to(summary.target).unwrap_or((f64::NAN, true));
+        row(summary, index, Bar::exact(seconds), !beyond, &shown)
+    });
+    let rows = sorted(rows.collect(), true);
+    let least = rows.first()?.bar.value;
     if !least.is_finite() || summary.target <= 0.0 {
         return None;
     }

@@ -1,8 +1,8 @@
 //! Measures error and time of every scene × technique × sampler × sample count, in interleaved replicates.
 
-use super::hash;
 use super::reference::Reference;
 use super::stats::Cost;
+use crate::hash::fnv1a;
 use etendue_render::options::name;
 use etendue_render::{Sampler, Settings, Technique, World};
 use std::collections::{HashMap, HashSet};
@@ -105,6 +105,17 @@ const HEADER: [&str; 17] = [
 const SECONDS: f64 = 0.02;
 const REPEATS: u32 = 15;
 
+/// Sets per pixel: one, which has the least error, since the error comes from replicates of the image. Stratified-4d uses as many
+/// as its few sizes need.
+pub(crate) fn sets(sampler: Sampler) -> u32 {
+    u32::from(sampler != Sampler::Stratified4d)
+}
+
+/// Why a sampler does not support this many samples; `None` if it does.
+pub(crate) fn inapplicable(sampler: Sampler, spp: u32, lens: bool) -> Option<String> {
+    sampler.check(spp, sets(sampler), lens).err()
+}
+
 /// The planned measurements.
 #[derive(Debug)]
 pub struct Plan {
@@ -123,7 +134,7 @@ impl Plan {
     fn seed(&self, key: &Key, replicate: u32) -> u64 {
         let subject = &self.scenes[key.scene].name;
         let text = format!("{subject}/{}/{}/{}/{replicate}", name(key.technique), name(key.sampler), key.spp);
-        self.seed.wrapping_add(hash(text.as_bytes()))
+        self.seed.wrapping_add(fnv1a(text.as_bytes()))
     }
     /// Number of samples in all images that are not yet measured.
     #[must_use]
@@ -179,7 +190,7 @@ impl Plan {
             technique: key.technique,
             depth: Settings::DEPTH,
             sampler: key.sampler,
-            sets: super::sets(key.sampler),
+            sets: sets(key.sampler),
             seed,
         };
         let begin = Instant::now();

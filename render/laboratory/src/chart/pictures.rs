@@ -1,9 +1,10 @@
 //! Images for comparison: what each technique renders with few samples, its error and its variance per pixel.
 
-use super::Outcome;
-use super::measure::Plan;
+use super::measure::{Plan, inapplicable, sets};
+use super::outcome::Outcome;
 use super::plot::short;
 use super::summary::{Summary, Way};
+use crate::hash::fnv1a;
 use etendue_render::options::name;
 use etendue_render::{Settings, image};
 
@@ -89,18 +90,10 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
     let images: Vec<Vec<[f32; 3]>> = (0..u64::from(REPLICATES))
         .map(|k| {
             let text = format!("{}/{}/{}/{spp}/picture/{k}", subject.name, name(way.technique), name(way.sampler));
-            let seed = plan.seed.wrapping_add(super::hash(text.as_bytes()));
+            let seed = plan.seed.wrapping_add(fnv1a(text.as_bytes()));
             let (technique, sampler) = (way.technique, way.sampler);
-            let settings = Settings {
-                width,
-                height,
-                spp,
-                technique,
-                depth: Settings::DEPTH,
-                sampler,
-                sets: super::sets(sampler),
-                seed,
-            };
+            let settings =
+                Settings { width, height, spp, technique, depth: Settings::DEPTH, sampler, sets: sets(sampler), seed };
             let film = subject.world.render(&settings, |_| ()).0;
             if k == 0 {
                 samples = film.pixels.iter().map(|p| p.samples).collect();
@@ -140,7 +133,7 @@ pub fn panel(outcome: &Outcome, summary: &Summary) -> Panel {
         .series
         .iter()
         .filter(|s| Some(s.way.sampler) == baseline || Some(s.way.technique) == best)
-        .filter(|s| super::inapplicable(s.way.sampler, spp, subject.lens).is_none())
+        .filter(|s| inapplicable(s.way.sampler, spp, subject.lens).is_none())
         .map(|s| (s.way, spread(plan, scene, s.way, spp)))
         .collect();
     // one scale for all techniques and samplers

@@ -1,8 +1,9 @@
 //! Writes the report: a self-contained page of charts, tables and images, with a description of the machine.
 
-use super::Outcome;
 use super::charts::{Figure, id, with_interval};
-use super::pictures::Panel;
+use super::measure::Key;
+use super::outcome::Outcome;
+use super::pictures::{Panel, Picture};
 use super::plot::{color, dash, escape, short};
 use super::reference::KNOWN_TO;
 use super::stats::{Estimate, WIDEST};
@@ -31,7 +32,9 @@ fn table(summary: &Summary) -> String {
         escape(&base),
         short(summary.target)
     );
-    for (index, series) in summary.series.iter().enumerate() {
+    let leaders = summary.leaders();
+    for &index in &summary.ranking {
+        let series = &summary.series[index];
         let unknown = || "?".to_owned();
         let slope = |s: &Option<Estimate>| s.as_ref().map_or_else(unknown, |s| with_interval(s).replace('-', "−"));
         let point = series.at(summary.spp);
@@ -43,9 +46,10 @@ fn table(summary: &Summary) -> String {
             series.points.iter().map(|p| p.bias).filter(|b| !b.is_nan()).max_by(|a, b| a.abs().total_cmp(&b.abs()));
         let _ = writeln!(
             text,
-            "<tr data-series=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td><td>{seconds}</td>\
+            "<tr data-series=\"{}\"{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td><td>{seconds}</td>\
              <td>{}</td></tr>",
             escape(&id(series)),
+            if leaders.contains(&index) { " data-best=\"\"" } else { " class=\"off\"" },
             escape(&series.way.title()),
             slope(&series.slope),
             slope(&series.slope_in_time),
@@ -82,7 +86,8 @@ pub fn page(
 ) -> String {
     let mut scenes = String::new();
     for (index, summary) in outcome.summaries.iter().enumerate() {
-        let _ = writeln!(scenes, "<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
+        let _ =
+            writeln!(scenes, "<section class=\"scene\">\n<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
         for figure in &figures[index] {
             let caption = escape(&figure.caption);
             let _ = writeln!(scenes, "<figure>{}<figcaption>{caption}</figcaption></figure>", figure.drawing.inline());
@@ -92,6 +97,7 @@ pub fn page(
         if let Some(panel) = panels.iter().find(|p| p.scene == summary.scene) {
             scenes += &viewer(index, panel);
         }
+        scenes += "</section>\n";
     }
     if let Some((figure, table)) = warps {
         let (drawing, caption) = (figure.drawing.file(), escape(&figure.caption));
@@ -100,14 +106,17 @@ pub fn page(
             "<h2>Warps</h2>\n<div class=\"grid\"><figure>{drawing}<figcaption>{caption}</figcaption></figure></div>\n{table}"
         );
     }
-    let used = |f: &dyn Fn(&super::measure::Key) -> usize| {
+    let used = |f: &dyn Fn(&Key) -> usize| {
         let mut list: Vec<usize> = outcome.plan.keys.iter().map(f).collect();
         list.sort_unstable();
         list.dedup();
         list
     };
-    let chip = |value: &str, sample: String| {
-        format!("<button class=\"chip\" aria-pressed=\"true\" data-value=\"{0}\">{sample}{0}</button>", escape(value))
+    let chip = |value: &str, pressed: bool, sample: String| {
+        format!(
+            "<button class=\"chip\" aria-pressed=\"{pressed}\" data-value=\"{0}\">{sample}{0}</button>",
+            escape(value)
+        )
     };
     let variants = <Technique as clap::ValueEnum>::value_variants();
     let techniques: String = used(&|k| k.technique as usize)
@@ -115,7 +124,7 @@ pub fn page(
         .filter_map(|n| Some((n, variants.iter().find(|t| **t as usize == n)?)))
         .map(|(n, technique)| {
             let [r, g, b] = color(n);
-            chip(&name(*technique), format!("<i style=\"background:rgb({r},{g},{b})\"></i>"))
+            chip(&name(*technique), true, format!("<i style=\"background:rgb({r},{g},{b})\"></i>"))
         })
         .collect();
     let variants = <Sampler as clap::ValueEnum>::value_variants();
@@ -127,12 +136,12 @@ pub fn page(
             let sample = format!(
                 "<svg viewBox=\"0 0 26 8\"><path d=\"M0 4H26\" stroke=\"#333\" stroke-width=\"2\"{dashes}/></svg>"
             );
-            chip(&name(*sampler), sample)
+            chip(&name(*sampler), false, sample)
         })
         .collect();
     let mut facts = vec![("command", command.to_owned())];
     facts.extend(outcome.facts.iter().map(|(k, v)| (*k, v.clone())));
-    let list = |f: &dyn Fn(&super::measure::Key) -> u32| {
+    let list = |f: &dyn Fn(&Key) -> u32| {
         let mut list: Vec<u32> = outcome.plan.keys.iter().map(f).collect();
         list.sort_unstable();
         list.dedup();
@@ -167,7 +176,7 @@ pub fn page(
         .iter()
         .map(|s| {
             let pictures = panels.iter().find(|p| p.scene == s.scene).map_or(&[][..], |p| &p.pictures);
-            let one = |p: &super::pictures::Picture| {
+            let one = |p: &Picture| {
                 let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(&p.png));
                 json!({ "kind": p.kind, "title": p.title, "uri": uri })
             };
@@ -176,11 +185,13 @@ pub fn page(
         .collect();
     // "</" could end the script
     let data = json!(data).to_string().replace("</", "<\\/");
+    let best: String = outcome.summaries.iter().map(|s| format!("<li>{}</li>\n", escape(&s.headline()))).collect();
     let notes: String = outcome.notes.iter().map(|n| format!("<p>{}</p>\n", escape(n))).collect();
     // the data last, so that placeholders are not searched for in it
     include_str!("report.html")
         .replace("{{known}}", &format!("{:.0}", 100.0 * KNOWN_TO))
         .replace("{{widest}}", &format!("{:.0}", 100.0 * WIDEST))
+        .replace("{{best}}", &best)
         .replace("{{notes}}", &notes)
         .replace("{{techniques}}", &techniques)
         .replace("{{samplers}}", &samplers)

@@ -126,6 +126,21 @@ pub fn reach(points: &[(f64, f64)], y: f64) -> Option<(f64, bool)> {
     cross(end[0], end[1]).map(|x| (x, true))
 }
 
+/// The y at `x` of a polyline through points (x, y), in logarithms. Beyond its ends, y falls as 1/x. `None` without a positive point.
+#[must_use]
+pub fn level(points: &[(f64, f64)], x: f64) -> Option<f64> {
+    let mut points: Vec<_> = points.iter().copied().filter(|p| p.0 > 0.0 && p.1 > 0.0).collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (first, last) = (points.first()?, points.last()?);
+    for (end, beyond) in [(first, x <= first.0), (last, x >= last.0)] {
+        if beyond {
+            return Some(end.1 * end.0 / x);
+        }
+    }
+    let [a, b] = points.windows(2).find(|p| x < p[1].0).and_then(|p| <[_; 2]>::try_from(p).ok())?;
+    Some(a.1 * (b.1 / a.1).powf((x / a.0).ln() / (b.0 / a.0).ln()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -207,5 +222,10 @@ mod tests {
         assert_eq!(reach(&line[..1], 0.5), None);
         assert_eq!(reach(&[(1.0, 1.0), (2.0, 1.0)], 0.5), None);
         assert_eq!(reach(&[(1.0, 1.0), (2.0, -1.0)], 0.5), None);
+        // the same line at a place
+        for (x, y) in [(0.5, 2.0), (1.0, 1.0), (2.0, 0.5), (4.0, 0.5_f64.powf(1.5)), (8.0, 0.25), (16.0, 0.125)] {
+            assert!((level(&line, x).unwrap() / y - 1.0).abs() < 1e-12, "{x}");
+        }
+        assert_eq!(level(&[(1.0, -1.0)], 2.0), None);
     }
 }

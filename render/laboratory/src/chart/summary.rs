@@ -1,6 +1,7 @@
 //! Summarises measurements for the charts.
 
 use super::measure::{Key, Plan, Row, Rows};
+use super::plot::short;
 use super::reference::KNOWN_TO;
 use super::stats::{self, Cost, Estimate};
 use etendue_render::options::name;
@@ -16,6 +17,10 @@ pub struct Way {
 }
 
 impl Way {
+    /// Technique and sampler in a sentence, such as `area with stratified`.
+    fn phrase(&self) -> String {
+        format!("{} with {}", name(self.technique), name(self.sampler))
+    }
     /// Name of technique and sampler, such as `area, stratified`.
     #[must_use]
     pub fn title(&self) -> String {
@@ -93,6 +98,15 @@ impl Series {
         let (seconds, beyond) = stats::reach(&points, mse)?;
         Some((seconds, beyond || known().any(|p| !p.seconds.is_sure())))
     }
+    /// Squared error that an image of this many seconds has, from the points with narrow intervals or, if there are none, from all.
+    #[must_use]
+    pub fn error_in(&self, seconds: f64) -> Option<f64> {
+        let of = |sure: bool| {
+            let points: Vec<_> = self.points.iter().filter(|p| !sure || p.is_sure()).collect();
+            stats::level(&points.iter().map(|p| (p.seconds.value, p.mse.value)).collect::<Vec<_>>(), seconds)
+        };
+        of(true).or_else(|| of(false))
+    }
     /// The point at this number of samples per pixel.
     #[must_use]
     pub fn at(&self, spp: u32) -> Option<&Point> {
@@ -114,7 +128,7 @@ pub struct Gain {
 pub struct Summary {
     /// Scene name as given by the user.
     pub scene: String,
-    /// Lines of the scene's charts.
+    /// Lines of the scene's charts, in the order of `etendue list`.
     pub series: Vec<Series>,
     /// Index of the baseline series.
     pub baseline: Option<usize>,
@@ -124,6 +138,10 @@ pub struct Summary {
     pub gains: Vec<Gain>,
     /// The mean squared error to reach.
     pub target: f64,
+    /// Seconds per image at which errors are compared: the shortest time of a series at `spp`.
+    pub seconds: f64,
+    /// Indices of the series by their error after `seconds`, the least first; series without a positive error come last.
+    pub ranking: Vec<usize>,
 }
 
 impl Summary {
@@ -178,6 +196,56 @@ impl Summary {
             errors.fold(f64::INFINITY, f64::min)
         });
         let scene = plan.scenes[scene].name.clone();
-        Self { scene, series, baseline, spp, gains, target: target.unwrap_or(middle) }
+        let at_spp = || series.iter().filter_map(|s| s.at(spp));
+        let seconds = at_spp().map(|p| p.seconds.value).fold(f64::INFINITY, f64::min);
+        let errors: Vec<f64> = series.iter().map(|s| s.error_in(seconds).unwrap_or(f64::INFINITY)).collect();
+        let mut ranking: Vec<usize> = (0..series.len()).collect();
+        ranking.sort_by(|a, b| errors[*a].total_cmp(&errors[*b]));
+        Self { scene, series, baseline, spp, gains, target: target.unwrap_or(middle), seconds, ranking }
+    }
+
+    /// The best series of each technique, the least error first.
+    #[must_use]
+    pub fn leaders(&self) -> Vec<usize> {
+        let mut techniques = Vec::new();
+        let first = |index: &usize| {
+            let technique = self.series[*index].way.technique;
+            let fresh = !techniques.contains(&technique);
+            techniques.push(technique);
+            fresh
+        };
+        self.ranking.iter().copied().filter(first).collect()
+    }
+
+    /// One line: which series has the least error at equal time, and what it gains over independent samples of the same technique. If
+    /// that is the best itself, or was not measured, the baseline takes its place, and then the next best.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        let error = |index: usize| self.series[index].error_in(self.seconds);
+        let Some((best, least)) = self.ranking.first().and_then(|&best| Some((best, error(best)?))) else {
+            return format!("{} — no error is large enough to be measured", self.scene);
+        };
+        let way = self.series[best].way;
+        let independent = Way { sampler: Sampler::Independent, ..way };
+        let plain = self.series.iter().position(|s| s.way == independent);
+        let others = [plain, self.baseline, self.ranking.get(1).copied()];
+        let other =
+            others.into_iter().flatten().find_map(|other| Some((other, error(other).filter(|_| other != best)?)));
+        let mut line = format!("{} — best: {}", self.scene, way.phrase());
+        if let Some((other, more)) = other {
+            let (factor, other_way) = (short(more / least), self.series[other].way);
+            line += &if other_way.sampler == Sampler::Independent {
+                // whose error falls as 1/time
+                format!(", which reaches the same error in 1/{factor} of the time of {}", other_way.phrase())
+            } else {
+                format!(", whose error is 1/{factor} of that of {} at equal time", other_way.phrase())
+            };
+            line += &format!(" ({} s per image)", short(self.seconds));
+            let sure = |index: usize| self.series[index].points.iter().any(Point::is_sure);
+            if !sure(best) || !sure(other) {
+                line += "; uncertain, because the intervals are wide";
+            }
+        }
+        line
     }
 }

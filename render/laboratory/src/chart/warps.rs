@@ -1,8 +1,9 @@
 //! Measures each warp on its own: time per sample at each width, and the greatest error in single precision.
 
 use super::charts::Figure;
-use super::plot::{Bar, Chart, Dot, Line, Scale, escape, short};
+use super::plot::{Bar, Chart, Dot, Line, PALETTE, Scale, escape, short};
 use super::stats::Estimate;
+use crate::cost::{self, Rounds};
 use etendue::sequence::{Independent, Sequence};
 use etendue::spherical::{ProjectedCap, SphericalCap, SphericalParallelogram, SphericalRectangle, SphericalTriangle};
 use etendue::warp::{
@@ -10,10 +11,10 @@ use etendue::warp::{
     PolarDisk, UniformHemisphere, UniformSphere, Warp,
 };
 use etendue::{Real, Uint, Vec2, Vec3, f32x4, f32x8};
+use etendue_oracle::{Greatest, length, sub};
 use std::fmt::Write;
 use std::hint::black_box;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
 
 /// Samples in a batch, whose `u` and points fit into the L1 cache.
 const SAMPLES: usize = 1024;
@@ -31,10 +32,10 @@ pub struct Measured {
     pub name: String,
     /// Nanoseconds per sample with f32, f32x4 and f32x8: means over medians of groups of rounds.
     pub nanoseconds: [Estimate; 3],
-    /// Greatest distance of a point or unit direction in f32 from that of the f64 instance.
-    pub point: f64,
-    /// Greatest relative error of a pdf in f32, compared with the f64 instance.
-    pub density: f64,
+    /// Greatest distance of a point or unit direction in f32 from that of the f64 instance, and its `u`.
+    pub point: Greatest<[f64; 2]>,
+    /// Greatest relative error of a pdf in f32, compared with the f64 instance, and its `u`.
+    pub density: Greatest<[f64; 2]>,
 }
 
 /// Conversion between points and numbers.
@@ -67,55 +68,53 @@ fn square<R: Real>(first: u32) -> Vec2<R> {
 }
 
 /// Greatest errors of a point and of a pdf.
-fn errors<W, V>(single: &W, double: &V) -> [f64; 2]
+type Errors = [Greatest<[f64; 2]>; 2];
+
+fn errors<W, V>(single: &W, double: &V) -> Errors
 where
     W: Warp<f32x8>,
     V: Warp<f64>,
     W::Point: Coordinates<f32x8> + Copy,
     V::Point: Coordinates<f64> + Copy,
 {
-    let [mut point, mut density] = [0.0_f64; 2];
+    let [mut point, mut density] = [Greatest::NONE; 2];
     for first in (0..PLACES).step_by(8) {
         let u = square::<f32x8>(first);
         let found = single.sample(u);
         let pdf = single.pdf(found);
         for lane in 0..8 {
-            let truth = double.sample(Vec2::new(u.x.lane_f64(lane), u.y.lane_f64(lane))).numbers(0);
+            let u = [u.x.lane_f64(lane), u.y.lane_f64(lane)];
+            let truth = double.sample(Vec2::new(u[0], u[1])).numbers(0);
             let at = found.numbers(lane);
-            let off = (0..3).map(|k| (at[k] - truth[k]).powi(2)).sum::<f64>().sqrt();
-            point = point.max(off);
+            point.take(length(sub(at, truth)), u);
             // the pdf at the rounded point itself, unless that is outside the shape
             let known = double.pdf(V::Point::of(at));
             if known > 0.0 {
-                density = density.max((pdf.lane_f64(lane) / known - 1.0).abs());
+                density.take((pdf.lane_f64(lane) / known - 1.0).abs(), u);
             }
         }
     }
     [point, density]
 }
 
-/// A function that times a batch and returns nanoseconds per sample.
-type Routine = Box<dyn FnMut() -> f64>;
+/// Draws [`SAMPLES`] samples.
+type Routine = Box<dyn FnMut()>;
 
 fn routine<R: Real + 'static, T>(sample: impl Fn(Vec2<R>) -> T + 'static) -> Routine {
     let squares: Vec<Vec2<R>> = (0..SAMPLES / R::LANES)
         .map(|k| Independent::new(1).pair(R::Uint::splat(0), R::Uint::from_fn(|lane| (k * R::LANES + lane) as u32), 0))
         .collect();
     Box::new(move || {
-        let start = Instant::now();
-        for _ in 0..BATCHES {
-            for &u in &squares {
-                black_box(sample(u));
-            }
+        for &u in &squares {
+            black_box(sample(u));
         }
-        start.elapsed().as_secs_f64() * 1e9 / (f64::from(BATCHES) * SAMPLES as f64)
     })
 }
 
 struct Entry {
     name: String,
     routines: [Routine; 3],
-    errors: [f64; 2],
+    errors: Errors,
 }
 
 /// Adds a warp that is prepared once. Its expression is evaluated at each width, for which `R` stands.
@@ -148,7 +147,7 @@ macro_rules! warp {
 macro_rules! prepared {
     ($list:ident, $name:expr, $R:ident => $make:expr) => {{
         warp!($list, $name, $R => $make);
-        let errors = $list.last().map_or([f64::NAN; 2], |e| e.errors);
+        let errors = $list.last().map_or([Greatest::NONE; 2], |e| e.errors);
         macro_rules! timed {
             ($width:ty) => {
                 routine::<$width, _>(move |u| {
@@ -214,35 +213,28 @@ fn entries() -> Vec<Entry> {
 /// Measures all warps in interleaved rounds; fewer rounds if `stop` is set.
 #[must_use]
 pub fn measure(stop: &AtomicBool, progress: impl Fn(u64, u64)) -> Vec<Measured> {
-    let mut list = entries();
-    let mut times = vec![[const { Vec::new() }; 3]; list.len()];
-    for round in 0..ROUNDS {
-        for (entry, times) in list.iter_mut().zip(&mut times) {
-            for (routine, times) in entry.routines.iter_mut().zip(times) {
-                times.push(routine());
-            }
-        }
-        progress(round as u64 + 1, ROUNDS as u64);
-        if round >= 8 && stop.load(Ordering::Relaxed) {
-            break;
-        }
+    let (mut routines, mut named) = (Vec::new(), Vec::new());
+    for Entry { name, routines: widths, errors } in entries() {
+        routines.extend(widths);
+        named.push((name, errors));
     }
+    let rounds = Rounds { count: ROUNDS, calls: BATCHES, samples: SAMPLES };
+    let times = cost::measure(&mut routines, rounds, |done| {
+        progress(done as u64, ROUNDS as u64);
+        done < 9 || !stop.load(Ordering::Relaxed)
+    });
     // medians of groups, so that interrupted batches do not count
     let estimate = |times: &Vec<f64>| {
-        let groups = times.chunks_exact((times.len() / 5).max(1)).map(|group| {
-            let mut group = group.to_vec();
-            group.sort_by(f64::total_cmp);
-            group[group.len() / 2]
-        });
+        let groups = times.chunks_exact((times.len() / 5).max(1)).map(cost::median);
         Estimate::of(&groups.collect::<Vec<_>>())
     };
-    let one = |(entry, times): (Entry, [Vec<f64>; 3])| Measured {
-        name: entry.name,
-        nanoseconds: times.each_ref().map(estimate),
-        point: entry.errors[0],
-        density: entry.errors[1],
+    let one = |((name, [point, density]), times): ((String, Errors), &[Vec<f64>])| Measured {
+        name,
+        nanoseconds: [0, 1, 2].map(|width| estimate(&times[width])),
+        point,
+        density,
     };
-    list.into_iter().zip(times).map(one).collect()
+    named.into_iter().zip(times.chunks(3)).map(one).collect()
 }
 
 /// Draws the greatest error against the time per sample.
@@ -252,10 +244,15 @@ pub fn figure(measured: &[Measured]) -> Figure {
         id: format!("warp/{i}"),
         name: m.name.clone(),
         color: i,
-        dash: i / super::plot::PALETTE.len(),
+        dash: i / PALETTE.len(),
         joined: true,
+        shown: true,
         mark: 0.8,
-        dots: m.nanoseconds.iter().map(|t| Dot { x: (*t).into(), y: Bar::exact(m.point), sure: t.is_sure() }).collect(),
+        dots: m
+            .nanoseconds
+            .iter()
+            .map(|t| Dot { x: (*t).into(), y: Bar::exact(m.point.error()), sure: t.is_sure() })
+            .collect(),
     };
     let chart = Chart {
         title: "warps: greatest error against time".to_owned(),
@@ -286,8 +283,8 @@ pub fn table(measured: &[Measured]) -> String {
             "<tr><td>{}</td><td>{a} ns</td><td>{b} ns</td><td>{c} ns</td><td>{}×</td><td>{:.1e}</td><td>{:.1e}</td></tr>",
             escape(&m.name),
             short(m.nanoseconds[0].value / m.nanoseconds[2].value),
-            m.point,
-            m.density
+            m.point.error(),
+            m.density.error()
         );
     }
     text + "</table></div>\n"
@@ -306,7 +303,7 @@ pub fn csv(measured: &[Measured]) -> String {
             .iter()
             .chain(&halves)
             .map(|x| format!("{x:.4}"))
-            .chain([m.point, m.density].map(|x| format!("{x:e}")))
+            .chain([m.point, m.density].map(|g| g.error()).map(|x| format!("{x:e}")))
             .collect();
         let _ = writeln!(text, "\"{name}\",{}", numbers.join(","));
     }

@@ -2,8 +2,8 @@
 
 use super::images::ratio_text;
 use super::sheet::Svg;
-use super::{Finding, Studio};
-use crate::chart::charts::{self, with_interval};
+use super::studio::{Finding, Studio};
+use crate::chart::charts::{self, Show, with_interval};
 use crate::chart::summary::Summary;
 use crate::chart::{self, Outcome};
 use clap::ValueEnum;
@@ -31,7 +31,7 @@ impl Studio<'_> {
     ) -> Result<Outcome, Box<dyn Error>> {
         let options = chart::Options {
             scenes: scenes.iter().map(|s| (*s).to_owned()).collect(),
-            output: self.options.output.join(folder),
+            output: self.output.join(folder),
             techniques,
             samplers,
             spp,
@@ -40,8 +40,8 @@ impl Studio<'_> {
             reference_error: 0.0,
             reference_spp,
             size: Some((128, 128)),
-            seed: self.options.seed,
-            threads: self.options.threads,
+            seed: self.seed,
+            threads: self.threads,
             baseline: Technique::Area,
             target: None,
             time_limit: Some(3600),
@@ -75,7 +75,7 @@ impl Studio<'_> {
         }
         // crops of a box's corner with its shadows
         let world = World::new(&scene::load("quads")?)?;
-        let mut rows = vec![Svg::chart(&charts::error_over_samples(summary).drawing)];
+        let mut rows = vec![Svg::chart(&charts::error_over_samples(summary, Show::All).drawing)];
         for sampler in samplers {
             let crops = [1, 4, 16, 64, 256].map(|spp| {
                 let settings = Settings {
@@ -86,7 +86,7 @@ impl Studio<'_> {
                     depth: Settings::DEPTH,
                     sampler,
                     sets: 1,
-                    seed: self.options.seed,
+                    seed: self.seed,
                 };
                 let film = world.render(&settings, |_| ()).0;
                 let at = |i: usize| &film.pixels[(84 + i / 80) * 256 + 60 + i % 80];
@@ -105,7 +105,7 @@ impl Studio<'_> {
         let mut charts = Vec::new();
         // a scene in which all techniques coincide has nothing to compare
         for summary in outcome.summaries.iter().filter(|s| s.series.len() > 1) {
-            charts.extend(charts::efficiency(summary).map(|f| Svg::chart(&f.drawing)));
+            charts.extend(charts::efficiency(summary, Show::All).map(|f| Svg::chart(&f.drawing)));
             let best = summary.gains.iter().max_by(|a, b| a.gain.value.total_cmp(&b.gain.value));
             headline.push(match best {
                 Some(best) if Some(best.series) != summary.baseline => format!(
@@ -165,7 +165,7 @@ impl Studio<'_> {
         }
         let mut lines = vec![about.to_owned()];
         lines.extend(headline.iter().cloned());
-        let svg = Svg::chart(&charts::error_over_samples(summary).drawing);
+        let svg = Svg::chart(&charts::error_over_samples(summary, Show::All).drawing);
         Ok(Finding { svg: svg.captioned(&lines), headline })
     }
 }

@@ -1,12 +1,12 @@
 //! Figures of images rendered with few samples.
 
 use super::sheet::Svg;
-use super::{Finding, Studio, technique};
-use crate::chart::hash;
+use super::studio::{Finding, Studio};
 use crate::chart::pictures::heat;
 use crate::chart::plot::short;
 use crate::chart::reference::Reference;
 use crate::chart::stats::{Cost, Estimate, gain};
+use crate::hash::fnv1a;
 use etendue_render::film::Film;
 use etendue_render::options::name;
 use etendue_render::{Sampler, Settings, Technique, World, image, scene};
@@ -24,7 +24,7 @@ fn pixels(film: &Film) -> Vec<[u8; 3]> {
 impl Studio<'_> {
     /// Renders replicates of an image of 256×256 pixels.
     fn films(&self, world: &World, technique: Technique, spp: u32, count: u64) -> impl Iterator<Item = Film> {
-        let seed = self.options.seed.wrapping_add(hash(format!("{}/{spp}", name(technique)).as_bytes()));
+        let seed = self.seed.wrapping_add(fnv1a(format!("{}/{spp}", name(technique)).as_bytes()));
         (0..count).map(move |k| {
             let settings = Settings {
                 width: 256,
@@ -84,8 +84,7 @@ impl Studio<'_> {
     }
 
     pub(super) fn triangle_area_vs_solid_angle(&self) -> Result<Finding, Box<dyn Error>> {
-        let mut techniques = vec![Technique::Area, Technique::SolidAngle];
-        techniques.extend(technique("projected-solid-angle"));
+        let techniques = [Technique::Area, Technique::SolidAngle, Technique::ProjectedSolidAngle];
         self.versus("triangle-light", 16, &techniques)
     }
 

@@ -1,8 +1,8 @@
 //! Figures of integrals with a variance in closed form.
 
-use super::Finding;
 use super::images::ratio_text;
 use super::sheet::Svg;
+use super::studio::Finding;
 use crate::chart::charts::with_interval;
 use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, Chart, Dot, Line, Scale};
@@ -41,7 +41,7 @@ impl Steps {
 
 fn line(name: String, n: usize, points: impl Iterator<Item = (f64, Bar, bool)>, joined: bool) -> Line {
     let dots = points.map(|(x, y, sure)| Dot { x: Bar::exact(x), y, sure }).collect();
-    Line { id: name.clone(), name, color: n, dash: n, joined, mark: 1.0, dots }
+    Line { id: name.clone(), name, color: n, dash: n, joined, shown: true, mark: 1.0, dots }
 }
 
 /// A curve without dots.

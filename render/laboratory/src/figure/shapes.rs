@@ -1,7 +1,7 @@
 //! Figures of one light seen from one point.
 
-use super::Finding;
 use super::sheet::Svg;
+use super::studio::Finding;
 use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, Chart, Dot, Line, Scale, short};
 use etendue::spherical::{ProjectedCap, SphericalCap};
@@ -128,6 +128,7 @@ pub(super) fn cap_solid_angle_vs_projected() -> Finding {
             color,
             dash: 0,
             joined: false,
+            shown: true,
             mark: 0.45,
             dots,
         };

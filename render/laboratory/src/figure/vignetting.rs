@@ -1,7 +1,7 @@
 //! The figure of vignetting: the lens of the scene `defocus` in a barrel, its image, and the lens as seen from three points of the film.
 
 use super::sheet::Svg;
-use super::{Finding, Studio};
+use super::studio::{Finding, Studio};
 use etendue_render::camera::{Barrel, Pupil};
 use etendue_render::camera::{Camera, ThinLens};
 use etendue_render::film::Film;
@@ -44,7 +44,7 @@ impl Studio<'_> {
         let world = World::new(&scene)?;
         let own = scene.camera.lens.ok_or("the scene has no lens")?;
         let seen = |camera: &Camera, [width, height]: [u32; 2], sampler, spp| {
-            let (technique, seed) = (Technique::SolidAngle, self.options.seed);
+            let (technique, seed) = (Technique::SolidAngle, self.seed);
             let settings = Settings { width, height, spp, technique, sampler, sets: 0, seed, depth: 1 };
             world.render_through(camera, &settings, |_| ()).0
         };

@@ -1,6 +1,7 @@
 //! Linear and logarithmic axes.
 
-use super::short;
+use super::text::short;
+use crate::chart::stats::Estimate;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 
 /// A scale of an axis.
@@ -12,6 +13,31 @@ pub enum Scale {
     Log,
     /// Logarithmic, with ticks at powers of two.
     Binary,
+}
+
+/// A value with its interval.
+#[derive(Clone, Copy, Debug)]
+pub struct Bar {
+    /// The value.
+    pub value: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end of the interval.
+    pub high: f64,
+}
+
+impl Bar {
+    /// A value without an interval.
+    #[must_use]
+    pub const fn exact(value: f64) -> Self {
+        Self { value, low: value, high: value }
+    }
+}
+
+impl From<Estimate> for Bar {
+    fn from(e: Estimate) -> Self {
+        Self { value: e.value, low: e.low(), high: e.high() }
+    }
 }
 
 /// Formats a power of ten with a superscript exponent.

@@ -1,56 +1,9 @@
 //! The maps of disks and line segments by definition, set up in 106 bits, integrated and inverted in f64.
 
-use super::pose::V3;
+use crate::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
+use crate::quadrature::{gauss_legendre, integral, root};
+use crate::vectors::V3;
 use core::f64::consts::FRAC_PI_2;
-use etendue_oracle::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
-
-/// Solves f(x) = `target` for an increasing f with f(0) = 0 and f(`end`) = `top`, by false position (Illinois), with bisection if that is
-/// slow.
-pub(super) fn root(end: f64, top: f64, target: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let (mut low, mut high) = (0.0, end);
-    let (mut f_low, mut f_high) = (-target, top - target);
-    if f_high <= 0.0 {
-        return end;
-    }
-    for step in 0..80 {
-        let width = high - low;
-        let x = if step % 4 == 3 { low + 0.5 * width } else { low + width * (f_low / (f_low - f_high)) };
-        let value = f(x) - target;
-        if value.abs() <= 1e-15 * target || width <= 1e-15 * high {
-            return x;
-        }
-        if value < 0.0 {
-            (low, f_low) = (x, value);
-            f_high *= 0.5;
-        } else {
-            (high, f_high) = (x, value);
-            f_low *= 0.5;
-        }
-    }
-    0.5 * (low + high)
-}
-
-/// The 16 Gauss-Legendre nodes on [0, 1] with their weights.
-fn nodes() -> [(f64, f64); 16] {
-    core::array::from_fn(|i| {
-        let n = 16.0;
-        let mut x = (core::f64::consts::PI * (i as f64 + 0.75) / (n + 0.5)).cos();
-        let mut slope = 1.0;
-        for _ in 0..50 {
-            let (mut p, mut last) = (x, 1.0);
-            for k in 2..=16 {
-                let k = f64::from(k);
-                (p, last) = (((2.0 * k - 1.0) * x * p - (k - 1.0) * last) / k, p);
-            }
-            slope = n * (x * p - last) / (x * x - 1.0);
-            x -= p / slope;
-        }
-        (0.5 + 0.5 * x, 1.0 / ((1.0 - x * x) * slope * slope))
-    })
-}
-fn integral(nodes: &[(f64, f64); 16], low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    (high - low) * nodes.iter().map(|&(x, weight)| weight * f(low + (high - low) * x)).sum::<f64>()
-}
 
 /// The elliptic cone of a disk as seen from the point. With χ the eccentric angle from the major axis, dΩ = sinα sinβ dχ/(1+D), where
 /// D² = cos²β cos²χ + cos²α sin²χ is the squared height of the rim. u₀ sets χ, quadrant by quadrant, and 1−cosθ is the fraction u₁ of
@@ -59,18 +12,19 @@ fn integral(nodes: &[(f64, f64); 16], low: f64, high: f64, f: impl Fn(f64) -> f6
 pub struct Ellipse {
     /// Minor axis, major axis and the cone's axis.
     axes: [V3; 3],
-    /// Sines of the half-angles α and β.
-    pub(super) sines: [f64; 2],
-    cosines: [f64; 2],
+    /// Sines of the half-angles α and β, across and along the major axis.
+    pub sines: [f64; 2],
+    /// Cosines of the half-angles.
+    pub cosines: [f64; 2],
     nodes: [(f64, f64); 16],
     /// Values of χ, and the integral of 1/(1+D) up to each.
     panels: Vec<[f64; 2]>,
     solid_angle: f64,
 }
 impl Ellipse {
-    /// The cone of a disk with normal `n` of any length.
-    #[must_use]
-    pub fn new(center: V3, n: V3, radius: f64) -> Self {
+    /// The cone of a disk with normal `n` of any length. If the disk faces the point, every axis is a major axis: `facing` chooses one,
+    /// perpendicular to the cone's axis.
+    pub fn new(center: V3, n: V3, radius: f64, facing: impl FnOnce(V3) -> V3) -> Self {
         let (c, n, r) = (dd(center), dd(n), Dd::from(radius));
         let signed = dot(c, n) / length(n);
         let (z, towards) = (signed.abs(), normalized(n.map(|x| if signed.to_f64() < 0.0 { -x } else { x })));
@@ -87,15 +41,9 @@ impl Ellipse {
         let axis = add(times(towards, z), times(offset, Dd::from(cosines[1] * cosines[1])));
         let axis = normalized(if length(axis).to_f64() > 0.0 { axis } else { towards });
         let across = cross(n, c);
-        let across = if length(across).to_f64() > 0.0 {
-            normalized(across)
-        } else {
-            let a = narrow(axis);
-            let t = etendue::Frame::new(etendue::Vec3::new(a[0], a[1], a[2])).t;
-            dd([t.x, t.y, t.z])
-        };
+        let across = if length(across).to_f64() > 0.0 { normalized(across) } else { dd(facing(narrow(axis))) };
         let axes = [normalized(cross(across, axis)), across, axis].map(narrow);
-        let mut this = Self { axes, sines, cosines, nodes: nodes(), panels: vec![[0.0; 2]], solid_angle: 0.0 };
+        let mut this = Self { axes, sines, cosines, nodes: gauss_legendre(), panels: vec![[0.0; 2]], solid_angle: 0.0 };
         // finer near the major axis, where the integrand of a large disk has a kink
         let mut sum = 0.0;
         for k in (0..40).rev() {
@@ -163,7 +111,7 @@ pub struct Arc {
     /// Angle that the segment subtends, in radians.
     pub angle: f64,
     /// Unit vector along the perpendicular to the line.
-    pub(super) foot: V3,
+    pub foot: V3,
     nodes: [(f64, f64); 16],
     /// ∫ sinγ cosθ over the arc.
     pub whole: f64,
@@ -204,7 +152,7 @@ impl Arc {
             ends: [end(from, 1.0), end(to, -1.0)],
             angle: if seen { angle } else { 0.0 },
             foot: narrow(foot),
-            nodes: nodes(),
+            nodes: gauss_legendre(),
             whole: 0.0,
         };
         let halves = [0, 1].map(|i| this.up_to(i, 0.5 * this.angle));

@@ -1,0 +1,411 @@
+//! Measures the errors and the cost of every technique over the sweeps.
+
+use super::methods::{self, Method};
+use super::pose::{self, Kind, Pose, Sweep};
+use super::sample::{Draw, Sample};
+use super::truth::Truth;
+use crate::cost::{self, Rounds};
+use etendue::Vec3;
+use etendue_oracle::{Greatest, V3, cross, dot, length, sub, unit, wide};
+use rayon::prelude::*;
+use std::hint::black_box;
+
+/// Greatest error that the contract allows: of a pdf, of a direction relative to the shape's angular size, and of a round trip.
+pub const LIMIT: f64 = 1e-5;
+/// The contract also allows this error in each component of a direction: 2 ulp.
+const DIRECTION_ULP: f64 = 2.0 * f32::EPSILON as f64;
+/// Step of u for the derivatives of directions.
+const STEP: f64 = 1.0 / 4_294_967_296.0;
+/// Smaller solid angles have a reciprocal close to overflow, and are not measured.
+const NOTHING: f64 = 1e-36;
+
+/// The measurements of a cell; NaN if there was nothing to measure.
+#[derive(Clone, Copy, Debug)]
+pub struct Figures {
+    /// Greatest error of a direction in any component, relative to the angular size or to 0.024, whichever is greater. At 0.024 the
+    /// limit is 2 ulp.
+    pub direction: f64,
+    /// Greatest relative error of the pdf, in excess of the change that 2 ulp of the direction cause.
+    pub pdf: f64,
+    /// Greatest error of u after sampling and inverting. If 4 ulp of the direction (2 of the sample, 2 of the inverse) change u by more
+    /// than the limit, the error is relative to that change, times the limit. Samples where they change u by more than 0.1 do not count,
+    /// as f32 has no inverse there. At a discontinuity of the map (about the zenith, or between two parts) two values of u are equally
+    /// good: there the error is the distance from the sample to the direction of the inverse, relative to 6 ulp (2 of each
+    /// direction, 2 of the inverse), times the limit.
+    pub round_trip: f64,
+    /// Fraction of the samples that have an inverse in f32.
+    pub invertible: f64,
+    /// Fraction of the samples with a NaN, an infinity, a pdf of 0 where there is light, or a positive pdf where there is none.
+    pub invalid: f64,
+    /// Variance of area sampling over that of the technique, for the irradiance of a diffuse receiver without shadows.
+    pub variance_ratio: f64,
+    /// Error of the mean estimate of that irradiance over a stratified set, relative to the closed form and beyond the error of the
+    /// exact estimator on the same set. The receiver is the pose's for projected techniques; otherwise it faces the light.
+    pub bias: f64,
+}
+impl Figures {
+    const NONE: Self = Self {
+        direction: f64::NAN,
+        pdf: f64::NAN,
+        round_trip: f64::NAN,
+        invertible: f64::NAN,
+        invalid: f64::NAN,
+        variance_ratio: f64::NAN,
+        bias: f64::NAN,
+    };
+    /// Whether all measured errors are within the contract.
+    #[must_use]
+    pub fn meets(&self) -> bool {
+        let within = |x: f64| x.is_nan() || x <= LIMIT;
+        [self.direction, self.pdf, self.round_trip].into_iter().all(within)
+            && (self.invalid.is_nan() || self.invalid <= 0.0)
+    }
+}
+
+/// The errors of one technique over one sweep.
+#[derive(Clone, Debug)]
+pub struct ErrorMap {
+    /// Kind of shape.
+    pub kind: Kind,
+    /// Axes of the map.
+    pub sweep: Sweep,
+    /// The technique.
+    pub method: Method,
+    /// Cells row by row, from the bottom.
+    pub cells: Vec<Figures>,
+    /// Nanoseconds to prepare for a point and draw one sample, in scalar code.
+    pub cost: f64,
+    /// Nanoseconds for the same by area.
+    pub area_cost: f64,
+}
+impl ErrorMap {
+    /// Efficiency 1/(variance × cost), relative to area sampling.
+    #[must_use]
+    pub fn efficiency(&self, cell: &Figures) -> f64 {
+        cell.variance_ratio * self.area_cost / self.cost
+    }
+}
+
+/// How densely to measure.
+#[derive(Clone, Copy, Debug)]
+pub struct Detail {
+    /// Number of rotated poses per cell.
+    pub turns: u64,
+    /// Number of samples per pose.
+    pub samples: usize,
+    /// Strata per dimension for the bias.
+    pub strata: usize,
+    /// Whether the axes are coarse.
+    pub quick: bool,
+}
+impl Detail {
+    /// Details for less than 1 minute (`quick`) or less than 20 minutes.
+    #[must_use]
+    pub fn new(quick: bool) -> Self {
+        if quick {
+            Self { turns: 4, samples: 48, strata: 8, quick }
+        } else {
+            Self { turns: 12, samples: 128, strata: 16, quick }
+        }
+    }
+}
+
+/// Number of cells of these kinds of shapes.
+#[must_use]
+pub fn cells(kinds: &[Kind], detail: Detail) -> usize {
+    let of = |&kind: &Kind| pose::sweeps(kind, detail.quick).iter().map(|s| s.x.len() * s.y.len()).sum::<usize>();
+    kinds.iter().map(of).sum()
+}
+
+/// Measures these kinds of shapes, and calls `tick` after each cell.
+pub fn survey(kinds: &[Kind], detail: Detail, tick: impl Fn() + Sync) -> Vec<ErrorMap> {
+    let mut charts = Vec::new();
+    for &kind in kinds {
+        let methods = methods::methods(kind);
+        for sweep in pose::sweeps(kind, detail.quick) {
+            let cells: Vec<(f64, f64)> =
+                sweep.y.iter().flat_map(|y| sweep.x.iter().map(|x| (x.value, y.value))).collect();
+            let rows: Vec<Vec<Figures>> = cells
+                .par_iter()
+                .map(|&(x, y)| {
+                    let figures = cell(kind, &sweep, [x, y], &methods, detail);
+                    tick();
+                    figures
+                })
+                .collect();
+            let costs = costs(kind, &sweep, &methods);
+            let area_cost = methods.iter().position(|m| m.name == "by area").map_or(f64::NAN, |i| costs[i]);
+            for (i, &method) in methods.iter().enumerate() {
+                let cells = rows.iter().map(|row| row[i]).collect();
+                charts.push(ErrorMap { kind, sweep: sweep.clone(), method, cells, cost: costs[i], area_cost });
+            }
+        }
+    }
+    charts
+}
+
+/// Nanoseconds to prepare for a point and draw one sample, of each method.
+fn costs(kind: Kind, sweep: &Sweep, methods: &[Method]) -> Vec<f64> {
+    let us = pose::square(64, 1);
+    let pose = sweep.pose(kind, if sweep.touches() { 2.0 } else { 0.3 }, 0.6, 1);
+    let routine = |method: &Method| {
+        let (run, us, pose) = (method.run, us.clone(), pose.clone());
+        let mut out = Vec::with_capacity(us.len());
+        move || {
+            out.clear();
+            for u in &us {
+                run(black_box(&pose), &mut Draw { us: &[*u], invert: false, out: &mut out });
+            }
+            black_box(&out);
+        }
+    };
+    let mut routines: Vec<_> = methods.iter().map(routine).collect();
+    let times = cost::measure(&mut routines, Rounds { count: 21, calls: 32, samples: us.len() }, |_| true);
+    times.iter().map(|t| cost::median(t)).collect()
+}
+
+/// The exact result for one `u`.
+struct Reference {
+    direction: V3,
+    /// Greatest change of each coordinate of u per radian of the direction.
+    sensitivity: [f64; 2],
+}
+
+fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
+    let u = u.map(f64::from);
+    let direction = truth.direction(u);
+    let slope = |axis: usize| -> V3 {
+        // far less than the spacing of u, within which the slope changes at the ends of a sweep
+        let h = if u[axis] < 0.5 { STEP } else { -STEP };
+        let mut moved = u;
+        moved[axis] += h;
+        let w = truth.direction(moved);
+        core::array::from_fn(|i| (w[i] - direction[i]) / h)
+    };
+    if truth.line() {
+        let a = length(slope(0));
+        return Reference { direction, sensitivity: [if a > 0.0 { 1.0 / a } else { f64::INFINITY }, 0.0] };
+    }
+    let (a, b) = (slope(0), slope(1));
+    let area = length(cross(a, b));
+    // without a derivative there is no inverse
+    let per = |across: f64| if area > 0.0 { across / area } else { f64::INFINITY };
+    Reference { direction, sensitivity: [per(length(b)), per(length(a))] }
+}
+
+/// Measures one cell with all methods.
+#[must_use]
+pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], detail: Detail) -> Vec<Figures> {
+    let mut tallies: Vec<_> = methods.iter().map(|_| Tally::default()).collect();
+    let mut samples = Vec::new();
+    for turn in 0..detail.turns {
+        let pose = sweep.pose(kind, x, y, turn);
+        let truth = Truth::new(kind, &pose);
+        let us = pose::square(detail.samples, turn);
+        let seen = truth.measure > NOTHING && truth.measure.is_finite();
+        let references: Vec<_> = if seen { us.iter().map(|&u| reference(&truth, u)).collect() } else { Vec::new() };
+        for (method, tally) in methods.iter().zip(&mut tallies) {
+            samples.clear();
+            (method.run)(&pose, &mut Draw { us: &us, invert: true, out: &mut samples });
+            for (i, sample) in samples.iter().enumerate() {
+                match references.get(i) {
+                    Some(reference) => tally.add(&truth, reference, us[i], sample, |u| {
+                        let mut again = Vec::with_capacity(1);
+                        (method.run)(&pose, &mut Draw { us: &[u], invert: false, out: &mut again });
+                        wide(again[0].direction)
+                    }),
+                    None => tally.add_unseen(truth.measure, sample),
+                }
+            }
+        }
+    }
+    let variances: Vec<_> = methods.iter().map(|m| variance(kind, sweep, [x, y], m)).collect();
+    let by_area = methods.iter().position(|m| m.name == "by area").map_or(f64::NAN, |i| variances[i]);
+    let biases = biases(kind, &sweep.pose(kind, x, y, 1), methods, detail.strata);
+    tallies
+        .iter()
+        .zip(&variances)
+        .zip(biases)
+        .map(|((tally, v), bias)| Figures { bias, ..tally.figures(by_area / v) })
+        .collect()
+}
+
+/// One point in each stratum of the unit square.
+fn strata(side: usize) -> Vec<[f32; 2]> {
+    let at = |k: usize, j: f64| ((k as f64 + j) / side as f64).min(1.0 - 1.0 / 16_777_216.0) as f32;
+    (0..side * side)
+        .map(|i| {
+            // jittered by a lattice, so that edges along an axis do not line up
+            let jitter = [0.754_877_666, 0.569_840_291].map(|step| ((i as f64 + 0.5) * step).fract());
+            [at(i % side, jitter[0]), at(i / side, jitter[1])]
+        })
+        .collect()
+}
+
+/// The bias of each method in a pose: the mean of (estimate − exact estimate for the same u), relative to the closed form.
+fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> {
+    let truth = Truth::new(kind, pose);
+    let normal = if kind.projected() { unit(wide(pose.normal)) } else { truth.towards() };
+    let closed = truth.irradiance(normal);
+    if !(truth.measure > NOTHING && truth.measure.is_finite()) || closed <= NOTHING {
+        return vec![f64::NAN; methods.len()];
+    }
+    let us = strata(side);
+    // the weight of a line is its pdf per radian times the distance
+    let height = truth.height();
+    let value = |w: V3, weight: f64| {
+        let cos = dot(w, normal);
+        if weight > 0.0 && cos > 0.0 { cos * height / weight } else { 0.0 }
+    };
+    let [x, y, z] = pose.normal;
+    let by_technique = |s: &Sample| {
+        let [a, b, c] = s.direction;
+        // the cosine in f32 as a renderer computes it, since the pdf contains it too
+        let cos = Vec3::new(a, b, c).dot(Vec3::new(x, y, z));
+        if s.weight > 0.0 && cos > 0.0 { f64::from(cos) * height / f64::from(s.weight) } else { 0.0 }
+    };
+    let value_of = |w: V3, pdf: f64| value(w, pdf * height * truth.stretch(w));
+    let exact: Vec<f64> = us
+        .iter()
+        .map(|u| {
+            let w = truth.direction(u.map(f64::from));
+            // projected techniques have a constant estimate, on the horizon too
+            if kind.projected() { truth.measure } else { value_of(w, truth.pdf(w)[0]) }
+        })
+        .collect();
+    let exact_by_area: Vec<f64> = us
+        .iter()
+        .map(|u| {
+            let (w, pdf) = truth.by_area(u.map(f64::from));
+            value_of(w, pdf)
+        })
+        .collect();
+    let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
+    // a disk has no closed form
+    let closed = if closed.is_nan() { mean(&exact) } else { closed };
+    let mut samples = Vec::new();
+    let of = |method: &Method| {
+        samples.clear();
+        (method.run)(pose, &mut Draw { us: &us, invert: false, out: &mut samples });
+        let by_area = samples.iter().any(|s| s.by_area);
+        let exact = if by_area { &exact_by_area } else { &exact };
+        let off: f64 = samples
+            .iter()
+            .zip(exact)
+            .map(|(s, exact)| {
+                let own = kind.projected() && !by_area;
+                let of = if own { by_technique(s) } else { value(wide(s.direction), f64::from(s.weight)) };
+                of - exact
+            })
+            .sum();
+        (off / us.len() as f64 / closed).abs()
+    };
+    methods.iter().map(of).collect()
+}
+
+/// Relative variance of one sample of the irradiance of a diffuse receiver.
+fn variance(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], method: &Method) -> f64 {
+    let us = strata(24);
+    let pose: Pose = sweep.pose(kind, x, y, 0);
+    let mut samples = Vec::with_capacity(us.len());
+    (method.run)(&pose, &mut Draw { us: &us, invert: false, out: &mut samples });
+    let normal = unit(wide(pose.normal));
+    let value = |s: &Sample| {
+        let cos = dot(wide(s.direction), normal);
+        if s.emits && s.weight > 0.0 && cos > 0.0 { cos / f64::from(s.weight) } else { 0.0 }
+    };
+    let n = samples.len() as f64;
+    let mean = samples.iter().map(value).sum::<f64>() / n;
+    let square = samples.iter().map(|s| (value(s) - mean).powi(2)).sum::<f64>() / n;
+    // at least the variance that rounding to f32 causes
+    if mean > 0.0 { (square / (mean * mean)).max(1e-13) } else { f64::NAN }
+}
+
+#[derive(Default)]
+struct Tally {
+    /// Greatest errors, and the `u` of each.
+    direction: Greatest<[f32; 2]>,
+    pdf: Greatest<[f32; 2]>,
+    round_trip: Greatest<[f32; 2]>,
+    inverses: f64,
+    inverted: f64,
+    invalid: f64,
+    all: f64,
+}
+impl Tally {
+    fn add_unseen(&mut self, measure: f64, sample: &Sample) {
+        self.all += 1.0;
+        // area sampling also works edge-on; below the least measure either answer is valid
+        let right = sample.finite() && (sample.pdf == 0.0 || measure > 0.0 || sample.by_area);
+        self.invalid += f64::from(u8::from(!right));
+    }
+    /// Adds a sample; `again` returns the technique's direction for another u.
+    fn add(
+        &mut self,
+        truth: &Truth,
+        reference: &Reference,
+        u: [f32; 2],
+        sample: &Sample,
+        again: impl Fn([f32; 2]) -> V3,
+    ) {
+        self.all += 1.0;
+        let w = wide(sample.direction);
+        let (expected, density) = if sample.by_area {
+            let (w, pdf) = truth.by_area(u.map(f64::from));
+            if !(pdf > 0.0 && pdf < 1e36) {
+                return;
+            }
+            (w, [pdf, 0.0])
+        } else {
+            (reference.direction, truth.pdf(w))
+        };
+        if !sample.finite() {
+            self.invalid += 1.0;
+            return;
+        }
+        if sample.pdf <= 0.0 {
+            // within the rounding of a direction from the horizon, the pdf may be 0
+            let there = if sample.by_area { density } else { truth.pdf(reference.direction) };
+            self.invalid += f64::from(u8::from(there[0] > there[1] * 2.0 * DIRECTION_ULP));
+            return;
+        }
+        let apart = |a: V3| sub(w, a).into_iter().map(f64::abs).collect::<Greatest>().error();
+        self.direction.take(apart(expected) / truth.extent.max(DIRECTION_ULP / LIMIT), u);
+        let off = (f64::from(sample.pdf) - density[0]).abs() - density[1] * DIRECTION_ULP;
+        self.pdf.take(off.max(0.0) / density[0].max(density[1] * DIRECTION_ULP), u);
+        let Some(inverse) = sample.inverse else { return };
+        self.inverses += 1.0;
+        let worth = reference.sensitivity.map(|s| 2.0 * DIRECTION_ULP * s);
+        if worth[0].max(worth[1]) > 0.1 {
+            return;
+        }
+        self.inverted += 1.0;
+        let off = |axis: usize| {
+            let mut error = f64::from((inverse[axis] - u[axis]).abs());
+            if truth.periodic(axis) {
+                error = error.min((1.0 - error).abs());
+            }
+            error * (LIMIT / worth[axis]).min(1.0)
+        };
+        let mut error = off(0).max(off(1));
+        if error > LIMIT {
+            error = error.min(apart(again(inverse)) / (3.0 * DIRECTION_ULP) * LIMIT);
+        }
+        self.round_trip.take(error, u);
+    }
+    fn figures(&self, variance_ratio: f64) -> Figures {
+        if self.all == 0.0 {
+            return Figures::NONE;
+        }
+        let if_any = |n: f64, x: f64| if n > 0.0 { x } else { f64::NAN };
+        Figures {
+            direction: self.direction.measured(),
+            pdf: self.pdf.measured(),
+            round_trip: self.round_trip.measured(),
+            invertible: if_any(self.inverses, self.inverted / self.inverses),
+            invalid: self.invalid / self.all,
+            variance_ratio: if self.direction.at().is_some() { variance_ratio } else { f64::NAN },
+            bias: f64::NAN,
+        }
+    }
+}

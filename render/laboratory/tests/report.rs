@@ -1,0 +1,162 @@
+//! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
+
+use etendue_laboratory::chart::charts::{self, Show};
+use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
+use etendue_laboratory::chart::reference::Reference;
+use etendue_laboratory::chart::summary::{Summary, Way};
+use etendue_laboratory::chart::{Outcome, report};
+use etendue_render::{Sampler, Technique, World, scene};
+
+const SPP: [u32; 3] = [1, 4, 16];
+const TECHNIQUES: [Technique; 3] = [Technique::Area, Technique::SolidAngle, Technique::MisPower];
+const SAMPLERS: [Sampler; 3] = [Sampler::Independent, Sampler::Stratified, Sampler::Sobol];
+/// Mean squared error and seconds at 1 sample per pixel; the errors of all but `Independent` fall faster than 1/N.
+const COSTS: [[(f64, f64); 3]; 3] = [
+    [(0.10, 0.010), (0.09, 0.011), (0.07, 0.012)],
+    // sobol has the least error of all at any number of samples, but takes ten times as long
+    [(0.02, 0.010), (0.015, 0.011), (0.012, 0.12)],
+    [(0.03, 0.020), (0.025, 0.021), (0.02, 0.022)],
+];
+
+fn cost(key: &Key) -> (f64, f64) {
+    let at = |list: &[Sampler]| list.iter().position(|s| *s == key.sampler).unwrap();
+    let (error, seconds) = COSTS[TECHNIQUES.iter().position(|t| *t == key.technique).unwrap()][at(&SAMPLERS)];
+    let slope = if key.sampler == Sampler::Independent { -1.0 } else { -1.3 };
+    (error * f64::from(key.spp).powf(slope), seconds * f64::from(key.spp))
+}
+
+fn outcome(names: &[&str]) -> Outcome {
+    let charted = |name: &&str| ChartedScene {
+        name: (*name).to_owned(),
+        world: World::new(&scene::load("quads").unwrap()).unwrap(),
+        size: [16, 16],
+        lens: false,
+        settings: 0,
+        reference: Reference::builtin("quads").unwrap().shrunk([16, 16]).unwrap(),
+    };
+    let scenes: Vec<_> = names.iter().map(charted).collect();
+    let mut keys = Vec::new();
+    for scene in 0..names.len() {
+        for (technique, sampler) in TECHNIQUES.iter().flat_map(|t| SAMPLERS.map(|s| (*t, s))) {
+            keys.extend(SPP.map(|spp| Key { scene, technique, sampler, spp }));
+        }
+    }
+    let mut rows = Rows::new();
+    for key in &keys {
+        let (error, seconds) = cost(key);
+        let row = |replicate: u32| {
+            let noise = 1.0 + 0.01 * f64::from(replicate);
+            let squared = error * noise + scenes[key.scene].reference.error;
+            Row { replicate, seed: 0, seconds, repeats: 1, squared, difference: 0.0, camera: 1, shadow: 1 }
+        };
+        rows.insert(*key, (0..3).map(row).collect());
+    }
+    let plan = Plan { scenes, keys, replicates: 3, seed: 0 };
+    let baseline = Way { technique: Technique::Area, sampler: Sampler::Independent };
+    let summaries = (0..names.len()).map(|scene| Summary::new(&plan, &rows, scene, baseline, None)).collect();
+    Outcome { plan, rows, summaries, facts: Vec::new(), notes: vec!["a remark at the end".to_owned()] }
+}
+
+fn page(outcome: &Outcome) -> String {
+    let figures = |s: &Summary| {
+        let mut list = vec![charts::error_over_time(s, Show::Leaders), charts::error_over_samples(s, Show::Leaders)];
+        list.extend(charts::efficiency(s, Show::Leaders));
+        list.extend(charts::time_to_error(s, Show::Leaders));
+        list
+    };
+    let figures: Vec<_> = outcome.summaries.iter().map(figures).collect();
+    report::page(outcome, &figures, &[], None, "etendue chart")
+}
+
+/// The identifiers of the series in a chart, and whether each is hidden at first.
+fn series(part: &str) -> Vec<(&str, bool)> {
+    part.split("data-series=\"")
+        .skip(1)
+        .map(|s| {
+            let tag = &s[..s.find('>').unwrap()];
+            (&s[..s.find('"').unwrap()], tag.contains("class=\"off\""))
+        })
+        .collect()
+}
+
+#[test]
+fn the_page_begins_with_the_best_series_of_each_scene() {
+    let outcome = outcome(&["quads", "boxes"]);
+    let page = page(&outcome);
+    let head = &page[page.find("<h1").unwrap()..page.find("<nav").unwrap()];
+    for (line, summary) in head.split("<li>").skip(1).zip(&outcome.summaries) {
+        // by definition: the least error in the same time, in these data a power of the time
+        let seconds = summary.seconds;
+        let error = |way: &Way| {
+            let key = |spp| Key { scene: 0, technique: way.technique, sampler: way.sampler, spp };
+            let ((one, t), (many, _)) = (cost(&key(1)), cost(&key(16)));
+            let slope = (many / one).ln() / 16.0_f64.ln();
+            // below one sample per pixel, errors count as proportional to 1/time
+            if seconds < t { one * t / seconds } else { one * (seconds / t).powf(slope) }
+        };
+        let ways: Vec<Way> = summary.series.iter().map(|s| s.way).collect();
+        let best = ways.iter().min_by(|a, b| error(a).total_cmp(&error(b))).unwrap();
+        assert_eq!((best.technique, best.sampler), (Technique::SolidAngle, Sampler::Stratified));
+        assert_eq!(summary.series[summary.ranking[0]].way, *best);
+        let plain = Way { sampler: Sampler::Independent, ..*best };
+        let factor = error(&plain) / error(best);
+        let start = format!(
+            "{} — best: solid-angle with stratified, which reaches the same error in 1/{factor:.2} of the time of solid-angle with \
+             independent",
+            summary.scene
+        );
+        assert!(line.starts_with(&start), "{line}\n{start}");
+    }
+    assert_eq!(head.matches("<li>").count(), 2);
+    assert!(!head.contains("a remark"), "notes come last");
+}
+
+#[test]
+fn one_series_of_each_technique_is_shown_at_first() {
+    let outcome = outcome(&["quads"]);
+    let page = page(&outcome);
+    let parts: Vec<&str> = page.split("<figure>").skip(1).collect();
+    assert_eq!(parts.len(), 4);
+    let table = parts[3].split_once("<table>").unwrap().1;
+    for part in parts.iter().map(|p| p.split("</figure>").next().unwrap()).chain([table]) {
+        let all = series(part);
+        assert_eq!(all.len(), 9, "{all:?}");
+        let mut shown: Vec<_> = all.iter().filter(|s| !s.1).map(|s| s.0).collect();
+        shown.sort_unstable();
+        assert_eq!(shown, ["area/sobol", "mis-power/sobol", "solid-angle/stratified"]);
+    }
+    // the same in files, which hold nothing else
+    let summary = &outcome.summaries[0];
+    for figure in [charts::error_over_time(summary, Show::Leaders), charts::efficiency(summary, Show::Leaders).unwrap()]
+    {
+        assert_eq!(series(&figure.drawing.file()).len(), 3);
+        assert!(!figure.drawing.file().contains("independent</text>"));
+    }
+    assert_eq!(series(&charts::error_over_time(summary, Show::All).drawing.file()).len(), 9);
+    assert!(page.contains("data-all"), "a button shows the rest");
+}
+
+#[test]
+fn bars_are_sorted_and_notes_come_last() {
+    let outcome = outcome(&["quads"]);
+    let page = page(&outcome);
+    let summary = &outcome.summaries[0];
+    let part = |title: &str| {
+        let figure = page.split("<figure>").find(|p| p.contains(title)).unwrap();
+        figure.split("</figure>").next().unwrap()
+    };
+    let value =
+        |id: &str, f: &dyn Fn(usize) -> f64| f(summary.series.iter().position(|s| charts::id(s) == id).unwrap());
+    let gain = |i: usize| summary.gains.iter().find(|g| g.series == i).unwrap().gain.value;
+    let efficiency = series(part(": efficiency at")).iter().map(|s| value(s.0, &gain)).collect::<Vec<_>>();
+    assert!(efficiency.len() == 9 && efficiency.is_sorted_by(|a, b| a >= b), "{efficiency:?}");
+    let seconds = |i: usize| summary.series[i].seconds_to(summary.target).unwrap().0;
+    let times = series(part(": time to a mean")).iter().map(|s| value(s.0, &seconds)).collect::<Vec<_>>();
+    assert!(times.len() == 9 && times.is_sorted(), "{times:?}");
+    // rows are stacked from the top without gaps, hidden ones aside
+    let rows: Vec<&str> = part(": efficiency at").split("translate(0 ").skip(1).collect();
+    let places: Vec<i32> = rows.iter().map(|r| r[..r.find(')').unwrap()].parse().unwrap()).collect();
+    assert!(places.is_sorted() && places.last() <= Some(&(3 * places.iter().find(|y| **y > 0).unwrap())), "{places:?}");
+    let at = |text: &str| page.rfind(text).unwrap();
+    assert!(at("a remark at the end") > at("</figure>") && at("a remark at the end") > at("How this was measured"));
+}
