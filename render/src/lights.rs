@@ -357,6 +357,16 @@ impl Lights {
     pub fn contributions(&self, p: V8, normal: V8) -> Option<LightsAt<X8>> {
         self.spatial.as_ref().map(|lights| lights.at(p, normal))
     }
+    /// Chooses a light for each of these points of surfaces, as the [`chooser`](Self::chooser) does, by one number, and a second one for
+    /// more lights than one table holds.
+    #[inline(always)]
+    pub fn choose(&self, p: V8, normal: V8, [u, second]: [X8; 2]) -> Choice<X8> {
+        match &self.spatial {
+            Some(lights) => lights.at(p, normal).choose(u),
+            None if self.records.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
+            None => self.powers.choose(u, second),
+        }
+    }
     /// How packets at these points of surfaces choose: by contribution, or by power, with a second number, where lights are many, of
     /// several kinds or without area.
     #[inline(always)]

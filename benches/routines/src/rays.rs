@@ -1,7 +1,6 @@
 //! Rays as a renderer traces them through the triangles of a scene: camera rays, shadow rays, and ambient occlusion.
 
 use crate::baseline::{self, Baseline, BaselineRay};
-use etendue::select::LightChoice;
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{CosineHemisphere, Warp};
 use etendue::{Frame, Mask, Real, u32x8};
@@ -238,7 +237,7 @@ impl Point {
     /// Rays to points on lights, sampled by solid angle.
     fn to_light(&self, lights: &Lights, u: etendue::Vec2<X8>) -> Packet {
         let zero = X8::lit(0.0);
-        let choice = lights.chooser(self.place, self.normal, zero).choose(u.x);
+        let choice = lights.choose(self.place, self.normal, [u.x, zero]);
         let (mut chosen, u) = (lights.chosen(choice.index), etendue::Vec2::new(choice.u, u.y));
         let sample = lights.sample(&mut chosen, Measure::SolidAngle, self.place, self.normal, u);
         let active = self.met & sample.emits & sample.pdf.gt(zero) & sample.direction.dot(self.normal).gt(zero);

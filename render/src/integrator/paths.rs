@@ -14,7 +14,7 @@ use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::{Surface, emitted};
 use crate::technique::Technique;
 use etendue::estimate::technique_pdf;
-use etendue::select::{Allocated, LightChoice};
+use etendue::select::{Allocated, Choice, LightChoice};
 use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Fraction of the distance to a light that a shadow ray covers: it stops 2⁻¹⁷ short, so that surfaces touching the light do not
@@ -65,6 +65,16 @@ struct End {
     throughput: V8,
 }
 
+/// The BSDF at the end of a path.
+#[inline(always)]
+fn bsdf<const METAL: bool>(surface: &Surface, end: &End) -> Bsdf<METAL> {
+    if METAL {
+        Bsdf::new(surface.normal, surface.albedo, end.direction, end.metal)
+    } else {
+        Bsdf::new(surface.normal, surface.albedo, V8::default(), None)
+    }
+}
+
 /// The paths of a group of packets, and their scratch memory.
 pub(super) struct Paths<'a> {
     scene: &'a PreparedScene,
@@ -78,6 +88,7 @@ pub(super) struct Paths<'a> {
     /// The reflecting surfaces at the ends of the paths.
     surfaces: Box<[Surface; GROUP]>,
     ends: Box<[End; GROUP]>,
+    radiance: Box<[Radiance; GROUP]>,
 }
 
 impl<'a> Paths<'a> {
@@ -92,6 +103,7 @@ impl<'a> Paths<'a> {
             rays: Box::default(),
             surfaces: Box::new([Surface::default(); GROUP]),
             ends: Box::new([End { direction: zero, metal: None, throughput: zero }; GROUP]),
+            radiance: Box::default(),
         }
     }
 
@@ -109,9 +121,9 @@ impl<'a> Paths<'a> {
     /// Follows the rays that have been started. Returns the surfaces at their ends, which reflect but whose emission does not count.
     pub(super) fn surfaces(&mut self, active: &[M8]) -> &[Surface] {
         if self.scene.surfaces.only_diffuse {
-            self.follow::<false>(active, &mut [Radiance::default(); GROUP]);
+            self.follow::<false>(active);
         } else {
-            self.follow::<true>(active, &mut [Radiance::default(); GROUP]);
+            self.follow::<true>(active);
         }
         &self.surfaces[..active.len()]
     }
@@ -122,28 +134,24 @@ impl<'a> Paths<'a> {
         active: &[M8],
         numbers: &Numbers,
         allocated: &[Allocated<'_, X8>],
-    ) -> [Radiance; GROUP] {
+    ) -> &mut [Radiance] {
         for active in active {
             self.count.camera += u64::from(active.bits().count_ones());
         }
         // what a scene does not need is not compiled in
         if self.scene.surfaces.only_diffuse {
-            self.radiance_with::<false>(active, numbers, allocated)
+            self.gather::<false>(active, numbers, allocated);
         } else {
-            self.radiance_with::<true>(active, numbers, allocated)
+            self.gather::<true>(active, numbers, allocated);
         }
+        &mut self.radiance[..active.len()]
     }
 
-    fn radiance_with<const METAL: bool>(
-        &mut self,
-        active: &[M8],
-        numbers: &Numbers,
-        allocated: &[Allocated<'_, X8>],
-    ) -> [Radiance; GROUP] {
-        let mut radiance = [Radiance::default(); GROUP];
-        self.follow::<METAL>(active, &mut radiance);
+    fn gather<const METAL: bool>(&mut self, active: &[M8], numbers: &Numbers, allocated: &[Allocated<'_, X8>]) {
+        self.follow::<METAL>(active);
         if self.scene.lights.is_empty() {
-            return radiance;
+            self.radiance.iter_mut().for_each(|radiance| radiance.reflected = V8::default());
+            return;
         }
         let count = active.len();
         let mut reflected = [V8::default(); GROUP];
@@ -163,19 +171,19 @@ impl<'a> Paths<'a> {
         }
         for p in 0..count {
             let reflected = reflected[p];
-            radiance[p].reflected = if METAL { product(self.ends[p].throughput, reflected) } else { reflected };
+            self.radiance[p].reflected = if METAL { product(self.ends[p].throughput, reflected) } else { reflected };
         }
-        radiance
     }
 
     /// Follows the rays of a group through mirrors, and adds the radiance of the lights and the sky that they hit.
     #[inline(always)]
-    fn follow<const METAL: bool>(&mut self, active: &[M8], radiance: &mut [Radiance; GROUP]) {
-        let Self { scene, scratch, rays, surfaces, ends, .. } = self;
+    fn follow<const METAL: bool>(&mut self, active: &[M8]) {
+        let Self { scene, scratch, rays, surfaces, ends, radiance, .. } = self;
         let (world, count) = (&scene.surfaces, active.len());
         let mut going = [M8::splat(false); GROUP];
         going[..count].copy_from_slice(active);
         if METAL {
+            radiance[..count].fill(Radiance::default());
             surfaces[..count].fill(Surface::default());
             let one = V8::from([1.0; 3]);
             ends[..count].fill(End { direction: V8::default(), metal: None, throughput: one });
@@ -188,31 +196,33 @@ impl<'a> Paths<'a> {
                 if METAL && !going[p].any() {
                     continue;
                 }
-                let (ray, here) = (rays[0][p], going[p]);
-                let surface = world.hit(&hits[p], &ray);
-                let mut seen = surface.emission;
-                if let Some(sky) = &scene.sky {
+                let (ray, here) = (&rays[0][p], going[p]);
+                let see = |surface: &Surface| {
                     let missed = here & !hits[p].any();
-                    if missed.any() {
-                        seen = V8::blend(missed, sky.radiance(ray.direction), seen);
+                    match &scene.sky {
+                        Some(sky) if missed.any() => V8::blend(missed, sky.radiance(ray.direction), surface.emission),
+                        _ => surface.emission,
                     }
-                }
+                };
                 if !METAL {
-                    radiance[p].seen = seen;
-                    surfaces[p] = surface;
+                    surfaces[p] = world.hit(&hits[p], ray);
+                    radiance[p].seen = see(&surfaces[p]);
                     continue;
                 }
+                let surface = world.hit(&hits[p], ray);
+                let seen = see(&surface);
+                let incoming = ray.direction;
                 let end = &mut ends[p];
                 radiance[p].seen += keep(product(end.throughput, seen), here);
                 let reflects = surface.reflects & here;
                 let metal = world.metal(&hits[p], reflects);
                 let mirrors = metal.mirrors() & reflects;
-                end.settle(&mut surfaces[p], &surface, reflects & !mirrors, ray.direction, metal);
+                end.settle(&mut surfaces[p], &surface, reflects & !mirrors, incoming, metal);
                 going[p] = M8::splat(false);
                 if mirrors.any() && depth < self.depth {
                     going[p] = mirrors;
                     on = true;
-                    let (origin, direction) = end.reflect(&surface, &metal, mirrors, ray.direction);
+                    let (origin, direction) = end.reflect(&surface, &metal, mirrors, incoming);
                     rays[0][p] = world.bvh.rays(origin, direction);
                     self.count.mirror += u64::from(mirrors.bits().count_ones());
                 }
@@ -220,18 +230,6 @@ impl<'a> Paths<'a> {
             if !on {
                 return;
             }
-        }
-    }
-
-    /// The BSDF at the end of a path.
-    #[inline(always)]
-    fn bsdf<const METAL: bool>(&self, p: usize) -> Bsdf<METAL> {
-        let Surface { normal, albedo, .. } = self.surfaces[p];
-        if METAL {
-            let End { direction, metal, .. } = self.ends[p];
-            Bsdf::new(normal, albedo, direction, metal)
-        } else {
-            Bsdf::new(normal, albedo, V8::default(), None)
         }
     }
 
@@ -254,17 +252,16 @@ impl<'a> Paths<'a> {
         let mut limit = [zero; GROUP];
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut found = [V8::default(); GROUP];
-        for p in (0..count).filter(|&p| self.surfaces[p].reflects.any()) {
-            let surface = self.surfaces[p];
-            let bsdf = self.bsdf::<METAL>(p);
+        let Self { scene, surfaces, ends, rays, .. } = self;
+        for (p, surface) in surfaces[..count].iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
+            let bsdf = bsdf::<METAL>(surface, &ends[p]);
             let mut u = numbers.light[p];
             let [number, second] = numbers.choice.map_or([u.x, zero], |choice| [choice[p].x, choice[p].y]);
-            let chooser = match (given, allocated.get(p)) {
-                (Some(light), _) => Chooser::Given(light),
-                (None, Some(allocated)) => Chooser::Allocated(*allocated),
-                (None, None) => lights.chooser(surface.point, surface.normal, second),
+            let choice = match (given, allocated.get(p)) {
+                (Some(light), _) => Choice { index: u32x8::splat(light), pmf: one, u: number },
+                (None, Some(allocated)) => allocated.choose(number),
+                (None, None) => lights.choose(surface.point, surface.normal, [number, second]),
             };
-            let choice = chooser.choose(number);
             if numbers.choice.is_none() {
                 u.x = choice.u;
             }
@@ -280,7 +277,7 @@ impl<'a> Paths<'a> {
                 Some(by) => factor * by.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0],
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            self.rays[1][p] = self.scene.surfaces.bvh.rays(surface.point, sample.direction);
+            rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction);
             limit[p] = sample.distance * X8::lit(SPARED);
             target[p] = chosen.shape;
             found[p] = product(color, chosen.radiance) * (factor / pdf);
@@ -304,15 +301,16 @@ impl<'a> Paths<'a> {
         let mut found = [V8::default(); GROUP];
         let mut factors = [zero; GROUP];
         let mut own = [one; GROUP];
-        for p in (0..count).filter(|&p| self.surfaces[p].reflects.any()) {
-            let surface = &self.surfaces[p];
-            let Scattered { direction, color, factor, pdf } = self.bsdf::<METAL>(p).sample(self.technique, pairs[p]);
+        let Self { surfaces, ends, rays, .. } = self;
+        for (p, surface) in surfaces[..count].iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
+            let bsdf = bsdf::<METAL>(surface, &ends[p]);
+            let Scattered { direction, color, factor, pdf } = bsdf.sample(self.technique, pairs[p]);
             let some = pdf.gt(zero);
             own[p] = select(some, pdf, one);
             (found[p], factors[p]) = (color, factor);
             lit[p] = surface.reflects & some;
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            self.rays[1][p] = world.bvh.rays(surface.point, direction);
+            rays[1][p] = world.bvh.rays(surface.point, direction);
         }
         // finding the hit light is cheap; only rays that hit one need an occlusion test
         world.bvh.closest_shape(&self.rays[1][..count], &lit[..count], &mut hits[..count], &mut self.scratch);

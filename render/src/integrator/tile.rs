@@ -228,7 +228,7 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
-    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> [Radiance; GROUP] {
+    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> &[Radiance] {
         let Self { source, paths, camera, settings, .. } = self;
         let lights = paths.sampled();
         // delta lights alone need no point on the light
@@ -261,8 +261,8 @@ impl<'a> TileRenderer<'a> {
             paths.start(p, camera.rays(&samples[p]));
             active[p] = packet.active;
         }
-        let mut radiance = paths.radiance(&active[..packets.len()], &numbers, allocated);
-        for (radiance, sample) in radiance.iter_mut().zip(&samples[..packets.len()]) {
+        let radiance = paths.radiance(&active[..packets.len()], &numbers, allocated);
+        for (radiance, sample) in radiance.iter_mut().zip(&samples) {
             if let Some(open) = camera.open(sample) {
                 *radiance = radiance.keep(open);
             }

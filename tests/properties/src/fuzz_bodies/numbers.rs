@@ -197,7 +197,7 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     for ((bound, able), power) in bounds.iter().zip(&able).zip(&powers) {
         let wide = |v: [f32; 3]| v.map(f64::from);
         let to = sub(wide(bound.center), wide(p));
-        let room = 1e-5 * length(to) + 1e-5 * (length(wide(bound.center)) + length(wide(p)));
+        let room = 1e-5 * (length(to) + length(wide(bound.center)) + length(wide(p)) + f64::from(bound.radius));
         let facing = bound.normal == [0.0; 3] || bound.two_sided || -dot(to, wide(bound.normal)) > room;
         let away = dot(to, wide(bound.normal)).abs() > room || bound.normal == [0.0; 3];
         let above = dot(to, wide(n)) + f64::from(bound.radius) > room;
