@@ -56,16 +56,24 @@ impl Allocation {
             *worth = weight + least;
         }
         // doubles the number of the light with the greatest weight per sample, as long as samples are left
-        while left > 0 {
-            let greatest = |able: &dyn Fn(usize) -> bool| {
-                (0..lights).filter(|&k| able(k)).reduce(|best, k| if worth[k] > worth[best] { k } else { best })
+        while left > 0 && lights > 0 {
+            // the greatest of all, and of those that can double
+            let (mut best, mut able) = (0, None);
+            for k in 0..lights {
+                if worth[k] > worth[best] {
+                    best = k;
+                }
+                if each[k] <= left && able.is_none_or(|able: usize| worth[k] > worth[able]) {
+                    able = Some(k);
+                }
+            }
+            // too few may be left to double the greatest, but if it dominates, they are still worth most there
+            let (chosen, more) = match able {
+                Some(k) if worth[k] >= 0.1 * worth[best] => (k, each[k]),
+                _ => (best, left),
             };
-            let Some(best) = greatest(&|_| true) else { break };
-            // too few are left to double the greatest, but if it dominates, they are still worth most there
-            let able = if each[best] <= left { Some(best) } else { greatest(&|k| each[k] <= left) };
-            let able = able.filter(|&k| worth[k] >= 0.1 * worth[best]);
-            let (chosen, more) = able.map_or((best, left), |k| (k, each[k]));
             left -= more;
+            // halving is exact
             worth[chosen] *= each[chosen] as f32 / (each[chosen] + more) as f32;
             each[chosen] += more;
         }

@@ -106,9 +106,9 @@ impl SpatialLights {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // a point that is farther than this keeps its direction; at the origin, the quotient is infinite
         let p = p * (R::lit(FAR) / p.max_abs()).lesser(lit(self.scale));
-        let mut ends = [zero; FEW];
+        let mut at = LightsAt { ends: [zero; FEW], count: self.count };
         let mut sum = zero;
-        for (light, weight) in self.lights[..self.count].iter().zip(&mut ends) {
+        for (light, weight) in self.lights[..self.count].iter().zip(&mut at.ends) {
             let [x, y, z] = light.center.map(lit);
             let to = Vec3::new(x - p.x, y - p.y, z - p.z);
             let radius = lit(light.radius);
@@ -126,11 +126,11 @@ impl SpatialLights {
         }
         let least = (sum * R::lit(1.0 / 262_144.0)).greater(R::lit(LEAST));
         let mut sum = zero;
-        for weight in &mut ends[..self.count] {
-            sum += R::blend(weight.gt(zero), weight.greater(least), zero);
+        for weight in &mut at.ends[..self.count] {
+            sum += weight.greater(least).keep(weight.gt(zero));
             *weight = sum;
         }
-        LightsAt { ends, count: self.count }
+        at
     }
 }
 

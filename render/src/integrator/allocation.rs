@@ -31,35 +31,44 @@ impl Weights {
 /// The allocations of successive pixels. The samples of a set form blocks: one of `first` samples, then each as long as all before it.
 pub(super) struct Blocks {
     first: u32,
-    /// The last pixel, the first sample of the block, and its allocation.
-    known: Option<([u32; 2], u32, Allocation)>,
+    /// The last pixel and the first sample of the block that the last of the allocations belongs to.
+    last: Option<([u32; 2], u32)>,
+    allocations: Vec<Allocation>,
 }
 
 impl Blocks {
     pub(super) const fn new(first: u32) -> Self {
-        Self { first, known: None }
+        Self { first, last: None, allocations: Vec::new() }
     }
-    /// The block of a set of a pixel that contains a sample, and the sample's index in it.
-    pub(super) fn at(&mut self, weights: &Weights, pixel: [u32; 2], sample: u32) -> (Allocation, u32) {
+    /// Forgets all allocations but the last.
+    pub(super) fn forget(&mut self) {
+        let most = self.allocations.len().saturating_sub(1);
+        self.allocations.drain(..most);
+    }
+    /// The allocations that [`find`](Self::find) returns.
+    pub(super) fn allocations(&self) -> &[Allocation] {
+        &self.allocations
+    }
+    /// Index of the block of a set of a pixel that contains a sample, and the sample's index in the block.
+    pub(super) fn find(&mut self, weights: &Weights, pixel: [u32; 2], sample: u32) -> (usize, u32) {
         let start = (sample / self.first).checked_ilog2().map_or(0, |doubled| self.first << doubled);
-        if let Some((of, at, allocation)) = &self.known
-            && (*of, *at) == (pixel, start)
-        {
-            return (*allocation, sample - start);
+        if self.last != Some((pixel, start)) {
+            self.allocations.push(self.allocate(weights, pixel, start));
+            self.last = Some((pixel, start));
         }
+        (self.allocations.len() - 1, sample - start)
+    }
+    fn allocate(&self, weights: &Weights, pixel: [u32; 2], start: u32) -> Allocation {
         let (mut from, mut before) = (0, Allocation::NONE);
         let index = weights.index(pixel);
         if let Some(begun) = weights.begun.get(index) {
             from = self.first;
-            for (before, begun) in before.iter_mut().zip(&begun[..weights.lights]) {
-                *before = *begun;
-            }
+            before[..weights.lights].copy_from_slice(&begun[..weights.lights]);
         }
         loop {
             let allocation = weights.allocate(index, from.max(self.first), &mut before);
             if from == start {
-                self.known = Some((pixel, start, allocation));
-                return (allocation, sample - start);
+                return allocation;
             }
             from += from.max(self.first);
         }

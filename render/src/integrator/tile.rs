@@ -11,7 +11,7 @@ use crate::film::Accumulator;
 use crate::packet::{M8, X8};
 use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
 use crate::sensor::Exposure;
-use etendue::select::{Allocated, Allocation};
+use etendue::select::Allocated;
 use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Side of the square of pixels that a thread renders at a time.
@@ -132,35 +132,27 @@ impl<'a> TileRenderer<'a> {
         let mut run = runs.next();
         let mut outputs = vec![A::Output::default(); pixels.len()];
         let mut blocks = Blocks::new(block);
-        let (mut packets, mut pieces, mut allocations) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut packets, mut pieces, mut places) = (Vec::new(), Vec::new(), Vec::new());
         while run.is_some() {
             packets.clear();
             pieces.clear();
-            allocations.clear();
+            places.clear();
+            blocks.forget();
             while packets.len() < GROUP
                 && let Some(first) = run
             {
                 if let Some(weights) = weights {
-                    allocations.push(blocks.at(weights, first.pixel, first.next));
+                    places.push(blocks.find(weights, first.pixel, first.next));
                 }
                 packets.push(Self::packet(&mut run, &mut runs, span, packets.len(), &mut pieces));
             }
-            let allocated: [Option<Allocated<'_, X8>>; GROUP] = std::array::from_fn(|p| {
-                let (allocation, sample): &(Allocation, u32) = allocations.get(p)?;
-                Some(allocation.samples(*sample))
-            });
-            let count = allocations.len();
-            let radiance = match allocated {
-                [Some(first), ..] => {
-                    let all: [Allocated<'_, X8>; GROUP] = std::array::from_fn(|p| allocated[p].unwrap_or(first));
-                    self.radiance(&packets, &all[..count])
-                }
-                _ => self.radiance(&packets, &[]),
-            };
+            let at = |&(block, sample): &(usize, u32)| blocks.allocations()[block].samples(sample);
+            let allocated: Vec<Allocated<'_, X8>> = places.iter().map(at).collect();
+            let radiance = self.radiance(&packets, &allocated);
             for Piece { packet, lanes, run, ends } in pieces.drain(..) {
                 let radiance = radiance[packet];
                 if whole {
-                    sum.push_packet(radiance.total(), radiance.seen, allocated[packet].as_ref());
+                    sum.push_packet(radiance.total(), radiance.seen, allocated.get(packet));
                 } else {
                     let total = radiance.total();
                     lanes.for_each(|lane| sum.push(total.lane(lane).into()));
