@@ -3,15 +3,15 @@
 use super::{Choice, FEW, LightChoice};
 use crate::real::{Real, Uint, unit_interval};
 
-/// The least weight of a light, as a fraction of the sum: a pixel may differ from the points that the weights belong to.
+/// What is added to each weight, as a fraction of the sum: a pixel may differ from the points that the weights belong to.
 const LEAST: f32 = 0.02;
 
 /// Allocates a block of samples to a few lights in advance, instead of choosing a light at random for each sample.
 ///
 /// Each light receives some successive samples, at least one, which are well distributed on their own if they are points of a net: a
-/// power of two, except for a light that dominates, which also receives what is left. No light is sampled more or less often than it should be, which is most of the noise of a random choice among lights of
-/// different colours. The shares depend only on the weights, so the estimate is unbiased as long as the weights do not depend on the
-/// samples.
+/// power of two, except for a light that dominates, which also receives what is left. No light is sampled more or less often than it
+/// should be, which is most of the noise of a random choice among lights of different colours. The shares depend only on the weights, so
+/// the estimate is unbiased as long as the weights do not depend on the samples.
 ///
 /// - Formula: beginning with one sample each, the light of the greatest weight per sample doubles its number. If too few samples are
 ///   left for that, the greatest light that can double does so if it has a tenth as much weight per sample, and otherwise the light of

@@ -1,6 +1,6 @@
 //! Splits the text of a scene file into tokens with line numbers.
 
-use super::{Message, Place};
+use super::message::{Message, Place};
 use std::sync::Arc;
 
 /// One token.

@@ -1,9 +1,9 @@
 //! Reads `LightSource`: lights without a shape.
 
 use super::lexer::shortened;
-use super::params::Params;
+use super::message::Message;
+use super::params::{Params, rounded};
 use super::transform::{Transform, sub, unit};
-use super::{Message, rounded};
 use crate::files::FileError;
 use crate::image::Picture;
 use etendue::light::EnvironmentMap;

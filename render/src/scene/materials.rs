@@ -1,8 +1,8 @@
 //! Reads `Material` and `MakeNamedMaterial`.
 
 use super::lexer::shortened;
-use super::params::Params;
-use super::{Message, rounded};
+use super::message::Message;
+use super::params::{Params, rounded};
 
 /// How a surface reflects. All materials are opaque and the same on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Reads the parameter lists that follow most directives: `"type name" [ values ]`.
 
 use super::lexer::{Lexer, Token, number, shortened};
-use super::{Message, Place};
+use super::message::{Message, Place};
 
 /// Far more than any directive has; bounds the linear look-up by name.
 const MOST_PARAMETERS: usize = 100;
@@ -254,4 +254,10 @@ impl Params {
     pub(super) fn finish(self) -> Vec<Message> {
         self.list.iter().map(|param| self.at(param, "ignored")).collect()
     }
+}
+
+/// A colour rounded to f32; `None` if a channel overflows.
+pub(super) fn rounded(rgb: [f64; 3]) -> Option<[f32; 3]> {
+    let rgb = rgb.map(|x| x as f32);
+    rgb.iter().all(|x| x.is_finite()).then_some(rgb)
 }

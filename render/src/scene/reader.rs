@@ -1,13 +1,15 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
+use super::builtin::BUILTIN_IMAGES;
+use super::description::{CameraSettings, Emission, FilmSettings, Lens, Scene};
 use super::lexer::{Lexer, Token, shortened};
-use super::params::Params;
+use super::lights::{self, DeltaLight, Environment};
+use super::materials::{self, Material};
+use super::message::{Message, Place, utf8};
+use super::params::{Params, rounded};
 use super::shapes::{self, Output, Surface};
 use super::transform::{Transform, length, scaled};
-use super::{
-    BUILTIN_IMAGES, CameraSettings, DeltaLight, Emission, Environment, FilmSettings, Lens, Material, Message, Place,
-    Scene, lights, materials, read_file, rounded, utf8,
-};
+use crate::files::read_file;
 use crate::image;
 use std::cell::RefCell;
 use std::collections::HashMap;

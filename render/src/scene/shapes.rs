@@ -1,8 +1,14 @@
 //! Reads shapes: transforms them to world space in f64, checks and orients them, and rounds once to f32.
 
+use super::description::{Emission, Shape};
+use super::materials::Material;
+use super::message::Message;
 use super::params::Params;
+use super::ply;
+use super::terrain as generated;
 use super::transform::{Transform, add, cross, dot, length, sub};
-use super::{Emission, Geometry, Material, Message, Shape, ply, read_file, terrain as generated};
+use crate::files::read_file;
+use crate::geometry::Geometry;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 

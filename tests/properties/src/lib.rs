@@ -1,9 +1,8 @@
-//! Oracles, generators, tolerances, and the properties that every warp has.
+//! Generators, tolerances, and the properties that every warp has.
 //!
 //! A property is a plain function of a [`Fixture`](properties::Fixture) (a warp with its parameters) and usually a point of the unit
-//! square. It panics when the property is broken, with the fixture, the argument and the figure. The tests in `tests/` run the properties
-//! over the regimes of [`generators`]; the fuzz targets run them over arbitrary bytes. `README.md` beside this crate says how to add a
-//! warp.
+//! square. It panics when the property is broken, with the fixture, the argument and the figure. The tests in `tests/tests` run the
+//! properties over the regimes of [`generators`]; the fuzz targets run them over arbitrary bytes. `tests/README.md` says how to add a warp.
 //!
 //! - [`etendue_oracle`]: closed forms, double-double arithmetic and quadrature; nothing there calls the code under test.
 //! - [`generators`]: arguments biased towards the places where methods fail.

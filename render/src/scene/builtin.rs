@@ -1,0 +1,32 @@
+//! The built-in scenes.
+
+/// Name and description of each scene.
+pub(super) const DESCRIBED: [(&str, &str); 10] = [
+    ("sphere-light", "two boxes under a sphere light outside the view"),
+    ("triangle-light", "a box in front of a large, visible triangle light"),
+    ("quads", "three boxes under five quadrilateral lights of very different sizes and powers"),
+    ("terrain", "a million triangles, a height field and 25 bumpy spheres, under one square light"),
+    ("cornell-box", "the Cornell box from its published data"),
+    ("mirror-room", "a room between two mirrors, with a mirror and a gold sphere"),
+    ("plates", "four metal plates, smooth to rough, under four sphere lights, small to large"),
+    ("delta-lights", "boxes and a ball under a point, a spot and a distant light"),
+    ("sky", "a diffuse, a mirror and a rough metal ball under an image of a sky"),
+    ("defocus", "a row of spheres seen through a lens focused on the third"),
+];
+
+/// Name and text of each scene.
+pub(super) const BUILTIN: [(&str, &str); 10] = [
+    (DESCRIBED[0].0, include_str!("../../scenes/sphere-light.pbrt")),
+    (DESCRIBED[1].0, include_str!("../../scenes/triangle-light.pbrt")),
+    (DESCRIBED[2].0, include_str!("../../scenes/quads.pbrt")),
+    (DESCRIBED[3].0, include_str!("../../scenes/terrain.pbrt")),
+    (DESCRIBED[4].0, include_str!("../../scenes/cornell-box.pbrt")),
+    (DESCRIBED[5].0, include_str!("../../scenes/mirror-room.pbrt")),
+    (DESCRIBED[6].0, include_str!("../../scenes/plates.pbrt")),
+    (DESCRIBED[7].0, include_str!("../../scenes/delta-lights.pbrt")),
+    (DESCRIBED[8].0, include_str!("../../scenes/sky.pbrt")),
+    (DESCRIBED[9].0, include_str!("../../scenes/defocus.pbrt")),
+];
+
+/// Images that these scenes refer to.
+pub(super) const BUILTIN_IMAGES: [(&str, &[u8]); 1] = [("sky.exr", include_bytes!("../../scenes/sky.exr"))];

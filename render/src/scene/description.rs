@@ -1,0 +1,111 @@
+//! What a scene file describes.
+
+use super::lights::{DeltaLight, Environment};
+use super::materials::Material;
+use super::message::Message;
+use crate::geometry::Geometry;
+use std::path::PathBuf;
+
+/// The contents of a scene file, in world space.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The name of a built-in scene, or the file's name without its extension.
+    pub name: String,
+    /// The camera; a scene has exactly one.
+    pub camera: CameraSettings,
+    /// Image size and file name.
+    pub film: FilmSettings,
+    /// Samples per pixel; 16 by default.
+    pub pixel_samples: u32,
+    /// Materials without duplicates.
+    pub materials: Vec<Material>,
+    /// Corners of the triangles that do not emit. The normal is (v1 − v0) × (v2 − v0); no area is zero.
+    pub triangles: Vec<[[f32; 3]; 3]>,
+    /// One index into `materials` per triangle.
+    pub triangle_materials: Vec<u32>,
+    /// All spheres, and the triangles and parallelograms that emit.
+    pub shapes: Vec<Shape>,
+    /// Point, spot and distant lights.
+    pub delta_lights: Vec<DeltaLight>,
+    /// Light from infinitely far away, if there is any.
+    pub environment: Option<Environment>,
+    /// Warnings about ignored parts of the file, in the order of the file.
+    pub warnings: Vec<Message>,
+    /// The files that were read: the scene file itself if [`load`](super::load) read it, included files, meshes and images.
+    pub inputs: Vec<PathBuf>,
+}
+
+/// The image to be written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmSettings {
+    /// Pixels across, 1 to 65,536.
+    pub width: u32,
+    /// Pixels down, 1 to 65,536; at most 2²⁸ pixels in all.
+    pub height: u32,
+    /// Diagonal of the film in millimetres, greater than 0; 35 by default.
+    pub diagonal: f64,
+    /// Name of the image file to write.
+    pub filename: Option<String>,
+}
+
+/// A perspective camera: a pinhole or a thin lens.
+///
+/// With `t = tan_half(width, height)`, the ray through image position (x, y) in \[0,1\]², from the top left, has direction
+/// `forward + (2x−1) t[0] right + (1−2y) t[1] up`. The three axes are orthonormal if the camera transform is a similarity;
+/// `forward` always has length 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraSettings {
+    /// The pinhole, or the centre of the lens.
+    pub origin: [f64; 3],
+    /// Towards the middle of the image.
+    pub forward: [f64; 3],
+    /// Towards the right edge of the image.
+    pub right: [f64; 3],
+    /// Towards the upper edge of the image.
+    pub up: [f64; 3],
+    /// Full angle across the shorter side of the image in degrees, in (0, 180).
+    pub fov: f64,
+    /// The lens, unless its radius is 0.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens perpendicular to the camera's axis. It images each point of the film to the point of the plane of focus on the line
+/// through its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Radius in camera space, greater than 0.
+    pub radius: f64,
+    /// Distance of the plane of focus in camera space, greater than 0.
+    pub focus: f64,
+    /// Length of a unit of camera space in world space.
+    pub unit: f64,
+}
+
+impl CameraSettings {
+    /// Tangents of half the horizontal and vertical angle of view, for an image of this size (both sides at least 1).
+    pub fn tan_half(&self, width: u32, height: u32) -> [f64; 2] {
+        let shorter = (self.fov.to_radians() / 2.0).tan();
+        let aspect = f64::from(width) / f64::from(height);
+        if aspect >= 1.0 { [shorter * aspect, shorter] } else { [shorter, shorter / aspect] }
+    }
+}
+
+/// A shape that is intersected as such, not as triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    /// Form and position in world space.
+    pub geometry: Geometry,
+    /// Index into [`Scene::materials`].
+    pub material: u32,
+    /// Emitted light; `None` if the shape is no light.
+    pub emission: Option<Emission>,
+}
+
+/// Constant emission of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Radiance, linear RGB; at least one channel is greater than 0.
+    pub radiance: [f32; 3],
+    /// Whether both sides emit, or only the side of the normal.
+    pub two_sided: bool,
+}

@@ -1,0 +1,44 @@
+//! Messages about the lines of a scene file.
+
+use std::fmt;
+use std::sync::Arc;
+
+/// An error or warning about a line of a scene file, shown as `file:line: text`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Message {
+    /// The file as the user named it, or as its parent included it.
+    pub file: String,
+    /// The line number, from 1.
+    pub line: u32,
+    /// What is wrong with the line.
+    pub text: String,
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.file, self.line, self.text)
+    }
+}
+
+/// A line of a file, cheap to clone.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub(super) file: Arc<str>,
+    pub(super) line: u32,
+}
+
+impl Place {
+    pub(super) fn message(&self, text: impl Into<String>) -> Message {
+        Message { file: self.file.to_string(), line: self.line, text: text.into() }
+    }
+}
+
+/// The text of a file, or where it is not UTF-8.
+pub(super) fn utf8<'a>(bytes: &'a [u8], file: &Arc<str>) -> Result<&'a str, Message> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let valid = &bytes[..error.valid_up_to()];
+        let line = 1 + valid.iter().filter(|&&b| b == b'\n').count() as u32;
+        let byte = bytes[error.valid_up_to()];
+        Place { file: file.clone(), line }.message(format!("the byte 0x{byte:02x} is not UTF-8"))
+    })
+}
