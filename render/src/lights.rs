@@ -26,9 +26,8 @@ const TWO_SIDED: u32 = 8;
 const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT;
 const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM;
 
-/// A light, in two halves of eight numbers: two transpositions gather eight lights.
+/// A light.
 #[derive(Clone, Copy, Debug, Default)]
-#[repr(C)]
 struct LightRecord {
     /// Centre of a sphere, corner of a triangle or parallelogram, position of a point or spot light, direction to a distant light.
     place: [f32; 3],
@@ -44,8 +43,11 @@ struct LightRecord {
     shape: u32,
 }
 
+/// A [`LightRecord`] in two halves of eight numbers: two transpositions gather eight lights. [`Chosen::new`] unpacks it.
+type PackedLight = [[f32; 8]; 2];
+
 impl LightRecord {
-    fn halves(&self) -> [[f32; 8]; 2] {
+    fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
         [
             [a, b, c, d, e, f, g, h],
@@ -141,7 +143,7 @@ impl PowerTable {
 /// The lights of a scene.
 #[derive(Debug)]
 pub struct Lights {
-    records: Vec<LightRecord>,
+    packed: Vec<PackedLight>,
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     powers: PowerTable,
@@ -326,15 +328,16 @@ impl Lights {
                 *light = index;
             }
         }
-        Self { powers: PowerTable::new(&powers), records, spatial, kinds, sky, shape_lights }
+        let packed = records.iter().map(LightRecord::pack).collect();
+        Self { powers: PowerTable::new(&powers), packed, spatial, kinds, sky, shape_lights }
     }
     /// Number of lights.
     pub fn len(&self) -> usize {
-        self.records.len()
+        self.packed.len()
     }
     /// Is there no light at all?
     pub fn is_empty(&self) -> bool {
-        self.records.is_empty()
+        self.packed.is_empty()
     }
     /// True if the choice of a light needs random numbers of its own.
     pub fn many(&self) -> bool {
@@ -363,7 +366,7 @@ impl Lights {
     pub fn choose(&self, p: V8, normal: V8, [u, second]: [X8; 2]) -> Choice<X8> {
         match &self.spatial {
             Some(lights) => lights.at(p, normal).choose(u),
-            None if self.records.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
+            None if self.packed.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
             None => self.powers.choose(u, second),
         }
     }
@@ -373,17 +376,17 @@ impl Lights {
     pub fn chooser(&self, p: V8, normal: V8, second: X8) -> Chooser<'_> {
         match &self.spatial {
             Some(lights) => Chooser::Near(lights.at(p, normal)),
-            None if self.records.len() == 1 => Chooser::Given(0),
+            None if self.packed.len() == 1 => Chooser::Given(0),
             None => Chooser::Power(PowerChoice { table: &self.powers, second }),
         }
     }
     /// Lights with these indices.
     #[inline(always)]
     pub fn chosen(&self, index: u32x8) -> Chosen {
-        if let [only] = &self.records[..] {
-            return Chosen::new(only.halves().map(|half| half.map(X8::splat)));
+        if let [only] = &self.packed[..] {
+            return Chosen::new(only.map(|half| half.map(X8::splat)));
         }
-        let rows = index.to_array().map(|i| self.records[i as usize].halves());
+        let rows = index.to_array().map(|i| &self.packed[i as usize]);
         Chosen::new([0, 1].map(|half| X8::transpose(rows.map(|row| X8::from(row[half])))))
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky, `radiance` of

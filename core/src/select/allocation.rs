@@ -6,6 +6,9 @@ use crate::real::{Real, Uint, unit_interval};
 /// What is added to each weight, as a fraction of the sum: a pixel may differ from the points that the weights belong to.
 const LEAST: f32 = 0.02;
 
+/// The greatest number of lanes of a packet.
+const MOST_LANES: usize = 8;
+
 /// Allocates a block of samples to a few lights in advance, instead of choosing a light at random for each sample.
 ///
 /// Each light receives some successive samples, at least one, which are well distributed on their own if they are points of a net: a
@@ -106,25 +109,34 @@ impl Allocation {
     pub fn samples<R: Real>(&self, first: u32) -> Allocated<'_, R> {
         let last = self.lights.saturating_sub(1);
         let begin = self.end[..last].partition_point(|&end| end <= first);
+        let lanes = R::Uint::LANES as u32;
+        if begin == last || self.end[begin] >= first.saturating_add(lanes) {
+            // one light in all lanes
+            let before = (self.before[begin] + first).wrapping_sub(self.start(begin));
+            let share = (self.end[begin] - self.start(begin)) as f32 * self.reciprocal;
+            return Allocated {
+                allocation: self,
+                light: R::Uint::splat(self.light[begin]),
+                sample: R::Uint::from_fn(|lane| before.wrapping_add(lane as u32)),
+                share: R::lit(f64::from(share)),
+            };
+        }
         // each light has a sample, so successive lanes belong to the same light or to successive ones
-        let walk = || {
-            let mut k = begin;
-            move |lane: usize| {
-                let j = first.wrapping_add(lane as u32);
-                k += usize::from(k < last && j >= self.end[k]);
-                (k, j)
-            }
-        };
-        let (mut light, mut sample, mut share) = (walk(), walk(), walk());
+        let mut places = [begin; MOST_LANES];
+        let mut k = begin;
+        for (place, j) in places.iter_mut().zip(first..first.saturating_add(lanes)) {
+            k += usize::from(k < last && j >= self.end[k]);
+            *place = k;
+        }
         Allocated {
             allocation: self,
-            light: R::Uint::from_fn(|lane| self.light[light(lane).0]),
+            light: R::Uint::from_fn(|lane| self.light[places[lane]]),
             sample: R::Uint::from_fn(|lane| {
-                let (k, j) = sample(lane);
-                (self.before[k] + j).wrapping_sub(self.start(k))
+                let k = places[lane];
+                (self.before[k] + first).wrapping_add(lane as u32).wrapping_sub(self.start(k))
             }),
             share: R::from_fn(|lane| {
-                let k = share(lane).0;
+                let k = places[lane];
                 R::Scalar::lit(f64::from((self.end[k] - self.start(k)) as f32 * self.reciprocal))
             }),
         }

@@ -147,8 +147,10 @@ impl<'a> TileRenderer<'a> {
                 packets.push(Self::packet(&mut run, &mut runs, span, packets.len(), &mut pieces));
             }
             let at = |&(block, sample): &(usize, u32)| blocks.allocations()[block].samples(sample);
-            let allocated: Vec<Allocated<'_, X8>> = places.iter().map(at).collect();
-            let radiance = self.radiance(&packets, &allocated);
+            let all = |first: &(usize, u32)| std::array::from_fn(|p| at(places.get(p).unwrap_or(first)));
+            let allocated: Option<[Allocated<'_, X8>; GROUP]> = places.first().map(all);
+            let allocated = allocated.as_ref().map_or(&[][..], |all| &all[..places.len()]);
+            let radiance = self.radiance(&packets, allocated);
             for Piece { packet, lanes, run, ends } in pieces.drain(..) {
                 let radiance = radiance[packet];
                 if whole {
