@@ -140,10 +140,12 @@ impl Bvh {
         }
         let Scratch { frustum: stack, stream } = scratch;
         match (&frustum, self.traversal) {
-            (Some(_), _) => self.triangles.packets::<ANY>(rays, active, frustum.as_ref(), hits, stack),
-            (None, Traversal::Single) => self.triangles.one_by_one::<ANY>(rays, active, hits, &mut stream.single_ray),
+            (Some(_), _) => frustum::packets::<ANY>(&self.triangles, rays, active, frustum.as_ref(), hits, stack),
+            (None, Traversal::Single) => {
+                single_ray::one_by_one::<ANY>(&self.triangles, rays, active, hits, &mut stream.single_ray)
+            }
             (None, Traversal::Exhaustive) => self.triangles.every_leaf::<ANY>(rays, active, hits),
-            (None, _) => self.triangles.stream::<ANY>(rays, active, hits, stream),
+            (None, _) => stream::stream::<ANY>(&self.triangles, rays, active, hits, stream),
         }
     }
     /// Like [`Self::trace`], for shapes only: packet by packet if there is no frustum, as shapes are few.
@@ -158,11 +160,11 @@ impl Bvh {
     ) {
         let (shapes, stack) = (self.shapes.tree(), &mut scratch.frustum);
         if frustum.is_some() {
-            return shapes.packets::<ANY>(rays, active, frustum, hits, stack);
+            return frustum::packets::<ANY>(shapes, rays, active, frustum, hits, stack);
         }
         for p in 0..rays.len() {
             if active[p].any() {
-                shapes.packets::<ANY>(&rays[p..=p], &mut active[p..=p], None, &mut hits[p..=p], stack);
+                frustum::packets::<ANY>(shapes, &rays[p..=p], &mut active[p..=p], None, &mut hits[p..=p], stack);
             }
         }
     }

@@ -140,107 +140,105 @@ impl<const COMMON: bool> Packets<'_, COMMON> {
     }
 }
 
-impl<P: Primitives> Tree<P> {
-    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
-    /// something instead.
-    pub(super) fn packets<const ANY: bool>(
-        &self,
-        rays: &[Rays],
-        active: &mut [M8],
-        frustum: Option<&Frustum>,
-        hits: &mut [Hits],
-        stack: &mut Stack<Pending>,
-    ) {
-        if self.count == 0 {
-            return;
+/// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
+/// something instead.
+pub(super) fn packets<const ANY: bool>(
+    tree: &Tree<impl Primitives>,
+    rays: &[Rays],
+    active: &mut [M8],
+    frustum: Option<&Frustum>,
+    hits: &mut [Hits],
+    stack: &mut Stack<Pending>,
+) {
+    if tree.count == 0 {
+        return;
+    }
+    let lead = active[0].bits().trailing_zeros() as usize & 7;
+    match common_sign(rays) {
+        Some(sign) => {
+            packets_with::<ANY, true>(tree, &Packets { rays, sign, frustum, lead }, active, hits, stack);
         }
-        let lead = active[0].bits().trailing_zeros() as usize & 7;
-        match common_sign(rays) {
-            Some(sign) => {
-                self.packets_with::<ANY, true>(&Packets { rays, sign, frustum, lead }, active, hits, stack);
-            }
-            None => {
-                let sign = [false; 3];
-                self.packets_with::<ANY, false>(&Packets { rays, sign, frustum, lead }, active, hits, stack);
-            }
+        None => {
+            let sign = [false; 3];
+            packets_with::<ANY, false>(tree, &Packets { rays, sign, frustum, lead }, active, hits, stack);
         }
     }
+}
 
-    fn packets_with<const ANY: bool, const COMMON: bool>(
-        &self,
-        packets: &Packets<'_, COMMON>,
-        active: &mut [M8],
-        hits: &mut [Hits],
-        stack: &mut Stack<Pending>,
-    ) {
-        let stack = &mut stack.0[..];
-        let mut height = 0;
-        // the greatest remaining search distance of any ray
-        let mut reach = farthest(hits, active);
-        let mut place = 0_u32;
-        loop {
-            let node = &self.nodes[place as usize];
-            let (mut bits, near) = packets.enter::<ANY>(node, hits[0].distance, active[0], reach);
-            // the nearest child goes to the top of the stack
-            let floor = height;
-            while bits != 0 {
-                let slot = bits.trailing_zeros() as usize & 7;
-                bits &= bits - 1;
-                let inner = node.count[slot] == 0;
-                if ANY && !inner {
-                    if self.visit_leaf::<ANY, COMMON>(packets, node, slot, active, hits) && !any(active) {
-                        return;
-                    }
-                    continue;
-                }
-                let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
-                let child = Pending { node: to, slot: leaf, near: near[slot] };
-                push_in_order(stack, &mut height, floor, child, |c| c.near);
-            }
-            place = loop {
-                if height == 0 {
+fn packets_with<const ANY: bool, const COMMON: bool>(
+    tree: &Tree<impl Primitives>,
+    packets: &Packets<'_, COMMON>,
+    active: &mut [M8],
+    hits: &mut [Hits],
+    stack: &mut Stack<Pending>,
+) {
+    let stack = &mut stack.0[..];
+    let mut height = 0;
+    // the greatest remaining search distance of any ray
+    let mut reach = farthest(hits, active);
+    let mut place = 0_u32;
+    loop {
+        let node = &tree.nodes[place as usize];
+        let (mut bits, near) = packets.enter::<ANY>(node, hits[0].distance, active[0], reach);
+        // the nearest child goes to the top of the stack
+        let floor = height;
+        while bits != 0 {
+            let slot = bits.trailing_zeros() as usize & 7;
+            bits &= bits - 1;
+            let inner = node.count[slot] == 0;
+            if ANY && !inner {
+                if visit_leaf::<ANY, COMMON>(tree, packets, node, slot, active, hits) && !any(active) {
                     return;
                 }
-                height -= 1;
-                let Pending { node, slot, near } = stack[height];
-                // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
-                if !ANY && packets.frustum.is_some() && near > reach {
-                    continue;
-                }
-                if slot == INNER {
-                    break node;
-                }
-                let node = &self.nodes[node as usize];
-                if self.visit_leaf::<ANY, COMMON>(packets, node, slot as usize & 7, active, hits) {
-                    reach = farthest(hits, active);
-                }
-            };
-        }
-    }
-
-    /// Tests the rays that enter a leaf. Returns whether there are any; with `ANY`, whether a packet has no active rays any more.
-    #[inline(always)]
-    fn visit_leaf<const ANY: bool, const COMMON: bool>(
-        &self,
-        packets: &Packets<'_, COMMON>,
-        node: &Node,
-        slot: usize,
-        active: &mut [M8],
-        hits: &mut [Hits],
-    ) -> bool {
-        let leaf = node.leaf(slot);
-        let mut changed = false;
-        for ((rays, active), hits) in packets.rays.iter().zip(active).zip(hits) {
-            let (near, entered) = slabs::<COMMON>(node, slot, rays, packets.sign, hits.distance);
-            let entered = entered & *active;
-            if entered.any() {
-                let hidden = self.primitives.test_packet::<ANY>(leaf.clone(), rays, near, entered, hits);
-                *active = *active & !hidden;
-                changed |= !ANY || !active.any();
+                continue;
             }
+            let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
+            let child = Pending { node: to, slot: leaf, near: near[slot] };
+            push_in_order(stack, &mut height, floor, child, |c| c.near);
         }
-        changed
+        place = loop {
+            if height == 0 {
+                return;
+            }
+            height -= 1;
+            let Pending { node, slot, near } = stack[height];
+            // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
+            if !ANY && packets.frustum.is_some() && near > reach {
+                continue;
+            }
+            if slot == INNER {
+                break node;
+            }
+            let node = &tree.nodes[node as usize];
+            if visit_leaf::<ANY, COMMON>(tree, packets, node, slot as usize & 7, active, hits) {
+                reach = farthest(hits, active);
+            }
+        };
     }
+}
+
+/// Tests the rays that enter a leaf. Returns whether there are any; with `ANY`, whether a packet has no active rays any more.
+#[inline(always)]
+fn visit_leaf<const ANY: bool, const COMMON: bool>(
+    tree: &Tree<impl Primitives>,
+    packets: &Packets<'_, COMMON>,
+    node: &Node,
+    slot: usize,
+    active: &mut [M8],
+    hits: &mut [Hits],
+) -> bool {
+    let leaf = node.leaf(slot);
+    let mut changed = false;
+    for ((rays, active), hits) in packets.rays.iter().zip(active).zip(hits) {
+        let (near, entered) = slabs::<COMMON>(node, slot, rays, packets.sign, hits.distance);
+        let entered = entered & *active;
+        if entered.any() {
+            let hidden = tree.primitives.test_packet::<ANY>(leaf.clone(), rays, near, entered, hits);
+            *active = *active & !hidden;
+            changed |= !ANY || !active.any();
+        }
+    }
+    changed
 }
 
 /// The greatest remaining search distance of an active ray.

@@ -141,17 +141,17 @@ pub(super) fn octant(rays: &[Rays]) -> usize {
 
 /// Calls a function that is specialised to the octant of the rays, or to `other` if there is none.
 macro_rules! by_octant {
-    ($octant:expr, else $other:literal, $this:ident.$function:ident::<$any:ident> $arguments:tt) => {
+    ($octant:expr, else $other:literal, $function:ident::<$any:ident>($($argument:expr),*)) => {
         match $octant {
-            0 => $this.$function::<$any, 0> $arguments,
-            1 => $this.$function::<$any, 1> $arguments,
-            2 => $this.$function::<$any, 2> $arguments,
-            3 => $this.$function::<$any, 3> $arguments,
-            4 => $this.$function::<$any, 4> $arguments,
-            5 => $this.$function::<$any, 5> $arguments,
-            6 => $this.$function::<$any, 6> $arguments,
-            7 => $this.$function::<$any, 7> $arguments,
-            _ => $this.$function::<$any, $other> $arguments,
+            0 => $function::<$any, 0>($($argument),*),
+            1 => $function::<$any, 1>($($argument),*),
+            2 => $function::<$any, 2>($($argument),*),
+            3 => $function::<$any, 3>($($argument),*),
+            4 => $function::<$any, 4>($($argument),*),
+            5 => $function::<$any, 5>($($argument),*),
+            6 => $function::<$any, 6>($($argument),*),
+            7 => $function::<$any, 7>($($argument),*),
+            _ => $function::<$any, $other>($($argument),*),
         }
     };
 }

@@ -69,113 +69,111 @@ pub(super) trait Leaves {
     fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool;
 }
 
-impl<P: Leaves> Tree<P> {
-    /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that
-    /// hit something instead.
-    pub(super) fn one_by_one<const ANY: bool>(
-        &self,
-        rays: &[Rays],
-        active: &mut [M8],
-        hits: &mut [Hits],
-        stack: &mut Stack<Child>,
-    ) {
-        for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
-            let mut open = active.bits();
-            each_bit(open, |lane| open &= !(u32::from(self.lane::<ANY>(0, rays, lane, hits, stack)) << lane));
-            *active = M8::from_bits(open);
-        }
+/// Finds the nearest hits of all rays one by one, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that
+/// hit something instead.
+pub(super) fn one_by_one<const ANY: bool>(
+    tree: &Tree<impl Leaves>,
+    rays: &[Rays],
+    active: &mut [M8],
+    hits: &mut [Hits],
+    stack: &mut Stack<Child>,
+) {
+    for ((rays, active), hits) in rays.iter().zip(active).zip(hits) {
+        let mut open = active.bits();
+        each_bit(open, |lane| open &= !(u32::from(trace_lane::<ANY>(tree, 0, rays, lane, hits, stack)) << lane));
+        *active = M8::from_bits(open);
     }
+}
 
-    /// Traces one ray of a packet through the nodes below `from`. With `ANY`, returns whether it hits something, and leaves `hits` as
-    /// they are.
-    #[inline]
-    pub(super) fn lane<const ANY: bool>(
-        &self,
-        from: u32,
-        rays: &Rays,
-        lane: usize,
-        hits: &mut Hits,
-        stack: &mut Stack<Child>,
-    ) -> bool {
-        if self.count == 0 {
-            return false;
-        }
-        let (ray, mut nearest) = (SingleRay::new(rays, lane), hits.nearest(lane));
-        let hidden = by_octant!(ray.octant, else 7, self.single_ray::<ANY>(from, &ray, &mut nearest, stack));
-        if !ANY {
-            hits.put(lane, &nearest);
-        }
-        hidden
+/// Traces one ray of a packet through the nodes below `from`. With `ANY`, returns whether it hits something, and leaves `hits` as
+/// they are.
+#[inline]
+pub(super) fn trace_lane<const ANY: bool>(
+    tree: &Tree<impl Leaves>,
+    from: u32,
+    rays: &Rays,
+    lane: usize,
+    hits: &mut Hits,
+    stack: &mut Stack<Child>,
+) -> bool {
+    if tree.count == 0 {
+        return false;
     }
+    let (ray, mut nearest) = (SingleRay::new(rays, lane), hits.nearest(lane));
+    let hidden = by_octant!(ray.octant, else 7, single_ray::<ANY>(tree, from, &ray, &mut nearest, stack));
+    if !ANY {
+        hits.put(lane, &nearest);
+    }
+    hidden
+}
 
-    fn single_ray<const ANY: bool, const OCTANT: usize>(
-        &self,
-        from: u32,
-        ray: &SingleRay,
-        nearest: &mut Nearest,
-        stack: &mut Stack<Child>,
-    ) -> bool {
-        let stack = &mut stack.0[..];
-        let mut height = 0;
-        let mut place = from;
-        loop {
-            let node = &self.nodes[place as usize];
-            let (near, mask) = ray.enter::<OCTANT>(node, X8::splat(nearest.distance));
-            let near = near.to_array();
-            let child =
-                |slot: usize| Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
-            let mut bits = mask.bits();
-            let mut take = || {
-                let slot = bits.trailing_zeros() as usize & 7;
-                let some = bits != 0;
-                bits &= bits.wrapping_sub(1);
-                some.then(|| child(slot))
-            };
-            if ANY {
-                while let Some(child) = take() {
-                    if child.count == 0 {
-                        stack[height] = child;
-                        height += 1;
-                    } else if self.test_child::<ANY>(&child, ray, nearest) {
-                        return true;
-                    }
+fn single_ray<const ANY: bool, const OCTANT: usize>(
+    tree: &Tree<impl Leaves>,
+    from: u32,
+    ray: &SingleRay,
+    nearest: &mut Nearest,
+    stack: &mut Stack<Child>,
+) -> bool {
+    let stack = &mut stack.0[..];
+    let mut height = 0;
+    let mut place = from;
+    loop {
+        let node = &tree.nodes[place as usize];
+        let (near, mask) = ray.enter::<OCTANT>(node, X8::splat(nearest.distance));
+        let near = near.to_array();
+        let child =
+            |slot: usize| Child { first: node.first[slot], count: u32::from(node.count[slot]), near: near[slot] };
+        let mut bits = mask.bits();
+        let mut take = || {
+            let slot = bits.trailing_zeros() as usize & 7;
+            let some = bits != 0;
+            bits &= bits.wrapping_sub(1);
+            some.then(|| child(slot))
+        };
+        if ANY {
+            while let Some(child) = take() {
+                if child.count == 0 {
+                    stack[height] = child;
+                    height += 1;
+                } else if test_child::<ANY>(tree, &child, ray, nearest) {
+                    return true;
                 }
-            } else if let Some(mut next) = take() {
-                // the nearest child is visited next; the others go to the stack, nearer ones on top
-                let floor = height;
-                while let Some(mut other) = take() {
-                    if other.near < next.near {
-                        (next, other) = (other, next);
-                    }
-                    push_in_order(stack, &mut height, floor, other, |c| c.near);
-                }
-                if next.count == 0 {
-                    place = next.first;
-                    continue;
-                }
-                self.test_child::<ANY>(&next, ray, nearest);
             }
-            place = loop {
-                if height == 0 {
-                    return false;
+        } else if let Some(mut next) = take() {
+            // the nearest child is visited next; the others go to the stack, nearer ones on top
+            let floor = height;
+            while let Some(mut other) = take() {
+                if other.near < next.near {
+                    (next, other) = (other, next);
                 }
-                height -= 1;
-                let child = stack[height];
-                if !ANY && child.near > nearest.distance {
-                    continue;
-                }
-                if ANY || child.count == 0 {
-                    break child.first;
-                }
-                self.test_child::<ANY>(&child, ray, nearest);
-            };
+                push_in_order(stack, &mut height, floor, other, |c| c.near);
+            }
+            if next.count == 0 {
+                place = next.first;
+                continue;
+            }
+            test_child::<ANY>(tree, &next, ray, nearest);
         }
+        place = loop {
+            if height == 0 {
+                return false;
+            }
+            height -= 1;
+            let child = stack[height];
+            if !ANY && child.near > nearest.distance {
+                continue;
+            }
+            if ANY || child.count == 0 {
+                break child.first;
+            }
+            test_child::<ANY>(tree, &child, ray, nearest);
+        };
     }
+}
 
-    /// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`].
-    #[inline(always)]
-    fn test_child<const ANY: bool>(&self, leaf: &Child, ray: &SingleRay, nearest: &mut Nearest) -> bool {
-        let first = leaf.first as usize;
-        self.primitives.test_ray::<ANY>(first..first + leaf.count as usize, ray, X8::splat(leaf.near), nearest)
-    }
+/// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`].
+#[inline(always)]
+fn test_child<const ANY: bool>(tree: &Tree<impl Leaves>, leaf: &Child, ray: &SingleRay, nearest: &mut Nearest) -> bool {
+    let first = leaf.first as usize;
+    tree.primitives.test_ray::<ANY>(first..first + leaf.count as usize, ray, X8::splat(leaf.near), nearest)
 }

@@ -2,7 +2,7 @@
 
 use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
 use super::rays::{GROUP, Hits, Rays, by_octant, each_bit, octant};
-use super::single_ray::{Child, Leaves, SingleRay};
+use super::single_ray::{Child, Leaves, SingleRay, trace_lane};
 use super::tree::{Primitives, Tree};
 use crate::packet::{M8, X8, max, min, select};
 use etendue::{Mask, Real};
@@ -90,113 +90,111 @@ fn bits(active: &[M8]) -> u64 {
     active.iter().zip(0..).fold(0, |bits, (a, p)| bits | u64::from(a.bits()) << (8 * p))
 }
 
-impl<P: Primitives + Leaves> Tree<P> {
-    /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
-    /// something instead.
-    pub(super) fn stream<const ANY: bool>(
-        &self,
-        rays: &[Rays],
-        active: &mut [M8],
-        hits: &mut [Hits],
-        scratch: &mut Scratch,
-    ) {
-        if self.count != 0 {
-            by_octant!(octant(rays), else 8, self.stream_in_octant::<ANY>(rays, active, hits, scratch));
-        }
+/// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
+/// something instead.
+pub(super) fn stream<const ANY: bool>(
+    tree: &Tree<impl Primitives + Leaves>,
+    rays: &[Rays],
+    active: &mut [M8],
+    hits: &mut [Hits],
+    scratch: &mut Scratch,
+) {
+    if tree.count != 0 {
+        by_octant!(octant(rays), else 8, stream_in_octant::<ANY>(tree, rays, active, hits, scratch));
     }
+}
 
-    fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
-        &self,
-        rays: &[Rays],
-        active: &mut [M8],
-        hits: &mut [Hits],
-        scratch: &mut Scratch,
-    ) {
-        let stream = Stream::<OCTANT> { rays };
-        let Scratch { visits, single_ray } = scratch;
-        let visits = &mut visits.0[..];
-        let mut open = bits(active);
-        let mut height = 1;
-        visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
-        while height > 0 && open != 0 {
-            height -= 1;
-            let Visit { rays: among, node: place, slot, .. } = visits[height];
-            let among = among & open;
-            let node = &self.nodes[place as usize];
-            if !ANY && slot != INNER {
-                self.visit_stream_leaf::<ANY>(rays, among, node, slot as usize & 7, hits);
-                continue;
-            }
-            if among.count_ones() < FEW {
-                each_bit(among, |i| {
-                    let p = i >> 3;
-                    let hidden = self.lane::<ANY>(place, &rays[p], i & 7, &mut hits[p], single_ray);
-                    open &= !(u64::from(hidden) << i);
-                });
-                continue;
-            }
-            let (entered, near) = stream.enter::<ANY>(node, among, hits);
-            let near = near.to_array();
-            // the nearest child goes to the top of the stack
-            let floor = height;
-            for slot in 0..(node.children as usize).min(WIDTH) {
-                if entered[slot] == 0 {
-                    continue;
-                }
-                let inner = node.count[slot] == 0;
-                if ANY && !inner {
-                    open &= !self.visit_stream_leaf::<ANY>(rays, entered[slot] & open, node, slot, hits);
-                    continue;
-                }
-                let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
-                let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
-                push_in_order(visits, &mut height, floor, child, |c| c.near);
-            }
+fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
+    tree: &Tree<impl Primitives + Leaves>,
+    rays: &[Rays],
+    active: &mut [M8],
+    hits: &mut [Hits],
+    scratch: &mut Scratch,
+) {
+    let stream = Stream::<OCTANT> { rays };
+    let Scratch { visits, single_ray } = scratch;
+    let visits = &mut visits.0[..];
+    let mut open = bits(active);
+    let mut height = 1;
+    visits[0] = Visit { rays: open, node: 0, slot: INNER, near: 0.0 };
+    while height > 0 && open != 0 {
+        height -= 1;
+        let Visit { rays: among, node: place, slot, .. } = visits[height];
+        let among = among & open;
+        let node = &tree.nodes[place as usize];
+        if !ANY && slot != INNER {
+            visit_stream_leaf::<ANY>(tree, rays, among, node, slot as usize & 7, hits);
+            continue;
         }
-        if ANY {
-            for (p, active) in active.iter_mut().enumerate() {
-                *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);
-            }
-        }
-    }
-
-    /// Tests the rays of `among` in a leaf. With `ANY`, returns those that hit something.
-    #[inline(always)]
-    fn visit_stream_leaf<const ANY: bool>(
-        &self,
-        rays: &[Rays],
-        among: u64,
-        node: &Node,
-        slot: usize,
-        hits: &mut [Hits],
-    ) -> u64 {
-        let leaf = node.leaf(slot);
-        let mut hidden = 0;
-        for ((rays, hits), p) in rays.iter().zip(hits).zip(0..) {
-            let lanes = (among >> (8 * p)) as u32 & 0xff;
-            if lanes == 0 {
-                continue;
-            }
-            let (near, _) = slabs::<false>(node, slot, rays, [false; 3], hits.distance);
-            // one triangle after another or one ray after another, whichever are fewer
-            if lanes.count_ones() as usize >= leaf.len() {
-                let lanes = self.primitives.test_packet::<ANY>(leaf.clone(), rays, near, M8::from_bits(lanes), hits);
-                hidden |= u64::from(lanes.bits()) << (8 * p);
-                continue;
-            }
-            each_bit(lanes, |lane| {
-                let mut nearest = hits.nearest(lane);
-                let near = near.as_array()[lane];
-                if ANY || near <= nearest.distance {
-                    let (ray, near) = (SingleRay::new(rays, lane), X8::splat(near));
-                    let hit = self.primitives.test_ray::<ANY>(leaf.clone(), &ray, near, &mut nearest);
-                    hidden |= u64::from(hit) << (8 * p + lane);
-                    if !ANY {
-                        hits.put(lane, &nearest);
-                    }
-                }
+        if among.count_ones() < FEW {
+            each_bit(among, |i| {
+                let p = i >> 3;
+                let hidden = trace_lane::<ANY>(tree, place, &rays[p], i & 7, &mut hits[p], single_ray);
+                open &= !(u64::from(hidden) << i);
             });
+            continue;
         }
-        hidden
+        let (entered, near) = stream.enter::<ANY>(node, among, hits);
+        let near = near.to_array();
+        // the nearest child goes to the top of the stack
+        let floor = height;
+        for slot in 0..(node.children as usize).min(WIDTH) {
+            if entered[slot] == 0 {
+                continue;
+            }
+            let inner = node.count[slot] == 0;
+            if ANY && !inner {
+                open &= !visit_stream_leaf::<ANY>(tree, rays, entered[slot] & open, node, slot, hits);
+                continue;
+            }
+            let (to, leaf) = if inner { (node.first[slot], INNER) } else { (place, slot as u32) };
+            let child = Visit { rays: entered[slot], node: to, slot: leaf, near: near[slot] };
+            push_in_order(visits, &mut height, floor, child, |c| c.near);
+        }
     }
+    if ANY {
+        for (p, active) in active.iter_mut().enumerate() {
+            *active = M8::from_bits((open >> (8 * p)) as u32 & 0xff);
+        }
+    }
+}
+
+/// Tests the rays of `among` in a leaf. With `ANY`, returns those that hit something.
+#[inline(always)]
+fn visit_stream_leaf<const ANY: bool>(
+    tree: &Tree<impl Primitives + Leaves>,
+    rays: &[Rays],
+    among: u64,
+    node: &Node,
+    slot: usize,
+    hits: &mut [Hits],
+) -> u64 {
+    let leaf = node.leaf(slot);
+    let mut hidden = 0;
+    for ((rays, hits), p) in rays.iter().zip(hits).zip(0..) {
+        let lanes = (among >> (8 * p)) as u32 & 0xff;
+        if lanes == 0 {
+            continue;
+        }
+        let (near, _) = slabs::<false>(node, slot, rays, [false; 3], hits.distance);
+        // one triangle after another or one ray after another, whichever are fewer
+        if lanes.count_ones() as usize >= leaf.len() {
+            let lanes = tree.primitives.test_packet::<ANY>(leaf.clone(), rays, near, M8::from_bits(lanes), hits);
+            hidden |= u64::from(lanes.bits()) << (8 * p);
+            continue;
+        }
+        each_bit(lanes, |lane| {
+            let mut nearest = hits.nearest(lane);
+            let near = near.as_array()[lane];
+            if ANY || near <= nearest.distance {
+                let (ray, near) = (SingleRay::new(rays, lane), X8::splat(near));
+                let hit = tree.primitives.test_ray::<ANY>(leaf.clone(), &ray, near, &mut nearest);
+                hidden |= u64::from(hit) << (8 * p + lane);
+                if !ANY {
+                    hits.put(lane, &nearest);
+                }
+            }
+        });
+    }
+    hidden
 }

@@ -1,8 +1,7 @@
 //! Runs the program as a user would, and checks output, messages and exit codes.
 
-#[path = "cli/lost.rs"]
+mod chart;
 mod lost;
-#[path = "cli/refined.rs"]
 mod refined;
 
 use serde_json::Value;
