@@ -1,5 +1,6 @@
 //! Allocating samples to a few lights reduces the error and has no bias.
 
+use etendue_render::film::Pixel;
 use etendue_render::image::Picture;
 use etendue_render::{Sampler, Settings, Technique, World, compare::Comparison, image, scene};
 use std::path::Path;
@@ -30,6 +31,9 @@ fn corners_are_looked_through_where_it_helps() {
     // for the pilot only, which determines the rest
     assert_eq!(corners("quads", Settings { sampler: Sampler::Adaptive, ..SETTINGS }), four_tiles);
     assert_eq!(corners("quads", Settings { width: 17, height: 3, ..SETTINGS }), 17 * 4 + 2 * 4);
+    // through a lens, on metals and with MIS weights, too
+    assert_eq!(corners("defocus", SETTINGS), four_tiles);
+    assert_eq!(corners("plates", Settings { technique: Technique::MisPower, ..SETTINGS }), four_tiles);
     for other in [
         // one light
         ("sphere-light", SETTINGS),
@@ -41,35 +45,49 @@ fn corners_are_looked_through_where_it_helps() {
         ("quads", Settings { spp: 4, ..SETTINGS }),
         // lights are not sampled
         ("quads", Settings { technique: Technique::CosineHemisphere, ..SETTINGS }),
-        // a lens
-        ("defocus", SETTINGS),
     ] {
         assert_eq!(corners(other.0, other.1), 0, "{other:?}");
     }
 }
 
+/// Mean difference of `n` images from a precise one, and its standard error, which includes that of the precise image.
+fn bias(world: &World, precise: Settings, settings: Settings, n: u64) -> (f64, f64) {
+    let precise = world.render(&precise, |_| ()).0;
+    let pixels = precise.pixels.len() as f64;
+    let off: Vec<f64> = (0..n)
+        .map(|seed| {
+            let film = world.render(&Settings { seed: 100 + seed, ..settings }, |_| ()).0;
+            let difference = |(a, b): (&Pixel, &Pixel)| f64::from(a.mean[0]) - f64::from(b.mean[0]);
+            film.pixels.iter().zip(&precise.pixels).map(difference).sum::<f64>() / pixels
+        })
+        .collect();
+    let mean = off.iter().sum::<f64>() / n as f64;
+    let squared = off.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n * (n - 1)) as f64;
+    let own = precise.pixels.iter().map(|p| f64::from(p.variance[0])).sum::<f64>() / (pixels * pixels);
+    let error = (squared + own).sqrt();
+    println!("{settings:?}: bias {mean:.1e} ± {error:.1e} of {:.3}", precise.mean()[0]);
+    (mean, error)
+}
+
 /// The mean over seeds equals that of an image with randomly chosen lights, also where corners do not see what the pixel sees.
 #[test]
 fn is_not_biased() {
-    let world = world("quads");
-    let precise = Settings { spp: 1 << 16, sampler: Sampler::Sobol4d, seed: 7, ..SETTINGS };
-    let precise = world.render(&precise, |_| ()).0;
+    let precise = Settings { spp: 1 << 16, sampler: Sampler::Sobol4d, sets: 4, seed: 7, ..SETTINGS };
     for (sampler, spp, sets) in [(Sampler::Sobol, 8, 1), (Sampler::Sobol, 64, 4), (Sampler::Adaptive, 64, 1)] {
-        let settings = Settings { spp, sets, sampler, ..SETTINGS };
-        let n = 200;
-        let off: Vec<f64> = (0..n)
-            .map(|seed| {
-                let film = world.render(&Settings { seed: 100 + seed, ..settings }, |_| ()).0;
-                let difference = |(a, b): (&etendue_render::film::Pixel, &etendue_render::film::Pixel)| {
-                    f64::from(a.mean[0]) - f64::from(b.mean[0])
-                };
-                film.pixels.iter().zip(&precise.pixels).map(difference).sum::<f64>() / film.pixels.len() as f64
-            })
-            .collect();
-        let mean = off.iter().sum::<f64>() / n as f64;
-        let error = (off.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n * (n - 1)) as f64).sqrt();
-        println!("{sampler:?}, {spp} samples, {sets} sets: bias {mean:.1e} ± {error:.1e} of {:.3}", precise.mean()[0]);
+        let (mean, error) = bias(&world("quads"), precise, Settings { spp, sets, sampler, ..SETTINGS }, 200);
         assert!(mean.abs() < 4.0 * error && error < 5e-5, "{sampler:?}: {mean:e} ± {error:e}");
+    }
+}
+
+/// The same through a lens, and for metals, where the BSDF's samples are weighted by the pmf of the allocation.
+#[test]
+fn is_not_biased_in_other_scenes() {
+    for (name, technique) in [("defocus", Technique::SolidAngle), ("plates", Technique::MisPower)] {
+        let precise = Settings { spp: 1 << 13, technique, sampler: Sampler::Sobol4d, sets: 4, seed: 7, ..SETTINGS };
+        for (sampler, spp) in [(Sampler::Sobol, 8), (Sampler::Adaptive, 64)] {
+            let (mean, error) = bias(&world(name), precise, Settings { spp, technique, sampler, ..SETTINGS }, 100);
+            assert!(mean.abs() < 4.0 * error && error < 2e-3, "{name}, {sampler:?}: {mean:e} ± {error:e}");
+        }
     }
 }
 

@@ -1,0 +1,12 @@
+//! Images of scenes, against closed forms, references and each other. One program: linking the renderer takes longer than most tests.
+
+mod adaptive;
+mod allocation;
+mod closed_forms;
+mod images;
+mod lens;
+mod references;
+mod sampler;
+mod sensor;
+mod sky;
+mod vignetting;
