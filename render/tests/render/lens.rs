@@ -1,7 +1,8 @@
 //! The thin lens: geometry of its rays, and images of defocused edges compared with their closed form.
 
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Real, Vec2, f32x8, u32x8};
+use etendue::warp::ConcentricDisk;
+use etendue::{Real, Vec2, Warp, f32x8, u32x8};
 use etendue_render::camera::Camera;
 use etendue_render::compare::Comparison;
 use etendue_render::image::Picture;
@@ -65,7 +66,7 @@ fn rays_meet_in_the_plane_of_focus() {
             };
             let (film, u) = (u(0), u(1));
             let place = [film.x * f32x8::splat(width as f32), film.y * f32x8::splat(height as f32)];
-            let (origin, direction) = lens.ray(place[0], place[1], u);
+            let (origin, direction) = lens.ray(place[0], place[1], ConcentricDisk.sample(u));
             for k in 0..8 {
                 let lane = |v: etendue::Vec3<f32x8>| <[f32; 3]>::from(v.lane(k)).map(f64::from);
                 let (o, d) = (lane(origin), lane(direction));
