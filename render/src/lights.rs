@@ -156,6 +156,7 @@ pub struct Lights {
 
 /// How a packet chooses among the lights.
 #[derive(Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "it lives on the stack, for one packet")]
 pub enum Chooser<'a> {
     /// This light in every lane.
     Given(u32),

@@ -69,7 +69,7 @@ impl SpatialLights {
         let mut own = Self { lights: [LightBound::default(); FEW], count: lights.len(), scale: 1.0 };
         let (mut extent, mut strongest) = (0.0_f32, 0.0_f32);
         for light in lights {
-            let [x, y, z] = light.center.map(|x| Real::abs(x));
+            let [x, y, z] = light.center.map(Real::abs);
             extent = extent.greater(x.greater(y)).greater(z.greater(light.radius));
             if light.power < f32::INFINITY {
                 strongest = strongest.greater(light.power);

@@ -185,8 +185,8 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
         .map(|&power| {
             let center = input.vector(&before);
             before.push(center);
-            let normal = if input.word() % 2 == 0 { [0.0; 3] } else { input.direction() };
-            LightBound { center, radius: input.weight(), normal, two_sided: input.word() % 2 == 0, power }
+            let normal = if input.word().is_multiple_of(2) { [0.0; 3] } else { input.direction() };
+            LightBound { center, radius: input.weight(), normal, two_sided: input.word().is_multiple_of(2), power }
         })
         .collect();
     let (p, n) = (input.vector(&before), input.direction());
