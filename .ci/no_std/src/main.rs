@@ -225,7 +225,8 @@ fn tables(count: &mut Count) {
         }
         Err(_) => exit(253),
     }
-    let lights = [1.0, 2.0].map(|x| LightBound { center: [x, 1.0, 0.0], radius: 0.5, power: x, ..LightBound::default() });
+    let lights =
+        [1.0, 2.0].map(|x| LightBound { center: [x, 1.0, 0.0], radius: 0.5, power: x, ..LightBound::default() });
     let mut sums = [0.0; 6];
     let Ok(power) = PowerLights::new(&weights, &mut sums) else { exit(252) };
     let Ok(spatial) = SpatialLights::new(&lights) else { exit(251) };
