@@ -51,8 +51,9 @@ pub struct SpatialLights {
     scale: f32,
 }
 
-/// Greater distances, relative to the lights, count as about this: their squares are still finite.
-const FAR: f64 = (1_u64 << 60) as f64;
+/// Points farther away than this, relative to the extent of the lights, count as this far: the lights then differ by less than a rounding,
+/// and no weight vanishes.
+const FAR: f64 = (1_u64 << 30) as f64;
 /// The least radius relative to the extent of the lights, and the least power relative to the strongest.
 const SMALL: f32 = 1.0 / (1_u64 << 50) as f32;
 /// The least weight of a light that can contribute, if all weights are smaller.
