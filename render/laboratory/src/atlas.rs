@@ -2,7 +2,7 @@
 //! sweeps of size, elevation, aspect ratio and distance.
 //!
 //! [`pose`] has the sweeps, [`truth`] the exact results, [`methods`] the measured techniques, [`textbook`] the baselines, [`sample`] what
-//! they draw, [`survey`] the measurements and [`page`] the maps.
+//! they draw, [`mod@survey`] the measurements and [`page`] the maps.
 
 pub mod methods;
 pub mod page;
