@@ -86,7 +86,7 @@ impl LightRecord {
 
 /// Chooses among any number of lights by their power: a block of neighbours by one number, a light of the block by another.
 #[derive(Debug, Default)]
-struct PowerTable {
+pub struct PowerTable {
     /// Lights in a block, all but the last one.
     block: usize,
     blocks: Vec<f32>,
@@ -95,10 +95,12 @@ struct PowerTable {
 
 impl PowerTable {
     fn new(powers: &[f64]) -> Self {
-        let block = if powers.len() <= PowerLights::MOST { powers.len().max(1) } else { powers.len().isqrt() };
+        // at least as many lights in a block as blocks
+        let block = if powers.len() <= PowerLights::MOST { powers.len().max(1) } else { powers.len().isqrt() + 1 };
         let greatest = powers.iter().fold(f64::MIN_POSITIVE, |m, &p| m.max(p));
-        // relative to the greatest, so that all sums are finite
-        let powers: Vec<f32> = powers.iter().map(|p| (p / greatest) as f32).collect();
+        // relative to the greatest, so that all sums are finite; no light vanishes
+        let relative = |p: f64| if p > 0.0 { ((p / greatest) as f32).max(f32::MIN_POSITIVE) } else { 0.0 };
+        let powers: Vec<f32> = powers.iter().map(|&p| relative(p)).collect();
         let mut table = Self { block, blocks: Vec::new(), lights: vec![0.0; powers.len()] };
         let sums: Vec<f32> = powers.chunks(block).map(|powers| powers.iter().sum()).collect();
         for (powers, sums) in powers.chunks(block).zip(table.lights.chunks_mut(block)) {
@@ -154,52 +156,25 @@ pub struct Lights {
     shape_lights: Vec<u32>,
 }
 
-/// How a packet chooses among the lights.
-#[derive(Clone, Copy)]
+/// The probabilities with which the lights are chosen at the shading points of a packet.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack, for one packet")]
-pub enum Chooser<'a> {
-    /// This light in every lane.
-    Given(u32),
-    /// By power; the second number is for more lights than one table holds.
-    Power(PowerChoice<'a>),
+pub enum LightPmf<'a> {
+    /// By power.
+    Power(&'a PowerTable),
     /// By what each light can contribute.
     Near(LightsAt<X8>),
     /// By an allocation of the samples.
-    Allocated(Allocated<'a, X8>),
+    Allocated(&'a Allocated<'a, X8>),
 }
 
-/// A choice by power.
-#[derive(Clone, Copy)]
-pub struct PowerChoice<'a> {
-    table: &'a PowerTable,
-    second: X8,
-}
-
-impl LightChoice<X8> for Chooser<'_> {
-    #[inline(always)]
-    fn choose(&self, u: X8) -> Choice<X8> {
-        match self {
-            Self::Given(light) => Choice { index: u32x8::splat(*light), pmf: X8::lit(1.0), u },
-            Self::Power(by) => by.table.choose(u, by.second),
-            Self::Near(near) => near.choose(u),
-            Self::Allocated(allocated) => allocated.choose(u),
-        }
-    }
-    fn pmf(&self, index: u32x8) -> X8 {
-        match self {
-            Self::Given(light) => X8::lit(1.0).keep(equal(index, u32x8::splat(*light))),
-            Self::Power(by) => X8::from_fn(|i| by.table.pmf(index.as_array()[i])),
-            Self::Near(near) => near.pmf(index),
-            Self::Allocated(allocated) => allocated.pmf(index),
-        }
-    }
+impl LightPmf<'_> {
+    /// The pmf of a light.
     #[inline]
-    fn pmf_of(&self, light: u32) -> X8 {
+    pub fn of(&self, light: u32) -> X8 {
         match self {
             Self::Near(near) => near.pmf_of(light),
             Self::Allocated(allocated) => allocated.pmf_of(light),
-            Self::Power(by) => X8::splat(by.table.pmf(light)),
-            Self::Given(_) => self.pmf(u32x8::splat(light)),
+            Self::Power(table) => X8::splat(table.pmf(light)),
         }
     }
 }
@@ -361,8 +336,8 @@ impl Lights {
     pub fn contributions(&self, p: V8, normal: V8) -> Option<LightsAt<X8>> {
         self.spatial.as_ref().map(|lights| lights.at(p, normal))
     }
-    /// Chooses a light for each of these points of surfaces, as the [`chooser`](Self::chooser) does, by one number, and a second one for
-    /// more lights than one table holds.
+    /// Chooses a light for each of these points of surfaces: by contribution, or by power where lights are many, of several kinds or
+    /// without area. The second number is for more lights than one table holds.
     #[inline(always)]
     pub fn choose(&self, p: V8, normal: V8, [u, second]: [X8; 2]) -> Choice<X8> {
         match &self.spatial {
@@ -371,15 +346,10 @@ impl Lights {
             None => self.powers.choose(u, second),
         }
     }
-    /// How packets at these points of surfaces choose: by contribution, or by power, with a second number, where lights are many, of
-    /// several kinds or without area.
+    /// The probabilities with which [`choose`](Self::choose) chooses at these points.
     #[inline(always)]
-    pub fn chooser(&self, p: V8, normal: V8, second: X8) -> Chooser<'_> {
-        match &self.spatial {
-            Some(lights) => Chooser::Near(lights.at(p, normal)),
-            None if self.packed.len() == 1 => Chooser::Given(0),
-            None => Chooser::Power(PowerChoice { table: &self.powers, second }),
-        }
+    pub fn pmf(&self, p: V8, normal: V8) -> LightPmf<'_> {
+        self.contributions(p, normal).map_or(LightPmf::Power(&self.powers), LightPmf::Near)
     }
     /// Lights with these indices.
     #[inline(always)]
@@ -445,7 +415,7 @@ impl Lights {
     /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
     /// shape from `p`.
     #[inline]
-    pub fn shape_pdf(&self, chooser: &Chooser<'_>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
+    pub fn shape_pdf(&self, pmf: &LightPmf<'_>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
         let pdf = match *geometry {
             Geometry::Sphere { center, radius } => {
                 Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf(w)
@@ -459,13 +429,13 @@ impl Lights {
                 Parallelogram::new(corner.into(), u.into(), v.into()).by_solid_angle(p).pdf(w)
             }
         };
-        pdf * chooser.pmf_of(self.shape_lights[shape])
+        pdf * pmf.of(self.shape_lights[shape])
     }
     /// The same for a direction to the sky, which is the last of the lights.
     #[inline]
-    pub fn sky_pdf(&self, chooser: &Chooser<'_>, normal: V8, w: V8) -> X8 {
+    pub fn sky_pdf(&self, pmf: &LightPmf<'_>, normal: V8, w: V8) -> X8 {
         match &self.sky {
-            Some(sky) => sky.pdf(Measure::SolidAngle, normal, w) * chooser.pmf_of(self.len() as u32 - 1),
+            Some(sky) => sky.pdf(Measure::SolidAngle, normal, w) * pmf.of(self.len() as u32 - 1),
             None => X8::lit(0.0),
         }
     }
@@ -520,5 +490,43 @@ impl Chosen {
     #[inline]
     fn two_sided(&self) -> M8 {
         !equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue::Uint;
+    use etendue::sequence::{Independent, Sequence};
+
+    /// A table of one block and one of many, with lights of very different power: the pmf sums to 1, a choice has the pmf of its light, and
+    /// lights are chosen as often as their pmf says, also the weakest together.
+    #[test]
+    fn lights_of_any_power_are_chosen() {
+        for count in [1_usize, 7, PowerLights::MOST, PowerLights::MOST + 1, 40_000] {
+            let powers: Vec<f64> = (0..count).map(|i| [1.0, 1e-3, 1e-9, 0.0, 50.0][i * 7 % 5]).collect();
+            let table = PowerTable::new(&powers);
+            assert_eq!(table.blocks.len() > 1, count > PowerLights::MOST);
+            let pmf: Vec<f64> = (0..count as u32).map(|i| f64::from(table.pmf(i))).collect();
+            assert!((pmf.iter().sum::<f64>() - 1.0).abs() < 1e-4, "{count}: {}", pmf.iter().sum::<f64>());
+            assert!(powers.iter().zip(&pmf).all(|(power, pmf)| (*power > 0.0) == (*pmf > 0.0)));
+            let (mut weak, draws) = (0.0, 1 << 20);
+            for i in (0..draws).step_by(8) {
+                let lanes = u32x8::from_fn(|k| i + k as u32);
+                let u: Vec2<X8> = Independent::new(5).pair(u32x8::splat(0), lanes, 0);
+                let choice = table.choose(u.x, u.y);
+                for lane in 0..8 {
+                    let light = choice.index.lane(lane);
+                    assert_eq!(choice.pmf.lane(lane), table.pmf(light), "light {light} of {count}");
+                    weak += f64::from(u8::from(powers[light as usize] < 0.5));
+                }
+            }
+            let expected: f64 = powers.iter().zip(&pmf).filter(|(power, _)| **power < 0.5).map(|(_, pmf)| pmf).sum();
+            let deviation = (expected * (1.0 - expected) / f64::from(draws)).sqrt();
+            assert!(
+                (weak / f64::from(draws) - expected).abs() <= 5.0 * deviation,
+                "{count}: {weak} of {draws}, {expected}"
+            );
+        }
     }
 }

@@ -51,8 +51,9 @@ pub(super) struct Part {
     variance: f64,
     /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
     lights: usize,
-    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light.
+    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, and the number of these pairs per set.
     spread: [f32; APART],
+    pairs: [u32; APART],
     /// Number of samples of each light per set.
     taken: [u32; APART],
 }
@@ -89,7 +90,7 @@ pub(super) fn allot(parts: &[Part], width: u32, sets: u32, effort: &Effort) -> (
         let mut of = vec![0.0; parts.len() * lights];
         for k in 0..lights {
             let spread: Vec<_> = parts.iter().map(|part| f64::from(part.spread[k])).collect();
-            let pairs: Vec<_> = parts.iter().map(|part| f64::from(part.taken[k] / 2)).collect();
+            let pairs: Vec<_> = parts.iter().map(|part| f64::from(part.pairs[k])).collect();
             for (of, mean) in of.chunks_mut(lights).zip(mean_around(&spread, &pairs, columns)) {
                 of[k] = mean.powf(POWER) as f32;
             }
@@ -171,7 +172,8 @@ pub(super) struct PartSum {
     between: f64,
     /// The sum of reflected light for each light, times its squared share.
     spread: [f64; APART],
-    /// Number of samples of each light.
+    /// Number of pairs in these sums, and of samples, of each light.
+    pairs: [u32; APART],
     samples: [u32; APART],
 }
 
@@ -207,6 +209,7 @@ impl Accumulator for PartSum {
             self.between += square;
             if let Some(spread) = self.spread.get_mut(light[k] as usize) {
                 *spread += square * f64::from(share[k]).powi(2);
+                self.pairs[light[k] as usize] += 1;
             }
         }
         for light in light {
@@ -234,6 +237,7 @@ impl Accumulator for PartSum {
             part.lights = self.lights;
             part.spread = self.spread.map(|spread| spread as f32);
             let sets = self.sets.max(1) as u32;
+            part.pairs = self.pairs.map(|pairs| pairs / sets);
             part.taken = self.samples.map(|samples| samples / sets);
         }
         *self = Self::new(self.lights);

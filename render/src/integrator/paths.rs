@@ -9,7 +9,7 @@ use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
-use crate::lights::{Chooser, Lights};
+use crate::lights::{LightPmf, Lights};
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::{Surface, emitted};
 use crate::technique::Technique;
@@ -329,17 +329,17 @@ impl<'a> Paths<'a> {
             let mut radiance = V8::default();
             let mut light_pdf = zero;
             let weighted = heuristic.is_some() && (met.any() || scene.sky.is_some());
-            let chooser = weighted.then(|| match allocated.get(p) {
-                Some(allocated) => Chooser::Allocated(*allocated),
-                None => scene.lights.chooser(point, normal, zero),
+            let pmf = weighted.then(|| match allocated.get(p) {
+                Some(allocated) => LightPmf::Allocated(allocated),
+                None => scene.lights.pmf(point, normal),
             });
             lit[p] = M8::splat(false);
             world.each_shape(&hits[p], met, rays, |index, here, shape, outward| {
                 if let Some((emitted, here)) = emitted(here, shape, outward, direction) {
                     radiance = V8::blend(here, emitted, radiance);
                     lit[p] = lit[p] | here;
-                    if let Some(chooser) = chooser.as_ref().filter(|_| here.any()) {
-                        let pdf = scene.lights.shape_pdf(chooser, index, &shape.geometry, point, direction);
+                    if let Some(pmf) = pmf.as_ref().filter(|_| here.any()) {
+                        let pdf = scene.lights.shape_pdf(pmf, index, &shape.geometry, point, direction);
                         light_pdf = select(here, pdf, light_pdf);
                     }
                 }
@@ -349,8 +349,8 @@ impl<'a> Paths<'a> {
             if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
                 radiance = V8::blend(missed, sky.radiance(direction), radiance);
                 lit[p] = lit[p] | missed;
-                if let Some(chooser) = &chooser {
-                    light_pdf = select(missed, scene.lights.sky_pdf(chooser, normal, direction), light_pdf);
+                if let Some(pmf) = &pmf {
+                    light_pdf = select(missed, scene.lights.sky_pdf(pmf, normal, direction), light_pdf);
                 }
             }
             let factor = match heuristic {

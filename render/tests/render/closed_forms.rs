@@ -2,7 +2,6 @@
 
 use clap::ValueEnum;
 use etendue_render::compare::Comparison;
-use etendue_render::film::Film;
 use etendue_render::image::Picture;
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::f64::consts::PI;
@@ -164,15 +163,6 @@ fn half_a_sky() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-fn picture(film: &Film) -> Picture {
-    Picture {
-        width: film.width as usize,
-        height: film.height as usize,
-        radiance: film.pixels.iter().map(|p| p.mean).collect(),
-        variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
-    }
-}
-
 /// A camera sees in a mirror floor what its mirror image sees of the scene, upside down.
 #[test]
 fn a_mirror_shows_the_mirror_image() {
@@ -190,7 +180,7 @@ fn a_mirror_shows_the_mirror_image() {
     for technique in [Technique::SolidAngle, Technique::Area, Technique::MisPower, Technique::Brdf] {
         let [a, b] = [(&above, 3), (&below, 4)].map(|(world, seed)| {
             let settings = Settings { seed, ..settings(technique, Sampler::Independent, 128, 48) };
-            picture(&world.render(&settings, |_| ()).0)
+            Picture::from(&world.render(&settings, |_| ()).0)
         });
         let flip = |rows: &[[f32; 3]]| rows.chunks(48).rev().flatten().copied().collect::<Vec<_>>();
         let b = Picture { radiance: flip(&b.radiance), variance: b.variance.as_deref().map(flip), ..b };

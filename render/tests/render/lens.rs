@@ -27,12 +27,7 @@ fn read(text: &str) -> scene::Scene {
 
 fn render(scene: &scene::Scene, settings: &Settings) -> Picture {
     let film = World::new(scene).unwrap().render(settings, |_| ()).0;
-    Picture {
-        width: film.width as usize,
-        height: film.height as usize,
-        radiance: film.pixels.iter().map(|p| p.mean).collect(),
-        variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
-    }
+    Picture::from(&film)
 }
 
 fn agrees(reference: &Picture, image: &Picture) -> bool {

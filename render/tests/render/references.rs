@@ -6,7 +6,6 @@
 //! that claims too much is as wrong as one that claims too little. The last checks of [`scene`] show what the bounds reject.
 
 use etendue_render::compare::{Comparison, Prediction};
-use etendue_render::film::Film;
 use etendue_render::image::{self, Picture};
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use std::path::Path;
@@ -25,15 +24,6 @@ const SAMPLERS: [Sampler; 8] = [
     Sampler::ZOrder,
     Sampler::Adaptive,
 ];
-
-fn picture(film: &Film) -> Picture {
-    Picture {
-        width: film.width as usize,
-        height: film.height as usize,
-        radiance: film.pixels.iter().map(|p| p.mean).collect(),
-        variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
-    }
-}
 
 fn reference(name: &str) -> Picture {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/references/{name}.exr"));
@@ -69,7 +59,7 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
             // 324 is four replicates of 3⁴ strata
             let spp = if sampler == Sampler::Stratified4d && !towards_lights { 324 } else { spp };
             let settings = Settings { width: 256, height: 256, spp, technique, depth: 8, sets: 0, sampler, seed: 1 };
-            let image = picture(&world.render(&settings, |_| ()).0);
+            let image = Picture::from(&world.render(&settings, |_| ()).0);
             let p = prediction(&reference, &image, reference_error);
             println!("{name} {technique:?} {sampler:?} {spp} spp: {p:?}");
             assert!(agrees(&p), "{name} {technique:?} {sampler:?}: {p:?}");
@@ -135,7 +125,7 @@ fn threads_do_not_matter_and_seeds_do() {
         let same = one.0.pixels.iter().zip(&other.0.pixels).filter(|(a, b)| a == b && a.mean != [0.0; 3]).count();
         assert!(same * 100 < one.0.pixels.len(), "{same} pixels do not depend on the seed");
         // images with different seeds agree
-        let p = prediction(&picture(&one.0), &picture(&other.0), 0.0);
+        let p = prediction(&Picture::from(&one.0), &Picture::from(&other.0), 0.0);
         assert!(mean_agrees(&p), "{technique:?} {sampler:?}: {p:?}");
     }
 }
@@ -152,7 +142,7 @@ fn any_number_of_samples_and_any_size() {
             assert_eq!(film.pixels.len(), (width * height) as usize);
             assert_eq!(rays.camera, u64::from(width * height * spp));
             assert!(film.pixels.iter().flat_map(|p| p.mean).all(|x| x.is_finite() && x >= 0.0));
-            picture(&film)
+            Picture::from(&film)
         };
         let precise = of(4096, Technique::SolidAngle, Sampler::Stratified, 1);
         for spp in [1, 2, 3, 7, 8, 12, 15, 16, 20, 24] {
@@ -202,7 +192,7 @@ fn terrain_agrees_with_itself() {
         let seed = technique as u64;
         let settings =
             Settings { width: 64, height: 64, spp, technique, depth: 8, sets: 0, sampler: Sampler::Independent, seed };
-        picture(&world.render(&settings, |_| ()).0)
+        Picture::from(&world.render(&settings, |_| ()).0)
     };
     let lights = of(64, Technique::SolidAngle);
     for (spp, technique) in

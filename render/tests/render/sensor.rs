@@ -29,12 +29,7 @@ fn render(scene: &scene::Scene, sensor: Sensor, sampler: Sampler, spp: u32) -> P
     let settings =
         Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 11, depth: 8, sets: 0 };
     let film = World::new(scene).unwrap().with_sensor(sensor).render(&settings, |_| ()).0;
-    Picture {
-        width: width as usize,
-        height: height as usize,
-        radiance: film.pixels.iter().map(|p| p.mean).collect(),
-        variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
-    }
+    Picture::from(&film)
 }
 
 /// Irradiance from a parallel disk of radiance 1, with radius k and offset a in units of its distance: π times the form factor

@@ -55,12 +55,7 @@ fn vignetting_has_its_closed_form() {
                 [(sum / 64.0) as f32; 3]
             };
             let size = SIZE.map(|n| n as usize);
-            let image = Picture {
-                width: size[0],
-                height: size[1],
-                radiance: film.pixels.iter().map(|p| p.mean).collect(),
-                variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
-            };
+            let image = Picture::from(&film);
             let reference =
                 Picture { radiance: (0..size[0] * size[1]).map(part).collect(), variance: None, ..image.clone() };
             let p = Comparison::new(&reference, &image, 0.0).unwrap().predicted.unwrap();
