@@ -6,7 +6,7 @@
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
 //! Files import one way, from the last of this list to the first: `rays`, `node`, `build`, `parallel_build`, `tree`, then the
-//! traversals `frustum`, `single_ray`, `stream`, then the primitives `triangles`, `shapes`. Each traversal is one body for closest and
+//! traversals `frustum`, `single_ray`, `stream`, `region`, then the primitives `triangles`, `shapes`. Each traversal is one body for closest and
 //! any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are the shapes that do not occlude.
 //!
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
@@ -18,6 +18,7 @@ mod frustum;
 mod node;
 mod parallel_build;
 mod rays;
+mod region;
 mod shapes;
 mod single_ray;
 mod stream;
@@ -31,6 +32,7 @@ pub use node::BuildError;
 use node::Stack;
 use rays::any;
 pub use rays::{GROUP, Hits, NOTHING, Rays, SHAPE};
+pub use region::Region;
 pub use shapes::ShapeSet;
 use tree::Tree;
 
@@ -177,6 +179,24 @@ impl Bvh {
     #[inline]
     pub fn corners(&self, place: u32) -> [f32; 9] {
         self.triangles.primitives().corners(place)
+    }
+    /// Calls `visit` with the place of each primitive that may meet the region, as in [`Hits`], until it returns false or `budget` nodes
+    /// have been visited. Returns whether the search was completed.
+    pub fn search(
+        &self,
+        region: &Region,
+        stack: &mut Vec<u32>,
+        mut budget: usize,
+        mut visit: impl FnMut(u32) -> bool,
+    ) -> bool {
+        let shapes = self.shapes.tree();
+        let ids = shapes.primitives().ids();
+        region::search(shapes, region, stack, &mut budget, |at| visit(ids[at] | SHAPE))
+            && region::search(&self.triangles, region, stack, &mut budget, |at| visit(at as u32))
+    }
+    /// Greatest magnitude of a coordinate of the scene.
+    pub fn reach(&self) -> f32 {
+        self.reach
     }
     /// The original index of each triangle, in leaf order.
     pub fn order(&self) -> &[u32] {

@@ -7,11 +7,13 @@
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
+//! - [`certificates`]: what geometry alone tells about the light that reaches a surface.
 //! - [`integrator`], [`progressive`]: images of a given number of samples, or of a given error or time.
 
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
+pub mod certificates;
 pub mod compare;
 pub mod files;
 pub mod film;

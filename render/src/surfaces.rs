@@ -54,20 +54,20 @@ impl Surfaces {
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        Ok(Self::with(scene, Bvh::new(&scene.triangles, Self::shapes(scene)?)?))
+        Ok(Self::with(scene, Bvh::new(&scene.triangles, Self::shape_set(scene)?)?))
     }
     /// Like [`Surfaces::new`], but takes the triangles out of the scene and builds the tree in their memory.
     ///
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
-        let shapes = Self::shapes(scene)?;
+        let shapes = Self::shape_set(scene)?;
         let bvh = Bvh::taking(std::mem::take(&mut scene.triangles), shapes)?;
         let surfaces = Self::with(scene, bvh);
         scene.triangle_materials = Vec::new();
         Ok(surfaces)
     }
-    fn shapes(scene: &Scene) -> Result<ShapeSet, BuildError> {
+    fn shape_set(scene: &Scene) -> Result<ShapeSet, BuildError> {
         ShapeSet::new(scene.shapes.iter().map(|shape| &shape.geometry))
     }
     fn with(scene: &Scene, bvh: Bvh) -> Self {
@@ -92,6 +92,14 @@ impl Surfaces {
             place_materials,
             one_material: scene.triangle_materials.first().copied().unwrap_or(0),
         }
+    }
+    /// Spheres and emitters, in the order of the scene.
+    pub fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+    /// Indices of the shapes that emit, in the order of their lights.
+    pub fn light_shapes(&self) -> impl Iterator<Item = u32> {
+        (0..).zip(&self.shapes).filter(|(_, shape)| shape.emission.is_some()).map(|(index, _)| index)
     }
     /// Geometry and material where eight rays hit the scene.
     // a call would copy the result

@@ -6,116 +6,14 @@
 //! distances below 10⁻⁴ (scale 10⁻⁶), a tree deeper than its stack ("nested"), coincident primitives ("alike"; 100,000 of them in
 //! `rays.rs`), and gaps between adjacent triangles (`closed_meshes_do_not_leak`).
 
-use etendue::sequence::{Independent, Sequence};
-use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
+mod meshes;
+
+use etendue::{Mask, Real, Vec3, f32x8, u32x8};
 use etendue_render::bvh::{Bvh, GROUP, Hits, NOTHING, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::M8;
+use meshes::{Random, Triangle, add, cube, meshes};
 
-type Triangle = [[f32; 3]; 3];
 type Ray = ([f32; 3], [f32; 3]);
-
-/// A generator of random numbers.
-struct Random {
-    index: u32,
-}
-
-impl Random {
-    fn unit(&mut self) -> f32 {
-        self.index += 1;
-        let u: Vec2<f32> = Independent::new(9).pair(0, self.index, 0);
-        u.x
-    }
-    fn signed(&mut self) -> f32 {
-        self.unit() * 2.0 - 1.0
-    }
-    fn point(&mut self) -> [f32; 3] {
-        [self.signed(), self.signed(), self.signed()]
-    }
-    fn below(&mut self, n: usize) -> usize {
-        (self.unit() * n as f32) as usize % n
-    }
-}
-
-fn add(a: [f32; 3], b: [f32; 3], s: f32) -> [f32; 3] {
-    std::array::from_fn(|k| a[k] + b[k] * s)
-}
-
-/// A height field over [−1, 1]² of n × n squares with two triangles each; its corners lie on a lattice.
-fn sheet(n: usize, height: impl Fn(f32, f32) -> f32) -> Vec<Triangle> {
-    let at = |i: usize, j: usize| {
-        let (x, z) = (2.0 * i as f32 / n as f32 - 1.0, 2.0 * j as f32 / n as f32 - 1.0);
-        [x, height(x, z), z]
-    };
-    let square = |i, j| {
-        let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
-        [[a, b, c], [d, c, b]]
-    };
-    (0..n * n).flat_map(|k| square(k / n, k % n)).collect()
-}
-
-/// The cube [−1, 1]³ with a sheet for each side.
-fn cube(n: usize) -> Vec<Triangle> {
-    let side = sheet(n, |_, _| 1.0);
-    let turned = |f: fn([f32; 3]) -> [f32; 3]| side.iter().map(|t| t.map(f)).collect::<Vec<_>>();
-    [
-        turned(|[x, y, z]| [x, y, z]),
-        turned(|[x, y, z]| [x, -y, z]),
-        turned(|[x, y, z]| [y, x, z]),
-        turned(|[x, y, z]| [-y, x, z]),
-        turned(|[x, y, z]| [x, z, y]),
-        turned(|[x, y, z]| [x, z, -y]),
-    ]
-    .concat()
-}
-
-/// Difficult meshes within [−2, 2]³.
-fn meshes(random: &mut Random) -> Vec<(&'static str, Vec<Triangle>)> {
-    let soup = (0..300).map(|_| {
-        let center = random.point();
-        [0; 3].map(|_| add(center, random.point(), 0.2))
-    });
-    let soup = soup.collect();
-    let slivers = (0..200).map(|_| {
-        let (a, along) = (random.point(), random.point());
-        [a, add(a, along, 1.0), add(add(a, along, random.unit()), random.point(), 1e-6)]
-    });
-    let slivers = slivers.collect();
-    let fan = (0..64).map(|i| {
-        let rim = |i: usize| {
-            let (sin, cos) = (i as f32 / 64.0 * std::f32::consts::TAU).sin_cos();
-            [cos, 0.3 * cos, sin]
-        };
-        [[0.0; 3], rim(i), rim((i + 1) % 64)]
-    });
-    let fan = fan.collect();
-    // each half the size of the previous one: the deepest tree that obvhs builds
-    let nested = (0..120).map(|i| {
-        let s = 0.75_f32.powi(i);
-        [[-s, s * 0.1, -s], [s, -s * 0.1, -s], [0.0, s * 0.2, s]]
-    });
-    let nested = nested.collect();
-    let twins = sheet(4, |x, _| 0.25 * x).into_iter().flat_map(|t| [t, t, [t[1], t[2], t[0]]]).collect();
-    // few enough for obvhs, which turns them into a list
-    let alike = (0..120).map(|i| {
-        if i % 2 == 0 {
-            [[-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [0.0, 0.0, 1.0]]
-        } else {
-            [[-1.0, 0.5, 0.0], [1.0, -0.5, 0.0], [0.0, 0.0, 1.0]]
-        }
-    });
-    let alike = alike.collect();
-    vec![
-        ("alike", alike),
-        ("soup", soup),
-        ("slivers", slivers),
-        ("fan", fan),
-        ("nested", nested),
-        ("twins", twins),
-        ("cube", cube(5)),
-        ("hills", sheet(12, |x, z| 0.25 * (x * x - z))),
-        ("floor", sheet(8, |_, _| 0.0)),
-    ]
-}
 
 /// A ray of a kind: in a random direction; towards a corner; towards a point of an edge; along an axis through the lattice, with −0; in
 /// the plane of a side of a triangle's box; from a corner.

@@ -3,6 +3,7 @@
 use super::build::Costs;
 use super::node::BuildError;
 use super::rays::{Hits, Rays, SHAPE};
+use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal, max, pick, select};
@@ -39,6 +40,13 @@ pub(super) struct Solids {
 pub struct ShapeSet {
     tree: Tree<Solids>,
     reach: f32,
+}
+
+impl Solids {
+    /// The index of each shape in the scene's list, in leaf order.
+    pub(super) fn ids(&self) -> &[u32] {
+        &self.ids
+    }
 }
 
 type V64 = Vec3<f64>;
@@ -153,5 +161,13 @@ impl Primitives for Solids {
     }
     fn bytes(&self) -> usize {
         size_of_val(&self.solids[..]) + size_of_val(&self.ids[..])
+    }
+}
+
+impl Placed for Solids {
+    #[inline]
+    fn meeting(&self, leaf: &Range<usize>, _region: &Region) -> u32 {
+        // shapes are few: the caller tests each
+        (1 << leaf.len()) - 1
     }
 }

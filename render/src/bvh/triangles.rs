@@ -3,6 +3,7 @@
 use super::build::Costs;
 use super::node::{Bounded, Bounds, BuildError, greater, lesser};
 use super::rays::{Hits, NOTHING, Nearest, Rays, each_bit};
+use super::region::{Placed, Region};
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, pick, select};
@@ -222,5 +223,12 @@ impl Leaves for TriangleLeaves {
             }
         });
         false
+    }
+}
+
+impl Placed for TriangleLeaves {
+    #[inline]
+    fn meeting(&self, leaf: &Range<usize>, region: &Region) -> u32 {
+        region.triangles(&self.all(leaf))
     }
 }

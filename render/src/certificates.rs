@@ -1,0 +1,125 @@
+//! What geometry alone tells about the light that reaches part of a surface, without rays.
+//!
+//! A [`Patch`] bounds the shading points of a rectangle of pixels on one primitive. A [`Certifier`] searches the tree for what may meet
+//! the shaft between a patch and a light: the segments from any shading point to any point of the light that is above its horizon. Bounds
+//! are computed in double precision, and are wider than the rounding of shading points, of points on lights and of directions.
+//!
+//! A shaft is an intersection of half-spaces. Any half-space that contains patch and light contains the shaft, so that their choice
+//! affects only how narrow it is.
+
+mod blockers;
+mod hull;
+mod patch;
+mod shaft;
+
+use crate::bvh::{Region, SHAPE};
+use crate::surfaces::Surfaces;
+pub use blockers::Blocker;
+use blockers::Candidate;
+pub use patch::{Patch, Pyramid, Viewer};
+use shaft::{Facing, Form, Lamp, Shaft};
+
+/// Greatest number of blockers in a certificate.
+pub const MOST: usize = 16;
+/// Greatest number of primitives that may meet a shaft, before triangles are merged.
+const CANDIDATES: usize = 32;
+/// Greatest number of nodes that a search visits.
+const NODES: usize = 160;
+
+/// What geometry alone tells about a light as seen from a patch.
+#[derive(Clone, Copy, Debug)]
+pub enum Certificate<'a> {
+    /// Nothing lies between any point of the patch and any point of the light above its horizon.
+    Lit,
+    /// No point of the light is visible from any point of the patch: something convex covers it, or it lies below the horizon, or its back
+    /// faces the patch.
+    Dark,
+    /// Only these can occlude the light, at most [`MOST`].
+    Blockers(&'a [Blocker]),
+    /// There are too many blockers, or nothing is proved.
+    Unknown,
+}
+
+/// Certifies lights, with reused memory.
+#[derive(Debug)]
+pub struct Certifier<'a> {
+    surfaces: &'a Surfaces,
+    lamps: Vec<Option<Lamp>>,
+    region: Region,
+    shaft: Shaft,
+    stack: Vec<u32>,
+    candidates: Vec<Candidate>,
+    blockers: Vec<Blocker>,
+}
+
+impl<'a> Certifier<'a> {
+    /// For lights that are shapes of these indices. [`Surfaces::light_shapes`] lists all of them.
+    pub fn new(surfaces: &'a Surfaces, lights: impl IntoIterator<Item = u32>) -> Self {
+        let lamp = |index: u32| Lamp::new(surfaces.shapes().get(index as usize)?, index);
+        Self {
+            surfaces,
+            lamps: lights.into_iter().map(lamp).collect(),
+            region: Region::new(surfaces.bvh.reach()),
+            shaft: Shaft::default(),
+            stack: Vec::with_capacity(256),
+            candidates: Vec::with_capacity(CANDIDATES),
+            blockers: Vec::with_capacity(MOST),
+        }
+    }
+    /// What is known about a light, by its index in the list, as seen from a patch.
+    pub fn certify(&mut self, patch: &Patch, light: usize) -> Certificate<'_> {
+        let Some(Some(lamp)) = self.lamps.get(light) else { return Certificate::Unknown };
+        if patch.place == lamp.shape | SHAPE {
+            // a convex light is below the horizon of each of its own points
+            return Certificate::Dark;
+        }
+        let Self { surfaces, region, shaft, stack, candidates, blockers, .. } = self;
+        match shaft.set(patch, lamp, surfaces.bvh.reach(), region) {
+            Facing::Towards => {}
+            Facing::Away => return Certificate::Dark,
+            Facing::Unknown => return Certificate::Unknown,
+        }
+        candidates.clear();
+        let complete = surfaces.bvh.search(region, stack, NODES, |place| {
+            if place == patch.place || place == lamp.shape | SHAPE {
+                return true;
+            }
+            let candidate = Candidate::new(surfaces, place);
+            if candidate.misses(shaft) {
+                return true;
+            }
+            candidates.push(candidate);
+            candidates.len() < CANDIDATES
+        });
+        if complete && candidates.is_empty() {
+            return Certificate::Lit;
+        }
+        merge(candidates);
+        let is_ball = matches!(lamp.form, Form::Ball);
+        if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
+            return Certificate::Unknown;
+        }
+        if candidates.iter().any(|candidate| candidate.covers(shaft)) {
+            return Certificate::Dark;
+        }
+        if !complete || candidates.len() > MOST {
+            return Certificate::Unknown;
+        }
+        blockers.clear();
+        blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
+        Certificate::Blockers(blockers)
+    }
+}
+
+/// Merges pairs of triangles.
+fn merge(candidates: &mut Vec<Candidate>) {
+    let mut i = 0;
+    while i < candidates.len() {
+        let found = (i + 1..candidates.len()).find_map(|k| Some((k, candidates[i].merged(&candidates[k])?)));
+        if let Some((k, merged)) = found {
+            candidates[i] = merged;
+            candidates.swap_remove(k);
+        }
+        i += 1;
+    }
+}

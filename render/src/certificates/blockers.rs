@@ -1,0 +1,235 @@
+//! Primitives that may occlude a light.
+
+use super::hull::{Hull, V64, reach, unit, wide};
+use super::shaft::{SPARED, Shaft};
+use crate::bvh::SHAPE;
+use crate::scene::Geometry;
+use crate::surfaces::Surfaces;
+
+/// Something that may occlude a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blocker {
+    /// A convex polygon.
+    Polygon {
+        /// Its corners in order; the last one is repeated for a triangle.
+        corners: [[f32; 3]; 4],
+        /// Number of corners, 3 or 4.
+        count: usize,
+        /// Whether part of it may lie behind the light as seen from some point of the patch: beyond the plane of a flat light, or the
+        /// polar plane of a sphere.
+        crosses_light: bool,
+    },
+    /// A sphere.
+    Sphere {
+        /// Its centre.
+        center: [f32; 3],
+        /// Its radius.
+        radius: f32,
+        /// As for a polygon.
+        crosses_light: bool,
+    },
+}
+
+/// A primitive, or two triangles that share an edge.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Candidate {
+    /// Corners in order. Of four corners, 0–2 is the edge that two triangles share, or a diagonal.
+    Polygon([[f32; 3]; 4], usize, [V64; 4]),
+    Ball([f32; 3], f32),
+}
+
+impl Candidate {
+    /// The primitive at a place.
+    pub(super) fn new(surfaces: &Surfaces, place: u32) -> Self {
+        let polygon = |corners: [[f32; 3]; 4], count| Self::Polygon(corners, count, corners.map(wide));
+        let triangle = |[a, b, c]: [[f32; 3]; 3]| polygon([a, b, c, c], 3);
+        if place & SHAPE == 0 {
+            let c = surfaces.bvh.corners(place);
+            return triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]);
+        }
+        match surfaces.shapes()[(place & !SHAPE) as usize].geometry {
+            Geometry::Sphere { center, radius } => Self::Ball(center, radius),
+            Geometry::Triangle(corners) => triangle(corners),
+            Geometry::Parallelogram { p, u, v } => {
+                let (a, u, v) = (wide(p), wide(u), wide(v));
+                let corners = [a, a + u, a + u + v, a + v];
+                Self::Polygon(corners.map(|v| [v.x as f32, v.y as f32, v.z as f32]), 4, corners)
+            }
+        }
+    }
+    /// Is the primitive known not to meet any segment of the shaft?
+    pub(super) fn misses(&self, shaft: &Shaft) -> bool {
+        match self {
+            Self::Ball(center, radius) => shaft.misses(&[wide(*center)], f64::from(*radius)),
+            Self::Polygon(_, count, corners) => {
+                let corners = &corners[..*count];
+                shaft.misses(corners, 0.0) || is_on_one_side(corners, shaft)
+            }
+        }
+    }
+    /// The convex quadrilateral of two triangles that share an edge and a plane.
+    pub(super) fn merged(&self, other: &Self) -> Option<Self> {
+        let (Self::Polygon(one, 3, _), Self::Polygon(two, 3, _)) = (self, other) else { return None };
+        let bits = |p: [f32; 3]| p.map(f32::to_bits);
+        let is_shared = |p: [f32; 3], of: &[[f32; 3]; 4]| of[..3].iter().any(|&q| bits(q) == bits(p));
+        let i = (0..3).find(|&i| !is_shared(one[i], two))?;
+        let (s, t) = (one[(i + 1) % 3], one[(i + 2) % 3]);
+        if bits(s) == bits(t) || !is_shared(s, two) || !is_shared(t, two) {
+            return None;
+        }
+        let apex = *two[..3].iter().find(|&&q| bits(q) != bits(s) && bits(q) != bits(t))?;
+        let corners = [s, apex, t, one[i]];
+        let exact = corners.map(wide);
+        let [a, b, c, d] = exact;
+        let normal = unit((c - d).cross(a - d));
+        let flat = normal.dot(b - a).abs() <= 4.0 * reach(&exact) * f64::from(f32::EPSILON);
+        let turns = |p: V64, q: V64, r: V64| normal.dot((q - p).cross(r - q));
+        let turns = [turns(a, b, c), turns(b, c, d), turns(c, d, a), turns(d, a, b)];
+        let convex = turns.iter().all(|&x| x > 0.0) || turns.iter().all(|&x| x < 0.0);
+        (flat && convex).then_some(Self::Polygon(corners, 4, exact))
+    }
+    /// Is every segment of the shaft known to meet the primitive?
+    pub(super) fn covers(&self, shaft: &Shaft) -> bool {
+        match self {
+            // A line that passes inside of the outer edges of two triangles meets one of them, and a segment from one side of the slab to
+            // the other meets whatever its line meets inside the slab. The triangles need not have the same plane.
+            Self::Polygon(_, count, corners) => {
+                is_between(&corners[..*count], shaft) && is_inside(&corners[..*count], shaft)
+            }
+            Self::Ball(center, radius) => {
+                let (center, radius) = (wide(*center), f64::from(*radius));
+                // A segment that ends in the ball might not meet its surface.
+                let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + shaft.epsilon;
+                let axis = unit(shaft.light.center - shaft.patch.center);
+                let helper = if axis.x.abs() < 0.6 { V64::new(1.0, 0.0, 0.0) } else { V64::new(0.0, 1.0, 0.0) };
+                let s = unit(axis.cross(helper)) * (radius * (1.0 - 1e-9));
+                let t = axis.cross(s);
+                let half = (s + t) * std::f64::consts::FRAC_1_SQRT_2;
+                let other = (t + -s) * std::f64::consts::FRAC_1_SQRT_2;
+                let octagon = [s, half, t, other, -s, -half, -t, -other].map(|v| center + v);
+                apart(&shaft.patch) && apart(&shaft.light) && is_between(&octagon, shaft) && is_inside(&octagon, shaft)
+            }
+        }
+    }
+    /// May the primitive meet a ball?
+    pub(super) fn touches(&self, ball: &Hull, epsilon: f64) -> bool {
+        match self {
+            Self::Ball(center, radius) => {
+                !((wide(*center) - ball.center).length() > f64::from(*radius) + ball.extent + epsilon)
+            }
+            Self::Polygon(_, count, corners) => {
+                let [a, b, c, d] = *corners;
+                let is_far = |a, b, c| (nearest([a, b, c], ball.center) - ball.center).length() > ball.extent + epsilon;
+                !(is_far(a, b, c) && (*count == 3 || is_far(a, c, d)))
+            }
+        }
+    }
+    pub(super) fn blocker(&self, shaft: &Shaft) -> Blocker {
+        match *self {
+            Self::Polygon(corners, count, exact) => {
+                let crosses_light = crosses(&exact[..count], 0.0, shaft);
+                Blocker::Polygon { corners, count, crosses_light }
+            }
+            Self::Ball(center, radius) => {
+                let crosses_light = crosses(&[wide(center)], f64::from(radius), shaft);
+                Blocker::Sphere { center, radius, crosses_light }
+            }
+        }
+    }
+}
+
+/// Are patch and light on the same side of the plane of a polygon?
+fn is_on_one_side(corners: &[V64], shaft: &Shaft) -> bool {
+    let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+    let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
+    for &p in corners {
+        (least, most) = (least.min(normal.dot(p)), most.max(normal.dot(p)));
+    }
+    let margin = 2.0 * shaft.epsilon;
+    let above = |hull: &Hull| hull.range(normal)[0] - hull.radius > most + margin;
+    let below = |hull: &Hull| hull.range(normal)[1] + hull.radius < least - margin;
+    above(&shaft.patch) && above(&shaft.light) || below(&shaft.patch) && below(&shaft.light)
+}
+
+/// Is a slab that contains the polygon between patch and light, and no part of it within the spared part of a segment?
+fn is_between(corners: &[V64], shaft: &Shaft) -> bool {
+    let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+    let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
+    for &p in corners {
+        (least, most) = (least.min(normal.dot(p)), most.max(normal.dot(p)));
+    }
+    let grown = |hull: &Hull| {
+        let margin = hull.radius + 2.0 * shaft.epsilon;
+        let [least, most] = hull.range(normal);
+        [least - margin, most + margin]
+    };
+    let (p, y) = (grown(&shaft.patch), grown(&shaft.light));
+    // a segment from above reaches the slab's lower side before it is spared
+    let above =
+        |p: [f64; 2], y: [f64; 2], [least, most]: [f64; 2]| p[0] > most && least - y[1] > 2.0 * SPARED * (p[1] - least);
+    let turned = |[least, most]: [f64; 2]| [-most, -least];
+    above(p, y, [least, most]) || above(turned(p), turned(y), turned([least, most]))
+}
+
+/// Do all segments pass the edges of a convex polygon on its inner side?
+///
+/// The volume f(p, y) = (a−p) × (b−p) · (y−p) tells on which side of the edge from a to b the line from p to y passes. It is affine in p
+/// for each y, and in y for each p. Where it is positive for all pairs of corners, it is thus positive for all pairs of points of the two
+/// hulls. Displacements of p by m and of y by r change it by at most |b−a| (m |y−a| + r |p−a| + m r).
+fn is_inside(corners: &[V64], shaft: &Shaft) -> bool {
+    let (m, r) = (shaft.patch.radius, shaft.light.radius);
+    let side = |sign: f64| {
+        (0..corners.len()).all(|i| {
+            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+            let edge = b - a;
+            let length = edge.length();
+            shaft.patch.corners().iter().all(|&p| {
+                let normal = (p - a).cross(edge) * sign;
+                let (far, across) = ((p - a).length(), normal.length());
+                shaft.light.corners().iter().all(|&y| {
+                    let to = y - a;
+                    let lever = edge.cross(to).length();
+                    let rounding = shaft.epsilon * length * (far + to.length());
+                    normal.dot(to) > m * lever + r * across + length * m * r + rounding
+                })
+            })
+        })
+    };
+    side(1.0) || side(-1.0)
+}
+
+/// May part of a hull of points, inflated by `radius`, lie behind the light as seen from some point of the patch?
+fn crosses(points: &[V64], radius: f64, shaft: &Shaft) -> bool {
+    if let Some((normal, offset, height)) = shaft.end {
+        return !points.iter().all(|&x| normal.dot(x) - radius - offset > height.max(0.0) + shaft.epsilon);
+    }
+    // x is in front of the polar plane of p if (x−c)·(p−c) > r²; this is affine in x and in p.
+    let (center, r) = (shaft.light.center, shaft.light.radius);
+    !shaft.patch.corners().iter().all(|&p| {
+        let to = p - center;
+        points.iter().all(|&x| {
+            let arm = x - center;
+            let margin = radius * (to.length() + shaft.patch.radius) + arm.length() * shaft.patch.radius;
+            arm.dot(to) - margin > r * r * (1.0 + 1e-9) + shaft.epsilon * (arm.length() + to.length())
+        })
+    })
+}
+
+/// The point of a triangle nearest to another point (Ericson 2005, "Real-Time Collision Detection", section 5.1.5).
+fn nearest([a, b, c]: [V64; 3], p: V64) -> V64 {
+    let on_edge = |a: V64, b: V64| {
+        let edge = b - a;
+        let t = (edge.dot(p - a) / edge.length_squared()).clamp(0.0, 1.0);
+        // an edge without length
+        if t.is_nan() { a } else { a + edge * t }
+    };
+    let normal = (b - a).cross(c - a);
+    let inside = |a: V64, b: V64| normal.dot((b - a).cross(p - a)) >= 0.0;
+    if normal.length_squared() > 0.0 && inside(a, b) && inside(b, c) && inside(c, a) {
+        let n = unit(normal);
+        return p + n * -n.dot(p - a);
+    }
+    let all = [on_edge(a, b), on_edge(b, c), on_edge(c, a)];
+    let distance = |q: &V64| (*q - p).length();
+    all.into_iter().min_by(|x, y| distance(x).total_cmp(&distance(y))).expect("three points")
+}

@@ -1,0 +1,74 @@
+//! Convex hulls of points, inflated by a radius.
+
+use etendue::Vec3;
+
+/// A point or a vector in double precision.
+pub(super) type V64 = Vec3<f64>;
+
+/// Greatest number of corners.
+pub(super) const CORNERS: usize = 8;
+
+/// The exact value of a point in single precision.
+pub(super) fn wide(v: [f32; 3]) -> V64 {
+    v.map(f64::from).into()
+}
+
+/// Greatest magnitude of a coordinate.
+pub(super) fn reach(points: &[V64]) -> f64 {
+    points.iter().fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()).max(p.z.abs()))
+}
+
+/// The unit vector in a direction; not finite if there is none.
+pub(super) fn unit(v: V64) -> V64 {
+    v * (1.0 / v.length())
+}
+
+/// All points within `radius` of the convex hull of some points.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Hull {
+    corners: [V64; CORNERS],
+    count: usize,
+    /// Inflation.
+    pub(super) radius: f64,
+    /// Centre of a ball around the corners.
+    pub(super) center: V64,
+    /// Radius of that ball and the inflation.
+    pub(super) extent: f64,
+}
+
+impl Hull {
+    /// The hull of 1 to [`CORNERS`] points.
+    pub(super) fn new(points: &[V64], radius: f64) -> Self {
+        let mut corners = [V64::default(); CORNERS];
+        corners[..points.len()].copy_from_slice(points);
+        let sum = points.iter().fold(V64::default(), |sum, &p| sum + p);
+        let center = sum * (1.0 / points.len() as f64);
+        let mut hull = Self { corners, count: points.len(), radius: 0.0, center, extent: 0.0 };
+        hull.inflate(radius);
+        hull
+    }
+    /// Adds to the inflation.
+    pub(super) fn inflate(&mut self, by: f64) {
+        self.radius += by;
+        let ball = self.corners().iter().map(|&p| (p - self.center).length()).fold(0.0, f64::max);
+        self.extent = ball * (1.0 + 1e-9) + self.radius;
+    }
+    pub(super) fn corners(&self) -> &[V64] {
+        &self.corners[..self.count]
+    }
+    /// Least and greatest n·x of the corners.
+    pub(super) fn range(&self, n: V64) -> [f64; 2] {
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for &p in self.corners() {
+            let along = n.dot(p);
+            // a NaN spoils both
+            range =
+                [if along >= range[0] { range[0] } else { along }, if along <= range[1] { range[1] } else { along }];
+        }
+        range
+    }
+    /// Greatest n·x of the hull for a vector of at most unit length.
+    pub(super) fn support(&self, n: V64) -> f64 {
+        self.range(n)[1] + self.radius
+    }
+}

@@ -1,0 +1,591 @@
+//! Compares certificates with visibility by brute force in double precision: random patches and lights in difficult scenes.
+
+mod meshes;
+
+use etendue::{Mask, Real, Vec3, f32x8, u32x8};
+use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
+use etendue_render::camera::Pinhole;
+use etendue_render::certificates::{Blocker, Certificate, Certifier, Patch, Pyramid, Viewer};
+use etendue_render::packet::M8;
+use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
+use etendue_render::surfaces::Surfaces;
+use meshes::{Random, Triangle, add, cube, meshes, sheet};
+
+type V = [f64; 3];
+
+fn wide(v: [f32; 3]) -> V {
+    v.map(f64::from)
+}
+fn plus(a: V, b: V, s: f64) -> V {
+    std::array::from_fn(|k| a[k] + b[k] * s)
+}
+fn sub(a: V, b: V) -> V {
+    plus(a, b, -1.0)
+}
+fn dot(a: V, b: V) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+fn cross(a: V, b: V) -> V {
+    std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+fn length(a: V) -> f64 {
+    dot(a, a).sqrt()
+}
+fn unit(a: V) -> V {
+    a.map(|x| x / length(a))
+}
+
+/// Whether a segment meets something, unless that is within rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Meets {
+    Yes,
+    No,
+    Unclear,
+}
+
+/// The sign of (b−a) × (c−a) · (d−a), or 0 within rounding.
+fn side([a, b, c]: [V; 3], d: V, tolerance: f64) -> i32 {
+    let (u, v, w) = (sub(b, a), sub(c, a), sub(d, a));
+    let volume = dot(cross(u, v), w);
+    let scale = [a, b, c, d].iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let (lu, lv, lw) = (length(u), length(v), length(w));
+    let rounding = tolerance * (lu * lv * lw + scale * (lu * lv + lv * lw + lw * lu));
+    if volume > rounding { 1 } else { -i32::from(volume < -rounding) }
+}
+
+fn meets_triangle([p, q]: [V; 2], [a, b, c]: [V; 3], tolerance: f64) -> Meets {
+    let ends = [p, q].map(|end| side([a, b, c], end, tolerance));
+    if ends[0] * ends[1] > 0 {
+        return Meets::No;
+    }
+    let edges = [[a, b], [b, c], [c, a]].map(|[a, b]| side([p, a, b], q, tolerance));
+    if edges.contains(&1) && edges.contains(&-1) {
+        return Meets::No;
+    }
+    let clear = ends[0] * ends[1] < 0 && !edges.contains(&0);
+    if clear { Meets::Yes } else { Meets::Unclear }
+}
+
+fn meets_sphere([p, q]: [V; 2], center: V, radius: f64, tolerance: f64) -> Meets {
+    let d = sub(q, p);
+    let t = (dot(sub(center, p), d) / dot(d, d)).clamp(0.0, 1.0);
+    let distance = length(sub(plus(p, d, t), center)) - radius;
+    let ends = [p, q].map(|end| length(sub(end, center)) - radius);
+    let scale = [p, q, center].iter().flatten().fold(radius, |m: f64, x| m.max(x.abs()));
+    let rounding = tolerance * scale;
+    match () {
+        () if distance > rounding => Meets::No,
+        () if distance < -rounding && ends.iter().any(|&end| end > rounding) => Meets::Yes,
+        () if ends.iter().all(|&end| end < -rounding) => Meets::No,
+        () => Meets::Unclear,
+    }
+}
+
+/// Rounding of the tests in double precision.
+const EXACT: f64 = 1e-15;
+
+fn meets(segment: [V; 2], geometry: &Geometry) -> Meets {
+    match *geometry {
+        Geometry::Sphere { center, radius } => meets_sphere(segment, wide(center), f64::from(radius), EXACT),
+        Geometry::Triangle(corners) => meets_triangle(segment, corners.map(wide), EXACT),
+        Geometry::Parallelogram { p, u, v } => {
+            let [p, u, v] = [p, u, v].map(wide);
+            let corners = [p, plus(p, u, 1.0), plus(plus(p, u, 1.0), v, 1.0), plus(p, v, 1.0)];
+            meets_polygon(segment, &corners, EXACT)
+        }
+    }
+}
+
+fn meets_polygon(segment: [V; 2], corners: &[V], tolerance: f64) -> Meets {
+    let parts = (2..corners.len()).map(|k| [corners[0], corners[k - 1], corners[k]]);
+    let all: Vec<_> = parts.map(|part| meets_triangle(segment, part, tolerance)).collect();
+    [Meets::Yes, Meets::Unclear].into_iter().find(|kind| all.contains(kind)).unwrap_or(Meets::No)
+}
+
+/// May a blocker of a certificate occlude a segment? Its corners are rounded.
+fn may_occlude(segment: [V; 2], blocker: &Blocker) -> bool {
+    Meets::No
+        != match *blocker {
+            Blocker::Polygon { corners, count, .. } => meets_polygon(segment, &corners.map(wide)[..count], 1e-7),
+            Blocker::Sphere { center, radius, .. } => meets_sphere(segment, wide(center), f64::from(radius), 1e-7),
+        }
+}
+
+/// What the shafts of a test have shown.
+#[derive(Debug, Default)]
+struct Counts {
+    shafts: u64,
+    lit: u64,
+    dark: u64,
+    blockers: u64,
+    unknown: u64,
+    pairs: u64,
+    visible: u64,
+    unclear: u64,
+    /// Shadow rays in single precision that differ from a certificate.
+    rays: u64,
+    ray_differs: u64,
+    /// Shading points, and the greatest share of its margin by which one is outside of its patch.
+    points: u64,
+    off: f64,
+    /// Least height of a shading point over its plane, in units of a sixteenth of the margin.
+    height: f64,
+}
+
+/// A scene of triangles and shapes.
+fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
+    let camera =
+        CameraSettings { origin: [0.0; 3], forward: [0.0; 3], right: [0.0; 3], up: [0.0; 3], fov: 60.0, lens: None };
+    Scene {
+        name: String::new(),
+        camera,
+        film: FilmSettings { width: 1, height: 1, diagonal: 35.0, filename: None },
+        pixel_samples: 1,
+        materials: vec![Material::Diffuse([0.5; 3]), Material::Diffuse([0.0; 3])],
+        triangle_materials: vec![0; triangles.len()],
+        triangles,
+        shapes,
+        delta_lights: Vec::new(),
+        environment: None,
+        warnings: Vec::new(),
+        inputs: Vec::new(),
+    }
+}
+
+fn shape(geometry: Geometry, emission: Option<bool>) -> Shape {
+    let emission = emission.map(|two_sided| Emission { radiance: [1.0; 3], two_sided });
+    // flat lights do not reflect
+    let black = emission.is_some() && !matches!(geometry, Geometry::Sphere { .. });
+    Shape { geometry, material: u32::from(black), emission }
+}
+
+/// The quadrilateral p + s u + t v in two triangles.
+fn quad(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> [Triangle; 2] {
+    let (a, b) = (add(p, u, 1.0), add(p, v, 1.0));
+    [[p, a, add(a, v, 1.0)], [p, add(a, v, 1.0), b]]
+}
+
+/// The sides of a box.
+fn sides(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
+    let middle: [f32; 3] = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
+    let half: [f32; 3] = std::array::from_fn(|k| 0.5 * (high[k] - low[k]));
+    let place = |v: [f32; 3]| std::array::from_fn(|k| middle[k] + half[k] * v[k]);
+    cube(1).into_iter().map(|t| t.map(place)).collect()
+}
+
+/// Scenes with lights: the difficult meshes, rooms with boxes and flush lamps, sparse triangles, walls, and spheres.
+fn scenes(random: &mut Random) -> Vec<(String, Vec<Triangle>, Vec<Shape>)> {
+    let mut all = Vec::new();
+    let light = |random: &mut Random, size: f32| {
+        let center = random.point().map(|x| 1.8 * x);
+        let geometry = match random.below(3) {
+            0 => Geometry::Sphere { center, radius: size * (0.05 + random.unit()) },
+            1 => Geometry::Triangle([0; 3].map(|_| add(center, random.point(), size))),
+            _ => Geometry::Parallelogram {
+                p: center,
+                u: random.point().map(|x| x * size),
+                v: random.point().map(|x| x * size),
+            },
+        };
+        let two_sided = random.below(3) == 0;
+        shape(geometry, Some(two_sided))
+    };
+    for (name, mesh) in meshes(random) {
+        let lights = (0..3).map(|k| light(random, [0.5, 0.1, 0.01][k])).collect();
+        all.push((name.to_owned(), mesh, lights));
+    }
+    for room in 0..6 {
+        let mut mesh = cube(1 + room % 2 * 2);
+        for _ in 0..random.below(5) {
+            let (x, z) = (0.7 * random.signed(), 0.7 * random.signed());
+            let size = [0, 1, 2].map(|_| 0.05 + 0.3 * random.unit());
+            mesh.extend(sides([x, -1.0, z], [x + size[0], -1.0 + size[1], z + size[2]]));
+        }
+        let lamp = |random: &mut Random, y: f32| {
+            let (x, z) = (0.8 * random.signed(), 0.8 * random.signed());
+            let (w, h) = (0.2 * random.unit() + 0.01, 0.2 * random.unit() + 0.01);
+            shape(Geometry::Parallelogram { p: [x, y, z], u: [w, 0.0, 0.0], v: [0.0, 0.0, h] }, Some(false))
+        };
+        let lights = vec![lamp(random, 1.0), lamp(random, 0.999), lamp(random, 0.5), light(random, 0.2)];
+        all.push(("room".to_owned(), mesh, lights));
+    }
+    for _ in 0..8 {
+        let mut mesh: Vec<Triangle> = quad([-2.0, -1.0, -2.0], [4.0, 0.0, 0.0], [0.0, 0.0, 4.0]).into();
+        for _ in 0..random.below(5) {
+            let center = random.point();
+            mesh.push([0; 3].map(|_| add(center, random.point(), 1.0)));
+        }
+        for _ in 0..2 {
+            mesh.extend(quad(random.point(), random.point(), random.point()));
+        }
+        let mut shapes: Vec<Shape> = (0..4).map(|k| light(random, [0.5, 0.2, 0.05, 0.01][k])).collect();
+        for _ in 0..random.below(4) {
+            let radius = 0.05 + 0.6 * random.unit();
+            shapes.push(shape(Geometry::Sphere { center: random.point(), radius }, None));
+        }
+        // a lamp that stands on the floor, and a ball that rests on it
+        let p = [random.signed(), -1.0, random.signed()];
+        let standing = Geometry::Parallelogram { p, u: [0.0, 0.3, 0.0], v: [0.3, 0.0, 0.1] };
+        shapes.push(shape(standing, Some(true)));
+        let center = [random.signed(), -0.75, random.signed()];
+        shapes.push(shape(Geometry::Sphere { center, radius: 0.25 }, Some(false)));
+        all.push(("sparse".to_owned(), mesh, shapes));
+    }
+    for n in [1, 4] {
+        // a wall between a floor and the lights
+        let mut mesh = sheet(n, |_, _| -1.0);
+        mesh.extend(quad([-3.0, 0.1, -3.0], [6.0, 0.0, 0.0], [0.0, 0.1, 6.0]));
+        let lights = (0..4).map(|_| {
+            let mut lamp = light(random, 0.3);
+            match &mut lamp.geometry {
+                Geometry::Sphere { center, .. } => center[1] = 1.5 + 0.2 * center[1],
+                Geometry::Triangle(corners) => corners.iter_mut().for_each(|c| c[1] = 1.5 + 0.2 * c[1]),
+                Geometry::Parallelogram { p, .. } => p[1] = 1.5 + 0.2 * p[1],
+            }
+            lamp
+        });
+        let mut shapes: Vec<_> = lights.collect();
+        shapes.push(shape(Geometry::Sphere { center: [0.0, -0.3, 0.0], radius: 0.3 }, None));
+        all.push(("wall".to_owned(), mesh, shapes));
+    }
+    all
+}
+
+fn placed(shape: &Shape, scale: f32, shift: f32) -> Shape {
+    let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
+    let turn = |v: [f32; 3]| v.map(|x| x * scale);
+    let geometry = match shape.geometry {
+        Geometry::Sphere { center, radius } => Geometry::Sphere { center: place(center), radius: radius * scale },
+        Geometry::Triangle(corners) => Geometry::Triangle(corners.map(place)),
+        Geometry::Parallelogram { p, u, v } => Geometry::Parallelogram { p: place(p), u: turn(u), v: turn(v) },
+    };
+    Shape { geometry, ..shape.clone() }
+}
+
+/// A point of a light that may be visible from p, often on its boundary.
+fn light_point(geometry: &Geometry, p: V, random: &mut Random) -> V {
+    let snap = |x: f32| match (x * 8.0) as u32 {
+        0 | 1 => 0.0,
+        2 | 3 => 1.0,
+        _ => f64::from(x * 2.0 - 1.0).clamp(0.0, 1.0),
+    };
+    let [mut s, mut t] = [random.unit(), random.unit()].map(snap);
+    match *geometry {
+        Geometry::Sphere { center, radius } => {
+            let (c, r) = (wide(center), f64::from(radius));
+            let axis = sub(p, c);
+            let across = unit(cross(axis, wide(random.point())));
+            // from the middle of the visible cap to the silhouette
+            let most = (r / length(axis)).clamp(-1.0, 1.0).acos();
+            let angle = s.sqrt() * most;
+            plus(plus(c, unit(axis), r * angle.cos()), across, r * angle.sin())
+        }
+        Geometry::Triangle(corners) => {
+            if s + t > 1.0 {
+                (s, t) = (1.0 - s, 1.0 - t);
+            }
+            let [a, b, c] = corners.map(wide);
+            plus(plus(a, sub(b, a), s), sub(c, a), t)
+        }
+        Geometry::Parallelogram { p, u, v } => plus(plus(wide(p), wide(u), s), wide(v), t),
+    }
+}
+
+/// Does a point of a light emit towards p?
+fn emits(shape: &Shape, y: V, p: V) -> bool {
+    let two_sided = shape.emission.is_some_and(|emission| emission.two_sided);
+    let away = sub(p, y);
+    match shape.geometry {
+        Geometry::Sphere { center, .. } => dot(sub(y, wide(center)), away) > 0.0,
+        Geometry::Triangle(corners) => {
+            let [a, b, c] = corners.map(wide);
+            two_sided || dot(cross(sub(b, a), sub(c, a)), away) > 0.0
+        }
+        Geometry::Parallelogram { u, v, .. } => two_sided || dot(cross(wide(u), wide(v)), away) > 0.0,
+    }
+}
+
+/// A scene to be tested.
+struct World {
+    name: String,
+    scene: Scene,
+    surfaces: Surfaces,
+}
+
+/// A shading point, with the normal on the side of the viewer.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    p: V,
+    normal: V,
+    /// Whether a ray has found it.
+    traced: bool,
+}
+
+impl World {
+    /// Does a primitive meet the segment from p to y, up to the fraction of shadow rays?
+    fn occluded(&self, p: V, y: V, receiver: u32, light: usize) -> Meets {
+        let segment = [p, plus(p, sub(y, p), 1.0 - 1.0 / 131_072.0)];
+        let own = if receiver & SHAPE == 0 { self.surfaces.bvh.order()[receiver as usize] } else { NOTHING };
+        let mut worst = Meets::No;
+        let triangles = (0..).zip(&self.scene.triangles).filter(|(id, _)| *id != own);
+        let shapes = (0..).zip(&self.scene.shapes);
+        let shapes = shapes.filter(|(id, _)| id | SHAPE != receiver && *id as usize != light);
+        let all = triangles.map(|(_, t)| meets_triangle(segment, t.map(wide), EXACT));
+        for met in all.chain(shapes.map(|(_, s)| meets(segment, &s.geometry))) {
+            match met {
+                Meets::Yes => return Meets::Yes,
+                Meets::Unclear => worst = Meets::Unclear,
+                Meets::No => {}
+            }
+        }
+        worst
+    }
+    /// The normal on the side of a viewer.
+    fn normal(&self, place: u32, p: V, viewer: V) -> V {
+        if place & SHAPE != 0 {
+            let Geometry::Sphere { center, .. } = self.scene.shapes[(place & !SHAPE) as usize].geometry else {
+                unreachable!("flat shapes are no receivers")
+            };
+            return unit(sub(p, wide(center)));
+        }
+        let [a, b, c] = self.scene.triangles[self.surfaces.bvh.order()[place as usize] as usize].map(wide);
+        let normal = unit(cross(sub(b, a), sub(c, a)));
+        if dot(normal, sub(viewer, a)) < 0.0 { normal.map(|x| -x) } else { normal }
+    }
+    /// Looks at the scene through random pixels, and tests the certificates of all lights.
+    fn look(
+        &self,
+        certifier: &mut Certifier<'_>,
+        random: &mut Random,
+        place: impl Fn([f32; 3]) -> [f32; 3],
+        c: &mut Counts,
+    ) {
+        let lights: Vec<u32> = self.surfaces.light_shapes().collect();
+        let distance = if random.below(4) == 0 { 20.0 } else { 1.9 };
+        let origin = wide(place(random.point().map(|x| x * distance)));
+        let target = if self.scene.triangles.is_empty() || random.below(8) == 0 {
+            wide(place(random.point()))
+        } else {
+            let t = self.scene.triangles[random.below(self.scene.triangles.len())].map(wide);
+            let (u, v) = (f64::from(random.unit()), f64::from(random.unit()));
+            plus(plus(t[0], sub(t[1], t[0]), u * (1.0 - v)), sub(t[2], t[0]), v)
+        };
+        let forward = unit(sub(target, origin));
+        let right = unit(cross(forward, wide(random.point())));
+        let up = cross(right, forward);
+        let camera = CameraSettings { origin, forward, right, up, ..self.scene.camera.clone() };
+        let size = [8, 64, 512, 4096][random.below(4)];
+        let pinhole = Pinhole::new(&camera, size, size);
+        let corner = [0; 2].map(|_| (f64::from(size) * (0.5 + 0.1 * f64::from(random.signed()))).floor());
+        let wideness = [1.0, 1.0, 4.0][random.below(3)];
+        let area = [corner[0], corner[1], corner[0] + wideness, corner[1] + wideness];
+        let pyramid = Pyramid::new(&camera, size, size, area);
+        // rays anywhere in the rectangle, often at its corners and edges
+        let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); GROUP];
+        let mut inside = || {
+            let x = random.unit();
+            (((x * 1.5 - 0.25).clamp(0.0, 1.0)) * wideness as f32).min(wideness as f32)
+        };
+        let mut coordinates = |k: usize| f32x8::from_fn(|_| corner[k] as f32 + inside());
+        let rays: [_; GROUP] = std::array::from_fn(|_| {
+            let (x, y) = (coordinates(0), coordinates(1));
+            let (origin, direction) = pinhole.ray(x, y);
+            self.surfaces.bvh.rays(origin, direction)
+        });
+        self.surfaces.bvh.closest(&rays, &[M8::splat(true); GROUP], &mut hits, &mut Scratch::default());
+        let places = |i: usize| hits[i / 8].place.to_array()[i % 8];
+        let receiver = places(random.below(8 * GROUP));
+        if receiver == NOTHING {
+            return;
+        }
+        let Some(patch) = Patch::of(&self.surfaces, receiver, Viewer::Pixels(&pyramid)) else {
+            return;
+        };
+        let mut points: Vec<Point> = Vec::new();
+        let viewer = wide(origin.map(|x| x as f32));
+        for (hits, rays) in hits.iter().zip(&rays) {
+            let surface = self.surfaces.hit(hits, rays);
+            for lane in (0..8).filter(|&i| hits.place.to_array()[i] == receiver) {
+                let p = surface.point.lane(lane);
+                let p = wide([p.x, p.y, p.z]);
+                points.push(Point { p, normal: self.normal(receiver, p, viewer), traced: true });
+                self.measure(&patch, p, c);
+            }
+        }
+        // some of them, and points of the patch that no ray has found
+        while points.len() > 6 {
+            points.swap_remove(random.below(points.len()));
+        }
+        let corners: Vec<V> = patch.corners().collect();
+        for k in 0..6 {
+            if receiver & SHAPE == 0 {
+                let mix = if k < 3 { 0.0 } else { f64::from(random.unit()) };
+                let (a, b) = (corners[random.below(corners.len())], corners[random.below(corners.len())]);
+                let normal = patch.normal().unwrap();
+                let p = plus(plus(a, sub(b, a), mix), normal, patch.margin() / 4.0);
+                points.push(Point { p, normal, traced: false });
+            }
+        }
+        for (index, &light) in lights.iter().enumerate() {
+            self.compare(certifier.certify(&patch, index), &points, receiver, light, random, c);
+        }
+    }
+    /// How far a shading point is outside of its patch, and how high above it.
+    fn measure(&self, patch: &Patch, p: V, c: &mut Counts) {
+        c.points += 1;
+        let corners: Vec<V> = patch.corners().collect();
+        let Some(normal) = patch.normal() else {
+            for k in 0..3 {
+                let low = corners.iter().map(|q| q[k]).fold(f64::INFINITY, f64::min);
+                let high = corners.iter().map(|q| q[k]).fold(f64::NEG_INFINITY, f64::max);
+                c.off = c.off.max((low - p[k]).max(p[k] - high) / patch.margin());
+            }
+            return;
+        };
+        let height = dot(normal, sub(p, corners[0]));
+        c.height = c.height.min(height / patch.margin() * 16.0);
+        c.off = c.off.max(height / patch.margin());
+        let center = corners.iter().fold([0.0; 3], |s, &q| plus(s, q, 1.0 / corners.len() as f64));
+        for (i, &a) in corners.iter().enumerate() {
+            let edge = sub(corners[(i + 1) % corners.len()], a);
+            let out = unit(cross(edge, normal));
+            // short edges of a clipped polygon are nothing but rounding
+            if out[0].is_finite() && length(edge) > patch.margin() {
+                let out = if dot(out, sub(center, a)) > 0.0 { out.map(|x| -x) } else { out };
+                c.off = c.off.max(dot(out, sub(p, a)) / patch.margin());
+            }
+        }
+    }
+    /// Compares one certificate with pairs of points.
+    fn compare(
+        &self,
+        certificate: Certificate<'_>,
+        points: &[Point],
+        receiver: u32,
+        light: u32,
+        random: &mut Random,
+        c: &mut Counts,
+    ) {
+        c.shafts += 1;
+        let shape = &self.scene.shapes[light as usize];
+        *match certificate {
+            Certificate::Lit => &mut c.lit,
+            Certificate::Dark => &mut c.dark,
+            Certificate::Blockers(_) => &mut c.blockers,
+            Certificate::Unknown => &mut c.unknown,
+        } += 1;
+        if matches!(certificate, Certificate::Unknown) {
+            return;
+        }
+        for &Point { p, normal, traced } in points {
+            if let Certificate::Blockers(blockers) = certificate {
+                for blocker in blockers {
+                    assert_front(blocker, &shape.geometry, p, &self.name);
+                }
+            }
+            for _ in 0..3 {
+                let y = light_point(&shape.geometry, p, random);
+                if !(dot(normal, sub(y, p)) > 0.0 && emits(shape, y, p)) {
+                    continue;
+                }
+                c.pairs += 1;
+                let segment = [p, plus(p, sub(y, p), 1.0 - 1.0 / 131_072.0)];
+                let met = self.occluded(p, y, receiver, light as usize);
+                c.visible += u64::from(met == Meets::No);
+                c.unclear += u64::from(met == Meets::Unclear);
+                let what =
+                    || format!("{}: {certificate:?}, {p:?} → {y:?}, light {light}, receiver {receiver}", self.name);
+                match certificate {
+                    Certificate::Lit => assert!(met != Meets::Yes, "occluded: {}", what()),
+                    Certificate::Dark => assert!(met != Meets::No, "visible: {}", what()),
+                    Certificate::Blockers(blockers) if met == Meets::Yes => {
+                        assert!(blockers.iter().any(|b| may_occlude(segment, b)), "a blocker is missing: {}", what());
+                    }
+                    _ => {}
+                }
+                if traced && !matches!(certificate, Certificate::Blockers(_)) {
+                    let open = self.sees(p, y, light);
+                    c.rays += 1;
+                    c.ray_differs += u64::from(open != matches!(certificate, Certificate::Lit));
+                }
+            }
+        }
+    }
+    /// Is a shadow ray of the renderer unoccluded?
+    fn sees(&self, p: V, y: V, light: u32) -> bool {
+        let d = sub(y, p);
+        let splat = |v: V| Vec3::<f32x8>::from(v.map(|x| x as f32));
+        let ray = self.surfaces.bvh.rays(splat(p), splat(unit(d)));
+        let limit = f32x8::splat(length(d) as f32) * f32x8::lit(1.0 - 1.0 / 131_072.0);
+        let mut open = [M8::splat(true)];
+        self.surfaces.bvh.occluded(&[ray], &mut open, &[limit], &[u32x8::splat(light)], &mut Scratch::default());
+        open[0].any()
+    }
+}
+
+/// A blocker that does not cross the light is in front of it, as seen from p.
+fn assert_front(blocker: &Blocker, light: &Geometry, p: V, name: &str) {
+    let (points, radius) = match *blocker {
+        Blocker::Polygon { crosses_light: true, .. } | Blocker::Sphere { crosses_light: true, .. } => return,
+        Blocker::Polygon { corners, count, .. } => (corners.map(wide)[..count].to_vec(), 0.0),
+        Blocker::Sphere { center, radius, .. } => (vec![wide(center)], f64::from(radius)),
+    };
+    let is_front = |x: V| match *light {
+        Geometry::Sphere { center, radius: r } => {
+            let (c, r) = (wide(center), f64::from(r));
+            dot(sub(x, c), sub(p, c)) - radius * length(sub(p, c)) >= r * r
+        }
+        Geometry::Triangle(corners) => {
+            let [a, b, c] = corners.map(wide);
+            let normal = unit(cross(sub(b, a), sub(c, a)));
+            dot(normal, sub(x, a)) * dot(normal, sub(p, a)).signum() >= radius
+        }
+        Geometry::Parallelogram { p: a, u, v } => {
+            let normal = unit(cross(wide(u), wide(v)));
+            dot(normal, sub(x, wide(a))) * dot(normal, sub(p, wide(a))).signum() >= radius
+        }
+    };
+    assert!(points.into_iter().all(is_front), "{name}: {blocker:?} is behind {light:?} from {p:?}");
+}
+
+/// Tests the certificates of `looks` views of each scene at each scale.
+fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
+    let mut c = Counts { height: f64::INFINITY, ..Counts::default() };
+    for round in 0..rounds {
+        let mut random = Random { index: seed.wrapping_add(round.wrapping_mul(0x0080_0000)) };
+        for (name, triangles, shapes) in scenes(&mut random) {
+            for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
+                let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
+                let triangles: Vec<Triangle> = triangles.iter().map(|t| t.map(place)).collect();
+                let shapes = shapes.iter().map(|s| placed(s, scale, shift)).collect();
+                let scene = scene(triangles, shapes);
+                let world = World {
+                    name: format!("{name} × {scale} + {shift}"),
+                    surfaces: Surfaces::new(&scene).unwrap(),
+                    scene,
+                };
+                let mut certifier = Certifier::new(&world.surfaces, world.surfaces.light_shapes());
+                for _ in 0..looks {
+                    world.look(&mut certifier, &mut random, place, &mut c);
+                }
+            }
+        }
+    }
+    println!("{c:#?}");
+    c
+}
+
+#[test]
+fn certificates_agree_with_brute_force() {
+    let c = campaign(100, 1, 1);
+    assert!(c.lit * 10 > c.shafts && c.dark * 20 > c.shafts && c.blockers * 20 > c.shafts, "{c:?}");
+    assert!(c.unclear * 200 < c.pairs, "{c:?}");
+    assert!(c.off < 0.5 && c.height > 2.0, "{c:?}");
+}
+
+#[test]
+#[ignore = "ten million shafts"]
+fn certificates_agree_with_brute_force_at_length() {
+    let c = campaign(450, 50, 1_000_000);
+    assert!(c.shafts >= 10_000_000, "{c:?}");
+}
