@@ -54,6 +54,11 @@ fn side([a, b, c]: [V; 3], d: V, tolerance: f64) -> i32 {
 }
 
 fn meets_triangle([p, q]: [V; 2], [a, b, c]: [V; 3], tolerance: f64) -> Meets {
+    // a ball around the triangle decides where all its volumes are rounding
+    let ball = [b, c].iter().map(|&v| length(sub(v, a))).fold(0.0, f64::max);
+    if meets_sphere([p, q], a, ball, 1e-6) == Meets::No && [p, q].iter().all(|&end| length(sub(end, a)) > ball) {
+        return Meets::No;
+    }
     let ends = [p, q].map(|end| side([a, b, c], end, tolerance));
     if ends[0] * ends[1] > 0 {
         return Meets::No;
@@ -121,6 +126,8 @@ struct Counts {
     unknown: u64,
     pairs: u64,
     visible: u64,
+    /// Occluded pairs of dark shafts.
+    covered: u64,
     unclear: u64,
     /// Shadow rays in single precision that differ from a certificate.
     rays: u64,
@@ -492,6 +499,7 @@ impl World {
                 let segment = [p, plus(p, sub(y, p), 1.0 - 1.0 / 131_072.0)];
                 let met = self.occluded(p, y, receiver, light as usize);
                 c.visible += u64::from(met == Meets::No);
+                c.covered += u64::from(met == Meets::Yes && matches!(certificate, Certificate::Dark));
                 c.unclear += u64::from(met == Meets::Unclear);
                 let what =
                     || format!("{}: {certificate:?}, {p:?} → {y:?}, light {light}, receiver {receiver}", self.name);
@@ -579,6 +587,7 @@ fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
 fn certificates_agree_with_brute_force() {
     let c = campaign(100, 1, 1);
     assert!(c.lit * 10 > c.shafts && c.dark * 20 > c.shafts && c.blockers * 20 > c.shafts, "{c:?}");
+    assert!(c.covered * 50 > c.pairs, "{c:?}");
     assert!(c.unclear * 200 < c.pairs, "{c:?}");
     assert!(c.off < 0.5 && c.height > 2.0, "{c:?}");
 }
@@ -588,4 +597,61 @@ fn certificates_agree_with_brute_force() {
 fn certificates_agree_with_brute_force_at_length() {
     let c = campaign(450, 50, 1_000_000);
     assert!(c.shafts >= 10_000_000, "{c:?}");
+}
+
+/// Time per patch and per certificate of the patches of single pixels, by outcome.
+#[test]
+#[ignore = "measures time"]
+fn time_per_certificate() {
+    for name in ["quads", "terrain", "cornell-box", "plates"] {
+        let scene = etendue_render::scene::load(name).unwrap();
+        let surfaces = Surfaces::new(&scene).unwrap();
+        let mut certifier = Certifier::new(&surfaces, surfaces.light_shapes());
+        let lights = surfaces.light_shapes().count();
+        for (size, wideness) in [(256_u32, 1_u32), (1024, 16)] {
+            let pinhole = Pinhole::new(&scene.camera, size, size);
+            let (mut places, mut scratch) = (Vec::new(), Scratch::default());
+            for y in (0..size).step_by(wideness as usize) {
+                for x in (0..size).step_by(wideness as usize) {
+                    let middle = [x, y].map(|x| f32x8::splat(x as f32 + 0.5 * wideness as f32));
+                    let (origin, direction) = pinhole.ray(middle[0], middle[1]);
+                    let mut hits = [Hits::none(f32x8::splat(f32::INFINITY))];
+                    let ray = surfaces.bvh.rays(origin, direction);
+                    surfaces.bvh.closest(&[ray], &[M8::splat(true)], &mut hits, &mut scratch);
+                    let place = hits[0].place.to_array()[0];
+                    if place != NOTHING {
+                        let area = [x, y, x + wideness, y + wideness].map(f64::from);
+                        places.push((place, Pyramid::new(&scene.camera, size, size, area)));
+                    }
+                }
+            }
+            let start = std::time::Instant::now();
+            let patch = |(place, pyramid): &(u32, Pyramid)| Patch::of(&surfaces, *place, Viewer::Pixels(pyramid));
+            let patches: Vec<Patch> = places.iter().filter_map(patch).collect();
+            let nanoseconds = start.elapsed().as_secs_f64() * 1e9 / places.len() as f64;
+            println!(
+                "{name} at {size}, {wideness}: {} patches of {}, {nanoseconds:.0} ns each",
+                patches.len(),
+                places.len()
+            );
+            let mut outcomes = [(0_u64, 0.0, 0.0_f64); 4];
+            for light in 0..lights {
+                for patch in &patches {
+                    let start = std::time::Instant::now();
+                    let outcome = match certifier.certify(patch, light) {
+                        Certificate::Lit => 0,
+                        Certificate::Dark => 1,
+                        Certificate::Blockers(_) => 2,
+                        Certificate::Unknown => 3,
+                    };
+                    let time = start.elapsed().as_secs_f64() * 1e6;
+                    let entry = &mut outcomes[outcome];
+                    *entry = (entry.0 + 1, entry.1 + time, entry.2.max(time));
+                }
+            }
+            for (outcome, (count, time, most)) in ["lit", "dark", "blockers", "unknown"].iter().zip(outcomes) {
+                println!("    {outcome:8} {count:7}, {:.2} µs each, {most:.0} µs at most", time / count as f64);
+            }
+        }
+    }
 }
