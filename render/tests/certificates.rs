@@ -326,6 +326,18 @@ struct Point {
     normal: V,
     /// Whether a ray has found it.
     traced: bool,
+    /// A point of the light to be tested first.
+    to: Option<V>,
+}
+
+/// What some pixels show of a primitive.
+struct View {
+    pyramid: Pyramid,
+    receiver: u32,
+    patch: Patch,
+    points: Vec<Point>,
+    /// The only light to be tested.
+    light: Option<u32>,
 }
 
 impl World {
@@ -359,15 +371,8 @@ impl World {
         let normal = unit(cross(sub(b, a), sub(c, a)));
         if dot(normal, sub(viewer, a)) < 0.0 { normal.map(|x| -x) } else { normal }
     }
-    /// Looks at the scene through random pixels, and tests the certificates of all lights.
-    fn look(
-        &self,
-        certifier: &mut Certifier<'_>,
-        random: &mut Random,
-        place: impl Fn([f32; 3]) -> [f32; 3],
-        c: &mut Counts,
-    ) {
-        let lights: Vec<u32> = self.surfaces.light_shapes().collect();
+    /// Looks at the scene through random pixels: what they show of a primitive, and shading points there.
+    fn look(&self, random: &mut Random, place: impl Fn([f32; 3]) -> [f32; 3], c: &mut Counts) -> Option<View> {
         let distance = if random.below(4) == 0 { 20.0 } else { 1.9 };
         let origin = wide(place(random.point().map(|x| x * distance)));
         let target = if self.scene.triangles.is_empty() || random.below(8) == 0 {
@@ -380,7 +385,14 @@ impl World {
         let forward = unit(sub(target, origin));
         let right = unit(cross(forward, wide(random.point())));
         let up = cross(right, forward);
-        let camera = CameraSettings { origin, forward, right, up, ..self.scene.camera.clone() };
+        let camera = CameraSettings {
+            origin,
+            forward,
+            right,
+            up,
+            fov: [60.0, 60.0, 1.0, 0.001][random.below(4)],
+            ..self.scene.camera.clone()
+        };
         let size = [8, 64, 512, 4096][random.below(4)];
         let pinhole = Pinhole::new(&camera, size, size);
         let corner = [0; 2].map(|_| (f64::from(size) * (0.5 + 0.1 * f64::from(random.signed()))).floor());
@@ -403,11 +415,9 @@ impl World {
         let places = |i: usize| hits[i / 8].place.to_array()[i % 8];
         let receiver = places(random.below(8 * GROUP));
         if receiver == NOTHING {
-            return;
+            return None;
         }
-        let Some(patch) = Patch::of(&self.surfaces, receiver, Viewer::Pixels(&pyramid)) else {
-            return;
-        };
+        let patch = Patch::of(&self.surfaces, receiver, Viewer::Pixels(&pyramid))?;
         let mut points: Vec<Point> = Vec::new();
         let viewer = wide(origin.map(|x| x as f32));
         for (hits, rays) in hits.iter().zip(&rays) {
@@ -415,7 +425,7 @@ impl World {
             for lane in (0..8).filter(|&i| hits.place.to_array()[i] == receiver) {
                 let p = surface.point.lane(lane);
                 let p = wide([p.x, p.y, p.z]);
-                points.push(Point { p, normal: self.normal(receiver, p, viewer), traced: true });
+                points.push(Point { p, normal: self.normal(receiver, p, viewer), traced: true, to: None });
                 self.measure(&patch, p, c);
             }
         }
@@ -430,12 +440,57 @@ impl World {
                 let (a, b) = (corners[random.below(corners.len())], corners[random.below(corners.len())]);
                 let normal = patch.normal().unwrap();
                 let p = plus(plus(a, sub(b, a), mix), normal, patch.margin() / 4.0);
-                points.push(Point { p, normal, traced: false });
+                points.push(Point { p, normal, traced: false, to: None });
             }
         }
-        for (index, &light) in lights.iter().enumerate() {
-            self.compare(certifier.certify(&patch, index), &points, receiver, light, random, c);
+        Some(View { pyramid, receiver, patch, points, light: None })
+    }
+    /// Tests the certificates of all lights.
+    fn test(&self, view: &View, certifier: &mut Certifier<'_>, random: &mut Random, c: &mut Counts) {
+        let all = self.surfaces.light_shapes().enumerate();
+        for (index, light) in all.filter(|(_, light)| view.light.is_none_or(|only| only == *light)) {
+            self.compare(certifier.certify(&view.patch, index), &view.points, view.receiver, light, random, c);
         }
+    }
+    /// The world with one more triangle, that just touches a segment of the view: it is either a needle with its tip beyond the segment,
+    /// or a large triangle with an edge that does not reach the segment.
+    fn with_edge(&self, view: &View, random: &mut Random) -> Option<(Self, View)> {
+        if view.receiver & SHAPE != 0 {
+            return None;
+        }
+        let lights: Vec<u32> = self.surfaces.light_shapes().collect();
+        let light = *lights.get(random.below(lights.len()))?;
+        let Point { p, normal, traced, .. } = view.points[random.below(view.points.len())];
+        let y = light_point(&self.scene.shapes[light as usize].geometry, p, random);
+        let along = sub(y, p);
+        let at = match random.below(8) {
+            0 => 1.0 - f64::from(random.unit()) / 8192.0,
+            1 => f64::from(random.unit()) / 8192.0,
+            _ => f64::from(random.unit()),
+        };
+        let x = plus(p, along, at);
+        let out = unit(cross(along, wide(random.point())));
+        let side = unit(plus(cross(along, out), along, 0.5 * f64::from(random.signed())));
+        let scale = length(along);
+        let reach = x.iter().fold(scale, |m: f64, x| m.max(x.abs()));
+        let beyond = [1e-5, 1e-4, 1e-6][random.below(3)] * reach;
+        let corners = if random.below(2) == 0 {
+            let end = plus(x, out, 0.3 * scale);
+            [plus(x, out, -beyond), plus(end, side, 0.1 * scale), plus(end, side, -0.1 * scale)]
+        } else {
+            let edge = plus(x, out, -beyond);
+            [plus(edge, side, 20.0 * scale), plus(edge, side, -20.0 * scale), plus(edge, out, -20.0 * scale)]
+        };
+        let mut scene = self.scene.clone();
+        scene.triangles.push(corners.map(|v| v.map(|x| x as f32)));
+        scene.triangle_materials.push(0);
+        let surfaces = Surfaces::new(&scene).unwrap();
+        let id = self.surfaces.bvh.order()[view.receiver as usize];
+        let receiver = surfaces.bvh.order().iter().position(|&other| other == id)? as u32;
+        let patch = Patch::of(&surfaces, receiver, Viewer::Pixels(&view.pyramid))?;
+        let points = vec![Point { p, normal, traced, to: Some(y) }];
+        let view = View { pyramid: view.pyramid, receiver, patch, points, light: Some(light) };
+        Some((Self { name: format!("an edge in {}", self.name), scene, surfaces }, view))
     }
     /// How far a shading point is outside of its patch, and how high above it.
     fn measure(&self, patch: &Patch, p: V, c: &mut Counts) {
@@ -484,14 +539,14 @@ impl World {
         if matches!(certificate, Certificate::Unknown) {
             return;
         }
-        for &Point { p, normal, traced } in points {
+        for &Point { p, normal, traced, to } in points {
             if let Certificate::Blockers(blockers) = certificate {
                 for blocker in blockers {
                     assert_front(blocker, &shape.geometry, p, &self.name);
                 }
             }
-            for _ in 0..3 {
-                let y = light_point(&shape.geometry, p, random);
+            for k in 0..3 {
+                let y = to.filter(|_| k == 0).unwrap_or_else(|| light_point(&shape.geometry, p, random));
                 if !(dot(normal, sub(y, p)) > 0.0 && emits(shape, y, p)) {
                     continue;
                 }
@@ -556,6 +611,9 @@ fn assert_front(blocker: &Blocker, light: &Geometry, p: V, name: &str) {
     assert!(points.into_iter().all(is_front), "{name}: {blocker:?} is behind {light:?} from {p:?}");
 }
 
+/// How many times a triangle is added to a small scene, for each view.
+const EDGES: usize = 6;
+
 /// Tests the certificates of `looks` views of each scene at each scale.
 fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
     let mut c = Counts { height: f64::INFINITY, ..Counts::default() };
@@ -574,7 +632,15 @@ fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
                 };
                 let mut certifier = Certifier::new(&world.surfaces, world.surfaces.light_shapes());
                 for _ in 0..looks {
-                    world.look(&mut certifier, &mut random, place, &mut c);
+                    let Some(view) = world.look(&mut random, place, &mut c) else { continue };
+                    world.test(&view, &mut certifier, &mut random, &mut c);
+                    if world.scene.triangles.len() < 20 {
+                        for _ in 0..EDGES {
+                            let Some((other, view)) = world.with_edge(&view, &mut random) else { break };
+                            let mut certifier = Certifier::new(&other.surfaces, other.surfaces.light_shapes());
+                            other.test(&view, &mut certifier, &mut random, &mut c);
+                        }
+                    }
                 }
             }
         }

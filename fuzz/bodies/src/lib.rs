@@ -1,5 +1,8 @@
-//! Bodies of the fuzz targets for files: scenes and images. `tests/seeds.rs` runs the same functions without a fuzzer.
+//! Bodies of the fuzz targets of the renderer: scenes, images and certificates. `tests/seeds.rs` runs the same functions without a fuzzer.
 
+mod certificates;
+
+pub use certificates::certificates;
 use etendue_render::compare::Comparison;
 use etendue_render::{World, image as images, scene};
 use std::path::Path;

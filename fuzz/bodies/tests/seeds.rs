@@ -1,4 +1,4 @@
-//! Runs the fuzz bodies for files without a fuzzer, on the committed seeds and findings, and on randomly damaged copies of them.
+//! Runs the fuzz bodies of the renderer without a fuzzer, on the committed seeds and findings, and on randomly damaged copies of them.
 
 use etendue_fuzz_bodies as files;
 use std::path::Path;
@@ -48,8 +48,13 @@ fn images() {
     damaged("image", files::image, 2000);
 }
 #[test]
+fn certificates() {
+    damaged("certificates", files::certificates, 30_000);
+}
+#[test]
 #[ignore = "half a million damaged files of each kind: some minutes"]
 fn many_files() {
     damaged("scene", files::scene, 500_000);
     damaged("image", files::image, 500_000);
+    damaged("certificates", files::certificates, 2_000_000);
 }

@@ -1,0 +1,247 @@
+//! Small scenes on a lattice, so that their parts touch, coincide and are parallel, whose certificates must agree with single segments.
+
+use etendue_render::bvh::SHAPE;
+use etendue_render::certificates::{Blocker, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
+use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
+use etendue_render::surfaces::Surfaces;
+
+type V = [f64; 3];
+
+fn plus(a: V, b: V, s: f64) -> V {
+    std::array::from_fn(|k| a[k] + b[k] * s)
+}
+fn sub(a: V, b: V) -> V {
+    plus(a, b, -1.0)
+}
+fn dot(a: V, b: V) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+fn cross(a: V, b: V) -> V {
+    std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+fn unit(a: V) -> V {
+    a.map(|x| x / dot(a, a).sqrt())
+}
+fn wide(v: [f32; 3]) -> V {
+    v.map(f64::from)
+}
+
+/// Reads bytes as numbers; zeros follow the last.
+struct Input<'a> {
+    bytes: std::slice::Iter<'a, u8>,
+    scale: f32,
+    shift: f32,
+}
+
+impl Input<'_> {
+    fn byte(&mut self) -> u8 {
+        self.bytes.next().copied().unwrap_or(0)
+    }
+    fn below(&mut self, n: usize) -> usize {
+        usize::from(self.byte()) % n
+    }
+    /// A lattice point in [−4, 4)³.
+    fn vector(&mut self) -> [f32; 3] {
+        std::array::from_fn(|_| f32::from(self.byte() as i8) / 32.0 * self.scale)
+    }
+    fn point(&mut self) -> [f32; 3] {
+        self.vector().map(|x| x + self.shift * self.scale)
+    }
+    fn triangle(&mut self) -> [[f32; 3]; 3] {
+        [0; 3].map(|_| self.point())
+    }
+    fn radius(&mut self) -> f32 {
+        f32::from(self.byte()) / 64.0 * self.scale
+    }
+    fn light(&mut self) -> Geometry {
+        match self.below(3) {
+            0 => Geometry::Sphere { center: self.point(), radius: self.radius() },
+            1 => Geometry::Triangle(self.triangle()),
+            _ => Geometry::Parallelogram { p: self.point(), u: self.vector(), v: self.vector() },
+        }
+    }
+}
+
+/// Whether a segment meets a triangle by a clear margin, or misses it by one.
+fn meets_triangle(p: V, y: V, corners: [V; 3]) -> [bool; 2] {
+    let [a, b, c] = corners;
+    let (d, e1, e2, s) = (sub(y, p), sub(b, a), sub(c, a), sub(p, a));
+    let normal = cross(e1, e2);
+    let slope = -dot(normal, d);
+    let size = |v: V| dot(v, v).sqrt();
+    if !(slope.abs() > 1e-7 * size(normal) * size(d)) {
+        return [false; 2];
+    }
+    let moment = cross(s, d);
+    let (t, u, v) = (dot(normal, s) / slope, dot(e2, moment) / slope, -dot(e1, moment) / slope);
+    let least = u.min(v).min(1.0 - u - v).min(t * 100.0).min((1.0 - 1.0 / 131_072.0 - t) * 100.0);
+    [least > 1e-5, least < -1e-5]
+}
+
+fn meets_polygon(p: V, y: V, corners: &[V]) -> [bool; 2] {
+    let parts = (2..corners.len()).map(|k| meets_triangle(p, y, [corners[0], corners[k - 1], corners[k]]));
+    parts.fold([false, true], |all, part| [all[0] | part[0], all[1] & part[1]])
+}
+
+fn meets_sphere(p: V, y: V, center: V, radius: f64) -> [bool; 2] {
+    let d = sub(y, p);
+    let t = (dot(sub(center, p), d) / dot(d, d)).clamp(0.0, 1.0);
+    let distance = |q: V| dot(sub(q, center), sub(q, center)).sqrt() / radius;
+    let (least, most) = (distance(plus(p, d, t)), distance(p).max(distance(y)));
+    let clear = 1e-5 * (1.0 + most);
+    [least < 1.0 - clear && most > 1.0 + clear, least > 1.0 + clear]
+}
+
+fn parallelogram(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> [V; 4] {
+    let [p, u, v] = [p, u, v].map(wide);
+    [p, plus(p, u, 1.0), plus(plus(p, u, 1.0), v, 1.0), plus(p, v, 1.0)]
+}
+
+fn meets(p: V, y: V, geometry: &Geometry) -> [bool; 2] {
+    match *geometry {
+        Geometry::Sphere { center, radius } => meets_sphere(p, y, wide(center), f64::from(radius)),
+        Geometry::Triangle(corners) => meets_triangle(p, y, corners.map(wide)),
+        Geometry::Parallelogram { p: corner, u, v } => meets_polygon(p, y, &parallelogram(corner, u, v)),
+    }
+}
+
+fn is_listed(p: V, y: V, blockers: &[Blocker]) -> bool {
+    blockers.iter().any(|blocker| match *blocker {
+        Blocker::Polygon { corners, count, .. } => !meets_polygon(p, y, &corners.map(wide)[..count])[1],
+        Blocker::Sphere { center, radius, .. } => !meets_sphere(p, y, wide(center), f64::from(radius))[1],
+    })
+}
+
+fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettings) -> Scene {
+    Scene {
+        name: String::new(),
+        camera,
+        film: FilmSettings { width: 16, height: 16, diagonal: 35.0, filename: None },
+        pixel_samples: 1,
+        materials: vec![Material::Diffuse([0.5; 3])],
+        triangle_materials: vec![0; triangles.len()],
+        triangles,
+        shapes,
+        delta_lights: Vec::new(),
+        environment: None,
+        warnings: Vec::new(),
+        inputs: Vec::new(),
+    }
+}
+
+/// Any small scene has a certificate for the light of shape 0 as seen from triangle 0 or from the last sphere. No segment from there to
+/// the light contradicts it.
+pub fn certificates(bytes: &[u8]) {
+    let mut input = Input { bytes: bytes.iter(), scale: 1.0, shift: 0.0 };
+    let kind = input.below(16);
+    input.scale = [1.0, 1e-6, 1e6, 1.0, 1e-30, 1e30, 1.0, 0.01][kind % 8];
+    input.shift = [0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 0.0][kind % 8];
+    let two_sided = input.below(2) == 0;
+    let light =
+        Shape { geometry: input.light(), material: 0, emission: Some(Emission { radiance: [1.0; 3], two_sided }) };
+    let view = input.below(4);
+    let origin = wide(input.point());
+    let place = input.below(256);
+    let receiver = input.triangle();
+    let mut triangles = vec![receiver];
+    let mut shapes = vec![light.clone()];
+    for _ in 0..input.below(24) {
+        match input.below(8) {
+            0 => {
+                let geometry = Geometry::Sphere { center: input.point(), radius: input.radius() };
+                shapes.push(Shape { geometry, material: 0, emission: None });
+            }
+            // two triangles of a quadrilateral
+            1..4 => {
+                let [p, u, v] = [input.point(), input.vector(), input.vector()];
+                let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| a[k] + b[k]);
+                triangles.push([p, add(p, u), add(add(p, u), v)]);
+                triangles.push([p, add(add(p, u), v), add(p, v)]);
+            }
+            _ => triangles.push(input.triangle()),
+        }
+    }
+    let [a, b, c] = receiver.map(wide);
+    let target = plus(plus(a, sub(b, a), place as f64 / 512.0), sub(c, a), 0.25);
+    let forward = unit(sub(target, origin));
+    let right = unit(cross(forward, [0.3, 1.0, 0.2]));
+    let up = cross(right, forward);
+    let camera = CameraSettings { origin, forward, right, up, fov: 40.0, lens: None };
+    let pyramid = Pyramid::new(&camera, 16, 16, [7.0, 7.0, 9.0, 9.0]);
+    let scene = scene(triangles, shapes, camera);
+    let Ok(surfaces) = Surfaces::new(&scene) else { return };
+    let viewer = [Viewer::Pixels(&pyramid), Viewer::Pixels(&pyramid), Viewer::Front, Viewer::Back][view];
+    let last = scene.shapes.len() - 1;
+    let is_ball = matches!(scene.shapes[last].geometry, Geometry::Sphere { .. }) && last > 0 && view == 2;
+    let place = if is_ball {
+        last as u32 | SHAPE
+    } else {
+        (0..).zip(surfaces.bvh.order()).find(|(_, id)| **id == 0).map_or(0, |(place, _)| place)
+    };
+    let Some(patch) = Patch::of(&surfaces, place, viewer) else { return };
+    let mut certifier = Certifier::new(&surfaces, [0]);
+    let certificate = certifier.certify(&patch, 0);
+    if let Certificate::Blockers(blockers) = certificate {
+        assert!((1..=MOST).contains(&blockers.len()));
+    }
+    let corners: Vec<V> = patch.corners().collect();
+    for _ in 0..24 {
+        let mut mix = || [0.0, 1.0, 0.5, 0.25, 0.9, 0.01][input.below(6)];
+        let (p, normal) = match (patch.normal(), &scene.shapes[last].geometry) {
+            (Some(normal), _) => {
+                let (s, t) = (mix(), mix());
+                let at = |k: usize| corners[k % corners.len()];
+                let k = input.below(8);
+                let edge = plus(at(k), sub(at(k + 1), at(k)), s);
+                (plus(plus(edge, sub(at(k + 2), edge), t), normal, patch.margin() / 4.0), normal)
+            }
+            (None, Geometry::Sphere { center, radius }) => {
+                let normal = unit(plus([mix(), mix(), mix()], [0.5; 3], -1.0));
+                (plus(wide(*center), normal, f64::from(*radius) + patch.margin() / 8.0), normal)
+            }
+            _ => return,
+        };
+        let (s, t) = ([0.0, 1.0, 0.5, 0.3][input.below(4)], [0.0, 1.0, 0.5, 0.3][input.below(4)]);
+        let y = match light.geometry {
+            Geometry::Sphere { center, radius } => {
+                let axis = unit(sub(p, wide(center)));
+                let across = unit(cross(axis, wide(input.vector())));
+                let sin = 0.99 * s;
+                let cos = f64::sqrt(1.0 - sin * sin);
+                let radius = f64::from(radius);
+                plus(plus(wide(center), axis, radius * cos), across, radius * sin)
+            }
+            Geometry::Triangle(corners) => {
+                let [a, b, c] = corners.map(wide);
+                plus(plus(a, sub(b, a), s * (1.0 - t)), sub(c, a), t)
+            }
+            Geometry::Parallelogram { p, u, v } => plus(plus(wide(p), wide(u), s), wide(v), t),
+        };
+        let away = sub(p, y);
+        let outward = match light.geometry {
+            Geometry::Sphere { center, .. } => sub(y, wide(center)),
+            Geometry::Triangle(corners) => {
+                let [a, b, c] = corners.map(wide);
+                cross(sub(b, a), sub(c, a))
+            }
+            Geometry::Parallelogram { u, v, .. } => cross(wide(u), wide(v)),
+        };
+        let is_sphere = matches!(light.geometry, Geometry::Sphere { .. });
+        if !(dot(normal, away) < 0.0 && (dot(outward, away) > 0.0 || two_sided && !is_sphere)) {
+            continue;
+        }
+        let others = (0..).zip(&scene.triangles).filter(|(id, _)| place & SHAPE != 0 || *id != 0_u32);
+        let shapes = (0..).zip(&scene.shapes).skip(1).filter(|(id, _)| id | SHAPE != place);
+        let all =
+            others.map(|(_, t)| meets_triangle(p, y, t.map(wide))).chain(shapes.map(|(_, s)| meets(p, y, &s.geometry)));
+        let [met, missed] = all.fold([false, true], |all, one| [all[0] | one[0], all[1] & one[1]]);
+        match certificate {
+            Certificate::Lit => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
+            Certificate::Dark => assert!(!missed, "{p:?} → {y:?} is visible, but dark"),
+            Certificate::Blockers(blockers) => {
+                assert!(!met || is_listed(p, y, blockers), "{p:?} → {y:?} is occluded by none of {blockers:?}");
+            }
+            Certificate::Unknown => {}
+        }
+    }
+}
