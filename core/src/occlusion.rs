@@ -168,6 +168,7 @@ impl<R: Real> Occlusion<R> {
     #[inline]
     fn beside(&mut self, all: R, point: Vec3<R>, blockers: &[Convex<R::Scalar>]) -> Result<R, TooMany> {
         let (zero, mut visible, mut kept) = (R::lit(0.0), all, 0);
+        let mut covered = R::Mask::splat(false);
         for blocker in blockers {
             match *blocker {
                 Convex::Polygon { corners, count } => {
@@ -179,13 +180,14 @@ impl<R: Real> Occlusion<R> {
                 }
             }
             let Some((cap, hidden)) = self.intersect(0, kept, self.light)? else { continue };
-            if hidden.ge(all * R::lit(0.999_999)).all() {
+            covered = covered | hidden.ge(all);
+            if covered.all() {
                 return Ok(zero);
             }
             visible -= self.less(1, kept, cap, hidden)?;
             kept += 1;
         }
-        Ok(visible.clamped(zero, all))
+        Ok(visible.clamped(zero, all).keep(!covered))
     }
 
     /// Prepares a polygon as blocker `k`.

@@ -270,10 +270,13 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                 _ => {}
             }
             let mut own_corners = corners(random, middle, plane, radii);
+            if matches!(kind, Kind::TouchLight | Kind::LightPlane | Kind::CrossHorizon | Kind::Axis | Kind::Exact) {
+                // one of their corners moves out of the plane
+                own_corners.truncate(3);
+            }
             match kind {
                 Kind::TouchLight => {
                     // a corner or an edge on a place of the light, on its edge or at its corner
-                    let count = own_corners.len();
                     let on = |random: &mut Random| match random.word() % 3 {
                         0 => flat[random.word() as usize % flat.len()],
                         1 => along(flat[0], sub(flat[1], flat[0]), random.unit_f64()),
@@ -285,7 +288,6 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                         let (a, b) = (flat[0], flat[1]);
                         let out = along(a.map(|x| x * f), random.direction(), 0.3 * size);
                         own_corners = vec![a, b, along(out, sub(b, a), 1.0), out];
-                        own_corners.truncate(count);
                     }
                 }
                 Kind::TouchSurface => {
@@ -370,7 +372,7 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                 }
                 Kind::Exact => {
                     own_corners = flat.iter().map(|c| c.map(|x| x * f)).collect();
-                    if random.unit() < 0.3 {
+                    if flat.len() == 3 && random.unit() < 0.3 {
                         // and once a little off
                         own_corners[0] = along(own_corners[0], random.direction(), random.magnitude(1e-8, 1e-2));
                     }
@@ -427,6 +429,10 @@ fn measure(kind: Kind, round: Round, packets: u32, seed: u64) -> Errors {
             let unit = near.around * near.occluders.max(1) as f64;
             errors.occluded += u32::from(near.occluders > 0);
             let error = off(found.lane_f64(lane));
+            if std::env::var("SHOW").is_ok() && error / unit > 1e-3 && errors.single.error() < 1e-3 {
+                let bare = Scene { blockers: Vec::new(), ..scene.clone() };
+                println!("  {kind:?} {round:?} {near:?} {far:?} found {} f64 {:?} bare {:?} lane {lane} {scene:?}", found.lane_f64(lane), scene.found::<f64x1>(lane), bare.found::<f64x1>(lane));
+            }
             if unit > 0.0 {
                 errors.single.take(error / unit, i);
                 if let Some(double) = scene.found::<f64x1>(lane) {

@@ -4,7 +4,7 @@ use super::TooMany;
 use super::outline::Outline;
 use crate::math::rsqrt;
 use crate::real::{Mask, Real};
-use crate::vector::Vec3;
+use crate::vector::{Frame, Vec2, Vec3};
 
 /// The directions to a sphere: a cap about an axis.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,9 +24,10 @@ impl<R: Real> Cap<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (axis, distance) = center.unit_and_length();
         let some = distance.gt(zero);
-        let sin = (radius / R::blend(some, distance, one)).lesser(one).greater(zero);
-        let cos = ((one - sin) * (one + sin)).greater(R::lit(1e-12)).sqrt();
-        let tangents = center.length_squared_minus_square(radius) / R::blend(some, distance, one);
+        let distance = R::blend(some, distance, one);
+        let sin = (radius / distance).lesser(one).greater(zero);
+        let tangents = center.length_squared_minus_square(radius) / distance;
+        let cos = (tangents / distance).greater(R::lit(1e-12)).lesser(one).sqrt();
         Self { axis, sin, cos, tangents }
     }
     /// Whether the caps have no direction in common, in all of these lanes.
@@ -56,14 +57,20 @@ impl<R: Real> Cap<R> {
         }
         let sin_squared = sin * sin;
         let up = axis.dot(normal);
-        let unit = |x: R, y: R| {
+        // one frame for all edges, so that what is moved stays closed
+        let Frame { s, t, .. } = Frame::new(axis);
+        let azimuth = |v: Vec3<R>| {
+            let (x, y) = (v.dot(s), v.dot(t));
             let square = x.mul_add(x, y * y);
             let inverse = rsqrt(R::blend(square.gt(zero), square, one));
-            (x * inverse, y * inverse)
+            Vec2::new(x * inverse, y * inverse)
         };
-        let mut sum = zero;
+        let keep = |v: Vec2<R>, lanes| Vec2::new(v.x.keep(lanes), v.y.keep(lanes));
+        let turn = |a: Vec2<R>, b: Vec2<R>| (a.x * b.y - a.y * b.x).atan2(a.dot(b));
+        let (mut sum, mut turned, mut moved) = (zero, zero, Vec2::default());
         let corners = outline.corners();
         let mut from = corners[corners.len() - 1];
+        let mut azimuth_from = azimuth(from);
         for &to in corners {
             let across = from.cross(to);
             let square = across.length_squared();
@@ -73,11 +80,9 @@ impl<R: Real> Cap<R> {
             let sine = axis.dot(m);
             let cosine_squared = ((one - sine) * (one + sine)).greater(R::lit(1e-12));
             let inverse_cosine = rsqrt(cosine_squared);
-            // a frame about the axis: away from the edge's circle, and along it
+            // along the edge's circle, whose point nearest to the axis is in the middle of what is inside
             let along = m.cross(axis) * inverse_cosine;
-            let away = (axis * sine - m) * inverse_cosine;
             let half_squared = sin_squared - sine * sine;
-            let meets = edge & half_squared.gt(zero);
             let half = half_squared.greater(zero).sqrt();
             // tangents of the angles from the nearest point of the circle
             let slope = half / cos;
@@ -87,27 +92,28 @@ impl<R: Real> Cap<R> {
             };
             let (start, end) = (tangent(from), tangent(to));
             let (low, high) = (start.greater(-slope), end.lesser(slope));
-            let meets = meets & low.lt(high);
+            let meets = edge & half_squared.gt(zero) & low.lt(high);
             let angle = (high - low).atan2(low.mul_add(high, one)).keep(meets);
             // the parts outside, along the circle of the cap
-            let (x0, y0) = unit(from.dot(away), from.dot(along));
-            let (x1, y1) = unit(to.dot(away), to.dot(along));
-            let (x, y) = unit(cos * sine, half);
+            let azimuth_to = azimuth(to);
             let before = edge & (!meets | start.lt(-slope));
             let after = meets & end.gt(slope);
-            let (x2, y2) = (R::blend(meets, x, x1), R::blend(meets, -y, y1));
-            let turn = |x0: R, y0: R, x1: R, y1: R| (x0 * y1 - y0 * x1).atan2(x0.mul_add(x1, y0 * y1));
-            let mut turned = turn(x0, y0, x2, y2).keep(before);
-            let (mut dx, mut dy) = ((x2 - x0).keep(before), (y2 - y0).keep(before));
+            let nearest = (axis - m * sine) * (cos * inverse_cosine);
+            let reach = along * half;
+            let until = Vec2::blend(meets, azimuth(nearest - reach), azimuth_to);
+            turned += turn(azimuth_from, until).keep(before);
+            moved += keep(until - azimuth_from, before);
             if after.any() {
-                turned += turn(x, y, x1, y1).keep(after);
-                dx += (x1 - x).keep(after);
-                dy += (y1 - y).keep(after);
+                let since = azimuth(nearest + reach);
+                turned += turn(since, azimuth_to).keep(after);
+                moved += keep(azimuth_to - since, after);
             }
-            let bend = dx.mul_add(along.dot(normal), -(dy * away.dot(normal)));
-            sum += angle * m.dot(normal) + sin_squared * turned * up + sin * cos * bend;
+            sum += angle * m.dot(normal);
+            azimuth_from = azimuth_to;
             from = to;
         }
+        let bend = moved.x.mul_add(t.dot(normal), -(moved.y * s.dot(normal)));
+        sum += sin_squared * turned * up + sin * cos * bend;
         Ok((sum * R::lit(0.5)).abs().keep(outline.some()))
     }
 }

@@ -20,15 +20,15 @@ impl<R: Real, const MOST: usize> Default for Outline<R, MOST> {
     }
 }
 
-/// θ/sinθ from x = cosθ.
+/// θ/sinθ from cosθ and sin²θ.
 #[inline(always)]
-fn angle_over_sine<R: Real>(x: R) -> R {
-    let one = R::lit(1.0);
-    let x = x.clamped(-one, one);
-    // sin² of an edge across the point is kept from 0
-    let square = ((one - x) * (one + x)).greater(R::lit(1e-12));
-    let ratio = x.acos() * rsqrt(square);
-    R::blend(x.gt(R::lit(0.999_999)), R::lit(1.0 / 3.0).mul_add(one - x, one), ratio)
+fn angle_over_sine<R: Real>(cos: R, sin_squared: R) -> R {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let cos = cos.clamped(-one, one);
+    // the ratio is a smooth function of the cosine up to a right angle; beyond, only the sine keeps the digits of an edge across the point
+    let square = R::blend(cos.lt(zero), sin_squared, (one - cos) * (one + cos)).greater(R::lit(1e-30));
+    let ratio = cos.acos() * rsqrt(square);
+    R::blend(cos.gt(R::lit(0.999_999)), R::lit(1.0 / 3.0).mul_add(one - cos, one), ratio)
 }
 
 impl<R: Real, const MOST: usize> Outline<R, MOST> {
@@ -127,7 +127,8 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         for &to in corners {
             let inverse_to = inverse(to);
             let scale = inverse_from * inverse_to;
-            sum += from.cross(to).dot(normal) * scale * angle_over_sine(from.dot(to) * scale);
+            let across = from.cross(to) * scale;
+            sum += across.dot(normal) * angle_over_sine(from.dot(to) * scale, across.length_squared());
             (from, inverse_from) = (to, inverse_to);
         }
         (sum * R::lit(0.5)).abs().keep(self.some)

@@ -27,9 +27,13 @@ pub struct Visible {
 
 /// Ω⊥ of the part of `light` that `blockers` leave over a surface with the unit normal `n`. What is farther than the fraction 1 − `spared`
 /// of the way to the plane of a flat light, or beyond the circle of the tangents of a sphere, does not occlude. `None` if a sphere overlaps
-/// another, or is cut by that limit.
+/// another, is cut by that limit, or contains the point.
 #[must_use]
 pub fn visible(light: &Shape, blockers: &[Shape], n: V3, spared: f64) -> Option<Visible> {
+    let contains = |shape: &Shape| matches!(shape, Shape::Sphere(center, radius) if length(*center) <= *radius);
+    if contains(light) || blockers.iter().any(contains) {
+        return None;
+    }
     let (mut pieces, measure, front, all, around): (Vec<Vec<V3>>, Measure, (V3, f64), f64, f64) = match light {
         Shape::Polygon(corners) => {
             let across = unit(area_vector(corners));
