@@ -48,6 +48,7 @@ mod interop;
 mod lanewise;
 pub mod light;
 pub mod math;
+pub mod occlusion;
 pub mod random;
 pub mod real;
 pub mod select;

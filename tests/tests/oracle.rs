@@ -219,3 +219,102 @@ fn disks_and_lines() {
     let arc = line([1.0, 0.0, -5.0], [0.0, 0.0, 6.0], [0.0, 0.0, 1.0]);
     close(arc.whole, 0.25, 1e-14, "upright");
 }
+
+/// The visible part of lights against the visibility of a grid of directions.
+#[test]
+fn visible_part_is_its_integral() {
+    use etendue_oracle::visible::{Shape, visible};
+    /// The distance at which a ray meets a shape.
+    fn met(shape: &Shape, w: V3) -> Option<f64> {
+        match shape {
+            Shape::Polygon(corners) => {
+                let side = |i: usize| dot(w, cross(corners[i], corners[(i + 1) % corners.len()]));
+                let sides: Vec<f64> = (0..corners.len()).map(side).collect();
+                if !(sides.iter().all(|s| *s > 0.0) || sides.iter().all(|s| *s < 0.0)) {
+                    return None;
+                }
+                let normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]));
+                let distance = dot(normal, corners[0]) / dot(normal, w);
+                (distance > 0.0).then_some(distance)
+            }
+            Shape::Sphere(center, radius) => {
+                let b = dot(*center, w);
+                let root = radius * radius + b * b - dot(*center, *center);
+                (root > 0.0 && b > 0.0).then(|| b - root.sqrt())
+            }
+        }
+    }
+    let mut random = Random::new(81);
+    let (mut greatest, mut cases) = (Greatest::NONE, 0);
+    for round in 0..400 {
+        let mut shape = |sphere: bool, distance: f64, size: f64| {
+            let middle = random.direction().map(|x| x * distance);
+            if sphere {
+                return Shape::Sphere(middle, size);
+            }
+            let (s, t) = basis(random.direction());
+            let n = if random.unit() < 0.5 { 3 } else { 4 };
+            let turn = random.range(0.0, TAU);
+            let corner = |i: usize| {
+                let turn = turn + TAU * i as f64 / f64::from(n);
+                along(along(middle, s, 1.4 * size * turn.cos()), t, size * turn.sin())
+            };
+            Shape::Polygon((0..n as usize).map(corner).collect())
+        };
+        let light = shape(round % 2 == 0, 2.0, 1.2);
+        let blockers: Vec<_> = (0..=round % 4).map(|i| shape(i == 3, 1.0, 0.6)).collect();
+        let (Shape::Polygon(corners), n) = (&light, random.direction()) else {
+            let Shape::Sphere(center, radius) = light else { unreachable!() };
+            let n = random.direction();
+            let Some(truth) = visible(&light, &blockers, n, 0.0) else { continue };
+            if truth.occluders == 0 {
+                continue;
+            }
+            assert!((truth.all - projected_cap(center, radius, n)).abs() < 1e-14);
+            let (axis, alpha) = (unit(center), (radius / length(center)).asin());
+            let (s, t) = basis(axis);
+            // equal areas of the cap
+            let size = 2.0 * PI * (1.0 - alpha.cos()) / 9e4;
+            let sum: f64 = (0..90_000)
+                .map(|i| {
+                    let (x, y) = ((f64::from(i / 300) + 0.5) / 300.0, (f64::from(i % 300) + 0.5) / 300.0);
+                    let cos = 1.0 - x * (1.0 - alpha.cos());
+                    let sin = (1.0 - cos * cos).sqrt();
+                    let w = along(along(axis.map(|a| a * cos), s, sin * (TAU * y).cos()), t, sin * (TAU * y).sin());
+                    // what lies within the sphere, but before the circle of its tangents, hides it too
+                    let distance = length(center) * alpha.cos().powi(2) / cos;
+                    let hidden = blockers.iter().filter_map(|b| met(b, w)).any(|d| d < distance);
+                    if hidden { 0.0 } else { dot(w, n).max(0.0) * size }
+                })
+                .sum();
+            greatest.take((sum - truth.left).abs(), round);
+            cases += 1;
+            continue;
+        };
+        let Some(truth) = visible(&light, &blockers, n, 0.0) else { continue };
+        if truth.occluders == 0 {
+            continue;
+        }
+        assert!((truth.all - projected_polygon(corners, n)).abs() < 1e-13);
+        let triangles = corners.len() - 2;
+        let mut sum = 0.0;
+        for k in 0..triangles {
+            let [a, u, v] = [corners[0], sub(corners[k + 1], corners[0]), sub(corners[k + 2], corners[0])];
+            let normal = cross(u, v);
+            for i in 0..90_000 {
+                let (x, y) = ((f64::from(i / 300) + 0.5) / 300.0, (f64::from(i % 300) + 0.5) / 300.0);
+                let (x, y) = if x + y > 1.0 { (1.0 - x, 1.0 - y) } else { (x, y) };
+                let to = along(along(a, u, x), v, y);
+                let distance = length(to);
+                let w = to.map(|x| x / distance);
+                if !blockers.iter().filter_map(|b| met(b, w)).any(|d| d < distance) {
+                    sum += 0.5 / 9e4 * dot(w, n).max(0.0) * dot(w, normal).abs() / distance.powi(2);
+                }
+            }
+        }
+        greatest.take((sum - truth.left).abs(), round);
+        cases += 1;
+    }
+    println!("{cases} lights with blockers: within {:.1e} of the sum over a grid", greatest.error());
+    assert!(cases > 30 && greatest.error() < 5e-3, "{greatest:?} in {cases} cases");
+}

@@ -3,6 +3,7 @@
 //! - [`double_double`]: 106-bit arithmetic and vectors.
 //! - [`flat`]: solid angles of triangles and rectangles, and their maps by definition.
 //! - [`curves`]: disks and line segments, and their maps by definition.
+//! - [`visible`]: what convex blockers leave of a light.
 //! - At the root: vectors in f64; closed forms for caps, polygons and disks ([`cap`], [`projected_cap`], [`lambert`], …); quadrature
 //!   ([`gauss_legendre`], [`integrate`]); and [`Greatest`], the measure of a greatest error.
 
@@ -13,6 +14,7 @@ pub mod flat;
 mod greatest;
 mod quadrature;
 mod vectors;
+pub mod visible;
 
 pub use closed_forms::*;
 pub use double_double::{dd, exact_sum};

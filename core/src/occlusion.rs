@@ -1,0 +1,317 @@
+//! How much of a light is visible past a few convex blockers: the projected solid angle of the visible part, without random numbers.
+//!
+//! A diffuse surface with albedo ρ reflects ρ/π · L · Ω⊥, where Ω⊥ is the projected solid angle of the visible part of a light with the
+//! radiance L. [`Occlusion::visible`] computes it for one light, some blockers, and as many shading points as there are lanes.
+//!
+//! ```
+//! use etendue::{Vec3, f32x8, occlusion::{Convex, Occlusion}};
+//! let square = |y: f32, half: f32| Convex::Polygon {
+//!     corners: [[-half, -half], [half, -half], [half, half], [-half, half]].map(|[x, z]| Vec3::new(x, y, z)),
+//!     count: 4,
+//! };
+//! let (light, blocker) = (square(2.0, 1.0), square(1.0, 0.25));
+//! // eight points below the light; the blocker hides the middle of the light from the first of them
+//! let point = Vec3::new(f32x8::from([0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5]), f32x8::ZERO, f32x8::ZERO);
+//! let normal = Vec3::lit([0.0, 1.0, 0.0]);
+//! let mut occlusion = Occlusion::new();
+//! let all = occlusion.visible(point, normal, &light, &[]).unwrap();
+//! let part = occlusion.visible(point, normal, &light, &[blocker]).unwrap();
+//! assert!(part.as_array()[0] < 0.8 * all.as_array()[0] && part.as_array()[7] == all.as_array()[7]);
+//! ```
+//!
+//! - Formula: Ω⊥(L \ ∪Bᵢ) = Ω⊥(L) − Σᵢ Ω⊥((L ∩ Bᵢ) \ ∪ⱼ₍ⱼ﹤ᵢ₎Bⱼ), recursively. All intersections are convex. A polygon is clipped by planes
+//!   through the point (Sutherland and Hodgman 1974) and has Ω⊥ = ½ n·Σ θᵢ Γᵢ over its edges, with their angles θᵢ and unit normals Γᵢ
+//!   (Lambert 1760; Baum, Rushmeier and Winget 1989). For a sphere, arcs of its circle replace the edges outside: from the azimuth φ₁ to φ₂
+//!   about the axis a, an arc of half-angle α has ∫ r × dr = sin²α (φ₂ − φ₁) a + sinα cosα a × (e(φ₂) − e(φ₁)).
+//! - Domain: any points and shapes with finite coordinates. A point lies outside of spheres, and in front of what it sees.
+//! - What lies behind the light, or between the point and the light but within 2⁻¹⁷ of the way from the light, does not occlude.
+//! - Degenerate input: blockers without area hide nothing. A light that is seen edge-on, lies below the horizon or has no area has Ω⊥ = 0.
+//! - Greatest error: see [`Occlusion::visible`].
+
+mod cap;
+mod outline;
+
+use crate::real::{Mask, Real};
+use crate::spherical::ProjectedCap;
+use crate::vector::Vec3;
+use cap::Cap;
+use outline::Outline;
+
+/// Greatest number of blockers that [`Occlusion::visible`] accepts.
+pub const BLOCKERS: usize = 16;
+/// Greatest number of blockers in a row that overlap as seen from the point.
+const DEPTH: usize = 6;
+/// Greatest number of intersections.
+const TERMS: u32 = 48;
+/// A blocker this near to the light, as a fraction of the way from the point to the light's plane, does not occlude.
+const SPARED: f64 = 1.0 / 131_072.0;
+
+/// A convex shape: a light or a blocker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Convex<S> {
+    /// A flat convex polygon.
+    Polygon {
+        /// The corners in order around. A triangle has three of them; the fourth is ignored.
+        corners: [Vec3<S>; 4],
+        /// Number of corners: 3 or 4.
+        count: usize,
+    },
+    /// A sphere.
+    Sphere {
+        /// Centre.
+        center: Vec3<S>,
+        /// Radius.
+        radius: S,
+    },
+}
+
+/// A blocker as seen from the points.
+#[derive(Clone, Copy, Debug)]
+struct Seen<R: Real> {
+    /// Its outline in front of the light; empty for a sphere.
+    outline: Outline<R, 5>,
+    /// Normals of the planes through the point and the edges, towards the inside.
+    planes: [Vec3<R>; 5],
+    /// A sphere.
+    cap: Option<Cap<R>>,
+}
+
+impl<R: Real> Default for Seen<R> {
+    fn default() -> Self {
+        Self { outline: Outline::default(), planes: [Vec3::default(); 5], cap: None }
+    }
+}
+
+/// Computes visible parts, and holds the memory for it.
+#[derive(Clone, Debug)]
+pub struct Occlusion<R: Real> {
+    seen: [Seen<R>; BLOCKERS],
+    /// The light, and its intersections with one blocker, with two, and so on.
+    stack: [Outline<R, 16>; DEPTH + 1],
+    normal: Vec3<R>,
+    /// The light if it is a sphere.
+    light: Option<Cap<R>>,
+    /// Only what has x with normal · x ≥ least lies before the light.
+    front: (Vec3<R>, R),
+    terms: u32,
+}
+
+impl<R: Real> Default for Occlusion<R> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Why the intersections do not suffice.
+struct TooMany;
+
+impl<R: Real> Occlusion<R> {
+    /// Empty memory.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            seen: [Seen::default(); BLOCKERS],
+            stack: [Outline::default(); DEPTH + 1],
+            normal: Vec3::default(),
+            light: None,
+            front: (Vec3::default(), R::lit(0.0)),
+            terms: 0,
+        }
+    }
+
+    /// The projected solid angle Ω⊥ in [0, π] of the part of the light that the blockers leave visible at each point, on a surface with the
+    /// unit normal `normal`. Both sides of a flat light count. `None` if there are more than [`BLOCKERS`] blockers, if too many of them
+    /// overlap as seen from a point, or if the part is bounded by two spheres that overlap: then it must be sampled.
+    ///
+    /// Greatest error: 4e−7 times the angle around the light, in radians, for each of the blockers that occlude it; measured by
+    /// `cargo test -p etendue-tests --test occlusion -- --nocapture`.
+    #[inline]
+    pub fn visible(
+        &mut self,
+        point: Vec3<R>,
+        normal: Vec3<R>,
+        light: &Convex<R::Scalar>,
+        blockers: &[Convex<R::Scalar>],
+    ) -> Option<R> {
+        if blockers.len() > BLOCKERS {
+            return None;
+        }
+        self.normal = normal;
+        self.terms = 0;
+        let all = match *light {
+            Convex::Polygon { corners, count } => {
+                let corners = corners.map(|corner| Vec3::splat(corner) - point);
+                let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit_and_length().0;
+                let height = across.dot(corners[0]);
+                let towards = R::lit(-1.0).copysign(-height);
+                self.front = (across * towards, height * towards * R::lit(1.0 - SPARED));
+                self.light = None;
+                let corners = &corners[..count.clamp(3, 4)];
+                self.stack[0].start(&scaled(corners).0[..corners.len()], height.abs().gt(R::lit(0.0)));
+                if self.stack[0].clip(normal, R::lit(0.0)).is_err() || self.stack[0].is_empty() {
+                    return Some(R::lit(0.0));
+                }
+                self.stack[0].projected_solid_angle(normal)
+            }
+            Convex::Sphere { center, radius } => {
+                let (center, radius) = (Vec3::splat(center) - point, R::splat(radius));
+                let cap = Cap::new(center, radius);
+                self.front = (-cap.axis, -cap.tangents);
+                self.light = Some(cap);
+                unoccluded(&cap, center, radius, normal)
+            }
+        };
+        self.beside(all, point, blockers).ok()
+    }
+
+    /// What the blockers leave of `all`.
+    #[inline]
+    fn beside(&mut self, all: R, point: Vec3<R>, blockers: &[Convex<R::Scalar>]) -> Result<R, TooMany> {
+        let (zero, mut visible, mut kept) = (R::lit(0.0), all, 0);
+        let mut covered = R::Mask::splat(false);
+        for blocker in blockers {
+            match *blocker {
+                Convex::Polygon { corners, count } => {
+                    let corners = corners.map(|corner| Vec3::splat(corner) - point);
+                    self.see_polygon(kept, &corners[..count.clamp(3, 4)])?;
+                }
+                Convex::Sphere { center, radius } => {
+                    self.see_sphere(kept, Vec3::splat(center) - point, R::splat(radius))?;
+                }
+            }
+            let Some((cap, hidden)) = self.intersect(0, kept, self.light)? else { continue };
+            covered = covered | hidden.ge(all);
+            if covered.all() {
+                return Ok(zero);
+            }
+            visible -= self.less(1, kept, cap, hidden)?;
+            kept += 1;
+        }
+        Ok(visible.clamped(zero, all).keep(!covered))
+    }
+
+    /// Prepares a polygon as blocker `k`.
+    #[inline]
+    fn see_polygon(&mut self, k: usize, corners: &[Vec3<R>]) -> Result<(), TooMany> {
+        let seen = &mut self.seen[k];
+        let (scaled, scale) = scaled(corners);
+        let corners = &scaled[..corners.len()];
+        let inside = corners[1].cross(corners[2]).dot(corners[0]);
+        seen.cap = None;
+        seen.outline.start(corners, inside.abs().gt(R::lit(0.0)));
+        let (normal, least) = self.front;
+        seen.outline.clip(normal, least * scale)?;
+        let corners = seen.outline.corners();
+        for (i, &from) in corners.iter().enumerate() {
+            let to = corners[if i + 1 == corners.len() { 0 } else { i + 1 }];
+            seen.planes[i] = from.cross(to) * R::lit(1.0).copysign(inside);
+        }
+        Ok(())
+    }
+
+    /// Prepares a sphere as blocker `k`.
+    #[inline]
+    fn see_sphere(&mut self, k: usize, center: Vec3<R>, radius: R) -> Result<(), TooMany> {
+        let mut cap = Cap::new(center, radius);
+        let (normal, least) = self.front;
+        let nearest = normal.dot(center) - least;
+        let behind = nearest.lt(-radius);
+        if !(behind | nearest.ge(radius)).all() {
+            return Err(TooMany);
+        }
+        cap.sin = cap.sin.keep(!behind);
+        self.seen[k].cap = Some(cap);
+        Ok(())
+    }
+
+    /// Puts the part of intersection `depth` that blocker `k` hides on the stack. Returns its Ω⊥ and the sphere that bounds it, or `None` if
+    /// there is no such part in any lane. `cap` is the sphere that bounds the intersection, if there is one.
+    #[inline]
+    fn intersect(
+        &mut self,
+        depth: usize,
+        k: usize,
+        cap: Option<Cap<R>>,
+    ) -> Result<Option<(Option<Cap<R>>, R)>, TooMany> {
+        let (seen, normal) = (&self.seen[k], self.normal);
+        let (below, above) = self.stack.split_at_mut(depth + 1);
+        let (from, Some(to)) = (&below[depth], above.first_mut()) else { return Err(TooMany) };
+        let whole = depth == 0 && self.light.is_some();
+        if let Some(own) = &seen.cap {
+            return match cap {
+                Some(cap) if cap.is_apart_from(own, from.some() | R::Mask::splat(whole)) => Ok(None),
+                Some(_) => Err(TooMany),
+                None => {
+                    to.start(from.corners(), from.some());
+                    let part = own.projected_solid_angle_within(to, normal)?;
+                    self.terms += 1;
+                    Ok(part.gt(R::lit(0.0)).any().then_some((Some(*own), part)))
+                }
+            };
+        }
+        let planes = &seen.planes[..seen.outline.corners().len()];
+        if let Some(cap) = &cap {
+            let beyond = |plane: &Vec3<R>| plane.dot(cap.axis).lt(-(cap.sin * plane.length()));
+            if seen.outline.is_empty() || planes.iter().any(|plane| beyond(plane).all()) {
+                return Ok(None);
+            }
+        }
+        if whole {
+            to.start(seen.outline.corners(), seen.outline.some());
+            to.clip(normal, R::lit(0.0))?;
+        } else {
+            to.start(from.corners(), from.some() & seen.outline.some());
+            for &plane in planes {
+                if to.is_empty() {
+                    break;
+                }
+                to.clip(plane, R::lit(0.0))?;
+            }
+        }
+        if to.is_empty() {
+            return Ok(None);
+        }
+        self.terms += 1;
+        if self.terms > TERMS {
+            return Err(TooMany);
+        }
+        let part = match &cap {
+            Some(cap) => cap.projected_solid_angle_within(to, normal)?,
+            None => to.projected_solid_angle(normal),
+        };
+        Ok(Some((cap, part)))
+    }
+
+    /// Ω⊥ of the part of intersection `depth`, which has `all`, that the blockers before `end` leave.
+    fn less(&mut self, depth: usize, end: usize, cap: Option<Cap<R>>, all: R) -> Result<R, TooMany> {
+        let mut left = all;
+        for k in 0..end {
+            if let Some((cap, part)) = self.intersect(depth, k, cap)? {
+                left -= self.less(depth + 1, k, cap, part)?;
+            }
+        }
+        Ok(left)
+    }
+}
+
+/// Up to four corners in units of a power of two, and its reciprocal. Only directions matter, so that each shape can have its own unit.
+#[inline(always)]
+fn scaled<R: Real>(corners: &[Vec3<R>]) -> ([Vec3<R>; 4], R) {
+    let scale = corners.iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs())).pow2_scale();
+    let mut scaled = [Vec3::default(); 4];
+    scaled.iter_mut().zip(corners).for_each(|(scaled, &corner)| *scaled = corner * scale);
+    (scaled, scale)
+}
+
+/// Ω⊥ of a sphere without blockers.
+#[inline]
+fn unoccluded<R: Real>(cap: &Cap<R>, center: Vec3<R>, radius: R, normal: Vec3<R>) -> R {
+    let cos = cap.axis.dot(normal);
+    // a reserve keeps caps that touch the horizon out
+    let above = cos.gt(cap.sin * R::lit(1.000_01)) & cap.tangents.gt(R::lit(0.0));
+    let whole = R::lit(core::f64::consts::PI) * cap.sin * cap.sin * cos;
+    if above.all() {
+        return whole;
+    }
+    R::blend(above, whole, ProjectedCap::new(center, radius, normal).projected_solid_angle())
+}

@@ -1,0 +1,119 @@
+//! Spheres as seen from a point, and the part of them within an outline.
+
+use super::TooMany;
+use super::outline::Outline;
+use crate::math::rsqrt;
+use crate::real::{Mask, Real};
+use crate::vector::{Frame, Vec2, Vec3};
+
+/// The directions to a sphere: a cap about an axis.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cap<R> {
+    /// Unit direction to the centre.
+    pub(super) axis: Vec3<R>,
+    /// Sine and cosine of the angle between the axis and the edge of the sphere.
+    pub(super) sin: R,
+    pub(super) cos: R,
+    /// Distance along the axis of the circle in which the sphere's tangents touch it; 0 or less inside.
+    pub(super) tangents: R,
+}
+
+impl<R: Real> Cap<R> {
+    #[inline(always)]
+    pub(super) fn new(center: Vec3<R>, radius: R) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (axis, distance) = center.unit_and_length();
+        let some = distance.gt(zero);
+        let distance = R::blend(some, distance, one);
+        let sin = (radius / distance).lesser(one).greater(zero);
+        let tangents = center.length_squared_minus_square(radius) / distance;
+        let cos = (tangents / distance).greater(R::lit(1e-12)).lesser(one).sqrt();
+        Self { axis, sin, cos, tangents }
+    }
+    /// Whether the caps have no direction in common, in all of these lanes.
+    pub(super) fn is_apart_from(&self, other: &Self, lanes: R::Mask) -> bool {
+        // cos(α + β), and a reserve for its rounding
+        let both = self.cos.mul_add(other.cos, -(self.sin * other.sin)) - R::lit(1e-6);
+        !(lanes & self.axis.dot(other.axis).ge(both)).any()
+    }
+
+    /// Ω⊥ of the part of the cap within an outline that lies above the horizon.
+    ///
+    /// Each edge contributes its part inside the cap. What the edge has outside is moved to the cap's circle, along great circles through
+    /// the axis. The edges moved form a closed curve however they are rounded, and every contribution is continuous in the corners.
+    #[inline]
+    pub(super) fn projected_solid_angle_within<const MOST: usize>(
+        &self,
+        outline: &Outline<R, MOST>,
+        normal: Vec3<R>,
+    ) -> Result<R, TooMany> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Self { axis, sin, cos, .. } = *self;
+        // the edges are seen in the hemisphere about the axis; a reserve keeps the slopes below finite
+        let mut outline = *outline;
+        outline.clip(axis, zero)?;
+        if outline.is_empty() {
+            return Ok(zero);
+        }
+        let sin_squared = sin * sin;
+        let up = axis.dot(normal);
+        // one frame for all edges, so that what is moved stays closed
+        let Frame { s, t, .. } = Frame::new(axis);
+        let azimuth = |v: Vec3<R>| {
+            let (x, y) = (v.dot(s), v.dot(t));
+            let square = x.mul_add(x, y * y);
+            let inverse = rsqrt(R::blend(square.gt(zero), square, one));
+            Vec2::new(x * inverse, y * inverse)
+        };
+        let keep = |v: Vec2<R>, lanes| Vec2::new(v.x.keep(lanes), v.y.keep(lanes));
+        let turn = |a: Vec2<R>, b: Vec2<R>| (a.x * b.y - a.y * b.x).atan2(a.dot(b));
+        let (mut sum, mut turned, mut moved) = (zero, zero, Vec2::default());
+        let corners = outline.corners();
+        let mut from = corners[corners.len() - 1];
+        let mut azimuth_from = azimuth(from);
+        for &to in corners {
+            let across = from.cross(to);
+            let square = across.length_squared();
+            let edge = square.gt(zero);
+            let m = across * rsqrt(R::blend(edge, square, one));
+            // the edge's great circle passes the axis at a distance with this sine
+            let sine = axis.dot(m);
+            let cosine_squared = ((one - sine) * (one + sine)).greater(R::lit(1e-12));
+            let inverse_cosine = rsqrt(cosine_squared);
+            // along the edge's circle, whose point nearest to the axis is in the middle of what is inside
+            let along = m.cross(axis) * inverse_cosine;
+            let half_squared = sin_squared - sine * sine;
+            let half = half_squared.greater(zero).sqrt();
+            // tangents of the angles from the nearest point of the circle
+            let slope = half / cos;
+            let tangent = |v: Vec3<R>| {
+                let forward = v.dot(axis).greater(R::lit(1e-12) * v.max_abs());
+                v.dot(along) / (forward * inverse_cosine).greater(R::lit(1e-30))
+            };
+            let (start, end) = (tangent(from), tangent(to));
+            let (low, high) = (start.greater(-slope), end.lesser(slope));
+            let meets = edge & half_squared.gt(zero) & low.lt(high);
+            let angle = (high - low).atan2(low.mul_add(high, one)).keep(meets);
+            // the parts outside, along the circle of the cap
+            let azimuth_to = azimuth(to);
+            let before = edge & (!meets | start.lt(-slope));
+            let after = meets & end.gt(slope);
+            let nearest = (axis - m * sine) * (cos * inverse_cosine);
+            let reach = along * half;
+            let until = Vec2::blend(meets, azimuth(nearest - reach), azimuth_to);
+            turned += turn(azimuth_from, until).keep(before);
+            moved += keep(until - azimuth_from, before);
+            if after.any() {
+                let since = azimuth(nearest + reach);
+                turned += turn(since, azimuth_to).keep(after);
+                moved += keep(azimuth_to - since, after);
+            }
+            sum += angle * m.dot(normal);
+            azimuth_from = azimuth_to;
+            from = to;
+        }
+        let bend = moved.x.mul_add(t.dot(normal), -(moved.y * s.dot(normal)));
+        sum += sin_squared * turned * up + sin * cos * bend;
+        Ok((sum * R::lit(0.5)).abs().keep(outline.some()))
+    }
+}
