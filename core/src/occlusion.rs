@@ -41,6 +41,10 @@ use outline::Outline;
 pub const BLOCKERS: usize = 16;
 /// Greatest number of blockers in a row that overlap as seen from the point.
 const DEPTH: usize = 6;
+/// Greatest number of edges in the outlines of a polyhedron from all points together.
+const EDGES: usize = 12;
+/// Greatest number of faces of a polyhedron.
+const FACES: usize = 16;
 /// Greatest number of intersections.
 const TERMS: u32 = 48;
 /// A blocker this near to the light, as a fraction of the way from the point to the light's plane, does not occlude.
@@ -48,7 +52,7 @@ const SPARED: f64 = 1.0 / 131_072.0;
 
 /// A convex shape: a light or a blocker.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Convex<S> {
+pub enum Convex<'a, S> {
     /// A flat convex polygon.
     Polygon {
         /// The corners in order around. A triangle has three of them; the fourth is ignored.
@@ -63,22 +67,46 @@ pub enum Convex<S> {
         /// Radius.
         radius: S,
     },
+    /// A convex polyhedron, as a blocker only: as a light it has Ω⊥ = 0.
+    Polyhedron(Polyhedron<'a, S>),
+}
+
+/// A closed convex polyhedron. From inside it hides everything.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polyhedron<'a, S> {
+    /// A point well inside.
+    pub center: Vec3<S>,
+    /// The planes of its faces: a normal that points outwards, of any length, and a point.
+    pub faces: &'a [[Vec3<S>; 2]],
+    /// Its edges.
+    pub edges: &'a [Edge<S>],
+}
+
+/// An edge of a [`Polyhedron`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge<S> {
+    /// The two ends.
+    pub ends: [Vec3<S>; 2],
+    /// Indices of the two faces that meet there.
+    pub faces: [usize; 2],
 }
 
 /// A blocker as seen from the points.
 #[derive(Clone, Copy, Debug)]
 struct Seen<R: Real> {
-    /// Its outline in front of the light; empty for a sphere.
+    /// The outline of a polygon in front of the light.
     outline: Outline<R, 5>,
-    /// Normals of the planes through the point and the edges, towards the inside.
-    planes: [Vec3<R>; 5],
+    /// Normals of the planes through the point and the edges of the outline, towards the inside.
+    planes: [Vec3<R>; EDGES],
+    /// Number of planes.
+    count: usize,
     /// A sphere.
     cap: Option<Cap<R>>,
 }
 
 impl<R: Real> Default for Seen<R> {
     fn default() -> Self {
-        Self { outline: Outline::default(), planes: [Vec3::default(); 5], cap: None }
+        Self { outline: Outline::default(), planes: [Vec3::default(); EDGES], count: 0, cap: None }
     }
 }
 
@@ -87,7 +115,7 @@ impl<R: Real> Default for Seen<R> {
 pub struct Occlusion<R: Real> {
     seen: [Seen<R>; BLOCKERS],
     /// The light, and its intersections with one blocker, with two, and so on.
-    stack: [Outline<R, 16>; DEPTH + 1],
+    stack: [Outline<R, 10>; DEPTH + 1],
     normal: Vec3<R>,
     /// The light if it is a sphere.
     light: Option<Cap<R>>,
@@ -130,8 +158,8 @@ impl<R: Real> Occlusion<R> {
         &mut self,
         point: Vec3<R>,
         normal: Vec3<R>,
-        light: &Convex<R::Scalar>,
-        blockers: &[Convex<R::Scalar>],
+        light: &Convex<'_, R::Scalar>,
+        blockers: &[Convex<'_, R::Scalar>],
     ) -> Option<R> {
         if blockers.len() > BLOCKERS {
             return None;
@@ -160,13 +188,14 @@ impl<R: Real> Occlusion<R> {
                 self.light = Some(cap);
                 unoccluded(&cap, center, radius, normal)
             }
+            Convex::Polyhedron(_) => return Some(R::lit(0.0)),
         };
         self.beside(all, point, blockers).ok()
     }
 
     /// What the blockers leave of `all`.
     #[inline]
-    fn beside(&mut self, all: R, point: Vec3<R>, blockers: &[Convex<R::Scalar>]) -> Result<R, TooMany> {
+    fn beside(&mut self, all: R, point: Vec3<R>, blockers: &[Convex<'_, R::Scalar>]) -> Result<R, TooMany> {
         let (zero, mut visible, mut kept) = (R::lit(0.0), all, 0);
         let mut covered = R::Mask::splat(false);
         for blocker in blockers {
@@ -178,6 +207,7 @@ impl<R: Real> Occlusion<R> {
                 Convex::Sphere { center, radius } => {
                     self.see_sphere(kept, Vec3::splat(center) - point, R::splat(radius))?;
                 }
+                Convex::Polyhedron(polyhedron) => self.see_polyhedron(kept, &polyhedron, point)?,
             }
             let Some((cap, hidden)) = self.intersect(0, kept, self.light)? else { continue };
             covered = covered | hidden.ge(all);
@@ -206,7 +236,38 @@ impl<R: Real> Occlusion<R> {
             let to = corners[if i + 1 == corners.len() { 0 } else { i + 1 }];
             seen.planes[i] = from.cross(to) * R::lit(1.0).copysign(inside);
         }
+        seen.count = corners.len();
         Ok(())
+    }
+
+    /// Prepares a polyhedron as blocker `k`: its outline consists of the edges between a face that faces the point and one that does not.
+    #[inline]
+    fn see_polyhedron(&mut self, k: usize, body: &Polyhedron<'_, R::Scalar>, point: Vec3<R>) -> Result<(), TooMany> {
+        let seen = &mut self.seen[k];
+        let (normal, least) = self.front;
+        let mut away = [R::Mask::splat(false); FACES];
+        for (away, [normal, on]) in away.get_mut(..body.faces.len()).ok_or(TooMany)?.iter_mut().zip(body.faces) {
+            *away = (Vec3::splat(*on) - point).dot(Vec3::splat(*normal)).ge(R::lit(0.0));
+        }
+        let center = Vec3::splat(body.center) - point;
+        let scale = center.max_abs().pow2_scale();
+        let mut before = R::Mask::splat(true);
+        seen.cap = None;
+        seen.count = 0;
+        seen.outline = Outline::default();
+        for Edge { ends, faces: [i, j] } in body.edges {
+            let [from, to] = ends.map(|end| Vec3::splat(end) - point);
+            before = before & normal.dot(from).ge(least) & normal.dot(to).ge(least);
+            let (Some(&i), Some(&j)) = (away.get(*i), away.get(*j)) else { return Err(TooMany) };
+            let outer = i ^ j;
+            if outer.any() {
+                let plane = (from * scale).cross(to * scale);
+                *seen.planes.get_mut(seen.count).ok_or(TooMany)? =
+                    (plane * R::lit(1.0).copysign(plane.dot(center))).keep(outer);
+                seen.count += 1;
+            }
+        }
+        if before.all() { Ok(()) } else { Err(TooMany) }
     }
 
     /// Prepares a sphere as blocker `k`.
@@ -249,18 +310,25 @@ impl<R: Real> Occlusion<R> {
                 }
             };
         }
-        let planes = &seen.planes[..seen.outline.corners().len()];
+        let planes = &seen.planes[..seen.count];
+        let is_polygon = !seen.outline.corners().is_empty();
         if let Some(cap) = &cap {
             let beyond = |plane: &Vec3<R>| plane.dot(cap.axis).lt(-(cap.sin * plane.length()));
-            if seen.outline.is_empty() || planes.iter().any(|plane| beyond(plane).all()) {
+            if is_polygon && seen.outline.is_empty() || planes.iter().any(|plane| beyond(plane).all()) {
                 return Ok(None);
             }
         }
-        if whole {
+        if whole && is_polygon {
             to.start(seen.outline.corners(), seen.outline.some());
             to.clip(normal, R::lit(0.0))?;
         } else {
-            to.start(from.corners(), from.some() & seen.outline.some());
+            if whole {
+                to.start(&cap.ok_or(TooMany)?.square()?, R::Mask::splat(true));
+                to.clip(normal, R::lit(0.0))?;
+            } else {
+                let some = if is_polygon { seen.outline.some() } else { R::Mask::splat(true) };
+                to.start(from.corners(), from.some() & some);
+            }
             for &plane in planes {
                 if to.is_empty() {
                     break;

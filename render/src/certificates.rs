@@ -8,6 +8,7 @@
 //! affects only how narrow it is.
 
 mod blockers;
+mod bodies;
 mod hull;
 mod patch;
 mod shaft;
@@ -16,6 +17,7 @@ use crate::bvh::{Region, SHAPE};
 use crate::surfaces::Surfaces;
 pub use blockers::Blocker;
 use blockers::Candidate;
+pub use bodies::Bodies;
 pub use patch::{Patch, Pyramid, Viewer};
 use shaft::{Facing, Form, Lamp, Shaft};
 
@@ -44,25 +46,30 @@ pub enum Certificate<'a> {
 #[derive(Debug)]
 pub struct Certifier<'a> {
     surfaces: &'a Surfaces,
+    bodies: &'a Bodies,
     lamps: Vec<Option<Lamp>>,
     region: Region,
     shaft: Shaft,
     stack: Vec<u32>,
     candidates: Vec<Candidate>,
+    /// Bodies that may meet the shaft, and whether they can stand for their triangles.
+    met: Vec<(u32, bool)>,
     blockers: Vec<Blocker>,
 }
 
 impl<'a> Certifier<'a> {
     /// For lights that are shapes of these indices. [`Surfaces::light_shapes`] lists all of them.
-    pub fn new(surfaces: &'a Surfaces, lights: impl IntoIterator<Item = u32>) -> Self {
+    pub fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, lights: impl IntoIterator<Item = u32>) -> Self {
         let lamp = |index: u32| Lamp::new(surfaces.shapes().get(index as usize)?, index);
         Self {
             surfaces,
+            bodies,
             lamps: lights.into_iter().map(lamp).collect(),
             region: Region::new(surfaces.bvh.reach()),
             shaft: Shaft::default(),
             stack: Vec::with_capacity(256),
             candidates: Vec::with_capacity(CANDIDATES),
+            met: Vec::with_capacity(MOST),
             blockers: Vec::with_capacity(MOST),
         }
     }
@@ -73,13 +80,14 @@ impl<'a> Certifier<'a> {
             // a convex light is below the horizon of each of its own points
             return Certificate::Dark;
         }
-        let Self { surfaces, region, shaft, stack, candidates, blockers, .. } = self;
+        let Self { surfaces, bodies, region, shaft, stack, candidates, met, blockers, .. } = self;
         match shaft.set(patch, lamp, surfaces.bvh.reach(), region) {
             Facing::Towards => {}
             Facing::Away => return Certificate::Dark,
             Facing::Unknown => return Certificate::Unknown,
         }
         candidates.clear();
+        met.clear();
         let complete = surfaces.bvh.search(region, stack, NODES, |place| {
             if place == patch.place || place == lamp.shape | SHAPE {
                 return true;
@@ -88,10 +96,21 @@ impl<'a> Certifier<'a> {
             if candidate.misses(shaft) {
                 return true;
             }
+            if let Some(body) = bodies.of(place) {
+                let known = met.iter().find(|met| met.0 == body).copied();
+                let (_, serves) = known.unwrap_or_else(|| {
+                    met.push((body, bodies.serves(body, shaft)));
+                    met[met.len() - 1]
+                });
+                if serves {
+                    return true;
+                }
+            }
             candidates.push(candidate);
             candidates.len() < CANDIDATES
         });
-        if complete && candidates.is_empty() {
+        met.retain(|met| met.1);
+        if complete && candidates.is_empty() && met.is_empty() {
             return Certificate::Lit;
         }
         merge(candidates);
@@ -99,13 +118,14 @@ impl<'a> Certifier<'a> {
         if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
             return Certificate::Unknown;
         }
-        if candidates.iter().any(|candidate| candidate.covers(shaft)) {
+        if met.iter().any(|met| bodies.covers(met.0, shaft)) || candidates.iter().any(|candidate| candidate.covers(shaft)) {
             return Certificate::Dark;
         }
-        if !complete || candidates.len() > MOST {
+        if !complete || candidates.len() + met.len() > MOST {
             return Certificate::Unknown;
         }
         blockers.clear();
+        blockers.extend(met.iter().map(|met| Blocker::Body(met.0)));
         blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
         Certificate::Blockers(blockers)
     }

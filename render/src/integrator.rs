@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod allocation;
+mod analytic;
 mod paths;
 mod prepared;
 mod settings;

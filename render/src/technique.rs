@@ -21,6 +21,8 @@ pub enum Technique {
     MisBalance,
     /// Solid-angle and brdf, combined by the power heuristic
     MisPower,
+    /// Exact where geometry tells what occludes a light; elsewhere by solid angle
+    Analytic,
 }
 
 impl Technique {

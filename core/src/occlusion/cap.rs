@@ -30,6 +30,15 @@ impl<R: Real> Cap<R> {
         let cos = (tangents / distance).greater(R::lit(1e-12)).lesser(one).sqrt();
         Self { axis, sin, cos, tangents }
     }
+    /// The corners of a square around the cap, unless that is close to a hemisphere in any lane.
+    pub(super) fn square(&self) -> Result<[Vec3<R>; 4], TooMany> {
+        if self.cos.lt(R::lit(0.1)).any() {
+            return Err(TooMany);
+        }
+        let Frame { s, t, n } = Frame::new(self.axis);
+        let (s, t, n) = (s * self.sin, t * self.sin, n * (self.cos * R::lit(0.999)));
+        Ok([n + s + t, n - s + t, n - s - t, n + s - t])
+    }
     /// Whether the caps have no direction in common, in all of these lanes.
     pub(super) fn is_apart_from(&self, other: &Self, lanes: R::Mask) -> bool {
         // cos(α + β), and a reserve for its rounding

@@ -55,58 +55,60 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     /// corner is outside, it becomes two, and those after it move on by one.
     #[inline]
     pub(super) fn clip(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let no = R::Mask::splat(false);
-        let count = self.count;
-        let mut height = [zero; MOST];
-        let mut inside = [no; MOST];
-        let (mut any, mut all) = (no, R::Mask::splat(true));
-        for i in 0..count {
-            height[i] = self.corners[i].dot(normal) - least;
-            inside[i] = height[i].ge(zero);
-            any = any | inside[i];
-            all = all & inside[i];
+        // unrolled for each number of corners, so that they stay in registers
+        match self.count {
+            3 => self.clip_corners::<3>(normal, least),
+            4 => self.clip_corners::<4>(normal, least),
+            5 => self.clip_corners::<5>(normal, least),
+            6 => self.clip_corners::<6>(normal, least),
+            7 => self.clip_corners::<7>(normal, least),
+            8 => self.clip_corners::<8>(normal, least),
+            9 => self.clip_corners::<9>(normal, least),
+            _ => Err(TooMany),
         }
+    }
+
+    #[inline]
+    fn clip_corners<const N: usize>(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
+        let (zero, no) = (R::lit(0.0), R::Mask::splat(false));
+        let Some(corners) = self.corners.first_chunk_mut::<N>() else { return Err(TooMany) };
+        let height = corners.map(|corner| corner.dot(normal) - least);
+        let inside = height.map(|height| height.ge(zero));
+        let any = inside.iter().fold(no, |any, &inside| any | inside);
+        let all = inside.iter().fold(!no, |all, &inside| all & inside);
         self.some = self.some & any;
         if !(self.some & !all).any() {
             return Ok(());
         }
-        // where edge i crosses the plane, and the last place at which the outline leaves the inside
-        let next = |i: usize| if i + 1 == count { 0 } else { i + 1 };
-        let mut crossing = [Vec3::default(); MOST];
-        let mut left = Vec3::default();
-        for i in 0..count {
+        let next = |i: usize| if i + 1 == N { 0 } else { i + 1 };
+        // where edge i crosses the plane, if it does, and the last place at which the outline leaves the inside
+        let crossing: [Vec3<R>; N] = core::array::from_fn(|i| {
             let j = next(i);
-            let crosses = inside[i] ^ inside[j];
-            if !crosses.any() {
-                continue;
-            }
-            let fall = height[i] - height[j];
-            let share = height[i] / R::blend(crosses, fall, one);
-            crossing[i] = (self.corners[j] - self.corners[i]).mul_add(share, self.corners[i]);
-            left = Vec3::blend(inside[i] & !inside[j], crossing[i], left);
+            (corners[j] - corners[i]).mul_add(height[i] / (height[i] - height[j]), corners[i])
+        });
+        let mut left = crossing[N - 1];
+        for i in 0..N {
+            left = Vec3::blend(inside[i] & !inside[next(i)], crossing[i], left);
         }
-        let (mut moved, mut carried) = (no, Vec3::default());
-        for i in 0..count {
-            let (before, after) = (if i == 0 { count - 1 } else { i - 1 }, next(i));
-            let outside = !inside[i];
-            let leaves = outside & inside[before];
-            let returns = outside & inside[after];
+        let (mut moved, mut carried) = (no, left);
+        for i in 0..N {
+            let (before, after) = (if i == 0 { N - 1 } else { i - 1 }, next(i));
+            let leaves = inside[before] & !inside[i];
+            let returns = inside[after] & !inside[i];
             left = Vec3::blend(leaves, crossing[before], left);
             let alone = leaves & returns;
-            let mut corner = Vec3::blend(outside, Vec3::blend(returns & !leaves, crossing[i], left), self.corners[i]);
             // only the first corner alone can become two; rounding alone makes another, within its error of the plane
-            corner = Vec3::blend(alone & moved, self.corners[i], corner);
+            let stays = inside[i] | (alone & moved);
+            let outside = Vec3::blend(returns & !leaves, crossing[i], left);
+            let corner = Vec3::blend(stays, corners[i], outside);
             let splits = alone & !moved;
-            self.corners[i] = Vec3::blend(moved, carried, corner);
+            corners[i] = Vec3::blend(moved, carried, corner);
             carried = Vec3::blend(splits, crossing[i], corner);
             moved = moved | splits;
         }
         if (moved & self.some).any() {
-            if count == MOST {
-                return Err(TooMany);
-            }
-            self.corners[count] = Vec3::blend(moved, carried, self.corners[count - 1]);
+            let last = Vec3::blend(moved, carried, corners[N - 1]);
+            *self.corners.get_mut(N).ok_or(TooMany)? = last;
             self.count += 1;
         }
         Ok(())

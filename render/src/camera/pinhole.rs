@@ -26,6 +26,13 @@ impl Pinhole {
             down: vector(&|k| -2.0 * ky * u[k] / f64::from(height)),
         }
     }
+    /// The pinhole, and the directions through the corners of a rectangle [x0, y0, x1, y1] in pixels, in order around.
+    pub fn rectangle(&self, [x0, y0, x1, y1]: [f64; 4]) -> ([f64; 3], [[f64; 3]; 4]) {
+        let wide = |v: [f32; 3]| v.map(f64::from);
+        let (corner, across, down) = (wide(self.corner), wide(self.across), wide(self.down));
+        let through = |x: f64, y: f64| std::array::from_fn(|k| corner[k] + across[k] * x + down[k] * y);
+        (wide(self.origin), [through(x0, y0), through(x1, y0), through(x1, y1), through(x0, y1)])
+    }
     /// Origin and unit direction of the rays through positions in pixels from the top left.
     #[inline]
     pub fn ray(&self, x: X8, y: X8) -> (V8, V8) {

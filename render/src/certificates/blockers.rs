@@ -28,6 +28,8 @@ pub enum Blocker {
         /// As for a polygon.
         crosses_light: bool,
     },
+    /// A closed convex part of a mesh, by its index among the bodies. All of it lies before the light.
+    Body(u32),
 }
 
 /// A primitive, or two triangles that share an edge.
@@ -199,7 +201,7 @@ fn is_inside(corners: &[V64], shaft: &Shaft) -> bool {
 }
 
 /// May part of a hull of points, inflated by `radius`, lie behind the light as seen from some point of the patch?
-fn crosses(points: &[V64], radius: f64, shaft: &Shaft) -> bool {
+pub(super) fn crosses(points: &[V64], radius: f64, shaft: &Shaft) -> bool {
     if let Some((normal, offset, height)) = shaft.end {
         return !points.iter().all(|&x| normal.dot(x) - radius - offset > height.max(0.0) + shaft.epsilon);
     }

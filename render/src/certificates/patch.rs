@@ -2,6 +2,7 @@
 
 use super::hull::{CORNERS, Hull, V64, reach, unit, wide};
 use crate::bvh::SHAPE;
+use crate::camera::Pinhole;
 use crate::scene::{CameraSettings, Geometry};
 use crate::surfaces::Surfaces;
 
@@ -125,6 +126,20 @@ impl Clipped {
             self = self.clip(n, n.dot(pyramid.origin) - margin)?;
         }
         Some(self)
+    }
+}
+
+impl Pyramid {
+    /// The same for a pinhole camera of an image.
+    pub fn of(pinhole: &Pinhole, [x0, y0, x1, y1]: [f64; 4]) -> Self {
+        let (origin, corners) = pinhole.rectangle([x0 - 0.125, y0 - 0.125, x1 + 0.125, y1 + 0.125]);
+        let corners = corners.map(V64::from);
+        let middle = corners[0] + corners[1] + corners[2] + corners[3];
+        let normals = std::array::from_fn(|k| {
+            let normal = unit(corners[k].cross(corners[(k + 1) % 4]));
+            if normal.dot(middle) < 0.0 { -normal } else { normal }
+        });
+        Self { origin: origin.into(), normals }
     }
 }
 

@@ -5,6 +5,7 @@
 //! between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room, 1.00 ± 0.03, and 1.04 times
 //! as long among three thousand balls.)
 
+use super::analytic::Analytic;
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
@@ -14,7 +15,7 @@ use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::{Surface, emitted};
 use crate::technique::Technique;
 use etendue::estimate::technique_pdf;
-use etendue::select::{Allocated, Choice, LightChoice};
+use etendue::select::{Allocated, Choice, FEW, LightChoice};
 use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Fraction of the distance to a light that a shadow ray covers: it stops 2⁻¹⁷ short, so that surfaces touching the light do not
@@ -88,6 +89,11 @@ pub(super) struct Paths<'a> {
     /// The reflecting surfaces at the ends of the paths.
     surfaces: Box<[Surface; GROUP]>,
     ends: Box<[End; GROUP]>,
+    /// Where the paths end, as in [`Hits`].
+    places: Box<[u32x8; GROUP]>,
+    /// A pixel of each packet, and the level of the squares of pixels whose certificates it uses.
+    pub(super) squares: [([u32; 2], usize); GROUP],
+    pub(super) analytic: Option<Analytic<'a>>,
     radiance: Box<[Radiance; GROUP]>,
 }
 
@@ -103,6 +109,9 @@ impl<'a> Paths<'a> {
             rays: Box::default(),
             surfaces: Box::new([Surface::default(); GROUP]),
             ends: Box::new([End { direction: zero, metal: None, throughput: zero }; GROUP]),
+            places: Box::new([u32x8::splat(NOTHING); GROUP]),
+            squares: [([0; 2], 0); GROUP],
+            analytic: (settings.technique == Technique::Analytic).then(|| Analytic::new(&scene.surfaces, &scene.bodies)),
             radiance: Box::default(),
         }
     }
@@ -156,13 +165,20 @@ impl<'a> Paths<'a> {
         let count = active.len();
         let mut reflected = [V8::default(); GROUP];
         let lights = self.sampled();
-        match lights.each() {
-            Some(each) => {
-                for light in 0..each {
-                    self.by_light::<METAL>(lights, Some(light), count, numbers, allocated, &mut reflected);
-                }
+        let all = [M8::splat(true); GROUP];
+        if let Some(analytic) = &mut self.analytic {
+            let mut unknown = [[M8::splat(false); GROUP]; FEW];
+            let unknown = &mut unknown[..analytic.lights()];
+            analytic.gather(&self.surfaces[..count], &self.places, &self.squares, &mut reflected, unknown);
+            for (light, lanes) in (0..).zip(unknown).filter(|(_, lanes)| any(&lanes[..])) {
+                self.by_light::<METAL>(lights, Some(light), count, numbers, allocated, lanes, &mut reflected);
             }
-            None => self.by_light::<METAL>(lights, None, count, numbers, allocated, &mut reflected),
+        } else if let Some(each) = lights.each() {
+            for light in 0..each {
+                self.by_light::<METAL>(lights, Some(light), count, numbers, allocated, &all, &mut reflected);
+            }
+        } else {
+            self.by_light::<METAL>(lights, None, count, numbers, allocated, &all, &mut reflected);
         }
         if self.technique.finds_lights() {
             self.by_surface::<METAL>(count, &numbers.light, allocated, &mut reflected);
@@ -178,7 +194,7 @@ impl<'a> Paths<'a> {
     /// Follows the rays of a group through mirrors, and adds the radiance of the lights and the sky that they hit.
     #[inline(always)]
     fn follow<const METAL: bool>(&mut self, active: &[M8]) {
-        let Self { scene, scratch, rays, surfaces, ends, radiance, .. } = self;
+        let Self { scene, scratch, rays, surfaces, ends, radiance, places, .. } = self;
         let (world, count) = (&scene.surfaces, active.len());
         let mut going = [M8::splat(false); GROUP];
         going[..count].copy_from_slice(active);
@@ -206,6 +222,7 @@ impl<'a> Paths<'a> {
                 };
                 if !METAL {
                     surfaces[p] = world.hit(&hits[p], ray);
+                    places[p] = hits[p].place;
                     radiance[p].seen = see(&surfaces[p]);
                     continue;
                 }
@@ -243,6 +260,7 @@ impl<'a> Paths<'a> {
         count: usize,
         numbers: &Numbers,
         allocated: &[Allocated<'_, X8>],
+        lanes: &[M8; GROUP],
         reflected: &mut [V8; GROUP],
     ) {
         let measure = self.technique.measure();
@@ -269,7 +287,7 @@ impl<'a> Paths<'a> {
             let sample = lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
-            lit[p] = surface.reflects & sample.emits & some & cos.gt(zero);
+            lit[p] = surface.reflects & lanes[p] & sample.emits & some & cos.gt(zero);
             let Evaluated { color, factor, pdf: surface_pdf } = bsdf.evaluate(sample.direction);
             let pdf = select(lit[p], sample.pdf * choice.pmf, one);
             let factor = match heuristic {
@@ -413,4 +431,8 @@ fn keep(v: V8, mask: M8) -> V8 {
 #[inline]
 fn product(a: V8, b: V8) -> V8 {
     V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
+}
+
+fn any(lanes: &[M8]) -> bool {
+    lanes.iter().any(|lanes| lanes.any())
 }

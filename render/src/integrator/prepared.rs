@@ -1,6 +1,7 @@
 //! A scene with its trees and tables.
 
 use crate::bvh::BuildError;
+use crate::certificates::Bodies;
 use crate::lights::Lights;
 use crate::scene::Scene;
 use crate::sky::Sky;
@@ -11,6 +12,8 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(super) struct PreparedScene {
     pub(super) surfaces: Surfaces,
+    /// Convex parts of the mesh.
+    pub(super) bodies: Bodies,
     pub(super) lights: Lights,
     /// The delta lights among `lights`.
     pub(super) deltas: Lights,
@@ -26,11 +29,13 @@ impl PreparedScene {
         let sky = Self::sky(scene);
         // the power of distant lights depends on the size of the scene
         let (lights, deltas) = (Lights::new(scene, sky.clone()), Lights::deltas(scene));
-        Ok(Self { surfaces: Surfaces::from_scene(scene)?, lights, deltas, sky })
+        let surfaces = Surfaces::from_scene(scene)?;
+        Ok(Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky })
     }
     fn with(scene: &Scene, surfaces: Surfaces) -> Self {
         let sky = Self::sky(scene);
-        Self { surfaces, lights: Lights::new(scene, sky.clone()), deltas: Lights::deltas(scene), sky }
+        let (lights, deltas) = (Lights::new(scene, sky.clone()), Lights::deltas(scene));
+        Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky }
     }
     fn sky(scene: &Scene) -> Option<Arc<Sky>> {
         scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)))

@@ -1,0 +1,187 @@
+//! Closed convex parts of meshes, such as boxes: each is one blocker instead of many triangles.
+
+use super::blockers::crosses;
+use super::hull::{V64, reach, unit, wide};
+use super::shaft::{SPARED, Shaft};
+use crate::bvh::{Bvh, NOTHING};
+use etendue::occlusion::{Edge, Polyhedron};
+use std::collections::HashMap;
+
+/// Greatest number of triangles of a mesh that is searched for bodies; to search 65,536 triangles takes 20 ms.
+const SEARCHED: usize = 65_536;
+/// Greatest number of triangles, and of faces, of a body.
+const TRIANGLES: usize = 28;
+const FACES: usize = 16;
+
+/// A closed convex polyhedron.
+#[derive(Debug)]
+struct Body {
+    center: [f32; 3],
+    faces: Vec<[etendue::Vec3<f32>; 2]>,
+    edges: Vec<Edge<f32>>,
+    corners: Vec<V64>,
+    /// Unit normal and n·x of the plane of each face; the body has n·x below it.
+    planes: Vec<(V64, f64)>,
+}
+
+/// The bodies of a scene.
+#[derive(Debug, Default)]
+pub struct Bodies {
+    bodies: Vec<Body>,
+    /// The body of each triangle in tree order, or [`NOTHING`]; empty without bodies.
+    of_places: Vec<u32>,
+}
+
+impl Bodies {
+    /// Finds the bodies among the triangles of a mesh that share corners, bit for bit. Finds none in large meshes.
+    pub fn new(bvh: &Bvh) -> Self {
+        let count = bvh.order().len();
+        let mut found = Self::default();
+        if count > SEARCHED {
+            return found;
+        }
+        // triangles that are connected by common corners have the same root
+        let mut roots: Vec<usize> = (0..count).collect();
+        fn root(roots: &mut [usize], mut i: usize) -> usize {
+            while roots[i] != i {
+                roots[i] = roots[roots[i]];
+                i = roots[i];
+            }
+            i
+        }
+        let mut first_with = HashMap::new();
+        for place in 0..count {
+            for corner in corners(bvh, place as u32) {
+                let other = *first_with.entry(bits(corner)).or_insert(place);
+                let (a, b) = (root(&mut roots, place), root(&mut roots, other));
+                roots[a] = b;
+            }
+        }
+        let mut parts: HashMap<usize, Vec<u32>> = HashMap::new();
+        for place in 0..count {
+            parts.entry(root(&mut roots, place)).or_default().push(place as u32);
+        }
+        let mut parts: Vec<_> = parts.into_values().filter(|part| (4..=TRIANGLES).contains(&part.len())).collect();
+        parts.sort_unstable();
+        for part in parts {
+            let triangles: Vec<_> = part.iter().map(|&place| corners(bvh, place)).collect();
+            if let Some(body) = Body::new(&triangles) {
+                found.of_places.resize(count, NOTHING);
+                for place in part {
+                    found.of_places[place as usize] = found.bodies.len() as u32;
+                }
+                found.bodies.push(body);
+            }
+        }
+        found
+    }
+    /// Index of the body to which a primitive belongs.
+    pub(super) fn of(&self, place: u32) -> Option<u32> {
+        self.of_places.get(place as usize).copied().filter(|&body| body != NOTHING)
+    }
+    /// Can the body stand for its triangles in a shaft? From inside it hides every light that is outside, and all of it must lie before the
+    /// light.
+    pub(super) fn serves(&self, body: u32, shaft: &Shaft) -> bool {
+        let body = &self.bodies[body as usize];
+        let margin = shaft.light.radius + 2.0 * shaft.epsilon;
+        let is_outside = |&(n, offset): &(V64, f64)| shaft.light.range(n)[0] - margin > offset;
+        body.planes.iter().any(is_outside) && !crosses(&body.corners, 0.0, shaft)
+    }
+    /// Is every segment of the shaft known to meet the body?
+    ///
+    /// The points from which a convex body hides a point form a convex set, and so do the points that it hides. If it hides all corners of
+    /// one hull from all corners of the other, it therefore hides all of one from all of the other. Here it is smaller by the inflation of
+    /// the hulls.
+    pub(super) fn covers(&self, body: u32, shaft: &Shaft) -> bool {
+        let planes = &self.bodies[body as usize].planes;
+        let margin = shaft.patch.radius.max(shaft.light.radius) + 4.0 * shaft.epsilon;
+        let meets = |p: V64, y: V64| {
+            let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+            for &(n, offset) in planes {
+                let (a, b) = (n.dot(p) - offset + margin, n.dot(y) - offset + margin);
+                if !(a <= 0.0 || b <= 0.0) {
+                    return false;
+                }
+                if a > 0.0 {
+                    enters = enters.max(a / (a - b));
+                } else if b > 0.0 {
+                    leaves = leaves.min(a / (a - b));
+                }
+            }
+            enters + 1e-9 < leaves && leaves < 1.0 - 2.0 * SPARED
+        };
+        shaft.patch.corners().iter().all(|&p| shaft.light.corners().iter().all(|&y| meets(p, y)))
+    }
+    /// The body as a blocker.
+    pub fn polyhedron(&self, body: u32) -> Polyhedron<'_, f32> {
+        let Body { center, faces, edges, .. } = &self.bodies[body as usize];
+        Polyhedron { center: (*center).into(), faces, edges }
+    }
+    /// Number of bodies.
+    pub fn len(&self) -> usize {
+        self.bodies.len()
+    }
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.bodies.is_empty()
+    }
+}
+
+fn corners(bvh: &Bvh, place: u32) -> [[f32; 3]; 3] {
+    let c = bvh.corners(place);
+    [[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]
+}
+
+fn bits(corner: [f32; 3]) -> [u32; 3] {
+    // −0 is 0
+    corner.map(|x| (x + 0.0).to_bits())
+}
+
+impl Body {
+    /// `None` if the triangles do not form a closed convex surface, or if it has too many faces.
+    fn new(triangles: &[[[f32; 3]; 3]]) -> Option<Self> {
+        let corners: Vec<V64> = triangles.iter().flatten().map(|&corner| wide(corner)).collect();
+        let center = corners.iter().fold(V64::default(), |sum, &p| sum + p) * (1.0 / corners.len() as f64);
+        let tolerance = 4.0 * reach(&corners) * f64::from(f32::EPSILON);
+        let mut planes: Vec<(V64, f64)> = Vec::new();
+        let mut faces = Vec::new();
+        let mut face_of = Vec::new();
+        let mut sides: HashMap<[[u32; 3]; 2], Vec<usize>> = HashMap::new();
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(wide);
+            let normal = unit((b - a).cross(c - a));
+            let normal = if normal.dot(center - a) > 0.0 { -normal } else { normal };
+            let offset = normal.dot(a);
+            let is_outermost = corners.iter().all(|&p| normal.dot(p) - offset <= tolerance);
+            if !(is_outermost && normal.dot(center) < offset - 4.0 * tolerance) {
+                return None;
+            }
+            let known = planes.iter().position(|&(n, offset)| {
+                [a, b, c].iter().all(|&p| (n.dot(p) - offset).abs() <= tolerance)
+            });
+            let face = known.unwrap_or_else(|| {
+                planes.push((normal, offset));
+                let narrow = |v: V64| etendue::Vec3::new(v.x as f32, v.y as f32, v.z as f32);
+                faces.push([narrow(normal), triangle[0].into()]);
+                planes.len() - 1
+            });
+            face_of.push(face);
+            for (k, &from) in triangle.iter().enumerate() {
+                let mut ends = [bits(from), bits(triangle[(k + 1) % 3])];
+                ends.sort_unstable();
+                sides.entry(ends).or_default().push(face);
+            }
+        }
+        let mut edges = Vec::new();
+        for (ends, faces) in sides {
+            let &[i, j] = &faces[..] else { return None };
+            if i != j {
+                edges.push((ends, Edge { ends: ends.map(|end| end.map(f32::from_bits).into()), faces: [i, j] }));
+            }
+        }
+        edges.sort_unstable_by_key(|(ends, _)| *ends);
+        let edges = edges.into_iter().map(|(_, edge)| edge).collect();
+        let center = [center.x as f32, center.y as f32, center.z as f32];
+        (planes.len() <= FACES).then_some(Self { center, faces, edges, corners, planes })
+    }
+}
