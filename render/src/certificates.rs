@@ -118,7 +118,9 @@ impl<'a> Certifier<'a> {
         if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
             return Certificate::Unknown;
         }
-        if met.iter().any(|met| bodies.covers(met.0, shaft)) || candidates.iter().any(|candidate| candidate.covers(shaft)) {
+        if met.iter().any(|met| bodies.covers(met.0, shaft))
+            || candidates.iter().any(|candidate| candidate.covers(shaft))
+        {
             return Certificate::Dark;
         }
         if !complete || candidates.len() + met.len() > MOST {

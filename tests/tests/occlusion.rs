@@ -52,10 +52,9 @@ impl Scene {
         R::Scalar: From<f32>,
     {
         let shape = |shape: &Convex<f32>| match *shape {
-            Convex::Polygon { corners, count } => Convex::Polygon {
-                corners: corners.map(|c| Vec3::new(c.x.into(), c.y.into(), c.z.into())),
-                count,
-            },
+            Convex::Polygon { corners, count } => {
+                Convex::Polygon { corners: corners.map(|c| Vec3::new(c.x.into(), c.y.into(), c.z.into())), count }
+            }
             Convex::Sphere { center: c, radius } => {
                 Convex::Sphere { center: Vec3::new(c.x.into(), c.y.into(), c.z.into()), radius: radius.into() }
             }
@@ -325,9 +324,8 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                             let axes = [x, y, z];
                             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
                             let face = along(middle, axes[axis], side * extent[axis]);
-                            let corner = |p: f64, q: f64| {
-                                along(along(face, axes[u], p * extent[u]), axes[v], q * extent[v])
-                            };
+                            let corner =
+                                |p: f64, q: f64| along(along(face, axes[u], p * extent[u]), axes[v], q * extent[v]);
                             let quad = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
                             if random.unit() < 0.3 {
                                 blockers.push(polygon(&quad[..3]));
@@ -431,7 +429,12 @@ fn measure(kind: Kind, round: Round, packets: u32, seed: u64) -> Errors {
             let error = off(found.lane_f64(lane));
             if std::env::var("SHOW").is_ok() && error / unit > 1e-3 && errors.single.error() < 1e-3 {
                 let bare = Scene { blockers: Vec::new(), ..scene.clone() };
-                println!("  {kind:?} {round:?} {near:?} {far:?} found {} f64 {:?} bare {:?} lane {lane} {scene:?}", found.lane_f64(lane), scene.found::<f64x1>(lane), bare.found::<f64x1>(lane));
+                println!(
+                    "  {kind:?} {round:?} {near:?} {far:?} found {} f64 {:?} bare {:?} lane {lane} {scene:?}",
+                    found.lane_f64(lane),
+                    scene.found::<f64x1>(lane),
+                    bare.found::<f64x1>(lane)
+                );
             }
             if unit > 0.0 {
                 errors.single.take(error / unit, i);

@@ -150,6 +150,18 @@ impl<R: Real> LightsAt<R> {
     pub fn weights(&self) -> impl Iterator<Item = R> {
         (0..self.count).map(|k| if k == 0 { self.ends[0] } else { self.ends[k] - self.ends[k - 1] })
     }
+    /// The choice among some of the lights: those for which `keep` returns a mask, where it is true.
+    #[must_use]
+    #[inline]
+    pub fn only(&self, keep: impl Fn(usize) -> R::Mask) -> Self {
+        let mut only = *self;
+        let mut sum = R::lit(0.0);
+        for (k, weight) in self.weights().enumerate() {
+            sum += weight.keep(keep(k));
+            only.ends[k] = sum;
+        }
+        only
+    }
     #[inline]
     fn sum(&self) -> R {
         if self.count == 0 { R::lit(0.0) } else { self.ends[self.count - 1] }

@@ -156,9 +156,9 @@ impl Body {
             if !(is_outermost && normal.dot(center) < offset - 4.0 * tolerance) {
                 return None;
             }
-            let known = planes.iter().position(|&(n, offset)| {
-                [a, b, c].iter().all(|&p| (n.dot(p) - offset).abs() <= tolerance)
-            });
+            let known = planes
+                .iter()
+                .position(|&(n, offset)| [a, b, c].iter().all(|&p| (n.dot(p) - offset).abs() <= tolerance));
             let face = known.unwrap_or_else(|| {
                 planes.push((normal, offset));
                 let narrow = |v: V64| etendue::Vec3::new(v.x as f32, v.y as f32, v.z as f32);

@@ -3,7 +3,7 @@
 use super::hull::{CORNERS, Hull, V64, reach, unit, wide};
 use crate::bvh::SHAPE;
 use crate::camera::Pinhole;
-use crate::scene::{CameraSettings, Geometry};
+use crate::scene::Geometry;
 use crate::surfaces::Surfaces;
 
 /// Shading points are within this of the ideal patch, relative to the greatest coordinate of their primitive: they are lifted by 2⁻²⁰,
@@ -24,24 +24,17 @@ pub struct Pyramid {
 }
 
 impl Pyramid {
-    /// The pyramid of the pixels in \[x0, x1\] × \[y0, y1\] of an image of `width` × `height` pixels, from the top left. It is wider by an
-    /// eighth of a pixel on each side, for the rounding of rays.
-    pub fn new(camera: &CameraSettings, width: u32, height: u32, [x0, y0, x1, y1]: [f64; 4]) -> Self {
-        let [kx, ky] = camera.tan_half(width, height);
-        let (forward, right, up) = (V64::from(camera.forward), V64::from(camera.right), V64::from(camera.up));
-        let through = |x: f64, y: f64| {
-            let (s, t) = (2.0 * x / f64::from(width) - 1.0, 1.0 - 2.0 * y / f64::from(height));
-            forward + right * (s * kx) + up * (t * ky)
-        };
-        let [x0, y0, x1, y1] = [x0 - 0.125, y0 - 0.125, x1 + 0.125, y1 + 0.125];
-        let corners = [through(x0, y0), through(x1, y0), through(x1, y1), through(x0, y1)];
-        let middle = through(0.5 * (x0 + x1), 0.5 * (y0 + y1));
+    /// The pyramid of the pixels in \[x0, x1\] × \[y0, y1\] of the image of a camera, from the top left. It is wider by an eighth of a pixel
+    /// on each side, for the rounding of rays.
+    pub fn new(pinhole: &Pinhole, [x0, y0, x1, y1]: [f64; 4]) -> Self {
+        let (origin, corners) = pinhole.rectangle([x0 - 0.125, y0 - 0.125, x1 + 0.125, y1 + 0.125]);
+        let corners = corners.map(V64::from);
+        let middle = corners[0] + corners[1] + corners[2] + corners[3];
         let normals = std::array::from_fn(|k| {
             let normal = unit(corners[k].cross(corners[(k + 1) % 4]));
             if normal.dot(middle) < 0.0 { -normal } else { normal }
         });
-        // rays start at the rounded pinhole
-        Self { origin: wide(camera.origin.map(|x| x as f32)), normals }
+        Self { origin: origin.into(), normals }
     }
 }
 
@@ -126,20 +119,6 @@ impl Clipped {
             self = self.clip(n, n.dot(pyramid.origin) - margin)?;
         }
         Some(self)
-    }
-}
-
-impl Pyramid {
-    /// The same for a pinhole camera of an image.
-    pub fn of(pinhole: &Pinhole, [x0, y0, x1, y1]: [f64; 4]) -> Self {
-        let (origin, corners) = pinhole.rectangle([x0 - 0.125, y0 - 0.125, x1 + 0.125, y1 + 0.125]);
-        let corners = corners.map(V64::from);
-        let middle = corners[0] + corners[1] + corners[2] + corners[3];
-        let normals = std::array::from_fn(|k| {
-            let normal = unit(corners[k].cross(corners[(k + 1) % 4]));
-            if normal.dot(middle) < 0.0 { -normal } else { normal }
-        });
-        Self { origin: origin.into(), normals }
     }
 }
 

@@ -1,33 +1,41 @@
-//! Direct light of diffuse surfaces without random numbers, where geometry tells what occludes it.
+//! Direct light of diffuse surfaces without rays and random numbers, where geometry tells what can occlude it.
+//!
+//! Certificates are made when a sample first needs them: for what the whole tile sees of a primitive, and, where that does not decide, for
+//! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
+//! or in a mirror is certified as a whole.
 
 use super::tile::TILE;
-use crate::bvh::GROUP;
+use crate::bvh::{GROUP, SHAPE};
 use crate::camera::{Camera, Pinhole};
-use crate::certificates::{Blocker, Certificate, Certifier, Bodies, Patch, Pyramid, Viewer};
+use crate::certificates::{Blocker, Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion};
+use etendue::select::FEW;
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;
 
+/// Sides of the squares of pixels that have certificates of their own. Each square lies within one of the side before.
+const SIDES: [u32; 2] = [TILE, 4];
+/// A tile in which this many primitives were looked at, and nothing was known of any light, asks for no further certificates.
+const TRIALS: u32 = 4;
+
 /// A light with an area.
 struct AreaLight {
-    /// Index of its shape.
-    shape: usize,
     form: Convex<'static, f32>,
     radiance: [f32; 3],
-    /// A point and the normal of the side that emits, if only one does.
+    /// A point of a light that emits on one side, and its normal there.
     side: Option<[V8; 2]>,
 }
 
 /// What is known of a light, as seen from a part of a surface.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Known {
     Lit,
     Dark,
-    /// Only these of the blockers can occlude it.
+    /// Only these of the forms can occlude it.
     Behind(Range<usize>),
     /// It must be sampled.
     Nothing,
@@ -37,12 +45,30 @@ enum Known {
 #[derive(Debug)]
 struct Entry {
     place: u32,
-    /// Index of the first of its certificates, one for each light.
+    /// The side from which a surface is seen that is certified as a whole.
+    front: bool,
+    /// Index of the certificate of the first light; the others follow.
     first: usize,
 }
 
-/// Sides of the squares of pixels with certificates of their own, which lie within each other.
-const SIDES: [u32; 3] = [16, 4, 1];
+/// Where the paths of a packet end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ends {
+    /// Primitives, as in hits.
+    pub(super) places: u32x8,
+    /// Lanes that the camera sees directly.
+    pub(super) direct: M8,
+    /// Lanes whose surfaces are not diffuse.
+    pub(super) glossy: M8,
+    /// The pixel of a packet that belongs to a single one.
+    pub(super) pixel: Option<[u32; 2]>,
+}
+
+impl Default for Ends {
+    fn default() -> Self {
+        Self { places: u32x8::splat(0), direct: M8::splat(true), glossy: M8::splat(false), pixel: None }
+    }
+}
 
 /// The lights of a scene, and certificates for the surfaces in a tile.
 pub(super) struct Analytic<'a> {
@@ -51,20 +77,25 @@ pub(super) struct Analytic<'a> {
     lights: Vec<AreaLight>,
     certifier: Certifier<'a>,
     occlusion: Box<Occlusion<X8>>,
-    /// For each level, the certificates of each square of the tile, row by row.
+    /// The camera, if it is a pinhole.
+    pinhole: Option<Pinhole>,
+    /// The first pixel of the tile.
+    origin: [u32; 2],
+    /// The certificates in each square of each level, row by row, and those of whole surfaces.
     squares: [Vec<Vec<Entry>>; SIDES.len()],
+    whole: Vec<Entry>,
     known: Vec<Known>,
     forms: Vec<Convex<'a, f32>>,
-    camera: Option<Pinhole>,
-    origin: [u32; 2],
-    pub(super) counts: [u64; 4],
+    /// Number of primitives that were looked at, and whether anything was known of a light there.
+    tried: u32,
+    decided: bool,
 }
 
 fn corner(v: [f32; 3]) -> Vec3<f32> {
     v.into()
 }
 
-fn convex<'a>(blocker: &Blocker, bodies: &'a Bodies) -> Convex<'a, f32> {
+fn blocker_form<'a>(blocker: &Blocker, bodies: &'a Bodies) -> Convex<'a, f32> {
     match *blocker {
         Blocker::Polygon { corners, count, .. } => Convex::Polygon { corners: corners.map(corner), count },
         Blocker::Sphere { center, radius, .. } => Convex::Sphere { center: corner(center), radius },
@@ -72,7 +103,7 @@ fn convex<'a>(blocker: &Blocker, bodies: &'a Bodies) -> Convex<'a, f32> {
     }
 }
 
-fn form(geometry: &Geometry) -> Convex<'static, f32> {
+fn light_form(geometry: &Geometry) -> Convex<'static, f32> {
     match *geometry {
         Geometry::Sphere { center, radius } => Convex::Sphere { center: corner(center), radius },
         Geometry::Triangle([a, b, c]) => Convex::Polygon { corners: [a, b, c, c].map(corner), count: 3 },
@@ -84,137 +115,183 @@ fn form(geometry: &Geometry) -> Convex<'static, f32> {
 }
 
 impl<'a> Analytic<'a> {
-    pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies) -> Self {
-        let light = |(shape, all): (usize, &crate::scene::Shape)| {
-            let emission = all.emission?;
-            let side = match all.geometry {
-                Geometry::Sphere { .. } => None,
-                _ if emission.two_sided => None,
-                Geometry::Triangle([p, _, _]) | Geometry::Parallelogram { p, .. } => {
-                    Some([p.into(), all.geometry.normal().into()])
+    /// For a tile that begins at the pixel `origin`.
+    pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera) -> Self {
+        let light = |shape: &crate::scene::Shape| {
+            let emission = shape.emission?;
+            let side = match shape.geometry {
+                Geometry::Triangle([p, _, _]) | Geometry::Parallelogram { p, .. } if !emission.two_sided => {
+                    Some([p.into(), shape.geometry.normal().into()])
                 }
+                _ => None,
             };
-            Some(AreaLight { shape, form: form(&all.geometry), radiance: emission.radiance, side })
+            Some(AreaLight { form: light_form(&shape.geometry), radiance: emission.radiance, side })
         };
         Self {
             surfaces,
             bodies,
-            lights: surfaces.shapes().iter().enumerate().filter_map(light).collect(),
+            lights: surfaces.shapes().iter().filter_map(light).collect(),
             certifier: Certifier::new(surfaces, bodies, surfaces.light_shapes()),
             occlusion: Box::default(),
+            pinhole: if let Camera::Pinhole(pinhole) = camera { Some(*pinhole) } else { None },
+            origin: [0; 2],
             squares: SIDES.map(|side| (0..(TILE / side).pow(2)).map(|_| Vec::new()).collect()),
+            whole: Vec::new(),
             known: Vec::new(),
             forms: Vec::new(),
-            camera: None,
-            origin: [0; 2],
-            counts: [0; 4],
+            tried: 0,
+            decided: false,
         }
-    }
-
-    /// Number of lights.
-    pub(super) fn lights(&self) -> usize {
-        self.lights.len()
     }
 
     /// Forgets the certificates, and prepares for the samples of a tile.
-    pub(super) fn begin(&mut self, camera: &Camera, origin: [u32; 2]) {
+    pub(super) fn begin(&mut self, origin: [u32; 2]) {
         self.squares.iter_mut().flatten().for_each(Vec::clear);
+        self.whole.clear();
         self.known.clear();
         self.forms.clear();
-        self.camera = if let Camera::Pinhole(pinhole) = camera { Some(*pinhole) } else { None };
         self.origin = origin;
+        (self.tried, self.decided) = (0, false);
     }
 
-    /// Index of the first certificate for what the square of a level about a pixel sees of a primitive.
-    fn find(&mut self, place: u32, pixel: [u32; 2], level: usize) -> usize {
-        let side = SIDES[level];
-        let [x, y] = [0, 1].map(|k| (pixel[k] - self.origin[k]) / side);
-        let square = (y * (TILE / side) + x) as usize;
-        if let Some(entry) = self.squares[level][square].iter().find(|entry| entry.place == place) {
-            return entry.first;
-        }
-        let parent = (level > 0).then(|| self.find(place, pixel, level - 1));
-        let first = self.known.len();
-        let open = parent.is_none_or(|parent| {
-            self.known[parent..parent + self.lights.len()].iter().any(|k| matches!(k, Known::Behind(_) | Known::Nothing))
-        });
-        let Self { surfaces, bodies, lights, certifier, forms, .. } = self;
-        let corner = [0, 1].map(|k| self.origin[k] + [x, y][k] * side);
-        let patch = self.camera.filter(|_| open).and_then(|camera| {
-            let [x, y] = corner.map(f64::from);
-            let side = f64::from(side);
-            let pyramid = Pyramid::of(&camera, [x, y, x + side, y + side]);
-            Patch::of(surfaces, place, Viewer::Pixels(&pyramid))
-        });
-        for k in 0..lights.len() {
-            let before = parent.map_or(Known::Nothing, |parent| self.known[parent + k].clone());
-            if matches!(before, Known::Lit | Known::Dark) {
-                self.known.push(before);
-                continue;
-            }
-            let Some(patch) = &patch else {
-                self.known.push(before);
-                continue;
-            };
-            let known = match certifier.certify(patch, k) {
-                Certificate::Lit => Known::Lit,
-                Certificate::Dark => Known::Dark,
-                Certificate::Unknown => Known::Nothing,
-                Certificate::Blockers(found) => {
-                    let start = forms.len();
-                    forms.extend(found.iter().map(|blocker| convex(blocker, bodies)));
-                    Known::Behind(start..forms.len())
+    /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
+    /// certificates from `larger`, stays.
+    fn certify(&mut self, patch: Option<&Patch>, larger: Option<usize>) -> usize {
+        let Self { bodies, lights, certifier, known, forms, .. } = self;
+        let first = known.len();
+        for light in 0..lights.len() {
+            let before = larger.map_or(Known::Nothing, |larger| known[larger + light].clone());
+            let certificate = match patch {
+                Some(patch) if !matches!(before, Known::Lit | Known::Dark) => certifier.certify(patch, light),
+                _ => {
+                    known.push(before);
+                    continue;
                 }
             };
-            self.counts[match known {
-                Known::Lit => 0,
-                Known::Dark => 1,
-                Known::Behind(_) => 2,
-                Known::Nothing => 3,
-            }] += 1;
-            self.known.push(known);
+            known.push(match certificate {
+                Certificate::Lit => Known::Lit,
+                Certificate::Dark => Known::Dark,
+                Certificate::Unknown => before,
+                Certificate::Blockers(found) => {
+                    let start = forms.len();
+                    forms.extend(found.iter().map(|blocker| blocker_form(blocker, bodies)));
+                    Known::Behind(start..forms.len())
+                }
+            });
         }
-        self.squares[level][square].push(Entry { place, first });
         first
     }
 
-    /// Adds the light that is known, and returns for each light the lanes in which it must be sampled.
+    /// Index of the certificates for what the square of a level that contains the pixel sees of a primitive.
+    fn seen(&mut self, pinhole: &Pinhole, place: u32, pixel: [u32; 2], level: usize) -> usize {
+        let side = SIDES[level];
+        let [column, row] = [0, 1].map(|k| (pixel[k] - self.origin[k]) / side);
+        let square = (row * (TILE / side) + column) as usize;
+        if let Some(entry) = self.squares[level][square].iter().find(|entry| entry.place == place) {
+            return entry.first;
+        }
+        let larger = (level > 0).then(|| self.seen(pinhole, place, pixel, level - 1));
+        let count = self.lights.len();
+        let decided = |known: &Known| matches!(known, Known::Lit | Known::Dark);
+        let open = larger.is_none_or(|larger| !self.known[larger..larger + count].iter().all(decided));
+        let first = if open && !self.hopeless() {
+            let [x, y] = [column, row].map(|k| k * side);
+            let [x, y] = [self.origin[0] + x, self.origin[1] + y].map(f64::from);
+            let pyramid = Pyramid::new(pinhole, [x, y, x + f64::from(side), y + f64::from(side)]);
+            let patch = Patch::of(self.surfaces, place, Viewer::Pixels(&pyramid));
+            self.certify(patch.as_ref(), larger)
+        } else {
+            larger.unwrap_or_else(|| self.certify(None, None))
+        };
+        if level == 0 {
+            self.note(first);
+        }
+        self.squares[level][square].push(Entry { place, front: true, first });
+        first
+    }
+
+    /// Index of the certificates for one side of a whole primitive.
+    fn all(&mut self, place: u32, front: bool) -> usize {
+        let same = |entry: &&Entry| entry.place == place && entry.front == front;
+        if let Some(entry) = self.whole.iter().find(same) {
+            return entry.first;
+        }
+        let viewer = if front { Viewer::Front } else { Viewer::Back };
+        let patch = if self.hopeless() { None } else { Patch::of(self.surfaces, place, viewer) };
+        let first = self.certify(patch.as_ref(), None);
+        self.note(first);
+        self.whole.push(Entry { place, front, first });
+        first
+    }
+
+    /// Whether certificates are not worth asking for in this tile.
+    fn hopeless(&self) -> bool {
+        self.tried >= TRIALS && !self.decided
+    }
+    fn note(&mut self, first: usize) {
+        self.tried += 1;
+        let known = &self.known[first..first + self.lights.len()];
+        self.decided = self.decided || known.iter().any(|known| *known != Known::Nothing);
+    }
+
+    /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them.
+    fn find(&mut self, surface: &Surface, ends: &Ends, lanes: M8) -> (usize, M8) {
+        let lane = lanes.bits().trailing_zeros() as usize & 7;
+        let place = ends.places.as_array()[lane];
+        let here = lanes & equal(ends.places, u32x8::splat(place));
+        if let Some(pinhole) = self.pinhole.filter(|_| ends.direct.lane(lane)) {
+            let (pixel, level) = ends.pixel.map_or((self.origin, 0), |pixel| (pixel, SIDES.len() - 1));
+            return (self.seen(&pinhole, place, pixel, level), here & ends.direct);
+        }
+        let here = if self.pinhole.is_some() { here & !ends.direct } else { here };
+        if place & SHAPE != 0 {
+            return (self.all(place, true), here);
+        }
+        let c = self.surfaces.bvh.corners(place);
+        let corner = |k: usize| Vec3::<f32>::new(c[k], c[k + 1], c[k + 2]);
+        let normal = (corner(3) - corner(0)).cross(corner(6) - corner(0)).normalize();
+        let in_front = surface.normal.dot(V8::splat(normal)).gt(X8::lit(0.0));
+        let front = in_front.lane(lane);
+        (self.all(place, front), here & if front { in_front } else { !in_front })
+    }
+
+    /// Adds the reflected light that is known. Sets the lanes in which a light must be sampled, for each light and packet, and returns
+    /// whether there are any.
     pub(super) fn gather(
         &mut self,
         surfaces: &[Surface],
-        places: &[u32x8; GROUP],
-        squares: &[([u32; 2], usize); GROUP],
+        ends: &[Ends; GROUP],
         reflected: &mut [V8; GROUP],
-        unknown: &mut [[M8; GROUP]],
-    ) {
+        unknown: &mut [[M8; GROUP]; FEW],
+    ) -> bool {
+        let mut any = false;
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let mut parts = [(0, M8::splat(false)); 8];
             let mut count = 0;
-            let mut left = surface.reflects;
+            let mut left = surface.reflects & !ends[p].glossy;
             while left.any() {
-                let place = places[p].as_array()[left.bits().trailing_zeros() as usize & 7];
-                let here = left & equal(places[p], u32x8::splat(place));
-                parts[count] = (self.find(place, squares[p].0, squares[p].1), here);
+                parts[count] = self.find(surface, &ends[p], left);
+                left = left & !parts[count].1;
                 count += 1;
-                left = left & !here;
             }
             let mut sum = V8::default();
             for (k, light) in self.lights.iter().enumerate() {
                 let mut lit = M8::splat(false);
+                let mut open = surface.reflects & ends[p].glossy;
                 let mut part = X8::lit(0.0);
                 for (first, lanes) in &parts[..count] {
                     match &self.known[first + k] {
                         Known::Lit => lit = lit | *lanes,
                         Known::Dark => {}
-                        Known::Nothing => unknown[k][p] = unknown[k][p] | *lanes,
+                        Known::Nothing => open = open | *lanes,
                         Known::Behind(range) => {
-                            let blockers = &self.forms[range.clone()];
-                            // the other lanes repeat one of these, so that what they see does not matter
-                            let one = surface.point.lane(lanes.bits().trailing_zeros() as usize & 7);
-                            let point = V8::blend(*lanes, surface.point, V8::splat(one));
-                            match self.occlusion.visible(point, surface.normal, &light.form, blockers) {
+                            // the other lanes repeat one of these: what is not seen from here does not matter
+                            let lane = lanes.bits().trailing_zeros() as usize & 7;
+                            let of = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
+                            let (point, normal) = (of(surface.point), of(surface.normal));
+                            match self.occlusion.visible(point, normal, &light.form, &self.forms[range.clone()]) {
                                 Some(visible) => part += visible.keep(*lanes),
-                                None => unknown[k][p] = unknown[k][p] | *lanes,
+                                None => open = open | *lanes,
                             }
                         }
                     }
@@ -227,10 +304,12 @@ impl<'a> Analytic<'a> {
                     part = part.keep((surface.point - *corner).dot(*normal).gt(X8::lit(0.0)));
                 }
                 sum += V8::from(light.radiance) * part;
+                unknown[k][p] = open;
+                any = any || open.any();
             }
-            let scale = X8::lit(FRAC_1_PI);
-            let V8 { x, y, z } = surface.albedo;
-            reflected[p] += V8::new(x * sum.x, y * sum.y, z * sum.z) * scale;
+            let V8 { x, y, z } = surface.albedo * X8::lit(FRAC_1_PI);
+            reflected[p] += V8::new(x * sum.x, y * sum.y, z * sum.z);
         }
+        any
     }
 }

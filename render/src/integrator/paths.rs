@@ -5,11 +5,12 @@
 //! between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room, 1.00 ± 0.03, and 1.04 times
 //! as long among three thousand balls.)
 
-use super::analytic::Analytic;
+use super::analytic::{Analytic, Ends};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
+use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
 use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::{Surface, emitted};
@@ -21,6 +22,15 @@ use etendue::{Mask, Real, Vec2, u32x8};
 /// Fraction of the distance to a light that a shadow ray covers: it stops 2⁻¹⁷ short, so that surfaces touching the light do not
 /// occlude it.
 const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
+
+/// Which light is sampled.
+enum Which<'a> {
+    Given(u32),
+    /// The one to which the sample is allocated, or one chosen at random if that is empty.
+    Chosen(&'a [Allocated<'a, X8>]),
+    /// One of those whose lanes are set, for each light and packet.
+    Among(&'a [[M8; GROUP]; FEW]),
+}
 
 /// Radiance along camera rays.
 #[derive(Clone, Copy, Default)]
@@ -89,16 +99,14 @@ pub(super) struct Paths<'a> {
     /// The reflecting surfaces at the ends of the paths.
     surfaces: Box<[Surface; GROUP]>,
     ends: Box<[End; GROUP]>,
-    /// Where the paths end, as in [`Hits`].
-    places: Box<[u32x8; GROUP]>,
-    /// A pixel of each packet, and the level of the squares of pixels whose certificates it uses.
-    pub(super) squares: [([u32; 2], usize); GROUP],
+    /// Where the paths end. The pixels are set from outside.
+    pub(super) places: Box<[Ends; GROUP]>,
     pub(super) analytic: Option<Analytic<'a>>,
     radiance: Box<[Radiance; GROUP]>,
 }
 
 impl<'a> Paths<'a> {
-    pub(super) fn new(scene: &'a PreparedScene, settings: &Settings) -> Self {
+    pub(super) fn new(scene: &'a PreparedScene, settings: &Settings, camera: &Camera) -> Self {
         let zero = V8::default();
         Self {
             scene,
@@ -109,9 +117,11 @@ impl<'a> Paths<'a> {
             rays: Box::default(),
             surfaces: Box::new([Surface::default(); GROUP]),
             ends: Box::new([End { direction: zero, metal: None, throughput: zero }; GROUP]),
-            places: Box::new([u32x8::splat(NOTHING); GROUP]),
-            squares: [([0; 2], 0); GROUP],
-            analytic: (settings.technique == Technique::Analytic).then(|| Analytic::new(&scene.surfaces, &scene.bodies)),
+            places: Box::default(),
+            analytic: settings
+                .technique
+                .is_analytic(scene.lights.areas())
+                .then(|| Analytic::new(&scene.surfaces, &scene.bodies, camera)),
             radiance: Box::default(),
         }
     }
@@ -165,20 +175,22 @@ impl<'a> Paths<'a> {
         let count = active.len();
         let mut reflected = [V8::default(); GROUP];
         let lights = self.sampled();
-        let all = [M8::splat(true); GROUP];
         if let Some(analytic) = &mut self.analytic {
             let mut unknown = [[M8::splat(false); GROUP]; FEW];
-            let unknown = &mut unknown[..analytic.lights()];
-            analytic.gather(&self.surfaces[..count], &self.places, &self.squares, &mut reflected, unknown);
-            for (light, lanes) in (0..).zip(unknown).filter(|(_, lanes)| any(&lanes[..])) {
-                self.by_light::<METAL>(lights, Some(light), count, numbers, allocated, lanes, &mut reflected);
+            if METAL {
+                for (place, end) in self.places.iter_mut().zip(&self.ends[..count]) {
+                    place.glossy = end.metal.map_or(M8::splat(false), |metal| metal.rough());
+                }
+            }
+            if analytic.gather(&self.surfaces[..count], &self.places, &mut reflected, &mut unknown) {
+                self.by_light::<METAL>(lights, &Which::Among(&unknown), count, numbers, &mut reflected);
             }
         } else if let Some(each) = lights.each() {
             for light in 0..each {
-                self.by_light::<METAL>(lights, Some(light), count, numbers, allocated, &all, &mut reflected);
+                self.by_light::<METAL>(lights, &Which::Given(light), count, numbers, &mut reflected);
             }
         } else {
-            self.by_light::<METAL>(lights, None, count, numbers, allocated, &all, &mut reflected);
+            self.by_light::<METAL>(lights, &Which::Chosen(allocated), count, numbers, &mut reflected);
         }
         if self.technique.finds_lights() {
             self.by_surface::<METAL>(count, &numbers.light, allocated, &mut reflected);
@@ -222,7 +234,7 @@ impl<'a> Paths<'a> {
                 };
                 if !METAL {
                     surfaces[p] = world.hit(&hits[p], ray);
-                    places[p] = hits[p].place;
+                    places[p].places = hits[p].place;
                     radiance[p].seen = see(&surfaces[p]);
                     continue;
                 }
@@ -234,7 +246,10 @@ impl<'a> Paths<'a> {
                 let reflects = surface.reflects & here;
                 let metal = world.metal(&hits[p], reflects);
                 let mirrors = metal.mirrors() & reflects;
-                end.settle(&mut surfaces[p], &surface, reflects & !mirrors, incoming, metal);
+                let ends_here = reflects & !mirrors;
+                end.settle(&mut surfaces[p], &surface, ends_here, incoming, metal);
+                places[p].places = pick(ends_here, hits[p].place, places[p].places);
+                places[p].direct = if depth == 0 { ends_here } else { places[p].direct & !ends_here };
                 going[p] = M8::splat(false);
                 if mirrors.any() && depth < self.depth {
                     going[p] = mirrors;
@@ -250,17 +265,14 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// Adds the light reflected by sampling a light, with its MIS weight if the technique combines two: the `given` one, the
-    /// `allocated` one of each sample, or one chosen at random.
+    /// Adds the light reflected by sampling a light, with its MIS weight if the technique combines two.
     #[inline(always)]
     fn by_light<const METAL: bool>(
         &mut self,
         lights: &Lights,
-        given: Option<u32>,
+        which: &Which<'_>,
         count: usize,
         numbers: &Numbers,
-        allocated: &[Allocated<'_, X8>],
-        lanes: &[M8; GROUP],
         reflected: &mut [V8; GROUP],
     ) {
         let measure = self.technique.measure();
@@ -275,10 +287,20 @@ impl<'a> Paths<'a> {
             let bsdf = bsdf::<METAL>(surface, &ends[p]);
             let mut u = numbers.light[p];
             let [number, second] = numbers.choice.map_or([u.x, zero], |choice| [choice[p].x, choice[p].y]);
-            let choice = match (given, allocated.get(p)) {
-                (Some(light), _) => Choice { index: u32x8::splat(light), pmf: one, u: number },
-                (None, Some(allocated)) => allocated.choose(number),
-                (None, None) => lights.choose(surface.point, surface.normal, [number, second]),
+            let mut lanes = surface.reflects;
+            let choice = match which {
+                Which::Given(light) => Choice { index: u32x8::splat(*light), pmf: one, u: number },
+                Which::Chosen(allocated) => match allocated.get(p) {
+                    Some(allocated) => allocated.choose(number),
+                    None => lights.choose(surface.point, surface.normal, [number, second]),
+                },
+                Which::Among(open) => match lights.contributions(surface.point, surface.normal) {
+                    Some(near) => near.only(|light| open[light][p]).choose(number),
+                    None => {
+                        lanes = lanes & open[0][p];
+                        Choice { index: u32x8::splat(0), pmf: one, u: number }
+                    }
+                },
             };
             if numbers.choice.is_none() {
                 u.x = choice.u;
@@ -287,7 +309,7 @@ impl<'a> Paths<'a> {
             let sample = lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
-            lit[p] = surface.reflects & lanes[p] & sample.emits & some & cos.gt(zero);
+            lit[p] = lanes & sample.emits & some & cos.gt(zero);
             let Evaluated { color, factor, pdf: surface_pdf } = bsdf.evaluate(sample.direction);
             let pdf = select(lit[p], sample.pdf * choice.pmf, one);
             let factor = match heuristic {
@@ -431,8 +453,4 @@ fn keep(v: V8, mask: M8) -> V8 {
 #[inline]
 fn product(a: V8, b: V8) -> V8 {
     V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
-}
-
-fn any(lanes: &[M8]) -> bool {
-    lanes.iter().any(|lanes| lanes.any())
 }

@@ -16,7 +16,6 @@ use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Side of the square of pixels that a thread renders at a time.
 pub(super) const TILE: u32 = 16;
-static LEVEL: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(2);
 /// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
 const POWER: f32 = 0.8;
 
@@ -74,7 +73,7 @@ impl<'a> TileRenderer<'a> {
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
             source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width),
-            paths: Paths::new(scene, settings),
+            paths: Paths::new(scene, settings, &camera),
         }
     }
 
@@ -120,7 +119,7 @@ impl<'a> TileRenderer<'a> {
     ) -> Vec<A::Output> {
         let [x0, y0, x1, _] = area;
         if let Some(analytic) = &mut self.paths.analytic {
-            analytic.begin(&self.camera, [x0, y0]);
+            analytic.begin([x0, y0]);
         }
         let pixels = z_order(area);
         // samples that are independent of each other have no sets that end
@@ -255,13 +254,12 @@ impl<'a> TileRenderer<'a> {
             };
             let [x, y] = [packet.x, packet.y].map(|of| of.to_array());
             let alike = (1..8).all(|lane| x[lane] == x[0] && y[lane] == y[0]);
-            paths.squares[p] = ([x[0], y[0]], if alike { LEVEL.load(std::sync::atomic::Ordering::Relaxed) } else { 0 });
+            paths.places[p].pixel = alike.then_some([x[0], y[0]]);
             let lens = self.lens.then(|| source.pair(packet, LENS));
             samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
             paths.start(p, camera.rays(&samples[p]));
             active[p] = packet.active;
         }
-        if let Ok(v)=std::env::var("LEVEL") { LEVEL.store(v.parse().unwrap(), std::sync::atomic::Ordering::Relaxed); }
         let radiance = paths.radiance(&active[..packets.len()], &numbers, allocated);
         for (radiance, sample) in radiance.iter_mut().zip(&samples) {
             if let Some(open) = camera.open(sample) {
@@ -280,7 +278,8 @@ impl<'a> TileRenderer<'a> {
         let lights = self.scene.lights.few()?;
         // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
         let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
-        if !fits || self.paths.analytic.is_some() || self.settings.technique.finds_lights() || !self.source.allocates() {
+        if !fits || self.paths.analytic.is_some() || self.settings.technique.finds_lights() || !self.source.allocates()
+        {
             return None;
         }
         let [x0, y0, x1, y1] = area;
