@@ -618,7 +618,7 @@ const EDGES: usize = 6;
 fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
     let mut c = Counts { height: f64::INFINITY, ..Counts::default() };
     for round in 0..rounds {
-        let mut random = Random { index: seed.wrapping_add(round.wrapping_mul(0x0080_0000)) };
+        let mut random = Random { index: seed.wrapping_add(round.wrapping_mul(0x0700_0000)) };
         for (name, triangles, shapes) in scenes(&mut random) {
             for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
                 let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
@@ -661,7 +661,7 @@ fn certificates_agree_with_brute_force() {
 #[test]
 #[ignore = "ten million shafts"]
 fn certificates_agree_with_brute_force_at_length() {
-    let c = campaign(450, 50, 1_000_000);
+    let c = campaign(450, 36, 1_000_000);
     assert!(c.shafts >= 10_000_000, "{c:?}");
 }
 

@@ -233,3 +233,63 @@ fn nearest([a, b, c]: [V64; 3], p: V64) -> V64 {
     let distance = |q: &V64| (*q - p).length();
     all.into_iter().min_by(|x, y| distance(x).total_cmp(&distance(y))).expect("three points")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle(corners: [[f32; 3]; 3]) -> Candidate {
+        let [a, b, c] = corners;
+        let corners = [a, b, c, c];
+        Candidate::Polygon(corners, 3, corners.map(wide))
+    }
+
+    /// Two triangles of a convex quadrilateral are merged in any order of their corners; nothing else is.
+    #[test]
+    fn coplanar_triangles_that_share_an_edge_are_merged() {
+        let place = |x: f32, y: f32| [x, 0.25 * x + 0.5 * y + 3.0, y];
+        let (a, b, c, d) = (place(0.0, 0.0), place(1.0, 0.0), place(1.5, 1.0), place(0.0, 2.0));
+        for turn in 0..3 {
+            for flip in [false, true] {
+                let mut other = [a, c, d];
+                other.rotate_left(turn);
+                if flip {
+                    other.swap(0, 1);
+                }
+                let Some(Candidate::Polygon(corners, 4, _)) = triangle([a, b, c]).merged(&triangle(other)) else {
+                    panic!("{turn}, {flip}: not merged");
+                };
+                let start = corners.iter().position(|&v| v == a).unwrap();
+                let around = [1, 2, 3].map(|k| corners[(start + k) % 4]);
+                assert!(around == [b, c, d] || around == [d, c, b], "{corners:?}");
+            }
+        }
+        let one = triangle([a, b, c]);
+        let not = [
+            ("the same triangle", [a, b, c]),
+            ("another plane", [a, c, [0.0, 3.0, 2.0]]),
+            ("one common corner", [a, d, place(-1.0, 1.0)]),
+            ("on the same side of the edge", [a, c, place(1.0, 0.1)]),
+            ("a reflex corner", [a, c, place(-4.0, -0.2)]),
+            ("a degenerate triangle", [a, a, c]),
+        ];
+        for (what, corners) in not {
+            assert!(one.merged(&triangle(corners)).is_none(), "{what}");
+            assert!(triangle(corners).merged(&one).is_none(), "{what}");
+        }
+    }
+
+    /// The nearest point of a triangle, against points of a fine grid.
+    #[test]
+    fn nearest_points_are_nearest() {
+        let corners = [[0.0, 0.0, 0.0], [2.0, 0.1, 0.0], [0.3, 1.0, 0.5]].map(|v: [f32; 3]| wide(v));
+        let [a, b, c] = corners;
+        for k in 0..200 {
+            let p = V64::new(f64::from(k % 7) - 3.0, f64::from(k % 11) * 0.5 - 2.0, f64::from(k % 5) - 2.0);
+            let found = (nearest(corners, p) - p).length();
+            let grid = (0..=100).flat_map(|i| (0..=100 - i).map(move |j| (f64::from(i) / 100.0, f64::from(j) / 100.0)));
+            let least = grid.map(|(s, t)| (a + (b - a) * s + (c - a) * t - p).length()).fold(f64::INFINITY, f64::min);
+            assert!(found <= least + 1e-12 && found > least - 0.02, "{found}, {least}");
+        }
+    }
+}
