@@ -94,21 +94,32 @@ impl<'a> Certifier<'a> {
         if complete && candidates.is_empty() {
             return Certificate::Lit;
         }
-        merge(candidates);
         let is_ball = matches!(lamp.form, Form::Ball);
         if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
             return Certificate::Unknown;
         }
+        if !complete {
+            return if any_covers(candidates, shaft) { Certificate::Dark } else { Certificate::Unknown };
+        }
+        merge(candidates);
         if candidates.iter().any(|candidate| candidate.covers(shaft)) {
             return Certificate::Dark;
         }
-        if !complete || candidates.len() > MOST {
+        if candidates.len() > MOST {
             return Certificate::Unknown;
         }
         blockers.clear();
         blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
         Certificate::Blockers(blockers)
     }
+}
+
+/// Does a candidate cover the light, alone or merged with another? Only those between the centres need to be tried.
+fn any_covers(candidates: &[Candidate], shaft: &Shaft) -> bool {
+    candidates.iter().filter(|candidate| candidate.is_central(shaft)).any(|candidate| {
+        let merged = || candidates.iter().filter_map(|other| candidate.merged(other));
+        candidate.covers(shaft) || merged().any(|merged| merged.covers(shaft))
+    })
 }
 
 /// Merges pairs of triangles.

@@ -88,6 +88,18 @@ impl Candidate {
         let convex = turns.iter().all(|&x| x > 0.0) || turns.iter().all(|&x| x < 0.0);
         (flat && convex).then_some(Self::Polygon(corners, 4, exact))
     }
+    /// Is the primitive between the centres of patch and light?
+    pub(super) fn is_central(&self, shaft: &Shaft) -> bool {
+        match self {
+            Self::Polygon(_, count, corners) => {
+                let (p, y) = (shaft.patch.center, shaft.light.center);
+                let volume = |i: usize| (corners[i] - p).cross(corners[(i + 1) % count] - p).dot(y - p);
+                let is_right = (0..*count).all(|i| volume(i) >= 0.0);
+                (is_right || (0..*count).all(|i| volume(i) <= 0.0)) && is_between(&corners[..*count], shaft)
+            }
+            Self::Ball(..) => true,
+        }
+    }
     /// Is every segment of the shaft known to meet the primitive?
     pub(super) fn covers(&self, shaft: &Shaft) -> bool {
         match self {
