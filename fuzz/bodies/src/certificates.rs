@@ -69,7 +69,8 @@ fn meets_triangle(p: V, y: V, corners: [V; 3]) -> [bool; 2] {
     let normal = cross(e1, e2);
     let slope = -dot(normal, d);
     let size = |v: V| dot(v, v).sqrt();
-    if !(slope.abs() > 1e-7 * size(normal) * size(d)) {
+    let crosses = slope.abs() > 1e-7 * size(normal) * size(d);
+    if !crosses {
         return [false; 2];
     }
     let moment = cross(s, d);

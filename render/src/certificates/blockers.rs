@@ -127,7 +127,8 @@ impl Candidate {
     pub(super) fn touches(&self, ball: &Hull, epsilon: f64) -> bool {
         match self {
             Self::Ball(center, radius) => {
-                !((wide(*center) - ball.center).length() > f64::from(*radius) + ball.extent + epsilon)
+                let apart = (wide(*center) - ball.center).length() > f64::from(*radius) + ball.extent + epsilon;
+                !apart
             }
             Self::Polygon(_, count, corners) => {
                 let [a, b, c, d] = *corners;

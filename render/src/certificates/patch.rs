@@ -166,7 +166,8 @@ impl Patch {
                 let height = normal.dot(pyramid.origin - a);
                 let distance = corners.iter().map(|&p| (p - pyramid.origin).length()).fold(0.0, f64::max);
                 let steepness = height.abs() / distance;
-                if !(steepness > tilt) {
+                let side_known = steepness > tilt;
+                if !side_known {
                     return None;
                 }
                 if height < 0.0 {
@@ -198,7 +199,8 @@ impl Patch {
             Viewer::Pixels(pyramid) => {
                 let distance = (pyramid.origin - center).length();
                 let error = (distance + radius + reach + self::reach(&[pyramid.origin])) / 1_048_576.0;
-                if !(distance > radius + 16.0 * error) {
+                let outside = distance > radius + 16.0 * error;
+                if !outside {
                     return None;
                 }
                 // the corners of the clipped box are on its faces, apart from the pinhole
@@ -222,7 +224,7 @@ impl Patch {
                 if self::reach(&[relative]) <= radius * (1.0 + 1e-9) + 32.0 * error {
                     corners.iter().for_each(|&p| add(p));
                 }
-                if !(bounds[0][0] <= bounds[1][0]) {
+                if bounds[0][0] > bounds[1][0] {
                     return None;
                 }
                 corners =
