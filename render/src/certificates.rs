@@ -1,27 +1,27 @@
 //! What geometry alone tells about the light that reaches part of a surface, without rays.
 //!
 //! A [`Patch`] bounds the shading points of a rectangle of pixels on one primitive. A [`Certifier`] searches the tree for what may meet
-//! the shaft between a patch and a light: the segments from any shading point to any point of the light that is above its horizon. Bounds
+//! the corridor between a patch and a light: the segments from any shading point to any point of the light that is above its horizon. Bounds
 //! are computed in double precision, and are wider than the rounding of shading points, of points on lights and of directions.
 //!
-//! A shaft is an intersection of half-spaces. Any half-space that contains patch and light contains the shaft, so that their choice
+//! A corridor is an intersection of half-spaces. Any half-space that contains patch and light contains the corridor, so that their choice
 //! affects only how narrow it is.
 
 mod blockers;
+mod corridor;
 mod hull;
 mod patch;
-mod shaft;
 
 use crate::bvh::{Region, SHAPE};
 use crate::surfaces::Surfaces;
 pub use blockers::Blocker;
 use blockers::Candidate;
+use corridor::{Corridor, Facing, Form, Lamp};
 pub use patch::{Patch, Pyramid, Viewer};
-use shaft::{Facing, Form, Lamp, Shaft};
 
 /// Greatest number of blockers in a certificate.
 pub const MOST: usize = 16;
-/// Greatest number of primitives that may meet a shaft, before triangles are merged.
+/// Greatest number of primitives that may meet a corridor, before triangles are merged.
 const CANDIDATES: usize = 32;
 /// Greatest number of nodes that a search visits.
 const NODES: usize = 160;
@@ -46,7 +46,7 @@ pub struct Certifier<'a> {
     surfaces: &'a Surfaces,
     lamps: Vec<Option<Lamp>>,
     region: Region,
-    shaft: Shaft,
+    corridor: Corridor,
     stack: Vec<u32>,
     candidates: Vec<Candidate>,
     blockers: Vec<Blocker>,
@@ -60,7 +60,7 @@ impl<'a> Certifier<'a> {
             surfaces,
             lamps: lights.into_iter().map(lamp).collect(),
             region: Region::new(surfaces.bvh.reach()),
-            shaft: Shaft::default(),
+            corridor: Corridor::default(),
             stack: Vec::with_capacity(256),
             candidates: Vec::with_capacity(CANDIDATES),
             blockers: Vec::with_capacity(MOST),
@@ -73,8 +73,8 @@ impl<'a> Certifier<'a> {
             // a convex light is below the horizon of each of its own points
             return Certificate::Dark;
         }
-        let Self { surfaces, region, shaft, stack, candidates, blockers, .. } = self;
-        match shaft.set(patch, lamp, surfaces.bvh.reach(), region) {
+        let Self { surfaces, region, corridor, stack, candidates, blockers, .. } = self;
+        match corridor.set(patch, lamp, surfaces.bvh.reach(), region) {
             Facing::Towards => {}
             Facing::Away => return Certificate::Dark,
             Facing::Unknown => return Certificate::Unknown,
@@ -85,7 +85,7 @@ impl<'a> Certifier<'a> {
                 return true;
             }
             let candidate = Candidate::new(surfaces, place);
-            if candidate.misses(shaft) {
+            if candidate.misses(corridor) {
                 return true;
             }
             candidates.push(candidate);
@@ -95,30 +95,30 @@ impl<'a> Certifier<'a> {
             return Certificate::Lit;
         }
         let is_ball = matches!(lamp.form, Form::Ball);
-        if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
+        if is_ball && candidates.iter().any(|candidate| candidate.touches(&corridor.light, corridor.epsilon)) {
             return Certificate::Unknown;
         }
         if !complete {
-            return if any_covers(candidates, shaft) { Certificate::Dark } else { Certificate::Unknown };
+            return if any_covers(candidates, corridor) { Certificate::Dark } else { Certificate::Unknown };
         }
         merge(candidates);
-        if candidates.iter().any(|candidate| candidate.covers(shaft)) {
+        if candidates.iter().any(|candidate| candidate.covers(corridor)) {
             return Certificate::Dark;
         }
         if candidates.len() > MOST {
             return Certificate::Unknown;
         }
         blockers.clear();
-        blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
+        blockers.extend(candidates.iter().map(|candidate| candidate.blocker(corridor)));
         Certificate::Blockers(blockers)
     }
 }
 
 /// Does a candidate cover the light, alone or merged with another? Only those between the centres need to be tried.
-fn any_covers(candidates: &[Candidate], shaft: &Shaft) -> bool {
-    candidates.iter().filter(|candidate| candidate.is_central(shaft)).any(|candidate| {
+fn any_covers(candidates: &[Candidate], corridor: &Corridor) -> bool {
+    candidates.iter().filter(|candidate| candidate.is_central(corridor)).any(|candidate| {
         let merged = || candidates.iter().filter_map(|other| candidate.merged(other));
-        candidate.covers(shaft) || merged().any(|merged| merged.covers(shaft))
+        candidate.covers(corridor) || merged().any(|merged| merged.covers(corridor))
     })
 }
 
