@@ -116,17 +116,17 @@ fn may_occlude(segment: [V; 2], blocker: &Blocker) -> bool {
         }
 }
 
-/// What the shafts of a test have shown.
+/// What the corridors of a test have shown.
 #[derive(Debug, Default)]
 struct Counts {
-    shafts: u64,
+    corridors: u64,
     lit: u64,
     dark: u64,
     blockers: u64,
     unknown: u64,
     pairs: u64,
     visible: u64,
-    /// Occluded pairs of dark shafts.
+    /// Occluded pairs of dark corridors.
     covered: u64,
     unclear: u64,
     /// Shadow rays in single precision that differ from a certificate.
@@ -528,7 +528,7 @@ impl World {
         random: &mut Random,
         c: &mut Counts,
     ) {
-        c.shafts += 1;
+        c.corridors += 1;
         let shape = &self.scene.shapes[light as usize];
         *match certificate {
             Certificate::Lit => &mut c.lit,
@@ -618,7 +618,7 @@ const EDGES: usize = 6;
 fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
     let mut c = Counts { height: f64::INFINITY, ..Counts::default() };
     for round in 0..rounds {
-        let mut random = Random { index: seed.wrapping_add(round.wrapping_mul(0x0080_0000)) };
+        let mut random = Random { index: seed.wrapping_add(round.wrapping_mul(0x0700_0000)) };
         for (name, triangles, shapes) in scenes(&mut random) {
             for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
                 let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
@@ -652,24 +652,24 @@ fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
 #[test]
 fn certificates_agree_with_brute_force() {
     let c = campaign(100, 1, 1);
-    assert!(c.lit * 10 > c.shafts && c.dark * 20 > c.shafts && c.blockers * 20 > c.shafts, "{c:?}");
+    assert!(c.lit * 10 > c.corridors && c.dark * 20 > c.corridors && c.blockers * 20 > c.corridors, "{c:?}");
     assert!(c.covered * 50 > c.pairs, "{c:?}");
     assert!(c.unclear * 200 < c.pairs, "{c:?}");
     assert!(c.off < 0.5 && c.height > 2.0, "{c:?}");
 }
 
 #[test]
-#[ignore = "ten million shafts"]
+#[ignore = "ten million patches and lights: ten minutes"]
 fn certificates_agree_with_brute_force_at_length() {
-    let c = campaign(450, 50, 1_000_000);
-    assert!(c.shafts >= 10_000_000, "{c:?}");
+    let c = campaign(450, 36, 1_000_000);
+    assert!(c.corridors >= 10_000_000 && c.off < 0.5 && c.height > 1.5, "{c:?}");
 }
 
-/// Time per patch and per certificate of the patches of single pixels, by outcome.
+/// Median times of certificates, by outcome.
 #[test]
 #[ignore = "measures time"]
 fn time_per_certificate() {
-    for name in ["quads", "terrain", "cornell-box", "plates"] {
+    for name in ["quads", "terrain"] {
         let scene = etendue_render::scene::load(name).unwrap();
         let surfaces = Surfaces::new(&scene).unwrap();
         let mut certifier = Certifier::new(&surfaces, surfaces.light_shapes());
@@ -700,7 +700,7 @@ fn time_per_certificate() {
                 patches.len(),
                 places.len()
             );
-            let mut outcomes = [(0_u64, 0.0, 0.0_f64); 4];
+            let mut outcomes = [const { Vec::new() }; 4];
             for light in 0..lights {
                 for patch in &patches {
                     let start = std::time::Instant::now();
@@ -710,13 +710,13 @@ fn time_per_certificate() {
                         Certificate::Blockers(_) => 2,
                         Certificate::Unknown => 3,
                     };
-                    let time = start.elapsed().as_secs_f64() * 1e6;
-                    let entry = &mut outcomes[outcome];
-                    *entry = (entry.0 + 1, entry.1 + time, entry.2.max(time));
+                    outcomes[outcome].push(start.elapsed().as_secs_f64() * 1e6);
                 }
             }
-            for (outcome, (count, time, most)) in ["lit", "dark", "blockers", "unknown"].iter().zip(outcomes) {
-                println!("    {outcome:8} {count:7}, {:.2} µs each, {most:.0} µs at most", time / count as f64);
+            for (outcome, mut times) in ["lit", "dark", "blockers", "unknown"].iter().zip(outcomes) {
+                times.sort_by(f64::total_cmp);
+                let at = |share: f64| times.get((times.len() as f64 * share) as usize).unwrap_or(&0.0);
+                println!("    {outcome:8} {:7}, {:.2} µs, 90 % below {:.2} µs", times.len(), at(0.5), at(0.9));
             }
         }
     }

@@ -69,7 +69,8 @@ fn meets_triangle(p: V, y: V, corners: [V; 3]) -> [bool; 2] {
     let normal = cross(e1, e2);
     let slope = -dot(normal, d);
     let size = |v: V| dot(v, v).sqrt();
-    if !(slope.abs() > 1e-7 * size(normal) * size(d)) {
+    let crosses = slope.abs() > 1e-7 * size(normal) * size(d);
+    if !crosses {
         return [false; 2];
     }
     let moment = cross(s, d);
@@ -134,7 +135,7 @@ fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettin
 pub fn certificates(bytes: &[u8]) {
     let mut input = Input { bytes: bytes.iter(), scale: 1.0, shift: 0.0 };
     let kind = input.below(16);
-    input.scale = [1.0, 1e-6, 1e6, 1.0, 1e-30, 1e30, 1.0, 0.01][kind % 8];
+    input.scale = [1.0, 1e-6, 1e6, 1.0, 1e-30, 1e15, 1.0, 0.01][kind % 8];
     input.shift = [0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 0.0][kind % 8];
     let two_sided = input.below(2) == 0;
     let light =

@@ -56,5 +56,9 @@ fn certificates() {
 fn many_files() {
     damaged("scene", files::scene, 500_000);
     damaged("image", files::image, 500_000);
+}
+#[test]
+#[ignore = "ten million small scenes: some minutes"]
+fn many_certificates() {
     damaged("certificates", files::certificates, 2_000_000);
 }

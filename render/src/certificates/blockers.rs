@@ -1,7 +1,7 @@
 //! Primitives that may occlude a light.
 
-use super::hull::{Hull, V64, reach, unit, wide};
-use super::shaft::{SPARED, Shaft};
+use super::corridor::{Corridor, SPARED};
+use super::hull::{Hull, V64, magnitude, unit, wide};
 use crate::bvh::SHAPE;
 use crate::scene::Geometry;
 use crate::surfaces::Surfaces;
@@ -59,13 +59,13 @@ impl Candidate {
             }
         }
     }
-    /// Is the primitive known not to meet any segment of the shaft?
-    pub(super) fn misses(&self, shaft: &Shaft) -> bool {
+    /// Is the primitive known not to meet any segment of the corridor?
+    pub(super) fn misses(&self, corridor: &Corridor) -> bool {
         match self {
-            Self::Ball(center, radius) => shaft.misses(&[wide(*center)], f64::from(*radius)),
+            Self::Ball(center, radius) => corridor.misses(&[wide(*center)], f64::from(*radius)),
             Self::Polygon(_, count, corners) => {
                 let corners = &corners[..*count];
-                shaft.misses(corners, 0.0) || is_on_one_side(corners, shaft)
+                corridor.misses(corners, 0.0) || is_on_one_side(corners, corridor)
             }
         }
     }
@@ -84,32 +84,47 @@ impl Candidate {
         let exact = corners.map(wide);
         let [a, b, c, d] = exact;
         let normal = unit((c - d).cross(a - d));
-        let flat = normal.dot(b - a).abs() <= 4.0 * reach(&exact) * f64::from(f32::EPSILON);
+        let flat = normal.dot(b - a).abs() <= 4.0 * magnitude(&exact) * f64::from(f32::EPSILON);
         let turns = |p: V64, q: V64, r: V64| normal.dot((q - p).cross(r - q));
         let turns = [turns(a, b, c), turns(b, c, d), turns(c, d, a), turns(d, a, b)];
         let convex = turns.iter().all(|&x| x > 0.0) || turns.iter().all(|&x| x < 0.0);
         (flat && convex).then_some(Self::Polygon(corners, 4, exact))
     }
-    /// Is every segment of the shaft known to meet the primitive?
-    pub(super) fn covers(&self, shaft: &Shaft) -> bool {
+    /// Is the primitive between the centres of patch and light?
+    pub(super) fn is_central(&self, corridor: &Corridor) -> bool {
+        match self {
+            Self::Polygon(_, count, corners) => {
+                let (p, y) = (corridor.patch.center, corridor.light.center);
+                let volume = |i: usize| (corners[i] - p).cross(corners[(i + 1) % count] - p).dot(y - p);
+                let is_right = (0..*count).all(|i| volume(i) >= 0.0);
+                (is_right || (0..*count).all(|i| volume(i) <= 0.0)) && is_between(&corners[..*count], corridor)
+            }
+            Self::Ball(..) => true,
+        }
+    }
+    /// Is every segment of the corridor known to meet the primitive?
+    pub(super) fn covers(&self, corridor: &Corridor) -> bool {
         match self {
             // A line that passes inside of the outer edges of two triangles meets one of them, and a segment from one side of the slab to
             // the other meets whatever its line meets inside the slab. The triangles need not have the same plane.
             Self::Polygon(_, count, corners) => {
-                is_between(&corners[..*count], shaft) && is_inside(&corners[..*count], shaft)
+                is_between(&corners[..*count], corridor) && is_inside(&corners[..*count], corridor)
             }
             Self::Ball(center, radius) => {
                 let (center, radius) = (wide(*center), f64::from(*radius));
                 // A segment that ends in the ball might not meet its surface.
-                let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + shaft.epsilon;
-                let axis = unit(shaft.light.center - shaft.patch.center);
+                let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + corridor.epsilon;
+                let axis = unit(corridor.light.center - corridor.patch.center);
                 let helper = if axis.x.abs() < 0.6 { V64::new(1.0, 0.0, 0.0) } else { V64::new(0.0, 1.0, 0.0) };
                 let s = unit(axis.cross(helper)) * (radius * (1.0 - 1e-9));
                 let t = axis.cross(s);
                 let half = (s + t) * std::f64::consts::FRAC_1_SQRT_2;
                 let other = (t + -s) * std::f64::consts::FRAC_1_SQRT_2;
                 let octagon = [s, half, t, other, -s, -half, -t, -other].map(|v| center + v);
-                apart(&shaft.patch) && apart(&shaft.light) && is_between(&octagon, shaft) && is_inside(&octagon, shaft)
+                apart(&corridor.patch)
+                    && apart(&corridor.light)
+                    && is_between(&octagon, corridor)
+                    && is_inside(&octagon, corridor)
             }
         }
     }
@@ -117,7 +132,8 @@ impl Candidate {
     pub(super) fn touches(&self, ball: &Hull, epsilon: f64) -> bool {
         match self {
             Self::Ball(center, radius) => {
-                !((wide(*center) - ball.center).length() > f64::from(*radius) + ball.extent + epsilon)
+                let apart = (wide(*center) - ball.center).length() > f64::from(*radius) + ball.extent + epsilon;
+                !apart
             }
             Self::Polygon(_, count, corners) => {
                 let [a, b, c, d] = *corners;
@@ -126,14 +142,14 @@ impl Candidate {
             }
         }
     }
-    pub(super) fn blocker(&self, shaft: &Shaft) -> Blocker {
+    pub(super) fn blocker(&self, corridor: &Corridor) -> Blocker {
         match *self {
             Self::Polygon(corners, count, exact) => {
-                let crosses_light = crosses(&exact[..count], 0.0, shaft);
+                let crosses_light = crosses(&exact[..count], 0.0, corridor);
                 Blocker::Polygon { corners, count, crosses_light }
             }
             Self::Ball(center, radius) => {
-                let crosses_light = crosses(&[wide(center)], f64::from(radius), shaft);
+                let crosses_light = crosses(&[wide(center)], f64::from(radius), corridor);
                 Blocker::Sphere { center, radius, crosses_light }
             }
         }
@@ -141,31 +157,31 @@ impl Candidate {
 }
 
 /// Are patch and light on the same side of the plane of a polygon?
-fn is_on_one_side(corners: &[V64], shaft: &Shaft) -> bool {
+fn is_on_one_side(corners: &[V64], corridor: &Corridor) -> bool {
     let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
     let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
     for &p in corners {
         (least, most) = (least.min(normal.dot(p)), most.max(normal.dot(p)));
     }
-    let margin = 2.0 * shaft.epsilon;
+    let margin = 2.0 * corridor.epsilon;
     let above = |hull: &Hull| hull.range(normal)[0] - hull.radius > most + margin;
     let below = |hull: &Hull| hull.range(normal)[1] + hull.radius < least - margin;
-    above(&shaft.patch) && above(&shaft.light) || below(&shaft.patch) && below(&shaft.light)
+    above(&corridor.patch) && above(&corridor.light) || below(&corridor.patch) && below(&corridor.light)
 }
 
 /// Is a slab that contains the polygon between patch and light, and no part of it within the spared part of a segment?
-fn is_between(corners: &[V64], shaft: &Shaft) -> bool {
+fn is_between(corners: &[V64], corridor: &Corridor) -> bool {
     let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
     let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
     for &p in corners {
         (least, most) = (least.min(normal.dot(p)), most.max(normal.dot(p)));
     }
     let grown = |hull: &Hull| {
-        let margin = hull.radius + 2.0 * shaft.epsilon;
+        let margin = hull.radius + 2.0 * corridor.epsilon;
         let [least, most] = hull.range(normal);
         [least - margin, most + margin]
     };
-    let (p, y) = (grown(&shaft.patch), grown(&shaft.light));
+    let (p, y) = (grown(&corridor.patch), grown(&corridor.light));
     // a segment from above reaches the slab's lower side before it is spared
     let above =
         |p: [f64; 2], y: [f64; 2], [least, most]: [f64; 2]| p[0] > most && least - y[1] > 2.0 * SPARED * (p[1] - least);
@@ -178,20 +194,20 @@ fn is_between(corners: &[V64], shaft: &Shaft) -> bool {
 /// The volume f(p, y) = (a−p) × (b−p) · (y−p) tells on which side of the edge from a to b the line from p to y passes. It is affine in p
 /// for each y, and in y for each p. Where it is positive for all pairs of corners, it is thus positive for all pairs of points of the two
 /// hulls. Displacements of p by m and of y by r change it by at most |b−a| (m |y−a| + r |p−a| + m r).
-fn is_inside(corners: &[V64], shaft: &Shaft) -> bool {
-    let (m, r) = (shaft.patch.radius, shaft.light.radius);
+fn is_inside(corners: &[V64], corridor: &Corridor) -> bool {
+    let (m, r) = (corridor.patch.radius, corridor.light.radius);
     let side = |sign: f64| {
         (0..corners.len()).all(|i| {
             let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
             let edge = b - a;
             let length = edge.length();
-            shaft.patch.corners().iter().all(|&p| {
+            corridor.patch.corners().iter().all(|&p| {
                 let normal = (p - a).cross(edge) * sign;
                 let (far, across) = ((p - a).length(), normal.length());
-                shaft.light.corners().iter().all(|&y| {
+                corridor.light.corners().iter().all(|&y| {
                     let to = y - a;
                     let lever = edge.cross(to).length();
-                    let rounding = shaft.epsilon * length * (far + to.length());
+                    let rounding = corridor.epsilon * length * (far + to.length());
                     normal.dot(to) > m * lever + r * across + length * m * r + rounding
                 })
             })
@@ -201,18 +217,18 @@ fn is_inside(corners: &[V64], shaft: &Shaft) -> bool {
 }
 
 /// May part of a hull of points, inflated by `radius`, lie behind the light as seen from some point of the patch?
-pub(super) fn crosses(points: &[V64], radius: f64, shaft: &Shaft) -> bool {
-    if let Some((normal, offset, height)) = shaft.end {
-        return !points.iter().all(|&x| normal.dot(x) - radius - offset > height.max(0.0) + shaft.epsilon);
+pub(super) fn crosses(points: &[V64], radius: f64, corridor: &Corridor) -> bool {
+    if let Some((normal, offset, height)) = corridor.end {
+        return !points.iter().all(|&x| normal.dot(x) - radius - offset > height.max(0.0) + corridor.epsilon);
     }
     // x is in front of the polar plane of p if (x−c)·(p−c) > r²; this is affine in x and in p.
-    let (center, r) = (shaft.light.center, shaft.light.radius);
-    !shaft.patch.corners().iter().all(|&p| {
+    let (center, r) = (corridor.light.center, corridor.light.radius);
+    !corridor.patch.corners().iter().all(|&p| {
         let to = p - center;
         points.iter().all(|&x| {
             let arm = x - center;
-            let margin = radius * (to.length() + shaft.patch.radius) + arm.length() * shaft.patch.radius;
-            arm.dot(to) - margin > r * r * (1.0 + 1e-9) + shaft.epsilon * (arm.length() + to.length())
+            let margin = radius * (to.length() + corridor.patch.radius) + arm.length() * corridor.patch.radius;
+            arm.dot(to) - margin > r * r * (1.0 + 1e-9) + corridor.epsilon * (arm.length() + to.length())
         })
     })
 }
@@ -234,4 +250,64 @@ fn nearest([a, b, c]: [V64; 3], p: V64) -> V64 {
     let all = [on_edge(a, b), on_edge(b, c), on_edge(c, a)];
     let distance = |q: &V64| (*q - p).length();
     all.into_iter().min_by(|x, y| distance(x).total_cmp(&distance(y))).expect("three points")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn triangle(corners: [[f32; 3]; 3]) -> Candidate {
+        let [a, b, c] = corners;
+        let corners = [a, b, c, c];
+        Candidate::Polygon(corners, 3, corners.map(wide))
+    }
+
+    /// Two triangles of a convex quadrilateral are merged in any order of their corners; nothing else is.
+    #[test]
+    fn coplanar_triangles_that_share_an_edge_are_merged() {
+        let place = |x: f32, y: f32| [x, 0.25 * x + 0.5 * y + 3.0, y];
+        let (a, b, c, d) = (place(0.0, 0.0), place(1.0, 0.0), place(1.5, 1.0), place(0.0, 2.0));
+        for turn in 0..3 {
+            for flip in [false, true] {
+                let mut other = [a, c, d];
+                other.rotate_left(turn);
+                if flip {
+                    other.swap(0, 1);
+                }
+                let Some(Candidate::Polygon(corners, 4, _)) = triangle([a, b, c]).merged(&triangle(other)) else {
+                    panic!("{turn}, {flip}: not merged");
+                };
+                let start = corners.iter().position(|&v| v == a).unwrap();
+                let around = [1, 2, 3].map(|k| corners[(start + k) % 4]);
+                assert!(around == [b, c, d] || around == [d, c, b], "{corners:?}");
+            }
+        }
+        let one = triangle([a, b, c]);
+        let not = [
+            ("the same triangle", [a, b, c]),
+            ("another plane", [a, c, [0.0, 3.0, 2.0]]),
+            ("one common corner", [a, d, place(-1.0, 1.0)]),
+            ("on the same side of the edge", [a, c, place(1.0, 0.1)]),
+            ("a reflex corner", [a, c, place(-4.0, -0.2)]),
+            ("a degenerate triangle", [a, a, c]),
+        ];
+        for (what, corners) in not {
+            assert!(one.merged(&triangle(corners)).is_none(), "{what}");
+            assert!(triangle(corners).merged(&one).is_none(), "{what}");
+        }
+    }
+
+    /// The nearest point of a triangle, against points of a fine grid.
+    #[test]
+    fn nearest_points_are_nearest() {
+        let corners = [[0.0, 0.0, 0.0], [2.0, 0.1, 0.0], [0.3, 1.0, 0.5]].map(|v: [f32; 3]| wide(v));
+        let [a, b, c] = corners;
+        for k in 0..200 {
+            let p = V64::new(f64::from(k % 7) - 3.0, f64::from(k % 11) * 0.5 - 2.0, f64::from(k % 5) - 2.0);
+            let found = (nearest(corners, p) - p).length();
+            let grid = (0..=100).flat_map(|i| (0..=100 - i).map(move |j| (f64::from(i) / 100.0, f64::from(j) / 100.0)));
+            let least = grid.map(|(s, t)| (a + (b - a) * s + (c - a) * t - p).length()).fold(f64::INFINITY, f64::min);
+            assert!(found <= least + 1e-12 && found > least - 0.02, "{found}, {least}");
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! Closed convex parts of meshes, such as boxes: each is one blocker instead of many triangles.
 
 use super::blockers::crosses;
-use super::hull::{V64, reach, unit, wide};
-use super::shaft::{SPARED, Shaft};
+use super::corridor::{Corridor, SPARED};
+use super::hull::{V64, unit, wide};
 use crate::bvh::{Bvh, NOTHING};
 use etendue::occlusion::{Edge, Polyhedron};
 use std::collections::HashMap;
@@ -76,25 +76,25 @@ impl Bodies {
         found
     }
     /// Index of the body to which a primitive belongs.
-    pub(super) fn of(&self, place: u32) -> Option<u32> {
+    pub fn of(&self, place: u32) -> Option<u32> {
         self.of_places.get(place as usize).copied().filter(|&body| body != NOTHING)
     }
-    /// Can the body stand for its triangles in a shaft? From inside it hides every light that is outside, and all of it must lie before the
+    /// Can the body stand for its triangles in a corridor? From inside it hides every light that is outside, and all of it must lie before the
     /// light.
-    pub(super) fn serves(&self, body: u32, shaft: &Shaft) -> bool {
+    pub(super) fn serves(&self, body: u32, corridor: &Corridor) -> bool {
         let body = &self.bodies[body as usize];
-        let margin = shaft.light.radius + 2.0 * shaft.epsilon;
-        let is_outside = |&(n, offset): &(V64, f64)| shaft.light.range(n)[0] - margin > offset;
-        body.planes.iter().any(is_outside) && !crosses(&body.corners, 0.0, shaft)
+        let margin = corridor.light.radius + 2.0 * corridor.epsilon;
+        let is_outside = |&(n, offset): &(V64, f64)| corridor.light.range(n)[0] - margin > offset;
+        body.planes.iter().any(is_outside) && !crosses(&body.corners, 0.0, corridor)
     }
-    /// Is every segment of the shaft known to meet the body?
+    /// Is every segment of the corridor known to meet the body?
     ///
     /// The points from which a convex body hides a point form a convex set, and so do the points that it hides. If it hides all corners of
     /// one hull from all corners of the other, it therefore hides all of one from all of the other. Here it is smaller by the inflation of
     /// the hulls.
-    pub(super) fn covers(&self, body: u32, shaft: &Shaft) -> bool {
+    pub(super) fn covers(&self, body: u32, corridor: &Corridor) -> bool {
         let planes = &self.bodies[body as usize].planes;
-        let margin = shaft.patch.radius.max(shaft.light.radius) + 4.0 * shaft.epsilon;
+        let margin = corridor.patch.radius.max(corridor.light.radius) + 4.0 * corridor.epsilon;
         let meets = |p: V64, y: V64| {
             let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
             for &(n, offset) in planes {
@@ -110,7 +110,7 @@ impl Bodies {
             }
             enters + 1e-9 < leaves && leaves < 1.0 - 2.0 * SPARED
         };
-        shaft.patch.corners().iter().all(|&p| shaft.light.corners().iter().all(|&y| meets(p, y)))
+        corridor.patch.corners().iter().all(|&p| corridor.light.corners().iter().all(|&y| meets(p, y)))
     }
     /// The body as a blocker.
     pub fn polyhedron(&self, body: u32) -> Polyhedron<'_, f32> {
@@ -142,7 +142,8 @@ impl Body {
     fn new(triangles: &[[[f32; 3]; 3]]) -> Option<Self> {
         let corners: Vec<V64> = triangles.iter().flatten().map(|&corner| wide(corner)).collect();
         let center = corners.iter().fold(V64::default(), |sum, &p| sum + p) * (1.0 / corners.len() as f64);
-        let tolerance = 4.0 * reach(&corners) * f64::from(f32::EPSILON);
+        let reach = corners.iter().fold(0.0_f64, |most, p| most.max(p.x.abs()).max(p.y.abs()).max(p.z.abs()));
+        let tolerance = 4.0 * reach * f64::from(f32::EPSILON);
         let mut planes: Vec<(V64, f64)> = Vec::new();
         let mut faces = Vec::new();
         let mut face_of = Vec::new();

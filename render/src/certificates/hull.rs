@@ -14,7 +14,7 @@ pub(super) fn wide(v: [f32; 3]) -> V64 {
 }
 
 /// Greatest magnitude of a coordinate.
-pub(super) fn reach(points: &[V64]) -> f64 {
+pub(super) fn magnitude(points: &[V64]) -> f64 {
     points.iter().fold(0.0, |m: f64, p| m.max(p.x.abs()).max(p.y.abs()).max(p.z.abs()))
 }
 

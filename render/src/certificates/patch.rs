@@ -1,6 +1,6 @@
 //! Parts of surfaces, as bounds of the shading points of rays through a rectangle of pixels.
 
-use super::hull::{CORNERS, Hull, V64, reach, unit, wide};
+use super::hull::{CORNERS, Hull, V64, magnitude, unit, wide};
 use crate::bvh::SHAPE;
 use crate::camera::Pinhole;
 use crate::scene::Geometry;
@@ -37,6 +37,9 @@ impl Pyramid {
         Self { origin: origin.into(), normals }
     }
 }
+
+/// Twice the areas of triangles whose squares have full precision in single precision, so that there is a unit normal.
+const AREAS: std::ops::Range<f64> = 1e-15..1e18;
 
 /// From where a patch is seen.
 #[derive(Clone, Copy, Debug)]
@@ -124,7 +127,8 @@ impl Clipped {
 
 impl Patch {
     /// The part of a primitive that a viewer sees, regardless of occlusion. `place` is as in the hits of rays. `None` if there is no such
-    /// part, and for what is not supported: lights, spheres from inside, triangles seen edge-on, and slivers whose normal is inaccurate.
+    /// part, and for what is not supported: lights, spheres from inside, triangles seen edge-on, slivers whose normal is
+    /// inaccurate, and triangles so small or large that they have none in single precision.
     pub fn of(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Self> {
         if place & SHAPE == 0 {
             return Self::of_triangle(surfaces.bvh.corners(place), place, viewer);
@@ -141,14 +145,14 @@ impl Patch {
     fn of_triangle(c: [f32; 9], place: u32, viewer: Viewer<'_>) -> Option<Self> {
         let corners = [wide([c[0], c[1], c[2]]), wide([c[3], c[4], c[5]]), wide([c[6], c[7], c[8]])];
         let [a, b, c] = corners;
-        let reach = self::reach(&corners);
+        let reach = magnitude(&corners);
         let normal = (b - a).cross(c - a);
         let area = normal.length();
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
         // The edges are rounded by 2⁻²³ of the coordinates, and thus the normal by less than 2⁻²⁰ · reach · longest / area. Its own rounding
         // and that of the directions are less than 2⁻²¹.
         let tilt = (1.0 + reach * longest / area) / 524_288.0;
-        if !(area > 0.0 && tilt < TILT) {
+        if !(AREAS.contains(&area) && tilt < TILT) {
             return None;
         }
         let mut normal = normal * (1.0 / area);
@@ -160,7 +164,8 @@ impl Patch {
                 let height = normal.dot(pyramid.origin - a);
                 let distance = corners.iter().map(|&p| (p - pyramid.origin).length()).fold(0.0, f64::max);
                 let steepness = height.abs() / distance;
-                if !(steepness > tilt) {
+                let side_known = steepness > tilt;
+                if !side_known {
                     return None;
                 }
                 if height < 0.0 {
@@ -168,7 +173,7 @@ impl Patch {
                 }
                 // Corners as seen along the ray are rounded by e = 2⁻²⁰ of the distances involved. The edge functions and their sum then
                 // place the hit within 12 e times the greatest aspect ratio of the projected triangle.
-                let error = (distance + reach + self::reach(&[pyramid.origin])) / 1_048_576.0;
+                let error = (distance + reach + magnitude(&[pyramid.origin])) / 1_048_576.0;
                 let aspect = longest * longest / (area * steepness);
                 polygon = polygon.within(pyramid, 12.0 * error * (1.0 + aspect))?;
             }
@@ -181,6 +186,10 @@ impl Patch {
         Some(Self { place, hull: Hull::new(polygon.points(), OFF * reach), ground: Some(ground) })
     }
     fn of_sphere(center: V64, radius: f64, reach: f64, place: u32, viewer: Viewer<'_>) -> Option<Self> {
+        // squares have full precision, so that there is a unit normal
+        if !AREAS.contains(&radius) {
+            return None;
+        }
         let corner = |k: usize| {
             let side = |bit: usize| if k >> bit & 1 == 0 { -radius } else { radius };
             center + V64::new(side(0), side(1), side(2))
@@ -191,8 +200,9 @@ impl Patch {
             Viewer::Back => return None,
             Viewer::Pixels(pyramid) => {
                 let distance = (pyramid.origin - center).length();
-                let error = (distance + radius + reach + self::reach(&[pyramid.origin])) / 1_048_576.0;
-                if !(distance > radius + 16.0 * error) {
+                let error = (distance + radius + reach + magnitude(&[pyramid.origin])) / 1_048_576.0;
+                let outside = distance > radius + 16.0 * error;
+                if !outside {
                     return None;
                 }
                 // the corners of the clipped box are on its faces, apart from the pinhole
@@ -213,10 +223,10 @@ impl Patch {
                     polygon.points().iter().for_each(|&p| add(p));
                 }
                 let relative = pyramid.origin - center;
-                if self::reach(&[relative]) <= radius * (1.0 + 1e-9) + 32.0 * error {
+                if magnitude(&[relative]) <= radius * (1.0 + 1e-9) + 32.0 * error {
                     corners.iter().for_each(|&p| add(p));
                 }
-                if !(bounds[0][0] <= bounds[1][0]) {
+                if bounds[0][0] > bounds[1][0] {
                     return None;
                 }
                 corners =

@@ -1,6 +1,6 @@
 //! Half-spaces around all segments from a patch to a light.
 
-use super::hull::{Hull, V64, unit, wide};
+use super::hull::{Hull, V64, magnitude, unit, wide};
 use super::patch::Patch;
 use crate::bvh::Region;
 use crate::scene::{Geometry, Shape};
@@ -68,28 +68,28 @@ pub(super) enum Facing {
 
 /// All segments from a patch to a light, up to the fraction 1 − 2⁻¹⁷ of their length.
 #[derive(Debug)]
-pub(super) struct Shaft {
+pub(super) struct Corridor {
     pub(super) patch: Hull,
     /// Includes the rounding of points on it.
     pub(super) light: Hull,
     /// Bounds rounding in n·x for vectors of at most unit length and any point of the scene.
     pub(super) epsilon: f64,
-    /// Half-spaces n·x ≤ c that contain the shaft.
+    /// Half-spaces n·x ≤ c that contain the corridor.
     planes: Vec<(V64, f64)>,
     /// For a flat light, the unit normal on the side of the patch, n·x of the light and the least height over it that a segment reaches.
     pub(super) end: Option<(V64, f64, f64)>,
 }
 
-impl Shaft {
-    /// Computes the half-spaces. The shaft is valid only if the light is [`Facing::Towards`] the patch.
+impl Corridor {
+    /// Computes the half-spaces. The corridor is valid only if the light is [`Facing::Towards`] the patch.
     pub(super) fn set(&mut self, patch: &Patch, lamp: &Lamp, reach: f32, region: &mut Region) -> Facing {
-        let scale = super::hull::reach(patch.hull.corners()).max(super::hull::reach(lamp.hull.corners()));
+        let scale = magnitude(patch.hull.corners()).max(magnitude(lamp.hull.corners()));
         let scale = scale.max(f64::from(reach)).max(lamp.hull.radius);
         // squares and cubes of the numbers in between are finite and not subnormal, in both precisions
         if !(scale > 1e-25 && scale < 1e25) {
             return Facing::Unknown;
         }
-        let near = super::hull::reach(patch.hull.corners()).max(super::hull::reach(lamp.hull.corners()));
+        let near = magnitude(patch.hull.corners()).max(magnitude(lamp.hull.corners()));
         let rounded = (near + lamp.hull.radius) * ROUNDED;
         (self.patch, self.light) = (patch.hull, lamp.hull);
         self.light.inflate(rounded);
@@ -160,7 +160,7 @@ impl Shaft {
         self.planes.push((normal, limit));
         region.push([normal.x, normal.y, normal.z], limit);
     }
-    /// Adds the half-space with normal `n`, of at most about unit length, that touches the shaft.
+    /// Adds the half-space with normal `n`, of at most about unit length, that touches the corridor.
     fn support(&mut self, n: V64, region: &mut Region) {
         let limit = self.patch.support(n).max(self.light.support(n)) + self.epsilon;
         if limit.is_finite() {
@@ -219,13 +219,13 @@ impl Shaft {
             self.support(side * cos + axis * sin, region);
         }
     }
-    /// Is a hull of points, inflated by `radius`, known not to meet the shaft?
+    /// Is a hull of points, inflated by `radius`, known not to meet the corridor?
     pub(super) fn misses(&self, points: &[V64], radius: f64) -> bool {
         self.planes.iter().any(|&(n, limit)| points.iter().all(|&p| n.dot(p) - radius > limit))
     }
 }
 
-impl Default for Shaft {
+impl Default for Corridor {
     fn default() -> Self {
         let nothing = Hull::default();
         Self { patch: nothing, light: nothing, epsilon: 0.0, planes: Vec::with_capacity(40), end: None }
