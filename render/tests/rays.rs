@@ -122,6 +122,27 @@ fn identical_triangles_build() {
     assert_eq!(bvh.order()[hits[0].place.to_array()[0] as usize], 0);
 }
 
+/// Trees whose surface areas overflow are built all the same.
+#[test]
+fn huge_triangles_build() {
+    for scale in [1e15_f32, 1e17, 1e19, 1e20, 1e30, 3e38] {
+        for count in [9, 20, 30, 100, 40_000] {
+            let corner = |i: u32, k: u32| {
+                let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
+                [x, y, z].map(|x| x * scale)
+            };
+            let triangles: Vec<_> = (0..count).map(|i| [0, 1, 2].map(|k| corner(i, k))).collect();
+            let bvh = tree(&triangles);
+            let mut found: Vec<u32> = bvh.order().to_vec();
+            for (place, id) in (0..).zip(&found) {
+                assert_eq!(bvh.corners(place), triangles[*id as usize].concat()[..], "{scale}, {count}");
+            }
+            found.sort_unstable();
+            assert!((0..count).eq(found), "{scale}, {count}");
+        }
+    }
+}
+
 /// 60,000 triangles: a sheet, 20,000 coincident ones, and some that are distant and large.
 fn many() -> Vec<[[f32; 3]; 3]> {
     let point = |i: u32, k: u32| {

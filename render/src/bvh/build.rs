@@ -32,14 +32,14 @@ impl<T: Bounded> Boundable for Boxed<'_, T> {
     }
 }
 
-/// Builds a tree: with obvhs, or balanced if one leaf suffices or obvhs's tree would be deeper than `depth` (many primitives in one
-/// place).
+/// Builds a tree: with obvhs, or balanced if one leaf suffices, if obvhs's tree would be deeper than `depth` (many primitives in one
+/// place), or if SAH costs would overflow.
 pub(super) fn build<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Built {
     optimized(all, costs, depth).unwrap_or_else(|| balanced(all, costs.most))
 }
 
 fn optimized<T: Bounded>(all: &[T], costs: Costs, depth: usize) -> Option<Built> {
-    if all.len() <= costs.most || crowded(all) {
+    if all.len() <= costs.most || crowded(all) || overflows(all, costs) {
         return None;
     }
     let boxes: Vec<_> = all.iter().map(Boxed).collect();
@@ -67,6 +67,13 @@ fn crowded<T: Bounded>(all: &[T]) -> bool {
         *slot += 1;
         usize::from(*slot) == ALIKE
     })
+}
+
+/// Whether SAH costs might not be finite: no cost exceeds that of leaves and nodes as large as everything.
+fn overflows<T: Bounded>(all: &[T], costs: Costs) -> bool {
+    let [low, high] = all.iter().fold(EMPTY, |bounds, item| union(bounds, item.bounds()));
+    let most = Aabb::new(low.into(), high.into()).half_area() * (costs.leaf + costs.primitive + 1.0);
+    !(most * all.len() as f32).is_finite()
 }
 
 /// Least costs of representing a subtree by at most 1, 2, … 7 children of one node.
