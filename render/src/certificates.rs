@@ -99,7 +99,7 @@ impl<'a> Certifier<'a> {
             if let Some(body) = bodies.of(place) {
                 let known = met.iter().find(|met| met.0 == body).copied();
                 let (_, serves) = known.unwrap_or_else(|| {
-                    met.push((body, bodies.serves(body, corridor)));
+                    met.push((body, bodies.serves(body, patch.place, corridor)));
                     met[met.len() - 1]
                 });
                 if serves {

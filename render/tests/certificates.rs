@@ -1,15 +1,18 @@
 //! Compares certificates with visibility by brute force in double precision: random patches and lights in difficult scenes.
 
 mod meshes;
+mod solids;
 
+use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Mask, Real, Vec3, f32x8, u32x8};
 use etendue_render::bvh::{GROUP, Hits, NOTHING, SHAPE, Scratch};
 use etendue_render::camera::Pinhole;
-use etendue_render::certificates::{Blocker, Certificate, Certifier, Patch, Pyramid, Viewer};
+use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};
 use etendue_render::packet::M8;
 use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
 use etendue_render::surfaces::Surfaces;
 use meshes::{Random, Triangle, add, cube, meshes, sheet};
+use solids::solids;
 
 type V = [f64; 3];
 
@@ -108,12 +111,77 @@ fn meets_polygon(segment: [V; 2], corners: &[V], tolerance: f64) -> Meets {
 }
 
 /// May a blocker of a certificate occlude a segment? Its corners are rounded.
-fn may_occlude(segment: [V; 2], blocker: &Blocker) -> bool {
+fn may_occlude(segment: [V; 2], blocker: &Blocker, bodies: &Bodies) -> bool {
     Meets::No
         != match *blocker {
             Blocker::Polygon { corners, count, .. } => meets_polygon(segment, &corners.map(wide)[..count], 1e-7),
             Blocker::Sphere { center, radius, .. } => meets_sphere(segment, wide(center), f64::from(radius), 1e-7),
+            Blocker::Body(body) => meets_solid(segment, &bodies.polyhedron(body)),
         }
+}
+
+/// Depths of p below the faces of a body, and their rounding.
+fn depths(p: V, solid: &Polyhedron<'_, f32>) -> (f64, Vec<f64>) {
+    let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
+    let corners = solid.edges.iter().flat_map(|edge| edge.ends).map(exact);
+    let rounding = 3e-7 * corners.chain([p]).flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let depth = |[normal, on]: &[Vec3<f32>; 2]| dot(unit(exact(*normal)), sub(exact(*on), p));
+    (rounding, solid.faces.iter().map(depth).collect())
+}
+
+/// Does a body hide q from p, if it lies before q? It hides everything from inside, otherwise a cone whose sides pass its outline.
+fn meets_solid([p, q]: [V; 2], solid: &Polyhedron<'_, f32>) -> Meets {
+    let (rounding, depths) = depths(p, solid);
+    let least = depths.iter().fold(f64::INFINITY, |m, x| m.min(*x));
+    if least > -rounding {
+        return if least > rounding { Meets::Yes } else { Meets::Unclear };
+    }
+    let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
+    let (inwards, along) = (sub(exact(solid.center), p), unit(sub(q, p)));
+    let mut all = Meets::Yes;
+    for edge in solid.edges.iter().filter(|edge| (depths[edge.faces[0]] >= 0.0) != (depths[edge.faces[1]] >= 0.0)) {
+        let [a, b] = edge.ends.map(|end| sub(exact(end), p));
+        let plane = cross(a, b);
+        let side = dot(unit(plane), along) * dot(plane, inwards).signum();
+        let distance = length(plane) / length(sub(a, b));
+        match () {
+            () if side.abs() * distance > rounding => {
+                if side < 0.0 {
+                    return Meets::No;
+                }
+            }
+            () => all = Meets::Unclear,
+        }
+    }
+    all
+}
+
+fn corner(v: [f32; 3]) -> Vec3<f32> {
+    v.into()
+}
+
+/// A light as the library takes it, and the angle around it as seen from p.
+fn convex(geometry: &Geometry, p: V) -> (Convex<'static, f32>, f64) {
+    let around = |corners: &[Vec3<f32>]| {
+        let directions: Vec<V> = corners.iter().map(|v| unit(sub(wide([v.x, v.y, v.z]), p))).collect();
+        let next = directions.iter().cycle().skip(1);
+        directions.iter().zip(next).map(|(&a, &b)| length(cross(a, b)).atan2(dot(a, b))).sum()
+    };
+    match *geometry {
+        Geometry::Sphere { center, radius } => {
+            let sin = f64::from(radius) / length(sub(wide(center), p));
+            (Convex::Sphere { center: corner(center), radius }, std::f64::consts::TAU * sin)
+        }
+        Geometry::Triangle([a, b, c]) => {
+            let corners = [a, b, c, c].map(corner);
+            (Convex::Polygon { corners, count: 3 }, around(&corners[..3]))
+        }
+        Geometry::Parallelogram { p: a, u, v } => {
+            let (a, u, v) = (corner(a), corner(u), corner(v));
+            let corners = [a, a + u, a + u + v, a + v];
+            (Convex::Polygon { corners, count: 4 }, around(&corners))
+        }
+    }
 }
 
 /// What the corridors of a test have shown.
@@ -135,6 +203,20 @@ struct Counts {
     /// Shading points, and the greatest share of its margin by which one is outside of its patch.
     points: u64,
     off: f64,
+    /// Certificates that list bodies, and the pairs that were compared with those.
+    with_bodies: u64,
+    solid: u64,
+    solid_met: u64,
+    solid_unclear: u64,
+    /// Points from which a body hides as much of a light as its triangles do, or not all.
+    shadows: u64,
+    on_surface: u64,
+    partial: u64,
+    /// Packets for which the visible part is not computed with a body, and points for which it is not with its triangles.
+    bodies_fail: u64,
+    triangles_fail: u64,
+    /// Greatest difference between the two, relative to its bound.
+    worst: f64,
     /// Least height of a shading point over its plane, in units of a sixteenth of the margin.
     height: f64,
 }
@@ -180,23 +262,27 @@ fn sides(low: [f32; 3], high: [f32; 3]) -> Vec<Triangle> {
     cube(1).into_iter().map(|t| t.map(place)).collect()
 }
 
-/// Scenes with lights: the difficult meshes, rooms with boxes and flush lamps, sparse triangles, walls, and spheres.
-fn scenes(random: &mut Random) -> Vec<(String, Vec<Triangle>, Vec<Shape>)> {
-    let mut all = Vec::new();
-    let light = |random: &mut Random, size: f32| {
-        let center = random.point().map(|x| 1.8 * x);
-        let geometry = match random.below(3) {
-            0 => Geometry::Sphere { center, radius: size * (0.05 + random.unit()) },
-            1 => Geometry::Triangle([0; 3].map(|_| add(center, random.point(), size))),
-            _ => Geometry::Parallelogram {
-                p: center,
-                u: random.point().map(|x| x * size),
-                v: random.point().map(|x| x * size),
-            },
-        };
-        let two_sided = random.below(3) == 0;
-        shape(geometry, Some(two_sided))
+/// Scenes by name.
+type Scenes = Vec<(String, Vec<Triangle>, Vec<Shape>)>;
+
+/// A light of any form near the unit cube.
+fn light(random: &mut Random, size: f32) -> Shape {
+    let center = random.point().map(|x| 1.8 * x);
+    let geometry = match random.below(3) {
+        0 => Geometry::Sphere { center, radius: size * (0.05 + random.unit()) },
+        1 => Geometry::Triangle([0; 3].map(|_| add(center, random.point(), size))),
+        _ => {
+            let [u, v] = [0; 2].map(|_| random.point().map(|x| x * size));
+            Geometry::Parallelogram { p: center, u, v }
+        }
     };
+    let two_sided = random.below(3) == 0;
+    shape(geometry, Some(two_sided))
+}
+
+/// Scenes with lights: the difficult meshes, rooms with boxes and flush lamps, sparse triangles, walls, and spheres.
+fn scenes(random: &mut Random) -> Scenes {
+    let mut all = Vec::new();
     for (name, mesh) in meshes(random) {
         let lights = (0..3).map(|k| light(random, [0.5, 0.1, 0.01][k])).collect();
         all.push((name.to_owned(), mesh, lights));
@@ -398,7 +484,7 @@ impl World {
         let corner = [0; 2].map(|_| (f64::from(size) * (0.5 + 0.1 * f64::from(random.signed()))).floor());
         let wideness = [1.0, 1.0, 4.0][random.below(3)];
         let area = [corner[0], corner[1], corner[0] + wideness, corner[1] + wideness];
-        let pyramid = Pyramid::new(&camera, size, size, area);
+        let pyramid = Pyramid::new(&pinhole, area);
         // rays anywhere in the rectangle, often at its corners and edges
         let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); GROUP];
         let mut inside = || {
@@ -446,10 +532,113 @@ impl World {
         Some(View { pyramid, receiver, patch, points, light: None })
     }
     /// Tests the certificates of all lights.
-    fn test(&self, view: &View, certifier: &mut Certifier<'_>, random: &mut Random, c: &mut Counts) {
-        let all = self.surfaces.light_shapes().enumerate();
-        for (index, light) in all.filter(|(_, light)| view.light.is_none_or(|only| only == *light)) {
-            self.compare(certifier.certify(&view.patch, index), &view.points, view.receiver, light, random, c);
+    fn test(&self, view: &View, random: &mut Random, c: &mut Counts) {
+        let found = Bodies::new(&self.surfaces.bvh);
+        let none = Bodies::default();
+        let own = found.is_empty() || random.below(3) == 0;
+        for bodies in [(!found.is_empty()).then_some(&found), own.then_some(&none)].into_iter().flatten() {
+            let mut certifier = Certifier::new(&self.surfaces, bodies, self.surfaces.light_shapes());
+            let all = self.surfaces.light_shapes().enumerate();
+            for (index, light) in all.filter(|(_, light)| view.light.is_none_or(|only| only == *light)) {
+                let certificate = certifier.certify(&view.patch, index);
+                self.compare(certificate, bodies, &view.points, view.receiver, light, random, c);
+                if let Certificate::Blockers(blockers) = certificate {
+                    self.compare_bodies(blockers, bodies, &view.points, light, random, c);
+                }
+            }
+        }
+    }
+    /// The triangles of a body.
+    fn triangles<'a>(&'a self, bodies: &'a Bodies, body: u32) -> impl Iterator<Item = Triangle> + 'a {
+        let places = (0..).zip(self.surfaces.bvh.order()).filter(move |(place, _)| bodies.of(*place) == Some(body));
+        places.map(|(_, id)| self.scene.triangles[*id as usize])
+    }
+    /// Compares the bodies of a certificate with their triangles: single segments, and how much of the light they hide.
+    fn compare_bodies(
+        &self,
+        blockers: &[Blocker],
+        bodies: &Bodies,
+        points: &[Point],
+        light: u32,
+        random: &mut Random,
+        c: &mut Counts,
+    ) {
+        let shape = &self.scene.shapes[light as usize];
+        let listed = blockers.iter().filter_map(|b| if let Blocker::Body(body) = b { Some(*body) } else { None });
+        let listed: Vec<u32> = listed.collect();
+        c.with_bodies += u64::from(!listed.is_empty());
+        for body in listed {
+            let (solid, triangles) = (bodies.polyhedron(body), self.triangles(bodies, body).collect::<Vec<_>>());
+            for &Point { p, .. } in points {
+                for _ in 0..3 {
+                    let y = light_point(&shape.geometry, p, random);
+                    let met: Vec<_> = triangles.iter().map(|t| meets_triangle([p, y], t.map(wide), EXACT)).collect();
+                    let met = [Meets::Yes, Meets::Unclear].into_iter().find(|kind| met.contains(kind));
+                    let (met, hidden) = (met.unwrap_or(Meets::No), meets_solid([p, y], &solid));
+                    c.solid += 1;
+                    if met == Meets::Unclear || hidden == Meets::Unclear {
+                        c.solid_unclear += 1;
+                        continue;
+                    }
+                    c.solid_met += u64::from(met == Meets::Yes);
+                    assert_eq!(met, hidden, "{}: {p:?} → {y:?}, {solid:?}", self.name);
+                }
+            }
+            self.compare_shadows(&solid, &triangles, points, shape, c);
+        }
+    }
+    /// Compares how much a body hides in single precision with how much its triangles hide in double precision.
+    fn compare_shadows(
+        &self,
+        solid: &Polyhedron<'_, f32>,
+        triangles: &[Triangle],
+        points: &[Point],
+        light: &Shape,
+        c: &mut Counts,
+    ) {
+        let lanes = |of: &dyn Fn(&Point) -> V| {
+            let axis = |k: usize| f32x8::from_fn(|lane| of(&points[lane % points.len()])[k] as f32);
+            Vec3::new(axis(0), axis(1), axis(2))
+        };
+        let (p, normal) = (lanes(&|point| point.p), lanes(&|point| point.normal));
+        let mut occlusion = Occlusion::<f32x8>::new();
+        let (form, _) = convex(&light.geometry, points[0].p);
+        let all = occlusion.visible(p, normal, &form, &[]).unwrap();
+        let Some(by_body) = occlusion.visible(p, normal, &form, &[Convex::Polyhedron(*solid)]) else {
+            c.bodies_fail += 1;
+            return;
+        };
+        let exact = |v: Vec3<f32>| Vec3::from(wide([v.x, v.y, v.z]));
+        let flat = |&[a, b, d]: &Triangle| Convex::Polygon { corners: [a, b, d, d].map(|v| wide(v).into()), count: 3 };
+        let triangles: Vec<Convex<'_, f64>> = triangles.iter().map(flat).collect();
+        let form = match form {
+            Convex::Polygon { corners, count } => Convex::Polygon { corners: corners.map(exact), count },
+            Convex::Sphere { center, radius } => Convex::Sphere { center: exact(center), radius: f64::from(radius) },
+            Convex::Polyhedron(_) => unreachable!("lights are polygons and spheres"),
+        };
+        let mut occlusion = Occlusion::<f64>::new();
+        for (lane, point) in points.iter().enumerate().take(8) {
+            let (all, by_body) = (f64::from(all.lane(lane)), f64::from(by_body.lane(lane)));
+            assert!((0.0..=all).contains(&by_body), "{by_body} of {all}");
+            let (p, normal) = (exact(p.lane(lane)), exact(normal.lane(lane)));
+            let Some(by_triangles) = occlusion.visible(p, normal, &form, &triangles) else {
+                c.triangles_fail += 1;
+                continue;
+            };
+            // on the surface, points are inside or outside by rounding
+            let (rounding, depths) = depths(point.p, solid);
+            if depths.iter().fold(f64::INFINITY, |m, x| m.min(*x)).abs() < rounding {
+                c.on_surface += 1;
+                continue;
+            }
+            c.shadows += 1;
+            c.partial += u64::from(by_body > 0.01 * all && by_body < 0.99 * all);
+            let bound = 1e-5 * all + 4e-7 * convex(&light.geometry, point.p).1;
+            let error = (by_body - by_triangles).abs() / bound;
+            let what =
+                || format!("{triangles:?}: {by_body} and {by_triangles} of {all}, {point:?}, {solid:?}, {light:?}");
+            assert!(error < 1.0, "{}: {}", self.name, what());
+            c.worst = c.worst.max(error);
         }
     }
     /// The world with one more triangle, that just touches a segment of the view: it is either a needle with its tip beyond the segment,
@@ -522,6 +711,7 @@ impl World {
     fn compare(
         &self,
         certificate: Certificate<'_>,
+        bodies: &Bodies,
         points: &[Point],
         receiver: u32,
         light: u32,
@@ -542,7 +732,7 @@ impl World {
         for &Point { p, normal, traced, to } in points {
             if let Certificate::Blockers(blockers) = certificate {
                 for blocker in blockers {
-                    assert_front(blocker, &shape.geometry, p, &self.name);
+                    assert_front(blocker, bodies, &shape.geometry, p, &self.name);
                 }
             }
             for k in 0..3 {
@@ -562,7 +752,11 @@ impl World {
                     Certificate::Lit => assert!(met != Meets::Yes, "occluded: {}", what()),
                     Certificate::Dark => assert!(met != Meets::No, "visible: {}", what()),
                     Certificate::Blockers(blockers) if met == Meets::Yes => {
-                        assert!(blockers.iter().any(|b| may_occlude(segment, b)), "a blocker is missing: {}", what());
+                        assert!(
+                            blockers.iter().any(|b| may_occlude(segment, b, bodies)),
+                            "a blocker is missing: {}",
+                            what()
+                        );
                     }
                     _ => {}
                 }
@@ -587,11 +781,15 @@ impl World {
 }
 
 /// A blocker that does not cross the light is in front of it, as seen from p.
-fn assert_front(blocker: &Blocker, light: &Geometry, p: V, name: &str) {
+fn assert_front(blocker: &Blocker, bodies: &Bodies, light: &Geometry, p: V, name: &str) {
     let (points, radius) = match *blocker {
         Blocker::Polygon { crosses_light: true, .. } | Blocker::Sphere { crosses_light: true, .. } => return,
         Blocker::Polygon { corners, count, .. } => (corners.map(wide)[..count].to_vec(), 0.0),
         Blocker::Sphere { center, radius, .. } => (vec![wide(center)], f64::from(radius)),
+        Blocker::Body(body) => {
+            let ends = bodies.polyhedron(body).edges.iter().flat_map(|edge| edge.ends);
+            (ends.map(|v| wide([v.x, v.y, v.z])).collect(), 0.0)
+        }
     };
     let is_front = |x: V| match *light {
         Geometry::Sphere { center, radius: r } => {
@@ -615,11 +813,11 @@ fn assert_front(blocker: &Blocker, light: &Geometry, p: V, name: &str) {
 const EDGES: usize = 6;
 
 /// Tests the certificates of `looks` views of each scene at each scale.
-fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
+fn campaign(made: fn(&mut Random) -> Scenes, looks: usize, rounds: u32, seed: u32) -> Counts {
     let mut c = Counts { height: f64::INFINITY, ..Counts::default() };
     for round in 0..rounds {
         let mut random = Random { index: seed.wrapping_add(round.wrapping_mul(0x0700_0000)) };
-        for (name, triangles, shapes) in scenes(&mut random) {
+        for (name, triangles, shapes) in made(&mut random) {
             for (scale, shift) in [(1.0_f32, 0.0), (1e-6, 0.0), (1e6, 0.0), (1.0, 100.0), (1e-3, 1.0)] {
                 let place = |v: [f32; 3]| v.map(|x| x * scale + shift);
                 let triangles: Vec<Triangle> = triangles.iter().map(|t| t.map(place)).collect();
@@ -630,15 +828,13 @@ fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
                     surfaces: Surfaces::new(&scene).unwrap(),
                     scene,
                 };
-                let mut certifier = Certifier::new(&world.surfaces, world.surfaces.light_shapes());
                 for _ in 0..looks {
                     let Some(view) = world.look(&mut random, place, &mut c) else { continue };
-                    world.test(&view, &mut certifier, &mut random, &mut c);
+                    world.test(&view, &mut random, &mut c);
                     if world.scene.triangles.len() < 20 {
                         for _ in 0..EDGES {
                             let Some((other, view)) = world.with_edge(&view, &mut random) else { break };
-                            let mut certifier = Certifier::new(&other.surfaces, other.surfaces.light_shapes());
-                            other.test(&view, &mut certifier, &mut random, &mut c);
+                            other.test(&view, &mut random, &mut c);
                         }
                     }
                 }
@@ -651,17 +847,26 @@ fn campaign(looks: usize, rounds: u32, seed: u32) -> Counts {
 
 #[test]
 fn certificates_agree_with_brute_force() {
-    let c = campaign(100, 1, 1);
+    let c = campaign(scenes, 100, 1, 1);
     assert!(c.lit * 10 > c.corridors && c.dark * 20 > c.corridors && c.blockers * 20 > c.corridors, "{c:?}");
     assert!(c.covered * 50 > c.pairs, "{c:?}");
     assert!(c.unclear * 200 < c.pairs, "{c:?}");
     assert!(c.off < 0.5 && c.height > 2.0, "{c:?}");
 }
 
+/// Each body that a certificate lists hides what its triangles hide.
+#[test]
+fn bodies_agree_with_their_triangles() {
+    let c = campaign(solids, 100, 6, 7);
+    assert!(c.with_bodies * 20 > c.corridors && c.dark * 20 > c.corridors && c.lit * 20 > c.corridors, "{c:?}");
+    assert!(c.solid_unclear * 100 < c.solid && c.solid_met * 20 > c.solid, "{c:?}");
+    assert!(c.partial * 20 > c.shadows, "{c:?}");
+}
+
 #[test]
 #[ignore = "ten million patches and lights: ten minutes"]
 fn certificates_agree_with_brute_force_at_length() {
-    let c = campaign(450, 36, 1_000_000);
+    let c = campaign(scenes, 450, 36, 1_000_000);
     assert!(c.corridors >= 10_000_000 && c.off < 0.5 && c.height > 1.5, "{c:?}");
 }
 
@@ -672,7 +877,8 @@ fn time_per_certificate() {
     for name in ["quads", "terrain"] {
         let scene = etendue_render::scene::load(name).unwrap();
         let surfaces = Surfaces::new(&scene).unwrap();
-        let mut certifier = Certifier::new(&surfaces, surfaces.light_shapes());
+        let bodies = Bodies::new(&surfaces.bvh);
+        let mut certifier = Certifier::new(&surfaces, &bodies, surfaces.light_shapes());
         let lights = surfaces.light_shapes().count();
         for (size, wideness) in [(256_u32, 1_u32), (1024, 16)] {
             let pinhole = Pinhole::new(&scene.camera, size, size);
@@ -687,7 +893,7 @@ fn time_per_certificate() {
                     let place = hits[0].place.to_array()[0];
                     if place != NOTHING {
                         let area = [x, y, x + wideness, y + wideness].map(f64::from);
-                        places.push((place, Pyramid::new(&scene.camera, size, size, area)));
+                        places.push((place, Pyramid::new(&pinhole, area)));
                     }
                 }
             }

@@ -79,12 +79,20 @@ impl Bodies {
     pub fn of(&self, place: u32) -> Option<u32> {
         self.of_places.get(place as usize).copied().filter(|&body| body != NOTHING)
     }
-    /// Can the body stand for its triangles in a corridor? From inside it hides every light that is outside, and all of it must lie before the
-    /// light.
-    pub(super) fn serves(&self, body: u32, corridor: &Corridor) -> bool {
+    /// Can the body stand for its triangles in a corridor from the primitive at `place`?
+    ///
+    /// From inside it hides every light that is outside, so a segment from inside must leave it before the spared part. All of it must lie
+    /// before the light. Shading points on the body itself are inside or outside by rounding alone.
+    pub(super) fn serves(&self, body: u32, place: u32, corridor: &Corridor) -> bool {
+        if self.of(place) == Some(body) {
+            return false;
+        }
         let body = &self.bodies[body as usize];
         let margin = corridor.light.radius + 2.0 * corridor.epsilon;
-        let is_outside = |&(n, offset): &(V64, f64)| corridor.light.range(n)[0] - margin > offset;
+        let is_outside = |&(n, offset): &(V64, f64)| {
+            let deepest = offset - corridor.patch.range(n)[0] + corridor.patch.radius;
+            corridor.light.range(n)[0] - margin - offset > 2.0 * SPARED * deepest.max(0.0)
+        };
         body.planes.iter().any(is_outside) && !crosses(&body.corners, 0.0, corridor)
     }
     /// Is every segment of the corridor known to meet the body?
@@ -147,11 +155,12 @@ impl Body {
         let mut planes: Vec<(V64, f64)> = Vec::new();
         let mut faces = Vec::new();
         let mut face_of = Vec::new();
-        let mut sides: HashMap<[[u32; 3]; 2], Vec<usize>> = HashMap::new();
+        let mut sides: HashMap<[[u32; 3]; 2], Vec<(usize, bool)>> = HashMap::new();
         for triangle in triangles {
             let [a, b, c] = triangle.map(wide);
             let normal = unit((b - a).cross(c - a));
-            let normal = if normal.dot(center - a) > 0.0 { -normal } else { normal };
+            let turned = normal.dot(center - a) > 0.0;
+            let normal = if turned { -normal } else { normal };
             let offset = normal.dot(a);
             let is_outermost = corners.iter().all(|&p| normal.dot(p) - offset <= tolerance);
             if !(is_outermost && normal.dot(center) < offset - 4.0 * tolerance) {
@@ -168,14 +177,20 @@ impl Body {
             });
             face_of.push(face);
             for (k, &from) in triangle.iter().enumerate() {
-                let mut ends = [bits(from), bits(triangle[(k + 1) % 3])];
-                ends.sort_unstable();
-                sides.entry(ends).or_default().push(face);
+                let ends = [bits(from), bits(triangle[(k + 1) % 3])];
+                let forwards = ends[0] < ends[1];
+                let ends = if forwards { ends } else { [ends[1], ends[0]] };
+                sides.entry(ends).or_default().push((face, forwards != turned));
             }
         }
         let mut edges = Vec::new();
         for (ends, faces) in sides {
-            let &[i, j] = &faces[..] else { return None };
+            // Two triangles that turn outwards pass their common side in opposite directions. If all do, they cover each part of the hull
+            // equally often, so no face is missing.
+            let &[(i, one), (j, other)] = &faces[..] else { return None };
+            if one == other {
+                return None;
+            }
             if i != j {
                 edges.push((ends, Edge { ends: ends.map(|end| end.map(f32::from_bits).into()), faces: [i, j] }));
             }
