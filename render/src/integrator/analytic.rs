@@ -41,6 +41,32 @@ enum Known {
     Nothing,
 }
 
+/// What is known of the lights at a point that the camera sees: numbers of lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Survey {
+    /// The primitive there, as in hits; nothing else counts where a path ends without a surface that reflects.
+    pub place: Option<u32>,
+    /// Whether the surface is not diffuse, so that all lights must be sampled.
+    pub glossy: bool,
+    /// Lights that nothing can occlude.
+    pub lit: u32,
+    /// Lights that no point of the surface nearby sees.
+    pub dark: u32,
+    /// Lights with 1 to 4 possible blockers.
+    pub few: u32,
+    /// Lights with 5 to 16 possible blockers.
+    pub many: u32,
+    /// Lights that must be sampled.
+    pub unknown: u32,
+}
+
+impl Survey {
+    /// The number of lights.
+    pub fn lights(&self) -> u32 {
+        self.lit + self.dark + self.few + self.many + self.unknown
+    }
+}
+
 /// The certificates of all lights for the part of a surface that a square of pixels sees.
 #[derive(Debug)]
 struct Entry {
@@ -172,6 +198,7 @@ impl<'a> Analytic<'a> {
                 Certificate::Lit => Known::Lit,
                 Certificate::Dark => Known::Dark,
                 Certificate::Unknown => before,
+                Certificate::Blockers(found) if found.len() > clipped() => Known::Nothing,
                 Certificate::Blockers(found) => {
                     let start = forms.len();
                     forms.extend(found.iter().map(|blocker| blocker_form(blocker, bodies)));
@@ -232,6 +259,31 @@ impl<'a> Analytic<'a> {
         self.tried += 1;
         let known = &self.known[first..first + self.lights.len()];
         self.decided = self.decided || known.iter().any(|known| *known != Known::Nothing);
+    }
+
+    /// What is known at the surface in a lane.
+    pub(super) fn survey(&mut self, surface: &Surface, ends: &Ends, lane: usize) -> Survey {
+        let mut survey = Survey::default();
+        if !surface.reflects.lane(lane) {
+            return survey;
+        }
+        survey.place = Some(ends.places.as_array()[lane]);
+        survey.glossy = ends.glossy.lane(lane);
+        if survey.glossy {
+            survey.unknown = self.lights.len() as u32;
+            return survey;
+        }
+        let (first, _) = self.find(surface, ends, M8::from_bits(1 << lane));
+        for known in &self.known[first..first + self.lights.len()] {
+            *match known {
+                Known::Lit => &mut survey.lit,
+                Known::Dark => &mut survey.dark,
+                Known::Behind(range) if range.len() <= 4 => &mut survey.few,
+                Known::Behind(_) => &mut survey.many,
+                Known::Nothing => &mut survey.unknown,
+            } += 1;
+        }
+        survey
     }
 
     /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them.
@@ -312,4 +364,9 @@ impl<'a> Analytic<'a> {
         }
         any
     }
+}
+
+fn clipped() -> usize {
+    static V: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
+    *V.get_or_init(|| std::env::var("CLIPPED").map_or(16, |v| v.parse().unwrap()))
 }
