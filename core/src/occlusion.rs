@@ -74,11 +74,13 @@ struct Seen<R: Real> {
     planes: [Vec3<R>; 5],
     /// A sphere.
     cap: Option<Cap<R>>,
+    /// Lanes in which it hides part of the light.
+    lanes: R::Mask,
 }
 
 impl<R: Real> Default for Seen<R> {
     fn default() -> Self {
-        Self { outline: Outline::default(), planes: [Vec3::default(); 5], cap: None }
+        Self { outline: Outline::default(), planes: [Vec3::default(); 5], cap: None, lanes: R::Mask::splat(false) }
     }
 }
 
@@ -141,12 +143,12 @@ impl<R: Real> Occlusion<R> {
         let all = match *light {
             Convex::Polygon { corners, count } => {
                 let corners = corners.map(|corner| Vec3::splat(corner) - point);
-                let across = (corners[1] - corners[0]).cross(corners[2] - corners[0]).unit_and_length().0;
+                let corners = &corners[..count.clamp(3, 4)];
+                let across = area(corners).unit_and_length().0;
                 let height = across.dot(corners[0]);
                 let towards = R::lit(-1.0).copysign(-height);
                 self.front = (across * towards, height * towards * R::lit(1.0 - SPARED));
                 self.light = None;
-                let corners = &corners[..count.clamp(3, 4)];
                 self.stack[0].start(&scaled(corners).0[..corners.len()], height.abs().gt(R::lit(0.0)));
                 if self.stack[0].clip(normal, R::lit(0.0)).is_err() || self.stack[0].is_empty() {
                     return Some(R::lit(0.0));
@@ -158,7 +160,12 @@ impl<R: Real> Occlusion<R> {
                 let cap = Cap::new(center, radius);
                 self.front = (-cap.axis, -cap.tangents);
                 self.light = Some(cap);
-                unoccluded(&cap, center, radius, normal)
+                let all = unoccluded(&cap, center, radius, normal);
+                self.stack[0].start(&[], all.gt(R::lit(0.0)));
+                if self.stack[0].is_empty() {
+                    return Some(R::lit(0.0));
+                }
+                all
             }
         };
         self.beside(all, point, blockers).ok()
@@ -180,6 +187,7 @@ impl<R: Real> Occlusion<R> {
                 }
             }
             let Some((cap, hidden)) = self.intersect(0, kept, self.light)? else { continue };
+            self.seen[kept].lanes = self.stack[1].some();
             covered = covered | hidden.ge(all);
             if covered.all() {
                 return Ok(zero);
@@ -196,11 +204,12 @@ impl<R: Real> Occlusion<R> {
         let seen = &mut self.seen[k];
         let (scaled, scale) = scaled(corners);
         let corners = &scaled[..corners.len()];
-        let inside = corners[1].cross(corners[2]).dot(corners[0]);
+        let inside = area(corners).dot(corners[0]);
         seen.cap = None;
         seen.outline.start(corners, inside.abs().gt(R::lit(0.0)));
         let (normal, least) = self.front;
         seen.outline.clip(normal, least * scale)?;
+        seen.lanes = seen.outline.some();
         let corners = seen.outline.corners();
         for (i, &from) in corners.iter().enumerate() {
             let to = corners[if i + 1 == corners.len() { 0 } else { i + 1 }];
@@ -212,14 +221,14 @@ impl<R: Real> Occlusion<R> {
     /// Prepares a sphere as blocker `k`.
     #[inline]
     fn see_sphere(&mut self, k: usize, center: Vec3<R>, radius: R) -> Result<(), TooMany> {
-        let mut cap = Cap::new(center, radius);
+        let cap = Cap::new(center, radius);
         let (normal, least) = self.front;
         let nearest = normal.dot(center) - least;
         let behind = nearest.lt(-radius);
         if !(behind | nearest.ge(radius)).all() {
             return Err(TooMany);
         }
-        cap.sin = cap.sin.keep(!behind);
+        self.seen[k].lanes = !behind;
         self.seen[k].cap = Some(cap);
         Ok(())
     }
@@ -237,30 +246,34 @@ impl<R: Real> Occlusion<R> {
         let (below, above) = self.stack.split_at_mut(depth + 1);
         let (from, Some(to)) = (&below[depth], above.first_mut()) else { return Err(TooMany) };
         let whole = depth == 0 && self.light.is_some();
+        let mut lanes = from.some() & seen.lanes;
         if let Some(own) = &seen.cap {
             return match cap {
-                Some(cap) if cap.is_apart_from(own, from.some() | R::Mask::splat(whole)) => Ok(None),
+                Some(cap) if cap.is_apart_from(own, lanes) => Ok(None),
                 Some(_) => Err(TooMany),
                 None => {
-                    to.start(from.corners(), from.some());
+                    to.start(from.corners(), lanes);
                     let part = own.projected_solid_angle_within(to, normal)?;
+                    to.keep(part.gt(R::lit(0.0)));
                     self.terms += 1;
-                    Ok(part.gt(R::lit(0.0)).any().then_some((Some(*own), part)))
+                    Ok((!to.is_empty()).then_some((Some(*own), part)))
                 }
             };
         }
         let planes = &seen.planes[..seen.outline.corners().len()];
         if let Some(cap) = &cap {
-            let beyond = |plane: &Vec3<R>| plane.dot(cap.axis).lt(-(cap.sin * plane.length()));
-            if seen.outline.is_empty() || planes.iter().any(|plane| beyond(plane).all()) {
-                return Ok(None);
+            for plane in planes {
+                lanes = lanes & plane.dot(cap.axis).ge(-(cap.sin * plane.length()));
             }
         }
+        if !lanes.any() {
+            return Ok(None);
+        }
         if whole {
-            to.start(seen.outline.corners(), seen.outline.some());
+            to.start(seen.outline.corners(), lanes);
             to.clip(normal, R::lit(0.0))?;
         } else {
-            to.start(from.corners(), from.some() & seen.outline.some());
+            to.start(from.corners(), lanes);
             for &plane in planes {
                 if to.is_empty() {
                     break;
@@ -292,6 +305,12 @@ impl<R: Real> Occlusion<R> {
         }
         Ok(left)
     }
+}
+
+/// Twice the area of a triangle or quadrilateral, along its normal. Corners may coincide.
+#[inline(always)]
+fn area<R: Real>(corners: &[Vec3<R>]) -> Vec3<R> {
+    (corners[2] - corners[0]).cross(corners[if corners.len() > 3 { 3 } else { 0 }] - corners[1])
 }
 
 /// Up to four corners in units of a power of two, and its reciprocal. Only directions matter, so that each shape can have its own unit.

@@ -52,10 +52,9 @@ impl Scene {
         R::Scalar: From<f32>,
     {
         let shape = |shape: &Convex<f32>| match *shape {
-            Convex::Polygon { corners, count } => Convex::Polygon {
-                corners: corners.map(|c| Vec3::new(c.x.into(), c.y.into(), c.z.into())),
-                count,
-            },
+            Convex::Polygon { corners, count } => {
+                Convex::Polygon { corners: corners.map(|c| Vec3::new(c.x.into(), c.y.into(), c.z.into())), count }
+            }
             Convex::Sphere { center: c, radius } => {
                 Convex::Sphere { center: Vec3::new(c.x.into(), c.y.into(), c.z.into()), radius: radius.into() }
             }
@@ -325,9 +324,8 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                             let axes = [x, y, z];
                             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
                             let face = along(middle, axes[axis], side * extent[axis]);
-                            let corner = |p: f64, q: f64| {
-                                along(along(face, axes[u], p * extent[u]), axes[v], q * extent[v])
-                            };
+                            let corner =
+                                |p: f64, q: f64| along(along(face, axes[u], p * extent[u]), axes[v], q * extent[v]);
                             let quad = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
                             if random.unit() < 0.3 {
                                 blockers.push(polygon(&quad[..3]));
@@ -429,10 +427,6 @@ fn measure(kind: Kind, round: Round, packets: u32, seed: u64) -> Errors {
             let unit = near.around * near.occluders.max(1) as f64;
             errors.occluded += u32::from(near.occluders > 0);
             let error = off(found.lane_f64(lane));
-            if std::env::var("SHOW").is_ok() && error / unit > 1e-3 && errors.single.error() < 1e-3 {
-                let bare = Scene { blockers: Vec::new(), ..scene.clone() };
-                println!("  {kind:?} {round:?} {near:?} {far:?} found {} f64 {:?} bare {:?} lane {lane} {scene:?}", found.lane_f64(lane), scene.found::<f64x1>(lane), bare.found::<f64x1>(lane));
-            }
             if unit > 0.0 {
                 errors.single.take(error / unit, i);
                 if let Some(double) = scene.found::<f64x1>(lane) {
@@ -469,6 +463,52 @@ fn accuracy(packets: u32) {
                 e.double.measured(),
                 e.double.at()
             );
+        }
+    }
+}
+
+#[test]
+#[ignore]
+fn show() {
+    let args = std::env::var("SHOW").unwrap();
+    for what in args.split(',') {
+        let [k, r, i] = what.split('/').map(|x| x.parse::<usize>().unwrap()).collect::<Vec<_>>()[..] else { panic!() };
+        let round = [Round::None, Round::Light, Round::Blockers][r];
+        let mut random = Random::new(1000 * r as u64 + k as u64);
+        let mut last = None;
+        for _ in 0..=i {
+            last = Some(scene(&mut random, KINDS[k], round));
+        }
+        let scene = last.unwrap();
+        println!("{what} {:?} {:?}", KINDS[k], round);
+        let found = scene.found::<f32x8>(0);
+        for lane in 0..8 {
+            println!(
+                "  {lane} {:?} f32 {:?} {:?} f64 {:?}",
+                scene.truth(lane),
+                found.map(|x| x.lane(lane)),
+                scene.found::<f32>(lane),
+                scene.found::<f64>(lane)
+            );
+        }
+        // fewest blockers that still differ
+        for lane in 0..8 {
+            let mut few = scene.clone();
+            let bad = |s: &Scene| {
+                let (Some([a, b]), Some(f)) = (s.truth(lane), s.found::<f64>(lane)) else { return false };
+                (f - a.left).abs().min((f - b.left).abs()) > 1e-9 * a.around
+            };
+            if !bad(&few) {
+                continue;
+            }
+            let mut k = 0;
+            while k < few.blockers.len() {
+                let mut less = few.clone();
+                less.blockers.remove(k);
+                if bad(&less) { few = less } else { k += 1 }
+            }
+            println!("  lane {lane}: {:?} f64 {:?} {few:?}", few.truth(lane), few.found::<f64>(lane));
+            break;
         }
     }
 }

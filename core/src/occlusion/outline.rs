@@ -48,11 +48,16 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     pub(super) fn some(&self) -> R::Mask {
         self.some
     }
+    /// Leaves nothing in the other lanes.
+    pub(super) fn keep(&mut self, lanes: R::Mask) {
+        self.some = self.some & lanes;
+    }
 
     /// Keeps the part where normal · x ≥ `least`.
     ///
     /// The outline stays closed whatever is rounded: each corner outside becomes a point on an edge that crosses the plane. Where only one
-    /// corner is outside, it becomes two, and those after it move on by one.
+    /// corner is outside, it becomes two, and those after it move on by one. Rounding can put several corners outside one by one, if they
+    /// lie on the plane, as those of neighbours in a mesh do: then the farthest outside becomes two, and the others stay.
     #[inline]
     pub(super) fn clip(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
@@ -71,10 +76,11 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         if !(self.some & !all).any() {
             return Ok(());
         }
-        // where edge i crosses the plane, and the last place at which the outline leaves the inside
+        // where edge i crosses the plane, the last place at which the outline leaves the inside, and the lowest of the corners alone outside
         let next = |i: usize| if i + 1 == count { 0 } else { i + 1 };
         let mut crossing = [Vec3::default(); MOST];
         let mut left = Vec3::default();
+        let mut lowest = zero;
         for i in 0..count {
             let j = next(i);
             let crosses = inside[i] ^ inside[j];
@@ -85,6 +91,7 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
             let share = height[i] / R::blend(crosses, fall, one);
             crossing[i] = (self.corners[j] - self.corners[i]).mul_add(share, self.corners[i]);
             left = Vec3::blend(inside[i] & !inside[j], crossing[i], left);
+            lowest = lowest.lesser(height[j].keep(inside[i] & inside[next(j)]));
         }
         let (mut moved, mut carried) = (no, Vec3::default());
         for i in 0..count {
@@ -94,10 +101,10 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
             let returns = outside & inside[after];
             left = Vec3::blend(leaves, crossing[before], left);
             let alone = leaves & returns;
-            let mut corner = Vec3::blend(outside, Vec3::blend(returns & !leaves, crossing[i], left), self.corners[i]);
-            // only the first corner alone can become two; rounding alone makes another, within its error of the plane
-            corner = Vec3::blend(alone & moved, self.corners[i], corner);
-            let splits = alone & !moved;
+            let splits = alone & !moved & height[i].le(lowest);
+            let stays = inside[i] | (alone & !splits);
+            let corner = Vec3::blend(returns & !leaves, crossing[i], left);
+            let corner = Vec3::blend(stays, self.corners[i], corner);
             self.corners[i] = Vec3::blend(moved, carried, corner);
             carried = Vec3::blend(splits, crossing[i], corner);
             moved = moved | splits;
