@@ -68,10 +68,12 @@ pub enum Convex<S> {
 /// A blocker as seen from the points.
 #[derive(Clone, Copy, Debug)]
 struct Seen<R: Real> {
-    /// Its outline in front of the light; empty for a sphere.
+    /// Its outline in front of the light, if that is a sphere.
     outline: Outline<R, 5>,
     /// Normals of the planes through the point and the edges, towards the inside.
     planes: [Vec3<R>; 5],
+    /// Number of planes.
+    count: usize,
     /// A sphere.
     cap: Option<Cap<R>>,
     /// Lanes in which it hides part of the light.
@@ -80,7 +82,13 @@ struct Seen<R: Real> {
 
 impl<R: Real> Default for Seen<R> {
     fn default() -> Self {
-        Self { outline: Outline::default(), planes: [Vec3::default(); 5], cap: None, lanes: R::Mask::splat(false) }
+        Self {
+            outline: Outline::default(),
+            planes: [Vec3::default(); 5],
+            count: 0,
+            cap: None,
+            lanes: R::Mask::splat(false),
+        }
     }
 }
 
@@ -204,16 +212,30 @@ impl<R: Real> Occlusion<R> {
         let seen = &mut self.seen[k];
         let (scaled, scale) = scaled(corners);
         let corners = &scaled[..corners.len()];
-        let inside = area(corners).dot(corners[0]);
+        let across = area(corners).unit_and_length().0;
+        let height = across.dot(corners[0]);
+        let sign = R::lit(1.0).copysign(height);
+        let (zero, (front, least)) = (R::lit(0.0), (self.front.0, self.front.1 * scale));
         seen.cap = None;
-        seen.outline.start(corners, inside.abs().gt(R::lit(0.0)));
-        let (normal, least) = self.front;
-        seen.outline.clip(normal, least * scale)?;
-        seen.lanes = seen.outline.some();
-        let corners = seen.outline.corners();
+        seen.count = corners.len();
+        let (mut before, mut behind) = (R::Mask::splat(false), R::Mask::splat(false));
         for (i, &from) in corners.iter().enumerate() {
             let to = corners[if i + 1 == corners.len() { 0 } else { i + 1 }];
-            seen.planes[i] = from.cross(to) * R::lit(1.0).copysign(inside);
+            seen.planes[i] = from.cross(to) * sign;
+            let is_before = front.dot(from).ge(least);
+            (before, behind) = (before | is_before, behind | !is_before);
+        }
+        seen.lanes = before & height.abs().gt(zero);
+        let crosses = seen.lanes & behind;
+        if crosses.any() {
+            // through the point and the line in which the planes of the blocker and before the light meet: the edge itself can be shorter
+            // than its rounding
+            seen.planes[seen.count] = (front * height.abs() + across * (-least * sign)).keep(crosses);
+            seen.count += 1;
+        }
+        seen.outline.start(corners, seen.lanes);
+        if self.light.is_some() {
+            seen.outline.clip(front, least)?;
         }
         Ok(())
     }
@@ -260,7 +282,7 @@ impl<R: Real> Occlusion<R> {
                 }
             };
         }
-        let planes = &seen.planes[..seen.outline.corners().len()];
+        let planes = &seen.planes[..seen.count];
         if let Some(cap) = &cap {
             for plane in planes {
                 lanes = lanes & plane.dot(cap.axis).ge(-(cap.sin * plane.length()));

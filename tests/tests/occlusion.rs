@@ -67,6 +67,18 @@ impl Scene {
             &blockers,
         )
     }
+    /// What the least sine of an edge seen under more than a right angle divides, and the least cosine of a sphere's half-angle.
+    fn condition(&self, lane: usize) -> f64 {
+        let sine = |shape: &Convex<f32>| match from_point(shape, self.points[lane]) {
+            Shape::Polygon(corners) => (0..corners.len())
+                .map(|i| (corners[i], corners[(i + 1) % corners.len()]))
+                .filter(|(a, b)| dot(*a, *b) < 0.0)
+                .map(|(a, b)| length(cross(unit(a), unit(b))))
+                .fold(1.0, f64::min),
+            Shape::Sphere(center, radius) => (1.0 - (radius / length(center)).powi(2)).max(0.0).sqrt(),
+        };
+        self.blockers.iter().map(sine).fold(sine(&self.light), f64::min)
+    }
     /// The truth for a lane, with a limit in front of the light that is a fifth nearer and farther.
     fn truth(&self, lane: usize) -> Option<[Visible; 2]> {
         let light = from_point(&self.light, self.points[lane]);
@@ -424,7 +436,7 @@ fn measure(kind: Kind, round: Round, packets: u32, seed: u64) -> Errors {
             };
             let (least, most) = (near.left.min(far.left), near.left.max(far.left));
             let off = |found: f64| (least - found).max(found - most).max(0.0);
-            let unit = near.around * near.occluders.max(1) as f64;
+            let unit = near.around * near.occluders.max(1) as f64 / scene.condition(lane);
             errors.occluded += u32::from(near.occluders > 0);
             let error = off(found.lane_f64(lane));
             if unit > 0.0 {
@@ -495,8 +507,10 @@ fn show() {
         for lane in 0..8 {
             let mut few = scene.clone();
             let bad = |s: &Scene| {
-                let (Some([a, b]), Some(f)) = (s.truth(lane), s.found::<f64>(lane)) else { return false };
-                (f - a.left).abs().min((f - b.left).abs()) > 1e-9 * a.around
+                let (Some([a, b]), Some(f)) = (s.truth(lane), s.found::<f32>(lane).map(f64::from)) else {
+                    return false;
+                };
+                (f - a.left).abs().min((f - b.left).abs()) > 2e-6 * a.around
             };
             if !bad(&few) {
                 continue;
@@ -507,7 +521,13 @@ fn show() {
                 less.blockers.remove(k);
                 if bad(&less) { few = less } else { k += 1 }
             }
-            println!("  lane {lane}: {:?} f64 {:?} {few:?}", few.truth(lane), few.found::<f64>(lane));
+            println!(
+                "  lane {lane}: {:?} f32 {:?} {:?} {:?} {few:?} ",
+                few.truth(lane),
+                few.found::<f32>(lane),
+                few.points[lane],
+                few.normals[lane]
+            );
             break;
         }
     }
