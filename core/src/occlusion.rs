@@ -176,7 +176,7 @@ impl<R: Real> Occlusion<R> {
                 all
             }
         };
-        self.beside(all, point, blockers).ok()
+        self.beside(all.clamped(R::lit(0.0), R::lit(core::f64::consts::PI)), point, blockers).ok()
     }
 
     /// What the blockers leave of `all`.
@@ -295,12 +295,21 @@ impl<R: Real> Occlusion<R> {
             to.start(seen.outline.corners(), lanes);
             to.clip(normal, R::lit(0.0))?;
         } else {
-            to.start(from.corners(), lanes);
-            for &plane in planes {
-                if to.is_empty() {
-                    break;
+            // most blockers are beside the light, and most planes do not cut it
+            let mut cut = [R::Mask::splat(false); 5];
+            for (cut, &plane) in cut.iter_mut().zip(planes) {
+                let (any, all) = from.inside(plane);
+                *cut = !all;
+                lanes = lanes & any;
+                if !lanes.any() {
+                    return Ok(None);
                 }
-                to.clip(plane, R::lit(0.0))?;
+            }
+            to.start(from.corners(), lanes);
+            for (&cut, &plane) in cut.iter().zip(planes) {
+                if (cut & to.some()).any() {
+                    to.clip_in(cut, plane, R::lit(0.0))?;
+                }
             }
         }
         if to.is_empty() {

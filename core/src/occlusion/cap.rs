@@ -26,8 +26,10 @@ impl<R: Real> Cap<R> {
         let some = distance.gt(zero);
         let distance = R::blend(some, distance, one);
         let sin = (radius / distance).lesser(one).greater(zero);
-        let tangents = center.length_squared_minus_square(radius) / distance;
-        let cos = (tangents / distance).greater(R::lit(1e-12)).lesser(one).sqrt();
+        let scale = center.max_abs().greater(radius).pow2_scale();
+        let power = (center * scale).length_squared_minus_square(radius * scale) / (distance * scale);
+        let cos = (power / (distance * scale)).greater(R::lit(1e-12)).lesser(one).sqrt();
+        let tangents = power / scale;
         Self { axis, sin, cos, tangents }
     }
     /// Whether the caps have no direction in common, in all of these lanes.

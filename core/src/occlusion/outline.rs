@@ -60,15 +60,38 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     /// lie on the plane, as those of neighbours in a mesh do: then the farthest outside becomes two, and the others stay.
     #[inline]
     pub(super) fn clip(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
+        self.clip_in(R::Mask::splat(true), normal, least)
+    }
+    /// Clips in these lanes only.
+    #[inline]
+    pub(super) fn clip_in(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
+        // fewer places take less time to clear
+        if self.count <= 6 {
+            self.clip_few::<6>(lanes, normal, least)
+        } else {
+            self.clip_few::<MOST>(lanes, normal, least)
+        }
+    }
+    /// Lanes in which any corner has normal · x ≥ 0, and in which all have.
+    #[inline(always)]
+    pub(super) fn inside(&self, normal: Vec3<R>) -> (R::Mask, R::Mask) {
+        self.corners().iter().fold((R::Mask::splat(false), R::Mask::splat(true)), |(any, all), corner| {
+            let inside = corner.dot(normal).ge(R::lit(0.0));
+            (any | inside, all & inside)
+        })
+    }
+    /// Clips an outline of up to `FEW` corners.
+    #[inline(always)]
+    fn clip_few<const FEW: usize>(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let no = R::Mask::splat(false);
-        let count = self.count;
-        let mut height = [zero; MOST];
-        let mut inside = [no; MOST];
+        let count = self.count.min(FEW);
+        let mut height = [zero; FEW];
+        let mut inside = [no; FEW];
         let (mut any, mut all) = (no, R::Mask::splat(true));
         for i in 0..count {
             height[i] = self.corners[i].dot(normal) - least;
-            inside[i] = height[i].ge(zero);
+            inside[i] = height[i].ge(zero) | !lanes;
             any = any | inside[i];
             all = all & inside[i];
         }
@@ -78,7 +101,7 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         }
         // where edge i crosses the plane, the last place at which the outline leaves the inside, and the lowest of the corners alone outside
         let next = |i: usize| if i + 1 == count { 0 } else { i + 1 };
-        let mut crossing = [Vec3::default(); MOST];
+        let mut crossing = [Vec3::default(); FEW];
         let mut left = Vec3::default();
         let mut lowest = zero;
         for i in 0..count {
