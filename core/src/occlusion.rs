@@ -152,12 +152,14 @@ impl<R: Real> Occlusion<R> {
             Convex::Polygon { corners, count } => {
                 let corners = corners.map(|corner| Vec3::splat(corner) - point);
                 let corners = &corners[..count.clamp(3, 4)];
+                let (scaled, scale) = scaled(corners);
+                let corners = &scaled[..corners.len()];
                 let across = area(corners).unit_and_length().0;
                 let height = across.dot(corners[0]);
                 let towards = R::lit(-1.0).copysign(-height);
-                self.front = (across * towards, height * towards * R::lit(1.0 - SPARED));
+                self.front = (across * towards, height * towards * R::lit(1.0 - SPARED) / scale);
                 self.light = None;
-                self.stack[0].start(&scaled(corners).0[..corners.len()], height.abs().gt(R::lit(0.0)));
+                self.stack[0].start(corners, height.abs().gt(R::lit(0.0)));
                 if self.stack[0].clip(normal, R::lit(0.0)).is_err() || self.stack[0].is_empty() {
                     return Some(R::lit(0.0));
                 }

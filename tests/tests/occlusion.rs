@@ -555,6 +555,13 @@ fn orders() {
             let found = found.lane_f64(lane);
             if let Some(others) = others {
                 order.take((others.lane_f64(lane) - found).abs() / unit, ());
+                if (others.lane_f64(lane) - found).abs() / unit > 2e-6 {
+                    println!(
+                        "ORDER {lane} {found} {:?} {:?} {truth:?} {scene:?}",
+                        other.found::<f32>(lane),
+                        other.truth(lane)
+                    );
+                }
             }
             if let Some(fewer) = fewer {
                 more.take((found - fewer.lane_f64(lane)) / unit, ());

@@ -96,8 +96,9 @@ impl<R: Real> Cap<R> {
                 v.dot(along) / (forward * inverse_cosine).greater(R::lit(1e-30))
             };
             let (start, end) = (tangent(from), tangent(to));
+            // an edge may be shorter than its rounding, or point backwards
+            let meets = near & start.lt(slope) & end.gt(-slope);
             let (low, high) = (start.greater(-slope), end.lesser(slope));
-            let meets = near & low.lt(high);
             let angle = (high - low).atan2(low.mul_add(high, one));
             let (from_low, from_high) = (inverse_length(low), inverse_length(high));
             // the axis times the chord, by its parts along the circle and towards the axis

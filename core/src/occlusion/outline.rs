@@ -56,8 +56,8 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     /// Keeps the part where normal · x ≥ `least`.
     ///
     /// The outline stays closed whatever is rounded: each corner outside becomes a point on an edge that crosses the plane. Where only one
-    /// corner is outside, it becomes two, and those after it move on by one. Rounding can put several corners outside one by one, if they
-    /// lie on the plane, as those of neighbours in a mesh do: then the farthest outside becomes two, and the others stay.
+    /// corner is outside, it becomes two, and those after it move on by one. Rounding can put corners outside in several places, if they
+    /// lie on the plane, as those of neighbours in a mesh do: only those in the place that is farthest outside are clipped.
     #[inline]
     pub(super) fn clip(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
         self.clip_in(R::Mask::splat(true), normal, least)
@@ -99,35 +99,55 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         if !(self.some & !all).any() {
             return Ok(());
         }
-        // where edge i crosses the plane, the last place at which the outline leaves the inside, and the lowest of the corners alone outside
         let next = |i: usize| if i + 1 == count { 0 } else { i + 1 };
+        let before = |i: usize| if i == 0 { count - 1 } else { i - 1 };
+        let (mut once, mut twice) = (no, no);
+        for i in 0..count {
+            let leaves = inside[before(i)] & !inside[i];
+            twice = twice | (once & leaves);
+            once = once | leaves;
+        }
+        if twice.any() {
+            let mut lowest = zero;
+            for height in &height[..count] {
+                lowest = lowest.lesser(*height);
+            }
+            let (mut found, mut place) = (no, [no; FEW]);
+            for i in 0..count {
+                place[i] = height[i].le(lowest) & !inside[i] & !found;
+                found = found | place[i];
+            }
+            // twice around, each way
+            for i in (0..count).chain(0..count) {
+                place[next(i)] = place[next(i)] | (place[i] & !inside[next(i)]);
+            }
+            for i in (0..count).chain(0..count).rev() {
+                place[before(i)] = place[before(i)] | (place[i] & !inside[before(i)]);
+            }
+            for i in 0..count {
+                inside[i] = inside[i] | (twice & !place[i]);
+            }
+        }
+        // where edge i crosses the plane, and the place at which the outline leaves the inside
         let mut crossing = [Vec3::default(); FEW];
         let mut left = Vec3::default();
-        let mut lowest = zero;
         for i in 0..count {
-            let j = next(i);
-            let crosses = inside[i] ^ inside[j];
+            let crosses = inside[i] ^ inside[next(i)];
             if !crosses.any() {
                 continue;
             }
-            let fall = height[i] - height[j];
+            let fall = height[i] - height[next(i)];
             let share = height[i] / R::blend(crosses, fall, one);
-            crossing[i] = (self.corners[j] - self.corners[i]).mul_add(share, self.corners[i]);
-            left = Vec3::blend(inside[i] & !inside[j], crossing[i], left);
-            lowest = lowest.lesser(height[j].keep(inside[i] & inside[next(j)]));
+            crossing[i] = (self.corners[next(i)] - self.corners[i]).mul_add(share, self.corners[i]);
+            left = Vec3::blend(inside[i] & !inside[next(i)], crossing[i], left);
         }
         let (mut moved, mut carried) = (no, Vec3::default());
         for i in 0..count {
-            let (before, after) = (if i == 0 { count - 1 } else { i - 1 }, next(i));
             let outside = !inside[i];
-            let leaves = outside & inside[before];
-            let returns = outside & inside[after];
-            left = Vec3::blend(leaves, crossing[before], left);
-            let alone = leaves & returns;
-            let splits = alone & !moved & height[i].le(lowest);
-            let stays = inside[i] | (alone & !splits);
+            let (leaves, returns) = (outside & inside[before(i)], outside & inside[next(i)]);
+            let splits = leaves & returns;
             let corner = Vec3::blend(returns & !leaves, crossing[i], left);
-            let corner = Vec3::blend(stays, self.corners[i], corner);
+            let corner = Vec3::blend(inside[i], self.corners[i], corner);
             self.corners[i] = Vec3::blend(moved, carried, corner);
             carried = Vec3::blend(splits, crossing[i], corner);
             moved = moved | splits;
