@@ -171,10 +171,7 @@ impl<R: Real> Occlusion<R> {
                 self.front = (-cap.axis, -cap.tangents);
                 self.light = Some(cap);
                 let all = unoccluded(&cap, center, radius, normal);
-                self.stack[0].start(&[], all.gt(R::lit(0.0)));
-                if self.stack[0].is_empty() {
-                    return Some(R::lit(0.0));
-                }
+                self.stack[0].start(&[], R::Mask::splat(true));
                 all
             }
         };
@@ -185,7 +182,11 @@ impl<R: Real> Occlusion<R> {
     #[inline]
     fn beside(&mut self, all: R, point: Vec3<R>, blockers: &[Convex<R::Scalar>]) -> Result<R, TooMany> {
         let (zero, mut visible, mut kept) = (R::lit(0.0), all, 0);
-        let mut covered = R::Mask::splat(false);
+        let mut covered = !all.gt(zero);
+        self.stack[0].keep(!covered);
+        if covered.all() {
+            return Ok(zero);
+        }
         for blocker in blockers {
             match *blocker {
                 Convex::Polygon { corners, count } => {

@@ -73,7 +73,7 @@ impl<R: Real> Cap<R> {
             let azimuth_to = azimuth(to);
             let across = from.cross(to);
             let square = across.length_squared();
-            let edge = square.gt(zero);
+            let edge = square.gt(R::lit(1e-36));
             let m = across * rsqrt(R::blend(edge, square, one));
             // the edge's great circle passes the axis at a distance with this sine
             let sine = axis.dot(m);

@@ -168,7 +168,8 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         let zero = R::lit(0.0);
         let inverse = |v: Vec3<R>| {
             let square = v.length_squared();
-            rsqrt(R::blend(square.gt(zero), square, R::lit(1.0)))
+            // a corner this near to the point, for the size of the outline, is at the point
+            rsqrt(R::blend(square.gt(R::lit(1e-30)), square, R::lit(1.0)))
         };
         let mut sum = zero;
         let corners = self.corners();
