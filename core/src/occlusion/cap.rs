@@ -25,11 +25,12 @@ impl<R: Real> Cap<R> {
         let (axis, distance) = center.unit_and_length();
         let some = distance.gt(zero);
         let distance = R::blend(some, distance, one);
-        let sin = (radius / distance).lesser(one).greater(zero);
+        let sin = R::blend(some, radius / distance, one).lesser(one).greater(zero);
         let scale = center.max_abs().greater(radius).pow2_scale();
         let power = (center * scale).length_squared_minus_square(radius * scale) / (distance * scale);
         let cos = (power / (distance * scale)).greater(R::lit(1e-12)).lesser(one).sqrt();
-        let tangents = power / scale;
+        // from the centre, nothing is in front
+        let tangents = (power / scale).keep(some);
         Self { axis, sin, cos, tangents }
     }
     /// Whether the caps have no direction in common, in all of these lanes.
