@@ -31,6 +31,9 @@ fn from_point(shape: &Convex<f32>, point: [f32; 3]) -> Shape {
 trait Truth {
     /// What the least sine of an edge seen under more than a right angle divides, and the least cosine of a sphere's half-angle.
     fn condition(&self, lane: usize) -> f64;
+    /// Whether the point lies within a flat blocker, nearer to its plane than single precision tells, which then hides one half of the
+    /// directions or the other.
+    fn surrounded(&self, lane: usize) -> bool;
     /// The truth for a lane, with a limit in front of the light that is a fifth nearer and farther.
     fn truth(&self, lane: usize) -> Option<[Visible; 2]>;
 }
@@ -45,6 +48,16 @@ impl Truth for Scene {
             Shape::Sphere(center, radius) => (1.0 - (radius / length(center)).powi(2)).max(0.0).sqrt(),
         };
         self.blockers.iter().map(sine).fold(sine(&self.light), f64::min)
+    }
+    fn surrounded(&self, lane: usize) -> bool {
+        self.blockers.iter().any(|blocker| {
+            let Shape::Polygon(c) = from_point(blocker, self.points[lane]) else { return false };
+            let last = c[c.len() - 1];
+            let across = unit(cross(sub(c[1], c[0]), sub(last, c[0])));
+            let size = c.iter().map(|c| length(*c)).fold(0.0, f64::max);
+            let angle = |i: usize| dot(unit(c[i]), unit(c[(i + 1) % c.len()])).clamp(-1.0, 1.0).acos();
+            dot(across, c[0]).abs() < 1e-6 * size && (0..c.len()).map(angle).sum::<f64>() > 5.0
+        })
     }
     fn truth(&self, lane: usize) -> Option<[Visible; 2]> {
         let light = from_point(&self.light, self.points[lane]);
@@ -392,7 +405,8 @@ fn measure(kind: Kind, round: Round, packets: u32, seed: u64) -> Errors {
         let found = scene.found::<f32x8>(0);
         for lane in 0..8 {
             errors.points += 1;
-            let Some([near, far]) = scene.truth(lane) else {
+            let truth = if scene.surrounded(lane) { None } else { scene.truth(lane) };
+            let Some([near, far]) = truth else {
                 errors.unknown += 1;
                 continue;
             };

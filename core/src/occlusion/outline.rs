@@ -27,7 +27,12 @@ fn angle_over_sine<R: Real>(cos: R, sin_squared: R) -> R {
     let cos = cos.clamped(-one, one);
     // the ratio is a smooth function of the cosine up to a right angle; beyond, only the sine keeps the digits of an edge across the point
     let square = R::blend(cos.lt(zero), sin_squared, (one - cos) * (one + cos)).greater(R::lit(1e-30));
-    let ratio = cos.acos() * rsqrt(square);
+    let mut angle = cos.acos();
+    let across = cos.lt(R::lit(-0.9));
+    if across.any() {
+        angle = R::blend(across, sin_squared.sqrt().atan2(cos), angle);
+    }
+    let ratio = angle * rsqrt(square);
     R::blend(cos.gt(R::lit(0.999_999)), R::lit(1.0 / 3.0).mul_add(one - cos, one), ratio)
 }
 
