@@ -24,9 +24,25 @@
 //!   (Lambert 1760; Baum, Rushmeier and Winget 1989). For a sphere, arcs of its circle replace the edges outside: from the azimuth φ₁ to φ₂
 //!   about the axis a, an arc of half-angle α has ∫ r × dr = sin²α (φ₂ − φ₁) a + sinα cosα a × (e(φ₂) − e(φ₁)).
 //! - Domain: any points and shapes with finite coordinates. A point lies outside of spheres, and in front of what it sees.
-//! - What lies behind the light, or between the point and the light but within 2⁻¹⁷ of the way from the light, does not occlude.
+//! - What lies behind the light, or between the point and the light but within 2⁻¹⁷ of the way from the light, does not occlude. A sphere
+//!   ends at the circle in which its tangents from the point touch it.
 //! - Degenerate input: blockers without area hide nothing. A light that is seen edge-on, lies below the horizon or has no area has Ω⊥ = 0.
 //! - Greatest error: see [`Occlusion::visible`].
+//!
+//! Nanoseconds per point, one at a time and in packets of 8. A blocker beside the light takes a quarter of the time of one before it.
+//!
+//! <!-- table: visible -->
+//! Intel(R) Xeon(R) Processor, x86-64-v3, 2026-11-22.
+//!
+//! | light | blockers | x1 | x8 |
+//! |---|---|---|---|
+//! | polygon | none | 128.4 | 19.2 |
+//! |  | a polygon before it | 410.3 | 68.8 |
+//! |  | 4 polygons, 1 before it | 693.1 | 116.1 |
+//! |  | a sphere before it | 398.8 | 77.4 |
+//! | sphere | none | 28.6 | 4.80 |
+//! |  | a polygon before it | 446.3 | 83.2 |
+//! <!-- end of table -->
 
 mod cap;
 mod outline;
@@ -133,8 +149,14 @@ impl<R: Real> Occlusion<R> {
     /// unit normal `normal`. Both sides of a flat light count. `None` if there are more than [`BLOCKERS`] blockers, if too many of them
     /// overlap as seen from a point, or if the part is bounded by two spheres that overlap: then it must be sampled.
     ///
-    /// Greatest error: 4e−7 times the angle around the light, in radians, for each of the blockers that occlude it; measured by
-    /// `cargo test -p etendue-tests --test occlusion -- --nocapture`.
+    /// In a packet, `None` concerns all lanes: one of them may be the only one with too many. What a packet of 8 can compute, each of its
+    /// lanes can alone, with the same bits.
+    ///
+    /// Greatest error: 1e−6 times the angle around the light, in radians, for each of the blockers that occlude it (6e−7 measured, and 2e−7
+    /// among polygons; in double precision 1e−7). The error is absolute: where the blockers leave little, it may be as large as what is
+    /// left. It grows by the reciprocals of the sine of an edge that is seen under more than a right angle, and of the cosine of the
+    /// half-angle of a sphere. A point that lies over a flat blocker, nearer to its plane than 1e−6 of its extent, may be on either side.
+    /// Measured by `cargo test -p etendue-tests --test occlusion -- --nocapture --include-ignored`.
     #[inline]
     pub fn visible(
         &mut self,
