@@ -128,6 +128,9 @@ impl<R: Real> Default for Occlusion<R> {
     }
 }
 
+/// A part of the light: the sphere that bounds it, if one does, and its Ω⊥.
+type Part<R> = (Option<Cap<R>>, R);
+
 /// Why the intersections do not suffice.
 struct TooMany;
 
@@ -280,15 +283,10 @@ impl<R: Real> Occlusion<R> {
         Ok(())
     }
 
-    /// Puts the part of intersection `depth` that blocker `k` hides on the stack. Returns its Ω⊥ and the sphere that bounds it, or `None` if
+    /// Puts what blocker `k` hides of intersection `depth` on the stack. Returns the sphere that bounds it and its Ω⊥, or `None` if
     /// there is no such part in any lane. `cap` is the sphere that bounds the intersection, if there is one.
     #[inline]
-    fn intersect(
-        &mut self,
-        depth: usize,
-        k: usize,
-        cap: Option<Cap<R>>,
-    ) -> Result<Option<(Option<Cap<R>>, R)>, TooMany> {
+    fn intersect(&mut self, depth: usize, k: usize, cap: Option<Cap<R>>) -> Result<Option<Part<R>>, TooMany> {
         let (seen, normal) = (&self.seen[k], self.normal);
         let (below, above) = self.stack.split_at_mut(depth + 1);
         let (from, Some(to)) = (&below[depth], above.first_mut()) else { return Err(TooMany) };

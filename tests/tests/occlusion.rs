@@ -520,7 +520,7 @@ fn any_numbers() {
         };
         let mut shape = |random: &mut Random| {
             let word = random.word();
-            if word % 3 == 0 {
+            if word.is_multiple_of(3) {
                 let radius = if word & 8 == 0 { random.unit() } else { random.any_f32() };
                 return Convex::Sphere { center: vector(random).into(), radius };
             }

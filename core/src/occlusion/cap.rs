@@ -43,8 +43,8 @@ impl<R: Real> Cap<R> {
     /// Ω⊥ of the part of the cap within an outline that lies above the horizon.
     ///
     /// Each edge contributes its part inside the cap. What the edge has outside is moved to the cap's circle, along great circles through
-    /// the axis. ∫ (r − a cosα) × dr around the part is that of r × dr, because the curve is closed. It is sin²α a per radian on the circle,
-    /// and small at the circle elsewhere, so that what is rounded there does not matter.
+    /// the axis. ∫ (r − a cosα) × dr around the part is that of r × dr, because the curve is closed. On the circle it is sin²α a per
+    /// radian, and elsewhere it is small at the circle, so that what is rounded there does not matter.
     #[inline]
     pub(super) fn projected_solid_angle_within<const MOST: usize>(
         &self,

@@ -49,7 +49,7 @@ impl Scene {
         let all = bare.found::<f32x8>(0).expect("there are no blockers");
         let left = self.found::<f32x8>(0).unwrap_or_default();
         for (all, left) in all.as_array().iter().zip(left.as_array()) {
-            assert!(all.is_finite() && (0.0..=3.141_593).contains(all), "{all}: {self:?}");
+            assert!(all.is_finite() && (0.0..=core::f32::consts::PI).contains(all), "{all}: {self:?}");
             assert!((0.0..=*all).contains(left), "{left} of {all}: {self:?}");
         }
     }
