@@ -14,7 +14,8 @@
 //! ```
 //!
 //! Start at [`light`] to sample a light, at [`warp`] for maps without a shading point, at [`sequence`] for random numbers, at
-//! [`estimate`] for weights of combined techniques, and at [`select`] to choose among lights.
+//! [`estimate`] for weights of combined techniques, at [`select`] to choose among lights, and at [`occlusion`] for the visible part of a
+//! light behind a few convex blockers, without samples.
 //!
 //! # The contract
 //! 1. **Total.** No panic, NaN or infinity for any finite input. Degenerate lanes have pdf 0 and do not affect their neighbours.

@@ -8,6 +8,7 @@ mod prepared;
 mod settings;
 mod tile;
 
+pub use analytic::Survey;
 pub use settings::{RayCount, Settings};
 
 use crate::bvh::BuildError;
@@ -16,10 +17,15 @@ use crate::film::{Film, PixelSum};
 use crate::sampler::Sampler;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
+use crate::technique::Technique;
 use adaptive::Effort;
 use prepared::PreparedScene;
 use rayon::prelude::*;
+use std::collections::HashSet;
 use tile::{TILE, TileRenderer};
+
+/// Greatest number of pixels that are looked at to choose a technique.
+const PROBES: u32 = 256;
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
@@ -83,6 +89,7 @@ impl World {
         progress: impl Fn(u64) + Sync,
     ) -> (Film, RayCount) {
         let (width, height) = (settings.width, settings.height);
+        let settings = &Settings { technique: self.technique(camera, settings), ..*settings };
         let (pixels, rays) = if settings.sampler == Sampler::Adaptive {
             self.render_adaptively(camera, settings, progress)
         } else {
@@ -93,6 +100,53 @@ impl World {
             })
         };
         (Film { width, height, pixels }, rays)
+    }
+
+    /// The technique of an image: a fixed one in place of [`Technique::Auto`].
+    ///
+    /// [`Technique::Analytic`] is chosen if the lights are known at half of the probes or more, and if these do not all see primitives of
+    /// their own: a certificate takes as long as some samples.
+    pub fn technique(&self, camera: &Camera, settings: &Settings) -> Technique {
+        if settings.technique != Technique::Auto {
+            return settings.technique;
+        }
+        let (mut probes, mut lights, mut unknown, mut places) = (0, 0, 0, HashSet::new());
+        if self.scene.lights.areas().is_some() && !self.scene.surfaces.has_rough() {
+            for survey in self.survey(camera, settings, true) {
+                lights += survey.lights();
+                unknown += survey.unknown;
+                probes += usize::from(survey.place.is_some());
+                places.extend(survey.place);
+            }
+        }
+        if probes > 0 && 2 * unknown <= lights && 4 * places.len() <= probes {
+            Technique::Analytic
+        } else if self.scene.surfaces.has_rough() {
+            Technique::MisPower
+        } else {
+            Technique::SolidAngle
+        }
+    }
+
+    /// What is known of the lights in the middle of each pixel, row by row; with `probe`, at some pixels, at most `PROBES`.
+    pub fn survey(&self, camera: &Camera, settings: &Settings, probe: bool) -> Vec<Survey> {
+        let settings = &Settings { technique: Technique::Analytic, ..*settings };
+        let tiles = settings.width.div_ceil(TILE) * settings.height.div_ceil(TILE);
+        let apart = tiles.div_ceil(PROBES);
+        let (surveys, _) = self.tiles(camera, settings, |renderer, area| {
+            let [x0, y0, x1, y1] = area;
+            if !probe {
+                let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
+                return renderer.survey([x0, y0], &pixels);
+            }
+            let mut surveys = vec![Survey::default(); ((x1 - x0) * (y1 - y0)) as usize];
+            let tile = y0 / TILE * settings.width.div_ceil(TILE) + x0 / TILE;
+            if tile.is_multiple_of(apart) {
+                surveys[0] = renderer.survey([x0, y0], &[[(x0 + x1) / 2, (y0 + y1) / 2]])[0];
+            }
+            surveys
+        });
+        surveys
     }
 
     /// Renders the pilot, then the adaptive samples.

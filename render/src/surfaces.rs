@@ -46,6 +46,7 @@ pub struct Surfaces {
     one_material: u32,
     /// Whether all materials are diffuse.
     pub only_diffuse: bool,
+    rough: bool,
 }
 
 impl Surfaces {
@@ -83,6 +84,7 @@ impl Surfaces {
             Material::Mirror(_) | Material::Conductor { .. } => [1.0; 3],
         };
         Self {
+            rough: scene.materials.iter().any(Material::is_glossy),
             only_diffuse: scene.materials.iter().all(|m| matches!(m, Material::Diffuse(_))),
             normals: scene.shapes.iter().map(|s| s.geometry.normal()).collect(),
             shapes: scene.shapes.clone(),
@@ -100,6 +102,10 @@ impl Surfaces {
     /// Indices of the shapes that emit, in the order of their lights.
     pub fn light_shapes(&self) -> impl Iterator<Item = u32> {
         (0..).zip(&self.shapes).filter(|(_, shape)| shape.emission.is_some()).map(|(index, _)| index)
+    }
+    /// Whether any material is a rough metal.
+    pub fn has_rough(&self) -> bool {
+        self.rough
     }
     /// Geometry and material where eight rays hit the scene.
     // a call would copy the result

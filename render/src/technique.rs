@@ -23,6 +23,8 @@ pub enum Technique {
     MisPower,
     /// Exact where geometry tells what occludes a light; elsewhere by solid angle
     Analytic,
+    /// Analytic if that decides enough of the scene; else mis-power with rough metals, and solid-angle without
+    Auto,
 }
 
 impl Technique {

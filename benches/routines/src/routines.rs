@@ -2,6 +2,7 @@
 
 use etendue::discrete::{AliasTable, PiecewiseConstant2d};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue::occlusion::{Convex, Occlusion};
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
     ZOrderIndex,
@@ -120,6 +121,36 @@ impl<R: Real + 'static> List<R> {
     fn prepared<T>(&mut self, name: &str, compute: impl Fn(Vec3<R>, Vec2<R>) -> T + 'static) {
         let arguments: Vec<_> = self.viewpoints.iter().copied().zip(self.squares.iter().copied()).collect();
         self.push(name, (), arguments, move |(), (p, u)| compute(p, u));
+    }
+}
+
+/// What remains of a light behind blockers, from the viewpoints.
+fn visible_parts<R: Real + 'static>(list: &mut List<R>) {
+    let lit = <R::Scalar as Real>::lit;
+    let square = |x: f64, y: f64, half: f64| Convex::Polygon {
+        corners: [[-half, -half], [half, -half], [half, half], [-half, half]]
+            .map(|[a, b]| Vec3::new(lit(x + a), lit(y), lit(b))),
+        count: 4,
+    };
+    let ball = |x: f64, y: f64, radius: f64| Convex::Sphere {
+        center: Vec3::new(lit(x), lit(y), lit(0.0)),
+        radius: lit(radius),
+    };
+    let (over, beside) = (square(0.25, 1.25, 0.4), [3.0, 5.0, 7.0].map(|x| square(x, 1.25, 0.4)));
+    let (panel, lamp) = (square(0.0, 2.0, 1.0), ball(0.0, 2.0, 0.9));
+    let up = Vec3::lit([0.0, 1.0, 0.0]);
+    for (name, light, blockers) in [
+        ("polygon", panel, vec![]),
+        ("polygon, 1 blocker", panel, vec![over]),
+        ("polygon, 4 blockers, 1 before it", panel, vec![over, beside[0], beside[1], beside[2]]),
+        ("polygon, 1 sphere", panel, vec![ball(0.25, 1.25, 0.4)]),
+        ("sphere", lamp, vec![]),
+        ("sphere, 1 blocker", lamp, vec![over]),
+    ] {
+        let memory = std::cell::RefCell::new(Occlusion::<R>::new());
+        list.prepared(&format!("visible {name}"), move |p, _| {
+            memory.borrow_mut().visible(p, black_box(up), &light, &blockers)
+        });
     }
 }
 
@@ -265,6 +296,8 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.light("pentagon by solid angle", move |p| pentagon.by_solid_angle(p));
     list.light("pentagon by projected solid angle", move |p| pentagon.by_projected_solid_angle(p, up));
     list.light("rectangle by cosine warp", move |p| rectangle.by_cosine_warp(p, up));
+
+    visible_parts(&mut list);
 
     list.sequence("independent", Independent::new(1));
     list.sequence("stratified", Stratified::new(1, 64));

@@ -220,12 +220,28 @@ fn choice() -> Table {
     Table { file: "README.md", name: "choice", header, rows }
 }
 
+/// Visible parts: the light, its blockers, and the time of a point at each width.
+fn visible() -> Table {
+    let row = |light: &'static str, blockers: &'static str, name: &'static str| {
+        vec![Text(light), Text(blockers), Time(name, 0), Time(name, 2)]
+    };
+    let rows = vec![
+        row("polygon", "none", "visible polygon"),
+        row("", "a polygon before it", "visible polygon, 1 blocker"),
+        row("", "4 polygons, 1 before it", "visible polygon, 4 blockers, 1 before it"),
+        row("", "a sphere before it", "visible polygon, 1 sphere"),
+        row("sphere", "none", "visible sphere"),
+        row("", "a polygon before it", "visible sphere, 1 blocker"),
+    ];
+    Table { file: "core/src/occlusion.rs", name: "visible", header: &["light", "blockers", "x1", "x8"], rows }
+}
+
 const LIGHTS: &[&str] =
     &["light", "by", "x1", "x8", "prepared, x1", "prepared, x8", "pdf, x8", "invert, x8", "all fields, x8"];
 
 fn tables() -> Vec<Table> {
     let lights = Table { file: "core/src/light.rs", name: "lights", header: LIGHTS, rows: lights() };
-    vec![warps(), lights, sequences(), choice()]
+    vec![warps(), lights, sequences(), visible(), choice()]
 }
 
 fn processor() -> String {

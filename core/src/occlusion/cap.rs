@@ -25,9 +25,12 @@ impl<R: Real> Cap<R> {
         let (axis, distance) = center.unit_and_length();
         let some = distance.gt(zero);
         let distance = R::blend(some, distance, one);
-        let sin = (radius / distance).lesser(one).greater(zero);
-        let tangents = center.length_squared_minus_square(radius) / distance;
-        let cos = (tangents / distance).greater(R::lit(1e-12)).lesser(one).sqrt();
+        let sin = R::blend(some, radius / distance, one).lesser(one).greater(zero);
+        let scale = center.max_abs().greater(radius).pow2_scale();
+        let power = (center * scale).length_squared_minus_square(radius * scale) / (distance * scale);
+        let cos = (power / (distance * scale)).greater(R::lit(1e-12)).lesser(one).sqrt();
+        // from the centre, nothing is in front
+        let tangents = (power / scale).keep(some);
         Self { axis, sin, cos, tangents }
     }
     /// The corners of a square around the cap, unless that is close to a hemisphere in any lane.
@@ -36,6 +39,7 @@ impl<R: Real> Cap<R> {
             return Err(TooMany);
         }
         let Frame { s, t, n } = Frame::new(self.axis);
+        // a little wider, for rounding
         let (s, t, n) = (s * self.sin, t * self.sin, n * (self.cos * R::lit(0.999)));
         Ok([n + s + t, n - s + t, n - s - t, n + s - t])
     }
@@ -49,7 +53,8 @@ impl<R: Real> Cap<R> {
     /// Ω⊥ of the part of the cap within an outline that lies above the horizon.
     ///
     /// Each edge contributes its part inside the cap. What the edge has outside is moved to the cap's circle, along great circles through
-    /// the axis. The edges moved form a closed curve however they are rounded, and every contribution is continuous in the corners.
+    /// the axis. ∫ (r − a cosα) × dr around the part is that of r × dr, because the curve is closed. On the circle it is sin²α a per
+    /// radian, and elsewhere it is small at the circle, so that what is rounded there does not matter.
     #[inline]
     pub(super) fn projected_solid_angle_within<const MOST: usize>(
         &self,
@@ -68,30 +73,32 @@ impl<R: Real> Cap<R> {
         let up = axis.dot(normal);
         // one frame for all edges, so that what is moved stays closed
         let Frame { s, t, .. } = Frame::new(axis);
-        let azimuth = |v: Vec3<R>| {
-            let (x, y) = (v.dot(s), v.dot(t));
-            let square = x.mul_add(x, y * y);
-            let inverse = rsqrt(R::blend(square.gt(zero), square, one));
-            Vec2::new(x * inverse, y * inverse)
-        };
-        let keep = |v: Vec2<R>, lanes| Vec2::new(v.x.keep(lanes), v.y.keep(lanes));
+        let azimuth = |v: Vec3<R>| Vec2::new(v.dot(s), v.dot(t));
         let turn = |a: Vec2<R>, b: Vec2<R>| (a.x * b.y - a.y * b.x).atan2(a.dot(b));
-        let (mut sum, mut turned, mut moved) = (zero, zero, Vec2::default());
+        let inverse_length = |tan: R| rsqrt(tan.mul_add(tan, one));
+        let (mut sum, mut turned) = (zero, zero);
         let corners = outline.corners();
         let mut from = corners[corners.len() - 1];
         let mut azimuth_from = azimuth(from);
         for &to in corners {
+            let azimuth_to = azimuth(to);
             let across = from.cross(to);
             let square = across.length_squared();
-            let edge = square.gt(zero);
+            let edge = square.gt(R::lit(1e-36));
             let m = across * rsqrt(R::blend(edge, square, one));
             // the edge's great circle passes the axis at a distance with this sine
             let sine = axis.dot(m);
+            let half_squared = sin_squared - sine * sine;
+            let near = edge & half_squared.gt(zero);
+            if !near.any() {
+                turned += turn(azimuth_from, azimuth_to).keep(edge);
+                (from, azimuth_from) = (to, azimuth_to);
+                continue;
+            }
             let cosine_squared = ((one - sine) * (one + sine)).greater(R::lit(1e-12));
             let inverse_cosine = rsqrt(cosine_squared);
             // along the edge's circle, whose point nearest to the axis is in the middle of what is inside
             let along = m.cross(axis) * inverse_cosine;
-            let half_squared = sin_squared - sine * sine;
             let half = half_squared.greater(zero).sqrt();
             // tangents of the angles from the nearest point of the circle
             let slope = half / cos;
@@ -100,29 +107,30 @@ impl<R: Real> Cap<R> {
                 v.dot(along) / (forward * inverse_cosine).greater(R::lit(1e-30))
             };
             let (start, end) = (tangent(from), tangent(to));
+            // an edge may be shorter than its rounding, or point backwards
+            let meets = near & start.lt(slope) & end.gt(-slope);
             let (low, high) = (start.greater(-slope), end.lesser(slope));
-            let meets = edge & half_squared.gt(zero) & low.lt(high);
-            let angle = (high - low).atan2(low.mul_add(high, one)).keep(meets);
+            let angle = (high - low).atan2(low.mul_add(high, one));
+            let (from_low, from_high) = (inverse_length(low), inverse_length(high));
+            // the axis times the chord, by its parts along the circle and towards the axis
+            let chord = high.mul_add(from_high, -(low * from_low));
+            let (over_m, over_along) = (m.dot(normal), along.dot(normal));
+            let cross =
+                sine.mul_add(-up, over_m) * (chord * inverse_cosine) + over_along * (sine * (from_high - from_low));
+            sum += (angle * over_m - cos * cross).keep(meets);
             // the parts outside, along the circle of the cap
-            let azimuth_to = azimuth(to);
             let before = edge & (!meets | start.lt(-slope));
             let after = meets & end.gt(slope);
             let nearest = (axis - m * sine) * (cos * inverse_cosine);
             let reach = along * half;
             let until = Vec2::blend(meets, azimuth(nearest - reach), azimuth_to);
             turned += turn(azimuth_from, until).keep(before);
-            moved += keep(until - azimuth_from, before);
             if after.any() {
-                let since = azimuth(nearest + reach);
-                turned += turn(since, azimuth_to).keep(after);
-                moved += keep(azimuth_to - since, after);
+                turned += turn(azimuth(nearest + reach), azimuth_to).keep(after);
             }
-            sum += angle * m.dot(normal);
-            azimuth_from = azimuth_to;
-            from = to;
+            (from, azimuth_from) = (to, azimuth_to);
         }
-        let bend = moved.x.mul_add(t.dot(normal), -(moved.y * s.dot(normal)));
-        sum += sin_squared * turned * up + sin * cos * bend;
+        sum += sin_squared * turned * up;
         Ok((sum * R::lit(0.5)).abs().keep(outline.some()))
     }
 }

@@ -27,7 +27,12 @@ fn angle_over_sine<R: Real>(cos: R, sin_squared: R) -> R {
     let cos = cos.clamped(-one, one);
     // the ratio is a smooth function of the cosine up to a right angle; beyond, only the sine keeps the digits of an edge across the point
     let square = R::blend(cos.lt(zero), sin_squared, (one - cos) * (one + cos)).greater(R::lit(1e-30));
-    let ratio = cos.acos() * rsqrt(square);
+    let mut angle = cos.acos();
+    let across = cos.lt(R::lit(-0.9));
+    if across.any() {
+        angle = R::blend(across, sin_squared.sqrt().atan2(cos), angle);
+    }
+    let ratio = angle * rsqrt(square);
     R::blend(cos.gt(R::lit(0.999_999)), R::lit(1.0 / 3.0).mul_add(one - cos, one), ratio)
 }
 
@@ -48,32 +53,53 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     pub(super) fn some(&self) -> R::Mask {
         self.some
     }
+    /// Leaves nothing in the other lanes.
+    pub(super) fn keep(&mut self, lanes: R::Mask) {
+        self.some = self.some & lanes;
+    }
 
     /// Keeps the part where normal · x ≥ `least`.
     ///
     /// The outline stays closed whatever is rounded: each corner outside becomes a point on an edge that crosses the plane. Where only one
-    /// corner is outside, it becomes two, and those after it move on by one.
+    /// corner is outside, it becomes two, and those after it move on by one. Rounding can put corners outside in several places, if they
+    /// lie on the plane, as those of neighbours in a mesh do: only those in the place that is farthest outside are clipped.
     #[inline]
     pub(super) fn clip(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
-        // unrolled for each number of corners, so that they stay in registers
+        self.clip_in(R::Mask::splat(true), normal, least)
+    }
+    /// Clips in these lanes only.
+    #[inline]
+    pub(super) fn clip_in(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
+        // unrolled for each number of corners
         match self.count {
-            3 => self.clip_corners::<3>(normal, least),
-            4 => self.clip_corners::<4>(normal, least),
-            5 => self.clip_corners::<5>(normal, least),
-            6 => self.clip_corners::<6>(normal, least),
-            7 => self.clip_corners::<7>(normal, least),
-            8 => self.clip_corners::<8>(normal, least),
-            9 => self.clip_corners::<9>(normal, least),
+            3 => self.clip_corners::<3>(lanes, normal, least),
+            4 => self.clip_corners::<4>(lanes, normal, least),
+            5 => self.clip_corners::<5>(lanes, normal, least),
+            6 => self.clip_corners::<6>(lanes, normal, least),
+            7 => self.clip_corners::<7>(lanes, normal, least),
+            8 => self.clip_corners::<8>(lanes, normal, least),
+            9 => self.clip_corners::<9>(lanes, normal, least),
+            10 => self.clip_corners::<10>(lanes, normal, least),
+            11 => self.clip_corners::<11>(lanes, normal, least),
+            12 => self.clip_corners::<12>(lanes, normal, least),
             _ => Err(TooMany),
         }
     }
-
+    /// Lanes in which any corner has normal · x ≥ 0, and in which all have.
+    #[inline(always)]
+    pub(super) fn inside(&self, normal: Vec3<R>) -> (R::Mask, R::Mask) {
+        self.corners().iter().fold((R::Mask::splat(false), R::Mask::splat(true)), |(any, all), corner| {
+            let inside = corner.dot(normal).ge(R::lit(0.0));
+            (any | inside, all & inside)
+        })
+    }
+    /// Clips an outline of `N` corners.
     #[inline]
-    fn clip_corners<const N: usize>(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
-        let (zero, no) = (R::lit(0.0), R::Mask::splat(false));
+    fn clip_corners<const N: usize>(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
+        let no = R::Mask::splat(false);
         let Some(corners) = self.corners.first_chunk_mut::<N>() else { return Err(TooMany) };
         let height = corners.map(|corner| corner.dot(normal) - least);
-        let inside = height.map(|height| height.ge(zero));
+        let mut inside = height.map(|height| height.ge(R::lit(0.0)) | !lanes);
         let any = inside.iter().fold(no, |any, &inside| any | inside);
         let all = inside.iter().fold(!no, |all, &inside| all & inside);
         self.some = self.some & any;
@@ -81,27 +107,33 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
             return Ok(());
         }
         let next = |i: usize| if i + 1 == N { 0 } else { i + 1 };
-        // where edge i crosses the plane, if it does, and the last place at which the outline leaves the inside
+        let before = |i: usize| if i == 0 { N - 1 } else { i - 1 };
+        let (mut once, mut twice) = (no, no);
+        for i in 0..N {
+            let leaves = inside[before(i)] & !inside[i];
+            twice = twice | (once & leaves);
+            once = once | leaves;
+        }
+        if twice.any() {
+            only_the_lowest(&height, &mut inside, twice);
+        }
+        // where edge i crosses the plane, if it does, and the place at which the outline leaves the inside
         let crossing: [Vec3<R>; N] = core::array::from_fn(|i| {
-            let j = next(i);
-            (corners[j] - corners[i]).mul_add(height[i] / (height[i] - height[j]), corners[i])
+            let fall = height[i] - height[next(i)];
+            let share = height[i] / R::blend(inside[i] ^ inside[next(i)], fall, R::lit(1.0));
+            (corners[next(i)] - corners[i]).mul_add(share, corners[i])
         });
-        let mut left = crossing[N - 1];
+        let mut left = Vec3::default();
         for i in 0..N {
             left = Vec3::blend(inside[i] & !inside[next(i)], crossing[i], left);
         }
-        let (mut moved, mut carried) = (no, left);
+        let (mut moved, mut carried) = (no, Vec3::default());
         for i in 0..N {
-            let (before, after) = (if i == 0 { N - 1 } else { i - 1 }, next(i));
-            let leaves = inside[before] & !inside[i];
-            let returns = inside[after] & !inside[i];
-            left = Vec3::blend(leaves, crossing[before], left);
-            let alone = leaves & returns;
-            // only the first corner alone can become two; rounding alone makes another, within its error of the plane
-            let stays = inside[i] | (alone & moved);
-            let outside = Vec3::blend(returns & !leaves, crossing[i], left);
-            let corner = Vec3::blend(stays, corners[i], outside);
-            let splits = alone & !moved;
+            let outside = !inside[i];
+            let (leaves, returns) = (outside & inside[before(i)], outside & inside[next(i)]);
+            let splits = leaves & returns;
+            let corner = Vec3::blend(returns & !leaves, crossing[i], left);
+            let corner = Vec3::blend(inside[i], corners[i], corner);
             corners[i] = Vec3::blend(moved, carried, corner);
             carried = Vec3::blend(splits, crossing[i], corner);
             moved = moved | splits;
@@ -120,7 +152,8 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         let zero = R::lit(0.0);
         let inverse = |v: Vec3<R>| {
             let square = v.length_squared();
-            rsqrt(R::blend(square.gt(zero), square, R::lit(1.0)))
+            // a corner this near to the point, for the size of the outline, is at the point
+            rsqrt(R::blend(square.gt(R::lit(1e-30)), square, R::lit(1.0)))
         };
         let mut sum = zero;
         let corners = self.corners();
@@ -134,5 +167,29 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
             (from, inverse_from) = (to, inverse_to);
         }
         (sum * R::lit(0.5)).abs().keep(self.some)
+    }
+}
+
+/// In these lanes, counts corners outside as inside unless they are next to the lowest one.
+#[cold]
+fn only_the_lowest<R: Real, const N: usize>(height: &[R; N], inside: &mut [R::Mask; N], lanes: R::Mask) {
+    let no = R::Mask::splat(false);
+    let next = |i: usize| if i + 1 == N { 0 } else { i + 1 };
+    let before = |i: usize| if i == 0 { N - 1 } else { i - 1 };
+    let lowest = height.iter().fold(R::lit(0.0), |lowest, &height| lowest.lesser(height));
+    let (mut found, mut place) = (no, [no; N]);
+    for i in 0..N {
+        place[i] = height[i].le(lowest) & !inside[i] & !found;
+        found = found | place[i];
+    }
+    // twice around, each way
+    for i in (0..N).chain(0..N) {
+        place[next(i)] = place[next(i)] | (place[i] & !inside[next(i)]);
+    }
+    for i in (0..N).chain(0..N).rev() {
+        place[before(i)] = place[before(i)] | (place[i] & !inside[before(i)]);
+    }
+    for i in 0..N {
+        inside[i] = inside[i] | (lanes & !place[i]);
     }
 }

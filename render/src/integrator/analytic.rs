@@ -11,7 +11,7 @@ use crate::certificates::{Blocker, Bodies, Certificate, Certifier, Patch, Pyrami
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal};
 use crate::surfaces::{Surface, Surfaces};
-use etendue::occlusion::{Convex, Occlusion};
+use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::select::FEW;
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::f64::consts::FRAC_1_PI;
@@ -24,7 +24,7 @@ const TRIALS: u32 = 4;
 
 /// A light with an area.
 struct AreaLight {
-    form: Convex<'static, f32>,
+    form: Convex<f32>,
     radiance: [f32; 3],
     /// A point of a light that emits on one side, and its normal there.
     side: Option<[V8; 2]>,
@@ -35,10 +35,36 @@ struct AreaLight {
 enum Known {
     Lit,
     Dark,
-    /// Only these of the forms can occlude it.
-    Behind(Range<usize>),
+    /// Only these forms and bodies can occlude it.
+    Behind(Range<usize>, Range<usize>),
     /// It must be sampled.
     Nothing,
+}
+
+/// What is known of the lights at a point that the camera sees: numbers of lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Survey {
+    /// The primitive there, as in hits; nothing else counts where a path ends without a surface that reflects.
+    pub place: Option<u32>,
+    /// Whether the surface is not diffuse, so that all lights must be sampled.
+    pub glossy: bool,
+    /// Lights that nothing can occlude.
+    pub lit: u32,
+    /// Lights that no point of the surface nearby sees.
+    pub dark: u32,
+    /// Lights with 1 to 4 possible blockers.
+    pub few: u32,
+    /// Lights with 5 to 16 possible blockers.
+    pub many: u32,
+    /// Lights that must be sampled.
+    pub unknown: u32,
+}
+
+impl Survey {
+    /// The number of lights.
+    pub fn lights(&self) -> u32 {
+        self.lit + self.dark + self.few + self.many + self.unknown
+    }
 }
 
 /// The certificates of all lights for the part of a surface that a square of pixels sees.
@@ -85,7 +111,8 @@ pub(super) struct Analytic<'a> {
     squares: [Vec<Vec<Entry>>; SIDES.len()],
     whole: Vec<Entry>,
     known: Vec<Known>,
-    forms: Vec<Convex<'a, f32>>,
+    forms: Vec<Convex<f32>>,
+    polyhedra: Vec<Polyhedron<'a, f32>>,
     /// Number of primitives that were looked at, and whether anything was known of a light there.
     tried: u32,
     decided: bool,
@@ -95,15 +122,7 @@ fn corner(v: [f32; 3]) -> Vec3<f32> {
     v.into()
 }
 
-fn blocker_form<'a>(blocker: &Blocker, bodies: &'a Bodies) -> Convex<'a, f32> {
-    match *blocker {
-        Blocker::Polygon { corners, count, .. } => Convex::Polygon { corners: corners.map(corner), count },
-        Blocker::Sphere { center, radius, .. } => Convex::Sphere { center: corner(center), radius },
-        Blocker::Body(body) => Convex::Polyhedron(bodies.polyhedron(body)),
-    }
-}
-
-fn light_form(geometry: &Geometry) -> Convex<'static, f32> {
+fn light_form(geometry: &Geometry) -> Convex<f32> {
     match *geometry {
         Geometry::Sphere { center, radius } => Convex::Sphere { center: corner(center), radius },
         Geometry::Triangle([a, b, c]) => Convex::Polygon { corners: [a, b, c, c].map(corner), count: 3 },
@@ -139,6 +158,7 @@ impl<'a> Analytic<'a> {
             whole: Vec::new(),
             known: Vec::new(),
             forms: Vec::new(),
+            polyhedra: Vec::new(),
             tried: 0,
             decided: false,
         }
@@ -150,6 +170,7 @@ impl<'a> Analytic<'a> {
         self.whole.clear();
         self.known.clear();
         self.forms.clear();
+        self.polyhedra.clear();
         self.origin = origin;
         (self.tried, self.decided) = (0, false);
     }
@@ -157,7 +178,7 @@ impl<'a> Analytic<'a> {
     /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
     /// certificates from `larger`, stays.
     fn certify(&mut self, patch: Option<&Patch>, larger: Option<usize>) -> usize {
-        let Self { bodies, lights, certifier, known, forms, .. } = self;
+        let Self { bodies, lights, certifier, known, forms, polyhedra, .. } = self;
         let first = known.len();
         for light in 0..lights.len() {
             let before = larger.map_or(Known::Nothing, |larger| known[larger + light].clone());
@@ -172,10 +193,21 @@ impl<'a> Analytic<'a> {
                 Certificate::Lit => Known::Lit,
                 Certificate::Dark => Known::Dark,
                 Certificate::Unknown => before,
+                Certificate::Blockers(found) if found.len() > clipped() => Known::Nothing,
                 Certificate::Blockers(found) => {
-                    let start = forms.len();
-                    forms.extend(found.iter().map(|blocker| blocker_form(blocker, bodies)));
-                    Known::Behind(start..forms.len())
+                    let (first_form, first_body) = (forms.len(), polyhedra.len());
+                    for blocker in found {
+                        match *blocker {
+                            Blocker::Polygon { corners, count, .. } => {
+                                forms.push(Convex::Polygon { corners: corners.map(corner), count });
+                            }
+                            Blocker::Sphere { center, radius, .. } => {
+                                forms.push(Convex::Sphere { center: corner(center), radius });
+                            }
+                            Blocker::Body(body) => polyhedra.push(bodies.polyhedron(body)),
+                        }
+                    }
+                    Known::Behind(first_form..forms.len(), first_body..polyhedra.len())
                 }
             });
         }
@@ -234,6 +266,31 @@ impl<'a> Analytic<'a> {
         self.decided = self.decided || known.iter().any(|known| *known != Known::Nothing);
     }
 
+    /// What is known at the surface in a lane.
+    pub(super) fn survey(&mut self, surface: &Surface, ends: &Ends, lane: usize) -> Survey {
+        let mut survey = Survey::default();
+        if !surface.reflects.lane(lane) {
+            return survey;
+        }
+        survey.place = Some(ends.places.as_array()[lane]);
+        survey.glossy = ends.glossy.lane(lane);
+        if survey.glossy {
+            survey.unknown = self.lights.len() as u32;
+            return survey;
+        }
+        let (first, _) = self.find(surface, ends, M8::from_bits(1 << lane));
+        for known in &self.known[first..first + self.lights.len()] {
+            *match known {
+                Known::Lit => &mut survey.lit,
+                Known::Dark => &mut survey.dark,
+                Known::Behind(forms, bodies) if forms.len() + bodies.len() <= 4 => &mut survey.few,
+                Known::Behind(..) => &mut survey.many,
+                Known::Nothing => &mut survey.unknown,
+            } += 1;
+        }
+        survey
+    }
+
     /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them.
     fn find(&mut self, surface: &Surface, ends: &Ends, lanes: M8) -> (usize, M8) {
         let lane = lanes.bits().trailing_zeros() as usize & 7;
@@ -284,12 +341,13 @@ impl<'a> Analytic<'a> {
                         Known::Lit => lit = lit | *lanes,
                         Known::Dark => {}
                         Known::Nothing => open = open | *lanes,
-                        Known::Behind(range) => {
+                        Known::Behind(forms, bodies) => {
                             // the other lanes repeat one of these: what is not seen from here does not matter
                             let lane = lanes.bits().trailing_zeros() as usize & 7;
                             let of = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                             let (point, normal) = (of(surface.point), of(surface.normal));
-                            match self.occlusion.visible(point, normal, &light.form, &self.forms[range.clone()]) {
+                            let (forms, bodies) = (&self.forms[forms.clone()], &self.polyhedra[bodies.clone()]);
+                            match self.occlusion.visible_past(point, normal, &light.form, forms, bodies) {
                                 Some(visible) => part += visible.keep(*lanes),
                                 None => open = open | *lanes,
                             }
@@ -312,4 +370,9 @@ impl<'a> Analytic<'a> {
         }
         any
     }
+}
+
+fn clipped() -> usize {
+    static V: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
+    *V.get_or_init(|| std::env::var("CLIPPED").map_or(16, |v| v.parse().unwrap()))
 }

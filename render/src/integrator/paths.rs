@@ -5,7 +5,7 @@
 //! between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room, 1.00 ± 0.03, and 1.04 times
 //! as long among three thousand balls.)
 
-use super::analytic::{Analytic, Ends};
+use super::analytic::{Analytic, Ends, Survey};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
@@ -147,6 +147,21 @@ impl<'a> Paths<'a> {
         &self.surfaces[..active.len()]
     }
 
+    /// What is known of the lights at the end of the first ray that has been started.
+    pub(super) fn survey(&mut self) -> Survey {
+        self.surfaces(&[M8::from_bits(1)]);
+        self.note_glossy(1);
+        let Self { analytic, surfaces, places, .. } = self;
+        analytic.as_mut().map_or(Survey::default(), |analytic| analytic.survey(&surfaces[0], &places[0], 0))
+    }
+    fn note_glossy(&mut self, count: usize) {
+        if !self.scene.surfaces.only_diffuse {
+            for (place, end) in self.places[..count].iter_mut().zip(&*self.ends) {
+                place.glossy = end.metal.map_or(M8::splat(false), |metal| metal.rough());
+            }
+        }
+    }
+
     /// Radiance along the rays that have been started. `allocated` is empty, or allocates each sample to a light.
     pub(super) fn radiance(
         &mut self,
@@ -175,13 +190,9 @@ impl<'a> Paths<'a> {
         let count = active.len();
         let mut reflected = [V8::default(); GROUP];
         let lights = self.sampled();
+        self.note_glossy(count);
         if let Some(analytic) = &mut self.analytic {
             let mut unknown = [[M8::splat(false); GROUP]; FEW];
-            if METAL {
-                for (place, end) in self.places.iter_mut().zip(&self.ends[..count]) {
-                    place.glossy = end.metal.map_or(M8::splat(false), |metal| metal.rough());
-                }
-            }
             if analytic.gather(&self.surfaces[..count], &self.places, &mut reflected, &mut unknown) {
                 self.by_light::<METAL>(lights, &Which::Among(&unknown), count, numbers, &mut reflected);
             }

@@ -2,6 +2,7 @@
 
 use super::adaptive::PartSum;
 use super::allocation::{Blocks, Weights};
+use super::analytic::Survey;
 use super::paths::{Numbers, Paths, Radiance};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
@@ -104,6 +105,23 @@ impl<'a> TileRenderer<'a> {
         let weights = weights.or(found.as_ref());
         let sum = PartSum::new(weights.map_or(0, |weights| weights.lights));
         self.samples(area, 8 * pilot, sets, weights, sum, |pixel| range(pixel).map(|packet| 8 * packet))
+    }
+
+    /// What is known of the lights in the middle of pixels of a tile that begins at `origin`, seen through the middle of the lens.
+    pub(super) fn survey(&mut self, origin: [u32; 2], pixels: &[[u32; 2]]) -> Vec<Survey> {
+        let mut surveys = Vec::with_capacity(pixels.len());
+        if let Some(analytic) = &mut self.paths.analytic {
+            analytic.begin(origin);
+        }
+        for &[x, y] in pixels {
+            let middle = |at: u32| X8::splat(at as f32 + 0.5);
+            let sample = CameraSample { film: Vec2::new(middle(x), middle(y)), lens: Vec2::default() };
+            self.paths.start(0, self.camera.rays(&sample));
+            self.paths.places[0].pixel = Some([x, y]);
+            surveys.push(self.paths.survey());
+        }
+        self.paths.count.corner += pixels.len() as u64;
+        surveys
     }
 
     /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,

@@ -6,6 +6,7 @@
 
 mod lights;
 mod numbers;
+mod occlusion;
 mod sequences;
 mod shapes;
 mod surfaces;
@@ -92,6 +93,8 @@ targets! {
     alias_table: numbers, 600;
     /// Choices among lights of any power and place.
     light_choice: numbers, 500;
+    /// Lights behind up to 17 blockers, polygons and spheres of any size and place.
+    occlusion: occlusion, 50;
     /// Every sequence, at any index.
     sequence: sequences, 500;
     /// Strata and nets of each sequence, from any start.

@@ -9,7 +9,7 @@
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
 //! - [`suite`]: all properties over all regimes.
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
-//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights.
+//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights; [`occlusion`]: of their visible parts.
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
@@ -18,6 +18,7 @@ pub mod fixtures;
 pub mod fuzz_bodies;
 pub mod generators;
 pub mod mutants;
+pub mod occlusion;
 pub mod properties;
 pub mod stats;
 pub mod suite;
