@@ -1,7 +1,8 @@
 //! Small scenes on a lattice, so that their parts touch, coincide and are parallel, whose certificates must agree with single segments.
 
 use etendue_render::bvh::SHAPE;
-use etendue_render::certificates::{Blocker, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
+use etendue_render::camera::Pinhole;
+use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
 use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
 use etendue_render::surfaces::Surfaces;
 
@@ -106,10 +107,12 @@ fn meets(p: V, y: V, geometry: &Geometry) -> [bool; 2] {
     }
 }
 
-fn is_listed(p: V, y: V, blockers: &[Blocker]) -> bool {
+/// May a blocker hide y from p? `body` tells the triangles of a body.
+fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V, y: V, blockers: &[Blocker], body: impl Fn(u32) -> I) -> bool {
     blockers.iter().any(|blocker| match *blocker {
         Blocker::Polygon { corners, count, .. } => !meets_polygon(p, y, &corners.map(wide)[..count])[1],
         Blocker::Sphere { center, radius, .. } => !meets_sphere(p, y, wide(center), f64::from(radius))[1],
+        Blocker::Body(index) => body(index).any(|t| !meets_triangle(p, y, t.map(wide))[1]),
     })
 }
 
@@ -159,6 +162,21 @@ pub fn certificates(bytes: &[u8]) {
                 triangles.push([p, add(p, u), add(add(p, u), v)]);
                 triangles.push([p, add(add(p, u), v), add(p, v)]);
             }
+            // a box, or one with a triangle missing
+            4 | 5 => {
+                let [p, u, v, w] = [input.point(), input.vector(), input.vector(), input.vector()];
+                let corner = |k: usize| {
+                    let side = |bit: usize, v: f32| if k >> bit & 1 == 0 { 0.0 } else { v };
+                    std::array::from_fn(|axis| p[axis] + side(0, u[axis]) + side(1, v[axis]) + side(2, w[axis]))
+                };
+                for [a, b, c, d] in [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]]
+                {
+                    triangles.extend([[a, b, c], [c, d, a]].map(|t: [usize; 3]| t.map(corner)));
+                }
+                if input.below(8) == 0 {
+                    triangles.pop();
+                }
+            }
             _ => triangles.push(input.triangle()),
         }
     }
@@ -168,7 +186,7 @@ pub fn certificates(bytes: &[u8]) {
     let right = unit(cross(forward, [0.3, 1.0, 0.2]));
     let up = cross(right, forward);
     let camera = CameraSettings { origin, forward, right, up, fov: 40.0, lens: None };
-    let pyramid = Pyramid::new(&camera, 16, 16, [7.0, 7.0, 9.0, 9.0]);
+    let pyramid = Pyramid::new(&Pinhole::new(&camera, 16, 16), [7.0, 7.0, 9.0, 9.0]);
     let scene = scene(triangles, shapes, camera);
     let Ok(surfaces) = Surfaces::new(&scene) else { return };
     let viewer = [Viewer::Pixels(&pyramid), Viewer::Pixels(&pyramid), Viewer::Front, Viewer::Back][view];
@@ -180,7 +198,13 @@ pub fn certificates(bytes: &[u8]) {
         (0..).zip(surfaces.bvh.order()).find(|(_, id)| **id == 0).map_or(0, |(place, _)| place)
     };
     let Some(patch) = Patch::of(&surfaces, place, viewer) else { return };
-    let mut certifier = Certifier::new(&surfaces, [0]);
+    let bodies = if kind < 12 { Bodies::new(&surfaces.bvh) } else { Bodies::default() };
+    let of_body = |body: u32| {
+        let bodies = &bodies;
+        let places = (0..).zip(surfaces.bvh.order()).filter(move |(place, _)| bodies.of(*place) == Some(body));
+        places.map(|(_, id)| scene.triangles[*id as usize])
+    };
+    let mut certifier = Certifier::new(&surfaces, &bodies, [0]);
     let certificate = certifier.certify(&patch, 0);
     if let Certificate::Blockers(blockers) = certificate {
         assert!((1..=MOST).contains(&blockers.len()));
@@ -240,7 +264,10 @@ pub fn certificates(bytes: &[u8]) {
             Certificate::Lit => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
             Certificate::Dark => assert!(!missed, "{p:?} → {y:?} is visible, but dark"),
             Certificate::Blockers(blockers) => {
-                assert!(!met || is_listed(p, y, blockers), "{p:?} → {y:?} is occluded by none of {blockers:?}");
+                assert!(
+                    !met || is_listed(p, y, blockers, of_body),
+                    "{p:?} → {y:?} is occluded by none of {blockers:?}"
+                );
             }
             Certificate::Unknown => {}
         }
