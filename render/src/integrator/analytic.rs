@@ -19,6 +19,8 @@ use std::ops::Range;
 
 /// Sides of the squares of pixels that have certificates of their own. Each square lies within one of the side before.
 const SIDES: [u32; 2] = [TILE, 4];
+/// Greatest number of blockers for which the visible part of a light is computed.
+const CLIPPED: usize = 8;
 /// A tile in which this many primitives were looked at, and nothing was known of any light, asks for no further certificates.
 const TRIALS: u32 = 4;
 
@@ -133,6 +135,14 @@ fn light_form(geometry: &Geometry) -> Convex<f32> {
     }
 }
 
+/// Whether the visible part of a light is worth computing. More blockers take longer than the samples that they save: with 16, `defocus`
+/// takes twice as long as with 8, for 0.99 times the error, and `cornell-box` and `mirror-room` gain nothing. Two spheres that overlap
+/// have no closed form.
+fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
+    let is_ball = matches!(light, Convex::Sphere { .. });
+    blockers.len() <= CLIPPED && !(is_ball && blockers.iter().any(|blocker| matches!(blocker, Blocker::Sphere { .. })))
+}
+
 impl<'a> Analytic<'a> {
     /// For a tile that begins at the pixel `origin`.
     pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera) -> Self {
@@ -193,7 +203,7 @@ impl<'a> Analytic<'a> {
                 Certificate::Lit => Known::Lit,
                 Certificate::Dark => Known::Dark,
                 Certificate::Unknown => before,
-                Certificate::Blockers(found) if found.len() > clipped() => Known::Nothing,
+                Certificate::Blockers(found) if !is_clipped(&lights[light].form, found) => Known::Nothing,
                 Certificate::Blockers(found) => {
                     let (first_form, first_body) = (forms.len(), polyhedra.len());
                     for blocker in found {
@@ -370,9 +380,4 @@ impl<'a> Analytic<'a> {
         }
         any
     }
-}
-
-fn clipped() -> usize {
-    static V: std::sync::OnceLock<usize> = std::sync::OnceLock::new();
-    *V.get_or_init(|| std::env::var("CLIPPED").map_or(16, |v| v.parse().unwrap()))
 }
