@@ -106,7 +106,7 @@ impl World {
     ///
     /// [`Technique::Analytic`] is chosen if the lights are known at half of the probes or more, and if these do not all see primitives of
     /// their own: a certificate takes as long as some samples.
-    pub fn technique(&self, camera: &Camera, settings: &Settings) -> Technique {
+    fn technique(&self, camera: &Camera, settings: &Settings) -> Technique {
         if settings.technique != Technique::Auto {
             return settings.technique;
         }
@@ -126,6 +126,11 @@ impl World {
         } else {
             Technique::SolidAngle
         }
+    }
+
+    /// The technique that the scene's camera uses for an image.
+    pub fn chosen(&self, settings: &Settings) -> Technique {
+        self.technique(&Camera::new(&self.camera, settings.width, settings.height), settings)
     }
 
     /// What is known of the lights in the middle of each pixel, row by row; with `probe`, at some pixels, at most `PROBES`.

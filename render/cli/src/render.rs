@@ -31,7 +31,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat"])]
     error: Option<f64>,
     /// Sample the lights by this technique
-    #[arg(long, value_enum, default_value = "solid-angle")]
+    #[arg(long, value_enum, default_value = "auto")]
     technique: Technique,
     /// Follow a camera ray through at most this many perfect mirrors
     #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
@@ -151,10 +151,18 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         writeln!(
             io::stdout(),
             "{}",
-            to_json(options, &settings, &image, &output, [load, build], pool.current_num_threads())
+            to_json(
+                options,
+                &settings,
+                world.chosen(&settings),
+                &image,
+                &output,
+                [load, build],
+                pool.current_num_threads()
+            )
         )?;
     } else {
-        print(options, &settings, &scene.name, &image, &output, [load, build])?;
+        print(options, &settings, world.chosen(&settings), &scene.name, &image, &output, [load, build])?;
     }
     Ok(())
 }
@@ -251,6 +259,7 @@ fn median(values: &[f64]) -> f64 {
 fn to_json(
     options: &Options,
     settings: &Settings,
+    chosen: Technique,
     image: &Image,
     output: &Output,
     time: [f64; 2],
@@ -268,6 +277,7 @@ fn to_json(
         "spp": image.spp,
         "sets": image.sets,
         "technique": name(settings.technique),
+        "chosen": name(chosen),
         "sampler": name(image.sampler),
         "sensor": name(options.sensor),
         "seed": settings.seed,
@@ -284,6 +294,7 @@ fn to_json(
 fn print(
     options: &Options,
     settings: &Settings,
+    chosen: Technique,
     scene: &str,
     image: &Image,
     output: &Output,
@@ -291,7 +302,9 @@ fn print(
 ) -> io::Result<()> {
     let mut out = io::stdout().lock();
     let Settings { width, height, technique, .. } = settings;
-    let (technique, sampler) = (name(*technique), name(image.sampler));
+    let sampler = name(image.sampler);
+    let technique =
+        if chosen == *technique { name(chosen) } else { format!("{} ({})", name(*technique), name(chosen)) };
     writeln!(out, "{scene}: {width}x{height}, {} samples per pixel, {technique}, {sampler}", image.spp)?;
     if !image.passes.is_empty() {
         let spp: Vec<String> = image.passes.iter().map(|p| p.spp.to_string()).collect();
