@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod allocation;
+mod analytic;
 mod closed_forms;
 mod images;
 mod lens;
