@@ -152,8 +152,8 @@ impl Studio<'_> {
              has no formula. Sampled: more than 16 blockers, or nothing is proved."
                 .to_owned(),
             format!(
-                "Percentages count each light at each pixel whose surface reflects. Shadow rays are those of solid-angle and of analytic, with \
-                 {SPP} samples per pixel, sobol, {COUNTED}×{COUNTED}."
+                "Percentages count each light at each pixel whose surface reflects. Shadow rays are those of solid-angle and of analytic, \
+                 with {SPP} samples per pixel, sobol, {COUNTED}×{COUNTED}."
             ),
         ];
         Ok(Finding { svg: Svg::column(rows).captioned(&lines), headline })
