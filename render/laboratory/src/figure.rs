@@ -1,5 +1,6 @@
 //! Figures for a lecture on light sampling, each with the numbers it illustrates.
 
+mod certificates;
 mod convergence;
 mod images;
 mod integrals;
@@ -63,6 +64,8 @@ pub enum Name {
     Vignetting,
     /// Pixel, lens and light sampled separately, or jointly
     Defocus,
+    /// Where geometry proves that a light is lit, dark, or behind few blockers, and where it must be sampled
+    Certificates,
     /// All figures
     All,
 }
@@ -83,6 +86,7 @@ impl Studio<'_> {
             Name::Padding => self.padding(),
             Name::Vignetting => self.vignetting(),
             Name::Defocus => self.defocus(),
+            Name::Certificates => self.certificates(),
             Name::All => Err("all is not one figure".into()),
         }
     }

@@ -1,11 +1,13 @@
 //! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
 
+use clap::ValueEnum;
 use etendue_laboratory::chart::charts::{self, Show};
 use etendue_laboratory::chart::measure::{ChartedScene, Key, Plan, Row, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::summary::{Summary, Way};
-use etendue_laboratory::chart::{Outcome, report};
+use etendue_laboratory::chart::{Outcome, plot, report};
 use etendue_render::{Sampler, Technique, World, scene};
+use std::collections::HashSet;
 
 const SPP: [u32; 3] = [1, 4, 16];
 const TECHNIQUES: [Technique; 3] = [Technique::Area, Technique::SolidAngle, Technique::MisPower];
@@ -159,4 +161,10 @@ fn bars_are_sorted_and_notes_come_last() {
     assert!(places.is_sorted() && places.last() <= Some(&(3 * places.iter().find(|y| **y > 0).unwrap())), "{places:?}");
     let at = |text: &str| page.rfind(text).unwrap();
     assert!(at("a remark at the end") > at("</figure>") && at("a remark at the end") > at("How this was measured"));
+}
+
+#[test]
+fn every_technique_has_a_colour_of_its_own() {
+    let colours: HashSet<_> = Technique::value_variants().iter().map(|t| plot::color(*t as usize)).collect();
+    assert_eq!(colours.len(), Technique::value_variants().len());
 }

@@ -321,7 +321,7 @@ mod tests {
             ("all triangles twice", with(&unit)),
             ("a triangle turned and twice", with(&[[unit[3][1], unit[3][0], unit[3][2]]])),
             ("a dent", moved([1.0; 3], [0.5; 3])),
-            ("a face with a valley", moved([1.0; 3], [1.0, 0.99, 1.0])),
+            ("a face with a valley", moved([1.0; 3], [1.0, 0.999_99, 1.0])),
             ("boxes that share a corner", with(&block([1.0; 3], [2.0; 3], false))),
             ("boxes that share an edge", with(&block([1.0, 1.0, 0.0], [2.0, 2.0, 1.0], false))),
             ("boxes that share a face", with(&block([1.0, 0.0, 0.0], [2.0, 1.0, 1.0], false))),
@@ -352,5 +352,6 @@ mod tests {
         }
         assert_found(&unit, 6, 12);
         assert_found(&moved([1.0; 3], [1.0, 1.01, 1.0]), 7, 13);
+        assert_found(&moved([1.0; 3], [1.0, 0.999_999_9, 1.0]), 6, 12);
     }
 }

@@ -464,6 +464,8 @@ fn list_names_everything() {
         "brdf",
         "mis-balance",
         "mis-power",
+        "analytic",
+        "auto",
         "samplers",
         "independent",
         "stratified",
