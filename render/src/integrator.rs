@@ -110,16 +110,16 @@ impl World {
         if settings.technique != Technique::Auto {
             return settings.technique;
         }
-        let (mut probes, mut lights, mut unknown, mut places) = (0, 0, 0, HashSet::new());
+        let (mut probes, mut lights, mut sampled, mut places) = (0, 0, 0, HashSet::new());
         if self.scene.lights.areas().is_some() && !self.scene.surfaces.has_rough() {
             for survey in self.survey(camera, settings, true) {
                 lights += survey.lights();
-                unknown += survey.unknown;
+                sampled += survey.sampled();
                 probes += usize::from(survey.place.is_some());
                 places.extend(survey.place);
             }
         }
-        if probes > 0 && 2 * unknown <= lights && 4 * places.len() <= probes {
+        if probes > 0 && 2 * sampled <= lights && 4 * places.len() <= probes {
             Technique::Analytic
         } else if self.scene.surfaces.has_rough() {
             Technique::MisPower

@@ -17,7 +17,6 @@ use crate::interrupt::interrupt;
 use crate::selftest;
 use charts::Show;
 use clap::{Args, ValueEnum};
-use etendue_render::camera::Camera;
 use etendue_render::files;
 use etendue_render::options::{name, size};
 use etendue_render::{Sampler, Settings, Technique, World, scene};
@@ -122,8 +121,7 @@ fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique])
         let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, sets: 1, seed: 1 };
         // `auto` chooses by the whole image
         let [width, height] = subject.size;
-        let camera = Camera::new(&scene.camera, width, height);
-        let chosen = subject.world.technique(&camera, &Settings { width, height, ..settings });
+        let chosen = subject.world.chosen(&Settings { width, height, ..settings });
         let settings = Settings { technique: chosen, ..settings };
         let pixels = subject.world.render(&settings, |_| ()).0.pixels;
         match images.iter().position(|other| *other == pixels) {

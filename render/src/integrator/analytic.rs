@@ -39,6 +39,8 @@ enum Known {
     Dark,
     /// Only these forms and bodies can occlude it.
     Behind(Range<usize>, Range<usize>),
+    /// It is sampled, although its blockers are known.
+    Crowded,
     /// It must be sampled.
     Nothing,
 }
@@ -56,16 +58,22 @@ pub struct Survey {
     pub dark: u32,
     /// Lights with 1 to 4 possible blockers.
     pub few: u32,
-    /// Lights with 5 to 16 possible blockers.
+    /// Lights with 5 to 8 possible blockers.
     pub many: u32,
-    /// Lights that must be sampled.
+    /// Lights with at most 16 possible blockers that are sampled, because that takes less time, or because spheres overlap.
+    pub crowded: u32,
+    /// Lights of which nothing is proved.
     pub unknown: u32,
 }
 
 impl Survey {
+    /// The number of lights that are sampled.
+    pub fn sampled(&self) -> u32 {
+        self.crowded + self.unknown
+    }
     /// The number of lights.
     pub fn lights(&self) -> u32 {
-        self.lit + self.dark + self.few + self.many + self.unknown
+        self.lit + self.dark + self.few + self.many + self.crowded + self.unknown
     }
 }
 
@@ -203,7 +211,7 @@ impl<'a> Analytic<'a> {
                 Certificate::Lit => Known::Lit,
                 Certificate::Dark => Known::Dark,
                 Certificate::Unknown => before,
-                Certificate::Blockers(found) if !is_clipped(&lights[light].form, found) => Known::Nothing,
+                Certificate::Blockers(found) if !is_clipped(&lights[light].form, found) => Known::Crowded,
                 Certificate::Blockers(found) => {
                     let (first_form, first_body) = (forms.len(), polyhedra.len());
                     for blocker in found {
@@ -273,7 +281,7 @@ impl<'a> Analytic<'a> {
     fn note(&mut self, first: usize) {
         self.tried += 1;
         let known = &self.known[first..first + self.lights.len()];
-        self.decided = self.decided || known.iter().any(|known| *known != Known::Nothing);
+        self.decided = self.decided || known.iter().any(|known| !matches!(known, Known::Crowded | Known::Nothing));
     }
 
     /// What is known at the surface in a lane.
@@ -295,6 +303,7 @@ impl<'a> Analytic<'a> {
                 Known::Dark => &mut survey.dark,
                 Known::Behind(forms, bodies) if forms.len() + bodies.len() <= 4 => &mut survey.few,
                 Known::Behind(..) => &mut survey.many,
+                Known::Crowded => &mut survey.crowded,
                 Known::Nothing => &mut survey.unknown,
             } += 1;
         }
@@ -350,7 +359,7 @@ impl<'a> Analytic<'a> {
                     match &self.known[first + k] {
                         Known::Lit => lit = lit | *lanes,
                         Known::Dark => {}
-                        Known::Nothing => open = open | *lanes,
+                        Known::Crowded | Known::Nothing => open = open | *lanes,
                         Known::Behind(forms, bodies) => {
                             // the other lanes repeat one of these: what is not seen from here does not matter
                             let lane = lanes.bits().trailing_zeros() as usize & 7;

@@ -56,8 +56,8 @@ fn traces_few_rays() {
         let world = World::new(&scene::load(name).unwrap()).unwrap();
         let (film, count) = render(&world, &SETTINGS);
         let (sampled, other) = render(&world, &Settings { technique: Technique::SolidAngle, ..SETTINGS });
-        let [ours, theirs] = [&film, &sampled]
-            .map(|film| film.pixels.iter().map(|p| f64::from(p.variance[1])).sum::<f64>());
+        let [ours, theirs] =
+            [&film, &sampled].map(|film| film.pixels.iter().map(|p| f64::from(p.variance[1])).sum::<f64>());
         println!("{name}: {} of {} shadow rays, variance {:.4}", count.shadow, other.shadow, ours / theirs);
         assert!(count.shadow as f64 <= most * other.shadow as f64, "{name}: {} shadow rays", count.shadow);
         assert!(ours < 0.7 * theirs, "{name}: variance {ours:e}, {theirs:e} with sampled lights");

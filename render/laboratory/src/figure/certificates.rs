@@ -17,11 +17,12 @@ const SIDE: u32 = 256;
 const COUNTED: u32 = 128;
 const SPP: u32 = 16;
 /// What can be known of a light, in the order of [`outcomes`], and its colour.
-const OUTCOMES: [(&str, [u8; 3]); 5] = [
+const OUTCOMES: [(&str, [u8; 3]); 6] = [
     ("lit", [250, 238, 160]),
     ("dark", [34, 52, 120]),
     ("1 to 4 possible blockers", [132, 204, 110]),
-    ("5 to 16 possible blockers", [24, 122, 72]),
+    ("5 to 8 possible blockers", [24, 122, 72]),
+    ("known blockers, but sampled", [236, 150, 60]),
     ("sampled", [206, 52, 44]),
 ];
 /// The colour of pixels that show no surface that reflects.
@@ -29,7 +30,7 @@ const EMPTY: (&str, [u8; 3]) = ("no surface that reflects", [222, 222, 222]);
 
 /// Numbers of lights at a pixel.
 fn outcomes(survey: &Survey) -> [u32; OUTCOMES.len()] {
-    [survey.lit, survey.dark, survey.few, survey.many, survey.unknown]
+    [survey.lit, survey.dark, survey.few, survey.many, survey.crowded, survey.unknown]
 }
 
 /// The mean colour of the lights at a pixel.
@@ -79,10 +80,13 @@ impl Account {
             Svg::image(scene, size, &self.picture, width),
             Svg::image(&format!("{scene}: what is known"), size, &map, width),
         ];
-        let [lit, dark, few, many, sampled] = self.shares().unwrap_or_default();
+        let [lit, dark, few, many, crowded, unknown] = self.shares().unwrap_or_default();
         let ([before, after], auto) = (self.rays, name(self.auto));
         Svg::row(pictures).captioned(&[
-            format!("{lit:.1} % lit, {dark:.1} % dark, {few:.1} % ≤ 4, {many:.1} % ≤ 16, {sampled:.1} % sampled"),
+            format!(
+                "{lit:.1} % lit, {dark:.1} % dark, {few:.1} % ≤ 4, {many:.1} % ≤ 8, {:.1} % sampled",
+                crowded + unknown
+            ),
             format!("{before:.2} shadow rays per pixel, by analytic {after:.2}; auto: {auto}"),
         ])
     }
@@ -115,7 +119,7 @@ impl Studio<'_> {
         });
         let (film, _) = world.render(&automatic, |_| ());
         let picture = film.pixels.iter().map(|pixel| image::tone_map(pixel.mean)).collect();
-        Ok(Account { surveys, pairs, rays, auto: world.technique(&camera, &automatic), picture })
+        Ok(Account { surveys, pairs, rays, auto: world.chosen(&automatic), picture })
     }
 
     pub(super) fn certificates(&self) -> Result<Finding, Box<dyn Error>> {
@@ -125,8 +129,17 @@ impl Studio<'_> {
                  rays per pixel at {SPP} samples, sobol, {COUNTED}×{COUNTED}."
             ),
             format!(
-                "{:14} {:>13} {:>8}{:>8}{:>8}{:>8}{:>8} {:>14} {:>9}   auto",
-                "scene", "pixels×lights", "lit %", "dark %", "≤ 4 %", "≤ 16 %", "sampled", "solid-angle", "analytic"
+                "{:14} {:>13} {:>8}{:>8}{:>8}{:>8}{:>8}{:>8} {:>14} {:>9}   auto",
+                "scene",
+                "pixels×lights",
+                "lit %",
+                "dark %",
+                "≤ 4 %",
+                "≤ 8 %",
+                "≤ 16 %",
+                "more %",
+                "solid-angle",
+                "analytic"
             ),
         ];
         let mut panels: [Option<Svg>; SHOWN.len()] = Default::default();
@@ -149,7 +162,7 @@ impl Studio<'_> {
             "What geometry proves about each light for the surface in the middle of each pixel; several lights have the mean of their \
              colours. Lit: nothing occludes any part of the light. Dark: no part of it illuminates the surface. Blockers are the polygons, \
              spheres and solids that might occlude it: the part they leave visible is computed exactly, unless they overlap in a way that \
-             has no formula. Sampled: more than 16 blockers, or nothing is proved."
+             has no formula. Sampled: more than 8 blockers, overlapping spheres, or nothing is proved."
                 .to_owned(),
             format!(
                 "Percentages count each light at each pixel whose surface reflects. Shadow rays are those of solid-angle and of analytic, \
