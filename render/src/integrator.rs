@@ -21,8 +21,9 @@ use crate::technique::Technique;
 use adaptive::Effort;
 use prepared::PreparedScene;
 use rayon::prelude::*;
+use settings::TILE;
 use std::collections::HashSet;
-use tile::{TILE, TileRenderer};
+use tile::TileRenderer;
 
 /// Greatest number of pixels that are looked at to choose a technique.
 const PROBES: u32 = 256;

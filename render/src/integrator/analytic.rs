@@ -4,7 +4,7 @@
 //! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
 //! or in a mirror is certified as a whole.
 
-use super::tile::TILE;
+use super::settings::TILE;
 use crate::bvh::{GROUP, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::certificates::{Blocker, Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};

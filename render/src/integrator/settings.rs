@@ -4,6 +4,9 @@ use crate::sampler::Sampler;
 use crate::technique::Technique;
 use std::ops::AddAssign;
 
+/// Side of the square of pixels that a thread renders at a time.
+pub(super) const TILE: u32 = 16;
+
 /// Everything an image depends on besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {

@@ -5,7 +5,7 @@ use super::allocation::{Blocks, Weights};
 use super::analytic::Survey;
 use super::paths::{Numbers, Paths, Radiance};
 use super::prepared::PreparedScene;
-use super::settings::{RayCount, Settings};
+use super::settings::{RayCount, Settings, TILE};
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample};
 use crate::film::Accumulator;
@@ -15,8 +15,6 @@ use crate::sensor::Exposure;
 use etendue::select::Allocated;
 use etendue::{Mask, Real, Vec2, u32x8};
 
-/// Side of the square of pixels that a thread renders at a time.
-pub(super) const TILE: u32 = 16;
 /// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
 const POWER: f32 = 0.8;
 
