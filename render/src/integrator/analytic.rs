@@ -320,13 +320,17 @@ impl<'a> Analytic<'a> {
             return (self.seen(&pinhole, place, pixel, level), here & ends.direct);
         }
         let here = if self.pinhole.is_some() { here & !ends.direct } else { here };
-        if place & SHAPE != 0 {
-            return (self.all(place, true), here);
-        }
-        let c = self.surfaces.bvh.corners(place);
-        let corner = |k: usize| Vec3::<f32>::new(c[k], c[k + 1], c[k + 2]);
-        let normal = (corner(3) - corner(0)).cross(corner(6) - corner(0)).normalize();
-        let in_front = surface.normal.dot(V8::splat(normal)).gt(X8::lit(0.0));
+        let outwards = if place & SHAPE != 0 {
+            match self.surfaces.shapes()[(place & !SHAPE) as usize].geometry {
+                Geometry::Sphere { center, .. } => surface.point - V8::from(center),
+                ref flat => flat.normal().into(),
+            }
+        } else {
+            let c = self.surfaces.bvh.corners(place);
+            let corner = |k: usize| Vec3::<f32>::new(c[k], c[k + 1], c[k + 2]);
+            V8::splat((corner(3) - corner(0)).cross(corner(6) - corner(0)))
+        };
+        let in_front = surface.normal.dot(outwards).gt(X8::lit(0.0));
         let front = in_front.lane(lane);
         (self.all(place, front), here & if front { in_front } else { !in_front })
     }
