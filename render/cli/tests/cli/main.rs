@@ -113,6 +113,7 @@ fn json_has_the_fields_that_it_should() {
     ]);
     let report = json(&text);
     let expected = [
+        "chosen",
         "error",
         "height",
         "mean",
