@@ -350,14 +350,15 @@ impl Technique for AreaLight {
             LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
             LightShape::Polygon | LightShape::Patch => return None,
         };
-        // what is subnormal has few digits
-        if !(1e-36..1e36).contains(&area) {
+        // what is subnormal has few digits: so has an edge in units of another that is so much longer
+        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
+        let (shorter, longer) = (length(b).min(length(c)), length(b).max(length(c)));
+        if !(1e-36..1e36).contains(&area) || flat && shorter < 1e-36 * longer {
             return None;
         }
         let cos = dot(w, normal).abs() / length(normal);
         // a product that cancels is known no better than its factors
         let sine = length(cross(b, c)) / (length(b) * length(c));
-        let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);
         let slim = if flat { 8.0 / sine } else { 0.0 };
         let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP;
         if flat || self.shape == LightShape::Disk {
