@@ -36,12 +36,12 @@
 //!
 //! | light | blockers | x1 | x8 |
 //! |---|---|---|---|
-//! | polygon | none | 128.4 | 19.2 |
-//! |  | a polygon before it | 410.3 | 68.8 |
-//! |  | 4 polygons, 1 before it | 693.1 | 116.1 |
-//! |  | a sphere before it | 398.8 | 77.4 |
-//! | sphere | none | 28.6 | 4.80 |
-//! |  | a polygon before it | 446.3 | 83.2 |
+//! | polygon | none | 133.6 | 19.7 |
+//! |  | a polygon before it | 370.9 | 64.8 |
+//! |  | 4 polygons, 1 before it | 619.5 | 101.7 |
+//! |  | a sphere before it | 329.7 | 65.6 |
+//! | sphere | none | 22.3 | 3.01 |
+//! |  | a polygon before it | 418.7 | 64.4 |
 //! <!-- end of table -->
 
 mod cap;
