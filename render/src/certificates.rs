@@ -1,29 +1,29 @@
 //! What geometry alone tells about the light that reaches part of a surface, without rays.
 //!
 //! A [`Patch`] bounds the shading points of a rectangle of pixels on one primitive. A [`Certifier`] searches the tree for what may meet
-//! the corridor between a patch and a light: the segments from any shading point to any point of the light that is above its horizon. Bounds
+//! the shaft between a patch and a light: the segments from any shading point to any point of the light that is above its horizon. Bounds
 //! are computed in double precision, and are wider than the rounding of shading points, of points on lights and of directions.
 //!
-//! A corridor is an intersection of half-spaces. Any half-space that contains patch and light contains the corridor, so that their choice
+//! A shaft is an intersection of half-spaces. Any half-space that contains patch and light contains the shaft, so that their choice
 //! affects only how narrow it is.
 
 mod blockers;
 mod bodies;
-mod corridor;
 mod hull;
 mod patch;
+mod shaft;
 
 use crate::bvh::{Region, SHAPE};
 use crate::surfaces::Surfaces;
 pub use blockers::Blocker;
 use blockers::Candidate;
 pub use bodies::Bodies;
-use corridor::{Corridor, Facing, Form, Lamp};
 pub use patch::{Patch, Pyramid, Viewer};
+use shaft::{Facing, Form, Lamp, Shaft};
 
 /// Greatest number of blockers in a certificate.
 pub const MOST: usize = 16;
-/// Greatest number of primitives that may meet a corridor, before triangles are merged.
+/// Greatest number of primitives that may meet a shaft, before triangles are merged.
 const CANDIDATES: usize = 32;
 /// Greatest number of nodes that a search visits.
 const NODES: usize = 160;
@@ -49,7 +49,7 @@ pub struct Certifier<'a> {
     bodies: &'a Bodies,
     lamps: Vec<Option<Lamp>>,
     region: Region,
-    corridor: Corridor,
+    shaft: Shaft,
     stack: Vec<u32>,
     candidates: Vec<Candidate>,
     /// Bodies that may meet the shaft, and whether they can stand for their triangles.
@@ -66,7 +66,7 @@ impl<'a> Certifier<'a> {
             bodies,
             lamps: lights.into_iter().map(lamp).collect(),
             region: Region::new(surfaces.bvh.reach()),
-            corridor: Corridor::default(),
+            shaft: Shaft::default(),
             stack: Vec::with_capacity(256),
             candidates: Vec::with_capacity(CANDIDATES),
             met: Vec::with_capacity(MOST),
@@ -80,8 +80,8 @@ impl<'a> Certifier<'a> {
             // a convex light is below the horizon of each of its own points
             return Certificate::Dark;
         }
-        let Self { surfaces, bodies, region, corridor, stack, candidates, met, blockers, .. } = self;
-        match corridor.set(patch, lamp, surfaces.bvh.reach(), region) {
+        let Self { surfaces, bodies, region, shaft, stack, candidates, met, blockers, .. } = self;
+        match shaft.set(patch, lamp, surfaces.bvh.reach(), region) {
             Facing::Towards => {}
             Facing::Away => return Certificate::Dark,
             Facing::Unknown => return Certificate::Unknown,
@@ -93,13 +93,13 @@ impl<'a> Certifier<'a> {
                 return true;
             }
             let candidate = Candidate::new(surfaces, place);
-            if candidate.misses(corridor) {
+            if candidate.misses(shaft) {
                 return true;
             }
             if let Some(body) = bodies.of(place) {
                 let known = met.iter().find(|met| met.0 == body).copied();
                 let (_, serves) = known.unwrap_or_else(|| {
-                    met.push((body, bodies.serves(body, patch.place, corridor)));
+                    met.push((body, bodies.serves(body, patch.place, shaft)));
                     met[met.len() - 1]
                 });
                 if serves {
@@ -114,17 +114,17 @@ impl<'a> Certifier<'a> {
             return Certificate::Lit;
         }
         let is_ball = matches!(lamp.form, Form::Ball);
-        if is_ball && candidates.iter().any(|candidate| candidate.touches(&corridor.light, corridor.epsilon)) {
+        if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
             return Certificate::Unknown;
         }
-        if met.iter().any(|met| bodies.covers(met.0, corridor)) {
+        if met.iter().any(|met| bodies.covers(met.0, shaft)) {
             return Certificate::Dark;
         }
         if !complete {
-            return if any_covers(candidates, corridor) { Certificate::Dark } else { Certificate::Unknown };
+            return if any_covers(candidates, shaft) { Certificate::Dark } else { Certificate::Unknown };
         }
         merge(candidates);
-        if candidates.iter().any(|candidate| candidate.covers(corridor)) {
+        if candidates.iter().any(|candidate| candidate.covers(shaft)) {
             return Certificate::Dark;
         }
         if candidates.len() + met.len() > MOST {
@@ -132,16 +132,16 @@ impl<'a> Certifier<'a> {
         }
         blockers.clear();
         blockers.extend(met.iter().map(|met| Blocker::Body(met.0)));
-        blockers.extend(candidates.iter().map(|candidate| candidate.blocker(corridor)));
+        blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
         Certificate::Blockers(blockers)
     }
 }
 
 /// Does a candidate cover the light, alone or merged with another? Only those between the centres need to be tried.
-fn any_covers(candidates: &[Candidate], corridor: &Corridor) -> bool {
-    candidates.iter().filter(|candidate| candidate.is_central(corridor)).any(|candidate| {
+fn any_covers(candidates: &[Candidate], shaft: &Shaft) -> bool {
+    candidates.iter().filter(|candidate| candidate.is_central(shaft)).any(|candidate| {
         let merged = || candidates.iter().filter_map(|other| candidate.merged(other));
-        candidate.covers(corridor) || merged().any(|merged| merged.covers(corridor))
+        candidate.covers(shaft) || merged().any(|merged| merged.covers(shaft))
     })
 }
 

@@ -1,7 +1,7 @@
 //! Primitives that may occlude a light.
 
-use super::corridor::{Corridor, SPARED};
 use super::hull::{Hull, V64, magnitude, unit, wide};
+use super::shaft::{SPARED, Shaft};
 use crate::bvh::SHAPE;
 use crate::scene::Geometry;
 use crate::surfaces::Surfaces;
@@ -59,13 +59,13 @@ impl Candidate {
             }
         }
     }
-    /// Is the primitive known not to meet any segment of the corridor?
-    pub(super) fn misses(&self, corridor: &Corridor) -> bool {
+    /// Is the primitive known not to meet any segment of the shaft?
+    pub(super) fn misses(&self, shaft: &Shaft) -> bool {
         match self {
-            Self::Ball(center, radius) => corridor.misses(&[wide(*center)], f64::from(*radius)),
+            Self::Ball(center, radius) => shaft.misses(&[wide(*center)], f64::from(*radius)),
             Self::Polygon(_, count, corners) => {
                 let corners = &corners[..*count];
-                corridor.misses(corners, 0.0) || is_on_one_side(corners, corridor)
+                shaft.misses(corners, 0.0) || is_on_one_side(corners, shaft)
             }
         }
     }
@@ -91,40 +91,37 @@ impl Candidate {
         (flat && convex).then_some(Self::Polygon(corners, 4, exact))
     }
     /// Is the primitive between the centres of patch and light?
-    pub(super) fn is_central(&self, corridor: &Corridor) -> bool {
+    pub(super) fn is_central(&self, shaft: &Shaft) -> bool {
         match self {
             Self::Polygon(_, count, corners) => {
-                let (p, y) = (corridor.patch.center, corridor.light.center);
+                let (p, y) = (shaft.patch.center, shaft.light.center);
                 let volume = |i: usize| (corners[i] - p).cross(corners[(i + 1) % count] - p).dot(y - p);
                 let is_right = (0..*count).all(|i| volume(i) >= 0.0);
-                (is_right || (0..*count).all(|i| volume(i) <= 0.0)) && is_between(&corners[..*count], corridor)
+                (is_right || (0..*count).all(|i| volume(i) <= 0.0)) && is_between(&corners[..*count], shaft)
             }
             Self::Ball(..) => true,
         }
     }
-    /// Is every segment of the corridor known to meet the primitive?
-    pub(super) fn covers(&self, corridor: &Corridor) -> bool {
+    /// Is every segment of the shaft known to meet the primitive?
+    pub(super) fn covers(&self, shaft: &Shaft) -> bool {
         match self {
             // A line that passes inside of the outer edges of two triangles meets one of them, and a segment from one side of the slab to
             // the other meets whatever its line meets inside the slab. The triangles need not have the same plane.
             Self::Polygon(_, count, corners) => {
-                is_between(&corners[..*count], corridor) && is_inside(&corners[..*count], corridor)
+                is_between(&corners[..*count], shaft) && is_inside(&corners[..*count], shaft)
             }
             Self::Ball(center, radius) => {
                 let (center, radius) = (wide(*center), f64::from(*radius));
                 // A segment that ends in the ball might not meet its surface.
-                let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + corridor.epsilon;
-                let axis = unit(corridor.light.center - corridor.patch.center);
+                let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + shaft.epsilon;
+                let axis = unit(shaft.light.center - shaft.patch.center);
                 let helper = if axis.x.abs() < 0.6 { V64::new(1.0, 0.0, 0.0) } else { V64::new(0.0, 1.0, 0.0) };
                 let s = unit(axis.cross(helper)) * (radius * (1.0 - 1e-9));
                 let t = axis.cross(s);
                 let half = (s + t) * std::f64::consts::FRAC_1_SQRT_2;
                 let other = (t + -s) * std::f64::consts::FRAC_1_SQRT_2;
                 let octagon = [s, half, t, other, -s, -half, -t, -other].map(|v| center + v);
-                apart(&corridor.patch)
-                    && apart(&corridor.light)
-                    && is_between(&octagon, corridor)
-                    && is_inside(&octagon, corridor)
+                apart(&shaft.patch) && apart(&shaft.light) && is_between(&octagon, shaft) && is_inside(&octagon, shaft)
             }
         }
     }
@@ -142,14 +139,14 @@ impl Candidate {
             }
         }
     }
-    pub(super) fn blocker(&self, corridor: &Corridor) -> Blocker {
+    pub(super) fn blocker(&self, shaft: &Shaft) -> Blocker {
         match *self {
             Self::Polygon(corners, count, exact) => {
-                let crosses_light = crosses(&exact[..count], 0.0, corridor);
+                let crosses_light = crosses(&exact[..count], 0.0, shaft);
                 Blocker::Polygon { corners, count, crosses_light }
             }
             Self::Ball(center, radius) => {
-                let crosses_light = crosses(&[wide(center)], f64::from(radius), corridor);
+                let crosses_light = crosses(&[wide(center)], f64::from(radius), shaft);
                 Blocker::Sphere { center, radius, crosses_light }
             }
         }
@@ -157,31 +154,31 @@ impl Candidate {
 }
 
 /// Are patch and light on the same side of the plane of a polygon?
-fn is_on_one_side(corners: &[V64], corridor: &Corridor) -> bool {
+fn is_on_one_side(corners: &[V64], shaft: &Shaft) -> bool {
     let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
     let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
     for &p in corners {
         (least, most) = (least.min(normal.dot(p)), most.max(normal.dot(p)));
     }
-    let margin = 2.0 * corridor.epsilon;
+    let margin = 2.0 * shaft.epsilon;
     let above = |hull: &Hull| hull.range(normal)[0] - hull.radius > most + margin;
     let below = |hull: &Hull| hull.range(normal)[1] + hull.radius < least - margin;
-    above(&corridor.patch) && above(&corridor.light) || below(&corridor.patch) && below(&corridor.light)
+    above(&shaft.patch) && above(&shaft.light) || below(&shaft.patch) && below(&shaft.light)
 }
 
 /// Is a slab that contains the polygon between patch and light, and no part of it within the spared part of a segment?
-fn is_between(corners: &[V64], corridor: &Corridor) -> bool {
+fn is_between(corners: &[V64], shaft: &Shaft) -> bool {
     let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
     let [mut least, mut most] = [f64::INFINITY, f64::NEG_INFINITY];
     for &p in corners {
         (least, most) = (least.min(normal.dot(p)), most.max(normal.dot(p)));
     }
     let grown = |hull: &Hull| {
-        let margin = hull.radius + 2.0 * corridor.epsilon;
+        let margin = hull.radius + 2.0 * shaft.epsilon;
         let [least, most] = hull.range(normal);
         [least - margin, most + margin]
     };
-    let (p, y) = (grown(&corridor.patch), grown(&corridor.light));
+    let (p, y) = (grown(&shaft.patch), grown(&shaft.light));
     // a segment from above reaches the slab's lower side before it is spared
     let above =
         |p: [f64; 2], y: [f64; 2], [least, most]: [f64; 2]| p[0] > most && least - y[1] > 2.0 * SPARED * (p[1] - least);
@@ -194,20 +191,20 @@ fn is_between(corners: &[V64], corridor: &Corridor) -> bool {
 /// The volume f(p, y) = (a−p) × (b−p) · (y−p) tells on which side of the edge from a to b the line from p to y passes. It is affine in p
 /// for each y, and in y for each p. Where it is positive for all pairs of corners, it is thus positive for all pairs of points of the two
 /// hulls. Displacements of p by m and of y by r change it by at most |b−a| (m |y−a| + r |p−a| + m r).
-fn is_inside(corners: &[V64], corridor: &Corridor) -> bool {
-    let (m, r) = (corridor.patch.radius, corridor.light.radius);
+fn is_inside(corners: &[V64], shaft: &Shaft) -> bool {
+    let (m, r) = (shaft.patch.radius, shaft.light.radius);
     let side = |sign: f64| {
         (0..corners.len()).all(|i| {
             let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
             let edge = b - a;
             let length = edge.length();
-            corridor.patch.corners().iter().all(|&p| {
+            shaft.patch.corners().iter().all(|&p| {
                 let normal = (p - a).cross(edge) * sign;
                 let (far, across) = ((p - a).length(), normal.length());
-                corridor.light.corners().iter().all(|&y| {
+                shaft.light.corners().iter().all(|&y| {
                     let to = y - a;
                     let lever = edge.cross(to).length();
-                    let rounding = corridor.epsilon * length * (far + to.length());
+                    let rounding = shaft.epsilon * length * (far + to.length());
                     normal.dot(to) > m * lever + r * across + length * m * r + rounding
                 })
             })
@@ -217,18 +214,18 @@ fn is_inside(corners: &[V64], corridor: &Corridor) -> bool {
 }
 
 /// May part of a hull of points, inflated by `radius`, lie behind the light as seen from some point of the patch?
-pub(super) fn crosses(points: &[V64], radius: f64, corridor: &Corridor) -> bool {
-    if let Some((normal, offset, height)) = corridor.end {
-        return !points.iter().all(|&x| normal.dot(x) - radius - offset > height.max(0.0) + corridor.epsilon);
+pub(super) fn crosses(points: &[V64], radius: f64, shaft: &Shaft) -> bool {
+    if let Some((normal, offset, height)) = shaft.end {
+        return !points.iter().all(|&x| normal.dot(x) - radius - offset > height.max(0.0) + shaft.epsilon);
     }
     // x is in front of the polar plane of p if (x−c)·(p−c) > r²; this is affine in x and in p.
-    let (center, r) = (corridor.light.center, corridor.light.radius);
-    !corridor.patch.corners().iter().all(|&p| {
+    let (center, r) = (shaft.light.center, shaft.light.radius);
+    !shaft.patch.corners().iter().all(|&p| {
         let to = p - center;
         points.iter().all(|&x| {
             let arm = x - center;
-            let margin = radius * (to.length() + corridor.patch.radius) + arm.length() * corridor.patch.radius;
-            arm.dot(to) - margin > r * r * (1.0 + 1e-9) + corridor.epsilon * (arm.length() + to.length())
+            let margin = radius * (to.length() + shaft.patch.radius) + arm.length() * shaft.patch.radius;
+            arm.dot(to) - margin > r * r * (1.0 + 1e-9) + shaft.epsilon * (arm.length() + to.length())
         })
     })
 }

@@ -1,8 +1,8 @@
 //! Closed convex parts of meshes, such as boxes: each is one blocker instead of many triangles.
 
 use super::blockers::crosses;
-use super::corridor::{Corridor, SPARED};
 use super::hull::{V64, unit, wide};
+use super::shaft::{SPARED, Shaft};
 use crate::bvh::{Bvh, NOTHING};
 use etendue::occlusion::{Edge, Polyhedron};
 use std::collections::HashMap;
@@ -79,30 +79,30 @@ impl Bodies {
     pub fn of(&self, place: u32) -> Option<u32> {
         self.of_places.get(place as usize).copied().filter(|&body| body != NOTHING)
     }
-    /// Can the body stand for its triangles in a corridor from the primitive at `place`?
+    /// Can the body stand for its triangles in a shaft from the primitive at `place`?
     ///
     /// From inside it hides every light that is outside, so a segment from inside must leave it before the spared part. All of it must lie
     /// before the light. Shading points on the body itself are inside or outside by rounding alone.
-    pub(super) fn serves(&self, body: u32, place: u32, corridor: &Corridor) -> bool {
+    pub(super) fn serves(&self, body: u32, place: u32, shaft: &Shaft) -> bool {
         if self.of(place) == Some(body) {
             return false;
         }
         let body = &self.bodies[body as usize];
-        let margin = corridor.light.radius + 2.0 * corridor.epsilon;
+        let margin = shaft.light.radius + 2.0 * shaft.epsilon;
         let is_outside = |&(n, offset): &(V64, f64)| {
-            let deepest = offset - corridor.patch.range(n)[0] + corridor.patch.radius;
-            corridor.light.range(n)[0] - margin - offset > 2.0 * SPARED * deepest.max(0.0)
+            let deepest = offset - shaft.patch.range(n)[0] + shaft.patch.radius;
+            shaft.light.range(n)[0] - margin - offset > 2.0 * SPARED * deepest.max(0.0)
         };
-        body.planes.iter().any(is_outside) && !crosses(&body.corners, 0.0, corridor)
+        body.planes.iter().any(is_outside) && !crosses(&body.corners, 0.0, shaft)
     }
-    /// Is every segment of the corridor known to meet the body?
+    /// Is every segment of the shaft known to meet the body?
     ///
     /// The points from which a convex body hides a point form a convex set, and so do the points that it hides. If it hides all corners of
     /// one hull from all corners of the other, it therefore hides all of one from all of the other. Here it is smaller by the inflation of
     /// the hulls.
-    pub(super) fn covers(&self, body: u32, corridor: &Corridor) -> bool {
+    pub(super) fn covers(&self, body: u32, shaft: &Shaft) -> bool {
         let planes = &self.bodies[body as usize].planes;
-        let margin = corridor.patch.radius.max(corridor.light.radius) + 4.0 * corridor.epsilon;
+        let margin = shaft.patch.radius.max(shaft.light.radius) + 4.0 * shaft.epsilon;
         let meets = |p: V64, y: V64| {
             let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
             for &(n, offset) in planes {
@@ -118,7 +118,7 @@ impl Bodies {
             }
             enters + 1e-9 < leaves && leaves < 1.0 - 2.0 * SPARED
         };
-        corridor.patch.corners().iter().all(|&p| corridor.light.corners().iter().all(|&y| meets(p, y)))
+        shaft.patch.corners().iter().all(|&p| shaft.light.corners().iter().all(|&y| meets(p, y)))
     }
     /// The body as a blocker.
     pub fn polyhedron(&self, body: u32) -> Polyhedron<'_, f32> {

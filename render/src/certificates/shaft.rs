@@ -68,20 +68,20 @@ pub(super) enum Facing {
 
 /// All segments from a patch to a light, up to the fraction 1 − 2⁻¹⁷ of their length.
 #[derive(Debug)]
-pub(super) struct Corridor {
+pub(super) struct Shaft {
     pub(super) patch: Hull,
     /// Includes the rounding of points on it.
     pub(super) light: Hull,
     /// Bounds rounding in n·x for vectors of at most unit length and any point of the scene.
     pub(super) epsilon: f64,
-    /// Half-spaces n·x ≤ c that contain the corridor.
+    /// Half-spaces n·x ≤ c that contain the shaft.
     planes: Vec<(V64, f64)>,
     /// For a flat light, the unit normal on the side of the patch, n·x of the light and the least height over it that a segment reaches.
     pub(super) end: Option<(V64, f64, f64)>,
 }
 
-impl Corridor {
-    /// Computes the half-spaces. The corridor is valid only if the light is [`Facing::Towards`] the patch.
+impl Shaft {
+    /// Computes the half-spaces. The shaft is valid only if the light is [`Facing::Towards`] the patch.
     pub(super) fn set(&mut self, patch: &Patch, lamp: &Lamp, reach: f32, region: &mut Region) -> Facing {
         let scale = magnitude(patch.hull.corners()).max(magnitude(lamp.hull.corners()));
         let scale = scale.max(f64::from(reach)).max(lamp.hull.radius);
@@ -160,7 +160,7 @@ impl Corridor {
         self.planes.push((normal, limit));
         region.push([normal.x, normal.y, normal.z], limit);
     }
-    /// Adds the half-space with normal `n`, of at most about unit length, that touches the corridor.
+    /// Adds the half-space with normal `n`, of at most about unit length, that touches the shaft.
     fn support(&mut self, n: V64, region: &mut Region) {
         let limit = self.patch.support(n).max(self.light.support(n)) + self.epsilon;
         if limit.is_finite() {
@@ -219,13 +219,13 @@ impl Corridor {
             self.support(side * cos + axis * sin, region);
         }
     }
-    /// Is a hull of points, inflated by `radius`, known not to meet the corridor?
+    /// Is a hull of points, inflated by `radius`, known not to meet the shaft?
     pub(super) fn misses(&self, points: &[V64], radius: f64) -> bool {
         self.planes.iter().any(|&(n, limit)| points.iter().all(|&p| n.dot(p) - radius > limit))
     }
 }
 
-impl Default for Corridor {
+impl Default for Shaft {
     fn default() -> Self {
         let nothing = Hull::default();
         Self { patch: nothing, light: nothing, epsilon: 0.0, planes: Vec::with_capacity(40), end: None }
