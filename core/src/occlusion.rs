@@ -65,8 +65,9 @@ const MOST: usize = 12;
 const FACES: usize = 16;
 /// Greatest number of intersections.
 const TERMS: u32 = 48;
-/// A blocker this near to the light, as a fraction of the way from the point to the light's plane, does not occlude.
-const SPARED: f64 = 1.0 / 131_072.0;
+/// A blocker this near to the light, as a fraction of the way from the point to the light's plane, does not occlude. A shadow ray that is
+/// this much shorter agrees with that.
+pub const SPARED: f64 = 1.0 / 131_072.0;
 
 /// A convex shape: a light or a blocker.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,6 +157,17 @@ impl<R: Real> Default for Occlusion<R> {
 
 /// A part of the light: the sphere that bounds it, if one does, and its Ω⊥.
 type Part<R> = (Option<Cap<R>>, R);
+
+/// What the blockers so far leave of a light.
+struct Left<R: Real> {
+    /// Ω⊥ of the light, and of what is left of it.
+    all: R,
+    visible: R,
+    /// Lanes in which one blocker hides the whole light.
+    covered: R::Mask,
+    /// Number of blockers that hide part of it.
+    kept: usize,
+}
 
 /// Why the intersections do not suffice.
 struct TooMany;
@@ -252,34 +264,44 @@ impl<R: Real> Occlusion<R> {
         blockers: &[Convex<R::Scalar>],
         polyhedra: &[Polyhedron<'_, R::Scalar>],
     ) -> Result<R, TooMany> {
-        let (zero, mut visible, mut kept) = (R::lit(0.0), all, 0);
-        let mut covered = !all.gt(zero);
-        self.stack[0].keep(!covered);
-        if covered.all() {
-            return Ok(zero);
+        let mut left = Left { all, visible: all, covered: !all.gt(R::lit(0.0)), kept: 0 };
+        self.stack[0].keep(!left.covered);
+        for polyhedron in polyhedra {
+            if left.covered.all() {
+                break;
+            }
+            self.see_polyhedron(left.kept, polyhedron, point)?;
+            self.hide(&mut left)?;
         }
-        for i in 0..polyhedra.len() + blockers.len() {
-            match (polyhedra.get(i), blockers.get(i.wrapping_sub(polyhedra.len()))) {
-                (Some(polyhedron), _) => self.see_polyhedron(kept, polyhedron, point)?,
-                (None, Some(Convex::Polygon { corners, count })) => {
+        for blocker in blockers {
+            if left.covered.all() {
+                break;
+            }
+            match *blocker {
+                Convex::Polygon { corners, count } => {
                     let corners = corners.map(|corner| Vec3::splat(corner) - point);
-                    self.see_polygon(kept, &corners[..*(count.clamp(&3, &4))])?;
+                    self.see_polygon(left.kept, &corners[..count.clamp(3, 4)])?;
                 }
-                (None, Some(Convex::Sphere { center, radius })) => {
-                    self.see_sphere(kept, Vec3::splat(*center) - point, R::splat(*radius))?;
+                Convex::Sphere { center, radius } => {
+                    self.see_sphere(left.kept, Vec3::splat(center) - point, R::splat(radius))?;
                 }
-                (None, None) => {}
             }
-            let Some((cap, hidden)) = self.intersect(0, kept, self.light)? else { continue };
-            self.seen[kept].lanes = self.stack[1].some();
-            covered = covered | hidden.ge(all);
-            if covered.all() {
-                return Ok(zero);
-            }
-            visible -= self.less(1, kept, cap, hidden)?;
-            kept += 1;
+            self.hide(&mut left)?;
         }
-        Ok(visible.clamped(zero, all).keep(!covered))
+        Ok(left.visible.clamped(R::lit(0.0), all).keep(!left.covered))
+    }
+
+    /// Takes away what the blocker that was prepared last hides, and keeps the blocker if it hides anything.
+    #[inline]
+    fn hide(&mut self, left: &mut Left<R>) -> Result<(), TooMany> {
+        let k = left.kept;
+        if let Some((cap, hidden)) = self.intersect(0, k, self.light)? {
+            self.seen[k].lanes = self.stack[1].some();
+            left.covered = left.covered | hidden.ge(left.all);
+            left.visible -= self.less(1, k, cap, hidden)?;
+            left.kept += 1;
+        }
+        Ok(())
     }
 
     /// Prepares a polygon as blocker `k`.
@@ -342,7 +364,7 @@ impl<R: Real> Occlusion<R> {
                 seen.count += 1;
             }
         }
-        if before.all() { Ok(()) } else { Err(TooMany) }
+        if (before | !self.stack[0].some()).all() { Ok(()) } else { Err(TooMany) }
     }
 
     /// Prepares a sphere as blocker `k`.
@@ -352,7 +374,7 @@ impl<R: Real> Occlusion<R> {
         let (normal, least) = self.front;
         let nearest = normal.dot(center) - least;
         let behind = nearest.lt(-radius);
-        if !(behind | nearest.ge(radius)).all() {
+        if !(behind | nearest.ge(radius) | !self.stack[0].some()).all() {
             return Err(TooMany);
         }
         self.seen[k].lanes = !behind;

@@ -1,10 +1,11 @@
 //! Primitives that may occlude a light.
 
 use super::hull::{Hull, V64, magnitude, unit, wide};
-use super::shaft::{SPARED, Shaft};
+use super::shaft::Shaft;
 use crate::bvh::SHAPE;
 use crate::scene::Geometry;
 use crate::surfaces::Surfaces;
+use etendue::occlusion::SPARED;
 
 /// Something that may occlude a light.
 #[derive(Clone, Copy, Debug, PartialEq)]

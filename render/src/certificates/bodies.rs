@@ -2,9 +2,9 @@
 
 use super::blockers::crosses;
 use super::hull::{V64, unit, wide};
-use super::shaft::{SPARED, Shaft};
+use super::shaft::Shaft;
 use crate::bvh::{Bvh, NOTHING};
-use etendue::occlusion::{Edge, Polyhedron};
+use etendue::occlusion::{Edge, Polyhedron, SPARED};
 use std::collections::HashMap;
 
 /// Greatest number of triangles of a mesh that is searched for bodies; to search 65,536 triangles takes 20 ms.

@@ -4,9 +4,8 @@ use super::hull::{Hull, V64, magnitude, unit, wide};
 use super::patch::Patch;
 use crate::bvh::Region;
 use crate::scene::{Geometry, Shape};
+use etendue::occlusion::SPARED;
 
-/// Fraction of a segment, at the light, that need not be unoccluded: shadow rays stop 2⁻¹⁷ short.
-pub(super) const SPARED: f64 = 1.0 / 131_072.0;
 /// Rounding of points on lights and of directions to them, relative to the greatest coordinate.
 const ROUNDED: f64 = 1.0 / 524_288.0;
 /// Rounding in double precision, relative to the greatest coordinate: 32 ulp.

@@ -16,12 +16,12 @@ use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::{Surface, emitted};
 use crate::technique::Technique;
 use etendue::estimate::technique_pdf;
+use etendue::occlusion::SPARED;
 use etendue::select::{Allocated, Choice, FEW, LightChoice};
 use etendue::{Mask, Real, Vec2, u32x8};
 
-/// Fraction of the distance to a light that a shadow ray covers: it stops 2⁻¹⁷ short, so that surfaces touching the light do not
-/// occlude it.
-const SPARED: f64 = 1.0 - 1.0 / 131_072.0;
+/// Fraction of the distance to a light that a shadow ray covers: it stops short, so that surfaces touching the light do not occlude it.
+const COVERED: f64 = 1.0 - SPARED;
 
 /// Which light is sampled.
 enum Which<'a> {
@@ -329,7 +329,7 @@ impl<'a> Paths<'a> {
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction);
-            limit[p] = sample.distance * X8::lit(SPARED);
+            limit[p] = sample.distance * X8::lit(COVERED);
             target[p] = chosen.shape;
             found[p] = product(color, chosen.radiance) * (factor / pdf);
         }
@@ -396,7 +396,7 @@ impl<'a> Paths<'a> {
                 }
             });
             target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
-            limit[p] = hits[p].distance * X8::lit(SPARED);
+            limit[p] = hits[p].distance * X8::lit(COVERED);
             if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
                 radiance = V8::blend(missed, sky.radiance(direction), radiance);
                 lit[p] = lit[p] | missed;
