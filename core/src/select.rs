@@ -12,12 +12,16 @@
 //! probability too. Every light that can contribute has a positive pmf, and no other light has.
 
 mod allocation;
+mod bound;
 mod power;
 mod spatial;
+mod tree;
 
 pub use allocation::{Allocated, Allocation};
+pub use bound::LightBound;
 pub use power::PowerLights;
-pub use spatial::{LightBound, LightsAt, SpatialLights};
+pub use spatial::{LightsAt, SpatialLights};
+pub use tree::{Join, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild};
 
 use crate::real::{Real, Uint, unit_interval};
 

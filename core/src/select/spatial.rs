@@ -1,24 +1,9 @@
 //! Choice of lights by what they can contribute to a point.
 
-use super::{Choice, FEW, LightChoice};
+use super::{Choice, FEW, LightBound, LightChoice};
 use crate::discrete::TableError;
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec3;
-
-/// A bound of what a light with an area can contribute.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LightBound {
-    /// Centre of a sphere around the light, in the coordinates of the scene.
-    pub center: [f32; 3],
-    /// Radius of that sphere, not negative.
-    pub radius: f32,
-    /// Unit normal of a flat light; 0 for a light that emits in all directions, such as a sphere.
-    pub normal: [f32; 3],
-    /// Whether a flat light emits from both sides.
-    pub two_sided: bool,
-    /// Power of one side of a flat light, or of all of another light, in any unit.
-    pub power: f32,
-}
 
 /// Chooses lights in proportion to what they can contribute to a point of a surface, for up to [`FEW`] lights.
 ///

@@ -1,0 +1,278 @@
+//! Choice among any number of lights by a tree.
+
+mod build;
+mod node;
+mod part;
+
+use super::{Choice, LightBound, LightChoice};
+use crate::discrete::TableError;
+use crate::real::{Real, Uint, unit_interval};
+use crate::vector::Vec3;
+use build::{Build, nodes_for};
+pub use build::{Join, Sequential};
+pub use node::Node8;
+use node::{LIGHT, NONE, WHOLE};
+use part::{Part, Units};
+
+/// The index of a [`Choice`] of a [`LightTree`] where no light can contribute.
+pub const NO_LIGHT: u32 = u32::MAX;
+
+/// Points farther away than this, relative to the extent of the lights, count as this far.
+const FAR: f64 = (1_u64 << 30) as f64;
+/// The greatest number of levels: a node splits in eight, each of at most 15/16.
+const DEEPEST: usize = 64;
+
+/// Chooses among any number of lights by what they can contribute to a point of a surface, in a tree of eight children a node.
+#[derive(Clone, Copy, Debug)]
+pub struct LightTree<'a> {
+    nodes: &'a [Node8],
+    /// 8 · node + slot of each light.
+    places: &'a [u32],
+}
+
+impl<'a> LightTree<'a> {
+    /// The greatest number of lights.
+    pub const MOST: usize = 1 << 27;
+
+    /// Number of nodes that so many lights need.
+    #[must_use]
+    pub const fn nodes_for(count: usize) -> usize {
+        nodes_for(count)
+    }
+
+    /// Builds a tree in the caller's memory: at least [`nodes_for`](Self::nodes_for) nodes, and a word for each light.
+    ///
+    /// # Errors
+    /// [`TableError::Length`] if the nodes are too few, if the lengths of `lights` and `places` differ, or if there are more than
+    /// [`MOST`](Self::MOST) lights.
+    pub fn build(lights: &[LightBound], nodes: &'a mut [Node8], places: &'a mut [u32]) -> Result<Self, TableError> {
+        Self::build_with(lights, nodes, places, &Sequential)
+    }
+
+    /// Like [`build`](Self::build), on the threads of `join`. The tree is the same.
+    ///
+    /// # Errors
+    /// Those of [`build`](Self::build).
+    pub fn build_with(
+        lights: &[LightBound],
+        nodes: &'a mut [Node8],
+        places: &'a mut [u32],
+        join: &impl Join,
+    ) -> Result<Self, TableError> {
+        let count = lights.len();
+        if count != places.len() || count > Self::MOST || nodes.len() < nodes_for(count) {
+            return Err(TableError::Length);
+        }
+        for (place, light) in places.iter_mut().zip(0..) {
+            *place = light;
+        }
+        let units = Units::of(lights);
+        let nodes = &mut nodes[..nodes_for(count)];
+        nodes.fill(Node8::default());
+        Build { lights, units, join }.range(places, nodes, 0, units.length.to_bits());
+        for (index, node) in (0_u32..).zip(&*nodes) {
+            for (slot, &child) in (0..).zip(&node.child) {
+                if child != NONE && child & LIGHT != 0 {
+                    places[(child & !LIGHT) as usize] = index << 3 | slot;
+                }
+            }
+        }
+        Ok(Self { nodes, places })
+    }
+
+    /// The tree that [`build`](Self::build) has left in this memory.
+    #[must_use]
+    pub const fn from_buffers(nodes: &'a [Node8], places: &'a [u32]) -> Self {
+        Self { nodes, places }
+    }
+
+    /// Adapts a tree to lights that have moved or changed, from the leaves up; the order of the lights stays.
+    ///
+    /// # Errors
+    /// [`TableError::Length`] if the number of lights is not that of the tree.
+    pub fn refit(lights: &[LightBound], nodes: &mut [Node8], places: &[u32]) -> Result<(), TableError> {
+        if lights.len() != places.len() || nodes.len() < nodes_for(lights.len()) {
+            return Err(TableError::Length);
+        }
+        let units = Units::of(lights);
+        for index in (0..nodes.len()).rev() {
+            for slot in 0..8 {
+                let part = match nodes[index].child[slot] {
+                    NONE => continue,
+                    light if light & LIGHT != 0 => {
+                        let light = lights.get((light & !LIGHT) as usize).ok_or(TableError::Length)?;
+                        Part::light(light, units)
+                    }
+                    node => nodes.get(node as usize).ok_or(TableError::Length)?.union(),
+                };
+                let child = nodes[index].child[slot];
+                nodes[index].set(slot, child, &part);
+            }
+        }
+        if let Some(root) = nodes.first_mut() {
+            root.link = units.length.to_bits();
+        }
+        Ok(())
+    }
+
+    /// Number of lights.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.places.len()
+    }
+    /// Whether there is no light.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
+    /// The choice for points `p` of surfaces with unit normals `n`, on the side of `n`.
+    #[inline]
+    #[must_use]
+    pub fn at<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> TreeAt<'a, R> {
+        let scale = self.nodes.first().map_or(1.0, |root| f32::from_bits(root.link));
+        // a point that is farther than this keeps its direction; at the origin, the quotient is infinite
+        let p = p * (R::lit(FAR) / p.max_abs()).lesser(R::lit(f64::from(scale)));
+        TreeAt { tree: *self, p, n }
+    }
+}
+
+/// The choice of a [`LightTree`] at the shading point of each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct TreeAt<'a, R: Real> {
+    tree: LightTree<'a>,
+    p: Vec3<R>,
+    n: Vec3<R>,
+}
+
+/// The next sixteen random bits of a lane.
+#[inline(always)]
+fn sixteen(state: &mut u32) -> u32 {
+    // a linear congruential generator, and the output function of PCG (O'Neill 2014)
+    *state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = (*state >> ((*state >> 28) + 4) ^ *state).wrapping_mul(277_803_737);
+    (word >> 22 ^ word) >> 16 ^ word & 0xffff
+}
+
+impl<'a, R: Real> TreeAt<'a, R> {
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> [Vec3<f32>; 2] {
+        [self.p, self.n].map(|v| Vec3::new(v.x, v.y, v.z)).map(|v| {
+            let [x, y, z] = [v.x, v.y, v.z].map(|x| x.lane_f64(lane) as f32);
+            Vec3::new(x, y, z)
+        })
+    }
+
+    /// Chooses by 64 random bits a lane.
+    #[inline]
+    #[must_use]
+    pub fn choose_by(&self, bits: [R::Uint; 2]) -> Choice<R> {
+        let (mut index, mut pmf, mut left) = ([NO_LIGHT; 8], [0.0; 8], [0; 8]);
+        for lane in 0..R::LANES {
+            let [p, n] = self.lane(lane);
+            (index[lane], pmf[lane], left[lane]) = self.tree.descend(p, n, bits.map(|bits| bits.lane(lane)));
+        }
+        Choice {
+            index: R::Uint::from_fn(|lane| index[lane]),
+            pmf: R::from_fn(|lane| R::Scalar::lit(f64::from(pmf[lane]))),
+            u: R::unit(R::Uint::from_fn(|lane| left[lane])),
+        }
+    }
+
+    /// The units of 2⁻¹⁶ that each child of a node receives in a lane, and the children: nodes, lights, or nothing.
+    pub fn shares(&self, lane: usize, node: u32) -> [(u32, TreeChild); 8] {
+        let [p, n] = self.lane(lane);
+        let Some(node) = self.tree.nodes.get(node as usize) else { return [(0, TreeChild::Nothing); 8] };
+        let ends = node.ends(p, n);
+        core::array::from_fn(|slot| {
+            let child = match node.child[slot] {
+                NONE => TreeChild::Nothing,
+                child if child & LIGHT != 0 => TreeChild::Light(child & !LIGHT),
+                child => TreeChild::Node(child),
+            };
+            (ends[slot] - if slot == 0 { 0 } else { ends[slot - 1] }, child)
+        })
+    }
+}
+
+/// A child of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TreeChild {
+    /// None.
+    Nothing,
+    /// A node.
+    Node(u32),
+    /// A light.
+    Light(u32),
+}
+
+impl LightTree<'_> {
+    /// Chooses a light from the root down; returns it, its pmf, and what is left of the bits.
+    #[inline]
+    fn descend(&self, p: Vec3<f32>, n: Vec3<f32>, [mut word, mut more]: [u32; 2]) -> (u32, f32, u32) {
+        let (mut node, mut pmf) = (0, 1.0_f32);
+        for _ in 0..DEEPEST {
+            let Some(here) = self.nodes.get(node as usize) else { break };
+            let ends = here.ends(p, n);
+            if ends[7] == 0 {
+                break;
+            }
+            let target = word >> 16;
+            let slot = ends.iter().map(|&end| usize::from(end <= target)).sum::<usize>() & 7;
+            let start = if slot == 0 { 0 } else { ends[slot - 1] };
+            let share = ends[slot] - start;
+            // the position within the share, stretched to all of 32 bits with sixteen new ones: exactly uniform
+            let within = u64::from(word - (start << 16)) << 16 | u64::from(sixteen(&mut more));
+            word = (within / u64::from(share)) as u32;
+            pmf *= share as f32 * (1.0 / WHOLE as f32);
+            let child = here.child[slot];
+            if child & LIGHT != 0 {
+                return (child & !LIGHT, pmf.greater(f32::MIN_POSITIVE), word);
+            }
+            node = child;
+        }
+        (NO_LIGHT, 0.0, 0)
+    }
+    /// The pmf of a light, by the same products.
+    #[inline]
+    fn pmf(&self, p: Vec3<f32>, n: Vec3<f32>, light: u32) -> f32 {
+        let Some(&place) = self.places.get(light as usize) else { return 0.0 };
+        let (mut path, mut levels, mut link) = ([0; DEEPEST], 0, place);
+        while levels < DEEPEST {
+            path[levels] = link;
+            levels += 1;
+            if link >> 3 == 0 {
+                break;
+            }
+            link = self.nodes.get((link >> 3) as usize).map_or(0, |node| node.link);
+        }
+        let mut pmf = 1.0_f32;
+        for &link in path[..levels].iter().rev() {
+            let Some(node) = self.nodes.get((link >> 3) as usize) else { return 0.0 };
+            let (ends, slot) = (node.ends(p, n), (link & 7) as usize);
+            let share = ends[slot] - if slot == 0 { 0 } else { ends[slot - 1] };
+            if share == 0 {
+                return 0.0;
+            }
+            pmf *= share as f32 * (1.0 / WHOLE as f32);
+        }
+        pmf.greater(f32::MIN_POSITIVE)
+    }
+}
+
+impl<R: Real> LightChoice<R> for TreeAt<'_, R> {
+    /// Chooses by the 24 bits of `u`, and a hash of them for the digits below.
+    #[inline]
+    fn choose(&self, u: R) -> Choice<R> {
+        let bits = (unit_interval(u) * R::lit(16_777_216.0)).to_uint();
+        let more = bits.wrapping_mul(R::Uint::splat(0x9e37_79b9)) ^ R::Uint::splat(0x5bd1_e995);
+        self.choose_by([bits.shl(8) | more.shr(24), more])
+    }
+    #[inline]
+    fn pmf(&self, index: R::Uint) -> R {
+        R::from_fn(|lane| {
+            let [p, n] = self.lane(lane);
+            R::Scalar::lit(f64::from(self.tree.pmf(p, n, index.lane(lane))))
+        })
+    }
+}

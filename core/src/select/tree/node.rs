@@ -1,0 +1,218 @@
+//! Nodes of eight children: how they are packed, and what share of the samples each child receives.
+
+use super::part::{Part, SMALL};
+use crate::real::{Mask, Real, Uint};
+use crate::vector::Vec3;
+use crate::{f32x8, u32x8};
+
+/// Shares of a node are in units of 2⁻¹⁶.
+pub(super) const WHOLE: u32 = 1 << 16;
+/// A child that does not exist.
+pub(super) const NONE: u32 = u32::MAX;
+/// Set in the index of a child that is a light.
+pub(super) const LIGHT: u32 = 1 << 31;
+
+/// The part of the bound in the weight of a child.
+const BOUND: f64 = 1.0 / 16.0;
+/// E max(0, x) of a normal variable is near (μ + √(μ² + 2σ²/π))/2.
+const SMOOTH: f64 = core::f64::consts::FRAC_2_PI;
+/// Cosines below which a bound is negative in spite of all rounding.
+const MARGIN: f64 = 1.0 / 16_384.0;
+/// The standard deviation is stored as a multiple of this times the reach, which exceeds √3.
+const DEVIATION: f64 = 1.75;
+/// Of the byte of the cone: both sides emit.
+const TWO_SIDED: u32 = 255;
+
+/// A node of a [`LightTree`](super::LightTree): eight lights or sets of lights. Its contents are private; what is needed is the memory.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Node8 {
+    center: [[f32; 8]; 3],
+    /// The greatest half extent around the centre.
+    reach: [f32; 8],
+    /// Intensity along the normal, over 1 − cosine of the cone.
+    power: [f32; 8],
+    /// Half extents and offset, a byte each, relative to the reach.
+    bounds: [u32; 8],
+    /// Mean normal and standard deviation of positions.
+    normal: [u32; 8],
+    /// Half extents of the box of normals, and cosine of the cone.
+    spread: [u32; 8],
+    pub(super) child: [u32; 8],
+    /// 8 · parent + slot; for the root, the bits of the scale.
+    pub(super) link: u32,
+}
+
+impl Default for Node8 {
+    fn default() -> Self {
+        Self {
+            center: [[0.0; 8]; 3],
+            reach: [0.0; 8],
+            power: [0.0; 8],
+            bounds: [0; 8],
+            normal: [0; 8],
+            spread: [0; 8],
+            child: [NONE; 8],
+            link: 0,
+        }
+    }
+}
+
+/// Byte `k` of each word.
+#[inline(always)]
+fn byte(word: u32x8, k: u32) -> f32x8 {
+    f32x8::from_uint(word.shr(8 * k) & u32x8::splat(255))
+}
+
+/// The smallest integer that is not less, from 0 to `most`.
+fn ceiling(x: f64, most: f64) -> u32 {
+    let down = x.clamped(0.0, most) as u32;
+    if f64::from(down) < x && f64::from(down) < most { down + 1 } else { down }
+}
+
+impl Node8 {
+    /// Stores a child.
+    pub(super) fn set(&mut self, slot: usize, child: u32, part: &Part) {
+        self.child[slot] = child;
+        // what rounding may take from a bound
+        const MORE: f64 = 1.0 + 1.0 / 1_048_576.0;
+        let center = part.center.map(|x| x as f32);
+        let half: [f64; 3] = core::array::from_fn(|k| {
+            let center = f64::from(center[k]);
+            (part.high[k] - center).greater(center - part.low[k]) * MORE
+        });
+        let reach = half[0].greater(half[1]).greater(half[2]).greater(SMALL) * MORE;
+        let relative = 255.0 / reach;
+        let byte = |x: f64| ceiling(x * relative * MORE, 255.0);
+        let [x, y, z] = half.map(byte);
+        self.bounds[slot] = x | y << 8 | z << 16 | byte(part.offset * 0.5) << 24;
+        let mean = part.normal.map(|x| ((x * 127.0).round_ties_even() + 128.0).clamped(0.0, 255.0) as u32);
+        let [x, y, z] = mean;
+        let deviation = (part.variance.sqrt() * relative / DEVIATION).round_ties_even().clamped(0.0, 255.0) as u32;
+        self.normal[slot] = x | y << 8 | z << 16 | deviation << 24;
+        let [x, y, z] = core::array::from_fn(|k| {
+            let mean = (f64::from(mean[k]) - 128.0) / 127.0;
+            ceiling(((part.most[k] - mean).greater(mean - part.least[k]) + 1e-6) * 127.5, 255.0)
+        });
+        let cone = if part.two_sided { TWO_SIDED } else { (part.cone * 254.0).clamped(0.0, 253.0) as u32 };
+        self.spread[slot] = x | y << 8 | z << 16 | cone << 24;
+        self.center.iter_mut().zip(center).for_each(|(to, x)| to[slot] = x);
+        self.reach[slot] = reach as f32;
+        let cone = if part.two_sided { 0.0 } else { f64::from(cone) / 254.0 };
+        self.power[slot] = if part.power > 0.0 { (part.power.greater(SMALL) / (1.0 - cone)) as f32 } else { 0.0 };
+    }
+
+    /// A child, with the bounds as they are stored.
+    fn part(&self, slot: usize) -> Part {
+        let byte = |word: &[u32; 8], k: u32| f64::from(word[slot] >> (8 * k) & 255);
+        let three = |word| [0, 1, 2].map(|k| byte(word, k));
+        let (center, reach) = ([0, 1, 2].map(|k| f64::from(self.center[k][slot])), f64::from(self.reach[slot]));
+        let half = three(&self.bounds).map(|x| x * reach * (1.0 / 255.0));
+        let normal = three(&self.normal).map(|x| (x - 128.0) / 127.0);
+        let spread = three(&self.spread).map(|x| x * (1.0 / 127.5));
+        let deviation = byte(&self.normal, 3) * reach * (DEVIATION / 255.0);
+        let two_sided = self.spread[slot] >> 24 == TWO_SIDED;
+        let cone = if two_sided { 0.0 } else { byte(&self.spread, 3) / 254.0 };
+        let end = |a: [f64; 3], sign: f64, b: [f64; 3]| core::array::from_fn(|k| a[k] + sign * b[k]);
+        Part {
+            center,
+            low: end(center, -1.0, half),
+            high: end(center, 1.0, half),
+            variance: deviation * deviation,
+            power: f64::from(self.power[slot]) * (1.0 - cone),
+            normal,
+            least: end(normal, -1.0, spread).map(|x: f64| x.greater(-1.0)),
+            most: end(normal, 1.0, spread).map(|x: f64| x.lesser(1.0)),
+            offset: byte(&self.bounds, 3) * reach * (2.0 / 255.0),
+            cone,
+            two_sided,
+        }
+    }
+    /// All lights below this node.
+    pub(super) fn union(&self) -> Part {
+        Part::union(&core::array::from_fn::<_, 8, _>(|slot| self.part(slot)))
+    }
+
+    /// The weight of each child at a point of a surface, and the lanes of those that can contribute.
+    #[inline(always)]
+    fn weigh(&self, p: Vec3<f32>, n: Vec3<f32>) -> (f32x8, u32) {
+        let lit = f32x8::lit;
+        let (zero, one) = (lit(0.0), lit(1.0));
+        let (p, n) = (Vec3::<f32x8>::splat(p), Vec3::<f32x8>::splat(n));
+        let [x, y, z] = self.center.map(f32x8::from);
+        let v = Vec3::new(x, y, z) - p;
+        let reach = f32x8::from(self.reach);
+        let three = |word: u32x8| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
+        let positive = |v: Vec3<f32x8>| Vec3::new(v.x.abs(), v.y.abs(), v.z.abs());
+        let (bounds, normals, spreads) =
+            (u32x8::from(self.bounds), u32x8::from(self.normal), u32x8::from(self.spread));
+        let unit = reach * lit(1.0 / 255.0);
+        // distance, to a point at the mean squared distance
+        let deviation = byte(normals, 3) * unit * lit(DEVIATION);
+        let variance = deviation * deviation * lit(1.0 / 3.0);
+        let squared = v.length_squared() + variance + lit(SMALL * SMALL);
+        let distance = squared.sqrt();
+        let inverse = one / distance;
+        let relative = variance * inverse * inverse;
+        // cosine at the surface: its mean, and a bound
+        let (above, up) = (v.dot(n), three(bounds).dot(positive(n)) * unit);
+        let cos = above * inverse;
+        let estimate = (cos + cos.mul_add(cos, relative * lit(SMOOTH)).sqrt()) * lit(0.5);
+        let bound = (above + up).mul_add(inverse, lit(MARGIN)).lesser(one);
+        // cosine at the light
+        let bias = lit(-128.0 / 127.0);
+        let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
+        let top = byte(spreads, 3);
+        let both = top.gt(lit(254.0));
+        let cone = (top * lit(1.0 / 254.0)).keep(!both);
+        let ahead = -v.dot(normal);
+        let m = ahead * inverse;
+        let y = m - cone;
+        let varied = (one - normal.length_squared()).greater(zero).mul_add(lit(1.0 / 3.0), relative) * lit(SMOOTH);
+        let root = y.mul_add(y, varied).sqrt();
+        let facing = <f32x8 as Real>::blend(both, root, (y + root) * lit(0.5));
+        let offset = byte(bounds, 3) * unit * lit(2.0);
+        let near = (distance - deviation - reach * lit(DEVIATION)) * cone;
+        let front = three(spreads).dot(positive(v)).mul_add(lit(1.0 / 127.5), ahead) + offset - near;
+        let front = front.mul_add(inverse, lit(MARGIN)).lesser(one);
+        let power = f32x8::from(self.power);
+        let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
+        let weight = power * inverse * inverse * (bound * front).mul_add(lit(BOUND), estimate * facing);
+        (weight.keep(bright), bright.bits())
+    }
+
+    /// The ends of the children's shares, in units of 2⁻¹⁶. A child that can contribute has at least one unit, no other child has any;
+    /// where none can, all are 0.
+    #[inline(always)]
+    pub(super) fn ends(&self, p: Vec3<f32>, n: Vec3<f32>) -> [u32; 8] {
+        let (weight, bright) = self.weigh(p, n);
+        if bright == 0 {
+            return [0; 8];
+        }
+        let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
+        let lanes = <f32x8 as Real>::Mask::from_bits(bright);
+        let (mut weight, mut total) = (weight, sum(weight.to_array()));
+        if !(total >= f32::MIN_POSITIVE && total < f32::INFINITY) {
+            weight = f32x8::lit(1.0).keep(lanes);
+            total = sum(weight.to_array());
+        }
+        let scaled = weight * f32x8::splat((WHOLE - 8) as f32 / total);
+        let shares = (scaled.to_uint().wrapping_add(u32x8::splat(1)) & mask_bits(lanes)).to_array();
+        let mut ends = shares;
+        for k in 1..8 {
+            ends[k] += ends[k - 1];
+        }
+        // what rounding left goes to the last
+        let last = 31 - bright.leading_zeros();
+        for (k, end) in (0..).zip(&mut ends) {
+            *end = if k >= last { WHOLE } else { *end };
+        }
+        ends
+    }
+}
+
+/// All ones where the mask is true.
+#[inline(always)]
+fn mask_bits(lanes: <f32x8 as Real>::Mask) -> u32x8 {
+    f32x8::blend_uint(lanes, u32x8::splat(u32::MAX), u32x8::splat(0))
+}

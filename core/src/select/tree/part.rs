@@ -1,0 +1,140 @@
+//! Summaries of lights and of sets of lights.
+
+use crate::real::Real;
+use crate::select::LightBound;
+
+/// The least power relative to the strongest light, and the least extent of a light relative to that of all.
+pub(super) const SMALL: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// The mean cosine that the importance has for lights without a direction; see `F` in [`Node8::weigh`](super::node::Node8).
+const ISOTROPIC: f64 = 0.230_329_433;
+
+/// A light, or a set of lights, in scaled units.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Part {
+    /// Mean position by power.
+    pub(super) center: [f64; 3],
+    /// A box around all lights.
+    pub(super) low: [f64; 3],
+    pub(super) high: [f64; 3],
+    /// Mean squared distance from the mean position.
+    pub(super) variance: f64,
+    /// Intensity along the normal.
+    pub(super) power: f64,
+    /// Mean normal by power; its length is 1 if all are the same, and 0 for lights that emit in all directions.
+    pub(super) normal: [f64; 3],
+    /// A box around all normals.
+    pub(super) least: [f64; 3],
+    pub(super) most: [f64; 3],
+    /// A bound of |(x − centre)·m| over the points x of a light and its normals m.
+    pub(super) offset: f64,
+    /// The least cosine of a cone.
+    pub(super) cone: f64,
+    /// Whether all are flat and emit from both sides.
+    pub(super) two_sided: bool,
+}
+
+/// The powers of two by which lengths and powers are multiplied.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units {
+    pub(super) length: f32,
+    power: f32,
+}
+
+fn sane(light: &LightBound) -> bool {
+    let finite = light.center.iter().all(|x| x.is_finite()) && light.radius.is_finite();
+    finite && light.power > 0.0 && light.power < f32::INFINITY
+}
+
+impl Units {
+    pub(super) fn of(lights: &[LightBound]) -> Self {
+        let (mut extent, mut strongest) = (0.0_f32, 0.0_f32);
+        for light in lights.iter().filter(|light| sane(light)) {
+            let [x, y, z] = light.center.map(Real::abs);
+            extent = extent.greater(x.greater(y)).greater(z.greater(light.radius));
+            strongest = strongest.greater(light.power);
+        }
+        let [length, power] = [extent, strongest].map(|x| if x > 0.0 { x.pow2_scale() } else { 1.0 });
+        Self { length, power }
+    }
+}
+
+impl Part {
+    /// A light.
+    pub(super) fn light(light: &LightBound, units: Units) -> Self {
+        if !sane(light) {
+            return Self::default();
+        }
+        let center = light.center.map(|x| f64::from(x * units.length));
+        let radius = f64::from(light.radius.greater(0.0) * units.length).greater(SMALL);
+        let power = f64::from(light.power * units.power).greater(SMALL) * core::f64::consts::FRAC_1_PI;
+        let normal = light.normal.map(f64::from);
+        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let extent = |half: [f64; 3]| {
+            let end = |sign: f64| core::array::from_fn(|k| center[k] + sign * half[k]);
+            (end(-1.0), end(1.0))
+        };
+        let variance = radius * radius * (1.0 / 3.0);
+        if !(length > 0.0 && length < f64::INFINITY) {
+            let (low, high) = extent([radius; 3]);
+            let power = power * (0.25 / ISOTROPIC);
+            let (least, most) = ([-1.0; 3], [1.0; 3]);
+            return Self { center, low, high, variance, power, least, most, offset: radius, ..Self::default() };
+        }
+        let normal = normal.map(|x| x / length);
+        // a disk, whose normal may be rounded
+        let (low, high) = extent(normal.map(|m| radius * ((1.0 - m * m).greater(0.0).sqrt() + 1e-6).lesser(1.0)));
+        let cone = f64::from(light.cos_cone).clamped(0.0, 1.0);
+        let power = if cone > 0.0 { power * 0.5 / (1.0 - cone).greater(SMALL) } else { power };
+        let (least, most) = if light.two_sided {
+            (normal.map(|m| -Real::abs(m)), normal.map(Real::abs))
+        } else {
+            (normal, normal)
+        };
+        let offset = radius * 1e-6;
+        let two_sided = light.two_sided;
+        Self { center, low, high, variance, power, normal, least, most, offset, cone, two_sided }
+    }
+
+    /// A set of lights, from its parts.
+    pub(super) fn union(parts: &[Self]) -> Self {
+        let lit = || parts.iter().filter(|part| part.power > 0.0);
+        let power: f64 = lit().map(|part| part.power).sum();
+        if power <= 0.0 {
+            return Self::default();
+        }
+        let (infinity, mut all) = (f64::INFINITY, Self { power, cone: 1.0, two_sided: true, ..Self::default() });
+        (all.low, all.high, all.least, all.most) = ([infinity; 3], [-infinity; 3], [infinity; 3], [-infinity; 3]);
+        for part in lit() {
+            for k in 0..3 {
+                all.center[k] += part.center[k] * (part.power / power);
+                all.low[k] = all.low[k].lesser(part.low[k]);
+                all.high[k] = all.high[k].greater(part.high[k]);
+                all.least[k] = all.least[k].lesser(part.least[k]);
+                all.most[k] = all.most[k].greater(part.most[k]);
+            }
+            all.cone = all.cone.lesser(part.cone);
+            all.two_sided &= part.two_sided;
+        }
+        for part in lit() {
+            let share = part.power / power;
+            // lights with two sides have no sign; among others, they have no direction
+            let along: f64 = (0..3).map(|k| all.normal[k] * part.normal[k]).sum();
+            let sign = match (all.two_sided, part.two_sided) {
+                (true, _) => 1.0_f64.copysign(along),
+                (false, true) => 0.0,
+                (false, false) => 1.0,
+            };
+            let (mut far, mut along) = (0.0, 0.0);
+            for k in 0..3 {
+                all.normal[k] += part.normal[k] * (share * sign);
+                let away = Real::abs(part.center[k] - all.center[k]);
+                far += away * away;
+                along += away * Real::abs(part.least[k]).greater(Real::abs(part.most[k]));
+            }
+            all.variance += share * (part.variance + far);
+            all.offset = all.offset.greater(part.offset + along);
+        }
+        all
+    }
+}
