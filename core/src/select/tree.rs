@@ -11,7 +11,7 @@ use crate::vector::Vec3;
 use build::{Build, nodes_for};
 pub use build::{Join, Sequential};
 pub use node::Node8;
-use node::{LIGHT, NONE, WHOLE};
+use node::{LIGHT, NONE, Place, WHOLE};
 use part::{Part, Units};
 
 /// The index of a [`Choice`] of a [`LightTree`] where no light can contribute.
@@ -19,6 +19,8 @@ pub const NO_LIGHT: u32 = u32::MAX;
 
 /// Points farther away than this, relative to the extent of the lights, count as this far.
 const FAR: f64 = (1_u64 << 30) as f64;
+/// The greatest number of lanes of a packet.
+const MOST_LANES: usize = 8;
 /// The greatest number of levels: a node splits in eight, each of at most 15/16.
 const DEEPEST: usize = 64;
 
@@ -156,42 +158,90 @@ fn sixteen(state: &mut u32) -> u32 {
 
 impl<'a, R: Real> TreeAt<'a, R> {
     #[inline(always)]
-    fn lane(&self, lane: usize) -> [Vec3<f32>; 2] {
-        [self.p, self.n].map(|v| Vec3::new(v.x, v.y, v.z)).map(|v| {
+    fn place(&self, lane: usize) -> Place {
+        let [p, n] = [self.p, self.n].map(|v| {
             let [x, y, z] = [v.x, v.y, v.z].map(|x| x.lane_f64(lane) as f32);
             Vec3::new(x, y, z)
-        })
+        });
+        Place::new(p, n)
     }
 
     /// Chooses by 64 random bits a lane.
     #[inline]
     #[must_use]
     pub fn choose_by(&self, bits: [R::Uint; 2]) -> Choice<R> {
-        let (mut index, mut pmf, mut left) = ([NO_LIGHT; 8], [0.0; 8], [0; 8]);
-        for lane in 0..R::LANES {
-            let [p, n] = self.lane(lane);
-            (index[lane], pmf[lane], left[lane]) = self.tree.descend(p, n, bits.map(|bits| bits.lane(lane)));
+        let start = |lane: usize| {
+            let place = self.place(lane.min(R::LANES - 1));
+            let [word, more] = bits.map(|bits| bits.lane(lane.min(R::LANES - 1)));
+            Descent { place, word, more, node: 0, pmf: 1.0, light: NO_LIGHT }
+        };
+        let mut lanes: [Descent; MOST_LANES] = core::array::from_fn(start);
+        // level by level, as the lanes do not wait for each other
+        for _ in 0..DEEPEST {
+            let mut more = false;
+            for lane in &mut lanes[..R::LANES] {
+                more |= lane.step(self.tree.nodes);
+            }
+            if !more {
+                break;
+            }
         }
+        let pmf = |lane: &Descent| if lane.light == NO_LIGHT { 0.0 } else { lane.pmf.greater(f32::MIN_POSITIVE) };
         Choice {
-            index: R::Uint::from_fn(|lane| index[lane]),
-            pmf: R::from_fn(|lane| R::Scalar::lit(f64::from(pmf[lane]))),
-            u: R::unit(R::Uint::from_fn(|lane| left[lane])),
+            index: R::Uint::from_fn(|lane| lanes[lane].light),
+            pmf: R::from_fn(|lane| R::Scalar::lit(f64::from(pmf(&lanes[lane])))),
+            u: R::unit(R::Uint::from_fn(|lane| lanes[lane].word)),
         }
     }
 
     /// The units of 2⁻¹⁶ that each child of a node receives in a lane, and the children: nodes, lights, or nothing.
     pub fn shares(&self, lane: usize, node: u32) -> [(u32, TreeChild); 8] {
-        let [p, n] = self.lane(lane);
+        let place = self.place(lane);
         let Some(node) = self.tree.nodes.get(node as usize) else { return [(0, TreeChild::Nothing); 8] };
-        let ends = node.ends(p, n);
+        let shares = node.shares(&place);
         core::array::from_fn(|slot| {
             let child = match node.child[slot] {
                 NONE => TreeChild::Nothing,
                 child if child & LIGHT != 0 => TreeChild::Light(child & !LIGHT),
                 child => TreeChild::Node(child),
             };
-            (ends[slot] - if slot == 0 { 0 } else { ends[slot - 1] }, child)
+            (shares.of(slot), child)
         })
+    }
+}
+
+/// A lane on its way from the root to a light.
+struct Descent {
+    place: Place,
+    word: u32,
+    more: u32,
+    /// [`NONE`] at the end.
+    node: u32,
+    pmf: f32,
+    light: u32,
+}
+
+impl Descent {
+    /// Chooses a child; returns whether there are more to choose.
+    #[inline(always)]
+    fn step(&mut self, nodes: &[Node8]) -> bool {
+        let Some(node) = nodes.get(self.node as usize) else { return false };
+        let (slot, start, share) = node.shares(&self.place).find(self.word >> 16);
+        if share == 0 {
+            self.node = NONE;
+            return false;
+        }
+        // the position within the share, stretched to all of 32 bits with sixteen new ones: exactly uniform
+        let within = u64::from(self.word - (start << 16)) << 16 | u64::from(sixteen(&mut self.more));
+        self.word = (within / u64::from(share)) as u32;
+        self.pmf *= share as f32 * (1.0 / WHOLE as f32);
+        let child = node.child[slot];
+        if child & LIGHT == 0 {
+            self.node = child;
+            return true;
+        }
+        (self.light, self.node) = (child & !LIGHT, NONE);
+        false
     }
 }
 
@@ -207,35 +257,9 @@ pub enum TreeChild {
 }
 
 impl LightTree<'_> {
-    /// Chooses a light from the root down; returns it, its pmf, and what is left of the bits.
-    #[inline]
-    fn descend(&self, p: Vec3<f32>, n: Vec3<f32>, [mut word, mut more]: [u32; 2]) -> (u32, f32, u32) {
-        let (mut node, mut pmf) = (0, 1.0_f32);
-        for _ in 0..DEEPEST {
-            let Some(here) = self.nodes.get(node as usize) else { break };
-            let ends = here.ends(p, n);
-            if ends[7] == 0 {
-                break;
-            }
-            let target = word >> 16;
-            let slot = ends.iter().map(|&end| usize::from(end <= target)).sum::<usize>() & 7;
-            let start = if slot == 0 { 0 } else { ends[slot - 1] };
-            let share = ends[slot] - start;
-            // the position within the share, stretched to all of 32 bits with sixteen new ones: exactly uniform
-            let within = u64::from(word - (start << 16)) << 16 | u64::from(sixteen(&mut more));
-            word = (within / u64::from(share)) as u32;
-            pmf *= share as f32 * (1.0 / WHOLE as f32);
-            let child = here.child[slot];
-            if child & LIGHT != 0 {
-                return (child & !LIGHT, pmf.greater(f32::MIN_POSITIVE), word);
-            }
-            node = child;
-        }
-        (NO_LIGHT, 0.0, 0)
-    }
     /// The pmf of a light, by the same products.
     #[inline]
-    fn pmf(&self, p: Vec3<f32>, n: Vec3<f32>, light: u32) -> f32 {
+    fn pmf(&self, at: &Place, light: u32) -> f32 {
         let Some(&place) = self.places.get(light as usize) else { return 0.0 };
         let (mut path, mut levels, mut link) = ([0; DEEPEST], 0, place);
         while levels < DEEPEST {
@@ -249,8 +273,7 @@ impl LightTree<'_> {
         let mut pmf = 1.0_f32;
         for &link in path[..levels].iter().rev() {
             let Some(node) = self.nodes.get((link >> 3) as usize) else { return 0.0 };
-            let (ends, slot) = (node.ends(p, n), (link & 7) as usize);
-            let share = ends[slot] - if slot == 0 { 0 } else { ends[slot - 1] };
+            let share = node.shares(at).of((link & 7) as usize);
             if share == 0 {
                 return 0.0;
             }
@@ -271,8 +294,7 @@ impl<R: Real> LightChoice<R> for TreeAt<'_, R> {
     #[inline]
     fn pmf(&self, index: R::Uint) -> R {
         R::from_fn(|lane| {
-            let [p, n] = self.lane(lane);
-            R::Scalar::lit(f64::from(self.tree.pmf(p, n, index.lane(lane))))
+            R::Scalar::lit(f64::from(self.tree.pmf(&self.place(lane), index.lane(lane))))
         })
     }
 }

@@ -34,13 +34,31 @@ pub struct Node8 {
     power: [f32; 8],
     /// Half extents and offset, a byte each, relative to the reach.
     bounds: [u32; 8],
-    /// Mean normal and standard deviation of positions.
+    /// Mean normal, and the greatest distance from it.
     normal: [u32; 8],
-    /// Half extents of the box of normals, and cosine of the cone.
+    /// Standard deviation of positions, cosine of the cone, and 1 − squared length of the mean normal.
     spread: [u32; 8],
     pub(super) child: [u32; 8],
+    /// Whether no child is a spot light or emits from both sides.
+    plain: bool,
     /// 8 · parent + slot; for the root, the bits of the scale.
     pub(super) link: u32,
+}
+
+/// A point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    p: Vec3<f32>,
+    n: Vec3<f32>,
+    /// |n|, component by component.
+    slope: Vec3<f32>,
+}
+
+impl Place {
+    #[inline(always)]
+    pub(super) fn new(p: Vec3<f32>, n: Vec3<f32>) -> Self {
+        Self { p, n, slope: Vec3::new(n.x.abs(), n.y.abs(), n.z.abs()) }
+    }
 }
 
 impl Default for Node8 {
@@ -53,6 +71,7 @@ impl Default for Node8 {
             normal: [0; 8],
             spread: [0; 8],
             child: [NONE; 8],
+            plain: true,
             link: 0,
         }
     }
@@ -89,13 +108,14 @@ impl Node8 {
         let mean = part.normal.map(|x| ((x * 127.0).round_ties_even() + 128.0).clamped(0.0, 255.0) as u32);
         let [x, y, z] = mean;
         let deviation = (part.variance.sqrt() * relative / DEVIATION).round_ties_even().clamped(0.0, 255.0) as u32;
-        self.normal[slot] = x | y << 8 | z << 16 | deviation << 24;
-        let [x, y, z] = core::array::from_fn(|k| {
-            let mean = (f64::from(mean[k]) - 128.0) / 127.0;
-            ceiling(((part.most[k] - mean).greater(mean - part.least[k]) + 1e-6) * 127.5, 255.0)
-        });
+        let mean = mean.map(|byte| (f64::from(byte) - 128.0) / 127.0);
+        let off: f64 = (0..3).map(|k| part.normal[k] - mean[k]).map(|x| x * x).sum();
+        let spread = ceiling((part.spread + off.sqrt() + 1e-6) * 127.5, 255.0);
+        self.normal[slot] = x | y << 8 | z << 16 | spread << 24;
         let cone = if part.two_sided { TWO_SIDED } else { (part.cone * 254.0).clamped(0.0, 253.0) as u32 };
-        self.spread[slot] = x | y << 8 | z << 16 | cone << 24;
+        let turned = (1.0 - part.normal.iter().map(|x| x * x).sum::<f64>()).clamped(0.0, 1.0);
+        self.spread[slot] = deviation | cone << 8 | ((turned * 255.0).round_ties_even() as u32) << 16;
+        self.plain &= part.power <= 0.0 || cone == 0;
         self.center.iter_mut().zip(center).for_each(|(to, x)| to[slot] = x);
         self.reach[slot] = reach as f32;
         let cone = if part.two_sided { 0.0 } else { f64::from(cone) / 254.0 };
@@ -109,10 +129,10 @@ impl Node8 {
         let (center, reach) = ([0, 1, 2].map(|k| f64::from(self.center[k][slot])), f64::from(self.reach[slot]));
         let half = three(&self.bounds).map(|x| x * reach * (1.0 / 255.0));
         let normal = three(&self.normal).map(|x| (x - 128.0) / 127.0);
-        let spread = three(&self.spread).map(|x| x * (1.0 / 127.5));
-        let deviation = byte(&self.normal, 3) * reach * (DEVIATION / 255.0);
-        let two_sided = self.spread[slot] >> 24 == TWO_SIDED;
-        let cone = if two_sided { 0.0 } else { byte(&self.spread, 3) / 254.0 };
+        let spread = byte(&self.normal, 3) * (1.0 / 127.5);
+        let deviation = byte(&self.spread, 0) * reach * (DEVIATION / 255.0);
+        let two_sided = byte(&self.spread, 1) as u32 == TWO_SIDED;
+        let cone = if two_sided { 0.0 } else { byte(&self.spread, 1) / 254.0 };
         let end = |a: [f64; 3], sign: f64, b: [f64; 3]| core::array::from_fn(|k| a[k] + sign * b[k]);
         Part {
             center,
@@ -121,8 +141,7 @@ impl Node8 {
             variance: deviation * deviation,
             power: f64::from(self.power[slot]) * (1.0 - cone),
             normal,
-            least: end(normal, -1.0, spread).map(|x: f64| x.greater(-1.0)),
-            most: end(normal, 1.0, spread).map(|x: f64| x.lesser(1.0)),
+            spread,
             offset: byte(&self.bounds, 3) * reach * (2.0 / 255.0),
             cone,
             two_sided,
@@ -135,79 +154,95 @@ impl Node8 {
 
     /// The weight of each child at a point of a surface, and the lanes of those that can contribute.
     #[inline(always)]
-    fn weigh(&self, p: Vec3<f32>, n: Vec3<f32>) -> (f32x8, u32) {
+    fn weigh(&self, at: &Place) -> (f32x8, u32) {
         let lit = f32x8::lit;
         let (zero, one) = (lit(0.0), lit(1.0));
-        let (p, n) = (Vec3::<f32x8>::splat(p), Vec3::<f32x8>::splat(n));
+        let [p, n, slope] = [at.p, at.n, at.slope].map(Vec3::<f32x8>::splat);
         let [x, y, z] = self.center.map(f32x8::from);
         let v = Vec3::new(x, y, z) - p;
-        let reach = f32x8::from(self.reach);
         let three = |word: u32x8| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
-        let positive = |v: Vec3<f32x8>| Vec3::new(v.x.abs(), v.y.abs(), v.z.abs());
         let (bounds, normals, spreads) =
             (u32x8::from(self.bounds), u32x8::from(self.normal), u32x8::from(self.spread));
-        let unit = reach * lit(1.0 / 255.0);
-        // distance, to a point at the mean squared distance
-        let deviation = byte(normals, 3) * unit * lit(DEVIATION);
-        let variance = deviation * deviation * lit(1.0 / 3.0);
-        let squared = v.length_squared() + variance + lit(SMALL * SMALL);
+        let unit = f32x8::from(self.reach) * lit(1.0 / 255.0);
+        // the distance, to a point at the mean squared distance
+        let deviation = byte(spreads, 0) * unit;
+        let smooth = deviation * deviation * lit(DEVIATION * DEVIATION / 3.0 * SMOOTH);
+        let squared = v.length_squared() + smooth + lit(SMALL * SMALL);
         let distance = squared.sqrt();
-        let inverse = one / distance;
-        let relative = variance * inverse * inverse;
-        // cosine at the surface: its mean, and a bound
-        let (above, up) = (v.dot(n), three(bounds).dot(positive(n)) * unit);
-        let cos = above * inverse;
-        let estimate = (cos + cos.mul_add(cos, relative * lit(SMOOTH)).sqrt()) * lit(0.5);
-        let bound = (above + up).mul_add(inverse, lit(MARGIN)).lesser(one);
-        // cosine at the light
+        // all cosines are multiplied by the distance, so that the square roots do not wait for each other
+        let above = v.dot(n);
+        let estimate = above + above.mul_add(above, smooth).sqrt();
+        let bound = lit(MARGIN).mul_add(distance, three(bounds).dot(slope).mul_add(unit, above)).lesser(distance);
         let bias = lit(-128.0 / 127.0);
         let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
-        let top = byte(spreads, 3);
-        let both = top.gt(lit(254.0));
-        let cone = (top * lit(1.0 / 254.0)).keep(!both);
         let ahead = -v.dot(normal);
-        let m = ahead * inverse;
-        let y = m - cone;
-        let varied = (one - normal.length_squared()).greater(zero).mul_add(lit(1.0 / 3.0), relative) * lit(SMOOTH);
-        let root = y.mul_add(y, varied).sqrt();
-        let facing = <f32x8 as Real>::blend(both, root, (y + root) * lit(0.5));
-        let offset = byte(bounds, 3) * unit * lit(2.0);
-        let near = (distance - deviation - reach * lit(DEVIATION)) * cone;
-        let front = three(spreads).dot(positive(v)).mul_add(lit(1.0 / 127.5), ahead) + offset - near;
-        let front = front.mul_add(inverse, lit(MARGIN)).lesser(one);
+        let turned = (byte(spreads, 2) * lit(SMOOTH / 3.0 / 255.0)).mul_add(squared, smooth);
+        let spread = byte(normals, 3).mul_add(lit(1.0 / 127.5), lit(MARGIN));
+        let mut front = spread.mul_add(distance, (byte(bounds, 3) + byte(bounds, 3)).mul_add(unit, ahead));
+        let facing = if self.plain {
+            ahead + ahead.mul_add(ahead, turned).sqrt()
+        } else {
+            let top = byte(spreads, 1);
+            let both = top.gt(lit(254.0));
+            let cone = (top * lit(1.0 / 254.0)).keep(!both);
+            let near = distance - (deviation + lit(255.0) * unit) * lit(DEVIATION);
+            front = front - near * cone;
+            let y = ahead - cone * distance;
+            let root = y.mul_add(y, turned).sqrt();
+            <f32x8 as Real>::blend(both, root + root, y + root)
+        };
+        let front = front.lesser(distance);
         let power = f32x8::from(self.power);
         let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
-        let weight = power * inverse * inverse * (bound * front).mul_add(lit(BOUND), estimate * facing);
-        (weight.keep(bright), bright.bits())
+        let inverse = one / squared;
+        let cosines = (bound * front).mul_add(lit(4.0 * BOUND), estimate * facing) * inverse;
+        ((power * inverse * cosines).keep(bright), bright.bits())
     }
 
-    /// The ends of the children's shares, in units of 2⁻¹⁶. A child that can contribute has at least one unit, no other child has any;
-    /// where none can, all are 0.
+    /// The children's shares at a point of a surface.
     #[inline(always)]
-    pub(super) fn ends(&self, p: Vec3<f32>, n: Vec3<f32>) -> [u32; 8] {
-        let (weight, bright) = self.weigh(p, n);
-        if bright == 0 {
-            return [0; 8];
-        }
+    pub(super) fn shares(&self, at: &Place) -> Shares {
+        let (weight, bright) = self.weigh(at);
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
         let (mut weight, mut total) = (weight, sum(weight.to_array()));
         if !(total >= f32::MIN_POSITIVE && total < f32::INFINITY) {
             weight = f32x8::lit(1.0).keep(lanes);
-            total = sum(weight.to_array());
+            total = sum(weight.to_array()).greater(1.0);
         }
         let scaled = weight * f32x8::splat((WHOLE - 8) as f32 / total);
-        let shares = (scaled.to_uint().wrapping_add(u32x8::splat(1)) & mask_bits(lanes)).to_array();
-        let mut ends = shares;
-        for k in 1..8 {
-            ends[k] += ends[k - 1];
-        }
+        let mut units = (scaled.to_uint().wrapping_add(u32x8::splat(1)) & mask_bits(lanes)).to_array();
         // what rounding left goes to the last
-        let last = 31 - bright.leading_zeros();
-        for (k, end) in (0..).zip(&mut ends) {
-            *end = if k >= last { WHOLE } else { *end };
+        units[31 - (bright | 1).leading_zeros() as usize & 7] = if bright == 0 { 0 } else { WHOLE };
+        Shares { units }
+    }
+}
+
+/// What each child of a node receives, in units of 2⁻¹⁶. A child that can contribute has at least one unit, no other child has any. The
+/// last that can contribute receives what the others leave, and has [`WHOLE`] here; where none can, all have 0.
+pub(super) struct Shares {
+    units: [u32; 8],
+}
+
+impl Shares {
+    /// The child that a number of 16 bits belongs to, the start of its share, and the share; 0 if there is none.
+    #[inline(always)]
+    pub(super) fn find(&self, target: u32) -> (usize, u32, u32) {
+        let (mut slot, mut start, mut end) = (0, 0, 0);
+        for units in self.units {
+            end += units;
+            let passed = end <= target;
+            slot += usize::from(passed);
+            start = if passed { end } else { start };
         }
-        ends
+        let slot = slot & 7;
+        (slot, start, self.units[slot].min(WHOLE - start))
+    }
+    /// The share of a child.
+    #[inline(always)]
+    pub(super) fn of(&self, slot: usize) -> u32 {
+        let before: u32 = self.units.iter().take(slot).sum();
+        self.units[slot & 7].min(WHOLE.wrapping_sub(before))
     }
 }
 

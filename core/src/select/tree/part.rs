@@ -23,9 +23,8 @@ pub(super) struct Part {
     pub(super) power: f64,
     /// Mean normal by power; its length is 1 if all are the same, and 0 for lights that emit in all directions.
     pub(super) normal: [f64; 3],
-    /// A box around all normals.
-    pub(super) least: [f64; 3],
-    pub(super) most: [f64; 3],
+    /// The greatest distance of a normal from the mean; 1 for lights that emit in all directions.
+    pub(super) spread: f64,
     /// A bound of |(x − centre)·m| over the points x of a light and its normals m.
     pub(super) offset: f64,
     /// The least cosine of a cone.
@@ -44,6 +43,14 @@ pub(super) struct Units {
 fn sane(light: &LightBound) -> bool {
     let finite = light.center.iter().all(|x| x.is_finite()) && light.radius.is_finite();
     finite && light.power > 0.0 && light.power < f32::INFINITY
+}
+
+fn square(x: f64) -> f64 {
+    x * x
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v.map(square).iter().sum::<f64>().sqrt()
 }
 
 impl Units {
@@ -69,7 +76,7 @@ impl Part {
         let radius = f64::from(light.radius.greater(0.0) * units.length).greater(SMALL);
         let power = f64::from(light.power * units.power).greater(SMALL) * core::f64::consts::FRAC_1_PI;
         let normal = light.normal.map(f64::from);
-        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let length = length(normal);
         let extent = |half: [f64; 3]| {
             let end = |sign: f64| core::array::from_fn(|k| center[k] + sign * half[k]);
             (end(-1.0), end(1.0))
@@ -78,22 +85,16 @@ impl Part {
         if !(length > 0.0 && length < f64::INFINITY) {
             let (low, high) = extent([radius; 3]);
             let power = power * (0.25 / ISOTROPIC);
-            let (least, most) = ([-1.0; 3], [1.0; 3]);
-            return Self { center, low, high, variance, power, least, most, offset: radius, ..Self::default() };
+            return Self { center, low, high, variance, power, spread: 1.0, offset: radius, ..Self::default() };
         }
         let normal = normal.map(|x| x / length);
         // a disk, whose normal may be rounded
         let (low, high) = extent(normal.map(|m| radius * ((1.0 - m * m).greater(0.0).sqrt() + 1e-6).lesser(1.0)));
         let cone = f64::from(light.cos_cone).clamped(0.0, 1.0);
         let power = if cone > 0.0 { power * 0.5 / (1.0 - cone).greater(SMALL) } else { power };
-        let (least, most) = if light.two_sided {
-            (normal.map(|m| -Real::abs(m)), normal.map(Real::abs))
-        } else {
-            (normal, normal)
-        };
-        let offset = radius * 1e-6;
-        let two_sided = light.two_sided;
-        Self { center, low, high, variance, power, normal, least, most, offset, cone, two_sided }
+        let (offset, two_sided) = (radius * 1e-6, light.two_sided);
+        let spread = if two_sided { 2.0 } else { 0.0 };
+        Self { center, low, high, variance, power, normal, spread, offset, cone, two_sided }
     }
 
     /// A set of lights, from its parts.
@@ -104,14 +105,12 @@ impl Part {
             return Self::default();
         }
         let (infinity, mut all) = (f64::INFINITY, Self { power, cone: 1.0, two_sided: true, ..Self::default() });
-        (all.low, all.high, all.least, all.most) = ([infinity; 3], [-infinity; 3], [infinity; 3], [-infinity; 3]);
+        (all.low, all.high) = ([infinity; 3], [-infinity; 3]);
         for part in lit() {
             for k in 0..3 {
                 all.center[k] += part.center[k] * (part.power / power);
                 all.low[k] = all.low[k].lesser(part.low[k]);
                 all.high[k] = all.high[k].greater(part.high[k]);
-                all.least[k] = all.least[k].lesser(part.least[k]);
-                all.most[k] = all.most[k].greater(part.most[k]);
             }
             all.cone = all.cone.lesser(part.cone);
             all.two_sided &= part.two_sided;
@@ -125,16 +124,26 @@ impl Part {
                 (false, true) => 0.0,
                 (false, false) => 1.0,
             };
-            let (mut far, mut along) = (0.0, 0.0);
+            let mut far = 0.0;
             for k in 0..3 {
                 all.normal[k] += part.normal[k] * (share * sign);
-                let away = Real::abs(part.center[k] - all.center[k]);
-                far += away * away;
-                along += away * Real::abs(part.least[k]).greater(Real::abs(part.most[k]));
+                far += square(part.center[k] - all.center[k]);
             }
             all.variance += share * (part.variance + far);
-            all.offset = all.offset.greater(part.offset + along);
         }
+        for part in lit() {
+            let mut turned = 0.0;
+            let mut along = [0.0; 2];
+            for k in 0..3 {
+                let away = part.center[k] - all.center[k];
+                turned += square(part.normal[k] - all.normal[k]);
+                along[0] += away * part.normal[k];
+                along[1] += square(away);
+            }
+            all.spread = all.spread.greater(part.spread + turned.sqrt());
+            all.offset = all.offset.greater(part.offset + Real::abs(along[0]) + along[1].sqrt() * part.spread);
+        }
+        all.spread = if all.two_sided { 2.0 } else { all.spread.lesser(1.0 + length(all.normal)) };
         all
     }
 }
