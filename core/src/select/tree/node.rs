@@ -13,7 +13,7 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) const LIGHT: u32 = 1 << 31;
 
 /// The part of the bound in the weight of a child.
-const BOUND: f64 = 1.0 / 16.0;
+const BOUND: f64 = 1.0 / 32.0;
 /// E max(0, x) of a normal variable is near (μ + √(μ² + 2σ²/π))/2.
 const SMOOTH: f64 = core::f64::consts::FRAC_2_PI;
 /// Cosines below which a bound is negative in spite of all rounding.
@@ -166,8 +166,8 @@ impl Node8 {
         let unit = f32x8::from(self.reach) * lit(1.0 / 255.0);
         // the distance, to a point at the mean squared distance
         let deviation = byte(spreads, 0) * unit;
-        let smooth = deviation * deviation * lit(DEVIATION * DEVIATION / 3.0 * SMOOTH);
-        let squared = v.length_squared() + smooth + lit(SMALL * SMALL);
+        let variance = deviation * deviation * lit(DEVIATION * DEVIATION / 3.0);
+        let (smooth, squared) = (variance * lit(SMOOTH), v.length_squared() + variance + lit(SMALL * SMALL));
         let distance = squared.sqrt();
         // all cosines are multiplied by the distance, so that the square roots do not wait for each other
         let above = v.dot(n);
