@@ -28,8 +28,6 @@ const TRIALS: u32 = 4;
 struct AreaLight {
     form: Convex<f32>,
     radiance: [f32; 3],
-    /// A point of a light that emits on one side, and its normal there.
-    side: Option<[V8; 2]>,
 }
 
 /// What is known of a light, as seen from a part of a surface.
@@ -155,14 +153,7 @@ impl<'a> Analytic<'a> {
     /// For a tile that begins at the pixel `origin`.
     pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera) -> Self {
         let light = |shape: &crate::scene::Shape| {
-            let emission = shape.emission?;
-            let side = match shape.geometry {
-                Geometry::Triangle([p, _, _]) | Geometry::Parallelogram { p, .. } if !emission.two_sided => {
-                    Some([p.into(), shape.geometry.normal().into()])
-                }
-                _ => None,
-            };
-            Some(AreaLight { form: light_form(&shape.geometry), radiance: emission.radiance, side })
+            Some(AreaLight { form: light_form(&shape.geometry), radiance: shape.emission?.radiance })
         };
         Self {
             surfaces,
@@ -380,9 +371,6 @@ impl<'a> Analytic<'a> {
                 if lit.any() {
                     let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
                     part += all.unwrap_or_default().keep(lit);
-                }
-                if let Some([corner, normal]) = &light.side {
-                    part = part.keep((surface.point - *corner).dot(*normal).gt(X8::lit(0.0)));
                 }
                 sum += V8::from(light.radiance) * part;
                 unknown[k][p] = open;
