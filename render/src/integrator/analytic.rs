@@ -48,8 +48,6 @@ enum Known {
 pub struct Survey {
     /// The primitive there, as in hits; nothing else counts where a path ends without a surface that reflects.
     pub place: Option<u32>,
-    /// Whether the surface is not diffuse, so that all lights must be sampled.
-    pub glossy: bool,
     /// Lights that nothing can occlude.
     pub lit: u32,
     /// Lights that no point of the surface nearby sees.
@@ -282,8 +280,7 @@ impl<'a> Analytic<'a> {
             return survey;
         }
         survey.place = Some(ends.places.as_array()[lane]);
-        survey.glossy = ends.glossy.lane(lane);
-        if survey.glossy {
+        if ends.glossy.lane(lane) {
             survey.unknown = self.lights.len() as u32;
             return survey;
         }
