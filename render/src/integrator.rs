@@ -112,7 +112,7 @@ impl World {
             return settings.technique;
         }
         let (mut probes, mut lights, mut sampled, mut places) = (0, 0, 0, HashSet::new());
-        if self.scene.lights.areas().is_some() && !self.scene.surfaces.has_rough() {
+        if self.scene.lights.only_few_areas() && !self.scene.surfaces.has_rough() {
             for survey in self.probe(camera, settings) {
                 lights += survey.lights();
                 sampled += survey.sampled();
