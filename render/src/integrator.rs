@@ -26,7 +26,7 @@ use std::collections::HashSet;
 use tile::TileRenderer;
 
 /// Greatest number of pixels that are looked at to choose a technique.
-const PROBES: u32 = 256;
+const PROBES: usize = 256;
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
@@ -112,8 +112,8 @@ impl World {
             return settings.technique;
         }
         let (mut probes, mut lights, mut sampled, mut places) = (0, 0, 0, HashSet::new());
-        if self.scene.lights.areas().is_some() && !self.scene.surfaces.has_rough() {
-            for survey in self.survey(camera, settings, true) {
+        if self.scene.lights.only_few_areas() && !self.scene.surfaces.has_rough() {
+            for survey in self.probe(camera, settings) {
                 lights += survey.lights();
                 sampled += survey.sampled();
                 probes += usize::from(survey.place.is_some());
@@ -134,25 +134,25 @@ impl World {
         self.technique(&Camera::new(&self.camera, settings.width, settings.height), settings)
     }
 
-    /// What is known of the lights in the middle of each pixel, row by row; with `probe`, at some pixels, at most `PROBES`.
-    pub fn survey(&self, camera: &Camera, settings: &Settings, probe: bool) -> Vec<Survey> {
+    /// What is known of the lights in the middle of each pixel, row by row.
+    pub fn survey(&self, camera: &Camera, settings: &Settings) -> Vec<Survey> {
         let settings = &Settings { technique: Technique::Analytic, ..*settings };
-        let tiles = settings.width.div_ceil(TILE) * settings.height.div_ceil(TILE);
-        let apart = tiles.div_ceil(PROBES);
-        let (surveys, _) = self.tiles(camera, settings, |renderer, area| {
-            let [x0, y0, x1, y1] = area;
-            if !probe {
-                let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
-                return renderer.survey([x0, y0], &pixels);
-            }
-            let mut surveys = vec![Survey::default(); ((x1 - x0) * (y1 - y0)) as usize];
-            let tile = y0 / TILE * settings.width.div_ceil(TILE) + x0 / TILE;
-            if tile.is_multiple_of(apart) {
-                surveys[0] = renderer.survey([x0, y0], &[[(x0 + x1) / 2, (y0 + y1) / 2]])[0];
-            }
-            surveys
+        let (surveys, _) = self.tiles(camera, settings, |renderer, [x0, y0, x1, y1]| {
+            let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
+            renderer.survey([x0, y0], &pixels)
         });
         surveys
+    }
+
+    /// What is known of the lights in the middle of every tile, or, in large images, of every second, third, … tile: at most [`PROBES`].
+    fn probe(&self, camera: &Camera, settings: &Settings) -> Vec<Survey> {
+        let settings = &Settings { technique: Technique::Analytic, ..*settings };
+        let apart = areas(settings).len().div_ceil(PROBES).max(1);
+        let probed = areas(settings).step_by(apart).map(|[x0, y0, x1, y1]| {
+            let mut renderer = self.renderer(camera, settings);
+            renderer.survey([x0, y0], &[[x0.midpoint(x1), y0.midpoint(y1)]])[0]
+        });
+        probed.collect()
     }
 
     /// Renders the pilot, then the adaptive samples.
@@ -179,6 +179,10 @@ impl World {
         (first.iter().zip(&second).map(|(a, b)| a.finish(b, sets)).collect(), rays)
     }
 
+    fn renderer<'a>(&'a self, camera: &Camera, settings: &'a Settings) -> TileRenderer<'a> {
+        TileRenderer::new(&self.scene, settings, *camera, self.exposure(settings.width, settings.height))
+    }
+
     /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.
     fn tiles<T: Copy + Default + Send>(
         &self,
@@ -187,15 +191,9 @@ impl World {
         of: impl Fn(&mut TileRenderer, [u32; 4]) -> Vec<T> + Sync,
     ) -> (Vec<T>, RayCount) {
         let (width, height) = (settings.width, settings.height);
-        let columns = width.div_ceil(TILE);
-        let tiles = columns as usize * height.div_ceil(TILE) as usize;
-        let rendered: Vec<_> = (0..tiles)
-            .into_par_iter()
-            .map(|tile| {
-                let x = (tile as u32 % columns) * TILE;
-                let y = (tile as u32 / columns) * TILE;
-                let area = [x, y, (x + TILE).min(width), (y + TILE).min(height)];
-                let mut renderer = TileRenderer::new(&self.scene, settings, *camera, self.exposure(width, height));
+        let rendered: Vec<_> = areas(settings)
+            .map(|area| {
+                let mut renderer = self.renderer(camera, settings);
                 let pixels = of(&mut renderer, area);
                 (area, pixels, renderer.count())
             })
@@ -212,4 +210,16 @@ impl World {
         }
         (pixels, rays)
     }
+}
+
+/// The area [x0, y0, x1, y1) of each tile of an image.
+fn areas(settings: &Settings) -> impl IndexedParallelIterator<Item = [u32; 4]> + use<> {
+    let (width, height) = (settings.width, settings.height);
+    let columns = width.div_ceil(TILE);
+    let tiles = columns as usize * height.div_ceil(TILE) as usize;
+    (0..tiles).into_par_iter().map(move |tile| {
+        let x = (tile as u32 % columns) * TILE;
+        let y = (tile as u32 / columns) * TILE;
+        [x, y, (x + TILE).min(width), (y + TILE).min(height)]
+    })
 }

@@ -331,9 +331,9 @@ impl Lights {
     pub fn few(&self) -> Option<usize> {
         self.spatial.as_ref().map(SpatialLights::len)
     }
-    /// The number of lights if there are 1 to [`FEW`] and all have an area.
-    pub fn areas(&self) -> Option<usize> {
-        (self.kinds & !ONLY_AREAS == 0 && (1..=FEW).contains(&self.len())).then(|| self.len())
+    /// Whether there are 1 to [`FEW`] lights, and all have an area.
+    pub fn only_few_areas(&self) -> bool {
+        self.kinds & !ONLY_AREAS == 0 && (1..=FEW).contains(&self.len())
     }
     /// What each light can contribute to points of surfaces, where samples can be allocated.
     #[inline]

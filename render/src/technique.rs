@@ -32,9 +32,9 @@ impl Technique {
     pub fn finds_lights(self) -> bool {
         matches!(self, Self::UniformHemisphere | Self::CosineHemisphere | Self::Brdf)
     }
-    /// Whether light is computed without samples where that can be, in a scene with this number of lights that all have an area.
-    pub fn is_analytic(self, areas: Option<usize>) -> bool {
-        self == Self::Analytic && areas.is_some()
+    /// Whether light is computed without samples where that can be. That requires few lights that all have an area.
+    pub fn is_analytic(self, only_few_areas: bool) -> bool {
+        self == Self::Analytic && only_few_areas
     }
     /// How samples of a light and of the BSDF are combined, if they are.
     pub fn heuristic(self) -> Option<Heuristic> {

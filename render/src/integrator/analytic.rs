@@ -28,8 +28,6 @@ const TRIALS: u32 = 4;
 struct AreaLight {
     form: Convex<f32>,
     radiance: [f32; 3],
-    /// A point of a light that emits on one side, and its normal there.
-    side: Option<[V8; 2]>,
 }
 
 /// What is known of a light, as seen from a part of a surface.
@@ -50,8 +48,6 @@ enum Known {
 pub struct Survey {
     /// The primitive there, as in hits; nothing else counts where a path ends without a surface that reflects.
     pub place: Option<u32>,
-    /// Whether the surface is not diffuse, so that all lights must be sampled.
-    pub glossy: bool,
     /// Lights that nothing can occlude.
     pub lit: u32,
     /// Lights that no point of the surface nearby sees.
@@ -87,11 +83,11 @@ struct Entry {
     first: usize,
 }
 
-/// Where the paths of a packet end.
+/// The places where the paths of a packet end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ends {
-    /// Primitives, as in hits.
-    pub(super) places: u32x8,
+pub(super) struct Places {
+    /// As in hits.
+    pub(super) primitives: u32x8,
     /// Lanes that the camera sees directly.
     pub(super) direct: M8,
     /// Lanes whose surfaces are not diffuse.
@@ -100,9 +96,9 @@ pub(super) struct Ends {
     pub(super) pixel: Option<[u32; 2]>,
 }
 
-impl Default for Ends {
+impl Default for Places {
     fn default() -> Self {
-        Self { places: u32x8::splat(0), direct: M8::splat(true), glossy: M8::splat(false), pixel: None }
+        Self { primitives: u32x8::splat(0), direct: M8::splat(true), glossy: M8::splat(false), pixel: None }
     }
 }
 
@@ -152,17 +148,10 @@ fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
 }
 
 impl<'a> Analytic<'a> {
-    /// For a tile that begins at the pixel `origin`.
+    /// For a scene as a camera sees it. [`begin`](Self::begin) prepares for a tile.
     pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera) -> Self {
         let light = |shape: &crate::scene::Shape| {
-            let emission = shape.emission?;
-            let side = match shape.geometry {
-                Geometry::Triangle([p, _, _]) | Geometry::Parallelogram { p, .. } if !emission.two_sided => {
-                    Some([p.into(), shape.geometry.normal().into()])
-                }
-                _ => None,
-            };
-            Some(AreaLight { form: light_form(&shape.geometry), radiance: emission.radiance, side })
+            Some(AreaLight { form: light_form(&shape.geometry), radiance: shape.emission?.radiance })
         };
         Self {
             surfaces,
@@ -285,18 +274,17 @@ impl<'a> Analytic<'a> {
     }
 
     /// What is known at the surface in a lane.
-    pub(super) fn survey(&mut self, surface: &Surface, ends: &Ends, lane: usize) -> Survey {
+    pub(super) fn survey(&mut self, surface: &Surface, places: &Places, lane: usize) -> Survey {
         let mut survey = Survey::default();
         if !surface.reflects.lane(lane) {
             return survey;
         }
-        survey.place = Some(ends.places.as_array()[lane]);
-        survey.glossy = ends.glossy.lane(lane);
-        if survey.glossy {
+        survey.place = Some(places.primitives.as_array()[lane]);
+        if places.glossy.lane(lane) {
             survey.unknown = self.lights.len() as u32;
             return survey;
         }
-        let (first, _) = self.find(surface, ends, M8::from_bits(1 << lane));
+        let (first, _) = self.find(surface, places, M8::from_bits(1 << lane));
         for known in &self.known[first..first + self.lights.len()] {
             *match known {
                 Known::Lit => &mut survey.lit,
@@ -311,15 +299,15 @@ impl<'a> Analytic<'a> {
     }
 
     /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them.
-    fn find(&mut self, surface: &Surface, ends: &Ends, lanes: M8) -> (usize, M8) {
+    fn find(&mut self, surface: &Surface, places: &Places, lanes: M8) -> (usize, M8) {
         let lane = lanes.bits().trailing_zeros() as usize & 7;
-        let place = ends.places.as_array()[lane];
-        let here = lanes & equal(ends.places, u32x8::splat(place));
-        if let Some(pinhole) = self.pinhole.filter(|_| ends.direct.lane(lane)) {
-            let (pixel, level) = ends.pixel.map_or((self.origin, 0), |pixel| (pixel, SIDES.len() - 1));
-            return (self.seen(&pinhole, place, pixel, level), here & ends.direct);
+        let place = places.primitives.as_array()[lane];
+        let here = lanes & equal(places.primitives, u32x8::splat(place));
+        if let Some(pinhole) = self.pinhole.filter(|_| places.direct.lane(lane)) {
+            let (pixel, level) = places.pixel.map_or((self.origin, 0), |pixel| (pixel, SIDES.len() - 1));
+            return (self.seen(&pinhole, place, pixel, level), here & places.direct);
         }
-        let here = if self.pinhole.is_some() { here & !ends.direct } else { here };
+        let here = if self.pinhole.is_some() { here & !places.direct } else { here };
         let outwards = if place & SHAPE != 0 {
             match self.surfaces.shapes()[(place & !SHAPE) as usize].geometry {
                 Geometry::Sphere { center, .. } => surface.point - V8::from(center),
@@ -340,7 +328,7 @@ impl<'a> Analytic<'a> {
     pub(super) fn gather(
         &mut self,
         surfaces: &[Surface],
-        ends: &[Ends; GROUP],
+        places: &[Places; GROUP],
         reflected: &mut [V8; GROUP],
         unknown: &mut [[M8; GROUP]; FEW],
     ) -> bool {
@@ -348,16 +336,16 @@ impl<'a> Analytic<'a> {
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let mut parts = [(0, M8::splat(false)); 8];
             let mut count = 0;
-            let mut left = surface.reflects & !ends[p].glossy;
+            let mut left = surface.reflects & !places[p].glossy;
             while left.any() {
-                parts[count] = self.find(surface, &ends[p], left);
+                parts[count] = self.find(surface, &places[p], left);
                 left = left & !parts[count].1;
                 count += 1;
             }
             let mut sum = V8::default();
             for (k, light) in self.lights.iter().enumerate() {
                 let mut lit = M8::splat(false);
-                let mut open = surface.reflects & ends[p].glossy;
+                let mut open = surface.reflects & places[p].glossy;
                 let mut part = X8::lit(0.0);
                 for (first, lanes) in &parts[..count] {
                     match &self.known[first + k] {
@@ -380,9 +368,6 @@ impl<'a> Analytic<'a> {
                 if lit.any() {
                     let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
                     part += all.unwrap_or_default().keep(lit);
-                }
-                if let Some([corner, normal]) = &light.side {
-                    part = part.keep((surface.point - *corner).dot(*normal).gt(X8::lit(0.0)));
                 }
                 sum += V8::from(light.radiance) * part;
                 unknown[k][p] = open;

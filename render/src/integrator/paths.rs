@@ -5,7 +5,7 @@
 //! between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room, 1.00 ± 0.03, and 1.04 times
 //! as long among three thousand balls.)
 
-use super::analytic::{Analytic, Ends, Survey};
+use super::analytic::{Analytic, Places, Survey};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
@@ -100,7 +100,7 @@ pub(super) struct Paths<'a> {
     surfaces: Box<[Surface; GROUP]>,
     ends: Box<[End; GROUP]>,
     /// Where the paths end. The pixels are set from outside.
-    pub(super) places: Box<[Ends; GROUP]>,
+    pub(super) places: Box<[Places; GROUP]>,
     pub(super) analytic: Option<Analytic<'a>>,
     radiance: Box<[Radiance; GROUP]>,
 }
@@ -120,7 +120,7 @@ impl<'a> Paths<'a> {
             places: Box::default(),
             analytic: settings
                 .technique
-                .is_analytic(scene.lights.areas())
+                .is_analytic(scene.lights.only_few_areas())
                 .then(|| Analytic::new(&scene.surfaces, &scene.bodies, camera)),
             radiance: Box::default(),
         }
@@ -245,7 +245,7 @@ impl<'a> Paths<'a> {
                 };
                 if !METAL {
                     surfaces[p] = world.hit(&hits[p], ray);
-                    places[p].places = hits[p].place;
+                    places[p].primitives = hits[p].place;
                     radiance[p].seen = see(&surfaces[p]);
                     continue;
                 }
@@ -259,7 +259,7 @@ impl<'a> Paths<'a> {
                 let mirrors = metal.mirrors() & reflects;
                 let ends_here = reflects & !mirrors;
                 end.settle(&mut surfaces[p], &surface, ends_here, incoming, metal);
-                places[p].places = pick(ends_here, hits[p].place, places[p].places);
+                places[p].primitives = pick(ends_here, hits[p].place, places[p].primitives);
                 places[p].direct = if depth == 0 { ends_here } else { places[p].direct & !ends_here };
                 going[p] = M8::splat(false);
                 if mirrors.any() && depth < self.depth {

@@ -10,4 +10,5 @@ mod references;
 mod sampler;
 mod sensor;
 mod sky;
+mod variance;
 mod vignetting;

@@ -108,7 +108,7 @@ impl Studio<'_> {
         };
         let camera = Camera::new(&scene.camera, SIDE, SIDE);
         let automatic = settings(SIDE, Technique::Auto);
-        let surveys = world.survey(&camera, &automatic, false);
+        let surveys = world.survey(&camera, &automatic);
         let mut pairs = [0; OUTCOMES.len()];
         for survey in &surveys {
             pairs.iter_mut().zip(outcomes(survey)).for_each(|(sum, n)| *sum += u64::from(n));
