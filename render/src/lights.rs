@@ -1,16 +1,21 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
 
+mod many;
+
+use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{DeltaLight, Scene};
 use crate::sky::Sky;
 use crate::technique::Measure;
-use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, PowerLights, SpatialLights};
+use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2,
     Vec3, u32x8,
 };
+use many::{ManyAt, ManyLights};
+use rayon::prelude::*;
 use std::sync::Arc;
 
 // kinds of lights, and a flag beside them
@@ -54,7 +59,11 @@ impl LightRecord {
             [i, red, green, blue, f32::from_bits(self.kind), f32::from_bits(self.shape), 0.0, 0.0],
         ]
     }
-    /// The bound of what a light with an area contributes, by its power.
+    /// Whether the light is infinitely far away.
+    fn is_distant(&self) -> bool {
+        matches!(self.kind & KINDS, DISTANT | SKY)
+    }
+    /// The bound of what a light of finite extent contributes, by its power. The bound of another light has no power.
     fn bound(&self, power: f64) -> LightBound {
         let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
         let (p, u, v) = (wide(self.place), wide(self.first), wide(self.second));
@@ -65,10 +74,13 @@ impl LightRecord {
                 let corners = [p, p + u, p + v];
                 (center, corners.into_iter().map(|c| (c - center).length()).fold(0.0, f64::max), u.cross(v))
             }
-            _ => {
+            PARALLELOGRAM => {
                 let center = p + (u + v) * 0.5;
                 (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
             }
+            // beyond a hemisphere, a cone bounds nothing
+            SPOT if self.second[1] > 0.0 => (p, 0.0, u),
+            _ => (p, 0.0, Vec3::default()),
         };
         let length = normal.length();
         let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
@@ -78,77 +90,24 @@ impl LightRecord {
             // the rounding of the centre moves the sphere by less than this
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
+            cos_cone: if self.kind & KINDS == SPOT { self.second[1].max(0.0) } else { 0.0 },
             two_sided: two_sided && length > 0.0,
-            power: power as f32 * if two_sided { 0.5 } else { 1.0 },
+            power: if self.is_distant() {
+                0.0
+            } else {
+                (power as f32 * if two_sided { 0.5 } else { 1.0 }).max(f32::MIN_POSITIVE)
+            },
         }
-    }
-}
-
-/// Chooses among any number of lights by their power: a block of neighbours by one number, a light of the block by another.
-#[derive(Debug, Default)]
-pub struct PowerTable {
-    /// Lights in a block, all but the last one.
-    block: usize,
-    blocks: Vec<f32>,
-    lights: Vec<f32>,
-}
-
-impl PowerTable {
-    fn new(powers: &[f64]) -> Self {
-        // at least as many lights in a block as blocks
-        let block = if powers.len() <= PowerLights::MOST { powers.len().max(1) } else { powers.len().isqrt() + 1 };
-        let greatest = powers.iter().fold(f64::MIN_POSITIVE, |m, &p| m.max(p));
-        // relative to the greatest, so that all sums are finite; no light vanishes
-        let relative = |p: f64| if p > 0.0 { ((p / greatest) as f32).max(f32::MIN_POSITIVE) } else { 0.0 };
-        let powers: Vec<f32> = powers.iter().map(|&p| relative(p)).collect();
-        let mut table = Self { block, blocks: Vec::new(), lights: vec![0.0; powers.len()] };
-        let sums: Vec<f32> = powers.chunks(block).map(|powers| powers.iter().sum()).collect();
-        for (powers, sums) in powers.chunks(block).zip(table.lights.chunks_mut(block)) {
-            PowerLights::new(powers, sums).expect("a block is small enough");
-        }
-        table.blocks = vec![0.0; sums.len()];
-        PowerLights::new(&sums, &mut table.blocks).expect("less than 2²⁸ lights");
-        table
-    }
-    fn lights_of(&self, block: u32) -> PowerLights<'_> {
-        let start = block as usize * self.block;
-        let end = (start + self.block).min(self.lights.len());
-        PowerLights::from_buffer(self.lights.get(start..end).unwrap_or_default())
-    }
-    /// Chooses by `u`, and by `second` if there are blocks.
-    fn choose(&self, u: X8, second: X8) -> Choice<X8> {
-        let first = PowerLights::from_buffer(&self.blocks);
-        if self.blocks.len() == 1 {
-            return self.lights_of(0).choose(u);
-        }
-        let block: Choice<X8> = first.choose(u);
-        let each: [Choice<f32>; 8] =
-            std::array::from_fn(|i| self.lights_of(block.index.as_array()[i]).choose(second.as_array()[i]));
-        let size = u32x8::splat(self.block as u32);
-        Choice {
-            index: block.index * size + u32x8::new(std::array::from_fn(|i| each[i].index)),
-            pmf: block.pmf * X8::from_fn(|i| each[i].pmf),
-            u: X8::from_fn(|i| each[i].u),
-        }
-    }
-    fn pmf(&self, light: u32) -> f32 {
-        let block = light / self.block as u32;
-        let within: f32 = self.lights_of(block).pmf(light % self.block as u32);
-        if self.blocks.len() == 1 {
-            return within;
-        }
-        let block: f32 = PowerLights::from_buffer(&self.blocks).pmf(block);
-        block * within
     }
 }
 
 /// The lights of a scene.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Lights {
     packed: Vec<PackedLight>,
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
-    powers: PowerTable,
+    many: ManyLights,
     /// Bit k is set if there is a light of kind k.
     kinds: u32,
     sky: Option<Arc<Sky>>,
@@ -159,10 +118,12 @@ pub struct Lights {
 /// The probabilities with which the lights are chosen at the shading points of a packet.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack, for one packet")]
 pub enum LightPmf<'a> {
-    /// By power.
-    Power(&'a PowerTable),
-    /// By what each light can contribute.
+    /// There is one light.
+    One,
+    /// By what each of a few lights can contribute.
     Near(LightsAt<X8>),
+    /// By a tree.
+    Many(ManyAt<'a>),
     /// By an allocation of the samples.
     Allocated(&'a Allocated<'a, X8>),
 }
@@ -172,9 +133,10 @@ impl LightPmf<'_> {
     #[inline]
     pub fn of(&self, light: u32) -> X8 {
         match self {
+            Self::One => X8::lit(1.0),
             Self::Near(near) => near.pmf_of(light),
             Self::Allocated(allocated) => allocated.pmf_of(light),
-            Self::Power(table) => X8::splat(table.pmf(light)),
+            Self::Many(many) => many.pmf(light),
         }
     }
 }
@@ -278,7 +240,10 @@ fn delta_lights(scene: &Scene) -> Powered {
 
 impl Lights {
     /// All lights of a scene: emitting shapes, delta lights, the sky.
-    pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Self {
+    ///
+    /// # Errors
+    /// Fails if there are more lights than a tree can index.
+    pub fn new(scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
         let mut all = area_lights(scene);
         all.extend(delta_lights(scene));
         if let Some(sky) = &sky {
@@ -289,23 +254,34 @@ impl Lights {
         Self::of(all, scene.shapes.len(), sky)
     }
     /// The delta lights of a scene alone.
-    pub fn deltas(scene: &Scene) -> Self {
+    ///
+    /// # Errors
+    /// Fails if there are more lights than a tree can index.
+    pub fn deltas(scene: &Scene) -> Result<Self, BuildError> {
         Self::of(delta_lights(scene), scene.shapes.len(), None)
     }
-    fn of(all: Powered, shapes: usize, sky: Option<Arc<Sky>>) -> Self {
+    fn of(all: Powered, shapes: usize, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
         let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS));
-        let bounds = all.iter().map(|(light, power)| light.bound(*power));
-        let few = kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len());
-        let spatial = few.then(|| SpatialLights::new(&bounds.collect::<Vec<_>>()).expect("few lights"));
-        let (records, powers): (Vec<_>, Vec<_>) = all.into_iter().unzip();
-        let mut shape_lights = vec![NOTHING; shapes];
-        for (index, record) in (0..).zip(&records) {
-            if let Some(light) = shape_lights.get_mut(record.shape as usize) {
+        let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
+        // relative to the greatest, so that all are finite
+        let bound = |(light, power): &(LightRecord, f64)| light.bound(power / greatest);
+        let mut own = Self { kinds, sky, shape_lights: vec![NOTHING; shapes], ..Self::default() };
+        if kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len()) {
+            let bounds: Vec<_> = all.iter().map(bound).collect();
+            own.spatial = Some(SpatialLights::new(&bounds).expect("few lights"));
+        } else if all.len() > 1 {
+            let bounds: Vec<_> = all.par_iter().map(bound).collect();
+            let powers: Vec<f64> = all.iter().map(|(_, power)| *power).collect();
+            let is_distant = |light: usize| all[light].0.is_distant();
+            own.many = ManyLights::new(&bounds, &powers, is_distant)?;
+        }
+        for (index, (record, _)) in (0..).zip(&all) {
+            if let Some(light) = own.shape_lights.get_mut(record.shape as usize) {
                 *light = index;
             }
         }
-        let packed = records.iter().map(LightRecord::pack).collect();
-        Self { powers: PowerTable::new(&powers), packed, spatial, kinds, sky, shape_lights }
+        own.packed = all.iter().map(|(record, _)| record.pack()).collect();
+        Ok(own)
     }
     /// Number of lights.
     pub fn len(&self) -> usize {
@@ -340,20 +316,23 @@ impl Lights {
     pub fn contributions(&self, p: V8, normal: V8) -> Option<LightsAt<X8>> {
         self.spatial.as_ref().map(|lights| lights.at(p, normal))
     }
-    /// Chooses a light for each of these points of surfaces: by contribution, or by power where lights are many, of several kinds or
-    /// without area. The second number is for more lights than one table holds.
+    /// Chooses a light for each of these points of surfaces by what it can contribute. The second number is for the tree of many lights.
     #[inline(always)]
     pub fn choose(&self, p: V8, normal: V8, [u, second]: [X8; 2]) -> Choice<X8> {
         match &self.spatial {
             Some(lights) => lights.at(p, normal).choose(u),
             None if self.packed.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
-            None => self.powers.choose(u, second),
+            None => self.many.at(p, normal).choose(u, second),
         }
     }
     /// The probabilities with which [`choose`](Self::choose) chooses at these points.
     #[inline(always)]
     pub fn pmf(&self, p: V8, normal: V8) -> LightPmf<'_> {
-        self.contributions(p, normal).map_or(LightPmf::Power(&self.powers), LightPmf::Near)
+        match &self.spatial {
+            Some(lights) => LightPmf::Near(lights.at(p, normal)),
+            None if self.packed.len() == 1 => LightPmf::One,
+            None => LightPmf::Many(self.many.at(p, normal)),
+        }
     }
     /// Lights with these indices.
     #[inline(always)]
@@ -494,43 +473,5 @@ impl Chosen {
     #[inline]
     fn two_sided(&self) -> M8 {
         !equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use etendue::Uint;
-    use etendue::sequence::{Independent, Sequence};
-
-    /// A table of one block and one of many, with lights of very different power: the pmf sums to 1, a choice has the pmf of its light, and
-    /// lights are chosen as often as their pmf says, also the weakest together.
-    #[test]
-    fn lights_of_any_power_are_chosen() {
-        for count in [1_usize, 7, PowerLights::MOST, PowerLights::MOST + 1, 40_000] {
-            let powers: Vec<f64> = (0..count).map(|i| [1.0, 1e-3, 1e-9, 0.0, 50.0][i * 7 % 5]).collect();
-            let table = PowerTable::new(&powers);
-            assert_eq!(table.blocks.len() > 1, count > PowerLights::MOST);
-            let pmf: Vec<f64> = (0..count as u32).map(|i| f64::from(table.pmf(i))).collect();
-            assert!((pmf.iter().sum::<f64>() - 1.0).abs() < 1e-4, "{count}: {}", pmf.iter().sum::<f64>());
-            assert!(powers.iter().zip(&pmf).all(|(power, pmf)| (*power > 0.0) == (*pmf > 0.0)));
-            let (mut weak, draws) = (0.0, 1 << 20);
-            for i in (0..draws).step_by(8) {
-                let lanes = u32x8::from_fn(|k| i + k as u32);
-                let u: Vec2<X8> = Independent::new(5).pair(u32x8::splat(0), lanes, 0);
-                let choice = table.choose(u.x, u.y);
-                for lane in 0..8 {
-                    let light = choice.index.lane(lane);
-                    assert_eq!(choice.pmf.lane(lane), table.pmf(light), "light {light} of {count}");
-                    weak += f64::from(u8::from(powers[light as usize] < 0.5));
-                }
-            }
-            let expected: f64 = powers.iter().zip(&pmf).filter(|(power, _)| **power < 0.5).map(|(_, pmf)| pmf).sum();
-            let deviation = (expected * (1.0 - expected) / f64::from(draws)).sqrt();
-            assert!(
-                (weak / f64::from(draws) - expected).abs() <= 5.0 * deviation,
-                "{count}: {weak} of {draws}, {expected}"
-            );
-        }
     }
 }

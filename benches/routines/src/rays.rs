@@ -122,7 +122,7 @@ impl Workload {
             };
             (0..groups).map(group).collect()
         };
-        let lights = Lights::new(&scene, None);
+        let lights = Lights::new(&scene, None).expect("few lights");
         let mut stack = Scratch::default();
         let mut from_hits = |camera: &[Group], make: &dyn Fn(&Point, etendue::Vec2<X8>) -> Packet| -> Vec<Group> {
             let group = |(group, index): (&Group, u32)| {

@@ -293,8 +293,6 @@ impl<R: Real> LightChoice<R> for TreeAt<'_, R> {
     }
     #[inline]
     fn pmf(&self, index: R::Uint) -> R {
-        R::from_fn(|lane| {
-            R::Scalar::lit(f64::from(self.tree.pmf(&self.place(lane), index.lane(lane))))
-        })
+        R::from_fn(|lane| R::Scalar::lit(f64::from(self.tree.pmf(&self.place(lane), index.lane(lane)))))
     }
 }

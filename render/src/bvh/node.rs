@@ -153,13 +153,15 @@ pub(super) fn push_in_order<T: Copy>(
 /// Why a tree could not be built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BuildError {
-    /// Number of primitives; at most 2³¹ − 1 are supported.
+    /// Number of primitives or lights.
     pub count: usize,
+    /// The greatest number.
+    pub most: usize,
 }
 
 impl std::fmt::Display for BuildError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} primitives: a tree can index at most 2147483647", self.count)
+        write!(f, "{} primitives or lights: a tree can index at most {}", self.count, self.most)
     }
 }
 

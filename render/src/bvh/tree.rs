@@ -43,7 +43,7 @@ impl<P> Tree<P> {
     ) -> Result<Self, BuildError> {
         let count = items.len();
         if count >= 1 << 31 {
-            return Err(BuildError { count });
+            return Err(BuildError { count, most: (1 << 31) - 1 });
         }
         let mut ids: Vec<u32> = (0..count as u32).collect();
         let nodes = build_parts(&mut items, &mut ids, costs, &leaf);

@@ -22,20 +22,18 @@ pub(super) struct PreparedScene {
 
 impl PreparedScene {
     pub(super) fn new(scene: &Scene) -> Result<Self, BuildError> {
-        Ok(Self::with(scene, Surfaces::new(scene)?))
+        let surfaces = Surfaces::new(scene)?;
+        let sky = Self::sky(scene);
+        let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
+        Ok(Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky })
     }
     /// Takes the triangles out of the scene.
     pub(super) fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
         let sky = Self::sky(scene);
         // the power of distant lights depends on the size of the scene
-        let (lights, deltas) = (Lights::new(scene, sky.clone()), Lights::deltas(scene));
+        let (lights, deltas) = (Lights::new(scene, sky.clone())?, Lights::deltas(scene)?);
         let surfaces = Surfaces::from_scene(scene)?;
         Ok(Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky })
-    }
-    fn with(scene: &Scene, surfaces: Surfaces) -> Self {
-        let sky = Self::sky(scene);
-        let (lights, deltas) = (Lights::new(scene, sky.clone()), Lights::deltas(scene));
-        Self { bodies: Bodies::new(&surfaces.bvh), surfaces, lights, deltas, sky }
     }
     fn sky(scene: &Scene) -> Option<Arc<Sky>> {
         scene.environment.as_ref().map(|environment| Arc::new(Sky::new(environment)))

@@ -181,7 +181,9 @@ impl<J: Join> Build<'_, J> {
             // the range of the greatest cost that can be split
             let size = |k: usize| starts[k + 1] - starts[k];
             let able = (0..children).filter(|&k| size(k) > unit);
-            let Some(k) = able.max_by(|&a, &b| costs[a].total_cmp(&costs[b]).then(size(a).cmp(&size(b)))) else { break };
+            let Some(k) = able.max_by(|&a, &b| costs[a].total_cmp(&costs[b]).then(size(a).cmp(&size(b)))) else {
+                break;
+            };
             let (start, end) = (starts[k], starts[k + 1]);
             let (middle, [left, right]) = self.split(&mut order[start..end], unit);
             starts.copy_within(k + 1..=children, k + 2);

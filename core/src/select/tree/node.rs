@@ -161,8 +161,7 @@ impl Node8 {
         let [x, y, z] = self.center.map(f32x8::from);
         let v = Vec3::new(x, y, z) - p;
         let three = |word: u32x8| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
-        let (bounds, normals, spreads) =
-            (u32x8::from(self.bounds), u32x8::from(self.normal), u32x8::from(self.spread));
+        let (bounds, normals, spreads) = (u32x8::from(self.bounds), u32x8::from(self.normal), u32x8::from(self.spread));
         let unit = f32x8::from(self.reach) * lit(1.0 / 255.0);
         // the distance, to a point at the mean squared distance
         let deviation = byte(spreads, 0) * unit;
@@ -186,7 +185,7 @@ impl Node8 {
             let both = top.gt(lit(254.0));
             let cone = (top * lit(1.0 / 254.0)).keep(!both);
             let near = distance - (deviation + lit(255.0) * unit) * lit(DEVIATION);
-            front = front - near * cone;
+            front = (-near).mul_add(cone, front);
             let y = ahead - cone * distance;
             let root = y.mul_add(y, turned).sqrt();
             <f32x8 as Real>::blend(both, root + root, y + root)
@@ -206,14 +205,14 @@ impl Node8 {
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
         let (mut weight, mut total) = (weight, sum(weight.to_array()));
-        if !(total >= f32::MIN_POSITIVE && total < f32::INFINITY) {
+        if !(f32::MIN_POSITIVE..f32::INFINITY).contains(&total) {
             weight = f32x8::lit(1.0).keep(lanes);
             total = sum(weight.to_array()).greater(1.0);
         }
         let scaled = weight * f32x8::splat((WHOLE - 8) as f32 / total);
         let mut units = (scaled.to_uint().wrapping_add(u32x8::splat(1)) & mask_bits(lanes)).to_array();
         // what rounding left goes to the last
-        units[31 - (bright | 1).leading_zeros() as usize & 7] = if bright == 0 { 0 } else { WHOLE };
+        units[(bright | 1).ilog2() as usize] = if bright == 0 { 0 } else { WHOLE };
         Shares { units }
     }
 }
