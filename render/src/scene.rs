@@ -5,6 +5,7 @@
 
 mod builtin;
 mod description;
+mod generated;
 mod lexer;
 mod lights;
 mod materials;
@@ -13,14 +14,13 @@ mod params;
 mod ply;
 mod reader;
 mod shapes;
-mod terrain;
 #[cfg(test)]
 mod tests;
 mod transform;
 
 use crate::files::read_file;
 pub use crate::geometry::Geometry;
-use builtin::{BUILTIN, DESCRIBED};
+use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Emission, FilmSettings, Lens, Scene, Shape};
 pub use lights::{DeltaLight, Environment, SkyRadiance};
 pub use materials::Material;
@@ -81,6 +81,12 @@ impl From<Message> for SceneError {
 /// Name and description of each built-in scene.
 pub fn builtin() -> &'static [(&'static str, &'static str)] {
     &DESCRIBED
+}
+
+/// The built-in scenes of at most [`FEW`](etendue::select::FEW) lights. What renders every scene many times keeps to these, so that it does
+/// not take many times longer.
+pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
+    DESCRIBED.split_at(DESCRIBED.len() - MANY_LIGHTS).0
 }
 
 /// Reads the built-in scene of this name, or else the file at this path.

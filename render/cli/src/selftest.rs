@@ -10,7 +10,7 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Names of built-in scenes, or paths of pbrt-v4 files [default: all built-in scenes]
+    /// Names of built-in scenes, or paths of pbrt-v4 files [default: all built-in scenes of few lights]
     scenes: Vec<String>,
     /// Take this many samples per pixel
     #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(2..=1 << 22))]
@@ -33,7 +33,7 @@ pub(crate) struct Options {
 pub(crate) fn run(options: &Options) -> Result<bool, Box<dyn Error>> {
     let mut names = options.scenes.clone();
     if names.is_empty() {
-        names.extend(scene::builtin().iter().map(|(name, _)| (*name).to_owned()));
+        names.extend(scene::builtin_of_few_lights().iter().map(|(name, _)| (*name).to_owned()));
     }
     let effort = Effort { side: options.side, spp: options.spp, seed: options.seed, depth: options.depth };
     let pool = pool(options.threads)?;

@@ -1,7 +1,7 @@
 //! The built-in scenes.
 
 /// Name and description of each scene.
-pub(super) const DESCRIBED: [(&str, &str); 10] = [
+pub(super) const DESCRIBED: [(&str, &str); 13] = [
     ("sphere-light", "two boxes under a sphere light outside the view"),
     ("triangle-light", "a box in front of a large, visible triangle light"),
     ("quads", "three boxes under five quadrilateral lights of very different sizes and powers"),
@@ -12,10 +12,16 @@ pub(super) const DESCRIBED: [(&str, &str); 10] = [
     ("delta-lights", "boxes and a ball under a point, a spot and a distant light"),
     ("sky", "a diffuse, a mirror and a rough metal ball under an image of a sky"),
     ("defocus", "a row of spheres seen through a lens focused on the third"),
+    ("chandelier", "a chandelier of 1,000 lights, bulbs and plates of glass, in a room"),
+    ("city", "a city at night with 109,655 lights: windows, street lamps and cars"),
+    ("knot", "a knot of neon tube, a mesh of 1,000,000 triangles that emit, above a floor"),
 ];
 
+/// How many of them, the last ones, have many lights.
+pub(super) const MANY_LIGHTS: usize = 3;
+
 /// Name and text of each scene.
-pub(super) const BUILTIN: [(&str, &str); 10] = [
+pub(super) const BUILTIN: [(&str, &str); 13] = [
     (DESCRIBED[0].0, include_str!("../../scenes/sphere-light.pbrt")),
     (DESCRIBED[1].0, include_str!("../../scenes/triangle-light.pbrt")),
     (DESCRIBED[2].0, include_str!("../../scenes/quads.pbrt")),
@@ -26,6 +32,9 @@ pub(super) const BUILTIN: [(&str, &str); 10] = [
     (DESCRIBED[7].0, include_str!("../../scenes/delta-lights.pbrt")),
     (DESCRIBED[8].0, include_str!("../../scenes/sky.pbrt")),
     (DESCRIBED[9].0, include_str!("../../scenes/defocus.pbrt")),
+    (DESCRIBED[10].0, include_str!("../../scenes/chandelier.pbrt")),
+    (DESCRIBED[11].0, include_str!("../../scenes/city.pbrt")),
+    (DESCRIBED[12].0, include_str!("../../scenes/knot.pbrt")),
 ];
 
 /// Images that these scenes refer to.

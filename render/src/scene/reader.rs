@@ -484,8 +484,8 @@ impl Reader<'_> {
                 let Some(name) = params.text("filename")? else {
                     return Err(params.error("\"string filename\" is missing"));
                 };
-                if self.is_builtin && name == "builtin:terrain" {
-                    return shapes::terrain(&mut self.out, &surface, params);
+                if let Some(name) = name.strip_prefix("builtin:").filter(|_| self.is_builtin) {
+                    return shapes::computed(&mut self.out, &surface, params, name);
                 }
                 let path = self.resolve(&name, dir);
                 shapes::ply_mesh(&mut self.out, &surface, params, &path)

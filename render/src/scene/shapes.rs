@@ -1,11 +1,11 @@
 //! Reads shapes: transforms them to world space in f64, checks and orients them, and rounds once to f32.
 
 use super::description::{Emission, Shape};
+use super::generated;
 use super::materials::Material;
 use super::message::Message;
 use super::params::Params;
 use super::ply;
-use super::terrain as generated;
 use super::transform::{Transform, add, cross, dot, length, sub};
 use crate::files::read_file;
 use crate::geometry::Geometry;
@@ -54,13 +54,13 @@ impl Output {
         }
     }
 
-    fn push(&mut self, surface: &Surface, geometry: Geometry) {
+    fn push(&mut self, material: u32, emission: Option<Emission>, geometry: Geometry) {
         match geometry {
-            Geometry::Triangle(corners) if surface.emission.is_none() => {
+            Geometry::Triangle(corners) if emission.is_none() => {
                 self.triangles.push(corners);
-                self.triangle_materials.push(surface.material);
+                self.triangle_materials.push(material);
             }
-            _ => self.shapes.push(Shape { geometry, material: surface.material, emission: surface.emission }),
+            _ => self.shapes.push(Shape { geometry, material, emission }),
         }
     }
 
@@ -76,7 +76,7 @@ impl Output {
         if cross(sub(b, a), sub(c, a)) == [0.0; 3] {
             return Err(format!("{} has no area: {:?}", name(), corners));
         }
-        self.push(surface, Geometry::Triangle(corners));
+        self.push(surface.material, surface.emission, Geometry::Triangle(corners));
         Ok(())
     }
 
@@ -97,7 +97,7 @@ impl Output {
         if cross(u.map(f64::from), v.map(f64::from)) == [0.0; 3] {
             return Err(format!("{} has no area: {:?}", name(), [p, u, v]));
         }
-        self.push(surface, Geometry::Parallelogram { p, u, v });
+        self.push(surface.material, surface.emission, Geometry::Parallelogram { p, u, v });
         Ok(())
     }
 
@@ -161,7 +161,7 @@ pub(super) fn sphere(out: &mut Output, surface: &Surface, params: &mut Params) -
             "\"radius\": must be greater than 0 and finite, not {radius} ({world_radius:e} in world space)"
         )));
     }
-    out.push(surface, Geometry::Sphere { center: round(center[0]), radius: world_radius });
+    out.push(surface.material, surface.emission, Geometry::Sphere { center: round(center[0]), radius: world_radius });
     Ok(())
 }
 
@@ -264,13 +264,18 @@ pub(super) fn ply_mesh(out: &mut Output, surface: &Surface, params: &mut Params,
     Ok(())
 }
 
-/// Adds the mesh of the built-in terrain scene, which needs no checks.
-pub(super) fn terrain(out: &mut Output, surface: &Surface, params: &Params) -> Result<(), Message> {
-    if surface.ctm != Transform::IDENTITY || surface.flip || surface.emission.is_some() {
-        return Err(params.error("builtin:terrain takes no transform and no light"));
+/// Adds shapes of a built-in scene that are computed, which need no checks. Each light has its own radiance, times that of the surface.
+pub(super) fn computed(out: &mut Output, surface: &Surface, params: &Params, name: &str) -> Result<(), Message> {
+    if surface.ctm != Transform::IDENTITY || surface.flip {
+        return Err(params.error(format!("builtin:{name} takes no transform")));
     }
-    let triangles = generated::triangles();
-    out.triangle_materials.extend(std::iter::repeat_n(surface.material, triangles.len()));
-    out.triangles.extend(triangles);
-    Ok(())
+    let mut add = |geometry: Geometry, radiance: [f64; 3]| {
+        let emission = surface.emission.map(|emission| Emission {
+            radiance: std::array::from_fn(|k| (f64::from(emission.radiance[k]) * radiance[k]) as f32),
+            ..emission
+        });
+        out.push(surface.material, emission, geometry);
+    };
+    let is_known = generated::add(name, &mut add);
+    is_known.then_some(()).ok_or_else(|| params.error(format!("no shapes are called builtin:{name}")))
 }

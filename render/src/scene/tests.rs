@@ -1,7 +1,9 @@
-//! Tests of the built-in scenes, transforms and orientation; `faulty` has faulty input, `meshes` has mesh files.
+//! Tests of the built-in scenes, transforms and orientation; `faulty` has faulty input, `meshes` has mesh files, `many_lights` has the
+//! scenes of many lights.
 
 mod faulty;
 mod lights;
+mod many_lights;
 mod meshes;
 
 use super::*;

@@ -9,7 +9,7 @@ use etendue_render::{Sampler, Settings, Technique, World, image, scene};
 use std::error::Error;
 use std::sync::atomic::Ordering;
 
-/// The scenes shown; the table has all built-in ones.
+/// The scenes shown; the table has all built-in ones of few lights.
 const SHOWN: [&str; 6] = ["quads", "triangle-light", "sphere-light", "cornell-box", "terrain", "mirror-room"];
 /// Side of images and surveys in pixels.
 const SIDE: u32 = 256;
@@ -143,7 +143,7 @@ impl Studio<'_> {
             ),
         ];
         let mut panels: [Option<Svg>; SHOWN.len()] = Default::default();
-        for (scene, _) in scene::builtin() {
+        for (scene, _) in scene::builtin_of_few_lights() {
             if self.stop.load(Ordering::Relaxed) {
                 break;
             }

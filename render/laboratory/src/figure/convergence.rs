@@ -99,7 +99,7 @@ impl Studio<'_> {
     }
 
     pub(super) fn efficiency(&self) -> Result<Finding, Box<dyn Error>> {
-        let scenes: Vec<&str> = scene::builtin().iter().map(|(name, _)| *name).collect();
+        let scenes: Vec<&str> = scene::builtin_of_few_lights().iter().map(|(name, _)| *name).collect();
         let outcome = self.measure("efficiency", &scenes, Vec::new(), vec![Sampler::Independent], vec![16], 8, None)?;
         let mut headline = Vec::new();
         let mut charts = Vec::new();

@@ -1,4 +1,6 @@
-//! The mesh of the built-in scene `terrain`: a height field and 25 bumpy spheres, computed in f64 and rounded once.
+//! The mesh of the built-in scene `terrain`: a height field and 25 bumpy spheres.
+
+use super::solids::{Sink, triangle};
 
 /// Cells along each side of the height field.
 const CELLS: usize = 512;
@@ -8,38 +10,36 @@ const LEVEL: usize = 5;
 const SPHERES: usize = 5;
 
 /// All 1,036,288 triangles, with normals up and outwards.
-pub(super) fn triangles() -> Vec<[[f32; 3]; 3]> {
+pub(super) fn triangles(sink: &mut Sink) {
     let faces = bumpy_sphere();
-    let mut out = Vec::with_capacity(2 * CELLS * CELLS + SPHERES * SPHERES * faces.len());
-    height_field(&mut out);
+    height_field(sink);
     for i in 0..SPHERES {
         for j in 0..SPHERES {
             let (i, j) = (i as f64, j as f64);
             let centre = [-3.0 + 1.5 * i, 0.9 + 0.5 * (2.1 * i + 1.3 * j).sin(), -3.0 + 1.5 * j];
             let radius = 0.45 + 0.1 * (1.7 * i - 0.9 * j).cos();
-            let place = |v: [f64; 3]| [0, 1, 2].map(|k| (centre[k] + radius * v[k]) as f32);
-            out.extend(faces.iter().map(|face| face.map(place)));
+            let place = |v: [f64; 3]| [0, 1, 2].map(|k| centre[k] + radius * v[k]);
+            faces.iter().for_each(|face| triangle(face.map(place), sink));
         }
     }
-    out
 }
 
-fn height_field(out: &mut Vec<[[f32; 3]; 3]>) {
+fn height_field(sink: &mut Sink) {
     let grid = |i: usize| -12.0 + 24.0 * i as f64 / CELLS as f64;
     let point = |i: usize, j: usize| {
         let (x, z) = (grid(i), grid(j));
         let height = 0.25 * (1.7 * x).sin() * (1.3 * z).cos()
             + 0.10 * (5.3 * x + 1.1).sin() * (4.7 * z + 0.3).sin()
             + 0.03 * (17.1 * x + 2.3 * z).sin() * (15.7 * z - 1.9 * x).cos();
-        [x as f32, height as f32, z as f32]
+        [x, height, z]
     };
     let row = |i: usize| (0..=CELLS).map(|j| point(i, j)).collect::<Vec<_>>();
     let mut low = row(0);
     for i in 0..CELLS {
         let high = row(i + 1);
         for (a, b) in low.windows(2).zip(high.windows(2)) {
-            out.push([a[0], a[1], b[1]]);
-            out.push([a[0], b[1], b[0]]);
+            triangle([a[0], a[1], b[1]], sink);
+            triangle([a[0], b[1], b[0]], sink);
         }
         low = high;
     }

@@ -1,0 +1,67 @@
+//! The built-in scene `knot`: a trefoil of neon tube, a million triangles that emit, in metres.
+
+use super::solids::{Point, Sink, round, scaled, sum};
+use crate::geometry::Geometry;
+use std::f64::consts::TAU;
+
+/// Quads along the tube and around it, each of two triangles.
+const ALONG: usize = 5000;
+const AROUND: usize = 100;
+/// The curve winds around a torus with these radii.
+const TORUS: [f64; 2] = [1.0, 0.42];
+const TUBE: f64 = 0.11;
+const CENTER: Point = [0.0, 1.75, 0.0];
+/// Colours along the tube.
+const COLOURS: [[f64; 3]; 3] = [[1.0, 0.15, 0.45], [0.1, 0.75, 1.0], [1.0, 0.55, 0.08]];
+
+/// A point of the torus knot (2, 3) and its tangent, for t in [0, 1).
+fn curve(t: f64) -> [Point; 2] {
+    let (a, b) = (2.0 * TAU * t, 3.0 * TAU * t);
+    let far = TORUS[0] + TORUS[1] * b.cos();
+    let (out, rise) = (-3.0 * TORUS[1] * b.sin(), 3.0 * TORUS[1] * b.cos());
+    let tangent = [out * a.cos() - 2.0 * far * a.sin(), out * a.sin() + 2.0 * far * a.cos(), rise];
+    [sum(CENTER, [far * a.cos(), far * a.sin(), TORUS[1] * b.sin()]), unit(tangent)]
+}
+
+/// The unit normal of the torus at the point of its knot: perpendicular to the curve, and the same after a turn.
+fn normal(t: f64) -> Point {
+    let (a, b) = (2.0 * TAU * t, 3.0 * TAU * t);
+    [b.cos() * a.cos(), b.cos() * a.sin(), b.sin()]
+}
+
+fn unit(v: Point) -> Point {
+    scaled(v, 1.0 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt())
+}
+
+/// All 1,000,000 triangles, a closed surface with normals outwards.
+pub(super) fn tube(sink: &mut Sink) {
+    let circle = |i: usize| -> Vec<Point> {
+        let t = (i % ALONG) as f64 / ALONG as f64;
+        let ([center, d], u) = (curve(t), normal(t));
+        let v = [d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]];
+        let angles = (0..AROUND).map(|j| TAU * j as f64 / AROUND as f64);
+        let offset = |angle: f64| sum(scaled(u, TUBE * angle.cos()), scaled(v, TUBE * angle.sin()));
+        angles.map(|angle| sum(center, offset(angle))).collect()
+    };
+    let mut here = circle(0);
+    for i in 0..ALONG {
+        let next = circle(i + 1);
+        let colour = colour((i as f64 + 0.5) / ALONG as f64);
+        for j in 0..AROUND {
+            let k = (j + 1) % AROUND;
+            for corners in [[here[j], here[k], next[k]], [here[j], next[k], next[j]]] {
+                sink(Geometry::Triangle(corners.map(round)), colour);
+            }
+        }
+        here = next;
+    }
+}
+
+/// A smooth periodic mixture of the colours.
+fn colour(t: f64) -> [f64; 3] {
+    let place = 3.0 * t;
+    let (from, to) = (place as usize % 3, (place as usize + 1) % 3);
+    let s = place.fract();
+    let s = s * s * (3.0 - 2.0 * s);
+    [0, 1, 2].map(|k| (1.0 - s) * COLOURS[from][k] + s * COLOURS[to][k])
+}

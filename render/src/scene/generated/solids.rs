@@ -1,0 +1,111 @@
+//! Solids of triangles, and numbers that vary.
+
+use crate::geometry::Geometry;
+
+/// Receives shapes, each with a radiance in relation to others.
+pub(super) type Sink<'a> = dyn FnMut(Geometry, [f64; 3]) + 'a;
+pub(super) type Point = [f64; 3];
+
+pub(super) const WHITE: [f64; 3] = [1.0; 3];
+
+pub(super) fn round(p: Point) -> [f32; 3] {
+    p.map(|x| x as f32)
+}
+
+pub(super) fn scaled(v: Point, s: f64) -> Point {
+    v.map(|x| x * s)
+}
+
+pub(super) fn sum(a: Point, b: Point) -> Point {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// A number in [0, 1) for each key (the finalizer of SplitMix64, applied to each word).
+pub(super) fn noise(key: &[i32]) -> f64 {
+    let mut state = 0_u64;
+    for &word in key {
+        state = (state ^ u64::from(word as u32)).wrapping_add(0x9e37_79b9_7f4a_7c15);
+        state = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        state = (state ^ state >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        state ^= state >> 31;
+    }
+    (state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+pub(super) fn triangle(corners: [Point; 3], sink: &mut Sink) {
+    sink(Geometry::Triangle(corners.map(round)), WHITE);
+}
+
+/// Two triangles with corners in cyclic order.
+pub(super) fn quad([a, b, c, d]: [Point; 4], sink: &mut Sink) {
+    triangle([a, b, c], sink);
+    triangle([a, c, d], sink);
+}
+
+pub(super) fn parallelogram(p: Point, u: Point, v: Point, radiance: [f64; 3], sink: &mut Sink) {
+    sink(Geometry::Parallelogram { p: round(p), u: round(u), v: round(v) }, radiance);
+}
+
+pub(super) fn sphere(center: Point, radius: f64, radiance: [f64; 3], sink: &mut Sink) {
+    sink(Geometry::Sphere { center: round(center), radius: radius as f32 }, radiance);
+}
+
+/// A closed box, given by its least and greatest corner.
+pub(super) fn cuboid(low: Point, high: Point, sink: &mut Sink) {
+    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { high[axis] } else { low[axis] });
+    for face in [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]] {
+        quad(face.map(corner), sink);
+    }
+}
+
+/// A profile of radii and heights, turned around the vertical axis through `foot`. Where it goes up, its normals point outwards.
+pub(super) fn turned(foot: Point, profile: &[[f64; 2]], sides: usize, sink: &mut Sink) {
+    let at = |[radius, height]: [f64; 2], side: usize| {
+        let angle = std::f64::consts::TAU * (side % sides) as f64 / sides as f64;
+        sum(foot, [radius * angle.cos(), height, -radius * angle.sin()])
+    };
+    for rows in profile.windows(2) {
+        for side in 0..sides {
+            let [a, b] = [at(rows[0], side), at(rows[0], side + 1)];
+            let [d, c] = [at(rows[1], side), at(rows[1], side + 1)];
+            if rows[0][0] > 0.0 {
+                triangle([a, b, if rows[1][0] > 0.0 { c } else { d }], sink);
+            }
+            if rows[1][0] > 0.0 {
+                triangle([a, c, d], sink);
+            }
+        }
+    }
+}
+
+/// A closed ring around the vertical axis through `center`, with a round section.
+pub(super) fn ring(center: Point, radius: f64, thickness: f64, sides: usize, sink: &mut Sink) {
+    const SECTION: usize = 8;
+    let profile: Vec<[f64; 2]> = (0..=SECTION)
+        .map(|k| {
+            let angle = std::f64::consts::TAU * (k % SECTION) as f64 / SECTION as f64;
+            [radius + thickness * angle.cos(), thickness * angle.sin()]
+        })
+        .collect();
+    turned(center, &profile, sides, sink);
+}
+
+/// The sides of a thin prism between two points.
+pub(super) fn rod(from: Point, to: Point, radius: f64, sink: &mut Sink) {
+    const SIDES: usize = 6;
+    let [x, y, z] = sum(to, scaled(from, -1.0));
+    let length = (x * x + y * y + z * z).sqrt();
+    // two unit vectors across: one horizontal, unless the rod is upright
+    let level = x.hypot(z);
+    let u = if level > 1e-9 * length { [-z / level, 0.0, x / level] } else { [1.0, 0.0, 0.0] };
+    let [dx, dy, dz] = [x / length, y / length, z / length];
+    let v = [dy * u[2] - dz * u[1], dz * u[0] - dx * u[2], dx * u[1] - dy * u[0]];
+    let around = |k: usize| {
+        let angle = std::f64::consts::TAU * (k % SIDES) as f64 / SIDES as f64;
+        sum(scaled(u, radius * angle.cos()), scaled(v, radius * angle.sin()))
+    };
+    for k in 0..SIDES {
+        let [a, b] = [around(k), around(k + 1)];
+        quad([sum(from, a), sum(from, b), sum(to, b), sum(to, a)], sink);
+    }
+}
