@@ -25,6 +25,44 @@ const MOST_LANES: usize = 8;
 const DEEPEST: usize = 64;
 
 /// Chooses among any number of lights by what they can contribute to a point of a surface, in a tree of eight children a node.
+///
+/// The tree lives in the caller's memory and needs about 50 bytes a light. [`build`](Self::build) makes it, [`refit`](Self::refit) adapts it
+/// to lights that have moved, and [`at`](Self::at) prepares a choice for the shading point of each lane. Directional lights, suns and
+/// environments have no place in it: choose between them and the tree by [`PowerLights`](super::PowerLights).
+///
+/// - Formula: at each node, a child has the weight I/D⁴ · (A·F + B/32). I is the intensity along its normals, from its power;
+///   D² = d² + s²/3, where d is the distance to the mean position of its lights and s the standard deviation of their positions. A is
+///   the expected cosine at the surface times D, (μ + √(μ² + 2s²/3π))/2, with μ the height of the mean position above the surface: nearly
+///   the mean of the positive part of a normal variable. F is the same for the cosine at the lights, whose variance is that of their
+///   normals and positions. B is the product of upper bounds of the two cosines times D², from a box around the positions, a ball around
+///   the normals, and the widest cone of spot lights.
+/// - Exact probabilities: the weights are rounded to shares, integers that sum to 2¹⁶ at each node. Each child whose bound B is positive
+///   has a share, no other child has any. A child is drawn by sixteen bits, exactly as often as its share says, and the pmf is the
+///   product of the shares.
+/// - No light is lost: where a sample of a light contributes, B is positive at all nodes above it, in spite of all rounding, so its pmf is
+///   positive.
+/// - Dead ends: where all children of a node have no share, the outcome is "no light", with its own probability; then the index is
+///   [`NO_LIGHT`] and the pmf is 0. The pmfs of all lights and the probability of "no light" sum to 1.
+/// - Domain: up to [`MOST`](Self::MOST) lights; finite bounds, points and unit normals. A light whose power is 0, negative, infinite or
+///   NaN, or whose place is not finite, is never chosen. Multiplying all lengths by a power of two changes no bit. Powers count as at
+///   least 2⁻⁴⁰ of the strongest, radii as at least 2⁻⁴⁰ of the extent of the lights.
+/// - Degenerate: without lights, or where none can contribute, the pmf is 0.
+/// - Precision: the pmf is rounded once a level, by 2⁻²⁴ of itself.
+/// - Source: the tree and its bounds of cosines after Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
+///   Splitting", HPG 2018; the weights are derived here.
+///
+/// ```
+/// use etendue::select::{LightBound, LightChoice, LightTree, Node8};
+/// let lamp = |x: usize| LightBound { center: [x as f32, 0.0, 3.0], radius: 0.1, power: 1.0, ..LightBound::default() };
+/// let lamps: Vec<_> = (0..1000).map(lamp).collect();
+/// let mut nodes = vec![Node8::default(); LightTree::nodes_for(lamps.len())];
+/// let mut places = vec![0; lamps.len()];
+/// let tree = LightTree::build(&lamps, &mut nodes, &mut places)?;
+/// let at = tree.at::<f32>([500.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
+/// let choice = at.choose_by([0x8000_0000, 1]);
+/// assert!((400..600).contains(&choice.index) && choice.pmf == at.pmf(choice.index));
+/// # Ok::<(), etendue::discrete::TableError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct LightTree<'a> {
     nodes: &'a [Node8],
@@ -43,6 +81,9 @@ impl<'a> LightTree<'a> {
     }
 
     /// Builds a tree in the caller's memory: at least [`nodes_for`](Self::nodes_for) nodes, and a word for each light.
+    ///
+    /// A range of lights is split where the sum of power · squared extent · (3 − 2·squared mean normal) is least, in sixteen bins along
+    /// the widest axes of positions and of normals, until a node has eight children. The lowest nodes are full.
     ///
     /// # Errors
     /// [`TableError::Length`] if the nodes are too few, if the lengths of `lights` and `places` differ, or if there are more than
@@ -88,7 +129,8 @@ impl<'a> LightTree<'a> {
         Self { nodes, places }
     }
 
-    /// Adapts a tree to lights that have moved or changed, from the leaves up; the order of the lights stays.
+    /// Adapts a tree to lights that have moved or changed, from the leaves up. The same lights stay together, so the choice stays exact but
+    /// becomes less good as neighbours part.
     ///
     /// # Errors
     /// [`TableError::Length`] if the number of lights is not that of the tree.
@@ -167,6 +209,10 @@ impl<'a, R: Real> TreeAt<'a, R> {
     }
 
     /// Chooses by 64 random bits a lane.
+    ///
+    /// The first word decides, from its high bits down: well distributed words give well distributed lights, which are in spatial
+    /// order. The tree stretches what is left of it by sixteen bits a level, which a generator makes from the second word; so 10⁷ lights
+    /// keep all digits. `u` of the choice is what is left in the end.
     #[inline]
     #[must_use]
     pub fn choose_by(&self, bits: [R::Uint; 2]) -> Choice<R> {
@@ -194,7 +240,8 @@ impl<'a, R: Real> TreeAt<'a, R> {
         }
     }
 
-    /// The units of 2⁻¹⁶ that each child of a node receives in a lane, and the children: nodes, lights, or nothing.
+    /// The share of each child of a node at the point of a lane, in units of 2⁻¹⁶, and the children. Node 0 is the root. Renderers do
+    /// not need this; it shows the whole distribution.
     pub fn shares(&self, lane: usize, node: u32) -> [(u32, TreeChild); 8] {
         let place = self.place(lane);
         let Some(node) = self.tree.nodes.get(node as usize) else { return [(0, TreeChild::Nothing); 8] };
@@ -245,14 +292,14 @@ impl Descent {
     }
 }
 
-/// A child of a node.
+/// A child of a node of a [`LightTree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TreeChild {
-    /// None.
+    /// The node has fewer children.
     Nothing,
-    /// A node.
+    /// The node of this index.
     Node(u32),
-    /// A light.
+    /// The light of this index.
     Light(u32),
 }
 
