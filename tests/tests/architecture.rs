@@ -319,7 +319,7 @@ fn imports_are_found() {
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
 const ARROWS: [(&str, &[&str], &[&str]); 11] = [
     ("core", &[], &[]),
-    ("render", &["etendue"], &[]),
+    ("render", &["etendue"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render"], &[]),
     ("tests/oracle", &[], &[]),
@@ -327,7 +327,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 11] = [
     ("tests", &[], &["etendue", "etendue-oracle", "etendue-properties"]),
     ("benches/routines", &["etendue", "etendue-render"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines"]),
-    ("fuzz/bodies", &["etendue-render"], &[]),
+    ("fuzz/bodies", &["etendue-oracle", "etendue-render"], &[]),
     ("fuzz", &["etendue-fuzz-bodies", "etendue-properties"], &[]),
 ];
 

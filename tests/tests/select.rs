@@ -3,7 +3,7 @@
 use etendue::discrete::TableError;
 use etendue::select::{Choice, FEW, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Real, Uint, Vec2, f32x4, f32x8, u32x8};
+use etendue::{Mask, Real, Uint, Vec2, f32x4, f32x8, u32x8};
 use etendue_oracle::{dot, length, sub};
 use etendue_properties::stats;
 use etendue_properties::tolerances::SIGNIFICANCE;
@@ -193,6 +193,56 @@ fn spatial() {
     let many = vec![list[0]; FEW + 1];
     assert_eq!(SpatialLights::new(&many).err(), Some(TableError::Length));
     assert_eq!(SpatialLights::new(&many[1..]).unwrap().len(), FEW);
+}
+
+/// Among some of the lights, the others are never chosen and have no pmf, and the pmf of those is in the same proportion as among all.
+#[test]
+fn spatial_among_some() {
+    let list = bounds();
+    let lights = SpatialLights::new(&list).unwrap();
+    let n = [0.6, 0.0, 0.8];
+    for p in [[0.0, 0.0, 0.5], [2.5, 0.0, -0.3], [1e4, 0.5, -0.5], [1.0, 1.0, 3.5]] {
+        let (one, eight) = (lights.at::<f32>(p.into(), n.into()), lights.at::<f32x8>(p.into(), n.into()));
+        for kept in 0_u32..1 << list.len() {
+            let is_kept = |k: u32| kept >> k & 1 == 1;
+            let only = one.only(|k| is_kept(k as u32));
+            let all: f32 = (0..6).filter(|k| is_kept(*k)).map(|k| one.pmf(k)).sum();
+            for k in 0..6 {
+                let (pmf, whole): (f32, f32) = (only.pmf(k), one.pmf(k));
+                assert_eq!(pmf > 0.0, is_kept(k) && whole > 0.0, "light {k} of {kept:b} from {p:?}");
+                assert!((pmf * all - whole).abs() < 1e-6 || !is_kept(k), "light {k} of {kept:b} from {p:?}: {pmf}");
+            }
+            if all > 0.0 {
+                // the rounding of frequencies grows as the share of those that are kept falls
+                let packet = eight.only(|k| <f32x8 as Real>::Mask::splat(is_kept(k as u32)));
+                if all > 0.01 && kept.count_ones() > 3 && kept % 5 == 3 {
+                    check("some", list.len(), |u| only.choose(u), |u| packet.choose(u), |k| only.pmf(k));
+                }
+            } else {
+                let choice = only.choose(0.3);
+                assert_eq!((choice.pmf, (0..6).map(|k| only.pmf(k)).sum::<f32>()), (0.0, 0.0), "{kept:b} from {p:?}");
+            }
+            for i in 0..256 {
+                let choice = only.choose(i as f32 / 256.0);
+                assert_eq!(choice.pmf, only.pmf(choice.index), "{kept:b} from {p:?}");
+                assert!(choice.pmf == 0.0 || is_kept(choice.index), "light {} of {kept:b} from {p:?}", choice.index);
+            }
+        }
+        // each lane has a mask of its own, as if it were alone
+        let kept = |lane: usize, k: usize| (lane * 7 + 5) >> k & 1 == 1;
+        let mask =
+            |k: usize| <f32x8 as Real>::Mask::from_bits((0..8).map(|lane| u32::from(kept(lane, k)) << lane).sum());
+        let packet = eight.only(mask);
+        for i in 0..64 {
+            let u = (i as f32 + 0.5) / 64.0;
+            let choice = packet.choose(f32x8::splat(u));
+            for lane in 0..8 {
+                let own: Choice<f32> = one.only(|k| kept(lane, k)).choose(u);
+                let same = (choice.index.lane(lane), choice.pmf.lane(lane), choice.u.lane(lane));
+                assert_eq!(same, (own.index, own.pmf, own.u), "lane {lane}");
+            }
+        }
+    }
 }
 
 /// A light of 10⁻⁹ of the weight is found by some u of the grid, in its due share.

@@ -1,31 +1,11 @@
 //! Small scenes on a lattice, so that their parts touch, coincide and are parallel, whose certificates must agree with single segments.
 
+use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
 use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, MOST, Patch, Pyramid, Viewer};
 use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
 use etendue_render::surfaces::Surfaces;
-
-type V = [f64; 3];
-
-fn plus(a: V, b: V, s: f64) -> V {
-    std::array::from_fn(|k| a[k] + b[k] * s)
-}
-fn sub(a: V, b: V) -> V {
-    plus(a, b, -1.0)
-}
-fn dot(a: V, b: V) -> f64 {
-    (0..3).map(|k| a[k] * b[k]).sum()
-}
-fn cross(a: V, b: V) -> V {
-    std::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
-}
-fn unit(a: V) -> V {
-    a.map(|x| x / dot(a, a).sqrt())
-}
-fn wide(v: [f32; 3]) -> V {
-    v.map(f64::from)
-}
 
 /// Reads bytes as numbers; zeros follow the last.
 struct Input<'a> {
@@ -64,13 +44,12 @@ impl Input<'_> {
 }
 
 /// Whether a segment meets a triangle by a clear margin, or misses it by one.
-fn meets_triangle(p: V, y: V, corners: [V; 3]) -> [bool; 2] {
+fn meets_triangle(p: V3, y: V3, corners: [V3; 3]) -> [bool; 2] {
     let [a, b, c] = corners;
     let (d, e1, e2, s) = (sub(y, p), sub(b, a), sub(c, a), sub(p, a));
     let normal = cross(e1, e2);
     let slope = -dot(normal, d);
-    let size = |v: V| dot(v, v).sqrt();
-    let crosses = slope.abs() > 1e-7 * size(normal) * size(d);
+    let crosses = slope.abs() > 1e-7 * length(normal) * length(d);
     if !crosses {
         return [false; 2];
     }
@@ -80,26 +59,26 @@ fn meets_triangle(p: V, y: V, corners: [V; 3]) -> [bool; 2] {
     [least > 1e-5, least < -1e-5]
 }
 
-fn meets_polygon(p: V, y: V, corners: &[V]) -> [bool; 2] {
+fn meets_polygon(p: V3, y: V3, corners: &[V3]) -> [bool; 2] {
     let parts = (2..corners.len()).map(|k| meets_triangle(p, y, [corners[0], corners[k - 1], corners[k]]));
     parts.fold([false, true], |all, part| [all[0] | part[0], all[1] & part[1]])
 }
 
-fn meets_sphere(p: V, y: V, center: V, radius: f64) -> [bool; 2] {
+fn meets_sphere(p: V3, y: V3, center: V3, radius: f64) -> [bool; 2] {
     let d = sub(y, p);
     let t = (dot(sub(center, p), d) / dot(d, d)).clamp(0.0, 1.0);
-    let distance = |q: V| dot(sub(q, center), sub(q, center)).sqrt() / radius;
-    let (least, most) = (distance(plus(p, d, t)), distance(p).max(distance(y)));
+    let distance = |q: V3| length(sub(q, center)) / radius;
+    let (least, most) = (distance(along(p, d, t)), distance(p).max(distance(y)));
     let clear = 1e-5 * (1.0 + most);
     [least < 1.0 - clear && most > 1.0 + clear, least > 1.0 + clear]
 }
 
-fn parallelogram(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> [V; 4] {
+fn parallelogram(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> [V3; 4] {
     let [p, u, v] = [p, u, v].map(wide);
-    [p, plus(p, u, 1.0), plus(plus(p, u, 1.0), v, 1.0), plus(p, v, 1.0)]
+    [p, along(p, u, 1.0), along(along(p, u, 1.0), v, 1.0), along(p, v, 1.0)]
 }
 
-fn meets(p: V, y: V, geometry: &Geometry) -> [bool; 2] {
+fn meets(p: V3, y: V3, geometry: &Geometry) -> [bool; 2] {
     match *geometry {
         Geometry::Sphere { center, radius } => meets_sphere(p, y, wide(center), f64::from(radius)),
         Geometry::Triangle(corners) => meets_triangle(p, y, corners.map(wide)),
@@ -108,7 +87,7 @@ fn meets(p: V, y: V, geometry: &Geometry) -> [bool; 2] {
 }
 
 /// May a blocker hide y from p? `body` tells the triangles of a body.
-fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V, y: V, blockers: &[Blocker], body: impl Fn(u32) -> I) -> bool {
+fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V3, y: V3, blockers: &[Blocker], body: impl Fn(u32) -> I) -> bool {
     blockers.iter().any(|blocker| match *blocker {
         Blocker::Polygon { corners, count, .. } => !meets_polygon(p, y, &corners.map(wide)[..count])[1],
         Blocker::Sphere { center, radius, .. } => !meets_sphere(p, y, wide(center), f64::from(radius))[1],
@@ -181,10 +160,13 @@ pub fn certificates(bytes: &[u8]) {
         }
     }
     let [a, b, c] = receiver.map(wide);
-    let target = plus(plus(a, sub(b, a), place as f64 / 512.0), sub(c, a), 0.25);
+    let target = along(along(a, sub(b, a), place as f64 / 512.0), sub(c, a), 0.25);
     let forward = unit(sub(target, origin));
     let right = unit(cross(forward, [0.3, 1.0, 0.2]));
     let up = cross(right, forward);
+    if length(up) == 0.0 {
+        return;
+    }
     let camera = CameraSettings { origin, forward, right, up, fov: 40.0, lens: None };
     let pyramid = Pyramid::new(&Pinhole::new(&camera, 16, 16), [7.0, 7.0, 9.0, 9.0]);
     let scene = scene(triangles, shapes, camera);
@@ -209,7 +191,7 @@ pub fn certificates(bytes: &[u8]) {
     if let Certificate::Blockers(blockers) = certificate {
         assert!((1..=MOST).contains(&blockers.len()));
     }
-    let corners: Vec<V> = patch.corners().collect();
+    let corners: Vec<V3> = patch.corners().collect();
     for _ in 0..24 {
         let mut mix = || [0.0, 1.0, 0.5, 0.25, 0.9, 0.01][input.below(6)];
         let (p, normal) = match (patch.normal(), &scene.shapes[last].geometry) {
@@ -217,12 +199,12 @@ pub fn certificates(bytes: &[u8]) {
                 let (s, t) = (mix(), mix());
                 let at = |k: usize| corners[k % corners.len()];
                 let k = input.below(8);
-                let edge = plus(at(k), sub(at(k + 1), at(k)), s);
-                (plus(plus(edge, sub(at(k + 2), edge), t), normal, patch.margin() / 4.0), normal)
+                let edge = along(at(k), sub(at(k + 1), at(k)), s);
+                (along(along(edge, sub(at(k + 2), edge), t), normal, patch.margin() / 4.0), normal)
             }
             (None, Geometry::Sphere { center, radius }) => {
-                let normal = unit(plus([mix(), mix(), mix()], [0.5; 3], -1.0));
-                (plus(wide(*center), normal, f64::from(*radius) + patch.margin() / 8.0), normal)
+                let normal = unit(along([mix(), mix(), mix()], [0.5; 3], -1.0));
+                (along(wide(*center), normal, f64::from(*radius) + patch.margin() / 8.0), normal)
             }
             _ => return,
         };
@@ -231,16 +213,19 @@ pub fn certificates(bytes: &[u8]) {
             Geometry::Sphere { center, radius } => {
                 let axis = unit(sub(p, wide(center)));
                 let across = unit(cross(axis, wide(input.vector())));
+                if across == [0.0; 3] {
+                    continue;
+                }
                 let sin = 0.99 * s;
                 let cos = f64::sqrt(1.0 - sin * sin);
                 let radius = f64::from(radius);
-                plus(plus(wide(center), axis, radius * cos), across, radius * sin)
+                along(along(wide(center), axis, radius * cos), across, radius * sin)
             }
             Geometry::Triangle(corners) => {
                 let [a, b, c] = corners.map(wide);
-                plus(plus(a, sub(b, a), s * (1.0 - t)), sub(c, a), t)
+                along(along(a, sub(b, a), s * (1.0 - t)), sub(c, a), t)
             }
-            Geometry::Parallelogram { p, u, v } => plus(plus(wide(p), wide(u), s), wide(v), t),
+            Geometry::Parallelogram { p, u, v } => along(along(wide(p), wide(u), s), wide(v), t),
         };
         let away = sub(p, y);
         let outward = match light.geometry {

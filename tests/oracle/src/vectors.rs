@@ -1,51 +1,60 @@
-//! Vectors in f64.
+//! Vectors in f64. Incremental builds inline functions of another package only where they are marked so.
 
 /// A vector in f64.
 pub type V3 = [f64; 3];
 
 /// Dot product.
 #[must_use]
+#[inline]
 pub fn dot(a: V3, b: V3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 /// Cross product.
 #[must_use]
+#[inline]
 pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 /// `a + b·s`.
 #[must_use]
+#[inline]
 pub fn along(a: V3, b: V3, s: f64) -> V3 {
     [a[0] + b[0] * s, a[1] + b[1] * s, a[2] + b[2] * s]
 }
 /// `a − b`.
 #[must_use]
+#[inline]
 pub fn sub(a: V3, b: V3) -> V3 {
     along(a, b, -1.0)
 }
 /// Length, without overflow or underflow.
 #[must_use]
+#[inline]
 pub fn length(a: V3) -> f64 {
     a[0].hypot(a[1]).hypot(a[2])
 }
 /// Unit vector; the zero vector stays zero.
 #[must_use]
+#[inline]
 pub fn unit(a: V3) -> V3 {
     let l = length(a);
     if l > 0.0 { a.map(|x| x / l) } else { a }
 }
 /// Converts f32 to f64.
 #[must_use]
+#[inline]
 pub fn wide(a: [f32; 3]) -> V3 {
     a.map(f64::from)
 }
 /// Rounds to f32.
 #[must_use]
+#[inline]
 pub fn narrow(a: V3) -> [f32; 3] {
     a.map(|x| x as f32)
 }
 /// Two unit vectors perpendicular to the unit vector `n`.
 #[must_use]
+#[inline]
 pub fn basis(n: V3) -> (V3, V3) {
     let helper = if n[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
     let s = unit(cross(helper, n));

@@ -1,11 +1,12 @@
 //! Scenes with closed convex parts of meshes, and parts that are almost that.
 
+use super::scenes::{Scenes, light, quad, shape};
 use crate::meshes::{Random, Triangle, cube};
-use crate::{Scenes, V, cross, light, plus, quad, shape, unit, wide};
+use etendue_oracle::{V3, along, cross, unit, wide};
 use etendue_render::scene::{Geometry, Shape};
 
 /// A convex polyhedron within [−1, 1]³: corners, and the corners of each face in order around.
-type Solid = (Vec<V>, Vec<Vec<usize>>);
+type Solid = (Vec<V3>, Vec<Vec<usize>>);
 
 /// A prism over a regular polygon.
 fn prism(n: usize) -> Solid {
@@ -42,7 +43,7 @@ pub(crate) fn octahedron() -> Solid {
 }
 
 /// The triangles of a solid whose corners are moved by `place`, with the faces cut, turned and ordered at random.
-pub(crate) fn cut((corners, faces): &Solid, place: impl Fn(V) -> V, random: &mut Random) -> Vec<Triangle> {
+pub(crate) fn cut((corners, faces): &Solid, place: impl Fn(V3) -> V3, random: &mut Random) -> Vec<Triangle> {
     let corners: Vec<[f32; 3]> = corners.iter().map(|&v| place(v).map(|x| x as f32)).collect();
     let mut triangles = Vec::new();
     for face in faces {
@@ -61,7 +62,7 @@ pub(crate) fn cut((corners, faces): &Solid, place: impl Fn(V) -> V, random: &mut
 }
 
 /// Moves a solid: half its size along its own axes, its centre, and whether its axes are turned about the vertical or anyhow.
-pub(crate) fn moved(half: V, center: V, turned: usize, random: &mut Random) -> impl Fn(V) -> V + use<> {
+pub(crate) fn moved(half: V3, center: V3, turned: usize, random: &mut Random) -> impl Fn(V3) -> V3 + use<> {
     let forward = match turned {
         0 => [1.0, 0.0, 0.0],
         1 => unit([f64::from(random.signed()), 0.0, f64::from(random.signed())]),
@@ -70,8 +71,8 @@ pub(crate) fn moved(half: V, center: V, turned: usize, random: &mut Random) -> i
     let up = if turned < 2 { [0.0, 1.0, 0.0] } else { unit(cross(forward, wide(random.point()))) };
     let side = cross(forward, up);
     move |v| {
-        let along = plus(plus(center, forward, v[0] * half[0]), up, v[1] * half[1]);
-        plus(along, side, v[2] * half[2])
+        let on_two = along(along(center, forward, v[0] * half[0]), up, v[1] * half[1]);
+        along(on_two, side, v[2] * half[2])
     }
 }
 
@@ -90,11 +91,11 @@ fn any_solid(random: &mut Random) -> Solid {
     }
 }
 
-fn half(random: &mut Random, most: f32) -> V {
+fn half(random: &mut Random, most: f32) -> V3 {
     [0; 3].map(|_| f64::from((0.05 + 0.95 * random.unit()) * most))
 }
 
-fn at(random: &mut Random, y: f64) -> V {
+fn at(random: &mut Random, y: f64) -> V3 {
     [0.8 * f64::from(random.signed()), y, 0.8 * f64::from(random.signed())]
 }
 
@@ -179,7 +180,7 @@ pub(crate) fn solids(random: &mut Random) -> Scenes {
                     let mut half = half(random, 0.3);
                     let mut center = wide(center);
                     if kind == "crossing" {
-                        center = plus(center, wide(random.point()), 0.4);
+                        center = along(center, wide(random.point()), 0.4);
                     } else {
                         half = half.map(|x| x + 0.5 * f64::from(random.unit()));
                     }
