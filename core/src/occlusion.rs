@@ -211,6 +211,11 @@ impl<R: Real> Occlusion<R> {
 
     /// Like [`visible`](Self::visible), with polyhedra as further blockers. `None` also if a polyhedron does not lie before the light as a
     /// whole.
+    ///
+    /// Greatest error: as of [`visible`](Self::visible) (1e−7 measured), and 3e−6 times the angle around the light where the point is nearer
+    /// to the plane of a face than 1e−2 of the distance (1.3e−6 measured), since the rounding of the normal decides which side it is on. To
+    /// that comes the angle under which corners are seen beside the planes of their faces: a polyhedron no wider than the rounding of its
+    /// coordinates may hide nothing. A point on its surface may be inside or outside.
     #[inline]
     pub fn visible_past(
         &mut self,

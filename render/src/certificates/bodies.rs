@@ -7,7 +7,8 @@ use crate::bvh::{Bvh, NOTHING};
 use etendue::occlusion::{Edge, Polyhedron, SPARED};
 use std::collections::HashMap;
 
-/// Greatest number of triangles of a mesh that is searched for bodies; to search 65,536 triangles takes 20 ms.
+/// Greatest number of triangles of a mesh that is searched for bodies. To search so many takes 15 ms in a height field, and 76 ms if all of
+/// them are boxes, by `cargo test --release -p etendue-render --test certificates -- --ignored time_per_certificate --nocapture`.
 const SEARCHED: usize = 65_536;
 /// Greatest number of triangles, and of faces, of a body.
 const TRIANGLES: usize = 28;

@@ -1,8 +1,9 @@
 //! Lights behind blockers, and the properties of their visible parts that hold for any numbers.
 
 use crate::properties::vectors_of;
-use etendue::occlusion::{Convex, Occlusion};
+use etendue::occlusion::{Convex, Edge, Occlusion, Polyhedron};
 use etendue::{Real, Vec3, f32x4, f32x8};
+use etendue_oracle::{V3, along, cross, dot, narrow, sub, unit, wide};
 
 /// A light, blockers, and eight points with the normals of their surfaces.
 #[derive(Clone, Debug)]
@@ -11,14 +12,85 @@ pub struct Scene {
     pub light: Convex<f32>,
     /// The blockers.
     pub blockers: Vec<Convex<f32>>,
+    /// Polyhedra as further blockers.
+    pub solids: Vec<Solid>,
     /// The shading points.
     pub points: [[f32; 3]; 8],
     /// Unit normals.
     pub normals: [[f32; 3]; 8],
 }
 
+/// A convex polyhedron, as [`Polyhedron`] refers to it.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// A point inside.
+    pub center: Vec3<f32>,
+    /// Normals and points of its faces.
+    pub faces: Vec<[Vec3<f32>; 2]>,
+    /// Its edges.
+    pub edges: Vec<Edge<f32>>,
+    /// The corners of each face in order around.
+    pub outlines: Vec<Vec<Vec3<f32>>>,
+}
+
+impl Solid {
+    /// From its corners, and the corners of each face in order around.
+    #[must_use]
+    pub fn new(corners: &[[f32; 3]], faces: &[Vec<usize>]) -> Self {
+        let at = |i: usize| wide(corners[i]);
+        let center = (0..corners.len()).fold([0.0; 3], |sum, i| along(sum, at(i), 1.0 / corners.len() as f64));
+        let sides = |face: &[usize]| -> Vec<[usize; 2]> {
+            (0..face.len()).map(|k| [face[k], face[(k + 1) % face.len()]]).collect()
+        };
+        let plane = |face: &Vec<usize>| {
+            let from = at(face[0]);
+            let areas = sides(face).into_iter().map(|[a, b]| cross(sub(at(a), from), sub(at(b), from)));
+            let normal = unit(areas.fold([0.0; 3], |sum: V3, area| along(sum, area, 1.0)));
+            let outwards = if dot(normal, sub(from, center)) < 0.0 { -1.0 } else { 1.0 };
+            [narrow(normal.map(|x| x * outwards)).into(), corners[face[0]].into()]
+        };
+        let mut edges = Vec::new();
+        for (j, face) in faces.iter().enumerate() {
+            for (i, other) in faces[..j].iter().enumerate() {
+                for [a, b] in sides(face) {
+                    if sides(other).iter().any(|side| *side == [a, b] || *side == [b, a]) {
+                        edges.push(Edge { ends: [corners[a].into(), corners[b].into()], faces: [i, j] });
+                    }
+                }
+            }
+        }
+        let outline = |face: &Vec<usize>| face.iter().map(|&i| corners[i].into()).collect();
+        Self {
+            center: narrow(center).into(),
+            faces: faces.iter().map(plane).collect(),
+            edges,
+            outlines: faces.iter().map(outline).collect(),
+        }
+    }
+    /// The same with other points; normals stay.
+    #[must_use]
+    pub fn map(&self, f: impl Fn(Vec3<f32>) -> Vec3<f32>) -> Self {
+        Self {
+            center: f(self.center),
+            faces: self.faces.iter().map(|&[normal, on]| [normal, f(on)]).collect(),
+            edges: self.edges.iter().map(|edge| Edge { ends: edge.ends.map(&f), ..*edge }).collect(),
+            outlines: self.outlines.iter().map(|face| face.iter().map(|&v| f(v)).collect()).collect(),
+        }
+    }
+}
+
+/// Faces and edges in the precision of `S`.
+type Parts<S> = (Vec3<S>, Vec<[Vec3<S>; 2]>, Vec<Edge<S>>);
+
+fn vector<S: From<f32>>(v: Vec3<f32>) -> Vec3<S> {
+    Vec3 { x: v.x.into(), y: v.y.into(), z: v.z.into() }
+}
+fn parts<S: From<f32>>(solid: &Solid) -> Parts<S> {
+    let edge = |edge: &Edge<f32>| Edge { ends: edge.ends.map(vector), faces: edge.faces };
+    let faces = solid.faces.iter().map(|face| face.map(vector)).collect();
+    (vector(solid.center), faces, solid.edges.iter().map(edge).collect())
+}
 fn converted<S: From<f32>>(shape: &Convex<f32>) -> Convex<S> {
-    let vector = |v: Vec3<f32>| Vec3 { x: v.x.into(), y: v.y.into(), z: v.z.into() };
     match *shape {
         Convex::Polygon { corners, count } => Convex::Polygon { corners: corners.map(vector), count },
         Convex::Sphere { center, radius } => Convex::Sphere { center: vector(center), radius: radius.into() },
@@ -33,11 +105,15 @@ impl Scene {
         R::Scalar: From<f32>,
     {
         let blockers: Vec<_> = self.blockers.iter().map(converted).collect();
-        Occlusion::new().visible(
+        let parts: Vec<Parts<R::Scalar>> = self.solids.iter().map(parts).collect();
+        let solids: Vec<_> =
+            parts.iter().map(|(center, faces, edges)| Polyhedron { center: *center, faces, edges }).collect();
+        Occlusion::new().visible_past(
             vectors_of::<R>(|i| self.points[first + i]),
             vectors_of::<R>(|i| self.normals[first + i]),
             &converted(&self.light),
             &blockers,
+            &solids,
         )
     }
     /// The results are finite, at least 0, and at most what there is without blockers.
@@ -45,7 +121,7 @@ impl Scene {
     /// # Panics
     /// If they are not.
     pub fn total(&self) {
-        let bare = Self { blockers: Vec::new(), ..self.clone() };
+        let bare = Self { blockers: Vec::new(), solids: Vec::new(), ..self.clone() };
         let all = bare.found::<f32x8>(0).expect("there are no blockers");
         let left = self.found::<f32x8>(0).unwrap_or_default();
         for (all, left) in all.as_array().iter().zip(left.as_array()) {
@@ -79,6 +155,7 @@ impl Scene {
         let scaled = Self {
             light: times(&self.light),
             blockers: self.blockers.iter().map(times).collect(),
+            solids: self.solids.iter().map(|solid| solid.map(|v| v * factor)).collect(),
             points: self.points.map(|p| p.map(|x| x * factor)),
             normals: self.normals,
         };

@@ -40,7 +40,7 @@ pub(super) fn occlusion(input: &mut Input<'_>) {
     let light = shape(input, &mut before);
     let count = input.below(18) % (1 + input.below(17));
     let blockers = (0..count).map(|_| shape(input, &mut before)).collect();
-    let scene = Scene { light, blockers, points, normals };
+    let scene = Scene { light, blockers, solids: Vec::new(), points, normals };
     scene.total();
     scene.lanes();
     let mut lengths: Vec<f32> = points.iter().flatten().copied().collect();

@@ -1,0 +1,138 @@
+//! Greatest errors.
+
+use crate::scenes::{KINDS, Round, scene};
+use crate::solids::{SOLID_KINDS, scene_with_solids};
+use crate::truth::Truth;
+use etendue::{Real, f32x8};
+use etendue_oracle::Greatest;
+use etendue_properties::generators::Random;
+use etendue_properties::occlusion::Scene;
+
+/// Greatest errors of a regime.
+#[derive(Clone, Copy, Default)]
+struct Errors {
+    points: u32,
+    occluded: u32,
+    none: u32,
+    unknown: u32,
+    single: Greatest<u32>,
+    relative: Greatest<u32>,
+    double: Greatest<u32>,
+}
+
+/// Errors of packets of scenes.
+fn measure(made: impl Fn(&mut Random) -> Scene, packets: u32, seed: u64) -> Errors {
+    let mut random = Random::new(seed);
+    let mut errors = Errors::default();
+    for i in 0..packets {
+        let scene = made(&mut random);
+        let found = scene.found::<f32x8>(0);
+        for lane in 0..8 {
+            errors.points += 1;
+            let truth = if scene.surrounded(lane) { None } else { scene.truth(lane) };
+            let Some([near, far]) = truth else {
+                errors.unknown += 1;
+                continue;
+            };
+            let Some(found) = found else {
+                errors.none += 1;
+                continue;
+            };
+            let (least, most) = (near.left.min(far.left), near.left.max(far.left));
+            let uneven = scene.unevenness(lane) * near.around;
+            let off = |found: f64| ((least - found).max(found - most) - uneven).max(0.0);
+            let unit = near.around * near.occluders.max(1) as f64 / scene.condition(lane);
+            errors.occluded += u32::from(near.occluders > 0);
+            let error = off(found.lane_f64(lane));
+            if unit > 0.0 {
+                errors.single.take(error / unit, i);
+                if let Some(double) = scene.found::<f64>(lane) {
+                    errors.double.take(off(double) / unit, i);
+                }
+            } else {
+                assert!(error < 1e-30, "{scene:?}");
+            }
+            if near.all > 0.0 {
+                errors.relative.take(error / near.all, i);
+            }
+        }
+    }
+    errors
+}
+
+/// Greatest error allowed, relative to the angle around the light times the number of occluders, over the condition.
+pub(crate) const BOUND: f64 = 1e-6;
+
+const HEAD: &str = "regime, spheres                points  occluded   none  unknown  f32, per angle  of Ω⊥     f64";
+
+/// Measures a regime, and prints and checks its errors.
+fn regime(name: &str, made: impl Fn(&mut Random) -> Scene, packets: u32, seed: u64) -> Errors {
+    let e = measure(made, packets, seed);
+    println!(
+        "{name:29} {:7} {:9} {:6} {:8}  {:14.1e}  {:8.1e}  {:8.1e}",
+        e.points,
+        e.occluded,
+        e.none,
+        e.unknown,
+        e.single.error(),
+        e.relative.error(),
+        e.double.error(),
+    );
+    assert!(e.occluded > 0, "{name}: nothing is tested");
+    e
+}
+
+fn accuracy(packets: u32) {
+    println!("{HEAD}");
+    let mut all = Greatest::NONE;
+    let mut points = 0;
+    for round in [Round::None, Round::Light, Round::Blockers] {
+        for (k, &kind) in KINDS.iter().enumerate() {
+            let name = format!("{kind:?}, {round:?}");
+            let e = regime(&name, |random| scene(random, kind, round), packets, 1000 * round as u64 + k as u64);
+            assert!(e.single.error() < BOUND, "{name}: {:?}", e.single);
+            // spheres in double precision have the accuracy of `ProjectedCap`, and corners in single precision do not lie in planes
+            assert!(e.double.error() < 1e-7, "{name}: {:?}", e.double);
+            all.take(e.single.error(), (kind, round));
+            points += e.points;
+        }
+    }
+    println!("{points} points: greatest error {:.1e} of the angle times the occluders, {:?}", all.error(), all.at());
+}
+
+fn accuracy_past_polyhedra(packets: u32) {
+    println!("{HEAD}");
+    let mut all = Greatest::NONE;
+    for round in [false, true] {
+        for (k, &kind) in SOLID_KINDS.iter().enumerate() {
+            let name = format!("{kind:?}, {}", if round { "sphere" } else { "polygon" });
+            let seed = 5000 + 1000 * u64::from(round) + k as u64;
+            let e = regime(&name, |random| scene_with_solids(random, kind, round), packets, seed);
+            // near the plane of a face, rounding of its normal decides which side the point is on, in both precisions
+            assert!(e.single.error() < 3.0 * BOUND, "{name}: {:?}", e.single);
+            assert!(e.double.error() < 3.0 * BOUND, "{name}: {:?}", e.double);
+            all.take(e.single.error(), (kind, round));
+        }
+    }
+    println!("greatest error {:.1e} of the angle times the occluders, {:?}", all.error(), all.at());
+}
+
+#[test]
+fn visible_parts() {
+    accuracy(150);
+}
+
+#[test]
+#[ignore = "a million points: a minute"]
+fn visible_parts_of_a_million_points() {
+    accuracy(1900);
+}
+#[test]
+fn visible_parts_past_polyhedra() {
+    accuracy_past_polyhedra(150);
+}
+#[test]
+#[ignore = "400,000 points: some minutes"]
+fn visible_parts_past_polyhedra_of_many_points() {
+    accuracy_past_polyhedra(1900);
+}

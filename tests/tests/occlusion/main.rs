@@ -1,0 +1,7 @@
+//! The visible part of lights past convex blockers, against an oracle that subtracts the blockers one after another.
+
+mod accuracy;
+mod properties;
+mod scenes;
+mod solids;
+mod truth;
