@@ -27,7 +27,7 @@ Shape "bilinearmesh" "point3 P" [ 1 5 -2   3 5 -2   1 5 0   3 5 0 ]
 fn empty() -> Scene {
     let mut scene = scene::parse(EMPTY, "empty.pbrt", Path::new(".")).expect("a scene");
     // the sphere only defines its material
-    scene.shapes.remove(0);
+    scene.shapes = scene.shapes[1..].into();
     scene
 }
 

@@ -6,7 +6,7 @@ use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal, select};
-use crate::scene::{DeltaLight, Scene};
+use crate::scene::{DeltaLight, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
 use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
@@ -52,6 +52,22 @@ struct LightRecord {
 type PackedLight = [[f32; 8]; 2];
 
 impl LightRecord {
+    /// A shape that emits, and its power in units of π.
+    fn of(index: u32, shape: &Shape) -> Option<(Self, f64)> {
+        let emission = shape.emission?;
+        let (kind, [place, first, second]) = match shape.geometry {
+            Geometry::Sphere { center, radius } => (SPHERE, [center, [radius, 0.0, 0.0], [0.0; 3]]),
+            Geometry::Triangle([a, b, c]) => {
+                let edge = |to: [f32; 3]| std::array::from_fn(|k| to[k] - a[k]);
+                (TRIANGLE, [a, edge(b), edge(c)])
+            }
+            Geometry::Parallelogram { p, u, v } => (PARALLELOGRAM, [p, u, v]),
+        };
+        let (sides, flag) = if emission.two_sided { (2.0, TWO_SIDED) } else { (1.0, 0) };
+        let power = sum(emission.radiance) * shape.geometry.area() * sides;
+        let record = Self { place, first, second, radiance: emission.radiance, kind: kind | flag, shape: index };
+        Some((record, power))
+    }
     fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
         [
@@ -104,7 +120,12 @@ impl LightRecord {
 /// The lights of a scene.
 #[derive(Debug, Default)]
 pub struct Lights {
+    /// The lights, without those of `unpacked`.
     packed: Vec<PackedLight>,
+    /// Of more than [`FEW`] lights, the ones that are shapes, which come first: their indices. They are packed when they are chosen, since
+    /// a copy of each is as large as the shape.
+    unpacked: Vec<u32>,
+    shapes: Arc<[Shape]>,
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     many: ManyLights,
@@ -199,22 +220,7 @@ fn sum(rgb: [f32; 3]) -> f64 {
 type Powered = Vec<(LightRecord, f64)>;
 
 fn area_lights(scene: &Scene) -> Powered {
-    let light = |(index, shape): (usize, &crate::scene::Shape)| {
-        let emission = shape.emission?;
-        let (kind, [place, first, second]) = match shape.geometry {
-            Geometry::Sphere { center, radius } => (SPHERE, [center, [radius, 0.0, 0.0], [0.0; 3]]),
-            Geometry::Triangle([a, b, c]) => {
-                let edge = |to: [f32; 3]| std::array::from_fn(|k| to[k] - a[k]);
-                (TRIANGLE, [a, edge(b), edge(c)])
-            }
-            Geometry::Parallelogram { p, u, v } => (PARALLELOGRAM, [p, u, v]),
-        };
-        let (sides, flag) = if emission.two_sided { (2.0, TWO_SIDED) } else { (1.0, 0) };
-        let power = sum(emission.radiance) * shape.geometry.area() * sides;
-        let (radiance, shape) = (emission.radiance, index as u32);
-        Some((LightRecord { place, first, second, radiance, kind: kind | flag, shape }, power))
-    };
-    scene.shapes.iter().enumerate().filter_map(light).collect()
+    (0..).zip(scene.shapes.iter()).filter_map(|(index, shape)| LightRecord::of(index, shape)).collect()
 }
 
 fn delta_lights(scene: &Scene) -> Powered {
@@ -251,21 +257,21 @@ impl Lights {
             let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
             all.push((record, sky.flux() * squared_radius(scene)));
         }
-        Self::of(all, scene.shapes.len(), sky)
+        Self::of(all, &scene.shapes, sky)
     }
     /// The delta lights of a scene alone.
     ///
     /// # Errors
     /// Fails if there are more lights than a tree can index.
     pub fn deltas(scene: &Scene) -> Result<Self, BuildError> {
-        Self::of(delta_lights(scene), scene.shapes.len(), None)
+        Self::of(delta_lights(scene), &scene.shapes, None)
     }
-    fn of(all: Powered, shapes: usize, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
+    fn of(all: Powered, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
         let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS));
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
         // relative to the greatest, so that all are finite
         let bound = |(light, power): &(LightRecord, f64)| light.bound(power / greatest);
-        let mut own = Self { kinds, sky, shape_lights: vec![NOTHING; shapes], ..Self::default() };
+        let mut own = Self { kinds, sky, shape_lights: vec![NOTHING; shapes.len()], ..Self::default() };
         if kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len()) {
             let bounds: Vec<_> = all.iter().map(bound).collect();
             own.spatial = Some(SpatialLights::new(&bounds).expect("few lights"));
@@ -280,16 +286,20 @@ impl Lights {
                 *light = index;
             }
         }
-        own.packed = all.iter().map(|(record, _)| record.pack()).collect();
+        let is_unpacked = |record: &&LightRecord| all.len() > FEW && record.shape != NOTHING;
+        own.unpacked =
+            all.iter().map(|(record, _)| record).take_while(is_unpacked).map(|record| record.shape).collect();
+        own.packed = all[own.unpacked.len()..].iter().map(|(record, _)| record.pack()).collect();
+        own.shapes = Arc::clone(shapes);
         Ok(own)
     }
     /// Number of lights.
     pub fn len(&self) -> usize {
-        self.packed.len()
+        self.unpacked.len() + self.packed.len()
     }
     /// Is there no light at all?
     pub fn is_empty(&self) -> bool {
-        self.packed.is_empty()
+        self.len() == 0
     }
     /// True if the choice of a light needs random numbers of its own.
     pub fn many(&self) -> bool {
@@ -321,7 +331,7 @@ impl Lights {
     pub fn choose(&self, p: V8, normal: V8, [u, second]: [X8; 2]) -> Choice<X8> {
         match &self.spatial {
             Some(lights) => lights.at(p, normal).choose(u),
-            None if self.packed.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
+            None if self.len() == 1 => Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u },
             None => self.many.at(p, normal).choose(u, second),
         }
     }
@@ -330,17 +340,30 @@ impl Lights {
     pub fn pmf(&self, p: V8, normal: V8) -> LightPmf<'_> {
         match &self.spatial {
             Some(lights) => LightPmf::Near(lights.at(p, normal)),
-            None if self.packed.len() == 1 => LightPmf::One,
+            None if self.len() == 1 => LightPmf::One,
             None => LightPmf::Many(self.many.at(p, normal)),
         }
     }
     /// Lights with these indices.
     #[inline(always)]
     pub fn chosen(&self, index: u32x8) -> Chosen {
+        if !self.unpacked.is_empty() {
+            return self.chosen_of_many(index);
+        }
         if let [only] = &self.packed[..] {
             return Chosen::new(only.map(|half| half.map(X8::splat)));
         }
         let rows = index.to_array().map(|i| &self.packed[i as usize]);
+        Chosen::new([0, 1].map(|half| X8::transpose(rows.map(|row| X8::from(row[half])))))
+    }
+    /// The same for more than [`FEW`] lights. Not inlined, since it would burden the others.
+    #[inline(never)]
+    fn chosen_of_many(&self, index: u32x8) -> Chosen {
+        let rows = index.to_array().map(|i| match self.unpacked.get(i as usize) {
+            Some(&shape) => LightRecord::of(shape, &self.shapes[shape as usize]).map(|(light, _)| light.pack()),
+            None => self.packed.get(i as usize - self.unpacked.len()).copied(),
+        });
+        let rows = rows.map(Option::unwrap_or_default);
         Chosen::new([0, 1].map(|half| X8::transpose(rows.map(|row| X8::from(row[half])))))
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky, `radiance` of

@@ -5,6 +5,7 @@ use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::packet::{M8, V8, X8, equal};
 use crate::scene::{Geometry, Material, Scene, Shape};
 use etendue::{Mask, Real, u32x8};
+use std::sync::Arc;
 
 /// The hit points of eight rays.
 #[derive(Clone, Copy)]
@@ -34,9 +35,7 @@ pub struct Surfaces {
     /// The trees of triangles and shapes.
     pub bvh: Bvh,
     /// Spheres and emitters.
-    shapes: Vec<Shape>,
-    /// Normals of the shapes; 0 for spheres.
-    normals: Vec<[f32; 3]>,
+    shapes: Arc<[Shape]>,
     /// Albedos of the materials; white for metals and mirrors that are not black.
     albedos: Vec<[f32; 3]>,
     finishes: Vec<Finish>,
@@ -86,8 +85,7 @@ impl Surfaces {
         Self {
             rough: scene.materials.iter().any(Material::is_glossy),
             only_diffuse: scene.materials.iter().all(|m| matches!(m, Material::Diffuse(_))),
-            normals: scene.shapes.iter().map(|s| s.geometry.normal()).collect(),
-            shapes: scene.shapes.clone(),
+            shapes: Arc::clone(&scene.shapes),
             bvh,
             albedos: scene.materials.iter().map(albedo).collect(),
             finishes: scene.materials.iter().map(finish).collect(),
@@ -101,7 +99,7 @@ impl Surfaces {
     }
     /// Indices of the shapes that emit, in the order of their lights.
     pub fn light_shapes(&self) -> impl Iterator<Item = u32> {
-        (0..).zip(&self.shapes).filter(|(_, shape)| shape.emission.is_some()).map(|(index, _)| index)
+        (0..).zip(self.shapes.iter()).filter(|(_, shape)| shape.emission.is_some()).map(|(index, _)| index)
     }
     /// Whether any material is a rough metal.
     pub fn has_rough(&self) -> bool {
@@ -184,7 +182,7 @@ impl Surfaces {
                 Geometry::Sphere { center, .. } => {
                     rays.direction.mul_add(hits.distance, rays.origin - V8::from(center)).normalize()
                 }
-                Geometry::Triangle(_) | Geometry::Parallelogram { .. } => V8::from(self.normals[index]),
+                Geometry::Triangle(_) | Geometry::Parallelogram { .. } => V8::from(shape.geometry.normal()),
             };
             f(index, here, shape, outward);
             lanes = lanes & !here;

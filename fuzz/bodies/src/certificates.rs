@@ -104,7 +104,7 @@ fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettin
         materials: vec![Material::Diffuse([0.5; 3])],
         triangle_materials: vec![0; triangles.len()],
         triangles,
-        shapes,
+        shapes: shapes.into(),
         delta_lights: Vec::new(),
         environment: None,
         warnings: Vec::new(),
@@ -241,7 +241,7 @@ pub fn certificates(bytes: &[u8]) {
             continue;
         }
         let others = (0..).zip(&scene.triangles).filter(|(id, _)| place & SHAPE != 0 || *id != 0_u32);
-        let shapes = (0..).zip(&scene.shapes).skip(1).filter(|(id, _)| id | SHAPE != place);
+        let shapes = (0..).zip(scene.shapes.iter()).skip(1).filter(|(id, _)| id | SHAPE != place);
         let all =
             others.map(|(_, t)| meets_triangle(p, y, t.map(wide))).chain(shapes.map(|(_, s)| meets(p, y, &s.geometry)));
         let [met, missed] = all.fold([false, true], |all, one| [all[0] | one[0], all[1] & one[1]]);

@@ -5,6 +5,7 @@ use super::materials::Material;
 use super::message::Message;
 use crate::geometry::Geometry;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// The contents of a scene file, in world space.
 #[derive(Clone, Debug)]
@@ -23,8 +24,8 @@ pub struct Scene {
     pub triangles: Vec<[[f32; 3]; 3]>,
     /// One index into `materials` per triangle.
     pub triangle_materials: Vec<u32>,
-    /// All spheres, and the triangles and parallelograms that emit.
-    pub shapes: Vec<Shape>,
+    /// All spheres, and the triangles and parallelograms that emit. What renders the scene shares them.
+    pub shapes: Arc<[Shape]>,
     /// Point, spot and distant lights.
     pub delta_lights: Vec<DeltaLight>,
     /// Light from infinitely far away, if there is any.

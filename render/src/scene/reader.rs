@@ -102,7 +102,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
         materials: out.materials,
         triangles: out.triangles,
         triangle_materials: out.triangle_materials,
-        shapes: out.shapes,
+        shapes: out.shapes.into(),
         delta_lights: reader.delta_lights,
         environment: reader.environment,
         warnings: out.warnings,

@@ -16,7 +16,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
         materials: vec![Material::Diffuse([0.5; 3]), Material::Diffuse([0.0; 3])],
         triangle_materials: vec![0; triangles.len()],
         triangles,
-        shapes,
+        shapes: shapes.into(),
         delta_lights: Vec::new(),
         environment: None,
         warnings: Vec::new(),

@@ -48,7 +48,7 @@ impl World {
         let own = if receiver & SHAPE == 0 { self.surfaces.bvh.order()[receiver as usize] } else { NOTHING };
         let mut worst = Meets::No;
         let triangles = (0..).zip(&self.scene.triangles).filter(|(id, _)| *id != own);
-        let shapes = (0..).zip(&self.scene.shapes);
+        let shapes = (0..).zip(self.scene.shapes.iter());
         let shapes = shapes.filter(|(id, _)| id | SHAPE != receiver && *id as usize != light);
         let all = triangles.map(|(_, t)| meets_triangle(segment, t.map(wide), EXACT));
         for met in all.chain(shapes.map(|(_, s)| meets(segment, &s.geometry))) {

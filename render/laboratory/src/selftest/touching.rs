@@ -22,12 +22,52 @@ pub(super) fn touches(scene: &Scene) -> bool {
     let shapes = scene.shapes.iter().map(|s| (&s.geometry, reflects[s.material as usize]));
     let shapes: Vec<&Geometry> = shapes.filter_map(|(geometry, reflects)| reflects.then_some(geometry)).collect();
     let lights = scene.shapes.iter().filter_map(|s| s.emission.map(|emission| (&s.geometry, emission.two_sided)));
-    lights.into_iter().any(|(light, two_sided)| {
-        let light = Light::new(light, two_sided);
-        let triangles = scene.triangles.iter().zip(&scene.triangle_materials);
-        triangles.into_iter().any(|(t, m)| reflects[*m as usize] && light.touches_polygon(&t.map(wide)))
-            || shapes.iter().any(|shape| !std::ptr::eq(*shape, light.geometry) && light.touches(shape))
-    })
+    let triangles = scene.triangles.iter().zip(&scene.triangle_materials);
+    let triangles = triangles.filter_map(|(t, m)| reflects[*m as usize].then_some(t)).collect();
+    any_touches(&mut lights.collect::<Vec<_>>(), triangles, shapes)
+}
+
+/// Whether a light touches one of these triangles and shapes. Halves of many lights have fewer of these near them.
+fn any_touches(
+    lights: &mut [(&Geometry, bool)],
+    mut triangles: Vec<&[[f32; 3]; 3]>,
+    mut shapes: Vec<&Geometry>,
+) -> bool {
+    const FEW: usize = 8;
+    if lights.len() <= FEW {
+        return lights.iter().any(|&(light, two_sided)| {
+            let light = Light::new(light, two_sided);
+            triangles.iter().any(|t| light.touches_polygon(&t.map(wide)))
+                || shapes.iter().any(|shape| !std::ptr::eq(*shape, light.geometry) && light.touches(shape))
+        });
+    }
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for (light, _) in &*lights {
+        let bounds = light.bounds().map(|corner| corner.map(f64::from));
+        let (near, _) = tolerances(bounds);
+        low = std::array::from_fn(|k| low[k].min(bounds[0][k] - near));
+        high = std::array::from_fn(|k| high[k].max(bounds[1][k] + near));
+    }
+    let is_near =
+        |[least, most]: [[f32; 3]; 2]| (0..3).all(|k| f64::from(least[k]) <= high[k] && f64::from(most[k]) >= low[k]);
+    triangles.retain(|t| is_near(Geometry::Triangle(**t).bounds()));
+    shapes.retain(|shape| is_near(shape.bounds()));
+    if triangles.is_empty() && shapes.is_empty() {
+        return false;
+    }
+    let axis = (0..3).max_by(|&i, &j| (high[i] - low[i]).total_cmp(&(high[j] - low[j]))).unwrap_or(0);
+    let place = |light: &Geometry| light.bounds().iter().map(|corner| f64::from(corner[axis])).sum::<f64>();
+    lights.select_nth_unstable_by(lights.len() / 2, |a, b| place(a.0).total_cmp(&place(b.0)));
+    let (left, right) = lights.split_at_mut(lights.len() / 2);
+    any_touches(left, triangles.clone(), shapes.clone()) || any_touches(right, triangles, shapes)
+}
+
+/// How near is near, and how far above is above, for a light with these bounds.
+fn tolerances(bounds: [[f64; 3]; 2]) -> (f64, f64) {
+    let size = (Point::from(bounds[1]) - Point::from(bounds[0])).length();
+    let furthest = bounds.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let above = (ABOVE * size).max(ROUNDING * furthest);
+    ((NEAR * size).max(2.0 * above), above)
 }
 
 fn wide(p: [f32; 3]) -> Point {
@@ -59,8 +99,7 @@ struct Light<'a> {
 impl<'a> Light<'a> {
     fn new(geometry: &'a Geometry, two_sided: bool) -> Self {
         let bounds = geometry.bounds().map(|corner| corner.map(f64::from));
-        let size = (Point::from(bounds[1]) - Point::from(bounds[0])).length();
-        let furthest = bounds.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let (near, above) = tolerances(bounds);
         let corners = corners(geometry);
         let normal = wide(geometry.normal());
         let sides = match (corners.is_empty(), two_sided) {
@@ -68,8 +107,7 @@ impl<'a> Light<'a> {
             (false, false) => vec![normal],
             (false, true) => vec![normal, -normal],
         };
-        let above = (ABOVE * size).max(ROUNDING * furthest);
-        Self { geometry, corners, sides, bounds, near: (NEAR * size).max(2.0 * above), above }
+        Self { geometry, corners, sides, bounds, near, above }
     }
 
     /// Whether a bounding box comes near that of the light.
