@@ -96,7 +96,7 @@ fn lights_of_the_city_face_away_from_what_they_are_mounted_on() {
         boxes.into_iter().any(|[low, high]| (0..3).all(|k| low[k] < p[k] && p[k] < high[k]))
     };
     let mut windows = 0;
-    for shape in &scene.shapes {
+    for shape in scene.shapes.iter() {
         let Geometry::Parallelogram { p, u, v } = shape.geometry else { continue };
         assert!(!shape.emission.unwrap().two_sided);
         windows += 1;
