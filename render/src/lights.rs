@@ -347,24 +347,26 @@ impl Lights {
     /// Lights with these indices.
     #[inline(always)]
     pub fn chosen(&self, index: u32x8) -> Chosen {
-        if !self.unpacked.is_empty() {
-            return self.chosen_of_many(index);
-        }
-        if let [only] = &self.packed[..] {
+        if let [only] = &self.packed[..]
+            && self.unpacked.is_empty()
+        {
             return Chosen::new(only.map(|half| half.map(X8::splat)));
         }
-        let rows = index.to_array().map(|i| &self.packed[i as usize]);
+        let own;
+        let rows = if self.unpacked.is_empty() {
+            index.to_array().map(|i| &self.packed[i as usize])
+        } else {
+            own = index.to_array().map(|i| self.pack(i));
+            own.each_ref()
+        };
         Chosen::new([0, 1].map(|half| X8::transpose(rows.map(|row| X8::from(row[half])))))
     }
-    /// The same for more than [`FEW`] lights. Not inlined, since it would burden the others.
+    /// One of more than [`FEW`] lights. Not inlined, since it would burden fewer.
     #[inline(never)]
-    fn chosen_of_many(&self, index: u32x8) -> Chosen {
-        let rows = index.to_array().map(|i| match self.unpacked.get(i as usize) {
-            Some(&shape) => LightRecord::of(shape, &self.shapes[shape as usize]).map(|(light, _)| light.pack()),
-            None => self.packed.get(i as usize - self.unpacked.len()).copied(),
-        });
-        let rows = rows.map(Option::unwrap_or_default);
-        Chosen::new([0, 1].map(|half| X8::transpose(rows.map(|row| X8::from(row[half])))))
+    fn pack(&self, light: u32) -> PackedLight {
+        let light = light as usize;
+        let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
+        LightRecord::of(shape, &self.shapes[shape as usize]).map(|(record, _)| record.pack()).unwrap_or_default()
     }
     /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky, `radiance` of
     /// `chosen` becomes that of the sampled direction.
