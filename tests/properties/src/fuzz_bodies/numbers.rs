@@ -186,7 +186,14 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
             let center = input.vector(&before);
             before.push(center);
             let normal = if input.word().is_multiple_of(2) { [0.0; 3] } else { input.direction() };
-            LightBound { center, radius: input.weight(), normal, two_sided: input.word().is_multiple_of(2), power }
+            LightBound {
+                center,
+                radius: input.weight(),
+                normal,
+                two_sided: input.word().is_multiple_of(2),
+                power,
+                cos_cone: 0.0,
+            }
         })
         .collect();
     let (p, n) = (input.vector(&before), input.direction());
