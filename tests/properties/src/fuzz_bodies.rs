@@ -4,6 +4,7 @@
 //! Every body reads its bytes as numbers at which methods break ([`Input`]): signed zeros, subnormal numbers, ulps about 1, the ends of the
 //! f32 range; vectors that are equal, opposite, collinear, or a few ulps from that.
 
+mod light_tree;
 mod lights;
 mod numbers;
 mod occlusion;
@@ -93,6 +94,8 @@ targets! {
     alias_table: numbers, 600;
     /// Choices among lights of any power and place.
     light_choice: numbers, 500;
+    /// Trees of up to 200 lights, and points at which one might be lost.
+    light_tree: light_tree, 20;
     /// Lights behind up to 17 blockers, polygons and spheres of any size and place.
     occlusion: occlusion, 50;
     /// Every sequence, at any index.

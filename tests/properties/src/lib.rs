@@ -9,7 +9,8 @@
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
 //! - [`suite`]: all properties over all regimes.
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
-//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights; [`occlusion`]: of their visible parts.
+//! - [`checks`]: properties of functions that are not warps; [`techniques`]: properties of lights; [`occlusion`]: of their visible parts;
+//!   [`light_tree`]: of trees of lights.
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
@@ -17,6 +18,7 @@ pub mod checks;
 pub mod fixtures;
 pub mod fuzz_bodies;
 pub mod generators;
+pub mod light_tree;
 pub mod mutants;
 pub mod occlusion;
 pub mod properties;

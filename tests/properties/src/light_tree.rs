@@ -1,0 +1,259 @@
+//! Trees of lights, and the properties of their choices.
+
+mod lamp;
+mod regimes;
+
+use crate::properties::{lanes_of, vectors_of};
+use etendue::select::{
+    Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild,
+};
+use etendue::{Real, Uint, f32x4, f32x8, u32x4, u32x8};
+pub use lamp::{Kind, Lamp};
+pub use regimes::{Regime, place};
+
+/// The number of levels that the tree may have.
+const LEVELS: usize = 64;
+/// Units of a node's shares.
+const WHOLE: u32 = 1 << 16;
+
+/// A point of a surface and its unit normal.
+pub type Place = ([f32; 3], [f32; 3]);
+
+/// A tree with its memory.
+#[derive(Clone, Debug)]
+pub struct Grove {
+    /// The lights.
+    pub bounds: Vec<LightBound>,
+    /// The nodes.
+    pub nodes: Vec<Node8>,
+    /// The place of each light.
+    pub places: Vec<u32>,
+}
+
+/// A fraction in digits of 16 bits, the first of which is the integer part.
+type Digits = Vec<u64>;
+
+fn times(mass: &[u64], share: u32) -> Digits {
+    let (mut product, mut carry) = (vec![0; mass.len() + 1], 0);
+    for (to, digit) in product[1..].iter_mut().zip(mass).rev() {
+        let all = digit * u64::from(share) + carry;
+        (*to, carry) = (all & 0xffff, all >> 16);
+    }
+    product[0] = carry;
+    product
+}
+
+fn value(digits: &[u64]) -> f64 {
+    digits.iter().rev().fold(0.0, |sum, &digit| sum / f64::from(WHOLE) + digit as f64)
+}
+
+/// A light that the walk over a tree has reached.
+#[derive(Clone, Copy, Debug)]
+pub struct Reached {
+    /// Its index.
+    pub light: u32,
+    /// Its probability.
+    pub pmf: f64,
+    /// The number of nodes above it.
+    pub levels: usize,
+}
+
+impl Grove {
+    /// Builds a tree.
+    ///
+    /// # Panics
+    /// If the memory does not suffice.
+    #[must_use]
+    pub fn new(bounds: Vec<LightBound>) -> Self {
+        Self::with(bounds, &Sequential)
+    }
+    /// Builds a tree on the threads of `join`.
+    ///
+    /// # Panics
+    /// If the memory does not suffice.
+    #[must_use]
+    pub fn with(bounds: Vec<LightBound>, join: &impl Join) -> Self {
+        let mut nodes = vec![Node8::default(); LightTree::nodes_for(bounds.len())];
+        let mut places = vec![0; bounds.len()];
+        LightTree::build_with(&bounds, &mut nodes, &mut places, join).expect("there is enough memory");
+        Self { bounds, nodes, places }
+    }
+    /// The tree of lamps, as a renderer states them.
+    #[must_use]
+    pub fn of(lamps: &[Lamp]) -> Self {
+        Self::new(lamps.iter().map(Lamp::bound).collect())
+    }
+    /// The tree.
+    #[must_use]
+    pub fn tree(&self) -> LightTree<'_> {
+        LightTree::from_buffers(&self.nodes, &self.places)
+    }
+    /// The choice at a place.
+    #[must_use]
+    pub fn at(&self, (p, n): Place) -> TreeAt<'_, f32> {
+        self.tree().at(p.into(), n.into())
+    }
+    /// The pmf of a light at a place.
+    #[must_use]
+    pub fn pmf(&self, place: Place, light: u32) -> f32 {
+        self.at(place).pmf(light)
+    }
+
+    /// The shares of the node, which sum to the whole, or are all 0.
+    fn shares(&self, at: &TreeAt<f32>, node: u32) -> [(u32, TreeChild); 8] {
+        let shares = at.shares(0, node);
+        let sum: u32 = shares.iter().map(|(units, _)| *units).sum();
+        assert!(sum == 0 || sum == WHOLE, "the shares of node {node} sum to {sum}: {shares:?}");
+        for (units, child) in shares {
+            assert!(units == 0 || child != TreeChild::Nothing, "node {node} has no such child: {shares:?}");
+        }
+        shares
+    }
+
+    /// **Exact**: the probabilities of all lights and of none sum to 1 without any rounding, and each light's pmf is its own, rounded.
+    /// Returns the lights that can be chosen, and the probability that none is.
+    ///
+    /// # Panics
+    /// If that is not so.
+    #[must_use]
+    pub fn exact(&self, place: Place) -> (Vec<Reached>, f64) {
+        let at = self.at(place);
+        let (mut sum, mut none): ([Digits; 2], f64) = ([vec![0; LEVELS + 2], vec![0; LEVELS + 2]], 0.0);
+        let (mut reached, mut todo) = (Vec::new(), vec![(0, vec![1_u64])]);
+        let mut add = |which: usize, mass: &[u64]| sum[which].iter_mut().zip(mass).for_each(|(to, digit)| *to += digit);
+        while let Some((node, mass)) = todo.pop() {
+            let levels = mass.len();
+            assert!(levels <= LEVELS, "{levels} levels");
+            let shares = self.shares(&at, node);
+            if shares.iter().all(|(units, _)| *units == 0) {
+                add(0, &mass);
+                none += value(&mass);
+            }
+            for (units, child) in shares.into_iter().filter(|(units, _)| *units > 0) {
+                let mass = times(&mass, units);
+                match child {
+                    TreeChild::Light(light) => {
+                        add(1, &mass);
+                        let probability = value(&mass);
+                        let pmf = f64::from(at.pmf(light));
+                        let least = probability.max(f64::from(f32::MIN_POSITIVE));
+                        let rounding = 1e-7 * levels as f64 * least;
+                        assert!(
+                            (pmf - least).abs() <= rounding,
+                            "light {light}: pmf {pmf:e}, {probability:e}: {place:?}"
+                        );
+                        reached.push(Reached { light, pmf: probability, levels });
+                    }
+                    TreeChild::Node(node) => todo.push((node, mass)),
+                    TreeChild::Nothing => {}
+                }
+            }
+        }
+        let [none_digits, some] = sum;
+        let mut all: Digits = none_digits.iter().zip(&some).map(|(a, b)| a + b).collect();
+        for i in (1..all.len()).rev() {
+            all[i - 1] += all[i] >> 16;
+            all[i] &= 0xffff;
+        }
+        assert!(all[0] == 1 && all[1..].iter().all(|digit| *digit == 0), "Σ pmf: {all:?} at {place:?}");
+        let mut lights: Vec<u32> = reached.iter().map(|reached| reached.light).collect();
+        lights.sort_unstable();
+        assert!(lights.windows(2).all(|two| two[0] < two[1]), "a light has two places");
+        // the others have none; of many lights, some are looked at
+        let count = self.bounds.len() as u32;
+        for light in (0..count).step_by(1 + self.bounds.len() / 2000) {
+            let pmf = at.pmf(light);
+            assert_eq!(pmf > 0.0, lights.binary_search(&light).is_ok(), "light {light} at {place:?}: pmf {pmf:e}");
+        }
+        assert_eq!([at.pmf(count), at.pmf(NO_LIGHT)], [0.0; 2]);
+        (reached, none)
+    }
+
+    /// **One pmf** and **lane-identical**: the chosen light's pmf is the one that is evaluated, and every width gives the same bits.
+    ///
+    /// # Panics
+    /// If that is not so.
+    pub fn choices(&self, places: &[Place; 8], words: &[[u32; 2]; 8], us: &[f32; 8]) {
+        let tree = self.tree();
+        let [p, n] = [vectors_of::<f32x8>(|i| places[i].0), vectors_of(|i| places[i].1)];
+        let eight = tree.at(p, n);
+        let [p, n] = [vectors_of::<f32x4>(|i| places[i].0), vectors_of(|i| places[i].1)];
+        let four = tree.at(p, n);
+        let by_bits = (
+            eight.choose_by([0, 1].map(|k| u32x8::from_fn(|i| words[i][k]))),
+            four.choose_by([0, 1].map(|k| u32x4::from_fn(|i| words[i][k]))),
+        );
+        let u = [lanes_of::<f32x8>(|i| f64::from(us[i]))];
+        let by_u = (eight.choose(u[0]), four.choose(lanes_of::<f32x4>(|i| f64::from(us[i]))));
+        let (pmf_of_bits, pmf_of_u) = (eight.pmf(by_bits.0.index), eight.pmf(by_u.0.index));
+        for i in 0..8 {
+            let one = self.at(places[i]);
+            for (eight, four, evaluated, one) in [
+                (&by_bits.0, &by_bits.1, pmf_of_bits, one.choose_by(words[i])),
+                (&by_u.0, &by_u.1, pmf_of_u, one.choose(us[i])),
+            ] {
+                self.one_choice(places[i], one);
+                let bits = figures(&one, 0);
+                assert_eq!(bits, figures(eight, i), "lane {i} of 8 at {places:?}");
+                assert!(i >= 4 || bits == figures(four, i), "lane {i} of 4 at {places:?}");
+                assert_eq!(evaluated.lane(i).to_bits(), one.pmf.to_bits(), "lane {i} at {places:?}");
+            }
+        }
+    }
+    fn one_choice(&self, place: Place, choice: Choice<f32>) {
+        let Choice { index, pmf, u } = choice;
+        let evaluated = self.pmf(place, index);
+        assert_eq!(evaluated.to_bits(), pmf.to_bits(), "two pmfs: {choice:?} {evaluated:e} at {place:?}");
+        assert!((0.0..1.0).contains(&u) && (0.0..=1.0).contains(&pmf), "{choice:?} at {place:?}");
+        assert_eq!(pmf == 0.0, index == NO_LIGHT, "{choice:?} at {place:?}");
+        assert!(index == NO_LIGHT || (index as usize) < self.bounds.len(), "{choice:?} at {place:?}");
+    }
+
+    /// **No light is lost**: a light with a sample that contributes has a pmf. Returns whether this one has.
+    ///
+    /// # Panics
+    /// If it has a sample, but no pmf.
+    pub fn law(&self, (p, n): Place, light: usize, lamp: &Lamp, u: [f32; 2]) -> bool {
+        let power = self.bounds[light].power;
+        if !(power > 0.0 && power < f32::INFINITY) {
+            return false;
+        }
+        let Some(sample) = lamp.contribution(p, n, u) else { return false };
+        let pmf = self.pmf((p, n), light as u32);
+        assert!(pmf > 0.0, "light {light} is lost at {p:?} over {n:?}: {lamp:?}, {:?}, {sample:?}", self.bounds[light]);
+        true
+    }
+
+    /// The same tree adapted to lights that have moved.
+    ///
+    /// # Panics
+    /// If the number of lights differs.
+    #[must_use]
+    pub fn refitted(&self, bounds: Vec<LightBound>) -> Self {
+        let mut nodes = self.nodes.clone();
+        LightTree::refit(&bounds, &mut nodes, &self.places).expect("as many lights as before");
+        Self { bounds, nodes, places: self.places.clone() }
+    }
+
+    /// **Threshold-free**: lengths times a power of two change no bit.
+    ///
+    /// # Panics
+    /// If they do.
+    pub fn scale(&self, places: &[Place], words: &[[u32; 2]], exponent: i32) {
+        let factor = 2.0_f32.powi(exponent);
+        let bound =
+            |l: &LightBound| LightBound { center: l.center.map(|x| x * factor), radius: l.radius * factor, ..*l };
+        let other = Self::new(self.bounds.iter().map(bound).collect());
+        for (&(p, n), &words) in places.iter().zip(words) {
+            let one = self.at((p, n)).choose_by(words);
+            let scaled = other.at((p.map(|x| x * factor), n)).choose_by(words);
+            assert_eq!(figures(&one, 0), figures(&scaled, 0), "2^{exponent}, at {p:?} over {n:?}: {one:?}, {scaled:?}");
+        }
+    }
+}
+
+/// The bits of a lane of a choice.
+pub fn figures<R: Real>(choice: &Choice<R>, lane: usize) -> (u32, u64, u64) {
+    let [pmf, u] = [choice.pmf, choice.u].map(|x| x.lane_f64(lane).to_bits());
+    (choice.index.lane(lane), pmf, u)
+}
