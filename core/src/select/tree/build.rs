@@ -84,11 +84,12 @@ impl Bin {
             self.normal[k] += other.normal[k];
         }
     }
-    fn of(light: &LightBound) -> Self {
+    fn of(light: &LightBound, units: Units) -> Self {
         // a light without power has a place, too
-        let power = light.power.clamped(f32::MIN_POSITIVE, f32::MAX);
+        let power = (light.power * units.power).clamped(f32::MIN_POSITIVE, f32::MAX);
         let normal = if light.two_sided { [0.0; 3] } else { light.normal.map(|x| x * power) };
-        Self { count: 1, power, low: light.center, high: light.center, normal }
+        let center = light.center.map(|x| x * units.length);
+        Self { count: 1, power, low: center, high: center, normal }
     }
     /// Squared diagonal of the box.
     fn squared(&self) -> f32 {
@@ -108,7 +109,7 @@ impl<J: Join> Build<'_, J> {
     /// Coordinate 0 to 2 of a light's centre, or 3 to 5 of its normal.
     fn key(&self, index: u32, axis: usize) -> f32 {
         let light = self.light(index);
-        if axis < 3 { light.center[axis] } else { light.normal[axis - 3] }
+        if axis < 3 { light.center[axis] * self.units.length } else { light.normal[axis - 3] }
     }
 
     /// Builds the nodes of a range into the first of `nodes`, whose index is `index`.
@@ -200,7 +201,7 @@ impl<J: Join> Build<'_, J> {
         let count = order.len();
         let (mut low, mut high, mut all) = ([f32::INFINITY; 6], [f32::NEG_INFINITY; 6], Bin::EMPTY);
         for &light in &*order {
-            let bin = Bin::of(self.light(light));
+            let bin = Bin::of(self.light(light), self.units);
             all.add(&bin);
             for (axis, x) in bin.low.into_iter().chain(self.light(light).normal).enumerate() {
                 low[axis] = low[axis].lesser(x);
@@ -225,7 +226,7 @@ impl<J: Join> Build<'_, J> {
             let mut bins = [Bin::EMPTY; BINS];
             for &light in &*order {
                 let bin = (self.key(light, axis) - low[axis]) * scale;
-                bins[(bin as usize).min(BINS - 1)].add(&Bin::of(self.light(light)));
+                bins[(bin as usize).min(BINS - 1)].add(&Bin::of(self.light(light), self.units));
             }
             let mut after = [Bin::EMPTY; BINS + 1];
             for k in (0..BINS).rev() {

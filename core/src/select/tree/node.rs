@@ -3,7 +3,7 @@
 use super::part::{Part, SMALL};
 use crate::real::{Mask, Real, Uint};
 use crate::vector::Vec3;
-use crate::{f32x8, u32x8};
+use wide::{f32x8, u32x8};
 
 /// Shares of a node are in units of 2⁻¹⁶.
 pub(super) const WHOLE: u32 = 1 << 16;
@@ -18,6 +18,8 @@ const BOUND: f64 = 1.0 / 32.0;
 const SMOOTH: f64 = core::f64::consts::FRAC_2_PI;
 /// Cosines below which a bound is negative in spite of all rounding.
 const MARGIN: f64 = 1.0 / 16_384.0;
+/// Sums of weights below this have no reciprocal that can be multiplied by [`WHOLE`].
+const LEAST: f32 = 1e-33;
 /// The standard deviation is stored as a multiple of this times the reach, which exceeds √3.
 const DEVIATION: f64 = 1.75;
 /// Of the byte of the cone: both sides emit.
@@ -205,7 +207,7 @@ impl Node8 {
         let sum = |w: [f32; 8]| ((w[0] + w[1]) + (w[2] + w[3])) + ((w[4] + w[5]) + (w[6] + w[7]));
         let lanes = <f32x8 as Real>::Mask::from_bits(bright);
         let (mut weight, mut total) = (weight, sum(weight.to_array()));
-        if !(f32::MIN_POSITIVE..f32::INFINITY).contains(&total) {
+        if !(LEAST..f32::INFINITY).contains(&total) {
             weight = f32x8::lit(1.0).keep(lanes);
             total = sum(weight.to_array()).greater(1.0);
         }

@@ -37,7 +37,7 @@ pub(super) struct Part {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Units {
     pub(super) length: f32,
-    power: f32,
+    pub(super) power: f32,
 }
 
 fn sane(light: &LightBound) -> bool {
@@ -77,12 +77,16 @@ impl Part {
         let power = f64::from(light.power * units.power).greater(SMALL) * core::f64::consts::FRAC_1_PI;
         let normal = light.normal.map(f64::from);
         let length = length(normal);
+        // the centre of a light with an extent may be rounded
+        let rounded =
+            if light.radius > 0.0 { center.map(square).iter().sum::<f64>().sqrt() * (1.0 / 16_777_216.0) } else { 0.0 };
         let extent = |half: [f64; 3]| {
-            let end = |sign: f64| core::array::from_fn(|k| center[k] + sign * half[k]);
+            let end = |sign: f64| core::array::from_fn(|k| center[k] + sign * (half[k] + rounded));
             (end(-1.0), end(1.0))
         };
         let variance = radius * radius * (1.0 / 3.0);
-        if !(length > 0.0 && length < f64::INFINITY) {
+        // the cone of a spot light beyond a hemisphere bounds nothing
+        if !(length > 0.0 && length < f64::INFINITY && light.cos_cone >= 0.0) {
             let (low, high) = extent([radius; 3]);
             let power = power * (0.25 / ISOTROPIC);
             return Self { center, low, high, variance, power, spread: 1.0, offset: radius, ..Self::default() };
@@ -92,7 +96,7 @@ impl Part {
         let (low, high) = extent(normal.map(|m| radius * ((1.0 - m * m).greater(0.0).sqrt() + 1e-6).lesser(1.0)));
         let cone = f64::from(light.cos_cone).clamped(0.0, 1.0);
         let power = if cone > 0.0 { power * 0.5 / (1.0 - cone).greater(SMALL) } else { power };
-        let (offset, two_sided) = (radius * 1e-6, light.two_sided);
+        let (offset, two_sided) = (radius * 1e-6 + rounded, light.two_sided);
         let spread = if two_sided { 2.0 } else { 0.0 };
         Self { center, low, high, variance, power, normal, spread, offset, cone, two_sided }
     }
