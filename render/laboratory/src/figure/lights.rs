@@ -102,8 +102,8 @@ fn account(stage: &Stage, moments: &[Moments], times: &[Times; TIMED.len()]) -> 
         let along = |v: [f32; 3]| (0..3).map(|k| to[k] * v[k]).sum::<f32>();
         let distance = along(to).sqrt();
         lines.push(format!(
-            "  {:.0} % of the excess at {:.3?}, normal {:.3?}: {:.2} × exhaustive; light {} has {:.0} % of the moment, pmf {:.2e} for {:.2e}, \
-             distance {:.3} with radius {:.3}, cosines {:.3} and {:.3}",
+            "  {:.0} % of the excess at {:.3?}, normal {:.3?}: {:.2} × exhaustive; light {} has {:.0} % of the moment, pmf {:.2e} for \
+             {:.2e}, distance {:.3} with radius {:.3}, cosines {:.3} and {:.3}",
             100.0 * excess(m) / all,
             m.point.p,
             m.point.n,
@@ -140,9 +140,10 @@ impl Studio<'_> {
 
     pub(super) fn lights(&self) -> Result<Finding, Box<dyn Error>> {
         let mut headline = vec![
-            "One sample of one light with a shadow ray, at diffuse surfaces that the camera sees; the moments are sums over all lights. Times \
-             are nanoseconds of a lane at f32x8, medians of alternating rounds on one thread; the gain is the ratio of variance × (choose + \
-             sample + shadow); lost are lights that contribute although their pmf is 0."
+            "One sample of one light with a shadow ray, at diffuse surfaces that the camera sees; the moments are sums over all \
+             lights. Times \
+             are nanoseconds of a lane at f32x8, medians of alternating rounds on one thread; the gain is the ratio of variance × \
+             (choose + sample + shadow); lost are lights that contribute although their pmf is 0."
                 .to_owned(),
         ];
         let mut charts = Vec::new();
@@ -159,15 +160,15 @@ impl Studio<'_> {
             headline.extend(lines);
             charts.push(Svg::chart(&bars.draw()));
         }
-        let caption = "Further right is better. The published tree is that of Conty Estevez and Kulla (2018). Variance is that of one sample \
-                       of radiance, over random points that the camera sees, exact in the choice of the light.";
+        let caption = "Further right is better. The published tree is that of Conty Estevez and Kulla (2018). Variance is that of one \
+        sample of radiance, over random points that the camera sees, exact in the choice of the light.";
         Ok(Finding { svg: Svg::column(charts).captioned(&[caption.to_owned()]), headline })
     }
 
     pub(super) fn light_tree_scaling(&self) -> Finding {
         let mut headline = vec![
-            "Windows on houses; seconds to build on one thread and on all; nanoseconds of a lane at f32x8; the published tree is built on all \
-             threads."
+            "Windows on houses; seconds to build on one thread and on all; nanoseconds of a lane at f32x8; the published tree is \
+             built on all threads."
                 .to_owned(),
             format!(
                 "{:>9} {:>8} {:>8} {:>12} {:>7} {:>7} {:>7} | {:>8} {:>12} {:>7} {:>7}",
@@ -214,10 +215,11 @@ impl Studio<'_> {
 
     pub(super) fn light_tree_nodes(&self) -> Result<Finding, Box<dyn Error>> {
         let mut headline = vec![
-            "Children of random nodes, seen from random points at a distance in units of the node's radius and an elevation of its centre above \
+            "Children of random nodes, seen from random points at a distance in units of the node's radius and an elevation of its \
+             centre above \
              the horizon. Below: the published importance Φ cosθ'ᵢ cosθ'/d² is less than what the child contributes. Zero: a child that \
-             contributes has no share. Variance: of a choice among the children, relative to the squared sum. Quantiles of share/true share, \
-             weighted by the true share."
+             contributes has no share. Variance: of a choice among the children, relative to the squared sum. Quantiles of share/true \
+             share, weighted by the true share."
                 .to_owned(),
         ];
         let mut rows = Vec::new();
@@ -248,7 +250,8 @@ impl Studio<'_> {
                 let [o1, o5, o50] = cell.quantiles(1, [0.01, 0.05, 0.5]);
                 let least = cell.ratios[1].iter().map(|r| r.0).fold(f64::INFINITY, f64::min);
                 format!(
-                    "{label:12} {:8} {:7.2} {:5} {:5} | {:8.4} {:8.4} | {p1:7.3} {p5:7.3} {p50:7.3} | {o1:7.3} {o5:7.3} {o50:7.3} {least:7.4}",
+                    "{label:12} {:8} {:7.2} {:5} {:5} | {:8.4} {:8.4} | {p1:7.3} {p5:7.3} {p50:7.3} | {o1:7.3} {o5:7.3} {o50:7.3} \
+                     {least:7.4}",
                     cell.children,
                     100.0 * cell.below as f64 / cell.children as f64,
                     cell.zero[0],
@@ -286,8 +289,8 @@ impl Studio<'_> {
             let entropy = stage.entropy(&points);
             let bits = |sums: &[f64]| sums.iter().map(|x| format!("{x:7.3}")).collect::<String>();
             headline.push(format!(
-                "  bits lost at {} points that the camera sees, by level:{}; by the node's distance over its radius, 0.5 1 2 4 8 16 more:{}; \
-                 nodes of lights only:{}",
+                "  bits lost at {} points that the camera sees, by level:{}; by the node's distance over its radius, 0.5 1 2 4 8 16 \
+                 more:{}; nodes of lights only:{}",
                 points.len(),
                 bits(&entropy.levels),
                 bits(&entropy.distances),
@@ -308,9 +311,10 @@ impl Studio<'_> {
         }
         let caption = format!(
             "Rows from top to bottom are distances {DISTANCES:?} in units of the node's radius, columns from left to right elevations \
-             {ELEVATIONS:?} in degrees. Bound too low: the fraction of children whose published importance is less than what they contribute, \
-             black 0, pale yellow 1. Variances of a choice among the children relative to the squared sum, black 0.001 or less, pale yellow 10 \
-             or more."
+             {ELEVATIONS:?} in degrees. Bound too low: the fraction of children whose published importance is less than what they \
+             contribute, \
+             black 0, pale yellow 1. Variances of a choice among the children relative to the squared sum, black 0.001 or less, pale \
+             yellow 10 or more."
         );
         Ok(Finding { svg: Svg::column(rows).captioned(&[caption]), headline })
     }

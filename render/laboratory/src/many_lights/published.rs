@@ -1,8 +1,8 @@
 //! The binary light tree of Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", Proc. ACM on
 //! Computer Graphics and Interactive Techniques 1(2), 2018, without splitting: one light is chosen by one random number.
 //!
-//! The bound of a cluster, the importance and the cost of a split are those of the paper; where it leaves a choice, this is as in "Physically
-//! Based Rendering", 4th ed., 12.6.3. Eight lanes descend together, and cosines and sines take the place of angles.
+//! The bound of a cluster, the importance and the cost of a split are those of the paper; where it leaves a choice, this is as in
+//! "Physically Based Rendering", 4th ed., 12.6.3. Eight lanes descend together, and cosines and sines take the place of angles.
 
 use etendue::select::{Choice, NO_LIGHT};
 use etendue::{Mask, Real, Vec3, f32x8, u32x8};
