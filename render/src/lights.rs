@@ -293,6 +293,10 @@ impl Lights {
         own.shapes = Arc::clone(shapes);
         Ok(own)
     }
+    /// Bounds of the lights of a scene that have an area, in their order.
+    pub fn bounds(scene: &Scene) -> Vec<LightBound> {
+        area_lights(scene).iter().map(|(light, power)| light.bound(*power)).collect()
+    }
     /// Number of lights.
     pub fn len(&self) -> usize {
         self.unpacked.len() + self.packed.len()

@@ -4,6 +4,7 @@ mod certificates;
 mod convergence;
 mod images;
 mod integrals;
+mod lights;
 mod shapes;
 mod sheet;
 mod studio;
@@ -33,6 +34,9 @@ pub struct Options {
     /// Seed of the random numbers; different seeds give independent figures
     #[arg(long, default_value_t = 0)]
     pub seed: u64,
+    /// Greatest number of lights in light-tree-scaling; 10000000 takes a minute and 1 GB of memory
+    #[arg(long, default_value_t = 1_000_000)]
+    pub most_lights: usize,
 }
 
 /// The figures.
@@ -66,6 +70,12 @@ pub enum Name {
     Defocus,
     /// Where geometry proves that a light is lit, dark, or behind few blockers, and where it must be sampled
     Certificates,
+    /// Variance and time of a choice among 10³ to 10⁶ lights
+    Lights,
+    /// A tree of lights as their number grows
+    LightTreeScaling,
+    /// What the importance of the nodes of a tree of lights is worth
+    LightTreeNodes,
     /// All figures
     All,
 }
@@ -87,6 +97,9 @@ impl Studio<'_> {
             Name::Vignetting => self.vignetting(),
             Name::Defocus => self.defocus(),
             Name::Certificates => self.certificates(),
+            Name::Lights => self.lights(),
+            Name::LightTreeScaling => Ok(self.light_tree_scaling()),
+            Name::LightTreeNodes => self.light_tree_nodes(),
             Name::All => Err("all is not one figure".into()),
         }
     }
@@ -104,7 +117,13 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         Name::All => Name::value_variants().iter().copied().filter(|n| *n != Name::All).collect(),
         one => vec![one],
     };
-    let studio = Studio { output: &options.output, threads: options.threads, seed: options.seed, stop: &stop };
+    let studio = Studio {
+        output: &options.output,
+        threads: options.threads,
+        seed: options.seed,
+        most_lights: options.most_lights,
+        stop: &stop,
+    };
     for name in names {
         let title = etendue_render::options::name(name);
         let finding = pool.install(|| studio.draw(name).map_err(|e| e.to_string()))?;

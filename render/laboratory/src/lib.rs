@@ -4,6 +4,7 @@
 //! - [`atlas`]: greatest errors of every shape over size, elevation, distance and aspect ratio, beside textbook formulas.
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`figure`]: figures about light sampling, with the numbers behind them.
+//! - [`many_lights`]: choices among many lights, for the figures about them.
 //! - [`selftest`]: images of one scene by all techniques and samplers, which must agree.
 
 pub mod atlas;
@@ -12,4 +13,5 @@ pub mod cost;
 pub mod figure;
 mod hash;
 mod interrupt;
+pub mod many_lights;
 pub mod selftest;

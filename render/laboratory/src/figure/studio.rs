@@ -19,6 +19,8 @@ pub(super) struct Studio<'a> {
     pub(super) threads: usize,
     /// Seed of the random numbers.
     pub(super) seed: u64,
+    /// Greatest number of lights of a tree.
+    pub(super) most_lights: usize,
     /// Set by Ctrl-C.
     pub(super) stop: &'a Arc<AtomicBool>,
 }
