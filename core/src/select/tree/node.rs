@@ -1,6 +1,6 @@
 //! Nodes of eight children: how they are packed, and what share of the samples each child receives.
 
-use super::part::{Part, SMALL};
+use super::part::{Part, SMALL, WEAK};
 use crate::real::{Mask, Real, Uint};
 use crate::vector::Vec3;
 use wide::{f32x8, u32x8};
@@ -20,8 +20,8 @@ const SMOOTH: f64 = core::f64::consts::FRAC_2_PI;
 const MARGIN: f64 = 1.0 / 16_384.0;
 /// Sums of weights below this have no reciprocal that can be multiplied by [`WHOLE`].
 const LEAST: f32 = 1e-33;
-/// The standard deviation is stored as a multiple of this times the reach, which exceeds √3.
-const DEVIATION: f64 = 1.75;
+/// The least mean of squared distances, relative to the sum of squared distance and variance.
+const NEAR: f64 = 0.25;
 /// Of the byte of the cone: both sides emit.
 const TWO_SIDED: u32 = 255;
 
@@ -38,8 +38,10 @@ pub struct Node8 {
     bounds: [u32; 8],
     /// Mean normal, and the greatest distance from it.
     normal: [u32; 8],
-    /// Standard deviation of positions, cosine of the cone, and 1 − squared length of the mean normal.
+    /// Standard deviations of the positions, relative to the reach, and cosine of the cone.
     spread: [u32; 8],
+    /// Covariances of the normals, xx, yy, zz, xy and xz, yz.
+    turns: [[u32; 8]; 2],
     pub(super) child: [u32; 8],
     /// Whether no child is a spot light or emits from both sides.
     plain: bool,
@@ -52,14 +54,20 @@ pub struct Node8 {
 pub(super) struct Place {
     p: Vec3<f32>,
     n: Vec3<f32>,
-    /// |n|, component by component.
+    /// |n| and n², component by component.
     slope: Vec3<f32>,
+    squares: Vec3<f32>,
 }
 
 impl Place {
     #[inline(always)]
     pub(super) fn new(p: Vec3<f32>, n: Vec3<f32>) -> Self {
-        Self { p, n, slope: Vec3::new(n.x.abs(), n.y.abs(), n.z.abs()) }
+        Self {
+            p,
+            n,
+            slope: Vec3::new(n.x.abs(), n.y.abs(), n.z.abs()),
+            squares: Vec3::new(n.x * n.x, n.y * n.y, n.z * n.z),
+        }
     }
 }
 
@@ -72,6 +80,7 @@ impl Default for Node8 {
             bounds: [0; 8],
             normal: [0; 8],
             spread: [0; 8],
+            turns: [[0; 8]; 2],
             child: [NONE; 8],
             plain: true,
             link: 0,
@@ -109,19 +118,24 @@ impl Node8 {
         self.bounds[slot] = x | y << 8 | z << 16 | byte(part.offset * 0.5) << 24;
         let mean = part.normal.map(|x| ((x * 127.0).round_ties_even() + 128.0).clamped(0.0, 255.0) as u32);
         let [x, y, z] = mean;
-        let deviation = (part.variance.sqrt() * relative / DEVIATION).round_ties_even().clamped(0.0, 255.0) as u32;
         let mean = mean.map(|byte| (f64::from(byte) - 128.0) / 127.0);
         let off: f64 = (0..3).map(|k| part.normal[k] - mean[k]).map(|x| x * x).sum();
         let spread = ceiling((part.spread + off.sqrt() + 1e-6) * 127.5, 255.0);
         self.normal[slot] = x | y << 8 | z << 16 | spread << 24;
         let cone = if part.two_sided { TWO_SIDED } else { (part.cone * 254.0).clamped(0.0, 253.0) as u32 };
-        let turned = (1.0 - part.normal.iter().map(|x| x * x).sum::<f64>()).clamped(0.0, 1.0);
-        self.spread[slot] = deviation | cone << 8 | ((turned * 255.0).round_ties_even() as u32) << 16;
+        let [xx, yy, zz] = [0, 1, 2].map(|k| (part.turns[k] * 255.0).round_ties_even().clamped(0.0, 255.0) as u32);
+        let [xy, xz, yz] = [3, 4, 5]
+            .map(|k| (part.turns[k] * 254.0).round_ties_even().clamped(-127.0, 127.0) + 128.0)
+            .map(|x| x as u32);
+        let [x, y, z] = part.variances.map(|x| (x.sqrt() * relative).round_ties_even().clamped(0.0, 255.0) as u32);
+        self.spread[slot] = x | y << 8 | z << 16 | cone << 24;
+        self.turns[0][slot] = xx | yy << 8 | zz << 16 | xy << 24;
+        self.turns[1][slot] = xz | yz << 8;
         self.plain &= part.power <= 0.0 || cone == 0;
         self.center.iter_mut().zip(center).for_each(|(to, x)| to[slot] = x);
         self.reach[slot] = reach as f32;
         let cone = if part.two_sided { 0.0 } else { f64::from(cone) / 254.0 };
-        self.power[slot] = if part.power > 0.0 { (part.power.greater(SMALL) / (1.0 - cone)) as f32 } else { 0.0 };
+        self.power[slot] = if part.power > 0.0 { (part.power.greater(WEAK) / (1.0 - cone)) as f32 } else { 0.0 };
     }
 
     /// A child, with the bounds as they are stored.
@@ -132,18 +146,25 @@ impl Node8 {
         let half = three(&self.bounds).map(|x| x * reach * (1.0 / 255.0));
         let normal = three(&self.normal).map(|x| (x - 128.0) / 127.0);
         let spread = byte(&self.normal, 3) * (1.0 / 127.5);
-        let deviation = byte(&self.spread, 0) * reach * (DEVIATION / 255.0);
-        let two_sided = byte(&self.spread, 1) as u32 == TWO_SIDED;
-        let cone = if two_sided { 0.0 } else { byte(&self.spread, 1) / 254.0 };
+        let two_sided = byte(&self.spread, 3) as u32 == TWO_SIDED;
+        let cone = if two_sided { 0.0 } else { byte(&self.spread, 3) / 254.0 };
         let end = |a: [f64; 3], sign: f64, b: [f64; 3]| core::array::from_fn(|k| a[k] + sign * b[k]);
         Part {
             center,
             low: end(center, -1.0, half),
             high: end(center, 1.0, half),
-            variance: deviation * deviation,
+            variances: three(&self.spread).map(|x| x * reach * (1.0 / 255.0)).map(|x| x * x),
             power: f64::from(self.power[slot]) * (1.0 - cone),
             normal,
             spread,
+            turns: [
+                byte(&self.turns[0], 0) / 255.0,
+                byte(&self.turns[0], 1) / 255.0,
+                byte(&self.turns[0], 2) / 255.0,
+                (byte(&self.turns[0], 3) - 128.0) / 254.0,
+                (byte(&self.turns[1], 0) - 128.0) / 254.0,
+                (byte(&self.turns[1], 1) - 128.0) / 254.0,
+            ],
             offset: byte(&self.bounds, 3) * reach * (2.0 / 255.0),
             cone,
             two_sided,
@@ -158,35 +179,47 @@ impl Node8 {
     #[inline(always)]
     fn weigh(&self, at: &Place) -> (f32x8, u32) {
         let lit = f32x8::lit;
-        let (zero, one) = (lit(0.0), lit(1.0));
-        let [p, n, slope] = [at.p, at.n, at.slope].map(Vec3::<f32x8>::splat);
+        let zero = lit(0.0);
+        let [p, n, slope, squares] = [at.p, at.n, at.slope, at.squares].map(Vec3::<f32x8>::splat);
         let [x, y, z] = self.center.map(f32x8::from);
         let v = Vec3::new(x, y, z) - p;
         let three = |word: u32x8| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
-        let (bounds, normals, spreads) = (u32x8::from(self.bounds), u32x8::from(self.normal), u32x8::from(self.spread));
+        let (bounds, normals) = (u32x8::from(self.bounds), u32x8::from(self.normal));
+        let (spreads, turns) = (u32x8::from(self.spread), self.turns.map(u32x8::from));
         let unit = f32x8::from(self.reach) * lit(1.0 / 255.0);
-        // the distance, to a point at the mean squared distance
-        let deviation = byte(spreads, 0) * unit;
-        let variance = deviation * deviation * lit(DEVIATION * DEVIATION / 3.0);
-        let (smooth, squared) = (variance * lit(SMOOTH), v.length_squared() + variance + lit(SMALL * SMALL));
+        // variances of the positions along the axes are these times `scale`
+        let (half, deviations, scale) = (three(bounds), three(spreads), unit * unit);
+        let varied = Vec3::new(deviations.x * deviations.x, deviations.y * deviations.y, deviations.z * deviations.z);
+        let variance = (varied.x + varied.y + varied.z) * scale;
+        let square = Vec3::new(v.x * v.x, v.y * v.y, v.z * v.z);
+        let squared = square.x + square.y + square.z + lit(SMALL * SMALL);
+        // what 1/d² is on average, to the second order of the extent
+        let along = varied.dot(square) * scale;
+        let mean = (squared + variance) - lit(4.0) * along / variance.mul_add(lit(0.01), squared);
+        let mean = mean.greater((squared + variance) * lit(NEAR));
+        let squared = variance.mul_add(lit(1.0 / 3.0), squared);
         let distance = squared.sqrt();
         // all cosines are multiplied by the distance, so that the square roots do not wait for each other
         let above = v.dot(n);
-        let estimate = above + above.mul_add(above, smooth).sqrt();
-        let bound = lit(MARGIN).mul_add(distance, three(bounds).dot(slope).mul_add(unit, above)).lesser(distance);
+        let estimate = above + above.mul_add(above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
+        let bound = lit(MARGIN).mul_add(distance, half.dot(slope).mul_add(unit, above)).lesser(distance);
         let bias = lit(-128.0 / 127.0);
         let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
         let ahead = -v.dot(normal);
-        let turned = (byte(spreads, 2) * lit(SMOOTH / 3.0 / 255.0)).mul_add(squared, smooth);
+        let [xy, xz, yz] = [byte(turns[0], 3), byte(turns[1], 0), byte(turns[1], 1)].map(|x| x - lit(128.0));
+        let mixed = xy * (v.x * v.y) + xz * (v.x * v.z) + yz * (v.y * v.z);
+        let turned = three(turns[0]).dot(square) * lit(SMOOTH / 255.0) + mixed * lit(2.0 * SMOOTH / 254.0);
+        let turned = variance.mul_add(lit(SMOOTH / 3.0), turned.greater(zero));
         let spread = byte(normals, 3).mul_add(lit(1.0 / 127.5), lit(MARGIN));
         let mut front = spread.mul_add(distance, (byte(bounds, 3) + byte(bounds, 3)).mul_add(unit, ahead));
         let facing = if self.plain {
             ahead + ahead.mul_add(ahead, turned).sqrt()
         } else {
-            let top = byte(spreads, 1);
+            let top = byte(spreads, 3);
             let both = top.gt(lit(254.0));
             let cone = (top * lit(1.0 / 254.0)).keep(!both);
-            let near = distance - (deviation + lit(255.0) * unit) * lit(DEVIATION);
+            // no position is nearer than this
+            let near = distance - lit(3.5 * 255.0) * unit;
             front = (-near).mul_add(cone, front);
             let y = ahead - cone * distance;
             let root = y.mul_add(y, turned).sqrt();
@@ -195,9 +228,8 @@ impl Node8 {
         let front = front.lesser(distance);
         let power = f32x8::from(self.power);
         let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
-        let inverse = one / squared;
-        let cosines = (bound * front).mul_add(lit(4.0 * BOUND), estimate * facing) * inverse;
-        ((power * inverse * cosines).keep(bright), bright.bits())
+        let cosines = (bound * front).mul_add(lit(4.0 * BOUND), estimate * facing);
+        ((power * cosines / (mean * squared)).keep(bright), bright.bits())
     }
 
     /// The children's shares at a point of a surface.

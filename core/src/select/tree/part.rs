@@ -3,8 +3,13 @@
 use crate::real::Real;
 use crate::select::LightBound;
 
-/// The least power relative to the strongest light, and the least extent of a light relative to that of all.
-pub(super) const SMALL: f64 = 1.0 / (1_u64 << 40) as f64;
+/// The least extent of a light relative to that of all.
+pub(super) const SMALL: f64 = 1.0 / (1_u64 << 30) as f64;
+/// The least power relative to the strongest light.
+pub(super) const WEAK: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// The places of a symmetric matrix.
+pub(super) const PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 
 /// The mean cosine that the importance has for lights without a direction; see `F` in [`Node8::weigh`](super::node::Node8).
 const ISOTROPIC: f64 = 0.230_329_433;
@@ -17,12 +22,14 @@ pub(super) struct Part {
     /// A box around all lights.
     pub(super) low: [f64; 3],
     pub(super) high: [f64; 3],
-    /// Mean squared distance from the mean position.
-    pub(super) variance: f64,
+    /// Variances of the positions along the axes.
+    pub(super) variances: [f64; 3],
     /// Intensity along the normal.
     pub(super) power: f64,
     /// Mean normal by power; its length is 1 if all are the same, and 0 for lights that emit in all directions.
     pub(super) normal: [f64; 3],
+    /// Covariances of the normals, at [`PLACES`].
+    pub(super) turns: [f64; 6],
     /// The greatest distance of a normal from the mean; 1 for lights that emit in all directions.
     pub(super) spread: f64,
     /// A bound of |(x − centre)·m| over the points x of a light and its normals m.
@@ -74,7 +81,7 @@ impl Part {
         }
         let center = light.center.map(|x| f64::from(x * units.length));
         let radius = f64::from(light.radius.greater(0.0) * units.length).greater(SMALL);
-        let power = f64::from(light.power * units.power).greater(SMALL) * core::f64::consts::FRAC_1_PI;
+        let power = f64::from(light.power * units.power).greater(WEAK) * core::f64::consts::FRAC_1_PI;
         let normal = light.normal.map(f64::from);
         let length = length(normal);
         // the centre of a light with an extent may be rounded
@@ -84,21 +91,25 @@ impl Part {
             let end = |sign: f64| core::array::from_fn(|k| center[k] + sign * (half[k] + rounded));
             (end(-1.0), end(1.0))
         };
-        let variance = radius * radius * (1.0 / 3.0);
         // the cone of a spot light beyond a hemisphere bounds nothing
         if !(length > 0.0 && length < f64::INFINITY && light.cos_cone >= 0.0) {
             let (low, high) = extent([radius; 3]);
             let power = power * (0.25 / ISOTROPIC);
-            return Self { center, low, high, variance, power, spread: 1.0, offset: radius, ..Self::default() };
+            // the disk that a point sees, and all directions
+            let (variances, third) = ([radius * radius * 0.25; 3], 1.0 / 3.0);
+            let turns = [third, third, third, 0.0, 0.0, 0.0];
+            return Self { center, low, high, variances, power, turns, spread: 1.0, offset: radius, ..Self::default() };
         }
         let normal = normal.map(|x| x / length);
         // a disk, whose normal may be rounded
         let (low, high) = extent(normal.map(|m| radius * ((1.0 - m * m).greater(0.0).sqrt() + 1e-6).lesser(1.0)));
         let cone = f64::from(light.cos_cone).clamped(0.0, 1.0);
         let power = if cone > 0.0 { power * 0.5 / (1.0 - cone).greater(SMALL) } else { power };
+        // a square in that disk
+        let variances = normal.map(|m| radius * radius * (1.0 - m * m).greater(0.0) * (1.0 / 6.0));
         let (offset, two_sided) = (radius * 1e-6 + rounded, light.two_sided);
         let spread = if two_sided { 2.0 } else { 0.0 };
-        Self { center, low, high, variance, power, normal, spread, offset, cone, two_sided }
+        Self { center, low, high, variances, power, normal, turns: [0.0; 6], spread, offset, cone, two_sided }
     }
 
     /// A set of lights, from its parts.
@@ -128,12 +139,16 @@ impl Part {
                 (false, true) => 0.0,
                 (false, false) => 1.0,
             };
-            let mut far = 0.0;
             for k in 0..3 {
                 all.normal[k] += part.normal[k] * (share * sign);
-                far += square(part.center[k] - all.center[k]);
+                all.variances[k] += share * (part.variances[k] + square(part.center[k] - all.center[k]));
             }
-            all.variance += share * (part.variance + far);
+            for (to, (turn, [i, j])) in all.turns.iter_mut().zip(part.turns.into_iter().zip(PLACES)) {
+                *to += share * (turn + part.normal[i] * part.normal[j]);
+            }
+        }
+        for (turn, [i, j]) in all.turns.iter_mut().zip(PLACES) {
+            *turn -= all.normal[i] * all.normal[j];
         }
         for part in lit() {
             let mut turned = 0.0;
