@@ -20,6 +20,7 @@ pub mod film;
 pub mod geometry;
 pub mod image;
 pub mod integrator;
+pub mod light_tree;
 pub mod lights;
 pub mod options;
 pub mod packet;

@@ -1,24 +1,15 @@
 //! Choice among many lights: by a tree of those that are somewhere, and by power among those that are infinitely far away.
 
 use crate::bvh::BuildError;
+use crate::light_tree::{OwnedTree, Threads};
 use crate::packet::{V8, X8, equal, pick, select};
-use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, Node8, PowerLights, TreeAt};
+use etendue::select::{Choice, LightBound, LightChoice, PowerLights, TreeAt};
 use etendue::{Real, u32x8};
-
-/// Builds the halves of a tree on the threads of rayon.
-struct Threads;
-
-impl Join for Threads {
-    fn join(&self, a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
-        rayon::join(a, b);
-    }
-}
 
 /// Tables of any number of lights.
 #[derive(Debug, Default)]
 pub(super) struct ManyLights {
-    nodes: Vec<Node8>,
-    places: Vec<u32>,
+    tree: OwnedTree,
     /// Sums of powers: of all lights in the tree, then of each light that is infinitely far away. Empty if there is none.
     sums: Vec<f32>,
     /// The lights that are infinitely far away.
@@ -37,7 +28,6 @@ impl ManyLights {
     ) -> Result<Self, BuildError> {
         let count = bounds.len();
         let distant: Vec<u32> = (0..count as u32).filter(|&light| is_distant(light as usize)).collect();
-        let too_many = |_| BuildError { count, most: LightTree::MOST };
         let mut sums = Vec::new();
         if !distant.is_empty() {
             let far = distant.iter().map(|&light| powers[light as usize]);
@@ -49,15 +39,12 @@ impl ManyLights {
             PowerLights::new(&all, &mut sums)
                 .map_err(|_| BuildError { count: distant.len(), most: PowerLights::MOST - 1 })?;
         }
-        let mut nodes = vec![Node8::default(); LightTree::nodes_for(count)];
-        let mut places = vec![0; count];
-        LightTree::build_with(bounds, &mut nodes, &mut places, &Threads).map_err(too_many)?;
-        Ok(Self { nodes, places, sums, distant })
+        Ok(Self { tree: OwnedTree::new(bounds, &Threads)?, sums, distant })
     }
     /// The choice for points of surfaces.
     #[inline]
     pub(super) fn at(&self, p: V8, normal: V8) -> ManyAt<'_> {
-        ManyAt { lights: self, tree: LightTree::from_buffers(&self.nodes, &self.places).at(p, normal) }
+        ManyAt { lights: self, tree: self.tree.get().at(p, normal) }
     }
 }
 

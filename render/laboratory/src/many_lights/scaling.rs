@@ -1,11 +1,11 @@
 //! Any number of lights: how long trees take to build, how large they are, and the time of a choice.
 
 use super::published::{Cluster, PublishedTree};
-use super::{OwnTree, Threads};
 use crate::cost::{self, Rounds, median};
 use etendue::select::{LightBound, LightChoice, LightTree, Sequential, TreeChild};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Real, Vec2, Vec3, u32x8};
+use etendue_render::light_tree::{OwnedTree, Threads};
 use etendue_render::packet::{V8, X8};
 use std::cell::{Cell, RefCell};
 use std::hint::black_box;
@@ -146,8 +146,8 @@ pub fn measure(count: u32, seed: u64, published: bool) -> Size {
         start.elapsed().as_secs_f64()
     };
     let mut own = None;
-    let alone = timed(&mut || drop(black_box(OwnTree::new(&bounds, &Sequential))));
-    let together = timed(&mut || own = Some(OwnTree::new(&bounds, &Threads)));
+    let alone = timed(&mut || drop(black_box(OwnedTree::new(&bounds, &Sequential))));
+    let together = timed(&mut || own = OwnedTree::new(&bounds, &Threads).ok());
     drop(bounds);
     let own = own.unwrap_or_else(|| unreachable!("it was built"));
     let mut other = None;

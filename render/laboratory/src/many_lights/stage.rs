@@ -1,13 +1,13 @@
 //! Scenes of many lights, and points that their cameras see.
 
 use super::published::{Cluster, PublishedTree};
-use super::{OwnTree, Threads};
 use etendue::occlusion::SPARED;
 use etendue::select::LightBound;
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, u32x8};
 use etendue_render::bvh::{Hits, Rays, Scratch};
 use etendue_render::camera::{Camera, CameraSample};
+use etendue_render::light_tree::{OwnedTree, Threads};
 use etendue_render::lights::{Chosen, Drawn, Lights};
 use etendue_render::packet::{M8, V8, X8, select};
 use etendue_render::scene::{self, Scene};
@@ -29,7 +29,7 @@ pub struct Stage {
     /// Their bounds.
     pub bounds: Vec<LightBound>,
     /// The library's tree.
-    pub own: OwnTree,
+    pub own: OwnedTree,
     /// The tree of the literature.
     pub published: PublishedTree,
     /// The same tree where the power of a sphere is a quarter, so that its importance is its intensity times π, as that of flat lights.
@@ -84,7 +84,7 @@ impl Stage {
             name: name.to_owned(),
             surfaces: Surfaces::new(&scene)?,
             lights,
-            own: OwnTree::new(&bounds, &Threads),
+            own: OwnedTree::new(&bounds, &Threads)?,
             published: PublishedTree::new(&clusters),
             intensity: PublishedTree::new(&intensities),
             powers: clusters.iter().map(|cluster| cluster.power).collect(),

@@ -1,0 +1,44 @@
+//! The memory of a light tree, and threads to build it.
+
+use crate::bvh::BuildError;
+use etendue::select::{Join, LightBound, LightTree, Node8};
+
+/// Builds the halves of a tree on the threads of rayon.
+#[derive(Clone, Copy, Debug)]
+pub struct Threads;
+
+impl Join for Threads {
+    fn join(&self, a: impl FnOnce() + Send, b: impl FnOnce() + Send) {
+        rayon::join(a, b);
+    }
+}
+
+/// A light tree with its memory.
+#[derive(Debug, Default)]
+pub struct OwnedTree {
+    nodes: Vec<Node8>,
+    places: Vec<u32>,
+}
+
+impl OwnedTree {
+    /// Builds the tree on these threads.
+    ///
+    /// # Errors
+    /// Fails if there are more lights than a tree can index.
+    pub fn new(lights: &[LightBound], join: &impl Join) -> Result<Self, BuildError> {
+        let count = lights.len();
+        let mut own = Self { nodes: vec![Node8::default(); LightTree::nodes_for(count)], places: vec![0; count] };
+        LightTree::build_with(lights, &mut own.nodes, &mut own.places, join)
+            .map_err(|_| BuildError { count, most: LightTree::MOST })?;
+        Ok(own)
+    }
+    /// The tree.
+    #[inline]
+    pub fn get(&self) -> LightTree<'_> {
+        LightTree::from_buffers(&self.nodes, &self.places)
+    }
+    /// Size in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.places[..])
+    }
+}
