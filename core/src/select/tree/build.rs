@@ -91,14 +91,11 @@ impl Bin {
         let center = light.center.map(|x| x * units.length);
         Self { count: 1, power, low: center, high: center, normal }
     }
-    /// Squared diagonal of the box.
-    fn squared(&self) -> f32 {
-        (0..3).map(|k| (self.high[k] - self.low[k]).greater(0.0)).map(|x| x * x).sum()
-    }
     /// What it costs to treat these lights as one: power · squared extent · a factor for the spread of their directions.
     fn cost(&self, least: f32) -> f32 {
         let normal: f32 = self.normal.iter().map(|x| x / self.power.greater(f32::MIN_POSITIVE)).map(|x| x * x).sum();
-        self.power * (self.squared() + least) * (3.0 - 2.0 * normal.lesser(1.0))
+        let squared: f32 = (0..3).map(|k| (self.high[k] - self.low[k]).greater(0.0)).map(|x| x * x).sum();
+        self.power * (squared + least) * (3.0 - 2.0 * normal.lesser(1.0))
     }
 }
 
@@ -106,10 +103,11 @@ impl<J: Join> Build<'_, J> {
     fn light(&self, index: u32) -> &LightBound {
         &self.lights[index as usize]
     }
-    /// Coordinate 0 to 2 of a light's centre, or 3 to 5 of its normal.
-    fn key(&self, index: u32, axis: usize) -> f32 {
-        let light = self.light(index);
-        if axis < 3 { light.center[axis] * self.units.length } else { light.normal[axis - 3] }
+    /// The coordinates of a light's centre and of its normal.
+    fn keys(&self, index: u32) -> [f32; 6] {
+        let LightBound { center: [x, y, z], normal: [a, b, c], .. } = *self.light(index);
+        let [x, y, z] = [x, y, z].map(|x| x * self.units.length);
+        [x, y, z, a, b, c]
     }
 
     /// Builds the nodes of a range into the first of `nodes`, whose index is `index`.
@@ -199,11 +197,9 @@ impl<J: Join> Build<'_, J> {
     /// Splits a range in two at a multiple of `unit`, where the sum of the costs is least. Returns the position, and the costs.
     fn split(&self, order: &mut [u32], unit: usize) -> (usize, [f32; 2]) {
         let count = order.len();
-        let (mut low, mut high, mut all) = ([f32::INFINITY; 6], [f32::NEG_INFINITY; 6], Bin::EMPTY);
+        let (mut low, mut high) = ([f32::INFINITY; 6], [f32::NEG_INFINITY; 6]);
         for &light in &*order {
-            let bin = Bin::of(self.light(light), self.units);
-            all.add(&bin);
-            for (axis, x) in bin.low.into_iter().chain(self.light(light).normal).enumerate() {
+            for (axis, x) in self.keys(light).into_iter().enumerate() {
                 low[axis] = low[axis].lesser(x);
                 high[axis] = high[axis].greater(x);
             }
@@ -212,22 +208,23 @@ impl<J: Join> Build<'_, J> {
             let wider = |a: &usize, b: &usize| (high[*a] - low[*a]).total_cmp(&(high[*b] - low[*b]));
             axes.into_iter().max_by(wider).unwrap_or(0)
         };
-        let least = all.squared() * 1e-3;
+        let least = (0..3).map(|k| high[k] - low[k]).map(|x| x * x).sum::<f32>() * 1e-3;
         let most = count.div_ceil(unit) * unit - unit;
         let margin = (count / 16).div_ceil(unit) * unit;
         let (first, last) = (margin.max(unit).min(most), (count - margin.min(count)) / unit * unit);
         let last = last.max(first).min(most);
         let mut best = (f32::INFINITY, widest([0, 1, 2]), (count / 2 / unit * unit).clamp(first, last), [0.0; 2]);
-        for axis in [widest([0, 1, 2]), widest([3, 4, 5])] {
-            let scale = BINS as f32 / (high[axis] - low[axis]);
-            if !(scale > 0.0 && scale < f32::INFINITY) {
-                continue;
+        let axes = [widest([0, 1, 2]), widest([3, 4, 5])];
+        let scales = axes.map(|axis| BINS as f32 / (high[axis] - low[axis]));
+        let mut bins = [[Bin::EMPTY; BINS]; 2];
+        for &light in &*order {
+            let (keys, bin) = (self.keys(light), Bin::of(self.light(light), self.units));
+            for ((bins, axis), scale) in bins.iter_mut().zip(axes).zip(scales) {
+                // without an extent this is NaN, and the first
+                bins[(((keys[axis] - low[axis]) * scale) as usize).min(BINS - 1)].add(&bin);
             }
-            let mut bins = [Bin::EMPTY; BINS];
-            for &light in &*order {
-                let bin = (self.key(light, axis) - low[axis]) * scale;
-                bins[(bin as usize).min(BINS - 1)].add(&Bin::of(self.light(light), self.units));
-            }
+        }
+        for (axis, bins) in axes.into_iter().zip(&bins) {
             let mut after = [Bin::EMPTY; BINS + 1];
             for k in (0..BINS).rev() {
                 after[k] = after[k + 1];
@@ -244,7 +241,7 @@ impl<J: Join> Build<'_, J> {
             }
         }
         let (_, axis, position, costs) = best;
-        let by_key = |a: &u32, b: &u32| self.key(*a, axis).total_cmp(&self.key(*b, axis)).then(a.cmp(b));
+        let by_key = |a: &u32, b: &u32| self.keys(*a)[axis].total_cmp(&self.keys(*b)[axis]).then(a.cmp(b));
         order.select_nth_unstable_by(position, by_key);
         (position, costs)
     }
