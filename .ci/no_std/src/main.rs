@@ -12,7 +12,9 @@ use etendue::light::{
     PointLight, Polygon, SpotLight, Sun,
 };
 use etendue::random::DrawExt;
-use etendue::select::{Allocation, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
+use etendue::select::{
+    Allocation, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights, UniformLights,
+};
 use etendue::sequence::{
     CounterRng, Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified,
     ZOrder, ZOrderIndex,
@@ -40,7 +42,7 @@ fn exit(code: u32) -> ! {
     unsafe { asm!("syscall", in("rax") 60, in("rdi") code, options(noreturn)) }
 }
 
-// the compiler may call these two on any target; without libc, the program must define them
+// the compiler may call these three on any target; without libc, the program must define them
 global_asm!(
     ".globl memcpy",
     "memcpy:",
@@ -55,6 +57,20 @@ global_asm!(
     "mov rcx, rdx",
     "rep stosb",
     "mov rax, r8",
+    "ret",
+    // backwards if the source is before the target
+    ".globl memmove",
+    "memmove:",
+    "mov rax, rdi",
+    "mov rcx, rdx",
+    "cmp rsi, rdi",
+    "jae 2f",
+    "lea rsi, [rsi + rdx - 1]",
+    "lea rdi, [rdi + rdx - 1]",
+    "std",
+    "2:",
+    "rep movsb",
+    "cld",
     "ret",
 );
 
@@ -230,17 +246,20 @@ fn tables(count: &mut Count) {
     let mut sums = [0.0; 6];
     let Ok(power) = PowerLights::new(&weights, &mut sums) else { exit(252) };
     let Ok(spatial) = SpatialLights::new(&lights) else { exit(251) };
+    let (mut nodes, mut places) = ([Node8::default(); LightTree::nodes_for(2)], [0; 2]);
+    let Ok(tree) = LightTree::build(&lights, &mut nodes, &mut places) else { exit(251) };
     let allocation = Allocation::new(&[1.0, 3.0], 8, &mut { Allocation::NONE });
     let allocated = allocation.samples(0);
-    let mut means = [lit(0.0); 4];
+    let mut means = [lit(0.0); 5];
     let up = [0.0, 1.0, 0.0];
     for u in squares() {
         means[0] += lit(1.0) / UniformLights { count: 6 }.choose(u.x).pmf;
         means[1] += lit(1.0) / power.choose(u.x).pmf;
         means[2] += lit(1.0) / spatial.at(ORIGIN.into(), up.into()).choose(u.x).pmf;
         means[3] += lit(1.0) / allocated.choose(u.x).pmf;
+        means[4] += lit(1.0) / tree.at(ORIGIN.into(), up.into()).choose(u.x).pmf;
     }
-    for (mean, truth) in means.into_iter().zip([6.0, 6.0, 2.0, 2.0]) {
+    for (mean, truth) in means.into_iter().zip([6.0, 6.0, 2.0, 2.0, 2.0]) {
         count.check(near(sum(mean) / SAMPLES as f32, truth, 1e-2));
     }
 }

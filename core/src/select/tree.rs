@@ -11,7 +11,7 @@ use crate::vector::Vec3;
 use build::{Build, nodes_for};
 pub use build::{Join, Sequential};
 pub use node::Node8;
-use node::{LIGHT, NONE, Place, WHOLE};
+use node::{LIGHT, NONE, Place, Shares, WHOLE};
 use part::{Part, Units};
 
 /// The index of a [`Choice`] of a [`LightTree`] where no light can contribute.
@@ -26,16 +26,17 @@ const DEEPEST: usize = 64;
 
 /// Chooses among any number of lights by what they can contribute to a point of a surface, in a tree of eight children a node.
 ///
-/// The tree lives in the caller's memory and needs about 50 bytes a light. [`build`](Self::build) makes it, [`refit`](Self::refit) adapts it
+/// The tree lives in the caller's memory and needs about 58 bytes a light. [`build`](Self::build) makes it, [`refit`](Self::refit) adapts it
 /// to lights that have moved, and [`at`](Self::at) prepares a choice for the shading point of each lane. Directional lights, suns and
 /// environments have no place in it: choose between them and the tree by [`PowerLights`](super::PowerLights).
 ///
-/// - Formula: at each node, a child has the weight I/D⁴ · (A·F + B/32). I is the intensity along its normals, from its power;
-///   D² = d² + s²/3, where d is the distance to the mean position of its lights and s the standard deviation of their positions. A is
-///   the expected cosine at the surface times D, (μ + √(μ² + 2s²/3π))/2, with μ the height of the mean position above the surface: nearly
-///   the mean of the positive part of a normal variable. F is the same for the cosine at the lights, whose variance is that of their
-///   normals and positions. B is the product of upper bounds of the two cosines times D², from a box around the positions, a ball around
-///   the normals, and the widest cone of spot lights.
+/// - Formula: at each node, a child has the weight I · M · (cosθ cosθ' + B/32). I is the intensity along its normals, from its power. M is
+///   the mean of 1/d² over the positions of its lights to the second order, 1/(d² + Σσₖ² − 4Σσₖ²vₖ²/d²), where v is the vector to their
+///   mean position, d its length, and σₖ are the standard deviations along the axes; the denominator is at least (d² + Σσₖ²)/4. The cosine
+///   at the surface is the mean of the positive part of a normal variable, nearly (μ + √(μ² + 2σ²/π))/2, with the mean and the variance
+///   of the lights' heights above the surface. The cosine at the lights is the same, with the covariances of their normals. B is the
+///   product of upper bounds of the two cosines, from a box around the positions, a ball around the normals, and the widest cone of spot
+///   lights.
 /// - Exact probabilities: the weights are rounded to shares, integers that sum to 2¹⁶ at each node. Each child whose bound B is positive
 ///   has a share, no other child has any. A child is drawn by sixteen bits, exactly as often as its share says, and the pmf is the
 ///   product of the shares.
@@ -45,7 +46,7 @@ const DEEPEST: usize = 64;
 ///   [`NO_LIGHT`] and the pmf is 0. The pmfs of all lights and the probability of "no light" sum to 1.
 /// - Domain: up to [`MOST`](Self::MOST) lights; finite bounds, points and unit normals. A light whose power is 0, negative, infinite or
 ///   NaN, or whose place is not finite, is never chosen. Multiplying all lengths by a power of two changes no bit. Powers count as at
-///   least 2⁻⁴⁰ of the strongest, radii as at least 2⁻⁴⁰ of the extent of the lights.
+///   least 2⁻⁴⁰ of the strongest, radii as at least 2⁻³⁰ of the extent of the lights.
 /// - Degenerate: without lights, or where none can contribute, the pmf is 0.
 /// - Precision: the pmf is rounded once a level, by 2⁻²⁴ of itself.
 /// - Source: the tree and its bounds of cosines after Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
@@ -224,12 +225,19 @@ impl<'a, R: Real> TreeAt<'a, R> {
         let mut lanes: [Descent; MOST_LANES] = core::array::from_fn(start);
         // level by level, as the lanes do not wait for each other
         for _ in 0..DEEPEST {
+            let mut shares = [Shares::default(); MOST_LANES];
             let mut more = false;
-            for lane in &mut lanes[..R::LANES] {
-                more |= lane.step(self.tree.nodes);
+            for (shares, lane) in shares.iter_mut().zip(&lanes[..R::LANES]) {
+                if let Some(node) = self.tree.nodes.get(lane.node as usize) {
+                    *shares = node.shares(&lane.place);
+                    more = true;
+                }
             }
             if !more {
                 break;
+            }
+            for (shares, lane) in shares.iter().zip(&mut lanes[..R::LANES]) {
+                lane.step(self.tree.nodes, shares);
             }
         }
         let pmf = |lane: &Descent| if lane.light == NO_LIGHT { 0.0 } else { lane.pmf.greater(f32::MIN_POSITIVE) };
@@ -269,14 +277,14 @@ struct Descent {
 }
 
 impl Descent {
-    /// Chooses a child; returns whether there are more to choose.
+    /// Goes to a child of its node, or to a light.
     #[inline(always)]
-    fn step(&mut self, nodes: &[Node8]) -> bool {
-        let Some(node) = nodes.get(self.node as usize) else { return false };
-        let (slot, start, share) = node.shares(&self.place).find(self.word >> 16);
+    fn step(&mut self, nodes: &[Node8], shares: &Shares) {
+        let Some(node) = nodes.get(self.node as usize) else { return };
+        let (slot, start, share) = shares.find(self.word >> 16);
         if share == 0 {
             self.node = NONE;
-            return false;
+            return;
         }
         // the position within the share, stretched to all of 32 bits with sixteen new ones: exactly uniform
         let within = u64::from(self.word - (start << 16)) << 16 | u64::from(sixteen(&mut self.more));
@@ -285,10 +293,9 @@ impl Descent {
         let child = node.child[slot];
         if child & LIGHT == 0 {
             self.node = child;
-            return true;
+        } else {
+            (self.light, self.node) = (child & !LIGHT, NONE);
         }
-        (self.light, self.node) = (child & !LIGHT, NONE);
-        false
     }
 }
 

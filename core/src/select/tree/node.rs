@@ -253,6 +253,7 @@ impl Node8 {
 
 /// What each child of a node receives, in units of 2⁻¹⁶. A child that can contribute has at least one unit, no other child has any. The
 /// last that can contribute receives what the others leave, and has [`WHOLE`] here; where none can, all have 0.
+#[derive(Clone, Copy, Default)]
 pub(super) struct Shares {
     units: [u32; 8],
 }
