@@ -21,7 +21,7 @@ pub const NO_LIGHT: u32 = u32::MAX;
 const FAR: f64 = (1_u64 << 30) as f64;
 /// The greatest number of lanes of a packet.
 const MOST_LANES: usize = 8;
-/// The greatest number of levels: a node splits in eight, each of at most 15/16.
+/// More than the number of levels of 2²⁷ lights: seven splits, each of which leaves at most 15/16, leave a child at most 0.64 of a node.
 const DEEPEST: usize = 64;
 
 /// Chooses among any number of lights by what they can contribute to a point of a surface, in a tree of eight children a node.
@@ -141,6 +141,7 @@ impl<'a> LightTree<'a> {
         }
         let units = Units::of(lights);
         for index in (0..nodes.len()).rev() {
+            nodes[index].forget_kinds();
             for slot in 0..8 {
                 let part = match nodes[index].child[slot] {
                     NONE => continue,

@@ -177,12 +177,14 @@ impl<J: Join> Build<'_, J> {
         (starts[0], starts[1]) = (0, count);
         let mut children = 1;
         while children < 8 {
-            // the range of the greatest cost that can be split
+            // the range of the greatest cost that can be split; one of more than half of the lights first, which bounds the depth
             let size = |k: usize| starts[k + 1] - starts[k];
-            let able = (0..children).filter(|&k| size(k) > unit);
-            let Some(k) = able.max_by(|&a, &b| costs[a].total_cmp(&costs[b]).then(size(a).cmp(&size(b)))) else {
-                break;
+            let rank = |k: usize| (2 * size(k) > count, costs[k]);
+            let by_cost = |a: &usize, b: &usize| {
+                let (a, b) = (rank(*a), rank(*b));
+                a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
             };
+            let Some(k) = (0..children).filter(|&k| size(k) > unit).max_by(by_cost) else { break };
             let (start, end) = (starts[k], starts[k + 1]);
             let (middle, [left, right]) = self.split(&mut order[start..end], unit);
             starts.copy_within(k + 1..=children, k + 2);

@@ -39,7 +39,7 @@ pub struct Node8 {
     /// Mean normal, and the greatest distance from it.
     normal: [u32; 8],
     /// Standard deviations of the positions, relative to the reach, and cosine of the cone.
-    spread: [u32; 8],
+    deviation: [u32; 8],
     /// Covariances of the normals, xx, yy, zz, xy and xz, yz.
     turns: [[u32; 8]; 2],
     pub(super) child: [u32; 8],
@@ -79,7 +79,7 @@ impl Default for Node8 {
             power: [0.0; 8],
             bounds: [0; 8],
             normal: [0; 8],
-            spread: [0; 8],
+            deviation: [0; 8],
             turns: [[0; 8]; 2],
             child: [NONE; 8],
             plain: true,
@@ -101,6 +101,10 @@ fn ceiling(x: f64, most: f64) -> u32 {
 }
 
 impl Node8 {
+    /// To be called before all children are stored again.
+    pub(super) fn forget_kinds(&mut self) {
+        self.plain = true;
+    }
     /// Stores a child.
     pub(super) fn set(&mut self, slot: usize, child: u32, part: &Part) {
         self.child[slot] = child;
@@ -128,7 +132,7 @@ impl Node8 {
             .map(|k| (part.turns[k] * 254.0).round_ties_even().clamped(-127.0, 127.0) + 128.0)
             .map(|x| x as u32);
         let [x, y, z] = part.variances.map(|x| (x.sqrt() * relative).round_ties_even().clamped(0.0, 255.0) as u32);
-        self.spread[slot] = x | y << 8 | z << 16 | cone << 24;
+        self.deviation[slot] = x | y << 8 | z << 16 | cone << 24;
         self.turns[0][slot] = xx | yy << 8 | zz << 16 | xy << 24;
         self.turns[1][slot] = xz | yz << 8;
         self.plain &= part.power <= 0.0 || cone == 0;
@@ -146,14 +150,14 @@ impl Node8 {
         let half = three(&self.bounds).map(|x| x * reach * (1.0 / 255.0));
         let normal = three(&self.normal).map(|x| (x - 128.0) / 127.0);
         let spread = byte(&self.normal, 3) * (1.0 / 127.5);
-        let two_sided = byte(&self.spread, 3) as u32 == TWO_SIDED;
-        let cone = if two_sided { 0.0 } else { byte(&self.spread, 3) / 254.0 };
+        let two_sided = byte(&self.deviation, 3) as u32 == TWO_SIDED;
+        let cone = if two_sided { 0.0 } else { byte(&self.deviation, 3) / 254.0 };
         let end = |a: [f64; 3], sign: f64, b: [f64; 3]| core::array::from_fn(|k| a[k] + sign * b[k]);
         Part {
             center,
             low: end(center, -1.0, half),
             high: end(center, 1.0, half),
-            variances: three(&self.spread).map(|x| x * reach * (1.0 / 255.0)).map(|x| x * x),
+            variances: three(&self.deviation).map(|x| x * reach * (1.0 / 255.0)).map(|x| x * x),
             power: f64::from(self.power[slot]) * (1.0 - cone),
             normal,
             spread,
@@ -185,11 +189,11 @@ impl Node8 {
         let v = Vec3::new(x, y, z) - p;
         let three = |word: u32x8| Vec3::new(byte(word, 0), byte(word, 1), byte(word, 2));
         let (bounds, normals) = (u32x8::from(self.bounds), u32x8::from(self.normal));
-        let (spreads, turns) = (u32x8::from(self.spread), self.turns.map(u32x8::from));
+        let (deviations, turns) = (u32x8::from(self.deviation), self.turns.map(u32x8::from));
         let unit = f32x8::from(self.reach) * lit(1.0 / 255.0);
         // variances of the positions along the axes are these times `scale`
-        let (half, deviations, scale) = (three(bounds), three(spreads), unit * unit);
-        let varied = Vec3::new(deviations.x * deviations.x, deviations.y * deviations.y, deviations.z * deviations.z);
+        let (half, varied, scale) = (three(bounds), three(deviations), unit * unit);
+        let varied = Vec3::new(varied.x * varied.x, varied.y * varied.y, varied.z * varied.z);
         let variance = (varied.x + varied.y + varied.z) * scale;
         let square = Vec3::new(v.x * v.x, v.y * v.y, v.z * v.z);
         let squared = square.x + square.y + square.z + lit(SMALL * SMALL);
@@ -215,7 +219,7 @@ impl Node8 {
         let facing = if self.plain {
             ahead + ahead.mul_add(ahead, turned).sqrt()
         } else {
-            let top = byte(spreads, 3);
+            let top = byte(deviations, 3);
             let both = top.gt(lit(254.0));
             let cone = (top * lit(1.0 / 254.0)).keep(!both);
             // no position is nearer than this
