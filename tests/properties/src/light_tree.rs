@@ -219,6 +219,15 @@ impl Grove {
             return false;
         }
         let Some(sample) = lamp.contribution(p, n, u) else { return false };
+        // a projected light of less than 1e-15 of its distance has no digits: its sample may point anywhere
+        let LightBound { center, radius, .. } = self.bounds[light];
+        let [x, y, z] = [sample.direction.x, sample.direction.y, sample.direction.z].map(f64::from);
+        let distance = f64::from(sample.distance);
+        let off = |k: usize, w: f64| f64::from(p[k]) + distance * w - f64::from(center[k]);
+        let missed = [off(0, x), off(1, y), off(2, z)].iter().map(|x| x * x).sum::<f64>().sqrt();
+        if missed > f64::from(radius) + 0.01 * distance {
+            return false;
+        }
         let pmf = self.pmf((p, n), light as u32);
         assert!(pmf > 0.0, "light {light} is lost at {p:?} over {n:?}: {lamp:?}, {:?}, {sample:?}", self.bounds[light]);
         true
