@@ -22,7 +22,7 @@ const MARGIN: f64 = 1.0 / 16_384.0;
 const LEAST: f32 = 1e-33;
 /// The least mean of squared distances, relative to the sum of squared distance and variance.
 const NEAR: f64 = 0.25;
-/// Of the byte of the cone: both sides emit.
+/// In place of the cosine of a cone, this byte says that the lights emit from both sides.
 const TWO_SIDED: u32 = 255;
 
 /// A node of a [`LightTree`](super::LightTree): eight lights or sets of lights. Its contents are private; what is needed is the memory.

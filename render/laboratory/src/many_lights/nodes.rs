@@ -96,7 +96,7 @@ pub struct Entropy {
     pub levels: Vec<f64>,
     /// By the distance of the point from the node's centre over its radius: up to 0.5, 1, 2, 4, 8, 16, and more.
     pub distances: [f64; 7],
-    /// Of the nodes whose children are all lights.
+    /// The part that is lost at nodes whose children are all lights.
     pub lowest: f64,
 }
 

@@ -17,7 +17,7 @@ const BINS: usize = 12;
 const HALVED: u32 = 40;
 /// Clusters of fewer lights are built by one thread.
 const ALONE: usize = 4096;
-/// Of the word of a child: it is a light, or it emits from both sides.
+/// Flags in the word of a child: the child is a light, and its lights emit from both sides.
 const LIGHT: u32 = 1 << 31;
 const TWO_SIDED: u32 = 1 << 30;
 

@@ -20,21 +20,21 @@ pub const TIMED: [Method; 5] = [Method::Uniform, Method::Power, Method::Publishe
 /// Samples of each pixel of a block that are timed together: as few as another program is unlikely to interrupt.
 const SAMPLES: usize = 16;
 
-/// Nanoseconds of a lane.
+/// How long the parts of a sample take, in nanoseconds a lane.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Times {
-    /// Of the choice of a light.
+    /// Choosing a light.
     pub choose: f64,
-    /// Of the pmf of a light.
+    /// Evaluating the pmf of a light.
     pub pmf: f64,
-    /// Of the sample of the light that was chosen.
+    /// Sampling the light that was chosen.
     pub sample: f64,
-    /// Of its shadow ray.
+    /// Tracing its shadow ray.
     pub shadow: f64,
 }
 
 impl Times {
-    /// Of a whole sample.
+    /// The time of a whole sample, which needs no separate pmf.
     #[must_use]
     pub fn all(&self) -> f64 {
         self.choose + self.sample + self.shadow
