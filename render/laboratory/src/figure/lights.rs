@@ -4,6 +4,7 @@ use super::sheet::Svg;
 use super::studio::{Finding, Studio};
 use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, BarRow, Bars, Chart, Dot, Line, Scale};
+use crate::cost::median;
 use crate::many_lights::moments::{EXHAUSTIVE, METHODS, Moments, OWN, ratio};
 use crate::many_lights::nodes::{Cell, DISTANCES, ELEVATIONS};
 use crate::many_lights::scaling::{self, Size};
@@ -30,11 +31,6 @@ fn relative(moments: &[Moments], method: usize) -> impl Iterator<Item = (f64, f6
 
 fn absolute(moments: &[Moments], [a, b]: [usize; 2]) -> (f64, f64) {
     ratio(moments.iter().map(|m| (m.variance[a], m.variance[b])))
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 fn account(stage: &Stage, moments: &[Moments], times: &[Times; TIMED.len()]) -> (Vec<String>, Bars) {
@@ -65,7 +61,7 @@ fn account(stage: &Stage, moments: &[Moments], times: &[Times; TIMED.len()]) -> 
     for (method, (which, name)) in METHODS.iter().enumerate() {
         let (variance, half) = absolute(moments, [method, EXHAUSTIVE]);
         let (of_relative, _) = ratio(relative(moments, method));
-        let middle = median(relative(moments, method).map(|(a, b)| a / b).collect());
+        let middle = median(&relative(moments, method).map(|(a, b)| a / b).collect::<Vec<_>>());
         let (open, _) = ratio(moments.iter().map(|m| (m.open[method], m.open_squared)));
         let time = TIMED.iter().position(|timed| timed == which).map(|k| times[k]);
         let own = times[TIMED.len() - 1];
