@@ -1,7 +1,8 @@
 //! Accumulates the mean and variance of pixels into an image.
 
 use crate::packet::{V8, X8};
-use etendue::{Real, estimate::Welford, select::Allocated};
+use crate::sums::{Adder, Moments, Sample, Sums};
+use etendue::select::Allocated;
 
 /// The finished estimate of one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,99 +45,108 @@ impl Film {
     }
 }
 
-/// Packets accumulated in f32 before they are merged into f64, which bounds the rounding error.
-const BLOCK: u32 = 64;
-
-/// Accumulates the samples of one pixel.
-///
-/// Replicates are independent of one another. If each sample is its own replicate, the variance comes from the samples, otherwise
-/// from the means of the replicates.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PixelSum {
-    lanes: [Welford<X8>; 3],
-    packets: u32,
-    samples: [Welford<f64>; 3],
-    replicates: [Welford<f64>; 3],
-    /// Number of samples in all replicates.
-    taken: u32,
-}
-
 /// Accumulates the samples of one pixel after another.
 pub trait Accumulator {
     /// What is known of a pixel in the end.
-    type Output: Clone + Copy + Default + Send;
-    /// Adds eight samples of one set, with the part of their radiance that the camera sees directly, and the lights to which they were
-    /// allocated, if they were.
+    type Output: Clone + Default + Send;
+    /// Begins successive samples of a set, with this one.
+    fn begin(&mut self, set: u32, first: u32);
+    /// Adds eight samples, of which the first has an index that is a multiple of eight, with the part of their radiance that the camera
+    /// sees directly, and the lights to which they were allocated, if they were.
     fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>);
     /// Adds one sample.
     fn push(&mut self, radiance: [f32; 3]);
-    /// Ends a set of samples that are not independent.
-    fn end_set(&mut self);
     /// Returns the pixel, and starts the next one.
     fn finish(&mut self) -> Self::Output;
 }
 
-impl Accumulator for PixelSum {
-    type Output = Pixel;
-
-    #[inline]
-    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_, X8>>) {
-        self.packets += 1;
-        self.taken += 8;
-        for (lane, x) in self.lanes.iter_mut().zip([radiance.x, radiance.y, radiance.z]) {
-            lane.push(x);
+impl Pixel {
+    /// The pixel of these sets of samples: the number of each, and its sums. Each sample of `independent` ones is its own set for the
+    /// variance.
+    ///
+    /// Mean: Σᵢsᵢ / N over the sums sᵢ of S sets of nᵢ samples, N in all. Variance of the mean, if that of a set is proportional to 1/nᵢ:
+    /// Σᵢ (nᵢ/N) (sᵢ/nᵢ − mean)² / (S − 1), or Σ(x − mean)² / (N (N − 1)) of independent samples.
+    #[must_use]
+    pub fn of_sets(sets: impl Iterator<Item = (u32, Moments)> + Clone, independent: bool) -> Self {
+        let samples: u32 = sets.clone().map(|(count, _)| count).sum();
+        let n = f64::from(samples.max(1));
+        let (mut mean, mut squares, mut others) = ([0.0; 3], [0.0; 3], -1.0);
+        for (_, set) in sets.clone() {
+            for k in 0..3 {
+                mean[k] += set.sum[k];
+                squares[k] += set.squares[k];
+            }
         }
-        if self.packets == BLOCK {
-            self.flush();
+        mean = mean.map(|sum| sum / n);
+        if independent {
+            others = n - 1.0;
+        } else {
+            for (count, set) in sets {
+                let count = f64::from(count);
+                others += 1.0;
+                for k in 0..3 {
+                    squares[k] += count * (set.sum[k] / count - mean[k]).powi(2);
+                }
+            }
         }
-    }
-    #[inline]
-    fn push(&mut self, radiance: [f32; 3]) {
-        self.taken += 1;
-        for (sum, x) in self.samples.iter_mut().zip(radiance) {
-            sum.push(f64::from(x));
-        }
-    }
-    fn end_set(&mut self) {
-        self.flush();
-        for (sum, samples) in self.replicates.iter_mut().zip(&self.samples) {
-            sum.push(samples.mean());
-        }
-        self.samples = Default::default();
-    }
-    fn finish(&mut self) -> Pixel {
-        self.flush();
-        let sums = if self.replicates[0].count() > 0.0 { self.replicates } else { self.samples };
-        let pixel = Pixel {
-            mean: sums.map(|s| s.mean() as f32),
-            variance: sums.map(|s| (s.variance() / s.count()) as f32),
-            samples: self.taken,
-        };
-        *self = Self::default();
-        pixel
+        let variance = |squares: f64| if others > 0.0 { (squares / (n * others)) as f32 } else { f32::INFINITY };
+        Self { mean: mean.map(|x| x as f32), variance: squares.map(variance), samples }
     }
 }
 
-impl PixelSum {
-    fn flush(&mut self) {
-        let n = f64::from(self.packets);
-        if n == 0.0 {
-            return;
-        }
-        for lane in 0..8 {
-            for (sum, packet) in self.samples.iter_mut().zip(&self.lanes) {
-                let [mean, m2] = [packet.mean(), packet.m2()].map(|x| f64::from(x.lane(lane)));
-                *sum = sum.merge(Welford::from_moments(n, mean, m2));
-            }
-        }
-        self.lanes = Default::default();
-        self.packets = 0;
+/// The pixel of all samples that are there.
+pub fn pixel<V: Sample>(mut sums: Sums<V>) -> Pixel {
+    let sets = sums.finish();
+    Pixel::of_sets(sets.iter().map(|(block, value)| (block.count, value.moments())), V::INDEPENDENT)
+}
+
+/// Accumulates the samples of pixels.
+#[derive(Clone, Debug, Default)]
+pub struct PixelSum<V>(Adder<V>);
+
+impl<V: Sample> Accumulator for PixelSum<V> {
+    type Output = Pixel;
+
+    #[inline]
+    fn begin(&mut self, set: u32, first: u32) {
+        self.0.begin(set, first);
     }
-    /// Returns the mean and sample count of an unfinished replicate, and resets the sum.
-    pub fn take(&mut self) -> ([f64; 3], u32) {
-        self.flush();
-        let taken = (self.samples.map(|s| s.mean()), self.taken);
-        *self = Self::default();
-        taken
+    #[inline]
+    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_, X8>>) {
+        self.0.push_octet(&channels(radiance));
     }
+    #[inline]
+    fn push(&mut self, radiance: [f32; 3]) {
+        self.0.push(radiance);
+    }
+    fn finish(&mut self) -> Pixel {
+        pixel(self.0.take())
+    }
+}
+
+/// Accumulates the samples of a part of each pixel. The values are those of the largest blocks, in order.
+#[derive(Clone, Debug, Default)]
+pub struct BlockSum<V>(Adder<V>);
+
+impl<V: Sample> Accumulator for BlockSum<V> {
+    type Output = Vec<V>;
+
+    fn begin(&mut self, set: u32, first: u32) {
+        self.0.begin(set, first);
+    }
+    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_, X8>>) {
+        self.0.push_octet(&channels(radiance));
+    }
+    fn push(&mut self, radiance: [f32; 3]) {
+        self.0.push(radiance);
+    }
+    fn finish(&mut self) -> Vec<V> {
+        self.0.take().into_blocks().into_iter().map(|(_, value)| value).collect()
+    }
+}
+
+/// The lanes of each channel.
+#[inline(always)]
+pub fn channels(radiance: V8) -> [[f32; 8]; 3] {
+    [radiance.x, radiance.y, radiance.z].map(|x| x.to_array())
 }

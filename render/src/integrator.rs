@@ -13,10 +13,11 @@ pub use settings::{RayCount, Settings};
 
 use crate::bvh::BuildError;
 use crate::camera::Camera;
-use crate::film::{Film, PixelSum};
+use crate::film::{Film, Pixel, PixelSum};
 use crate::sampler::Sampler;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
+use crate::sums::{Moments, Sample, Sum};
 use crate::technique::Technique;
 use adaptive::Effort;
 use prepared::PreparedScene;
@@ -91,14 +92,10 @@ impl World {
     ) -> (Film, RayCount) {
         let (width, height) = (settings.width, settings.height);
         let settings = &Settings { technique: self.technique(camera, settings), ..*settings };
-        let (pixels, rays) = if settings.sampler == Sampler::Adaptive {
-            self.render_adaptively(camera, settings, progress)
-        } else {
-            self.tiles(camera, settings, |renderer, area| {
-                let pixels = renderer.all(area, PixelSum::default());
-                progress(pixels.len() as u64);
-                pixels
-            })
+        let (pixels, rays) = match settings.sampler {
+            Sampler::Adaptive => self.render_adaptively(camera, settings, progress),
+            Sampler::Independent => self.render_evenly::<Moments>(camera, settings, progress),
+            _ => self.render_evenly::<Sum>(camera, settings, progress),
         };
         (Film { width, height, pixels }, rays)
     }
@@ -139,7 +136,9 @@ impl World {
         let settings = &Settings { technique: Technique::Analytic, ..*settings };
         let (surveys, _) = self.tiles(camera, settings, |renderer, [x0, y0, x1, y1]| {
             let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
-            renderer.survey([x0, y0], &pixels)
+            renderer.begin([x0, y0, x1, y1]);
+            renderer.try_out([x0, y0, x1, y1]);
+            renderer.survey(&pixels)
         });
         surveys
     }
@@ -150,9 +149,24 @@ impl World {
         let apart = areas(settings).len().div_ceil(PROBES).max(1);
         let probed = areas(settings).step_by(apart).map(|[x0, y0, x1, y1]| {
             let mut renderer = self.renderer(camera, settings);
-            renderer.survey([x0, y0], &[[x0.midpoint(x1), y0.midpoint(y1)]])[0]
+            renderer.begin([x0, y0, x1, y1]);
+            renderer.survey(&[[x0.midpoint(x1), y0.midpoint(y1)]])[0]
         });
         probed.collect()
+    }
+
+    /// Renders the same number of samples for each pixel.
+    fn render_evenly<V: Sample>(
+        &self,
+        camera: &Camera,
+        settings: &Settings,
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Pixel>, RayCount) {
+        self.tiles(camera, settings, |renderer, area| {
+            let pixels = renderer.range(area, 0..settings.spp, PixelSum::<V>::default());
+            progress(pixels.len() as u64);
+            pixels
+        })
     }
 
     /// Renders the pilot, then the adaptive samples.
@@ -161,7 +175,7 @@ impl World {
         camera: &Camera,
         settings: &Settings,
         progress: impl Fn(u64) + Sync,
-    ) -> (Vec<crate::film::Pixel>, RayCount) {
+    ) -> (Vec<Pixel>, RayCount) {
         let width = settings.width;
         let sets = settings.sampler.sets(settings.spp, settings.sets, camera.has_lens());
         let effort = Effort::new(settings.spp, sets);

@@ -3,7 +3,7 @@
 //! Modules import one way, from the last line of this list to the first:
 //!
 //! - [`packet`], [`geometry`], [`options`]: packets of eight numbers, the forms of shapes, and what command lines share.
-//! - [`film`], [`files`], [`image`], [`compare`]: pixels, and images in files.
+//! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
@@ -29,6 +29,7 @@ pub mod sampler;
 pub mod scene;
 pub mod sensor;
 pub mod sky;
+pub mod sums;
 pub mod surfaces;
 pub mod technique;
 

@@ -5,8 +5,9 @@
 //! that a pixel has in the sum over all pixels.
 
 use super::allocation::{APART, Weights};
-use crate::film::{Accumulator, Pixel, PixelSum};
+use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::{V8, X8};
+use crate::sums::{Adder, Moments, Sum};
 use etendue::Real;
 use etendue::estimate::Welford;
 use etendue::select::Allocated;
@@ -42,8 +43,8 @@ impl Effort {
 /// Statistics of a range of the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Part {
-    /// Mean of each set.
-    means: [[f64; 3]; 4],
+    /// Sum of each set.
+    sums: [[f64; 3]; 4],
     /// Packets in each set.
     packets: u32,
     /// Variance of the means of four samples each, summed over the channels; for allocated samples, of what the camera sees directly. For
@@ -62,18 +63,11 @@ impl Part {
     /// Combines two ranges into the finished pixel.
     pub(super) fn finish(&self, other: &Self, sets: u32) -> Pixel {
         let packets = self.packets + other.packets;
-        let share = f64::from(other.packets) / f64::from(packets);
-        let mut over = [Welford::<f64>::default(); 3];
-        for (a, b) in self.means.iter().zip(&other.means).take(sets as usize) {
-            for (sum, (a, b)) in over.iter_mut().zip(a.iter().zip(b)) {
-                sum.push(a + share * (b - a));
-            }
-        }
-        Pixel {
-            mean: over.map(|s| s.mean() as f32),
-            variance: over.map(|s| (s.variance() / s.count()) as f32),
-            samples: packets * 8 * sets,
-        }
+        let both = |(a, b): (&[f64; 3], &[f64; 3])| {
+            let sum = std::array::from_fn(|k| a[k] + b[k]);
+            (8 * packets, Moments { sum, ..Moments::default() })
+        };
+        Pixel::of_sets(self.sums.iter().zip(&other.sums).take(sets as usize).map(both), false)
     }
 }
 
@@ -163,10 +157,8 @@ fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
 pub(super) struct PartSum {
     /// Number of lights to which the samples are allocated; 0 if they are not.
     lights: usize,
-    sum: PixelSum,
+    adder: Adder<Sum>,
     part: Part,
-    /// Number of sets that have ended.
-    sets: usize,
     halves: [Welford<f64>; 3],
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
@@ -186,8 +178,11 @@ impl PartSum {
 impl Accumulator for PartSum {
     type Output = Part;
 
+    fn begin(&mut self, set: u32, first: u32) {
+        self.adder.begin(set, first);
+    }
     fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_, X8>>) {
-        self.sum.push_packet(radiance, seen, allocated);
+        self.adder.push_octet(&channels(radiance));
         // the samples of a packet that is shared among lights differ by their lights: only what does not depend on them is compared
         for half in halves(if allocated.is_some() { seen } else { radiance }) {
             for (spread, x) in self.halves.iter_mut().zip(half) {
@@ -221,22 +216,23 @@ impl Accumulator for PartSum {
     fn push(&mut self, _: [f32; 3]) {
         unreachable!("adaptive sets consist of whole packets")
     }
-    fn end_set(&mut self) {
-        let (mean, samples) = self.sum.take();
-        (self.part.means[self.sets], self.part.packets) = (mean, samples / 8);
-        self.sets += 1;
-    }
     fn finish(&mut self) -> Part {
         let mut part = self.part;
+        let mut sums = self.adder.take();
+        let sets = sums.finish();
+        for (sum, (block, Sum(set))) in part.sums.iter_mut().zip(sets) {
+            (*sum, part.packets) = (*set, block.count / 8);
+        }
+        let sets = sets.len();
         part.variance = self.halves.iter().map(|b| b.variance()).sum();
         if self.lights > APART {
             // in the unit of the other sum: a difference of two samples has 16 times the variance of the mean of four
-            part.variance = self.between + part.variance * 16.0 * f64::from(4 * part.packets) * self.sets as f64;
+            part.variance = self.between + part.variance * 16.0 * f64::from(4 * part.packets) * sets as f64;
         }
         if (1..=APART).contains(&self.lights) {
             part.lights = self.lights;
             part.spread = self.spread.map(|spread| spread as f32);
-            let sets = self.sets.max(1) as u32;
+            let sets = sets.max(1) as u32;
             part.pairs = self.pairs.map(|pairs| pairs / sets);
             part.taken = self.samples.map(|samples| samples / sets);
         }

@@ -21,8 +21,8 @@ use std::ops::Range;
 const SIDES: [u32; 2] = [TILE, 4];
 /// Greatest number of blockers for which the visible part of a light is computed.
 const CLIPPED: usize = 8;
-/// A tile in which this many primitives were looked at, and nothing was known of any light, asks for no further certificates.
-const TRIALS: u32 = 4;
+/// A tile in which this many primitives are looked at first, and nothing is known of any light, asks for no further certificates.
+const TRIALS: usize = 4;
 
 /// A light with an area.
 struct AreaLight {
@@ -119,9 +119,8 @@ pub(super) struct Analytic<'a> {
     known: Vec<Known>,
     forms: Vec<Convex<f32>>,
     polyhedra: Vec<Polyhedron<'a, f32>>,
-    /// Number of primitives that were looked at, and whether anything was known of a light there.
-    tried: u32,
-    decided: bool,
+    /// Whether certificates are not worth asking for in this tile.
+    hopeless: bool,
 }
 
 fn corner(v: [f32; 3]) -> Vec3<f32> {
@@ -166,8 +165,7 @@ impl<'a> Analytic<'a> {
             known: Vec::new(),
             forms: Vec::new(),
             polyhedra: Vec::new(),
-            tried: 0,
-            decided: false,
+            hopeless: false,
         }
     }
 
@@ -179,7 +177,25 @@ impl<'a> Analytic<'a> {
         self.forms.clear();
         self.polyhedra.clear();
         self.origin = origin;
-        (self.tried, self.decided) = (0, false);
+        self.hopeless = false;
+    }
+
+    /// Asks for the certificates of the first [`TRIALS`] primitives in the lanes of a packet that sees some places in the tile. If nothing is
+    /// known of any light there, no others are asked for. (The places are the same for all samples, so that what is known does not depend
+    /// on which of them a process takes.)
+    pub(super) fn try_out(&mut self, surface: &Surface, places: &Places) {
+        let (mut firsts, mut left) = (Vec::new(), surface.reflects & !places.glossy);
+        while left.any() && firsts.len() < TRIALS {
+            let (first, lanes) = self.find(surface, places, left);
+            left = left & !lanes;
+            if !firsts.contains(&first) {
+                firsts.push(first);
+            }
+        }
+        let count = self.lights.len();
+        let is_open = |known: &Known| matches!(known, Known::Crowded | Known::Nothing);
+        self.hopeless =
+            firsts.len() == TRIALS && firsts.iter().all(|&first| self.known[first..first + count].iter().all(is_open));
     }
 
     /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
@@ -233,7 +249,7 @@ impl<'a> Analytic<'a> {
         let count = self.lights.len();
         let decided = |known: &Known| matches!(known, Known::Lit | Known::Dark);
         let open = larger.is_none_or(|larger| !self.known[larger..larger + count].iter().all(decided));
-        let first = if open && !self.hopeless() {
+        let first = if open && !self.hopeless {
             let [x, y] = [column, row].map(|k| k * side);
             let [x, y] = [self.origin[0] + x, self.origin[1] + y].map(f64::from);
             let pyramid = Pyramid::new(pinhole, [x, y, x + f64::from(side), y + f64::from(side)]);
@@ -242,9 +258,6 @@ impl<'a> Analytic<'a> {
         } else {
             larger.unwrap_or_else(|| self.certify(None, None))
         };
-        if level == 0 {
-            self.note(first);
-        }
         self.squares[level][square].push(Entry { place, front: true, first });
         first
     }
@@ -256,21 +269,10 @@ impl<'a> Analytic<'a> {
             return entry.first;
         }
         let viewer = if front { Viewer::Front } else { Viewer::Back };
-        let patch = if self.hopeless() { None } else { Patch::of(self.surfaces, place, viewer) };
+        let patch = if self.hopeless { None } else { Patch::of(self.surfaces, place, viewer) };
         let first = self.certify(patch.as_ref(), None);
-        self.note(first);
         self.whole.push(Entry { place, front, first });
         first
-    }
-
-    /// Whether certificates are not worth asking for in this tile.
-    fn hopeless(&self) -> bool {
-        self.tried >= TRIALS && !self.decided
-    }
-    fn note(&mut self, first: usize) {
-        self.tried += 1;
-        let known = &self.known[first..first + self.lights.len()];
-        self.decided = self.decided || known.iter().any(|known| !matches!(known, Known::Crowded | Known::Nothing));
     }
 
     /// What is known at the surface in a lane.

@@ -147,6 +147,16 @@ impl<'a> Paths<'a> {
         &self.surfaces[..active.len()]
     }
 
+    /// Tries certificates where the rays of the first packet that has been started end.
+    pub(super) fn try_out(&mut self) {
+        self.surfaces(&[M8::splat(true)]);
+        self.note_glossy(1);
+        if let Some(analytic) = &mut self.analytic {
+            self.places[0].pixel = None;
+            analytic.try_out(&self.surfaces[0], &self.places[0]);
+        }
+    }
+
     /// What is known of the lights at the end of the first ray that has been started.
     pub(super) fn survey(&mut self) -> Survey {
         self.surfaces(&[M8::from_bits(1)]);

@@ -14,6 +14,7 @@ use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
 use crate::sensor::Exposure;
 use etendue::select::Allocated;
 use etendue::{Mask, Real, Vec2, u32x8};
+use std::ops::Range;
 
 /// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
 const POWER: f32 = 0.8;
@@ -46,12 +47,14 @@ struct Run {
     next: u32,
     end: u32,
     last_set: bool,
+    /// Whether `next` is the first of its samples.
+    begins: bool,
 }
 
 /// Lanes of a packet that belong to one run.
 struct Piece {
     packet: usize,
-    lanes: std::ops::Range<usize>,
+    lanes: Range<usize>,
     run: Run,
     /// Whether the run ends with these lanes.
     ends: bool,
@@ -81,13 +84,14 @@ impl<'a> TileRenderer<'a> {
         self.paths.count
     }
 
-    /// Renders all samples of the pixels of an area [x0, y0, x1, y1), row by row.
-    pub(super) fn all<A: Accumulator>(&mut self, area: [u32; 4], sum: A) -> Vec<A::Output> {
+    /// Renders a range of the samples of the pixels of an area [x0, y0, x1, y1), row by row.
+    pub(super) fn range<A: Accumulator>(&mut self, area: [u32; 4], range: Range<u32>, sum: A) -> Vec<A::Output> {
         let Settings { spp, .. } = *self.settings;
         let span = if self.source.span() == 0 { spp } else { self.source.span() };
         let whole = span.is_multiple_of(8);
         let weights = if whole { self.weights(area, span) } else { None };
-        self.samples(area, span, spp / span, weights.as_ref(), sum, |_| [0, span])
+        let of_set = |_, set: u32| [range.start, range.end].map(|at| at.saturating_sub(set * span).min(span));
+        self.samples(area, whole, span, spp / span, weights.as_ref(), sum, of_set)
     }
 
     /// Renders packets `from` to `to` of each of the `sets` of pixels of an area, row by row; `range` returns them for a pixel. Samples
@@ -102,15 +106,35 @@ impl<'a> TileRenderer<'a> {
         let found = if weights.is_none() { self.weights(area, 8 * pilot) } else { None };
         let weights = weights.or(found.as_ref());
         let sum = PartSum::new(weights.map_or(0, |weights| weights.lights));
-        self.samples(area, 8 * pilot, sets, weights, sum, |pixel| range(pixel).map(|packet| 8 * packet))
+        self.samples(area, true, 8 * pilot, sets, weights, sum, |pixel, _| range(pixel).map(|packet| 8 * packet))
     }
 
-    /// What is known of the lights in the middle of pixels of a tile that begins at `origin`, seen through the middle of the lens.
-    pub(super) fn survey(&mut self, origin: [u32; 2], pixels: &[[u32; 2]]) -> Vec<Survey> {
-        let mut surveys = Vec::with_capacity(pixels.len());
+    /// Prepares for the pixels of a tile.
+    pub(super) fn begin(&mut self, [x0, y0, ..]: [u32; 4]) {
         if let Some(analytic) = &mut self.paths.analytic {
-            analytic.begin(origin);
+            analytic.begin([x0, y0]);
         }
+    }
+
+    /// Tries certificates at eight places in a tile.
+    pub(super) fn try_out(&mut self, [x0, y0, x1, y1]: [u32; 4]) {
+        if self.paths.analytic.is_none() {
+            return;
+        }
+        let place = |start: u32, end: u32, step: u32| {
+            let middle = |lane: usize| (lane as u32 * step % 8 * 2 + 1) as f32 / 16.0;
+            X8::from(std::array::from_fn(|lane| start as f32 + (end - start) as f32 * middle(lane)))
+        };
+        // one in each row and column of an 8 × 8 grid
+        let film = Vec2::new(place(x0, x1, 1), place(y0, y1, 5));
+        self.paths.start(0, self.camera.rays(&CameraSample { film, lens: Vec2::default() }));
+        self.paths.try_out();
+        self.paths.count.corner += 8;
+    }
+
+    /// What is known of the lights in the middle of pixels of a tile, seen through the middle of the lens.
+    pub(super) fn survey(&mut self, pixels: &[[u32; 2]]) -> Vec<Survey> {
+        let mut surveys = Vec::with_capacity(pixels.len());
         for &[x, y] in pixels {
             let middle = |at: u32| X8::splat(at as f32 + 0.5);
             let sample = CameraSample { film: Vec2::new(middle(x), middle(y)), lens: Vec2::default() };
@@ -123,29 +147,32 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,
-    /// if given, in blocks of which the first has `block` samples.
+    /// if given, in blocks of which the first has `block` samples. If the sets consist of `whole` packets, no packet has samples of two.
+    #[expect(clippy::too_many_arguments, reason = "each is a part of what is to be sampled")]
     fn samples<A: Accumulator>(
         &mut self,
         area: [u32; 4],
+        whole: bool,
         block: u32,
         sets: u32,
         weights: Option<&Weights>,
         mut sum: A,
-        range: impl Fn([u32; 2]) -> [u32; 2],
+        range: impl Fn([u32; 2], u32) -> [u32; 2],
     ) -> Vec<A::Output> {
         let [x0, y0, x1, _] = area;
-        if let Some(analytic) = &mut self.paths.analytic {
-            analytic.begin([x0, y0]);
-        }
+        self.begin(area);
+        self.try_out(area);
         let pixels = z_order(area);
-        // samples that are independent of each other have no sets that end
-        let (span, end_sets) = (self.source.span(), self.settings.sampler.has_sets());
-        // packets of a single pixel and set are summed in lanes, others sample by sample
-        let whole = pixels.iter().all(|&pixel| range(pixel).iter().all(|sample| sample.is_multiple_of(8)));
+        let span = self.source.span();
         let mut runs = pixels.iter().flat_map(|&pixel| {
-            let [next, end] = range(pixel);
-            let run = move |set: u32| Run { pixel, set, next, end, last_set: set + 1 == sets };
-            (0..sets).map(run).filter(|run| run.next < run.end)
+            let range = &range;
+            let some = move |&set: &u32| range(pixel, set)[0] < range(pixel, set)[1];
+            let last = (0..sets).rfind(some);
+            let run = move |set: u32| {
+                let [next, end] = range(pixel, set);
+                Run { pixel, set, next, end, last_set: last == Some(set), begins: true }
+            };
+            (0..sets).filter(some).map(run)
         });
         let mut run = runs.next();
         let mut outputs = vec![A::Output::default(); pixels.len()];
@@ -160,25 +187,25 @@ impl<'a> TileRenderer<'a> {
                 && let Some(first) = run
             {
                 if let Some(weights) = weights {
-                    places.push(blocks.find(weights, first.pixel, first.next));
+                    places.push(blocks.find(weights, first.pixel, first.next / 8 * 8));
                 }
-                packets.push(Self::packet(&mut run, &mut runs, span, packets.len(), &mut pieces));
+                packets.push(Self::packet(&mut run, &mut runs, whole, span, packets.len(), &mut pieces));
             }
             let at = |&(block, sample): &(usize, u32)| blocks.allocations()[block].samples(sample);
             let all = |first: &(usize, u32)| std::array::from_fn(|p| at(places.get(p).unwrap_or(first)));
             let allocated: Option<[Allocated<'_, X8>; GROUP]> = places.first().map(all);
             let allocated = allocated.as_ref().map_or(&[][..], |all| &all[..places.len()]);
-            let radiance = self.radiance(&packets, allocated);
+            let radiance = self.radiance(&packets, whole, allocated);
             for Piece { packet, lanes, run, ends } in pieces.drain(..) {
                 let radiance = radiance[packet];
-                if whole {
+                if run.begins {
+                    sum.begin(run.set, run.next);
+                }
+                if whole && lanes.len() == 8 {
                     sum.push_packet(radiance.total(), radiance.seen, allocated.get(packet));
                 } else {
                     let total = radiance.total();
                     lanes.for_each(|lane| sum.push(total.lane(lane).into()));
-                }
-                if ends && end_sets {
-                    sum.end_set();
                 }
                 if ends && run.last_set {
                     let [x, y] = run.pixel;
@@ -189,24 +216,29 @@ impl<'a> TileRenderer<'a> {
         outputs
     }
 
-    /// The next eight samples of successive runs.
+    /// The next eight samples: of one run if sets consist of `whole` packets, else of successive runs.
     #[inline]
     fn packet(
         run: &mut Option<Run>,
         runs: &mut impl Iterator<Item = Run>,
+        whole: bool,
         span: u32,
         packet: usize,
         pieces: &mut Vec<Piece>,
     ) -> Packet {
         let lanes = u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
         let first = run.unwrap_or_else(|| unreachable!("there is a run"));
-        if first.end - first.next >= 8 {
-            let (next, ends) = (first.next + 8, first.next + 8 == first.end);
-            pieces.push(Piece { packet, lanes: 0..8, run: first, ends });
-            *run = if ends { runs.next() } else { Some(Run { next, ..first }) };
+        if whole || first.end - first.next >= 8 {
+            // a range may begin and end within an aligned packet: its other lanes are idle
+            let start = if whole { first.next / 8 * 8 } else { first.next };
+            let (next, ends) = ((start + 8).min(first.end), start + 8 >= first.end);
+            let active = (first.next - start) as usize..(next - start) as usize;
+            pieces.push(Piece { packet, lanes: active.clone(), run: first, ends });
+            *run = if ends { runs.next() } else { Some(Run { next, begins: false, ..first }) };
             let [x, y] = first.pixel.map(u32x8::splat);
-            let sample = u32x8::splat(first.set * span + first.next) + lanes;
-            return Packet { x, y, sample, replicate: u32x8::splat(first.set), active: M8::splat(true) };
+            let sample = u32x8::splat(first.set * span + start) + lanes;
+            let active = M8::from_bits((1 << active.end) - (1 << active.start));
+            return Packet { x, y, sample, replicate: u32x8::splat(first.set), active };
         }
         let (mut x, mut y, mut sample, mut replicate) = ([0; 8], [0; 8], [0; 8], [0; 8]);
         let mut filled = 0;
@@ -223,7 +255,7 @@ impl<'a> TileRenderer<'a> {
             filled += taken;
             let (next, ends) = (current.next + taken, current.next + taken == current.end);
             pieces.push(Piece { packet, lanes: range, run: current, ends });
-            *run = if ends { runs.next() } else { Some(Run { next, ..current }) };
+            *run = if ends { runs.next() } else { Some(Run { next, begins: false, ..current }) };
         }
         // the last packet of a tile repeats its last sample
         for lane in filled as usize..8 {
@@ -239,8 +271,8 @@ impl<'a> TileRenderer<'a> {
         }
     }
 
-    /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
-    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> &[Radiance] {
+    /// Measured values of the samples of a group of packets, each of which belongs to a single pixel if they are `whole`. `allocated` is empty, or allocates each sample to a light.
+    fn radiance(&mut self, packets: &[Packet], whole: bool, allocated: &[Allocated<'_, X8>]) -> &[Radiance] {
         let Self { source, paths, camera, settings, .. } = self;
         let lights = paths.sampled();
         // delta lights alone need no point on the light
@@ -268,9 +300,9 @@ impl<'a> TileRenderer<'a> {
             } else {
                 source.pair(packet, FILM)
             };
-            let [x, y] = [packet.x, packet.y].map(|of| of.to_array());
-            let alike = (1..8).all(|lane| x[lane] == x[0] && y[lane] == y[0]);
-            paths.places[p].pixel = alike.then_some([x[0], y[0]]);
+            // which samples share a packet depends on where a range begins, unless packets are whole
+            let [x, y] = [packet.x, packet.y].map(|of| of.as_array()[0]);
+            paths.places[p].pixel = whole.then_some([x, y]);
             let lens = self.lens.then(|| source.pair(packet, LENS));
             samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
             paths.start(p, camera.rays(&samples[p]));
