@@ -1,6 +1,6 @@
 //! Reading and replacing files.
 
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::{fmt, fs};
 
@@ -24,12 +24,19 @@ pub fn failed(path: &Path, what: impl fmt::Display) -> FileError {
     FileError { path: path.to_owned(), what: what.to_string() }
 }
 
-/// Reads a regular file; refuses pipes and devices, which may block or never end.
-pub fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+/// Opens a regular file; refuses pipes and devices, which may block or never end.
+pub fn open_file(path: &Path) -> io::Result<fs::File> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
     }
-    fs::read(path)
+    fs::File::open(path)
+}
+
+/// Reads a regular file; refuses pipes and devices, which may block or never end.
+pub fn read_file(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_file(path)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Whether two paths lead to the same existing file, by whatever names or links.

@@ -1,7 +1,7 @@
 //! Accumulates the mean and variance of pixels into an image.
 
 use crate::packet::{V8, X8};
-use crate::sums::{Adder, Moments, Sample, Sums};
+use crate::sums::{Adder, Moments, Sample};
 use etendue::select::Allocated;
 
 /// The finished estimate of one pixel.
@@ -94,12 +94,6 @@ impl Pixel {
     }
 }
 
-/// The pixel of all samples that are there.
-pub fn pixel<V: Sample>(mut sums: Sums<V>) -> Pixel {
-    let sets = sums.finish();
-    Pixel::of_sets(sets.iter().map(|(block, value)| (block.count, value.moments())), V::INDEPENDENT)
-}
-
 /// Accumulates the samples of pixels.
 #[derive(Clone, Debug, Default)]
 pub struct PixelSum<V>(Adder<V>);
@@ -120,7 +114,11 @@ impl<V: Sample> Accumulator for PixelSum<V> {
         self.0.push(radiance);
     }
     fn finish(&mut self) -> Pixel {
-        pixel(self.0.take())
+        let sums = self.0.sums();
+        let sets = sums.finish().iter().map(|(block, value)| (block.count, value.moments()));
+        let pixel = Pixel::of_sets(sets, V::INDEPENDENT);
+        sums.clear();
+        pixel
     }
 }
 
@@ -141,7 +139,7 @@ impl<V: Sample> Accumulator for BlockSum<V> {
         self.0.push(radiance);
     }
     fn finish(&mut self) -> Vec<V> {
-        self.0.take().into_blocks().into_iter().map(|(_, value)| value).collect()
+        std::mem::take(self.0.sums()).into_blocks().into_iter().map(|(_, value)| value).collect()
     }
 }
 

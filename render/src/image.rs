@@ -1,12 +1,15 @@
 //! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and image crates.
 
+pub mod layers;
+
+pub use exr::prelude::Compression;
+
 use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};
 use exr::block::chunk::CompressedBlock;
-use exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes, LineOrder,
-    ReadChannels, ReadLayers, WritableImage,
-};
+use exr::prelude::{ReadChannels, ReadLayers};
+use layers::{Layer, Numbers};
+use serde_json::Value;
 use std::fmt;
 use std::io::{BufWriter, Cursor};
 use std::path::Path;
@@ -19,22 +22,23 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 /// # Errors
 /// Fails if the file cannot be written; an existing file then remains unchanged.
 pub fn write_exr(path: &Path, film: &Film) -> Result<(), FileError> {
-    let plane = |f: &dyn Fn(&Pixel) -> f32| FlatSamples::F32(film.pixels.iter().map(f).collect());
-    let mut channels = Vec::new();
+    let size = [film.width, film.height];
+    let layer = Layer { area: [0, 0, film.width, film.height], planes: planes(&film.pixels), text: Value::Null };
+    let bytes =
+        layers::encode(size, &Value::Null, vec![layer], Compression::ZIP16).map_err(|error| failed(path, error))?;
+    replace(path, &bytes)
+}
+
+/// The planes of an image: R, G, B, `variance.R`, `variance.G`, `variance.B` and `samples.N`.
+pub fn planes(pixels: &[Pixel]) -> Vec<(String, Numbers)> {
+    let plane = |f: &dyn Fn(&Pixel) -> f32| Numbers::F32(pixels.iter().map(f).collect());
+    let mut planes = Vec::new();
     for (k, name) in CHANNELS.into_iter().enumerate() {
-        channels.push(AnyChannel::new(name, plane(&|p| p.mean[k])));
-        channels.push(AnyChannel::new(format!("variance.{name}").as_str(), plane(&|p| p.variance[k])));
+        planes.push((name.to_owned(), plane(&|p| p.mean[k])));
+        planes.push((format!("variance.{name}"), plane(&|p| p.variance[k])));
     }
-    channels.push(AnyChannel::new("samples.N", FlatSamples::U32(film.pixels.iter().map(|p| p.samples).collect())));
-    // increasing line order makes the bytes independent of the number of compressing threads
-    let encoding =
-        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
-    let size = (film.width as usize, film.height as usize);
-    let layer =
-        Layer::new(size, LayerAttributes::default(), encoding, AnyChannels::sort(channels.into_iter().collect()));
-    let mut bytes = Cursor::new(Vec::new());
-    Image::from_layer(layer).write().to_buffered(&mut bytes).map_err(|error| failed(path, error))?;
-    replace(path, bytes.get_ref())
+    planes.push(("samples.N".to_owned(), Numbers::U32(pixels.iter().map(|p| p.samples).collect())));
+    planes
 }
 
 /// Writes a tone-mapped PNG: Reinhard's extended curve on luminance, white at radiance 4, then 8-bit sRGB.

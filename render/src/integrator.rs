@@ -8,22 +8,26 @@ mod prepared;
 mod settings;
 mod tile;
 
+pub use adaptive::{Allotment, Statistics};
+pub use allocation::APART;
 pub use analytic::Survey;
 pub use settings::{RayCount, Settings};
 
+use crate::area;
 use crate::bvh::BuildError;
 use crate::camera::Camera;
-use crate::film::{Film, Pixel, PixelSum};
+use crate::film::{BlockSum, Film, Pixel, PixelSum};
 use crate::sampler::Sampler;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
-use crate::sums::{Moments, Sample, Sum};
+use crate::sums::{Moments, Planes, Sample, Sum};
 use crate::technique::Technique;
 use adaptive::Effort;
 use prepared::PreparedScene;
 use rayon::prelude::*;
 use settings::TILE;
 use std::collections::HashSet;
+use std::ops::Range;
 use tile::TileRenderer;
 
 /// Greatest number of pixels that are looked at to choose a technique.
@@ -94,8 +98,8 @@ impl World {
         let settings = &Settings { technique: self.technique(camera, settings), ..*settings };
         let (pixels, rays) = match settings.sampler {
             Sampler::Adaptive => self.render_adaptively(camera, settings, progress),
-            Sampler::Independent => self.render_evenly::<Moments>(camera, settings, progress),
-            _ => self.render_evenly::<Sum>(camera, settings, progress),
+            Sampler::Independent => self.render_evenly::<Moments>(camera, settings, settings.whole(), progress),
+            _ => self.render_evenly::<Sum>(camera, settings, settings.whole(), progress),
         };
         (Film { width, height, pixels }, rays)
     }
@@ -134,7 +138,7 @@ impl World {
     /// What is known of the lights in the middle of each pixel, row by row.
     pub fn survey(&self, camera: &Camera, settings: &Settings) -> Vec<Survey> {
         let settings = &Settings { technique: Technique::Analytic, ..*settings };
-        let (surveys, _) = self.tiles(camera, settings, |renderer, [x0, y0, x1, y1]| {
+        let (surveys, _) = self.tiles(camera, settings, settings.whole(), |renderer, [x0, y0, x1, y1]| {
             let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
             renderer.begin([x0, y0, x1, y1]);
             renderer.try_out([x0, y0, x1, y1]);
@@ -146,8 +150,8 @@ impl World {
     /// What is known of the lights in the middle of every tile, or, in large images, of every second, third, … tile: at most [`PROBES`].
     fn probe(&self, camera: &Camera, settings: &Settings) -> Vec<Survey> {
         let settings = &Settings { technique: Technique::Analytic, ..*settings };
-        let apart = areas(settings).len().div_ceil(PROBES).max(1);
-        let probed = areas(settings).step_by(apart).map(|[x0, y0, x1, y1]| {
+        let apart = areas(settings.whole()).len().div_ceil(PROBES).max(1);
+        let probed = areas(settings.whole()).step_by(apart).map(|[x0, y0, x1, y1]| {
             let mut renderer = self.renderer(camera, settings);
             renderer.begin([x0, y0, x1, y1]);
             renderer.survey(&[[x0.midpoint(x1), y0.midpoint(y1)]])[0]
@@ -160,9 +164,10 @@ impl World {
         &self,
         camera: &Camera,
         settings: &Settings,
+        area: [u32; 4],
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Pixel>, RayCount) {
-        self.tiles(camera, settings, |renderer, area| {
+        self.tiles(camera, settings, area, |renderer, area| {
             let pixels = renderer.range(area, 0..settings.spp, PixelSum::<V>::default());
             progress(pixels.len() as u64);
             pixels
@@ -176,21 +181,150 @@ impl World {
         settings: &Settings,
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Pixel>, RayCount) {
-        let width = settings.width;
+        let (pilot, mut rays) = self.pilot(camera, settings, settings.whole(), |_| {});
+        let (pixels, more) =
+            self.rest(camera, settings, &Allotment::new(settings, camera.has_lens(), &pilot), progress);
+        rays += more;
+        (pixels, rays)
+    }
+
+    /// Sets of each pixel, and the effort of adaptive sampling.
+    fn effort(camera: &Camera, settings: &Settings) -> (u32, Effort) {
         let sets = settings.sampler.sets(settings.spp, settings.sets, camera.has_lens());
-        let effort = Effort::new(settings.spp, sets);
-        let pilot = effort.pilot;
-        let (first, mut rays) =
-            self.tiles(camera, settings, |renderer, area| renderer.parts(area, [pilot, sets], None, |_| [0, pilot]));
-        let (packets, weights) = adaptive::allot(&first, width, sets, &effort);
-        let (second, more) = self.tiles(camera, settings, |renderer, area| {
-            let range = |[x, y]: [u32; 2]| [pilot, packets[(y * width + x) as usize]];
-            let parts = renderer.parts(area, [pilot, sets], weights.as_ref(), range);
+        (sets, Effort::new(settings.spp, sets))
+    }
+
+    fn pilot(
+        &self,
+        camera: &Camera,
+        settings: &Settings,
+        area: [u32; 4],
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Statistics>, RayCount) {
+        let (sets, Effort { pilot, .. }) = Self::effort(camera, settings);
+        self.tiles(camera, settings, area, |renderer, area| {
+            let parts = renderer.parts(area, [pilot, sets], None, |_| [0, pilot]);
             progress(parts.len() as u64);
             parts
+        })
+    }
+
+    fn rest(
+        &self,
+        camera: &Camera,
+        settings: &Settings,
+        allotment: &Allotment,
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Pixel>, RayCount) {
+        let (sets, Effort { pilot, .. }) = Self::effort(camera, settings);
+        let weights = allotment.weights();
+        let [x0, y0, x1, _] = allotment.area;
+        let index = |x: u32, y: u32| ((y - y0) * (x1 - x0) + (x - x0)) as usize;
+        self.tiles(camera, settings, allotment.area, |renderer, area| {
+            let range = |[x, y]: [u32; 2]| [pilot, allotment.packets[index(x, y)]];
+            let rest = renderer.parts(area, [pilot, sets], weights.as_ref(), range);
+            progress(rest.len() as u64);
+            let [x0, y0, x1, y1] = area;
+            let places = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
+            places.zip(&rest).map(|((x, y), rest)| allotment.finish(index(x, y), rest, sets)).collect()
+        })
+    }
+
+    /// Renders a range of the samples of the pixels of an area: the largest blocks of samples in it, and their sums. The area must
+    /// consist of [tiles](Settings::is_of_tiles).
+    ///
+    /// # Panics
+    /// Panics if the sampler is [`Sampler::Adaptive`], or if area or range are not within the image and its samples.
+    pub fn render_range(
+        &self,
+        settings: &Settings,
+        area: [u32; 4],
+        range: Range<u32>,
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Planes>, RayCount) {
+        assert!(settings.is_of_tiles(area) && range.end <= settings.spp && settings.sampler != Sampler::Adaptive);
+        if settings.sampler == Sampler::Independent {
+            self.planes::<Moments>(settings, area, &range, progress)
+        } else {
+            self.planes::<Sum>(settings, area, &range, progress)
+        }
+    }
+
+    fn planes<V: Sample>(
+        &self,
+        settings: &Settings,
+        area: [u32; 4],
+        range: &Range<u32>,
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Planes>, RayCount) {
+        let (camera, settings) = self.resolve(settings);
+        let (pixels, rays) = self.tiles(&camera, &settings, area, |renderer, area| {
+            let pixels = renderer.range(area, range.clone(), BlockSum::<V>::default());
+            progress(pixels.len() as u64);
+            pixels
         });
-        rays += more;
-        (first.iter().zip(&second).map(|(a, b)| a.finish(b, sets)).collect(), rays)
+        let moments = |block: usize| pixels.iter().map(move |pixel: &Vec<V>| pixel[block].moments());
+        let planes = |block: usize| Planes {
+            sums: moments(block).map(|moments| moments.sum).collect(),
+            squares: if V::INDEPENDENT { moments(block).map(|moments| moments.squares).collect() } else { Vec::new() },
+        };
+        ((0..pixels.first().map_or(0, Vec::len)).map(planes).collect(), rays)
+    }
+
+    /// Renders all samples of the pixels of an area, which must consist of [tiles](Settings::is_of_tiles).
+    ///
+    /// # Panics
+    /// Panics if the sampler is [`Sampler::Adaptive`], or if the area does not consist of tiles.
+    pub fn render_area(
+        &self,
+        settings: &Settings,
+        area: [u32; 4],
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Pixel>, RayCount) {
+        assert!(settings.is_of_tiles(area) && settings.sampler != Sampler::Adaptive);
+        let (camera, settings) = self.resolve(settings);
+        if settings.sampler == Sampler::Independent {
+            self.render_evenly::<Moments>(&camera, &settings, area, progress)
+        } else {
+            self.render_evenly::<Sum>(&camera, &settings, area, progress)
+        }
+    }
+
+    /// Renders the pilot of [`Sampler::Adaptive`] for the pixels of an area, which must consist of [tiles](Settings::is_of_tiles).
+    ///
+    /// # Panics
+    /// Panics if the sampler is another, or if the area does not consist of tiles.
+    pub fn render_pilot(
+        &self,
+        settings: &Settings,
+        area: [u32; 4],
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Statistics>, RayCount) {
+        assert!(settings.is_of_tiles(area) && settings.sampler == Sampler::Adaptive);
+        let (camera, settings) = self.resolve(settings);
+        self.pilot(&camera, &settings, area, progress)
+    }
+
+    /// Renders the samples after the pilot of [`Sampler::Adaptive`] in the area of an allotment, which must consist of
+    /// [tiles](Settings::is_of_tiles). Returns the finished pixels.
+    ///
+    /// # Panics
+    /// Panics if the sampler is another, or if the area does not consist of tiles.
+    pub fn render_rest(
+        &self,
+        settings: &Settings,
+        allotment: &Allotment,
+        progress: impl Fn(u64) + Sync,
+    ) -> (Vec<Pixel>, RayCount) {
+        assert!(settings.is_of_tiles(allotment.area) && settings.sampler == Sampler::Adaptive);
+        let (camera, settings) = self.resolve(settings);
+        self.rest(&camera, &settings, allotment, progress)
+    }
+
+    /// The scene's camera for an image, and its settings with a fixed technique.
+    fn resolve(&self, settings: &Settings) -> (Camera, Settings) {
+        let camera = Camera::new(&self.camera, settings.width, settings.height);
+        (camera, Settings { technique: self.technique(&camera, settings), ..*settings })
     }
 
     fn renderer<'a>(&'a self, camera: &Camera, settings: &'a Settings) -> TileRenderer<'a> {
@@ -198,42 +332,37 @@ impl World {
     }
 
     /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.
-    fn tiles<T: Copy + Default + Send>(
+    fn tiles<T: Clone + Default + Send>(
         &self,
         camera: &Camera,
         settings: &Settings,
+        area: [u32; 4],
         of: impl Fn(&mut TileRenderer, [u32; 4]) -> Vec<T> + Sync,
     ) -> (Vec<T>, RayCount) {
-        let (width, height) = (settings.width, settings.height);
-        let rendered: Vec<_> = areas(settings)
+        let rendered: Vec<_> = areas(area)
             .map(|area| {
                 let mut renderer = self.renderer(camera, settings);
                 let pixels = of(&mut renderer, area);
                 (area, pixels, renderer.count())
             })
             .collect();
-        let mut pixels = vec![T::default(); width as usize * height as usize];
+        let mut pixels = vec![T::default(); area::count(area)];
         let mut rays = RayCount::default();
-        for ([x0, y0, x1, y1], tile, count) in rendered {
-            let across = (x1 - x0) as usize;
-            for (row, y) in tile.chunks(across).zip(y0..y1) {
-                let start = y as usize * width as usize + x0 as usize;
-                pixels[start..start + across].copy_from_slice(row);
-            }
+        for (part, tile, count) in rendered {
+            area::paste(&mut pixels, area, part, tile);
             rays += count;
         }
         (pixels, rays)
     }
 }
 
-/// The area [x0, y0, x1, y1) of each tile of an image.
-fn areas(settings: &Settings) -> impl IndexedParallelIterator<Item = [u32; 4]> + use<> {
-    let (width, height) = (settings.width, settings.height);
-    let columns = width.div_ceil(TILE);
-    let tiles = columns as usize * height.div_ceil(TILE) as usize;
+/// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.
+fn areas([left, top, right, bottom]: [u32; 4]) -> impl IndexedParallelIterator<Item = [u32; 4]> + use<> {
+    let columns = (right - left).div_ceil(TILE);
+    let tiles = columns as usize * (bottom - top).div_ceil(TILE) as usize;
     (0..tiles).into_par_iter().map(move |tile| {
-        let x = (tile as u32 % columns) * TILE;
-        let y = (tile as u32 / columns) * TILE;
-        [x, y, (x + TILE).min(width), (y + TILE).min(height)]
+        let x = left + (tile as u32 % columns) * TILE;
+        let y = top + (tile as u32 / columns) * TILE;
+        [x, y, (x + TILE).min(right), (y + TILE).min(bottom)]
     })
 }

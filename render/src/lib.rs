@@ -2,14 +2,17 @@
 //!
 //! Modules import one way, from the last line of this list to the first:
 //!
-//! - [`packet`], [`geometry`], [`options`]: packets of eight numbers, the forms of shapes, and what command lines share.
+//! - [`packet`], [`area`], [`geometry`], [`options`]: packets of eight numbers, rectangles of pixels, the forms of shapes, and what command
+//!   lines share.
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
 //! - [`certificates`]: what geometry alone tells about the light that reaches a surface.
 //! - [`integrator`], [`progressive`]: images of a given number of samples, or of a given error or time.
+//! - [`frame`], [`split`], [`parts`], [`merge`]: images whose parts are rendered apart.
 
+pub mod area;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
@@ -17,22 +20,27 @@ pub mod certificates;
 pub mod compare;
 pub mod files;
 pub mod film;
+pub mod frame;
 pub mod geometry;
 pub mod image;
 pub mod integrator;
 pub mod light_tree;
 pub mod lights;
+pub mod merge;
 pub mod options;
 pub mod packet;
+pub mod parts;
 pub mod progressive;
 pub mod sampler;
 pub mod scene;
 pub mod sensor;
 pub mod sky;
+pub mod split;
 pub mod sums;
 pub mod surfaces;
 pub mod technique;
 
+pub use frame::Frame;
 pub use integrator::{RayCount, Settings, World};
 pub use sampler::Sampler;
 pub use sensor::Sensor;

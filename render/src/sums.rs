@@ -141,7 +141,7 @@ impl Sample for Moments {
 /// The squared deviations that two sets of samples have together beyond those within each (Chan, Golub and LeVeque 1983). For two equal
 /// powers of two, the factors of the sums are exact.
 #[inline]
-pub fn between(left: f64, right: f64, counts: [f64; 2]) -> f64 {
+fn between(left: f64, right: f64, counts: [f64; 2]) -> f64 {
     let [n, m] = counts;
     let difference = left * n.recip() - right * m.recip();
     difference * difference * (n * m / (n + m))
@@ -149,7 +149,7 @@ pub fn between(left: f64, right: f64, counts: [f64; 2]) -> f64 {
 
 /// The sum of two blocks.
 #[inline]
-pub fn add(left: f64, right: f64, blocks: [Block; 2]) -> f64 {
+fn add(left: f64, right: f64, blocks: [Block; 2]) -> f64 {
     let sum = left + right;
     if blocks[0].is_within_octet(blocks[1]) { f64::from(sum as f32) } else { sum }
 }
@@ -170,6 +170,34 @@ impl Join for Moments {
         for k in 0..3 {
             self.squares[k] = self.squares[k] + other.squares[k] + between(self.sum[k], other.sum[k], counts);
             self.sum[k] = add(self.sum[k], other.sum[k], [left, right]);
+        }
+    }
+}
+
+/// Sums of a block of samples of each of many pixels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Planes {
+    /// Σx of each pixel.
+    pub sums: Vec<[f64; 3]>,
+    /// Σ(x − mean)² of each pixel; empty unless samples are independent.
+    pub squares: Vec<[f64; 3]>,
+}
+
+impl Join for Planes {
+    fn join(&mut self, left: Block, other: Self, right: Block) {
+        if self.squares.is_empty() {
+            for (sum, other) in self.sums.iter_mut().zip(other.sums) {
+                let mut own = Sum(*sum);
+                own.join(left, Sum(other), right);
+                *sum = own.0;
+            }
+            return;
+        }
+        let others = other.sums.into_iter().zip(other.squares).map(|(sum, squares)| Moments { sum, squares });
+        for ((sum, squares), other) in self.sums.iter_mut().zip(&mut self.squares).zip(others) {
+            let mut own = Moments { sum: *sum, squares: *squares };
+            own.join(left, other, right);
+            (*sum, *squares) = (own.sum, own.squares);
         }
     }
 }
@@ -255,12 +283,15 @@ pub struct Adder<V> {
     /// What is known of `blocks(start..next, 0)`.
     stack: Vec<V>,
     /// Samples since the last multiple of eight.
-    waiting: Vec<[f32; 3]>,
+    waiting: [[f32; 3]; OCTET as usize],
+    /// Their number.
+    waits: usize,
 }
 
 impl<V> Default for Adder<V> {
     fn default() -> Self {
-        Self { sums: Sums::default(), set: 0, start: 0, next: 0, stack: Vec::new(), waiting: Vec::new() }
+        let waiting = Default::default();
+        Self { sums: Sums::default(), set: 0, start: 0, next: 0, stack: Vec::new(), waiting, waits: 0 }
     }
 }
 
@@ -274,15 +305,16 @@ impl<V: Sample> Adder<V> {
     /// Adds one sample.
     #[inline]
     pub fn push(&mut self, x: [f32; 3]) {
-        self.waiting.push(x);
-        if (self.next + self.waiting.len() as u32).is_multiple_of(OCTET) {
+        self.waiting[self.waits] = x;
+        self.waits += 1;
+        if (self.next + self.waits as u32).is_multiple_of(OCTET) {
             self.flush();
         }
     }
     /// Adds eight samples, of which the first has an index that is a multiple of eight.
     #[inline]
     pub fn push_octet(&mut self, channels: &[[f32; 8]; 3]) {
-        debug_assert!(self.waiting.is_empty() && self.next.is_multiple_of(OCTET));
+        debug_assert!(self.waits == 0 && self.next.is_multiple_of(OCTET));
         self.add(OCTET, V::octet(channels));
     }
     /// Adds a block of 1 or 8 samples.
@@ -301,16 +333,19 @@ impl<V: Sample> Adder<V> {
         self.stack.push(value);
     }
     fn flush(&mut self) {
-        for i in 0..self.waiting.len() {
+        for i in 0..self.waits {
             self.add(1, V::one(self.waiting[i]));
         }
-        self.waiting.clear();
+        self.waits = 0;
     }
     /// Ends the range.
     #[inline]
     fn end(&mut self) {
         self.flush();
-        if self.stack.is_empty() {
+        if let [value] = self.stack[..] {
+            // by far the most frequent case
+            self.sums.insert(Block { set: self.set, first: self.start, count: self.next - self.start }, value);
+            self.stack.clear();
             return;
         }
         let blocks = blocks(self.start..self.next, 0);
@@ -318,10 +353,10 @@ impl<V: Sample> Adder<V> {
             self.sums.insert(Block { set: self.set, ..block }, value);
         }
     }
-    /// The sums of all ranges. The adder is empty afterwards.
+    /// The sums of all ranges, which are to be taken or cleared before the next pixel.
     #[inline]
-    pub fn take(&mut self) -> Sums<V> {
+    pub fn sums(&mut self) -> &mut Sums<V> {
         self.end();
-        std::mem::take(&mut self.sums)
+        &mut self.sums
     }
 }

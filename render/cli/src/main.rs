@@ -1,9 +1,13 @@
 //! The renderer's command line: reads the arguments, runs a command and sets the exit code.
 
 mod compare;
+mod image;
 mod interrupt;
 mod list;
+mod merge;
 mod output;
+mod part;
+mod plan;
 mod processor;
 mod render;
 mod selftest;
@@ -26,6 +30,10 @@ struct Cli {
 enum Command {
     /// Render a scene to an EXR file, with a PNG beside it
     Render(render::Options),
+    /// Print the commands that render an image in parts, on any number of machines
+    Plan(plan::Options),
+    /// Put parts of an image together
+    Merge(merge::Options),
     /// Compare an image with a reference of the same size
     Compare(compare::Options),
     /// Render scenes with every applicable technique and sampler, and check that the images agree
@@ -68,6 +76,8 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
         Command::Selftest(options) if !selftest::run(&options)? => return Ok(ExitCode::FAILURE),
         Command::Selftest(_) => {}
         Command::Render(options) => render::run(&options)?,
+        Command::Plan(options) => plan::run(&options)?,
+        Command::Merge(options) => merge::run(&options)?,
         Command::Compare(options) => compare::run(&options)?,
         Command::Chart(options) => chart::run(&options, &command_line())?,
         Command::Figure(options) => figure::run(&options)?,

@@ -2,7 +2,6 @@
 
 use etendue_render::film::Film;
 use etendue_render::scene::Scene;
-use etendue_render::sensor::Exposure;
 use etendue_render::{files, image};
 use std::path::{Path, PathBuf};
 
@@ -27,6 +26,14 @@ impl Output {
             (None, Some(file)) if !file.is_empty() => Path::new(file).with_extension("exr"),
             (None, _) => PathBuf::from(format!("{}.exr", scene.name)),
         };
+        Self::of(exr, &scene.inputs)
+    }
+
+    /// The files to write for an image at this path, which is made from files that must stay as they are.
+    ///
+    /// # Errors
+    /// Fails if the name does not end in `.exr`, if a file cannot be written, or if it is among `inputs`.
+    pub(crate) fn of(exr: PathBuf, inputs: &[PathBuf]) -> Result<Self, String> {
         let png = exr.with_extension("png");
         // what a device is matters more than how its name ends
         files::check_replaceable(&exr).map_err(|error| error.to_string())?;
@@ -38,7 +45,7 @@ impl Output {
         }
         files::check_replaceable(&png).map_err(|error| error.to_string())?;
         for file in [&exr, &png] {
-            if scene.inputs.iter().any(|input| files::is_same(input, file)) {
+            if inputs.iter().any(|input| files::is_same(input, file)) {
                 let what =
                     if *file == exr { "the image".to_owned() } else { format!("the PNG beside {}", exr.display()) };
                 let shown = file.display();
@@ -50,15 +57,17 @@ impl Output {
         Ok(Self { exr, png })
     }
 
-    /// Writes both files. The PNG is exposed so that its middle looks the same with every sensor.
+    /// Writes both files. The PNG is exposed so that its middle looks the same with every sensor: `exposure` is the value of unit radiance
+    /// there.
     ///
     /// # Errors
     /// Fails if a file cannot be written; the message says what has been written.
-    pub(crate) fn write(&self, film: &Film, exposure: Option<&Exposure>) -> Result<(), String> {
+    pub(crate) fn write(&self, film: &Film, exposure: f64) -> Result<(), String> {
         image::write_exr(&self.exr, film).map_err(|error| error.to_string())?;
-        let written = match exposure {
-            None => image::write_png(&self.png, film),
-            Some(exposure) => image::write_png(&self.png, &film.scaled(1.0 / exposure.on_axis())),
+        let written = if exposure == 1.0 {
+            image::write_png(&self.png, film)
+        } else {
+            image::write_png(&self.png, &film.scaled(1.0 / exposure))
         };
         written.map_err(|error| format!("{error}; {} was written, but its PNG was not", self.exr.display()))
     }

@@ -1,12 +1,14 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
+use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
+use crate::part::{self, PartOptions};
 use clap::Args;
 use etendue_render::film::Film;
-use etendue_render::options::{name, pool, size};
-use etendue_render::progressive::{self, Goal, Pass, Plan, Progress, default_sampler, relative_error};
-use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World, scene};
+use etendue_render::options::{name, pool};
+use etendue_render::progressive::{self, Goal, Pass, Plan, Progress, relative_error};
+use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 use std::error::Error;
@@ -16,55 +18,25 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Name of a built-in scene, or path of a pbrt-v4 file
-    scene: String,
+    #[command(flatten)]
+    image: ImageOptions,
     /// Write the image to this EXR file, and a PNG beside it [default: the scene's film filename, or SCENE.exr]
     #[arg(short, long, value_name = "OUT.exr")]
     output: Option<PathBuf>,
-    /// Take this many samples per pixel [default: from the scene]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
-    spp: Option<u32>,
+    #[command(flatten)]
+    part: PartOptions,
     /// Refine the image until this many seconds have passed since the start of the first pass
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["spp", "repeat"])]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["spp", "repeat", "parts"])]
     time: Option<f64>,
     /// Refine the image until its estimated error (relative RMS) is at most this, such as 0.01 or 1%
-    #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat"])]
+    #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat", "parts"])]
     error: Option<f64>,
-    /// Sample the lights by this technique
-    #[arg(long, value_enum, default_value = "auto")]
-    technique: Technique,
-    /// Follow a camera ray through at most this many perfect mirrors
-    #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
-    depth: u32,
-    /// Generate the random numbers by this sampler [default: adaptive from 32 samples on, else sobol, or independent for odd numbers]
-    #[arg(long, value_enum)]
-    sampler: Option<Sampler>,
-    /// Measure this quantity; irradiance and power need a camera with a lens
-    #[arg(long, value_enum, default_value = "radiance")]
-    sensor: Sensor,
-    /// Split the samples of a pixel into this many independent sets: with 1 the error is least, but not known [default: 2 or 4, if the number of samples allows]
-    #[arg(long, value_name = "1|2|4", value_parser = sets)]
-    sets: Option<u32>,
-    /// Render an image of this size in pixels [default: from the scene]
-    #[arg(long, value_name = "WxH", value_parser = size)]
-    size: Option<(u32, u32)>,
-    /// Seed the random numbers with this; different seeds give independent images
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    seed: u64,
-    /// Use this many threads; 0 means one per core
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    threads: usize,
     /// Render the same image this many times, for timing
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "parts")]
     repeat: u32,
     /// Print the result as one JSON object
     #[arg(long)]
     json: bool,
-}
-
-/// Parses `--sets`.
-fn sets(text: &str) -> Result<u32, String> {
-    [1, 2, 4].into_iter().find(|n| text == n.to_string()).ok_or_else(|| "must be 1, 2 or 4".to_owned())
 }
 
 /// Parses `--time`.
@@ -102,47 +74,28 @@ struct Image {
 pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let interrupt = Interrupt::new()?;
     let start = Instant::now();
-    let mut scene = scene::load(&options.scene)?;
+    let image = &options.image;
+    let (mut scene, settings) = image.load()?;
     let load = start.elapsed().as_secs_f64();
-    for warning in &scene.warnings {
-        eprintln!("warning: {warning}");
-    }
-    let (width, height) = options.size.unwrap_or((scene.film.width, scene.film.height));
     let lens = scene.camera.lens.is_some();
-    let sets = options.sets.unwrap_or(0);
-    let spp = options.spp.unwrap_or(scene.pixel_samples);
-    let settings = Settings {
-        width,
-        height,
-        spp,
-        technique: options.technique,
-        depth: options.depth,
-        sampler: options.sampler.unwrap_or_else(|| default_sampler(spp, sets, lens)),
-        sets,
-        seed: options.seed,
-    };
-    if options.sensor != Sensor::Radiance && !lens {
-        let (sensor, scene) = (name(options.sensor), &options.scene);
-        return Err(format!(
-            "--sensor {sensor}: the camera of {scene} is a pinhole: it needs a \"lensradius\" greater than 0"
-        )
-        .into());
-    }
     let goal = Goal { seconds: options.time, error: options.error };
-    let plan = (goal != Goal::default()).then_some(Plan { settings, sampler: options.sampler, lens, goal });
+    let plan = (goal != Goal::default()).then_some(Plan { settings, sampler: image.sampler, lens, goal });
     match &plan {
-        None => settings.sampler.check(spp, sets, lens).map_err(|what| format!("--sampler: {what}"))?,
+        None => image.check(&settings, lens)?,
         Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
+    }
+    if let Some(content) = options.part.content(&settings)? {
+        return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let output = Output::new(options.output.as_deref(), &scene)?;
 
-    let pool = pool(options.threads)?;
+    let pool = pool(image.threads)?;
     let start = Instant::now();
-    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(options.sensor);
+    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);
     let build = start.elapsed().as_secs_f64();
 
     let studio = Studio { world: &world, settings, output: &output, interrupt: &interrupt };
-    let image = pool.install(|| match &plan {
+    let done = pool.install(|| match &plan {
         None => studio.once(options.repeat, lens),
         Some(plan) => studio.refine(plan),
     })?;
@@ -155,14 +108,14 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
                 options,
                 &settings,
                 world.chosen(&settings),
-                &image,
+                &done,
                 &output,
                 [load, build],
                 pool.current_num_threads()
             )
         )?;
     } else {
-        print(options, &settings, world.chosen(&settings), &scene.name, &image, &output, [load, build])?;
+        print(options, &settings, world.chosen(&settings), &scene.name, &done, &output, [load, build])?;
     }
     Ok(())
 }
@@ -229,7 +182,8 @@ impl Studio<'_> {
 
     fn write(&self, film: &Film, spp: u64, error: Option<f64>) -> Result<(), String> {
         let mut status = self.interrupt.lock();
-        self.output.write(film, self.world.exposure(film.width, film.height).as_ref())?;
+        let exposure = self.world.exposure(film.width, film.height);
+        self.output.write(film, exposure.map_or(1.0, |exposure| exposure.on_axis()))?;
         let error = error.map_or_else(|| "not known".to_owned(), percent);
         status.text =
             format!("{} holds an image of {spp} samples per pixel, estimated error {error}", self.output.exr.display());
@@ -238,7 +192,7 @@ impl Studio<'_> {
 }
 
 /// A progress bar, which draws nothing unless stderr is a terminal.
-fn bar(length: u64, template: &str) -> ProgressBar {
+pub(crate) fn bar(length: u64, template: &str) -> ProgressBar {
     let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(length).with_style(style)
 }
@@ -271,7 +225,7 @@ fn to_json(
         .map(|p| json!({ "spp": p.spp, "sampler": name(p.sampler), "seed": p.seed, "seconds": p.seconds }))
         .collect();
     json!({
-        "scene": options.scene,
+        "scene": options.image.scene,
         "width": settings.width,
         "height": settings.height,
         "spp": image.spp,
@@ -279,7 +233,7 @@ fn to_json(
         "technique": name(settings.technique),
         "chosen": name(chosen),
         "sampler": name(image.sampler),
-        "sensor": name(options.sensor),
+        "sensor": name(options.image.sensor),
         "seed": settings.seed,
         "threads": threads,
         "seconds": { "load": time[0], "build": time[1], "render": image.seconds },
@@ -316,10 +270,10 @@ fn print(
     let rate = rays.camera as f64 / render / 1e6;
     writeln!(out, "{rate:.1} million samples/s; {} camera rays, {} shadow rays", rays.camera, rays.shadow)?;
     let [r, g, b] = image.film.mean();
-    match options.sensor {
+    match options.image.sensor {
         Sensor::Radiance => writeln!(out, "mean radiance {r:.6} {g:.6} {b:.6}")?,
         Sensor::Irradiance | Sensor::Power => {
-            writeln!(out, "mean {} {r:.6e} {g:.6e} {b:.6e}", name(options.sensor))?;
+            writeln!(out, "mean {} {r:.6e} {g:.6e} {b:.6e}", name(options.image.sensor))?;
         }
     }
     match relative_error(&image.film) {

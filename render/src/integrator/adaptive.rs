@@ -5,12 +5,15 @@
 //! that a pixel has in the sum over all pixels.
 
 use super::allocation::{APART, Weights};
+use super::settings::Settings;
+use crate::area::crop;
 use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::{V8, X8};
 use crate::sums::{Adder, Moments, Sum};
 use etendue::Real;
 use etendue::estimate::Welford;
 use etendue::select::Allocated;
+use libm::pow;
 
 /// The squared error falls about as N^−1.5 if a pixel's integrand is smooth except for edges. Then Σ cᵢ nᵢ^−1.5 for a given Σ nᵢ is
 /// least with nᵢ ∝ cᵢ^0.4.
@@ -35,50 +38,105 @@ impl Effort {
     pub(super) fn new(spp: u32, sets: u32) -> Self {
         let packets = f64::from(spp) / f64::from(8 * sets);
         // the greatest power of two up to a quarter, but 2 packets if there are 4 or more: eight points miss too much
-        let pilot = (packets / 4.0).log2().floor().exp2().max(if packets < 4.0 { 1.0 } else { 2.0 });
+        let pilot = greatest_power(packets / 4.0).max(if packets < 4.0 { 1.0 } else { 2.0 });
         Self { pilot: pilot as u32, packets }
     }
 }
 
 /// Statistics of a range of the samples of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Part {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
     /// Sum of each set.
-    sums: [[f64; 3]; 4],
+    pub sums: [[f64; 3]; 4],
     /// Packets in each set.
-    packets: u32,
+    pub packets: u32,
     /// Variance of the means of four samples each, summed over the channels; for allocated samples, of what the camera sees directly. For
     /// samples allocated to more than `APART` lights, the sum of squared differences of successive samples.
-    variance: f64,
+    pub variance: f64,
     /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
-    lights: usize,
-    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, and the number of these pairs per set.
-    spread: [f32; APART],
-    pairs: [u32; APART],
+    pub lights: usize,
+    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light.
+    pub spread: [f32; APART],
+    /// Number of these pairs per set.
+    pub pairs: [u32; APART],
     /// Number of samples of each light per set.
-    taken: [u32; APART],
+    pub taken: [u32; APART],
 }
 
-impl Part {
-    /// Combines two ranges into the finished pixel.
-    pub(super) fn finish(&self, other: &Self, sets: u32) -> Pixel {
-        let packets = self.packets + other.packets;
+/// How many samples each pixel of a rectangle receives after the pilot, and what the pilot found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Allotment {
+    /// The pixels [x0, y0, x1, y1).
+    pub area: [u32; 4],
+    /// Packets of each pixel in each set, with those of the pilot.
+    pub packets: Vec<u32>,
+    /// Number of lights among which the samples are shared by weight; 0 if they are not.
+    pub lights: usize,
+    /// The weight of each light at each pixel.
+    pub weights: Vec<f32>,
+    /// Samples per set of each light in the pilot.
+    pub begun: Vec<[u32; APART]>,
+    /// Sum of each set of the pilot.
+    pub sums: Vec<[[f64; 3]; 4]>,
+}
+
+impl Allotment {
+    /// From the pilot of a whole image.
+    ///
+    /// # Panics
+    /// Panics if the pilot is not one of the image's size.
+    #[must_use]
+    pub fn new(settings: &Settings, lens: bool, pilot: &[Statistics]) -> Self {
+        let &Settings { width, height, spp, .. } = settings;
+        assert_eq!(pilot.len(), width as usize * height as usize);
+        let sets = settings.sampler.sets(spp, settings.sets, lens);
+        let (packets, weights) = allot(pilot, width, sets, &Effort::new(spp, sets));
+        let (lights, of) = weights.map_or((0, Vec::new()), |weights| weights);
+        Self {
+            area: [0, 0, width, height],
+            packets,
+            lights,
+            weights: of,
+            begun: pilot.iter().map(|pixel| pixel.taken).collect(),
+            sums: pilot.iter().map(|pixel| pixel.sums).collect(),
+        }
+    }
+    /// The same for the pixels of a rectangle within the area.
+    #[must_use]
+    pub fn crop(&self, area: [u32; 4]) -> Self {
+        Self {
+            area,
+            packets: crop(&self.packets, self.area, area, 1),
+            lights: self.lights,
+            weights: crop(&self.weights, self.area, area, self.lights),
+            begun: crop(&self.begun, self.area, area, 1),
+            sums: crop(&self.sums, self.area, area, 1),
+        }
+    }
+    /// The weights of the lights, if samples are shared by weight.
+    pub(super) fn weights(&self) -> Option<Weights<'_>> {
+        let Self { lights, weights, area, begun, .. } = self;
+        (*lights > 0).then(|| Weights { lights: *lights, of: weights.into(), area: *area, begun })
+    }
+    /// The pixel of this index, with the samples after those of the pilot.
+    pub(super) fn finish(&self, index: usize, rest: &Statistics, sets: u32) -> Pixel {
+        let count = 8 * self.packets[index];
         let both = |(a, b): (&[f64; 3], &[f64; 3])| {
             let sum = std::array::from_fn(|k| a[k] + b[k]);
-            (8 * packets, Moments { sum, ..Moments::default() })
+            (count, Moments { sum, ..Moments::default() })
         };
-        Pixel::of_sets(self.sums.iter().zip(&other.sums).take(sets as usize).map(both), false)
+        Pixel::of_sets(self.sums[index].iter().zip(&rest.sums).take(sets as usize).map(both), false)
     }
 }
 
-/// Packets per set for each pixel, from the variance of the pilot; and the weights of the lights, if samples are allocated to at most
-/// `APART` lights.
-pub(super) fn allot(parts: &[Part], width: u32, sets: u32, effort: &Effort) -> (Vec<u32>, Option<Weights>) {
+/// Packets per set for each pixel, from the variance of the pilot; and the number of lights and their weights, if samples are allocated to
+/// at most `APART` lights.
+fn allot(parts: &[Statistics], width: u32, sets: u32, effort: &Effort) -> (Vec<u32>, Option<(usize, Vec<f32>)>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let mut weights = None;
     let wanted: Vec<f64> = if lights == 0 {
         let variance: Vec<_> = parts.iter().map(|part| part.variance).collect();
-        mean_around(&variance, &vec![1.0; parts.len()], columns).into_iter().map(|v| v.powf(POWER)).collect()
+        mean_around(&variance, &vec![1.0; parts.len()], columns).into_iter().map(|v| pow(v, POWER)).collect()
     } else {
         // the error of each light falls with its own samples: the least Σ cᵢ nᵢ^−1.5 over the lights is (Σ cᵢ^0.4)^2.5 n^−1.5
         let mut of = vec![0.0; parts.len() * lights];
@@ -86,16 +144,15 @@ pub(super) fn allot(parts: &[Part], width: u32, sets: u32, effort: &Effort) -> (
             let spread: Vec<_> = parts.iter().map(|part| f64::from(part.spread[k])).collect();
             let pairs: Vec<_> = parts.iter().map(|part| f64::from(part.pairs[k])).collect();
             for (of, mean) in of.chunks_mut(lights).zip(mean_around(&spread, &pairs, columns)) {
-                of[k] = mean.powf(POWER) as f32;
+                of[k] = pow(mean, POWER) as f32;
             }
         }
         // the error of what the camera sees directly falls with all samples
         let seen: Vec<_> = parts.iter().map(|part| 16.0 * f64::from(sets) * part.variance).collect();
         let reflected = of.chunks(lights).map(|each| each.iter().map(|&w| f64::from(w)).sum::<f64>());
-        let both = |(w, seen): (f64, f64)| (w.powf(1.0 / POWER) + seen).powf(POWER);
+        let both = |(w, seen): (f64, f64)| pow(pow(w, 1.0 / POWER) + seen, POWER);
         let sums = reflected.zip(mean_around(&seen, &vec![1.0; parts.len()], columns)).map(both).collect();
-        let area = [0, 0, width, (parts.len() / columns) as u32];
-        weights = Some(Weights { lights, of, area, begun: parts.iter().map(|part| part.taken).collect() });
+        weights = Some((lights, of));
         sums
     };
     let (pilot, total) = (f64::from(effort.pilot), effort.packets * parts.len() as f64);
@@ -115,12 +172,17 @@ pub(super) fn allot(parts: &[Part], width: u32, sets: u32, effort: &Effort) -> (
     }
     // Sobol points are best in powers of two: rounds down or up at random, independently of the samples
     let rounded = |i: usize, packets: f64| {
-        let below = packets.log2().floor().exp2();
+        let below = greatest_power(packets);
         let turn = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 11;
         let up = (turn as f64 / (1_u64 << 53) as f64) < packets / below - 1.0;
         (if up { 2.0 * below } else { below }) as u32
     };
     (wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect(), weights)
+}
+
+/// The greatest power of two that is no more than a positive normal number.
+fn greatest_power(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() >> 52 << 52)
 }
 
 /// Σ `sums` / Σ `counts` over the neighbours of each pixel, excluding the pixel itself.
@@ -152,13 +214,13 @@ fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Accumulates a [`Part`].
+/// Accumulates [`Statistics`].
 #[derive(Clone, Default)]
-pub(super) struct PartSum {
+pub(super) struct StatisticsSum {
     /// Number of lights to which the samples are allocated; 0 if they are not.
     lights: usize,
     adder: Adder<Sum>,
-    part: Part,
+    part: Statistics,
     halves: [Welford<f64>; 3],
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
@@ -169,14 +231,14 @@ pub(super) struct PartSum {
     samples: [u32; APART],
 }
 
-impl PartSum {
+impl StatisticsSum {
     pub(super) fn new(lights: usize) -> Self {
         Self { lights, ..Self::default() }
     }
 }
 
-impl Accumulator for PartSum {
-    type Output = Part;
+impl Accumulator for StatisticsSum {
+    type Output = Statistics;
 
     fn begin(&mut self, set: u32, first: u32) {
         self.adder.begin(set, first);
@@ -216,14 +278,15 @@ impl Accumulator for PartSum {
     fn push(&mut self, _: [f32; 3]) {
         unreachable!("adaptive sets consist of whole packets")
     }
-    fn finish(&mut self) -> Part {
+    fn finish(&mut self) -> Statistics {
         let mut part = self.part;
-        let mut sums = self.adder.take();
-        let sets = sums.finish();
+        let all = self.adder.sums();
+        let sets = all.finish();
         for (sum, (block, Sum(set))) in part.sums.iter_mut().zip(sets) {
             (*sum, part.packets) = (*set, block.count / 8);
         }
         let sets = sets.len();
+        all.clear();
         part.variance = self.halves.iter().map(|b| b.variance()).sum();
         if self.lights > APART {
             // in the unit of the other sum: a difference of two samples has 16 times the variance of the mean of four
@@ -236,7 +299,8 @@ impl Accumulator for PartSum {
             part.pairs = self.pairs.map(|pairs| pairs / sets);
             part.taken = self.samples.map(|samples| samples / sets);
         }
-        *self = Self::new(self.lights);
+        let adder = std::mem::take(&mut self.adder);
+        *self = Self { adder, ..Self::new(self.lights) };
         part
     }
 }

@@ -4,20 +4,21 @@
 //! pixels, never on the pixel's own samples: that keeps the estimate unbiased.
 
 use etendue::select::{Allocation, FEW};
+use std::borrow::Cow;
 
 /// Greatest number of lights whose variances the adaptive sampler measures separately.
-pub(super) const APART: usize = 8;
+pub const APART: usize = 8;
 
 /// The weights of the lights in the pixels of an area, row by row.
-pub(super) struct Weights {
+pub(super) struct Weights<'a> {
     pub(super) lights: usize,
-    pub(super) of: Vec<f32>,
+    pub(super) of: Cow<'a, [f32]>,
     pub(super) area: [u32; 4],
     /// Samples per set that each light received in the first block of each pixel; empty if that block is not done.
-    pub(super) begun: Vec<[u32; APART]>,
+    pub(super) begun: &'a [[u32; APART]],
 }
 
-impl Weights {
+impl Weights<'_> {
     fn index(&self, [x, y]: [u32; 2]) -> usize {
         let [x0, y0, x1, _] = self.area;
         ((y - y0) * (x1 - x0) + (x - x0)) as usize
@@ -50,7 +51,7 @@ impl Blocks {
         &self.allocations
     }
     /// Index of the block of a set of a pixel that contains a sample, and the sample's index in the block.
-    pub(super) fn find(&mut self, weights: &Weights, pixel: [u32; 2], sample: u32) -> (usize, u32) {
+    pub(super) fn find(&mut self, weights: &Weights<'_>, pixel: [u32; 2], sample: u32) -> (usize, u32) {
         let start = (sample / self.first).checked_ilog2().map_or(0, |doubled| self.first << doubled);
         if self.last != Some((pixel, start)) {
             self.allocations.push(self.allocate(weights, pixel, start));
@@ -58,7 +59,7 @@ impl Blocks {
         }
         (self.allocations.len() - 1, sample - start)
     }
-    fn allocate(&self, weights: &Weights, pixel: [u32; 2], start: u32) -> Allocation {
+    fn allocate(&self, weights: &Weights<'_>, pixel: [u32; 2], start: u32) -> Allocation {
         let (mut from, mut before) = (0, Allocation::NONE);
         let index = weights.index(pixel);
         if let Some(begun) = weights.begun.get(index) {

@@ -32,6 +32,22 @@ pub struct Settings {
 impl Settings {
     /// The default depth.
     pub const DEPTH: u32 = 8;
+    /// Side of the square tiles of an image in pixels. Parts of an image consist of whole tiles, since a tile shares what is known of its
+    /// lights.
+    pub const TILE: u32 = TILE;
+
+    /// The area [x0, y0, x1, y1) of the whole image in pixels.
+    #[must_use]
+    pub const fn whole(&self) -> [u32; 4] {
+        [0, 0, self.width, self.height]
+    }
+    /// Whether an area [x0, y0, x1, y1) consists of whole tiles of the image: its sides are at multiples of 16 or at the image's edges.
+    #[must_use]
+    pub fn is_of_tiles(&self, [x0, y0, x1, y1]: [u32; 4]) -> bool {
+        let is_side = |at: u32, end: u32| at.is_multiple_of(TILE) || at == end;
+        let is_range = |a: u32, b: u32, end: u32| a < b && b <= end && is_side(a, end) && is_side(b, end);
+        is_range(x0, x1, self.width) && is_range(y0, y1, self.height)
+    }
 }
 
 /// Numbers of rays traced for an image.

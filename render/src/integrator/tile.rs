@@ -1,6 +1,6 @@
 //! Renders the samples of a square of pixels.
 
-use super::adaptive::PartSum;
+use super::adaptive::{Statistics, StatisticsSum};
 use super::allocation::{Blocks, Weights};
 use super::analytic::Survey;
 use super::paths::{Numbers, Paths, Radiance};
@@ -46,18 +46,27 @@ struct Run {
     /// The next sample, and the end, counted within the set.
     next: u32,
     end: u32,
+    /// The samples that are kept, counted likewise.
+    kept: [u32; 2],
+    /// Whether no other set of the pixel has samples that are kept.
     last_set: bool,
-    /// Whether `next` is the first of its samples.
-    begins: bool,
 }
 
 /// Lanes of a packet that belong to one run.
 struct Piece {
     packet: usize,
     lanes: Range<usize>,
+    /// The run from the first of these lanes on.
     run: Run,
-    /// Whether the run ends with these lanes.
-    ends: bool,
+}
+
+impl Piece {
+    /// The lanes that are kept.
+    fn kept(&self) -> Range<usize> {
+        let Run { next, kept, .. } = self.run;
+        let lane = |sample: u32| (self.lanes.start + sample.saturating_sub(next) as usize).min(self.lanes.end);
+        lane(kept[0])..lane(kept[1])
+    }
 }
 
 impl<'a> TileRenderer<'a> {
@@ -91,7 +100,7 @@ impl<'a> TileRenderer<'a> {
         let whole = span.is_multiple_of(8);
         let weights = if whole { self.weights(area, span) } else { None };
         let of_set = |_, set: u32| [range.start, range.end].map(|at| at.saturating_sub(set * span).min(span));
-        self.samples(area, whole, span, spp / span, weights.as_ref(), sum, of_set)
+        self.samples(area, whole, [span; 2], spp / span, weights.as_ref(), sum, of_set)
     }
 
     /// Renders packets `from` to `to` of each of the `sets` of pixels of an area, row by row; `range` returns them for a pixel. Samples
@@ -100,13 +109,13 @@ impl<'a> TileRenderer<'a> {
         &mut self,
         area: [u32; 4],
         [pilot, sets]: [u32; 2],
-        weights: Option<&Weights>,
+        weights: Option<&Weights<'_>>,
         range: impl Fn([u32; 2]) -> [u32; 2],
-    ) -> Vec<<PartSum as Accumulator>::Output> {
+    ) -> Vec<Statistics> {
         let found = if weights.is_none() { self.weights(area, 8 * pilot) } else { None };
         let weights = weights.or(found.as_ref());
-        let sum = PartSum::new(weights.map_or(0, |weights| weights.lights));
-        self.samples(area, true, 8 * pilot, sets, weights, sum, |pixel, _| range(pixel).map(|packet| 8 * packet))
+        let sum = StatisticsSum::new(weights.map_or(0, |weights| weights.lights));
+        self.samples(area, true, [0, 8 * pilot], sets, weights, sum, |pixel, _| range(pixel).map(|packet| 8 * packet))
     }
 
     /// Prepares for the pixels of a tile.
@@ -147,15 +156,19 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,
-    /// if given, in blocks of which the first has `block` samples. If the sets consist of `whole` packets, no packet has samples of two.
+    /// if given, in blocks of which the first has `block` samples. If the sets of `span` samples consist of `whole` packets, no packet has
+    /// samples of two.
+    ///
+    /// Samples of a packet can depend on each other in the technique `analytic`, so the packets are always
+    /// those of an image of all samples: what is not in the range is left out after it has been rendered.
     #[expect(clippy::too_many_arguments, reason = "each is a part of what is to be sampled")]
     fn samples<A: Accumulator>(
         &mut self,
         area: [u32; 4],
         whole: bool,
-        block: u32,
+        [span, block]: [u32; 2],
         sets: u32,
-        weights: Option<&Weights>,
+        weights: Option<&Weights<'_>>,
         mut sum: A,
         range: impl Fn([u32; 2], u32) -> [u32; 2],
     ) -> Vec<A::Output> {
@@ -163,16 +176,16 @@ impl<'a> TileRenderer<'a> {
         self.begin(area);
         self.try_out(area);
         let pixels = z_order(area);
-        let span = self.source.span();
         let mut runs = pixels.iter().flat_map(|&pixel| {
             let range = &range;
             let some = move |&set: &u32| range(pixel, set)[0] < range(pixel, set)[1];
             let last = (0..sets).rfind(some);
             let run = move |set: u32| {
-                let [next, end] = range(pixel, set);
-                Run { pixel, set, next, end, last_set: last == Some(set), begins: true }
+                let kept = range(pixel, set);
+                let [next, end] = if whole { [kept[0] / 8 * 8, kept[1].next_multiple_of(8)] } else { [0, span] };
+                Run { pixel, set, next, end, kept, last_set: last == Some(set) }
             };
-            (0..sets).filter(some).map(run)
+            (0..sets).filter(move |set| !whole || some(set)).map(run)
         });
         let mut run = runs.next();
         let mut outputs = vec![A::Output::default(); pixels.len()];
@@ -186,28 +199,43 @@ impl<'a> TileRenderer<'a> {
             while packets.len() < GROUP
                 && let Some(first) = run
             {
-                if let Some(weights) = weights {
-                    places.push(blocks.find(weights, first.pixel, first.next / 8 * 8));
+                let known = pieces.len();
+                let packet = Self::packet(&mut run, &mut runs, span, packets.len(), &mut pieces);
+                if pieces[known..].iter().all(|piece: &Piece| piece.kept().is_empty()) {
+                    pieces.truncate(known);
+                    continue;
                 }
-                packets.push(Self::packet(&mut run, &mut runs, whole, span, packets.len(), &mut pieces));
+                if let Some(weights) = weights {
+                    places.push(blocks.find(weights, first.pixel, first.next));
+                }
+                packets.push(packet);
+            }
+            if packets.is_empty() {
+                break;
             }
             let at = |&(block, sample): &(usize, u32)| blocks.allocations()[block].samples(sample);
             let all = |first: &(usize, u32)| std::array::from_fn(|p| at(places.get(p).unwrap_or(first)));
             let allocated: Option<[Allocated<'_, X8>; GROUP]> = places.first().map(all);
             let allocated = allocated.as_ref().map_or(&[][..], |all| &all[..places.len()]);
-            let radiance = self.radiance(&packets, whole, allocated);
-            for Piece { packet, lanes, run, ends } in pieces.drain(..) {
-                let radiance = radiance[packet];
-                if run.begins {
-                    sum.begin(run.set, run.next);
+            let radiance = self.radiance(&packets, allocated);
+            for piece in pieces.drain(..) {
+                let kept = piece.kept();
+                let Piece { packet, lanes, run } = piece;
+                if kept.is_empty() {
+                    continue;
                 }
-                if whole && lanes.len() == 8 {
+                let radiance = radiance[packet];
+                let first = run.next + (kept.start - lanes.start) as u32;
+                if first == run.kept[0] {
+                    sum.begin(run.set, first);
+                }
+                if whole && kept.len() == 8 {
                     sum.push_packet(radiance.total(), radiance.seen, allocated.get(packet));
                 } else {
                     let total = radiance.total();
-                    lanes.for_each(|lane| sum.push(total.lane(lane).into()));
+                    kept.clone().for_each(|lane| sum.push(total.lane(lane).into()));
                 }
-                if ends && run.last_set {
+                if run.last_set && first + kept.len() as u32 == run.kept[1] {
                     let [x, y] = run.pixel;
                     outputs[((y - y0) * (x1 - x0) + (x - x0)) as usize] = sum.finish();
                 }
@@ -216,29 +244,24 @@ impl<'a> TileRenderer<'a> {
         outputs
     }
 
-    /// The next eight samples: of one run if sets consist of `whole` packets, else of successive runs.
+    /// The next eight samples of successive runs.
     #[inline]
     fn packet(
         run: &mut Option<Run>,
         runs: &mut impl Iterator<Item = Run>,
-        whole: bool,
         span: u32,
         packet: usize,
         pieces: &mut Vec<Piece>,
     ) -> Packet {
         let lanes = u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
         let first = run.unwrap_or_else(|| unreachable!("there is a run"));
-        if whole || first.end - first.next >= 8 {
-            // a range may begin and end within an aligned packet: its other lanes are idle
-            let start = if whole { first.next / 8 * 8 } else { first.next };
-            let (next, ends) = ((start + 8).min(first.end), start + 8 >= first.end);
-            let active = (first.next - start) as usize..(next - start) as usize;
-            pieces.push(Piece { packet, lanes: active.clone(), run: first, ends });
-            *run = if ends { runs.next() } else { Some(Run { next, begins: false, ..first }) };
+        if first.end - first.next >= 8 {
+            let next = first.next + 8;
+            pieces.push(Piece { packet, lanes: 0..8, run: first });
+            *run = if next == first.end { runs.next() } else { Some(Run { next, ..first }) };
             let [x, y] = first.pixel.map(u32x8::splat);
-            let sample = u32x8::splat(first.set * span + start) + lanes;
-            let active = M8::from_bits((1 << active.end) - (1 << active.start));
-            return Packet { x, y, sample, replicate: u32x8::splat(first.set), active };
+            let sample = u32x8::splat(first.set * span + first.next) + lanes;
+            return Packet { x, y, sample, replicate: u32x8::splat(first.set), active: M8::splat(true) };
         }
         let (mut x, mut y, mut sample, mut replicate) = ([0; 8], [0; 8], [0; 8], [0; 8]);
         let mut filled = 0;
@@ -253,9 +276,9 @@ impl<'a> TileRenderer<'a> {
                 replicate[lane] = current.set;
             }
             filled += taken;
-            let (next, ends) = (current.next + taken, current.next + taken == current.end);
-            pieces.push(Piece { packet, lanes: range, run: current, ends });
-            *run = if ends { runs.next() } else { Some(Run { next, begins: false, ..current }) };
+            let next = current.next + taken;
+            pieces.push(Piece { packet, lanes: range, run: current });
+            *run = if next == current.end { runs.next() } else { Some(Run { next, ..current }) };
         }
         // the last packet of a tile repeats its last sample
         for lane in filled as usize..8 {
@@ -271,8 +294,8 @@ impl<'a> TileRenderer<'a> {
         }
     }
 
-    /// Measured values of the samples of a group of packets, each of which belongs to a single pixel if they are `whole`. `allocated` is empty, or allocates each sample to a light.
-    fn radiance(&mut self, packets: &[Packet], whole: bool, allocated: &[Allocated<'_, X8>]) -> &[Radiance] {
+    /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
+    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> &[Radiance] {
         let Self { source, paths, camera, settings, .. } = self;
         let lights = paths.sampled();
         // delta lights alone need no point on the light
@@ -300,9 +323,9 @@ impl<'a> TileRenderer<'a> {
             } else {
                 source.pair(packet, FILM)
             };
-            // which samples share a packet depends on where a range begins, unless packets are whole
-            let [x, y] = [packet.x, packet.y].map(|of| of.as_array()[0]);
-            paths.places[p].pixel = whole.then_some([x, y]);
+            let [x, y] = [packet.x, packet.y].map(|of| of.to_array());
+            let alike = (1..8).all(|lane| x[lane] == x[0] && y[lane] == y[0]);
+            paths.places[p].pixel = alike.then_some([x[0], y[0]]);
             let lens = self.lens.then(|| source.pair(packet, LENS));
             samples[p] = CameraSample::new(packet.x, packet.y, film, lens);
             paths.start(p, camera.rays(&samples[p]));
@@ -322,7 +345,7 @@ impl<'a> TileRenderer<'a> {
 
     /// Weights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
     /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
-    fn weights(&mut self, area: [u32; 4], size: u32) -> Option<Weights> {
+    fn weights(&mut self, area: [u32; 4], size: u32) -> Option<Weights<'static>> {
         let lights = self.scene.lights.few()?;
         // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
         let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
@@ -360,6 +383,6 @@ impl<'a> TileRenderer<'a> {
             let four = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
             of.extend((0..lights).map(|k| four.iter().map(|c| corners[c + k]).sum::<f32>().powf(POWER)));
         }
-        Some(Weights { lights, of, area, begun: Vec::new() })
+        Some(Weights { lights, of: of.into(), area, begun: &[] })
     }
 }

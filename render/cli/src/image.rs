@@ -1,0 +1,101 @@
+//! The options that say which image is rendered.
+
+use clap::Args;
+use etendue_render::options::{name, size};
+use etendue_render::progressive::default_sampler;
+use etendue_render::scene::{self, Scene};
+use etendue_render::{Sampler, Sensor, Settings, Technique};
+use std::error::Error;
+
+#[derive(Args)]
+pub(crate) struct ImageOptions {
+    /// Name of a built-in scene, or path of a pbrt-v4 file
+    pub(crate) scene: String,
+    /// Take this many samples per pixel [default: from the scene]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
+    spp: Option<u32>,
+    /// Sample the lights by this technique
+    #[arg(long, value_enum, default_value = "auto")]
+    technique: Technique,
+    /// Follow a camera ray through at most this many perfect mirrors
+    #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    depth: u32,
+    /// Generate the random numbers by this sampler [default: adaptive from 32 samples on, else sobol, or independent for odd numbers]
+    #[arg(long, value_enum)]
+    pub(crate) sampler: Option<Sampler>,
+    /// Measure this quantity; irradiance and power need a camera with a lens
+    #[arg(long, value_enum, default_value = "radiance")]
+    pub(crate) sensor: Sensor,
+    /// Split the samples of a pixel into this many independent sets: with 1 the error is least, but not known [default: 2 or 4, if the number of samples allows]
+    #[arg(long, value_name = "1|2|4", value_parser = sets)]
+    sets: Option<u32>,
+    /// Render an image of this size in pixels [default: from the scene]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<(u32, u32)>,
+    /// Seed the random numbers with this; different seeds give independent images
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Use this many threads; 0 means one per core
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
+}
+
+/// Parses `--sets`.
+fn sets(text: &str) -> Result<u32, String> {
+    [1, 2, 4].into_iter().find(|n| text == n.to_string()).ok_or_else(|| "must be 1, 2 or 4".to_owned())
+}
+
+impl ImageOptions {
+    /// Reads the scene, prints its warnings, and completes the settings.
+    pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
+        let scene = scene::load(&self.scene)?;
+        for warning in &scene.warnings {
+            eprintln!("warning: {warning}");
+        }
+        let (width, height) = self.size.unwrap_or((scene.film.width, scene.film.height));
+        let lens = scene.camera.lens.is_some();
+        let sets = self.sets.unwrap_or(0);
+        let spp = self.spp.unwrap_or(scene.pixel_samples);
+        if self.sensor != Sensor::Radiance && !lens {
+            let (sensor, scene) = (name(self.sensor), &self.scene);
+            return Err(format!(
+                "--sensor {sensor}: the camera of {scene} is a pinhole: it needs a \"lensradius\" greater than 0"
+            )
+            .into());
+        }
+        let settings = Settings {
+            width,
+            height,
+            spp,
+            technique: self.technique,
+            depth: self.depth,
+            sampler: self.sampler.unwrap_or_else(|| default_sampler(spp, sets, lens)),
+            sets,
+            seed: self.seed,
+        };
+        Ok((scene, settings))
+    }
+
+    /// Checks that the sampler supports the number of samples.
+    pub(crate) fn check(&self, settings: &Settings, lens: bool) -> Result<(), String> {
+        let checked = settings.sampler.check(settings.spp, settings.sets, lens);
+        checked.map_err(|what| format!("--sampler: {what}"))
+    }
+
+    /// The arguments that give these options.
+    pub(crate) fn arguments(&self) -> Vec<String> {
+        let mut all = vec![self.scene.clone()];
+        let mut add =
+            |option: &str, value: Option<String>| all.extend(value.map(|value| format!("--{option}={value}")));
+        add("spp", self.spp.map(|spp| spp.to_string()));
+        add("technique", (self.technique != Technique::Auto).then(|| name(self.technique)));
+        add("depth", (self.depth != Settings::DEPTH).then(|| self.depth.to_string()));
+        add("sampler", self.sampler.map(name));
+        add("sensor", (self.sensor != Sensor::Radiance).then(|| name(self.sensor)));
+        add("sets", self.sets.map(|sets| sets.to_string()));
+        add("size", self.size.map(|(width, height)| format!("{width}x{height}")));
+        add("seed", (self.seed != 0).then(|| self.seed.to_string()));
+        add("threads", (self.threads != 0).then(|| self.threads.to_string()));
+        all
+    }
+}

@@ -1,0 +1,101 @@
+//! `etendue merge`: puts parts of an image together.
+
+use crate::interrupt::Interrupt;
+use crate::output::Output;
+use crate::render::bar;
+use clap::Args;
+use etendue_render::merge::{self, Goal, Merged, Outcome};
+use etendue_render::options::pool;
+use etendue_render::{files, parts};
+use std::error::Error;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+#[derive(Args)]
+pub(crate) struct Options {
+    /// The parts, or folders of parts
+    #[arg(required = true, value_name = "PART.exr|DIR")]
+    parts: Vec<PathBuf>,
+    /// Write the image to this EXR file, and a PNG beside it; of the parts of a pilot, write the whole pilot
+    #[arg(short, long, value_name = "OUT.exr")]
+    output: PathBuf,
+    /// Write an image of the samples that are there, although some are missing
+    #[arg(long, conflicts_with = "as_part")]
+    partial: bool,
+    /// Write one part that holds what the parts hold
+    #[arg(long)]
+    as_part: bool,
+    /// Use this many threads; 0 means one per core
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+}
+
+/// The files, and those in the folders whose names end in `.exr`, in the order of their names; without `output`.
+fn files_of(paths: &[PathBuf], output: &Path) -> Result<Vec<PathBuf>, String> {
+    let mut all = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            if files::is_same(path, output) {
+                return Err(format!("{}: this file is an input: choose another name with -o", output.display()));
+            }
+            all.push(path.clone());
+            continue;
+        }
+        let cannot = |error: io::Error| format!("{}: cannot read: {error}", path.display());
+        let entries = fs::read_dir(path).map_err(cannot)?;
+        let mut found =
+            entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>().map_err(cannot)?;
+        // files that are being written begin with a dot
+        found.retain(|file| {
+            let is_hidden = file.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
+            let is_exr = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
+            is_exr && !is_hidden && file.is_file() && !files::is_same(file, output)
+        });
+        if found.is_empty() {
+            return Err(format!("{}: there are no parts in this folder", path.display()));
+        }
+        found.sort();
+        all.append(&mut found);
+    }
+    Ok(all)
+}
+
+/// Merges, writes and reports.
+pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
+    let interrupt = Interrupt::new()?;
+    let output = Output::of(options.output.clone(), &[])?;
+    let files = files_of(&options.parts, &output.exr)?;
+    let goal = match options {
+        Options { partial: true, .. } => Goal::Partial,
+        Options { as_part: true, .. } => Goal::Part,
+        _ => Goal::Image,
+    };
+    let bar = bar(files.len() as u64, "{wide_bar} {pos} of {len} parts");
+    interrupt.watch(&bar, &output.exr);
+    let merged = pool(options.threads)?.install(|| merge::merge(&files, goal, |done| bar.inc(done)));
+    bar.finish_and_clear();
+    let Outcome { frame, merged, used, duplicates, gaps } = merged?;
+    let mut out = io::stdout().lock();
+    for file in &duplicates {
+        writeln!(out, "ignored {}, which holds what another part holds", file.display())?;
+    }
+    let _status = interrupt.lock();
+    match merged {
+        Merged::Image(film) => {
+            output.write(&film, frame.exposure)?;
+            writeln!(out, "wrote {} and {} from {used} parts", output.exr.display(), output.png.display())?;
+            if !gaps.is_empty() {
+                let whole = frame.settings.spp as usize * film.pixels.len();
+                let there: usize = film.pixels.iter().map(|pixel| pixel.samples as usize).sum();
+                let percent = 100.0 * there as f64 / whole as f64;
+                writeln!(out, "{} parts are missing: the image has {percent:.1} % of its samples", gaps.len())?;
+            }
+        }
+        Merged::Part(pieces) => {
+            parts::write(&output.exr, &frame, pieces)?;
+            writeln!(out, "wrote {} from {used} parts", output.exr.display())?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,221 @@
+//! The options that make `etendue render` render a part of an image, and how it does.
+
+use crate::image::ImageOptions;
+use crate::interrupt::Interrupt;
+use crate::render::bar;
+use clap::Args;
+use etendue_render::area;
+use etendue_render::files;
+use etendue_render::options::pool;
+use etendue_render::parts::{self, Content, Kind, PartFile, Piece};
+use etendue_render::scene::Scene;
+use etendue_render::{Frame, Sampler, Settings, World};
+use serde_json::json;
+use std::error::Error;
+use std::io::{self, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+#[derive(Args)]
+#[group(id = "parts", multiple = true)]
+pub(crate) struct PartOptions {
+    /// Render only samples A to B-1 of each pixel, as a part of the image for `etendue merge`
+    #[arg(long, value_name = "A:B", value_parser = range)]
+    range: Option<Range<u32>>,
+    /// Render only the pixels from column X0 to X1-1 and from row Y0 to Y1-1, as a part of the image; all are multiples of 16, or the image's size
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = tile)]
+    tile: Option<Tile>,
+    /// Render only the first samples of the sampler adaptive, as a part of its pilot
+    #[arg(long, conflicts_with_all = ["range", "after"])]
+    pilot: bool,
+    /// Render the samples of the sampler adaptive that follow this merged pilot, as a part of the image
+    #[arg(long, value_name = "PILOT.exr", conflicts_with = "range")]
+    after: Option<PathBuf>,
+}
+
+/// The pixels [x0, y0, x1, y1).
+#[derive(Clone, Copy)]
+struct Tile([u32; 4]);
+
+/// Parses `--range`.
+fn range(text: &str) -> Result<Range<u32>, String> {
+    let ends = text.split_once(':').and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+    let valid = ends.filter(|(a, b)| a < b).map(|(a, b): (u32, u32)| a..b);
+    valid.ok_or_else(|| "must be the first sample and the one after the last, such as 0:512".to_owned())
+}
+
+/// Parses `--tile`.
+fn tile(text: &str) -> Result<Tile, String> {
+    let sides: Option<Vec<u32>> = text.split(',').map(|side| side.parse().ok()).collect();
+    let valid = sides.and_then(|sides| <[u32; 4]>::try_from(sides).ok()).map(Tile);
+    valid.ok_or_else(|| "must be four numbers, such as 0,0,64,64".to_owned())
+}
+
+/// The pixels and samples of a part.
+pub(crate) struct PartContent {
+    area: [u32; 4],
+    what: What,
+}
+
+enum What {
+    Samples(Range<u32>),
+    Pilot,
+    After(PathBuf),
+}
+
+impl PartOptions {
+    /// The part that is asked for, if one is.
+    pub(crate) fn content(&self, settings: &Settings) -> Result<Option<PartContent>, String> {
+        if self.range.is_none() && self.tile.is_none() && !self.pilot && self.after.is_none() {
+            return Ok(None);
+        }
+        let &Settings { width, height, spp, sampler, .. } = settings;
+        let area = self.tile.map_or(settings.whole(), |tile| tile.0);
+        if !settings.is_of_tiles(area) {
+            let [x0, y0, x1, y1] = area;
+            return Err(format!(
+                "--tile {x0},{y0},{x1},{y1}: the numbers must be multiples of {}, or the size of the image, {width}x{height}, and the first two less than the others",
+                Settings::TILE
+            ));
+        }
+        let is_adaptive = sampler == Sampler::Adaptive;
+        if is_adaptive != (self.pilot || self.after.is_some()) {
+            return Err(if is_adaptive {
+                "the sampler adaptive takes its samples in two rounds, --pilot and --after PILOT.exr: \
+                 `etendue plan` prints the commands; or choose another, such as --sampler sobol"
+            } else {
+                "--pilot and --after are only for --sampler adaptive"
+            }
+            .into());
+        }
+        let what = match (&self.after, self.pilot) {
+            (Some(file), _) => What::After(file.clone()),
+            (None, true) => What::Pilot,
+            (None, false) => What::Samples(self.range.clone().unwrap_or(0..spp)),
+        };
+        if let What::Samples(range) = &what
+            && range.end > spp
+        {
+            return Err(format!("--range {}:{}: there are {spp} samples per pixel", range.start, range.end));
+        }
+        Ok(Some(PartContent { area, what }))
+    }
+}
+
+/// The name of the file of a part: what it holds.
+pub(crate) fn file_name(area: [u32; 4], range: Option<&Range<u32>>) -> String {
+    let [x0, y0, x1, y1] = area;
+    let samples = range.map_or_else(String::new, |range| format!("-s{:05}-{:05}", range.start, range.end));
+    format!("x{x0:04}-{x1:04}-y{y0:04}-{y1:04}{samples}.exr")
+}
+
+/// Why a file is not the part that is wanted; `None` if it is.
+fn flaw(path: &Path, frame: &Frame, area: [u32; 4], is_kind: impl Fn(&Kind) -> bool) -> Option<String> {
+    let mut part = match PartFile::open(path) {
+        Ok(part) => part,
+        Err(error) => return Some(error.to_string()),
+    };
+    if let Some(difference) = frame.difference(&part.frame) {
+        return Some(format!("{}: a part of another image: {difference}", path.display()));
+    }
+    if part.pieces.len() != 1 || part.pieces[0].area != area || !is_kind(&part.pieces[0].kind) {
+        return Some(format!("{}: holds other pixels or samples of the image", path.display()));
+    }
+    part.read().err().map(|error| error.to_string())
+}
+
+/// Renders the part and writes it, unless the file holds it already.
+pub(crate) fn run(
+    image: &ImageOptions,
+    part: &PartContent,
+    output: Option<&Path>,
+    mut scene: Scene,
+    settings: Settings,
+    as_json: bool,
+    interrupt: &Interrupt,
+) -> Result<(), Box<dyn Error>> {
+    let start = Instant::now();
+    let frame = Frame::new(&scene, settings, image.sensor)?;
+    let PartContent { area, what } = part;
+    let range = if let What::Samples(range) = what { Some(range) } else { None };
+    let name = || PathBuf::from(format!("{}-{}", scene.name, file_name(*area, range)));
+    let path = output.map_or_else(name, Path::to_owned);
+    if !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
+        return Err(format!("--output {}: the name must end in .exr", path.display()).into());
+    }
+    if scene.inputs.iter().any(|input| files::is_same(input, &path)) {
+        return Err(format!("{}: the scene has been read from this file", path.display()).into());
+    }
+    let is_kind = |kind: &Kind| match (kind, what) {
+        (Kind::Pixels, What::Samples(range)) => *range == (0..settings.spp),
+        (Kind::Range(own), What::Samples(range)) => own == range,
+        (Kind::Pixels, What::After(_)) | (Kind::Pilot(_), What::Pilot) => true,
+        _ => false,
+    };
+    let report = |rendered: bool| {
+        let samples = match what {
+            What::Samples(range) => format!("samples {} to {}", range.start, range.end - 1),
+            What::Pilot => "the pilot".to_owned(),
+            What::After(_) => "the samples after the pilot".to_owned(),
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        let mut out = io::stdout().lock();
+        if as_json {
+            let object =
+                json!({ "output": path.to_string_lossy(), "area": area, "rendered": rendered, "seconds": seconds });
+            return writeln!(out, "{object}");
+        }
+        let did = if rendered { "wrote" } else { "kept" };
+        let [x0, y0, x1, y1] = area;
+        let pixels = format!("columns {x0} to {}, rows {y0} to {}", x1 - 1, y1 - 1);
+        writeln!(out, "{did} {}: {samples} of {pixels}, {seconds:.3} s", path.display())
+    };
+    if path.exists() {
+        match flaw(&path, &frame, *area, is_kind) {
+            None => return Ok(report(false)?),
+            Some(flaw) => eprintln!("warning: {flaw}; it is rendered again"),
+        }
+    }
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("{}: cannot make this folder: {error}", folder.display()))?;
+    }
+    files::check_replaceable(&path)?;
+    let allotment = if let What::After(file) = what {
+        let mut pilot = PartFile::open(file)?;
+        if let Some(difference) = frame.difference(&pilot.frame) {
+            return Err(format!("{}: the pilot of another image: {difference}", file.display()).into());
+        }
+        if !matches!(pilot.pieces[0].kind, Kind::Allotment(_)) {
+            return Err(format!("{}: not the whole pilot; merge its parts", file.display()).into());
+        }
+        let pieces = pilot.read_rows(&(area[1]..area[3]))?;
+        match &pieces[0].content {
+            Content::Allotment(allotment) => Some(allotment.crop(*area)),
+            _ => None,
+        }
+    } else {
+        None
+    };
+
+    let pool = pool(image.threads)?;
+    let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);
+    let bar = bar(area::count(*area) as u64, "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
+    interrupt.watch(&bar, &path);
+    let progress = |done: u64| bar.inc(done);
+    let content = pool.install(|| match (what, &allotment) {
+        (What::Pilot, _) => Content::Pilot(world.render_pilot(&settings, *area, progress).0),
+        (_, Some(allotment)) => Content::Pixels(world.render_rest(&settings, allotment, progress).0),
+        (What::Samples(range), _) if *range != (0..settings.spp) => {
+            Content::Range(range.clone(), world.render_range(&settings, *area, range.clone(), progress).0)
+        }
+        _ => Content::Pixels(world.render_area(&settings, *area, progress).0),
+    });
+    bar.finish_and_clear();
+    {
+        let _status = interrupt.lock();
+        parts::write(&path, &frame, vec![Piece { area: *area, content }])?;
+    }
+    Ok(report(true)?)
+}

@@ -1,0 +1,146 @@
+//! What an image depends on, so that its parts can be recognised.
+
+use crate::integrator::Settings;
+use crate::options::name;
+use crate::sampler::Sampler;
+use crate::scene::Scene;
+use crate::sensor::{Exposure, Sensor};
+use crate::technique::Technique;
+use clap::ValueEnum;
+use serde_json::{Value, json};
+use std::io;
+use xxhash_rust::xxh3::Xxh3;
+
+/// Everything that an image depends on. Equal frames have equal images, bit for bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// The scene's name, for messages.
+    pub scene: String,
+    /// Hash of the files of the scene, in hexadecimal digits; of its name if it is built in.
+    pub digest: String,
+    /// The settings, with a sampler that is not left open.
+    pub settings: Settings,
+    /// What is measured.
+    pub sensor: Sensor,
+    /// Whether the camera has a lens.
+    pub lens: bool,
+    /// The value of unit radiance at the middle of the image, in the unit of the sensor: the PNG is exposed by it.
+    pub exposure: f64,
+    /// The version, processor features and sources of the program.
+    pub build: String,
+}
+
+/// The build of this program.
+pub const BUILD: &str = env!("ETENDUE_BUILD");
+
+impl Frame {
+    /// The frame that this program renders.
+    ///
+    /// # Errors
+    /// Fails if a file of the scene cannot be read again.
+    pub fn new(scene: &Scene, settings: Settings, sensor: Sensor) -> io::Result<Self> {
+        let mut hash = Xxh3::new();
+        hash.update(scene.name.as_bytes());
+        for file in &scene.inputs {
+            let bytes = crate::files::read_file(file)?;
+            hash.update(&(bytes.len() as u64).to_le_bytes());
+            hash.update(&bytes);
+        }
+        let size = [settings.width, settings.height];
+        let exposure = Exposure::new(sensor, &scene.camera, scene.film.diagonal, size);
+        Ok(Self {
+            scene: scene.name.clone(),
+            digest: format!("{:032x}", hash.digest128()),
+            settings,
+            sensor,
+            lens: scene.camera.lens.is_some(),
+            exposure: exposure.map_or(1.0, |exposure| exposure.on_axis()),
+            build: BUILD.to_owned(),
+        })
+    }
+
+    /// Samples in a set; 0 if each sample is independent.
+    pub fn span(&self) -> u32 {
+        if self.settings.sampler.has_sets() { self.settings.spp / self.sets() } else { 0 }
+    }
+    /// Sets of samples of a pixel.
+    pub fn sets(&self) -> u32 {
+        self.settings.sampler.sets(self.settings.spp, self.settings.sets, self.lens)
+    }
+
+    /// The frame as a JSON object.
+    pub fn to_json(&self) -> Value {
+        let Settings { width, height, spp, technique, depth, sampler, sets, seed } = self.settings;
+        json!({
+            "scene": self.scene,
+            "digest": self.digest,
+            "width": width,
+            "height": height,
+            "spp": spp,
+            "technique": name(technique),
+            "depth": depth,
+            "sampler": name(sampler),
+            "sets": sets,
+            "seed": seed,
+            "sensor": name(self.sensor),
+            "lens": self.lens,
+            "exposure": format!("{:?}", self.exposure),
+            "build": self.build,
+        })
+    }
+
+    /// Reads what [`to_json`](Self::to_json) wrote.
+    ///
+    /// # Errors
+    /// Names the first value that is missing or not possible.
+    pub fn from_json(value: &Value) -> Result<Self, String> {
+        let wrong = |key: &str| format!("{key:?} is missing or wrong: {}", value[key]);
+        let number = |key: &str| value[key].as_u64().ok_or_else(|| wrong(key));
+        let small =
+            |key: &str, most: u32| u32::try_from(number(key)?).ok().filter(|&n| n <= most).ok_or_else(|| wrong(key));
+        let text = |key: &str| value[key].as_str().map(str::to_owned).ok_or_else(|| wrong(key));
+        fn choice<T: ValueEnum>(text: &str, wrong: String) -> Result<T, String> {
+            T::from_str(text, false).map_err(|_| wrong)
+        }
+        let settings = Settings {
+            width: small("width", 65_536)?,
+            height: small("height", 65_536)?,
+            spp: small("spp", 1 << 22)?,
+            technique: choice::<Technique>(&text("technique")?, wrong("technique"))?,
+            depth: small("depth", u32::MAX)?,
+            sampler: choice::<Sampler>(&text("sampler")?, wrong("sampler"))?,
+            sets: small("sets", 4)?,
+            seed: number("seed")?,
+        };
+        let frame = Self {
+            scene: text("scene")?,
+            digest: text("digest")?,
+            settings,
+            sensor: choice::<Sensor>(&text("sensor")?, wrong("sensor"))?,
+            lens: value["lens"].as_bool().ok_or_else(|| wrong("lens"))?,
+            exposure: text("exposure")?.parse().ok().filter(|x| *x > 0.0).ok_or_else(|| wrong("exposure"))?,
+            build: text("build")?,
+        };
+        let Settings { width, height, spp, sets, sampler, .. } = settings;
+        if width == 0 || height == 0 || u64::from(width) * u64::from(height) > 1 << 28 || spp == 0 || sets == 3 {
+            return Err(format!("no image has {width} × {height} pixels of {spp} samples in {sets} sets"));
+        }
+        sampler.check(spp, sets, frame.lens)?;
+        Ok(frame)
+    }
+
+    /// How another frame differs, for a message; `None` if it does not.
+    pub fn difference(&self, other: &Self) -> Option<String> {
+        let (own, other) = (self.to_json(), other.to_json());
+        let own = own.as_object()?;
+        let differ = own.iter().find(|(key, value)| other[key.as_str()] != **value);
+        let what = |key: &str| match key {
+            "digest" => "scene, by the hash of its files,".to_owned(),
+            "spp" => "number of samples per pixel".to_owned(),
+            "lens" => "answer to whether there is a lens".to_owned(),
+            "build" => "build of etendue".to_owned(),
+            other => other.to_owned(),
+        };
+        differ.map(|(key, value)| format!("its {} is {}, not {value}", what(key), other[key.as_str()]))
+    }
+}

@@ -1,0 +1,87 @@
+//! Splits an image into tiles and ranges of samples of about equal size.
+
+use crate::integrator::Settings;
+use std::ops::Range;
+
+/// Splits an image into at most `count` areas of whole tiles, as square as possible.
+#[must_use]
+pub fn areas(settings: &Settings, count: u32) -> Vec<[u32; 4]> {
+    let size = [settings.width, settings.height];
+    let tiles = size.map(|side| side.div_ceil(Settings::TILE));
+    let grid = |across: u32| [across, (count.max(1) / across).min(tiles[1])];
+    let grids = (1..=count.clamp(1, tiles[0])).map(grid);
+    let skew = |grid: [u32; 2]| {
+        let [w, h] = [0, 1].map(|k| f64::from(tiles[k]) / f64::from(grid[k]));
+        (w / h).ln().abs()
+    };
+    let better = |a: &[u32; 2], b: &[u32; 2]| (a[0] * a[1]).cmp(&(b[0] * b[1])).then(skew(*b).total_cmp(&skew(*a)));
+    // as many areas as possible, unless they are much longer than wide
+    let slim = |grid: &[u32; 2]| skew(*grid) > f64::ln(4.0);
+    let [across, down] =
+        grids.clone().filter(|grid| !slim(grid)).max_by(better).or_else(|| grids.max_by(better)).unwrap_or([1; 2]);
+    let edge = |k: usize, i: u32, n: u32| {
+        let tile = (u64::from(i) * u64::from(tiles[k]) / u64::from(n)) as u32;
+        (tile * Settings::TILE).min(size[k])
+    };
+    let area = |x: u32, y: u32| [edge(0, x, across), edge(1, y, down), edge(0, x + 1, across), edge(1, y + 1, down)];
+    (0..down).flat_map(|y| (0..across).map(move |x| area(x, y))).collect()
+}
+
+/// Splits the samples of a pixel into at most `count` ranges. Their ends are at multiples of a power of two, so that parts have few blocks.
+#[must_use]
+pub fn ranges(spp: u32, count: u32) -> Vec<Range<u32>> {
+    let count = count.clamp(1, spp);
+    let unit = (spp / count / 4).checked_ilog2().map_or(1_u64, |bits| 1 << bits);
+    let end = |i: u32| {
+        let end = u64::from(i) * u64::from(spp) / u64::from(count);
+        if i == count { spp } else { ((end + unit / 2) / unit * unit) as u32 }
+    };
+    (0..count).map(|i| end(i)..end(i + 1)).filter(|range| !range.is_empty()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Sampler, Technique};
+
+    fn settings(width: u32, height: u32) -> Settings {
+        let (technique, sampler) = (Technique::Auto, Sampler::Sobol);
+        Settings { width, height, spp: 16, technique, depth: 8, sampler, sets: 0, seed: 0 }
+    }
+
+    #[test]
+    fn areas_are_tiles_that_cover_the_image_once() {
+        for (width, height) in [(1, 1), (16, 16), (17, 5), (256, 256), (640, 480), (1000, 30), (30, 1000), (1920, 1080)]
+        {
+            let settings = settings(width, height);
+            for count in [1, 2, 3, 7, 16, 63, 64, 65, 1000, 100_000] {
+                let areas = areas(&settings, count);
+                assert!(!areas.is_empty() && areas.len() <= count as usize, "{width}x{height}: {count}");
+                assert!(areas.iter().all(|area| settings.is_of_tiles(*area)), "{width}x{height}: {count}");
+                let mut pixels = vec![0_u8; crate::area::count(settings.whole())];
+                for area in areas {
+                    for (x, y) in (area[1]..area[3]).flat_map(|y| (area[0]..area[2]).map(move |x| (x, y))) {
+                        pixels[(y * width + x) as usize] += 1;
+                    }
+                }
+                assert!(pixels.iter().all(|times| *times == 1), "{width}x{height}: {count}");
+            }
+        }
+        assert_eq!(areas(&settings(640, 480), 64).len(), 64);
+        assert_eq!(areas(&settings(256, 256), 1000).len(), 256);
+    }
+
+    #[test]
+    fn ranges_are_all_samples_in_order() {
+        for spp in [1, 2, 7, 16, 100, 1000, 4096, 1 << 22] {
+            for count in [1, 2, 3, 7, 64, 1000, u32::MAX] {
+                let ranges = ranges(spp, count);
+                assert!(ranges.len() <= count as usize && ranges[0].start == 0, "{spp} {count}");
+                assert_eq!(ranges.last().unwrap().end, spp);
+                assert!(ranges.windows(2).all(|pair| pair[0].end == pair[1].start), "{spp} {count}");
+            }
+        }
+        assert_eq!(ranges(4096, 64).len(), 64);
+        assert!(ranges(4096, 64).iter().all(|range| range.len() == 64));
+    }
+}
