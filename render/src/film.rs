@@ -70,26 +70,30 @@ impl Pixel {
     pub fn of_sets(sets: impl Iterator<Item = (u32, Moments)> + Clone, independent: bool) -> Self {
         let samples: u32 = sets.clone().map(|(count, _)| count).sum();
         let n = f64::from(samples.max(1));
-        let (mut mean, mut squares, mut others) = ([0.0; 3], [0.0; 3], -1.0);
+        let (mut sum, mut squares, mut others) = ([0.0; 3], [0.0; 3], -1.0);
         for (_, set) in sets.clone() {
             for k in 0..3 {
-                mean[k] += set.sum[k];
+                sum[k] += set.sum[k];
                 squares[k] += set.squares[k];
             }
         }
-        mean = mean.map(|sum| sum / n);
+        let share = n.recip();
+        let mean = sum.map(|sum| sum * share);
         if independent {
             others = n - 1.0;
         } else {
             for (count, set) in sets {
-                let count = f64::from(count);
+                let (count, share) = (f64::from(count), f64::from(count).recip());
                 others += 1.0;
                 for k in 0..3 {
-                    squares[k] += count * (set.sum[k] / count - mean[k]).powi(2);
+                    let difference = set.sum[k] * share - mean[k];
+                    squares[k] += count * (difference * difference);
                 }
             }
         }
-        let variance = |squares: f64| if others > 0.0 { (squares / (n * others)) as f32 } else { f32::INFINITY };
+        let scale = (n * others).recip();
+        // nothing is known of the error of a single set
+        let variance = |squares: f64| if others > 0.0 { (squares * scale) as f32 } else { f32::INFINITY };
         Self { mean: mean.map(|x| x as f32), variance: squares.map(variance), samples }
     }
 }

@@ -70,6 +70,17 @@ pub trait Sample: Join + Copy + Default + PartialEq + Send {
     const INDEPENDENT: bool;
     /// That of a single sample.
     fn one(x: [f32; 3]) -> Self;
+    /// That of an aligned block of 1, 2, 4 or 8 samples.
+    fn few(samples: &[[f32; 3]]) -> Self {
+        let [left, right] = match samples {
+            [sample] => return Self::one(*sample),
+            _ => [&samples[..samples.len() / 2], &samples[samples.len() / 2..]],
+        };
+        let block = |first, samples: &[[f32; 3]]| Block { set: 0, first, count: samples.len() as u32 };
+        let mut few = Self::few(left);
+        few.join(block(0, left), Self::few(right), block(left.len() as u32, right));
+        few
+    }
     /// That of eight samples, channel by channel.
     fn octet(channels: &[[f32; 8]; 3]) -> Self;
     /// The sum, and the sum of squared deviations if it is computed, else zeros.
@@ -100,6 +111,18 @@ impl Sample for Sum {
 
     fn one(x: [f32; 3]) -> Self {
         Self(x.map(f64::from))
+    }
+    #[inline]
+    fn few(x: &[[f32; 3]]) -> Self {
+        let add = |a: [f32; 3], b: [f32; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        let four = |x: [[f32; 3]; 4]| add(add(x[0], x[1]), add(x[2], x[3]));
+        Self::one(match *x {
+            [a] => a,
+            [a, b] => add(a, b),
+            [a, b, c, d] => four([a, b, c, d]),
+            [a, b, c, d, e, f, g, h] => add(four([a, b, c, d]), four([e, f, g, h])),
+            _ => unreachable!("blocks have a power of two of samples"),
+        })
     }
     #[inline]
     fn octet(channels: &[[f32; 8]; 3]) -> Self {
@@ -333,8 +356,25 @@ impl<V: Sample> Adder<V> {
         self.stack.push(value);
     }
     fn flush(&mut self) {
-        for i in 0..self.waits {
-            self.add(1, V::one(self.waiting[i]));
+        if self.next.is_multiple_of(OCTET) {
+            // no block that ends within an octet is the right half of one that begins before it
+            let mut at = 0;
+            for count in [OCTET, 4, 2, 1] {
+                if self.waits as u32 & count != 0 {
+                    let value = V::few(&self.waiting[at..at + count as usize]);
+                    at += count as usize;
+                    if count == OCTET {
+                        self.add(OCTET, value);
+                    } else {
+                        self.next += count;
+                        self.stack.push(value);
+                    }
+                }
+            }
+        } else {
+            for i in 0..self.waits {
+                self.add(1, V::one(self.waiting[i]));
+            }
         }
         self.waits = 0;
     }
