@@ -132,8 +132,10 @@ impl Frame {
     /// How another frame differs, for a message; `None` if it does not.
     pub fn difference(&self, other: &Self) -> Option<String> {
         let (own, other) = (self.to_json(), other.to_json());
-        let own = own.as_object()?;
-        let differ = own.iter().find(|(key, value)| other[key.as_str()] != **value);
+        // what says most comes first
+        let first = ["scene", "digest", "build"].into_iter();
+        let keys = first.chain(own.as_object()?.keys().map(String::as_str));
+        let differ = keys.into_iter().find(|&key| own[key] != other[key]);
         let what = |key: &str| match key {
             "digest" => "scene, by the hash of its files,".to_owned(),
             "spp" => "number of samples per pixel".to_owned(),
@@ -141,6 +143,6 @@ impl Frame {
             "build" => "build of etendue".to_owned(),
             other => other.to_owned(),
         };
-        differ.map(|(key, value)| format!("its {} is {}, not {value}", what(key), other[key.as_str()]))
+        differ.map(|key| format!("its {} is {}, not {}", what(key), other[key], own[key]))
     }
 }

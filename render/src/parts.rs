@@ -218,6 +218,11 @@ impl Found {
         }
         Some(all)
     }
+    /// Packets in each set, unless there are more than can be counted.
+    fn packets(&mut self, sets: usize) -> Option<Vec<u32>> {
+        let packets = self.u32("packets")?;
+        packets.iter().all(|packets| packets.checked_mul(8 * sets as u32).is_some()).then_some(packets)
+    }
     fn sums(&mut self, sets: usize, pixels: usize) -> Option<Vec<[[f64; 3]; 4]>> {
         let mut sums = vec![[[0.0; 3]; 4]; pixels];
         for set in 0..sets {
@@ -259,7 +264,7 @@ fn from_layer(frame: &Frame, kind: &Kind, layer: Layer) -> Option<Piece> {
         Kind::Pilot(lights) => {
             let lights = *lights as usize;
             let (sums, variance) = (found.sums(sets, count)?, found.f64("variance")?);
-            let packets = found.u32("packets")?;
+            let packets = found.packets(sets)?;
             let spread = found.lights("spread", lights, count, Found::f32)?;
             let pairs = found.lights("pairs", lights, count, Found::u32)?;
             let taken = found.lights("taken", lights, count, Found::u32)?;
@@ -277,10 +282,7 @@ fn from_layer(frame: &Frame, kind: &Kind, layer: Layer) -> Option<Piece> {
         Kind::Allotment(lights) => {
             let lights = *lights as usize;
             let weights = found.lights("weight", lights, count, Found::f32)?;
-            let packets = found.u32("packets")?;
-            if packets.iter().any(|&packets| packets.checked_mul(8 * sets as u32).is_none()) {
-                return None;
-            }
+            let packets = found.packets(sets)?;
             Content::Allotment(Allotment {
                 area,
                 packets,

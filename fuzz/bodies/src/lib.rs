@@ -1,10 +1,12 @@
-//! Bodies of the fuzz targets of the renderer: scenes, images and certificates. `tests/seeds.rs` runs the same functions without a fuzzer.
+//! Bodies of the fuzz targets of the renderer: scenes, images, parts of images and certificates. `tests/seeds.rs` runs the same functions without a fuzzer.
 
 mod certificates;
+mod part;
 
 pub use certificates::certificates;
 use etendue_render::compare::Comparison;
 use etendue_render::{World, image as images, scene};
+pub use part::part;
 use std::path::Path;
 
 /// Any text gives a scene, or an error with file and line, but never a panic; and a scene that was read can be built.

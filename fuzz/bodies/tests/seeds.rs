@@ -48,6 +48,10 @@ fn images() {
     damaged("image", files::image, 2000);
 }
 #[test]
+fn parts() {
+    damaged("part", files::part, 1000);
+}
+#[test]
 fn certificates() {
     damaged("certificates", files::certificates, 30_000);
 }
@@ -56,6 +60,7 @@ fn certificates() {
 fn many_files() {
     damaged("scene", files::scene, 500_000);
     damaged("image", files::image, 500_000);
+    damaged("part", files::part, 500_000);
 }
 #[test]
 #[ignore = "ten million small scenes: some minutes"]

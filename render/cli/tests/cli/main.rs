@@ -2,6 +2,7 @@
 
 mod chart;
 mod lost;
+mod parts;
 mod refined;
 
 use serde_json::Value;

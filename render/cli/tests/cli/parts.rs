@@ -1,0 +1,175 @@
+//! Images whose parts are rendered by processes of their own: `plan`, parts that are killed, repeated, damaged or foreign, and `merge`.
+
+use super::Folder;
+use std::fs;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// The stages of a plan, as lists of arguments.
+fn plan(folder: &Folder, arguments: &[&str]) -> Vec<Vec<Vec<String>>> {
+    let text = folder.succeed(&[&["plan"], arguments].concat());
+    let command = |line: &str| line.split(' ').skip(1).map(str::to_owned).collect();
+    text.split("\n\n").map(|stage| stage.lines().map(command).collect()).collect()
+}
+
+fn run(folder: &Folder, command: &[String]) -> String {
+    folder.succeed(&command.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+/// The folder of the file that a command writes, and the file.
+fn target(command: &[String]) -> (&str, &str) {
+    let path = command.iter().skip_while(|word| *word != "-o").nth(1).unwrap();
+    (path.rsplit_once('/').map_or(".", |(folder, _)| folder), path)
+}
+
+const IMAGE: [&str; 7] = ["quads", "--size", "64x48", "--spp", "64", "--seed", "5"];
+
+#[test]
+fn a_plan_makes_the_image_of_a_single_process() {
+    for (more, stages, tasks) in [
+        (&["--sampler", "sobol", "--tasks", "6"][..], 2, 6),
+        (&["--sampler", "sobol", "--tasks", "12", "--ranges", "3"], 2, 12),
+        (&["--sampler", "independent", "--tasks", "5", "--ranges", "5", "--parts", "some parts"], 2, 5),
+        (&["--tasks", "6"], 4, 6),
+    ] {
+        let folder = Folder::new();
+        let single: Vec<&str> = more.iter().copied().take_while(|word| *word != "--tasks").collect();
+        folder.succeed(&[&["render"], &IMAGE[..], &single, &["-o", "single.exr"]].concat());
+        let text = folder.succeed(&[&["plan"], &IMAGE[..], more, &["-o", "whole.exr"]].concat());
+        let stage: Vec<&str> = text.split("\n\n").collect();
+        assert_eq!((stage.len(), stage[0].lines().count()), (stages, tasks), "{text}");
+        // the plan is a program for a shell, in any order within its stages
+        for stage in stage {
+            let lines: Vec<&str> = stage.lines().rev().collect();
+            let shell = Command::new("sh").current_dir(&folder.0).arg("-ec").arg(lines.join("\n")).output().unwrap();
+            assert!(shell.status.success() && shell.stderr.is_empty(), "{shell:?}");
+        }
+        let read = |name: &str| fs::read(folder.path(name)).unwrap();
+        assert!(read("single.exr") == read("whole.exr") && read("single.png") == read("whole.png"), "{more:?}");
+    }
+}
+
+#[test]
+fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
+    let folder = Folder::new();
+    let arguments = [&IMAGE[..], &["--sampler", "sobol", "--threads", "1"]].concat();
+    folder.succeed(&[&["render"], &arguments[..], &["-o", "single.exr"]].concat());
+    let stages = plan(&folder, &[&arguments[..], &["--tasks", "12", "--ranges", "3", "-o", "whole.exr"]].concat());
+    let [parts, merge] = [&stages[0], &stages[1]];
+
+    // some are killed soon after they begin, some run twice at once
+    for (i, command) in parts.iter().enumerate() {
+        let spawn = || {
+            let mut process = Command::new(env!("CARGO_BIN_EXE_etendue"));
+            process.current_dir(&folder.0).args(command).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+        };
+        let mut processes: Vec<_> = (0..=i % 2).map(|_| spawn()).collect();
+        if i % 3 == 0 {
+            sleep(Duration::from_millis(5 * i as u64));
+            let _ = processes[0].kill();
+        }
+        for process in &mut processes {
+            let _ = process.wait();
+        }
+    }
+    let (dir, missing) = target(&parts[7]);
+    let missing = folder.path(missing);
+    let _ = fs::remove_file(&missing);
+    let error = folder.fail(&merge[0].iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(error.contains("lacks") && error.contains("--range ") && error.contains("--tile "), "{error}");
+    assert!(!folder.path("whole.exr").exists());
+
+    // what is there is kept, the rest is rendered
+    for command in parts {
+        let before = fs::read(folder.path(target(command).1)).ok();
+        let said = run(&folder, command);
+        assert_eq!(said.starts_with("kept "), before.is_some(), "{said}");
+        assert!(before.is_none_or(|before| fs::read(folder.path(target(command).1)).unwrap() == before));
+    }
+    run(&folder, &merge[0]);
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert!(read("single.exr") == read("whole.exr"));
+
+    // truncated parts are refused, all by name, and rendered again; the image stays
+    let names = [&parts[2], &parts[9]].map(|command| target(command).1);
+    for name in names {
+        let bytes = read(name);
+        fs::write(folder.path(name), &bytes[..bytes.len() / 2]).unwrap();
+    }
+    let merge: Vec<&str> = merge[0].iter().map(String::as_str).collect();
+    let error = folder.fail(&merge);
+    assert!(names.iter().all(|name| error.contains(name)), "{error}");
+    assert!(read("single.exr") == read("whole.exr"));
+    for command in [&parts[2], &parts[9]] {
+        let output = folder.run(&command.iter().map(String::as_str).collect::<Vec<_>>());
+        let [out, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        assert!(output.status.success() && out.starts_with("wrote ") && error.contains("rendered again"), "{error}");
+    }
+
+    // a copy is ignored; a part of another seed, or with samples in common, is refused
+    fs::copy(folder.path(names[0]), folder.path(&format!("{dir}/copy.exr"))).unwrap();
+    let said = folder.succeed(&merge);
+    assert!(said.contains("ignored ") && read("single.exr") == read("whole.exr"), "{said}");
+    let alien = format!("{dir}/alien.exr");
+    let seed =
+        [&["render"], &arguments[..5], &["--sampler", "sobol", "--seed", "6"], &["--range", "0:8", "-o", &alien]];
+    folder.succeed(&seed.concat());
+    let error = folder.fail(&merge);
+    assert!(error.contains("alien.exr") && error.contains("its seed is 6, not 5"), "{error}");
+    let overlap = [&["render"], &arguments[..], &["--range", "0:8", "-o", "overlap.exr"]].concat();
+    folder.succeed(&overlap);
+    fs::rename(folder.path("overlap.exr"), folder.path(&alien)).unwrap();
+    assert!(folder.fail(&merge).contains("both hold --range 0:8"));
+    assert!(read("single.exr") == read("whole.exr"));
+
+    // an image of what is there
+    fs::remove_file(folder.path(&alien)).unwrap();
+    fs::remove_file(folder.path(&format!("{dir}/copy.exr"))).unwrap();
+    fs::remove_file(&missing).unwrap();
+    let partial = folder.succeed(&["merge", "--partial", "-o", "partial.exr", dir]);
+    assert!(partial.contains("1 parts are missing") && folder.path("partial.png").is_file(), "{partial}");
+    // no temporary file is left but those of killed processes
+    let left = fs::read_dir(folder.path(dir)).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+    assert!(left.filter(|name| !name.ends_with(".exr")).all(|name| name.starts_with(".etendue-")));
+}
+
+#[test]
+fn options_that_make_no_part_are_refused() {
+    let folder = Folder::new();
+    for (arguments, message) in [
+        (
+            &["render", "quads", "--spp", "64", "--range", "0:8"][..],
+            "the sampler adaptive takes its samples in two rounds",
+        ),
+        (&["render", "quads", "--spp", "16", "--range", "8:17"], "--range 8:17: there are 16 samples per pixel"),
+        (&["render", "quads", "--spp", "16", "--range", "8:8"], "such as 0:512"),
+        (&["render", "quads", "--spp", "16", "--tile", "0,0,8,16"], "multiples of 16, or the size of the image"),
+        (&["render", "quads", "--spp", "16", "--tile", "0,0,16,160000"], "multiples of 16, or the size of the image"),
+        (&["render", "quads", "--spp", "16", "--tile", "16,0,16,16"], "the first two less than the others"),
+        (&["render", "quads", "--spp", "16", "--tile", "0,0,16"], "four numbers"),
+        (&["render", "quads", "--spp", "16", "--pilot"], "only for --sampler adaptive"),
+        (&["render", "quads", "--spp", "64", "--after", "no.exr"], "no.exr: cannot read"),
+        (&["render", "quads", "--time", "1", "--range", "0:8"], "cannot be used with"),
+        (&["render", "quads", "--spp", "16", "--range", "0:8", "-o", "part.png"], "must end in .exr"),
+        (
+            &["plan", "quads", "--spp", "64", "--ranges", "2", "-o", "a.exr"],
+            "the sampler adaptive can only be split into tiles",
+        ),
+        (&["plan", "quads", "--spp", "4", "--tasks", "8", "--ranges", "5", "-o", "a.exr"], "there are only 4 samples"),
+        (&["plan", "quads", "--spp", "16", "--tasks", "0", "-o", "a.exr"], "0 is not in"),
+        (&["merge", "-o", "a.exr", "nothing"], "nothing: cannot read"),
+        (&["merge", "-o", "a.exr", "."], "there are no parts in this folder"),
+    ] {
+        let error = folder.fail(arguments);
+        assert!(error.contains(message), "{arguments:?}: {error:?} should contain {message:?}");
+        assert!(folder.names().is_empty(), "{arguments:?}: {:?}", folder.names());
+    }
+    // an image is no part, and a part is not the pilot
+    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "2", "-o", "image.exr"]);
+    assert!(folder.fail(&["merge", "-o", "a.exr", "image.exr"]).contains("image.exr: not a part of an image"));
+    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "64", "--pilot", "-o", "pilot.exr"]);
+    let after = ["render", "quads", "--size", "16x16", "--spp", "64", "--after", "pilot.exr", "-o", "a.exr"];
+    assert!(folder.fail(&after).contains("pilot.exr: not the whole pilot; merge its parts"));
+    assert!(folder.fail(&["merge", "-o", "pilot.exr", "pilot.exr"]).contains("this file is an input"));
+}
