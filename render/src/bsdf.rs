@@ -242,7 +242,7 @@ mod tests {
     fn complex(cos: f64, eta: f64, k: f64) -> f64 {
         // r⊥ = (cosθ − m cosθₜ)/(cosθ + m cosθₜ), r∥ = (m cosθ − cosθₜ)/(m cosθ + cosθₜ), m cosθₜ = √(m² − sin²θ)
         let (re, im) = (eta * eta - k * k - (1.0 - cos * cos), 2.0 * eta * k);
-        let modulus = re.hypot(im);
+        let modulus = libm::hypot(re, im);
         let (a, b) = (((modulus + re) / 2.0).sqrt(), ((modulus - re) / 2.0).sqrt());
         let ratio = |(p, q): (f64, f64), (r, s): (f64, f64)| (p * p + q * q) / (r * r + s * s);
         let across = ratio((cos - a, -b), (cos + a, b));

@@ -297,7 +297,7 @@ fn from_layer(frame: &Frame, kind: &Kind, layer: Layer) -> Option<Piece> {
 }
 
 /// How the planes of parts are compressed.
-const COMPRESSION: Compression = Compression::ZIP16;
+const COMPRESSION: Compression = Compression::Uncompressed;
 
 /// The bytes of the file of a part.
 ///

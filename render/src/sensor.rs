@@ -47,7 +47,7 @@ impl Exposure {
     ) -> Option<Self> {
         let [across, _] = camera.tan_half(width, height);
         let [w, h] = [width, height].map(f64::from);
-        let pitch = 1e-3 * diagonal / w.hypot(h);
+        let pitch = 1e-3 * diagonal / libm::hypot(w, h);
         let distance = 0.5 * pitch * w / across;
         let area = match sensor {
             Sensor::Radiance => return None,

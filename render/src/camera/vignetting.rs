@@ -45,7 +45,7 @@ impl Barrel {
     /// Fraction of the lens's area that is open as seen from a position in pixels.
     pub fn open_part(&self, x: f64, y: f64) -> f64 {
         let slope = self.slopes.at(X8::lit(x), X8::lit(y)).lane(0);
-        let off = self.slope * f64::from(slope.x).hypot(f64::from(slope.y));
+        let off = self.slope * libm::hypot(f64::from(slope.x), f64::from(slope.y));
         let lens = self.lens.abs();
         // both disks in units of the front rim
         common_area(lens, 1.0, off) / (std::f64::consts::PI * lens * lens)
@@ -62,7 +62,7 @@ fn common_area(a: f64, b: f64, d: f64) -> f64 {
     }
     // distances of the common chord from the centres, in radii
     let [u, v] = [(d * d + a * a - b * b) / (2.0 * d * a), (d * d + b * b - a * a) / (2.0 * d * b)];
-    let segment = |r: f64, c: f64| r * r * (c.clamp(-1.0, 1.0).acos() - c * (1.0 - c * c).max(0.0).sqrt());
+    let segment = |r: f64, c: f64| r * r * (libm::acos(c.clamp(-1.0, 1.0)) - c * (1.0 - c * c).max(0.0).sqrt());
     segment(a, u) + segment(b, v)
 }
 

@@ -381,7 +381,7 @@ impl<'a> TileRenderer<'a> {
         for (y, x) in (0..down - 1).flat_map(|y| (0..across - 1).map(move |x| (y, x))) {
             let corner = |dx: usize, dy: usize| ((y + dy) * across + x + dx) * lights;
             let four = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
-            of.extend((0..lights).map(|k| four.iter().map(|c| corners[c + k]).sum::<f32>().powf(POWER)));
+            of.extend((0..lights).map(|k| libm::powf(four.iter().map(|c| corners[c + k]).sum::<f32>(), POWER)));
         }
         Some(Weights { lights, of: of.into(), area, begun: &[] })
     }

@@ -85,7 +85,7 @@ pub struct Lens {
 impl CameraSettings {
     /// Tangents of half the horizontal and vertical angle of view, for an image of this size (both sides at least 1).
     pub fn tan_half(&self, width: u32, height: u32) -> [f64; 2] {
-        let shorter = (self.fov.to_radians() / 2.0).tan();
+        let shorter = libm::tan(self.fov.to_radians() / 2.0);
         let aspect = f64::from(width) / f64::from(height);
         if aspect >= 1.0 { [shorter * aspect, shorter] } else { [shorter, shorter / aspect] }
     }

@@ -157,7 +157,7 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
     if !(0.0..=outer).contains(&delta) {
         return Err(params.error(format!("\"conedeltaangle\": must be from 0 to the cone angle {outer}, not {delta}")));
     }
-    let cosine = |degrees: f64| degrees.to_radians().cos() as f32;
+    let cosine = |degrees: f64| libm::cos(degrees.to_radians()) as f32;
     let [cos_inner, cos_outer] = [outer - delta, outer].map(cosine);
     let axis = axis.map(|x| x as f32);
     Ok(Source::Delta(DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity: colour }))

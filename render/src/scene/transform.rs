@@ -66,7 +66,7 @@ impl Transform {
     /// Right-handed rotation about `axis`; `None` if the axis has no direction.
     pub(super) fn rotate(degrees: f64, axis: [f64; 3]) -> Option<Self> {
         let a = unit(axis)?;
-        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (sin, cos) = libm::sincos(degrees.to_radians());
         // cos · I + (1 − cos) · a aᵀ + sin · [a]×
         let outer = |i: usize, j: usize| (1.0 - cos) * a[i] * a[j];
         let linear = [
@@ -142,7 +142,7 @@ impl Transform {
     pub(super) fn similarity(&self) -> Option<f64> {
         let column = |j: usize| [self.linear[0][j], self.linear[1][j], self.linear[2][j]];
         let (x, y, z) = (column(0), column(1), column(2));
-        let factor = self.determinant().abs().cbrt();
+        let factor = libm::cbrt(self.determinant().abs());
         let near = |value: f64, wanted: f64| (value - wanted).abs() <= 2e-5 * factor * factor;
         let lengths = [x, y, z].iter().all(|&v| near(dot(v, v), factor * factor));
         let angles = near(dot(x, y), 0.0) && near(dot(y, z), 0.0) && near(dot(z, x), 0.0);

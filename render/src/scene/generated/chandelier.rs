@@ -19,7 +19,7 @@ const CANDLE: f64 = 0.13;
 const COLUMNS: [[f64; 2]; 4] = [[-2.9, -3.4], [2.9, -3.4], [-2.9, 1.2], [2.9, 1.2]];
 
 fn on_ring(radius: f64, height: f64, angle: f64) -> Point {
-    sum(AXIS, [radius * angle.cos(), height, radius * angle.sin()])
+    sum(AXIS, [radius * libm::cos(angle), height, radius * libm::sin(angle)])
 }
 
 /// The angle of each bulb of a ring.
@@ -50,7 +50,7 @@ pub(super) fn brass(sink: &mut Sink) {
         ring(sum(AXIS, [0.0, height, 0.0]), radius, 0.014, 96, sink);
         for angle in angles(bulbs / 4) {
             // an arm sags between the stem and the ring
-            let along = |t: f64| on_ring(radius * t, height - 0.12 * (std::f64::consts::PI * t).sin(), angle);
+            let along = |t: f64| on_ring(radius * t, height - 0.12 * libm::sin(std::f64::consts::PI * t), angle);
             (0..8).for_each(|k| rod(along(f64::from(k) / 8.0), along(f64::from(k + 1) / 8.0), 0.006, sink));
         }
         let candle = [[0.0, 0.005], [0.02, 0.02], [0.025, 0.03], [0.012, 0.03], [0.012, CANDLE], [0.0, CANDLE]];
@@ -100,7 +100,7 @@ pub(super) fn wood(sink: &mut Sink) {
     for angle in angles(8).map(|angle| angle + TAU / 16.0) {
         turned(on_ring(1.05, 0.0, angle), &goblet, 16, sink);
         // a chair that faces the table: seat and back are thick rods
-        let (out, across) = ([angle.cos(), 0.0, angle.sin()], [-angle.sin(), 0.0, angle.cos()]);
+        let (out, across) = ([libm::cos(angle), 0.0, libm::sin(angle)], [-libm::sin(angle), 0.0, libm::cos(angle)]);
         let at = |far: f64, side: f64, height: f64| {
             sum(AXIS, sum(scaled(out, far), sum(scaled(across, side), [0.0, height, 0.0])))
         };
@@ -134,7 +134,7 @@ pub(super) fn glass(sink: &mut Sink) {
         let random = |k: i32| noise(&[key[0], key[1], key[2], k]);
         let angle = TAU * random(0);
         let (width, height) = (0.03, 0.042);
-        let u = [width * angle.cos(), 0.0, width * angle.sin()];
+        let u = [width * libm::cos(angle), 0.0, width * libm::sin(angle)];
         let v = [0.0, height, 0.0];
         let corner = sum(top, sum(scaled(u, -0.5), [0.0, -height, 0.0]));
         // few plates sparkle, most are dim

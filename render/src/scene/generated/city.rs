@@ -65,7 +65,7 @@ fn houses() -> impl Iterator<Item = House> {
             high[k] = start + (far + 1.0) * half - 1.5 - 2.0 * random(2 + k as i32);
         }
         let [x, z] = [0, 1].map(|k| (low[k] + high[k]) / 2.0);
-        let central = (-(x * x + z * z) / (190.0 * 190.0)).exp();
+        let central = libm::exp(-(x * x + z * z) / (190.0 * 190.0));
         let storeys = 6.0 + 9.0 * random(4) + central * 30.0 * random(5).powi(2);
         let is_office = storeys > 16.0 || random(6) < 0.2;
         let facade = match (is_office, random(7) < 0.5) {

@@ -17,16 +17,16 @@ const COLOURS: [[f64; 3]; 3] = [[1.0, 0.15, 0.45], [0.1, 0.75, 1.0], [1.0, 0.55,
 /// A point of the torus knot (2, 3) and its tangent, for t in [0, 1).
 fn curve(t: f64) -> [Point; 2] {
     let (a, b) = (2.0 * TAU * t, 3.0 * TAU * t);
-    let far = TORUS[0] + TORUS[1] * b.cos();
-    let (out, rise) = (-3.0 * TORUS[1] * b.sin(), 3.0 * TORUS[1] * b.cos());
-    let tangent = [out * a.cos() - 2.0 * far * a.sin(), out * a.sin() + 2.0 * far * a.cos(), rise];
-    [sum(CENTER, [far * a.cos(), far * a.sin(), TORUS[1] * b.sin()]), unit(tangent)]
+    let far = TORUS[0] + TORUS[1] * libm::cos(b);
+    let (out, rise) = (-3.0 * TORUS[1] * libm::sin(b), 3.0 * TORUS[1] * libm::cos(b));
+    let tangent = [out * libm::cos(a) - 2.0 * far * libm::sin(a), out * libm::sin(a) + 2.0 * far * libm::cos(a), rise];
+    [sum(CENTER, [far * libm::cos(a), far * libm::sin(a), TORUS[1] * libm::sin(b)]), unit(tangent)]
 }
 
 /// The unit normal of the torus at the point of its knot: perpendicular to the curve, and the same after a turn.
 fn normal(t: f64) -> Point {
     let (a, b) = (2.0 * TAU * t, 3.0 * TAU * t);
-    [b.cos() * a.cos(), b.cos() * a.sin(), b.sin()]
+    [libm::cos(b) * libm::cos(a), libm::cos(b) * libm::sin(a), libm::sin(b)]
 }
 
 fn unit(v: Point) -> Point {
@@ -40,7 +40,7 @@ pub(super) fn tube(sink: &mut Sink) {
         let ([center, d], u) = (curve(t), normal(t));
         let v = [d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]];
         let angles = (0..AROUND).map(|j| TAU * j as f64 / AROUND as f64);
-        let offset = |angle: f64| sum(scaled(u, TUBE * angle.cos()), scaled(v, TUBE * angle.sin()));
+        let offset = |angle: f64| sum(scaled(u, TUBE * libm::cos(angle)), scaled(v, TUBE * libm::sin(angle)));
         angles.map(|angle| sum(center, offset(angle))).collect()
     };
     let mut here = circle(0);

@@ -62,7 +62,7 @@ pub(super) fn cuboid(low: Point, high: Point, sink: &mut Sink) {
 pub(super) fn turned(foot: Point, profile: &[[f64; 2]], sides: usize, sink: &mut Sink) {
     let at = |[radius, height]: [f64; 2], side: usize| {
         let angle = std::f64::consts::TAU * (side % sides) as f64 / sides as f64;
-        sum(foot, [radius * angle.cos(), height, -radius * angle.sin()])
+        sum(foot, [radius * libm::cos(angle), height, -radius * libm::sin(angle)])
     };
     for rows in profile.windows(2) {
         for side in 0..sides {
@@ -84,7 +84,7 @@ pub(super) fn ring(center: Point, radius: f64, thickness: f64, sides: usize, sin
     let profile: Vec<[f64; 2]> = (0..=SECTION)
         .map(|k| {
             let angle = std::f64::consts::TAU * (k % SECTION) as f64 / SECTION as f64;
-            [radius + thickness * angle.cos(), thickness * angle.sin()]
+            [radius + thickness * libm::cos(angle), thickness * libm::sin(angle)]
         })
         .collect();
     turned(center, &profile, sides, sink);
@@ -96,13 +96,13 @@ pub(super) fn rod(from: Point, to: Point, radius: f64, sink: &mut Sink) {
     let [x, y, z] = sum(to, scaled(from, -1.0));
     let length = (x * x + y * y + z * z).sqrt();
     // two unit vectors across: one horizontal, unless the rod is upright
-    let level = x.hypot(z);
+    let level = libm::hypot(x, z);
     let u = if level > 1e-9 * length { [-z / level, 0.0, x / level] } else { [1.0, 0.0, 0.0] };
     let [dx, dy, dz] = [x / length, y / length, z / length];
     let v = [dy * u[2] - dz * u[1], dz * u[0] - dx * u[2], dx * u[1] - dy * u[0]];
     let around = |k: usize| {
         let angle = std::f64::consts::TAU * (k % SIDES) as f64 / SIDES as f64;
-        sum(scaled(u, radius * angle.cos()), scaled(v, radius * angle.sin()))
+        sum(scaled(u, radius * libm::cos(angle)), scaled(v, radius * libm::sin(angle)))
     };
     for k in 0..SIDES {
         let [a, b] = [around(k), around(k + 1)];

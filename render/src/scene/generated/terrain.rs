@@ -16,8 +16,8 @@ pub(super) fn triangles(sink: &mut Sink) {
     for i in 0..SPHERES {
         for j in 0..SPHERES {
             let (i, j) = (i as f64, j as f64);
-            let centre = [-3.0 + 1.5 * i, 0.9 + 0.5 * (2.1 * i + 1.3 * j).sin(), -3.0 + 1.5 * j];
-            let radius = 0.45 + 0.1 * (1.7 * i - 0.9 * j).cos();
+            let centre = [-3.0 + 1.5 * i, 0.9 + 0.5 * libm::sin(2.1 * i + 1.3 * j), -3.0 + 1.5 * j];
+            let radius = 0.45 + 0.1 * libm::cos(1.7 * i - 0.9 * j);
             let place = |v: [f64; 3]| [0, 1, 2].map(|k| centre[k] + radius * v[k]);
             faces.iter().for_each(|face| triangle(face.map(place), sink));
         }
@@ -28,9 +28,9 @@ fn height_field(sink: &mut Sink) {
     let grid = |i: usize| -12.0 + 24.0 * i as f64 / CELLS as f64;
     let point = |i: usize, j: usize| {
         let (x, z) = (grid(i), grid(j));
-        let height = 0.25 * (1.7 * x).sin() * (1.3 * z).cos()
-            + 0.10 * (5.3 * x + 1.1).sin() * (4.7 * z + 0.3).sin()
-            + 0.03 * (17.1 * x + 2.3 * z).sin() * (15.7 * z - 1.9 * x).cos();
+        let height = 0.25 * libm::sin(1.7 * x) * libm::cos(1.3 * z)
+            + 0.10 * libm::sin(5.3 * x + 1.1) * libm::sin(4.7 * z + 0.3)
+            + 0.03 * libm::sin(17.1 * x + 2.3 * z) * libm::cos(15.7 * z - 1.9 * x);
         [x, height, z]
     };
     let row = |i: usize| (0..=CELLS).map(|j| point(i, j)).collect::<Vec<_>>();
@@ -48,7 +48,7 @@ fn height_field(sink: &mut Sink) {
 /// The faces of a subdivided icosahedron on the unit sphere, with each vertex displaced by the bumps.
 fn bumpy_sphere() -> Vec<[[f64; 3]; 3]> {
     let bump = |v: [f64; 3]| {
-        let s = 1.0 + 0.05 * (9.0 * v[0]).sin() * (9.0 * v[1]).sin() * (9.0 * v[2]).sin();
+        let s = 1.0 + 0.05 * libm::sin(9.0 * v[0]) * libm::sin(9.0 * v[1]) * libm::sin(9.0 * v[2]);
         v.map(|x| x * s)
     };
     let mut faces = icosahedron();

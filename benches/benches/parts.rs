@@ -1,0 +1,115 @@
+//! What it takes to write, read and merge the parts of an image, as their number and size grow.
+//!
+//! `cargo bench -p etendue-benches --bench parts -- [MOST]` omits images of more than MOST parts (10⁴). Each part has the finished pixels of
+//! a tile, or the sums of a range of 8 samples of each pixel. All are 64 × 64 pixels of the scene `quads`, repeated. Times are on as many
+//! threads as there are processors; "peak" is the peak memory of the process while it merges. The last lines extrapolate.
+
+use etendue_benches::memory::{peak, start_peak};
+use etendue_render::film::Pixel;
+use etendue_render::integrator::{Settings, World};
+use etendue_render::merge::{Goal, Merged, merge};
+use etendue_render::parts::{self, Content, Piece};
+use etendue_render::sampler::Sampler;
+use etendue_render::sensor::Sensor;
+use etendue_render::technique::Technique;
+use etendue_render::{Frame, image, scene};
+use rayon::prelude::*;
+use std::fs;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Side of the tiles in pixels, and samples of a range.
+const SIDE: u32 = 64;
+const SAMPLES: u32 = 8;
+
+fn settings(side: u32, spp: u32) -> Settings {
+    let (technique, sampler) = (Technique::SolidAngle, Sampler::Sobol);
+    Settings { width: side, height: side, spp, technique, depth: 8, sampler, sets: 1, seed: 1 }
+}
+
+/// Seconds of a merge, and what it made.
+struct Merge {
+    seconds: f64,
+    pixels: f64,
+    parts: f64,
+}
+
+/// Writes the parts of an image, merges them, and prints a row.
+fn row(what: &str, frame: &Frame, pieces: Vec<Piece>) -> Merge {
+    let folder = std::env::temp_dir().join(format!("etendue-bench-{}", std::process::id()));
+    let _ = fs::remove_dir_all(&folder);
+    let path = |i: usize| folder.join(format!("{i:06}.exr"));
+    let (count, start) = (pieces.len(), Instant::now());
+    let files: Vec<PathBuf> = pieces
+        .into_par_iter()
+        .enumerate()
+        .map(|(i, piece)| {
+            parts::write(&path(i), frame, vec![piece]).expect("a folder for temporary files");
+            path(i)
+        })
+        .collect();
+    let written = start.elapsed().as_secs_f64();
+    let bytes: u64 = files.iter().map(|file| fs::metadata(file).map_or(0, |file| file.len())).sum();
+    start_peak();
+    let start = Instant::now();
+    let Merged::Image(film) = merge(&files, Goal::Image, |_| ()).expect("whole parts").merged else {
+        unreachable!("the goal is an image")
+    };
+    let merged = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    image::write_exr(&folder.join("image.exr"), &film).expect("a folder for temporary files");
+    let saved = start.elapsed().as_secs_f64();
+    let (pixels, peak) = (film.pixels.len() as f64, peak());
+    let (each, size) = (bytes as f64 / count as f64 / 1e3, pixels / 1e6);
+    println!("| {count} {what} | {size:.2} | {each:.1} | {written:.2} | {merged:.2} | {saved:.2} | {peak:.0} |");
+    let _ = fs::remove_dir_all(&folder);
+    Merge { seconds: merged + saved, pixels, parts: count as f64 }
+}
+
+fn main() {
+    let most = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(10_000_u32);
+    let scene = scene::load("quads").expect("a built-in scene");
+    let world = World::new(&scene).expect("few primitives");
+    let frame = |settings: Settings| Frame::new(&scene, settings, Sensor::Radiance).expect("a built-in scene");
+    println!("| parts | image, M pixels | kB each | written in s | merged in s | image written in s | peak, MB |");
+    println!("|---|---|---|---|---|---|---|");
+    let (pixels, _) = world.render_area(&settings(SIDE, SAMPLES), [0, 0, SIDE, SIDE], |_| ());
+    let tiles = |side: u32, across: u32, pixels: &[Pixel]| {
+        let tile = |i: u32| [i % across * side, i / across * side, (i % across + 1) * side, (i / across + 1) * side];
+        let piece = |i: u32| Piece { area: tile(i), content: Content::Pixels(pixels.to_vec()) };
+        (0..across * across).map(piece).collect::<Vec<_>>()
+    };
+    let mut merges = Vec::new();
+    for across in [10, 32, 100].into_iter().filter(|across| across * across <= most) {
+        let frame = frame(settings(SIDE * across, SAMPLES));
+        merges.push(row("tiles of 64²", &frame, tiles(SIDE, across, &pixels)));
+    }
+    // fewer pixels in as many parts, to tell the cost of a part from that of a pixel
+    for across in [32, 100].into_iter().filter(|across| across * across <= most) {
+        let frame = frame(settings(16 * across, SAMPLES));
+        merges.push(row("tiles of 16²", &frame, tiles(16, across, &pixels[..256])));
+    }
+    for count in [100, 1_000, 10_000].into_iter().filter(|count| *count <= most) {
+        let settings = settings(SIDE, SAMPLES * count);
+        let (planes, _) = world.render_range(&settings, settings.whole(), 0..SAMPLES, |_| ());
+        let piece = |i: u32| Piece {
+            area: settings.whole(),
+            content: Content::Range(i * SAMPLES..(i + 1) * SAMPLES, planes.clone()),
+        };
+        row("ranges of 64²", &frame(settings), (0..count).map(piece).collect());
+    }
+    // seconds = a · parts + b · pixels, through the two largest merges of tiles
+    let largest = |few: bool| {
+        let of_size = merges.iter().filter(|merge| (merge.pixels / merge.parts < 300.0) == few);
+        of_size.max_by(|a, b| a.parts.total_cmp(&b.parts))
+    };
+    if let (Some(big), Some(small)) = (largest(false), largest(true)) {
+        let determinant = big.parts * small.pixels - small.parts * big.pixels;
+        let part = (big.seconds * small.pixels - small.seconds * big.pixels) / determinant;
+        let pixel = (big.parts * small.seconds - small.parts * big.seconds) / determinant;
+        println!();
+        println!("{:.3} ms for each part, {:.1} ns for each pixel", part * 1e3, pixel * 1e9);
+        let (parts, pixels) = (1e5, 7680.0 * 4320.0);
+        println!("7680 × 4320 pixels in 10⁵ parts, extrapolated: {:.0} s", parts * part + pixels * pixel);
+    }
+}
