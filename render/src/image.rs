@@ -1,6 +1,7 @@
 //! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and image crates.
 
 pub mod layers;
+mod size;
 
 pub use exr::prelude::Compression;
 
@@ -10,6 +11,7 @@ use exr::block::chunk::CompressedBlock;
 use exr::prelude::{ReadChannels, ReadLayers};
 use layers::{Layer, Numbers};
 use serde_json::Value;
+use size::believe;
 use std::fmt;
 use std::io::{BufWriter, Cursor};
 use std::path::Path;
@@ -77,29 +79,6 @@ pub fn tone_map(radiance: [f32; 3]) -> [u8; 3] {
         let encoded = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
         (encoded * 255.0).round() as u8
     })
-}
-
-/// Greatest number of pixels of an image, the same as for films.
-const MOST_PIXELS: u128 = 1 << 28;
-/// Greatest plausible ratio of decoded to encoded bytes: deflate, the densest compression in use, reaches 1,032.
-const MOST_EXPANSION: u128 = 2048;
-
-/// Checks that an image is not empty, and that a file of this length can hold it, before memory is allocated: a header may claim any
-/// size.
-fn believe(path: &Path, [width, height]: [u128; 2], bits_per_pixel: u128, file: usize) -> Result<(), FileError> {
-    let pixels = width.saturating_mul(height);
-    if pixels == 0 {
-        return Err(failed(path, format!("the image is empty: {width} × {height} pixels")));
-    }
-    if pixels > MOST_PIXELS {
-        return Err(failed(path, format!("{width} × {height} pixels: at most {MOST_PIXELS} are supported")));
-    }
-    let bytes = pixels.saturating_mul(bits_per_pixel) / 8;
-    if bytes / MOST_EXPANSION > file as u128 {
-        let what = format!("damaged: {width} × {height} pixels, {bytes} bytes, do not fit into a file of {file} bytes");
-        return Err(failed(path, what));
-    }
-    Ok(())
 }
 
 /// An image read from a file.

@@ -39,6 +39,9 @@ pub enum Merged {
     Part(Vec<Piece>),
 }
 
+/// An area, and a range of the samples of its pixels, that no part holds.
+pub type Gap = ([u32; 4], Range<u32>);
+
 /// The parts, put together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
@@ -50,8 +53,8 @@ pub struct Outcome {
     pub used: usize,
     /// The files of which others have the same contents.
     pub duplicates: Vec<PathBuf>,
-    /// What is missing: areas and ranges of samples.
-    pub gaps: Vec<([u32; 4], Range<u32>)>,
+    /// What is missing.
+    pub gaps: Vec<Gap>,
 }
 
 /// A gap as the options that render it.
@@ -188,7 +191,7 @@ pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Re
     let missing = |goal: &str| {
         let (first, last) =
             if pilots { ("the pilot of ", "") } else { ("", "; --partial writes an image without them") };
-        let line = |(area, range): &([u32; 4], Range<u32>)| {
+        let line = |(area, range): &Gap| {
             if pilots { format!("--pilot --tile {}", text_of(*area)) } else { options(*area, range) }
         };
         let lines = gaps.iter().map(line).collect();
@@ -276,7 +279,7 @@ fn without_duplicates(headers: &[Headers]) -> Result<(Vec<&Headers>, Vec<&Header
 }
 
 /// What is missing in each cell.
-fn gaps(files: &[&Headers], cells: &Cells, frame: &Frame) -> Result<Vec<([u32; 4], Range<u32>)>, String> {
+fn gaps(files: &[&Headers], cells: &Cells, frame: &Frame) -> Result<Vec<Gap>, String> {
     let spp = frame.settings.spp;
     let mut of_cell: Vec<Vec<(Range<u32>, usize)>> = vec![Vec::new(); cells.count()];
     for (index, file) in files.iter().enumerate() {

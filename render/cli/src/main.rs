@@ -9,6 +9,7 @@ mod output;
 mod part;
 mod plan;
 mod processor;
+mod progress;
 mod render;
 mod selftest;
 

@@ -2,7 +2,7 @@
 
 use crate::interrupt::Interrupt;
 use crate::output::Output;
-use crate::render::bar;
+use crate::progress::bar;
 use clap::Args;
 use etendue_render::merge::{self, Goal, Merged, Outcome};
 use etendue_render::options::pool;

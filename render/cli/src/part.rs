@@ -2,7 +2,7 @@
 
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
-use crate::render::bar;
+use crate::progress::bar;
 use clap::Args;
 use etendue_render::area;
 use etendue_render::files;

@@ -4,12 +4,12 @@ use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::part::{self, PartOptions};
+use crate::progress::bar;
 use clap::Args;
 use etendue_render::film::Film;
 use etendue_render::options::{name, pool};
 use etendue_render::progressive::{self, Goal, Pass, Plan, Progress, relative_error};
 use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World};
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 use std::error::Error;
 use std::io::{self, Write};
@@ -189,12 +189,6 @@ impl Studio<'_> {
             format!("{} holds an image of {spp} samples per pixel, estimated error {error}", self.output.exr.display());
         Ok(())
     }
-}
-
-/// A progress bar, which draws nothing unless stderr is a terminal.
-pub(crate) fn bar(length: u64, template: &str) -> ProgressBar {
-    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::new(length).with_style(style)
 }
 
 /// A fraction as a percentage with three digits.

@@ -2,6 +2,7 @@
 //!
 //! Layers may be of any part of the image. Each layer has a checksum for every sixteen rows, which are read and compressed together.
 
+use super::size::believe;
 use crate::files::{FileError, failed};
 use exr::block::UncompressedBlock;
 use exr::block::lines::LineIndex;
@@ -209,7 +210,7 @@ impl<R: Read + Seek> LayerFile<R> {
                 return Err(not_one(&"its channels are not of 32 bits for each pixel"));
             }
             let bits = 32 * header.channels.list.len() as u128;
-            super::believe(path, size.map(|side| side as u128), bits, length as usize)?;
+            believe(path, size.map(|side| side as u128), bits, length as usize)?;
             // the reader does not tell which texts belong to the whole file
             let own = &header.own_attributes.other;
             contents.text = text(own.get(&Text::from(FILE)), FILE)?;

@@ -1,0 +1,32 @@
+//! How large an image in a file can be.
+
+use crate::files::{FileError, failed};
+use std::path::Path;
+
+/// Greatest number of pixels of an image, the same as for films.
+const MOST_PIXELS: u128 = 1 << 28;
+/// Greatest plausible ratio of decoded to encoded bytes: deflate, the densest compression in use, reaches 1,032.
+const MOST_EXPANSION: u128 = 2048;
+
+/// Checks that an image is not empty, and that a file of this length can hold it, before memory is allocated: a header may claim any
+/// size.
+pub(super) fn believe(
+    path: &Path,
+    [width, height]: [u128; 2],
+    bits_per_pixel: u128,
+    file: usize,
+) -> Result<(), FileError> {
+    let pixels = width.saturating_mul(height);
+    if pixels == 0 {
+        return Err(failed(path, format!("the image is empty: {width} × {height} pixels")));
+    }
+    if pixels > MOST_PIXELS {
+        return Err(failed(path, format!("{width} × {height} pixels: at most {MOST_PIXELS} are supported")));
+    }
+    let bytes = pixels.saturating_mul(bits_per_pixel) / 8;
+    if bytes / MOST_EXPANSION > file as u128 {
+        let what = format!("damaged: {width} × {height} pixels, {bytes} bytes, do not fit into a file of {file} bytes");
+        return Err(failed(path, what));
+    }
+    Ok(())
+}
