@@ -1,6 +1,7 @@
 //! `etendue plan`: prints the commands that render an image in parts.
 
 use crate::image::ImageOptions;
+use crate::output::Output;
 use crate::part::file_name;
 use clap::Args;
 use etendue_render::{Sampler, split};
@@ -12,9 +13,9 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Options {
     #[command(flatten)]
     image: ImageOptions,
-    /// Write the image to this EXR file in the end
+    /// Write the image to this EXR file in the end [default: the scene's film filename, or SCENE.exr]
     #[arg(short, long, value_name = "OUT.exr")]
-    output: PathBuf,
+    output: Option<PathBuf>,
     /// Split the image into about this many parts
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     tasks: u32,
@@ -50,6 +51,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let (least, what) = (settings.spp.min(*tasks), if *tasks < settings.spp { "tasks" } else { "samples" });
         return Err(format!("--ranges {ranges}: there are only {least} {what}").into());
     }
+    // what can be wrong with it should not be found after hours
+    let output = Output::new(output.as_deref(), &scene)?.exr;
     let folder = parts.clone().unwrap_or_else(|| output.with_extension("parts"));
     let areas = split::areas(&settings, tasks / ranges);
     let spp = settings.spp;
@@ -94,6 +97,6 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         }
     }
     writeln!(io::stdout())?;
-    print(merge(output, &last))?;
+    print(merge(&output, &last))?;
     Ok(())
 }

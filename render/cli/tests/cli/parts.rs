@@ -158,6 +158,8 @@ fn options_that_make_no_part_are_refused() {
         ),
         (&["plan", "quads", "--spp", "4", "--tasks", "8", "--ranges", "5", "-o", "a.exr"], "there are only 4 samples"),
         (&["plan", "quads", "--spp", "16", "--tasks", "0", "-o", "a.exr"], "0 is not in"),
+        (&["plan", "quads", "--spp", "16", "-o", "a.png"], "must end in .exr"),
+        (&["plan", "quads", "--spp", "16", "-o", "nowhere/a.exr"], "the folder nowhere does not exist"),
         (&["merge", "-o", "a.exr", "nothing"], "nothing: cannot read"),
         (&["merge", "-o", "a.exr", "."], "there are no parts in this folder"),
     ] {
@@ -165,6 +167,12 @@ fn options_that_make_no_part_are_refused() {
         assert!(error.contains(message), "{arguments:?}: {error:?} should contain {message:?}");
         assert!(folder.names().is_empty(), "{arguments:?}: {:?}", folder.names());
     }
+    // without a name, the image has that of `render`
+    assert!(
+        folder
+            .succeed(&["plan", "quads", "--spp", "16", "--tasks", "1"])
+            .ends_with(" merge -o quads.exr quads.parts\n")
+    );
     // an image is no part, and a part is not the pilot
     folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "2", "-o", "image.exr"]);
     assert!(folder.fail(&["merge", "-o", "a.exr", "image.exr"]).contains("image.exr: not a part of an image"));
