@@ -188,17 +188,13 @@ pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Re
     let areas = used.iter().flat_map(|file| file.pieces.iter().map(|((area, _), _)| *area));
     let cells = Cells::new(areas.chain([frame.settings.whole()]));
     let gaps = gaps(&used, &cells, &frame)?;
-    let missing = |goal: &str| {
-        let (first, last) =
-            if pilots { ("the pilot of ", "") } else { ("", "; --partial writes an image without them") };
+    if !gaps.is_empty() && (goal == Goal::Image || pilots && goal == Goal::Partial) {
+        let (what, help) = if pilots { ("pilot", "") } else { ("image", "; --partial writes an image without them") };
         let line = |(area, range): &Gap| {
             if pilots { format!("--pilot --tile {}", text_of(*area)) } else { options(*area, range) }
         };
-        let lines = gaps.iter().map(line).collect();
-        format!("{goal} lacks {first}{} part(s){last}:\n{}", gaps.len(), list(lines))
-    };
-    if !gaps.is_empty() && (goal == Goal::Image || pilots && goal == Goal::Partial) {
-        return Err(missing("the image"));
+        let count = gaps.len();
+        return Err(format!("the {what} lacks {count} part(s){help}:\n{}", list(gaps.iter().map(line).collect())));
     }
     let merged = if pilots {
         let pieces = read_pieces(&used, &progress)?;
