@@ -35,19 +35,16 @@ struct Merge {
 }
 
 /// Writes the parts of an image, merges them, and prints a row.
-fn row(what: &str, frame: &Frame, pieces: Vec<Piece>) -> Merge {
+fn row(what: &str, frame: &Frame, count: u32, piece: impl Fn(u32) -> Piece + Sync) -> Merge {
     let folder = std::env::temp_dir().join(format!("etendue-bench-{}", std::process::id()));
     let _ = fs::remove_dir_all(&folder);
-    let path = |i: usize| folder.join(format!("{i:06}.exr"));
-    let (count, start) = (pieces.len(), Instant::now());
-    let files: Vec<PathBuf> = pieces
-        .into_par_iter()
-        .enumerate()
-        .map(|(i, piece)| {
-            parts::write(&path(i), frame, vec![piece]).expect("a folder for temporary files");
-            path(i)
-        })
-        .collect();
+    let path = |i: u32| folder.join(format!("{i:06}.exr"));
+    let start = Instant::now();
+    let write = |i: u32| {
+        parts::write(&path(i), frame, vec![piece(i)]).expect("a folder for temporary files");
+        path(i)
+    };
+    let files: Vec<PathBuf> = (0..count).into_par_iter().map(write).collect();
     let written = start.elapsed().as_secs_f64();
     let bytes: u64 = files.iter().map(|file| fs::metadata(file).map_or(0, |file| file.len())).sum();
     start_peak();
@@ -60,10 +57,10 @@ fn row(what: &str, frame: &Frame, pieces: Vec<Piece>) -> Merge {
     image::write_exr(&folder.join("image.exr"), &film).expect("a folder for temporary files");
     let saved = start.elapsed().as_secs_f64();
     let (pixels, peak) = (film.pixels.len() as f64, peak());
-    let (each, size) = (bytes as f64 / count as f64 / 1e3, pixels / 1e6);
+    let (each, size) = (bytes as f64 / f64::from(count) / 1e3, pixels / 1e6);
     println!("| {count} {what} | {size:.2} | {each:.1} | {written:.2} | {merged:.2} | {saved:.2} | {peak:.0} |");
     let _ = fs::remove_dir_all(&folder);
-    Merge { seconds: merged + saved, pixels, parts: count as f64 }
+    Merge { seconds: merged + saved, pixels, parts: count.into() }
 }
 
 fn main() {
@@ -74,20 +71,18 @@ fn main() {
     println!("| parts | image, M pixels | kB each | written in s | merged in s | image written in s | peak, MB |");
     println!("|---|---|---|---|---|---|---|");
     let (pixels, _) = world.render_area(&settings(SIDE, SAMPLES), [0, 0, SIDE, SIDE], |_| ());
-    let tiles = |side: u32, across: u32, pixels: &[Pixel]| {
+    let tiles = |what: &str, side: u32, across: u32, pixels: &[Pixel]| {
         let tile = |i: u32| [i % across * side, i / across * side, (i % across + 1) * side, (i / across + 1) * side];
         let piece = |i: u32| Piece { area: tile(i), content: Content::Pixels(pixels.to_vec()) };
-        (0..across * across).map(piece).collect::<Vec<_>>()
+        row(what, &frame(settings(side * across, SAMPLES)), across * across, piece)
     };
     let mut merges = Vec::new();
     for across in [10, 32, 100].into_iter().filter(|across| across * across <= most) {
-        let frame = frame(settings(SIDE * across, SAMPLES));
-        merges.push(row("tiles of 64²", &frame, tiles(SIDE, across, &pixels)));
+        merges.push(tiles("tiles of 64²", SIDE, across, &pixels));
     }
     // fewer pixels in as many parts, to tell the cost of a part from that of a pixel
     for across in [32, 100].into_iter().filter(|across| across * across <= most) {
-        let frame = frame(settings(16 * across, SAMPLES));
-        merges.push(row("tiles of 16²", &frame, tiles(16, across, &pixels[..256])));
+        merges.push(tiles("tiles of 16²", 16, across, &pixels[..256]));
     }
     for count in [100, 1_000, 10_000].into_iter().filter(|count| *count <= most) {
         let settings = settings(SIDE, SAMPLES * count);
@@ -96,7 +91,7 @@ fn main() {
             area: settings.whole(),
             content: Content::Range(i * SAMPLES..(i + 1) * SAMPLES, planes.clone()),
         };
-        row("ranges of 64²", &frame(settings), (0..count).map(piece).collect());
+        row("ranges of 64²", &frame(settings), count, piece);
     }
     // seconds = a · parts + b · pixels, through the two largest merges of tiles
     let largest = |few: bool| {
