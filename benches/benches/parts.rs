@@ -93,18 +93,16 @@ fn main() {
         };
         row("ranges of 64²", &frame(settings), count, piece);
     }
-    // seconds = a · parts + b · pixels, through the two largest merges of tiles
+    // each of the two costs contains some of the other, so their sum is too much rather than too little
     let largest = |few: bool| {
         let of_size = merges.iter().filter(|merge| (merge.pixels / merge.parts < 300.0) == few);
         of_size.max_by(|a, b| a.parts.total_cmp(&b.parts))
     };
     if let (Some(big), Some(small)) = (largest(false), largest(true)) {
-        let determinant = big.parts * small.pixels - small.parts * big.pixels;
-        let part = (big.seconds * small.pixels - small.seconds * big.pixels) / determinant;
-        let pixel = (big.parts * small.seconds - small.parts * big.seconds) / determinant;
+        let (part, pixel) = (small.seconds / small.parts, big.seconds / big.pixels);
         println!();
-        println!("{:.3} ms for each part, {:.1} ns for each pixel", part * 1e3, pixel * 1e9);
+        println!("at most {:.3} ms for each part and {:.0} ns for each pixel", part * 1e3, pixel * 1e9);
         let (parts, pixels) = (1e5, 7680.0 * 4320.0);
-        println!("7680 × 4320 pixels in 10⁵ parts, extrapolated: {:.0} s", parts * part + pixels * pixel);
+        println!("7680 × 4320 pixels in 10⁵ parts, extrapolated: at most {:.0} s", parts * part + pixels * pixel);
     }
 }
