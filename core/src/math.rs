@@ -41,12 +41,7 @@ pub fn one_minus_cos<R: Real>(sin_squared: R) -> R {
 pub fn difference_of_products<R: Real>(a: R, b: R, c: R, d: R) -> R {
     let cd = c * d;
     let error = R::two_prod_error(c, d, cd);
-    if cfg!(any(target_feature = "fma", target_arch = "aarch64")) {
-        a.mul_add(b, -cd) - error
-    } else {
-        let ab = a * b;
-        (ab - cd) + (R::two_prod_error(a, b, ab) - error)
-    }
+    a.mul_add(b, -cd) - error
 }
 
 /// a/b, or 0 where b is not positive.

@@ -5,6 +5,7 @@
 //! bits at every width.
 
 mod functions;
+mod fused;
 mod mask;
 mod number;
 mod uint;
@@ -12,17 +13,12 @@ mod uint;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
-mod sealed {
-    pub trait Sealed {}
-}
-use sealed::Sealed;
-
 pub(crate) use functions::{exp_minus_half_square, polynomial, sin_cos_quarter};
-pub use mask::{MaskF64X4, MaskX4, MaskX8};
+pub use mask::{MaskF64X4, MaskX4, MaskX8, MaskX16};
 
 /// A truth value per lane.
 pub trait Mask:
-    Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>
 {
     /// The same truth value in every lane.
     fn splat(value: bool) -> Self;
@@ -45,7 +41,7 @@ pub trait Mask:
 }
 
 /// 32-bit unsigned lanes, for counters, hashes and permutations; arithmetic wraps.
-pub trait Uint: Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> {
+pub trait Uint: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> {
     /// Number of lanes.
     const LANES: usize;
     /// The same value in every lane.
@@ -74,11 +70,10 @@ pub trait Uint: Sealed + Copy + Debug + BitAnd<Output = Self> + BitOr<Output = S
 
 /// A real number or a packet of them: everything that a warp needs, and no more.
 ///
-/// Implemented for `f32`, `f64`, [`f32x4`](wide::f32x4), [`f32x8`](wide::f32x8) and [`f64x4`](wide::f64x4). Comparisons with
-/// NaN are false, as for scalars.
+/// Implemented for `f32`, `f64`, [`f32x4`](wide::f32x4), [`f32x8`](wide::f32x8), [`f32x16`](wide::f32x16) and
+/// [`f64x4`](wide::f64x4). Comparisons with NaN are false, as for scalars.
 pub trait Real:
     'static
-    + Sealed
     + Copy
     + Debug
     + Default
@@ -153,10 +148,13 @@ pub trait Real:
     fn sqrt(self) -> Self;
     /// Nearest integer, ties to even.
     fn round_ties_even(self) -> Self;
-    /// `self * a + b`: rounded once where the target has fused multiply-add (alike at every width), twice elsewhere.
+    /// `self * a + b`, rounded once. Where the target has no fused multiply-add, software computes it, with the same bits.
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// `a * b - rounded(a * b)`, exactly, barring overflow and underflow (TwoProd).
-    fn two_prod_error(a: Self, b: Self, product: Self) -> Self;
+    #[inline(always)]
+    fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
+        a.mul_add(b, -product)
+    }
     /// 2⁻ᵉ, where e is the exponent of `self`: a power of two that scales a finite number to [1, 4) (a subnormal one to less),
     /// and has a finite reciprocal.
     fn pow2_scale(self) -> Self;

@@ -1,10 +1,9 @@
 //! Masks of scalars and packets.
 
-use super::{Mask, sealed::Sealed};
+use super::Mask;
 use core::ops::{BitAnd, BitOr, BitXor, Not};
-use wide::{f32x4, f32x8, f64x4, u32x4, u32x8};
+use wide::{f32x4, f32x8, f32x16, f64x4, u32x4, u32x8, u32x16};
 
-impl Sealed for bool {}
 impl Mask for bool {
     #[inline(always)]
     fn splat(value: bool) -> Self {
@@ -29,7 +28,6 @@ macro_rules! packet_mask {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $mask(pub(super) $vector);
-        impl Sealed for $mask {}
         impl BitAnd for $mask {
             type Output = Self;
             #[inline(always)]
@@ -95,6 +93,13 @@ packet_mask!(
     MaskX8, f32x8, |bits| {
         let each = u32x8::new([1, 2, 4, 8, 16, 32, 64, 128]);
         f32x8::from_bits((u32x8::splat(bits) & each).simd_eq(each))
+    }
+);
+packet_mask!(
+    /// The [`Mask`] of [`f32x16`].
+    MaskX16, f32x16, |bits| {
+        let each = u32x16::new(core::array::from_fn(|i| 1 << i));
+        f32x16::from_bits((u32x16::splat(bits) & each).simd_eq(each))
     }
 );
 packet_mask!(

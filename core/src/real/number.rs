@@ -1,33 +1,7 @@
 //! Numbers of single and double precision, and packets of them.
 
-use super::{Mask, MaskF64X4, MaskX4, MaskX8, Real, sealed::Sealed};
-use wide::{f32x4, f32x8, f64x2, f64x4, u32x4, u32x8};
-
-/// `a·b − p` where the target has no fused multiply-add: Veltkamp's split and Dekker's product.
-#[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
-#[inline(always)]
-fn dekker<R: Real>(a: R, b: R, p: R, splitter: f64) -> R {
-    let split = |x: R| {
-        let c = R::lit(splitter) * x;
-        let high = c - (c - x);
-        (high, x - high)
-    };
-    let ((ah, al), (bh, bl)) = (split(a), split(b));
-    ((ah * bh - p) + ah * bl + al * bh) + al * bl
-}
-
-/// What scalars and packets express alike.
-macro_rules! shared {
-    ($splitter:expr) => {
-        #[inline(always)]
-        fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
-            #[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
-            return Real::mul_add(a, b, -product);
-            #[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
-            return dekker(a, b, product, $splitter);
-        }
-    };
-}
+use super::{Mask, MaskF64X4, MaskX4, MaskX8, MaskX16, Real, fused};
+use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, u32x4, u32x8, u32x16, u64x4};
 
 /// Transcendental functions of single precision: the polynomials of [`crate::math`].
 macro_rules! polynomials {
@@ -144,8 +118,7 @@ macro_rules! lane_by_lane {
 
 macro_rules! scalar_real {
     ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal, $mantissa:literal, $bias:literal,
-     $splitter:literal, $functions:ident) => {
-        impl Sealed for $scalar {}
+     $fused:ident, $functions:ident) => {
         impl Real for $scalar {
             type Scalar = $scalar;
             type Mask = bool;
@@ -223,7 +196,11 @@ macro_rules! scalar_real {
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
-                $packet::splat(self).mul_add($packet::splat(a), $packet::splat(b)).to_array()[0]
+                if fused::IN_HARDWARE {
+                    $packet::splat(self).mul_add($packet::splat(a), $packet::splat(b)).to_array()[0]
+                } else {
+                    fused::$fused([self], [a], [b])[0]
+                }
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -252,19 +229,17 @@ macro_rules! scalar_real {
             fn to_uint(self) -> u32 {
                 self as i32 as u32
             }
-            shared!($splitter);
             $functions!();
         }
     };
 }
-scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, 23, 127.0, 4097.0, polynomials);
-scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 52, 1023.0, 134_217_729.0, lane_by_lane);
+scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, 23, 127.0, single, polynomials);
+scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 52, 1023.0, double, lane_by_lane);
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
-     $reflected:literal, $mantissa:literal, $bias:literal, $splitter:literal, $from_int:ident, $functions:ident, $to_uint:expr,
+     $reflected:literal, $mantissa:literal, $bias:literal, $fused:ident, $from_int:ident, $functions:ident, $to_uint:expr,
      $mask_uint:expr) => {
-        impl Sealed for $packet {}
         impl Real for $packet {
             type Scalar = $scalar;
             type Mask = $mask;
@@ -351,7 +326,11 @@ macro_rules! packet_real {
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
-                $packet::mul_add(self, a, b)
+                if fused::IN_HARDWARE {
+                    $packet::mul_add(self, a, b)
+                } else {
+                    $packet::new(fused::$fused(self.to_array(), a.to_array(), b.to_array()))
+                }
             }
             #[inline(always)]
             fn pow2_scale(self) -> Self {
@@ -382,7 +361,6 @@ macro_rules! packet_real {
                 let convert: fn(Self) -> $uint = $to_uint;
                 convert(self)
             }
-            shared!($splitter);
             $functions!();
         }
     };
@@ -398,7 +376,7 @@ packet_real!(
     0x7f00_0000,
     23,
     127.0,
-    4097.0,
+    single,
     from_i32x4,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
@@ -415,13 +393,29 @@ packet_real!(
     0x7f00_0000,
     23,
     127.0,
-    4097.0,
+    single,
     from_i32x8,
     polynomials,
     |x| x.fast_trunc_int().cast_unsigned(),
     |mask| mask.0.to_bits()
 );
-use wide::u64x4;
+packet_real!(
+    f32x16,
+    f32,
+    u32x16,
+    MaskX16,
+    u32x16,
+    16,
+    0x7f80_0000,
+    0x7f00_0000,
+    23,
+    127.0,
+    single,
+    from_i32x16,
+    polynomials,
+    |x| x.fast_trunc_int().cast_unsigned(),
+    |mask| mask.0.to_bits()
+);
 packet_real!(
     f64x4,
     f64,
@@ -433,7 +427,7 @@ packet_real!(
     0x7fe0_0000_0000_0000,
     52,
     1023.0,
-    134_217_729.0,
+    double,
     from_i32x4,
     lane_by_lane,
     |x| u32x4::new(core::array::from_fn(|i| x.as_array()[i] as i32 as u32)),

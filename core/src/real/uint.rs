@@ -1,9 +1,8 @@
 //! 32-bit unsigned lanes.
 
-use super::{Uint, sealed::Sealed};
-use wide::{u32x4, u32x8};
+use super::Uint;
+use wide::{u32x4, u32x8, u32x16};
 
-impl Sealed for u32 {}
 impl Uint for u32 {
     const LANES: usize = 1;
     #[inline(always)]
@@ -54,7 +53,6 @@ impl Uint for u32 {
 
 macro_rules! packet_uint {
     ($vector:ident, $lanes:literal) => {
-        impl Sealed for $vector {}
         impl Uint for $vector {
             const LANES: usize = $lanes;
             #[inline(always)]
@@ -107,3 +105,4 @@ macro_rules! packet_uint {
 }
 packet_uint!(u32x4, 4);
 packet_uint!(u32x8, 8);
+packet_uint!(u32x16, 16);
