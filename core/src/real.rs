@@ -71,7 +71,8 @@ pub trait Uint: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Bi
 /// A real number or a packet of them: everything that a warp needs, and no more.
 ///
 /// Implemented for `f32`, `f64`, [`f32x4`](wide::f32x4), [`f32x8`](wide::f32x8), [`f32x16`](wide::f32x16) and
-/// [`f64x4`](wide::f64x4). Comparisons with NaN are false, as for scalars.
+/// [`f64x4`](wide::f64x4). Comparisons with NaN are false, as for scalars. The trait is open, so that other number types can go through
+/// the same routines; new required methods count as breaking changes.
 pub trait Real:
     'static
     + Copy
@@ -169,24 +170,54 @@ pub trait Real:
     /// The integer part of reals in [0, 2²⁴].
     fn to_uint(self) -> Self::Uint;
 
-    /// (sin 2πu, cos 2πu) for u = `self`; see [`math`](crate::math) for the errors.
-    fn sin_cos_turns(self) -> (Self, Self);
+    /// (sin 2πu, cos 2πu) for u = `self`; see [`math`](crate::math) for the errors of this function and of those below. Provided: the
+    /// polynomials of single precision.
+    #[inline(always)]
+    fn sin_cos_turns(self) -> (Self, Self) {
+        functions::sin_cos_turns_f32(self)
+    }
     /// Arc cosine in radians of the argument clamped to [−1, 1].
-    fn acos(self) -> Self;
+    #[inline(always)]
+    fn acos(self) -> Self {
+        functions::acos_f32(self)
+    }
     /// Angle of (x, y) = (`other`, `self`) in radians, in [−π, π]; 0 at the origin.
-    fn atan2(self, other: Self) -> Self;
+    #[inline(always)]
+    fn atan2(self, other: Self) -> Self {
+        functions::atan2_f32(self, other)
+    }
     /// eˣ; 0 below −87.3, where it would be subnormal, and at most e^88.3 (−708 and 709 in double precision).
-    fn exp(self) -> Self;
+    #[inline(always)]
+    fn exp(self) -> Self {
+        functions::exp_f32(self)
+    }
     /// eˣ − 1, free of cancellation; with the limits of [`exp`](Real::exp).
-    fn exp_m1(self) -> Self;
+    #[inline(always)]
+    fn exp_m1(self) -> Self {
+        functions::exp_m1_f32(self)
+    }
     /// ln(1 + x) for x > −1, free of cancellation. At and below −1 the result is unspecified; callers must guard against it.
-    fn ln_1p(self) -> Self;
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        functions::ln_1p_f32(self)
+    }
     /// Cube root of a number ≥ 0; 0 for a subnormal one.
-    fn cbrt(self) -> Self;
+    #[inline(always)]
+    fn cbrt(self) -> Self {
+        functions::cbrt_f32(self)
+    }
+    /// x^(−1/3) of a positive normal number within 3.5 %: where [`cbrt`](Real::cbrt) starts.
+    fn inverse_cbrt_estimate(self) -> Self;
     /// Φ, the probability that a standard normal variable is below `self`. The lower tail keeps its relative accuracy.
-    fn normal_cdf(self) -> Self;
+    #[inline(always)]
+    fn normal_cdf(self) -> Self {
+        functions::normal_cdf_f32(self)
+    }
     /// Φ⁻¹ of the argument clamped to [2⁻²⁵, 1 − 2⁻²⁵], so that the result is within ±5.42.
-    fn normal_quantile(self) -> Self;
+    #[inline(always)]
+    fn normal_quantile(self) -> Self {
+        functions::normal_quantile_f32(self)
+    }
 }
 
 /// The greatest finite number of single precision; results stay within it at every precision.

@@ -9,19 +9,27 @@ macro_rules! vector {
     ($(#[$doc:meta])* $name:ident { $($axis:ident),+ }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        #[repr(C)]
         pub struct $name<R> {
             $(#[doc = concat!("Component ", stringify!($axis), ".")] pub $axis: R,)+
         }
-        impl<R: Real> $name<R> {
+        impl<R> $name<R> {
             /// The vector with these components.
             #[inline(always)]
             pub const fn new($($axis: R),+) -> Self {
                 Self { $($axis),+ }
             }
+            /// Replaces each component x by `f(x)`.
+            #[inline(always)]
+            pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> $name<S> {
+                $name { $($axis: f(self.$axis)),+ }
+            }
+        }
+        impl<R: Real> $name<R> {
             /// Repeats one vector in every lane.
             #[inline(always)]
             pub fn splat(v: $name<R::Scalar>) -> Self {
-                Self { $($axis: R::splat(v.$axis)),+ }
+                v.map(R::splat)
             }
             /// The vector of lane `i`. Panics past the last lane.
             #[inline(always)]

@@ -17,9 +17,18 @@ use crate::vector::Vec3;
 /// assert!(s.valid() && (s.direction.y * s.distance - 2.0).abs() < 1e-6);
 /// ```
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Polygon<R, const N: usize> {
     /// Corners in order, in one plane, in the coordinates of the scene.
     pub corners: [Vec3<R>; N],
+}
+
+impl<R, const N: usize> Polygon<R, N> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> Polygon<S, N> {
+        Polygon { corners: self.corners.map(|corner| corner.map(&mut f)) }
+    }
 }
 
 impl<R: Real, const N: usize> Polygon<R, N> {
@@ -31,7 +40,7 @@ impl<R: Real, const N: usize> Polygon<R, N> {
     /// Repeats one polygon in every lane.
     #[inline]
     pub fn splat(s: Polygon<R::Scalar, N>) -> Self {
-        Self { corners: s.corners.map(Vec3::splat) }
+        s.map(R::splat)
     }
     /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, which follows from
     /// the rounded corners.

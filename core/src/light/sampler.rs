@@ -1,15 +1,9 @@
 //! Lights prepared for a shading point.
 
 use super::sample::{AreaSample, LightSample, direction_to, solid_angle_pdf};
-use super::surface::{
-    AreaSurface, PlacedDisk, PlacedParallelogram, PlacedPolygon, PlacedSphere, PlacedTriangle, Surface,
-};
-use super::{PlacedCylinder, PlacedPatch};
+use super::surface::{AreaSurface, Surface};
 use crate::real::{Mask, Real};
-use crate::spherical::{
-    CosineWarped, DirectionSample, ProjectedCap, ProjectedPolygon, ProjectedShape, ProjectedTriangle, SphericalCap,
-    SphericalDisk, SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalShape, SphericalTriangle,
-};
+use crate::spherical::{CosineWarped, DirectionSample, ProjectedShape, SphericalShape};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
@@ -69,6 +63,7 @@ pub trait LightSampler<R: Real> {
 
 /// A light sampled uniformly by its surface area.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct ByArea<R, S> {
     pub(super) origin: Vec3<R>,
     pub(super) surface: S,
@@ -147,6 +142,7 @@ fn found<R: Real>(w: Vec3<R>, pdf: R, surface: &impl Surface<R>, front: Option<R
 
 /// A light sampled uniformly by the solid angle it subtends at the shading point.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct BySolidAngle<R, S, W> {
     pub(super) origin: Vec3<R>,
     pub(super) surface: S,
@@ -196,6 +192,7 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for BySolidAn
 
 /// A light sampled uniformly by the projected solid angle above the horizon of a surface: with a pdf proportional to cosθ.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct ByProjectedSolidAngle<R, S, W> {
     pub(super) origin: Vec3<R>,
     pub(super) normal: Vec3<R>,
@@ -246,6 +243,7 @@ impl<R: Real, S: Surface<R>, W: ProjectedShape<R>> LightSampler<R> for ByProject
 
 /// A light sampled by its solid angle times a bilinear approximation of the cosine to a surface normal: [`CosineWarped`].
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct ByCosineWarp<R, S, W> {
     pub(super) origin: Vec3<R>,
     pub(super) surface: S,
@@ -294,36 +292,43 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineW
     }
 }
 
-/// `splat` for each kind of sampler: prepared in scalars, it draws packets of samples for one point.
+/// `map` and `splat` for each kind of sampler: prepared in scalars, it draws packets of samples for one point.
 macro_rules! splats {
-    ($($alias:ident $(, $n:ident)? { $($field:ident: $kind:ty),+ })+) => {$(
+    ($($alias:ident $(, $n:ident)?: $struct:ident { $($field:ident),+ })+) => {$(
+        impl<R $(, const $n: usize)?> super::$alias<R $(, $n)?> {
+            /// Replaces each number x by `f(x)`.
+            #[inline(always)]
+            pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> super::$alias<S $(, $n)?> {
+                $struct { origin: self.origin.map(&mut f), $($field: self.$field.map(&mut f)),+ }
+            }
+        }
         impl<R: Real $(, const $n: usize)?> super::$alias<R $(, $n)?> {
             /// Repeats one sampler in every lane: prepared for one point, it draws packets of samples.
             #[inline(always)]
             pub fn splat(s: super::$alias<R::Scalar $(, $n)?>) -> Self {
-                Self { origin: Vec3::splat(s.origin), $($field: <$kind>::splat(s.$field)),+ }
+                s.map(R::splat)
             }
         }
     )+};
 }
 splats! {
-    TriangleByArea { surface: PlacedTriangle<R> }
-    ParallelogramByArea { surface: PlacedParallelogram<R> }
-    SphereByArea { surface: PlacedSphere<R> }
-    DiskByArea { surface: PlacedDisk<R> }
-    CylinderByArea { surface: PlacedCylinder<R> }
-    PatchByArea { surface: PlacedPatch<R> }
-    PolygonByArea, N { surface: PlacedPolygon<R, N> }
-    TriangleBySolidAngle { surface: PlacedTriangle<R>, shape: SphericalTriangle<R> }
-    ParallelogramBySolidAngle { surface: PlacedParallelogram<R>, shape: SphericalParallelogram<R> }
-    RectangleBySolidAngle { surface: PlacedParallelogram<R>, shape: SphericalRectangle<R> }
-    SphereBySolidAngle { surface: PlacedSphere<R>, shape: SphericalCap<R> }
-    DiskBySolidAngle { surface: PlacedDisk<R>, shape: SphericalDisk<R> }
-    PolygonBySolidAngle, N { surface: PlacedPolygon<R, N>, shape: SphericalPolygon<R, N> }
-    TriangleByProjectedSolidAngle { normal: Vec3<R>, surface: PlacedTriangle<R>, shape: ProjectedTriangle<R> }
-    ParallelogramByProjectedSolidAngle { normal: Vec3<R>, surface: PlacedParallelogram<R>, shape: ProjectedPolygon<R, 4> }
-    SphereByProjectedSolidAngle { normal: Vec3<R>, surface: PlacedSphere<R>, shape: ProjectedCap<R> }
-    PolygonByProjectedSolidAngle, N { normal: Vec3<R>, surface: PlacedPolygon<R, N>, shape: ProjectedPolygon<R, N> }
-    TriangleByCosineWarp { surface: PlacedTriangle<R>, warped: CosineWarped<SphericalTriangle<R>, R> }
-    RectangleByCosineWarp { surface: PlacedParallelogram<R>, warped: CosineWarped<SphericalRectangle<R>, R> }
+    TriangleByArea: ByArea { surface }
+    ParallelogramByArea: ByArea { surface }
+    SphereByArea: ByArea { surface }
+    DiskByArea: ByArea { surface }
+    CylinderByArea: ByArea { surface }
+    PatchByArea: ByArea { surface }
+    PolygonByArea, N: ByArea { surface }
+    TriangleBySolidAngle: BySolidAngle { surface, shape }
+    ParallelogramBySolidAngle: BySolidAngle { surface, shape }
+    RectangleBySolidAngle: BySolidAngle { surface, shape }
+    SphereBySolidAngle: BySolidAngle { surface, shape }
+    DiskBySolidAngle: BySolidAngle { surface, shape }
+    PolygonBySolidAngle, N: BySolidAngle { surface, shape }
+    TriangleByProjectedSolidAngle: ByProjectedSolidAngle { normal, surface, shape }
+    ParallelogramByProjectedSolidAngle: ByProjectedSolidAngle { normal, surface, shape }
+    SphereByProjectedSolidAngle: ByProjectedSolidAngle { normal, surface, shape }
+    PolygonByProjectedSolidAngle, N: ByProjectedSolidAngle { normal, surface, shape }
+    TriangleByCosineWarp: ByCosineWarp { surface, warped }
+    RectangleByCosineWarp: ByCosineWarp { surface, warped }
 }

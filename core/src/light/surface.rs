@@ -236,6 +236,7 @@ affine!(
 /// A convex polygon relative to the shading point. Its surface coordinates are the parts of the edges from the first corner to the
 /// second and to the last, clamped to [0, 1].
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct PlacedPolygon<R, const N: usize> {
     origin: Vec3<R>,
     /// From the first corner to each.
@@ -246,6 +247,22 @@ pub struct PlacedPolygon<R, const N: usize> {
     total: R,
     normal: Vec3<R>,
     area: R,
+}
+
+impl<R, const N: usize> PlacedPolygon<R, N> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> PlacedPolygon<S, N> {
+        PlacedPolygon {
+            origin: self.origin.map(&mut f),
+            edges: self.edges.map(|edge| edge.map(&mut f)),
+            plane: self.plane.map(&mut f),
+            sizes: self.sizes.map(&mut f),
+            total: f(self.total),
+            normal: self.normal.map(&mut f),
+            area: f(self.area),
+        }
+    }
 }
 
 impl<R: Real, const N: usize> PlacedPolygon<R, N> {
@@ -275,15 +292,7 @@ impl<R: Real, const N: usize> PlacedPolygon<R, N> {
     /// Repeats one polygon in every lane.
     #[inline(always)]
     pub fn splat(s: PlacedPolygon<R::Scalar, N>) -> Self {
-        Self {
-            origin: Vec3::splat(s.origin),
-            edges: s.edges.map(Vec3::splat),
-            plane: AffinePlane::splat(s.plane),
-            sizes: s.sizes.map(R::splat),
-            total: R::splat(s.total),
-            normal: Vec3::splat(s.normal),
-            area: R::splat(s.area),
-        }
+        s.map(R::splat)
     }
 }
 

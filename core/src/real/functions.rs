@@ -148,8 +148,9 @@ fn ln_sum<R: Real>(y: R, lost: R) -> R {
 /// x^⅓ from an estimate of x^(−⅓) within 3.5 %: one step raises the error to its fourth power, one squares it, and one corrects
 /// the root itself, whose residue has a single rounding.
 #[inline(always)]
-pub(crate) fn cbrt_f32<R: Real>(x: R, guess: R) -> R {
+pub(crate) fn cbrt_f32<R: Real>(x: R) -> R {
     let one = R::lit(1.0);
+    let guess = x.inverse_cbrt_estimate();
     let residue = |y: R| one - x * y * y * y;
     let h = residue(guess);
     let series = h.mul_add(R::lit(14.0 / 81.0), R::lit(2.0 / 9.0)).mul_add(h, R::lit(1.0 / 3.0));

@@ -3,47 +3,14 @@
 use super::{Mask, MaskF64X4, MaskX4, MaskX8, MaskX16, Real, fused};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, u32x4, u32x8, u32x16, u64x4};
 
-/// Transcendental functions of single precision: the polynomials of [`crate::math`].
+/// What single precision needs beside the polynomials that [`Real`] provides.
 macro_rules! polynomials {
     () => {
         #[inline(always)]
-        fn sin_cos_turns(self) -> (Self, Self) {
-            super::functions::sin_cos_turns_f32(self)
-        }
-        #[inline(always)]
-        fn acos(self) -> Self {
-            super::functions::acos_f32(self)
-        }
-        #[inline(always)]
-        fn atan2(self, other: Self) -> Self {
-            super::functions::atan2_f32(self, other)
-        }
-        #[inline(always)]
-        fn exp(self) -> Self {
-            super::functions::exp_f32(self)
-        }
-        #[inline(always)]
-        fn exp_m1(self) -> Self {
-            super::functions::exp_m1_f32(self)
-        }
-        #[inline(always)]
-        fn ln_1p(self) -> Self {
-            super::functions::ln_1p_f32(self)
-        }
-        #[inline(always)]
-        fn cbrt(self) -> Self {
-            // a third of the exponent and nearly a third of the mantissa: x^(-1/3) within 3.5 %
+        fn inverse_cbrt_estimate(self) -> Self {
+            // a third of the exponent and nearly a third of the mantissa
             let bits = Self::from_uint(self.to_bits());
-            let guess = (Self::lit(1_419_916_083.0) - bits * Self::lit(1.0 / 3.0)).to_uint();
-            super::functions::cbrt_f32(self, Self::from_bits(guess))
-        }
-        #[inline(always)]
-        fn normal_cdf(self) -> Self {
-            super::functions::normal_cdf_f32(self)
-        }
-        #[inline(always)]
-        fn normal_quantile(self) -> Self {
-            super::functions::normal_quantile_f32(self)
+            Self::from_bits((Self::lit(1_419_916_083.0) - bits * Self::lit(1.0 / 3.0)).to_uint())
         }
     };
 }
@@ -91,6 +58,10 @@ macro_rules! lane_by_lane {
         #[inline(always)]
         fn cbrt(self) -> Self {
             Self::from_fn(|i| libm::cbrt(self.lane(i)))
+        }
+        #[inline(always)]
+        fn inverse_cbrt_estimate(self) -> Self {
+            Self::from_fn(|i| 1.0 / libm::cbrt(self.lane(i)))
         }
         #[inline(always)]
         fn normal_cdf(self) -> Self {

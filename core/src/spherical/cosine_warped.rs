@@ -25,6 +25,7 @@ const FLOOR: f64 = 0.01;
 /// - Source: Hart, Pharr, Müller, Lopes, McGuire and Shirley, "Practical Product Sampling by Fitting and Composing Warps", EGSR
 ///   2020, 4.
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
 pub struct CosineWarped<S, R> {
     /// The shape, prepared for the point and uniform in solid angle.
     pub shape: S,
@@ -68,11 +69,18 @@ impl<R: Real, S: Warp<R, Point = Vec3<R>>> Warp<R> for CosineWarped<S, R> {
 
 macro_rules! splats {
     ($($shape:ident),+) => {$(
+        impl<R> CosineWarped<super::$shape<R>, R> {
+            /// Replaces each number x by `f(x)`.
+            #[inline(always)]
+            pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> CosineWarped<super::$shape<S>, S> {
+                CosineWarped { shape: self.shape.map(&mut f), weights: self.weights.map(&mut f) }
+            }
+        }
         impl<R: Real> CosineWarped<super::$shape<R>, R> {
             /// Repeats one warp in every lane.
             #[inline(always)]
             pub fn splat(s: CosineWarped<super::$shape<R::Scalar>, R::Scalar>) -> Self {
-                Self { shape: super::$shape::splat(s.shape), weights: Bilinear::splat(s.weights) }
+                s.map(R::splat)
             }
         }
     )+};

@@ -68,12 +68,15 @@ lanewise! {
 
 /// One value per panel of the quadrature.
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
 struct Quarter<R>([R; 4]);
-impl<R: Real> Quarter<R> {
+impl<R> Quarter<R> {
     #[inline(always)]
-    fn splat(q: Quarter<R::Scalar>) -> Self {
-        Self(q.0.map(R::splat))
+    fn map<S>(self, f: impl FnMut(R) -> S) -> Quarter<S> {
+        Quarter(self.0.map(f))
     }
+}
+impl<R: Real> Quarter<R> {
     #[inline(always)]
     fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
         Self(core::array::from_fn(|i| R::blend(mask, yes.0[i], no.0[i])))

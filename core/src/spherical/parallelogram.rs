@@ -23,9 +23,18 @@ use crate::warp::Warp;
 ///   elevation of the nearest corner, since u₀ = Ω₁/Ω, where the second triangle begins, is rounded.
 /// - Source: as for [`SphericalTriangle`].
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
 pub struct SphericalParallelogram<R> {
     first: SphericalTriangle<R>,
     second: SphericalTriangle<R>,
+}
+
+impl<R> SphericalParallelogram<R> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> SphericalParallelogram<S> {
+        SphericalParallelogram { first: self.first.map(&mut f), second: self.second.map(&mut f) }
+    }
 }
 
 impl<R: Real> SphericalParallelogram<R> {
@@ -52,7 +61,7 @@ impl<R: Real> SphericalParallelogram<R> {
     /// Repeats one prepared parallelogram in every lane.
     #[inline(always)]
     pub fn splat(s: SphericalParallelogram<R::Scalar>) -> Self {
-        Self { first: SphericalTriangle::splat(s.first), second: SphericalTriangle::splat(s.second) }
+        s.map(R::splat)
     }
     /// Solid angle in steradians, in [0, 2π].
     #[inline(always)]

@@ -32,10 +32,19 @@ use crate::warp::Warp;
 ///   nearer, the fan overlaps itself, and up to all of Ω may be wrong.
 /// - Source: as for [`SphericalTriangle`].
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct SphericalPolygon<R, const N: usize> {
     /// The N − 2 triangles; the last two entries are unused.
     fan: [SphericalTriangle<R>; N],
     solid_angle: R,
+}
+
+impl<R, const N: usize> SphericalPolygon<R, N> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> SphericalPolygon<S, N> {
+        SphericalPolygon { fan: self.fan.map(|triangle| triangle.map(&mut f)), solid_angle: f(self.solid_angle) }
+    }
 }
 
 impl<R: Real, const N: usize> SphericalPolygon<R, N> {
@@ -59,7 +68,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     /// Repeats one prepared polygon in every lane.
     #[inline(always)]
     pub fn splat(s: SphericalPolygon<R::Scalar, N>) -> Self {
-        Self { fan: s.fan.map(SphericalTriangle::splat), solid_angle: R::splat(s.solid_angle) }
+        s.map(R::splat)
     }
     /// Solid angle in steradians, in [0, 2π].
     #[inline(always)]

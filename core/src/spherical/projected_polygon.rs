@@ -387,6 +387,7 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
 ///   farther from the plane than the rounding of the corners.
 /// - Source: as for [`ProjectedTriangle`].
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct ProjectedPolygon<R, const N: usize> {
     /// The N − 2 triangles; the last two entries are unused.
     fan: [ProjectedTriangle<R>; N],
@@ -400,6 +401,19 @@ impl<R: Real, const N: usize> Default for ProjectedPolygon<R, N> {
     fn default() -> Self {
         let zero = R::lit(0.0);
         Self { fan: [ProjectedTriangle::default(); N], plane: Vec3::default(), volume: zero, projected: zero }
+    }
+}
+
+impl<R, const N: usize> ProjectedPolygon<R, N> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> ProjectedPolygon<S, N> {
+        ProjectedPolygon {
+            fan: self.fan.map(|triangle| triangle.map(&mut f)),
+            plane: self.plane.map(&mut f),
+            volume: f(self.volume),
+            projected: f(self.projected),
+        }
     }
 }
 
@@ -455,12 +469,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// Repeats one prepared polygon in every lane.
     #[inline(always)]
     pub fn splat(s: ProjectedPolygon<R::Scalar, N>) -> Self {
-        Self {
-            fan: s.fan.map(ProjectedTriangle::splat),
-            plane: Vec3::splat(s.plane),
-            volume: R::splat(s.volume),
-            projected: R::splat(s.projected),
-        }
+        s.map(R::splat)
     }
     /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
     #[inline(always)]

@@ -15,16 +15,25 @@ use crate::vector::Vec2;
 /// - Greatest error: 2e−7 in the point, 4e−7 relative in the pdf.
 /// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., A.5.5 (bilinear), with the marginal and the conditional by [`Linear`].
 #[derive(Clone, Copy, Debug, Default)]
+#[repr(C)]
 pub struct Bilinear<R> {
     /// Relative densities at (0, 0), (1, 0), (0, 1) and (1, 1): ≥ 0, in any common unit.
     pub corners: [R; 4],
+}
+
+impl<R> Bilinear<R> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<S>(self, f: impl FnMut(R) -> S) -> Bilinear<S> {
+        Bilinear { corners: self.corners.map(f) }
+    }
 }
 
 impl<R: Real> Bilinear<R> {
     /// Repeats one distribution in every lane.
     #[inline(always)]
     pub fn splat(b: Bilinear<R::Scalar>) -> Self {
-        Self { corners: b.corners.map(R::splat) }
+        b.map(R::splat)
     }
     /// The marginal of y, and the corners times a power of two, so that no sum overflows.
     #[inline(always)]

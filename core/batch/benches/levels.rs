@@ -1,0 +1,265 @@
+//! Every entry point with the instructions of every level: nanoseconds per element, and a hash of the results, which must not depend on
+//! the level. `cargo bench -p etendue-batch` prints the table; words after `--` select rows.
+//!
+//! The columns are the levels of this library, at batches of 1, 64 and 4,096, and the core with the instructions of the build, at 4,096.
+//! For the best that a build for one processor gives, compile for it: `CARGO_ENCODED_RUSTFLAGS=-Ctarget-cpu=x86-64-v4 cargo bench …`.
+
+use etendue::light::*;
+use etendue::sequence::*;
+use etendue::warp::*;
+use etendue::{LightSampler, Real, Vec2, Vec3, f32x8, f32x16};
+use etendue_batch::*;
+use std::hint::black_box;
+use std::time::Instant;
+
+const N: usize = 4096;
+const SIZES: [usize; 3] = [1, 64, N];
+const LEVELS: [Level; 3] = [Level::Build, Level::V3, Level::V4];
+
+/// Columns of random numbers in [0, 1).
+struct Inputs {
+    columns: Vec<Vec<f32>>,
+}
+
+impl Inputs {
+    fn new() -> Self {
+        let column = |k: u32| {
+            let pair = |i: usize| Independent::new(7).pair::<f32>(k, i as u32, 0).x;
+            (0..N).map(pair).collect()
+        };
+        Self { columns: (0..32).map(column).collect() }
+    }
+    fn column(&self, k: usize, n: usize) -> &[f32] {
+        &self.columns[k % 32][..n]
+    }
+    fn vector(&self, k: usize, n: usize) -> Vec3<&[f32]> {
+        Vec3::new(self.column(k, n), self.column(k + 1, n), self.column(k + 2, n))
+    }
+}
+
+/// Where the results of an entry point go.
+struct Results {
+    columns: [Vec<f32>; 6],
+}
+
+impl Results {
+    fn samples(&mut self, n: usize) -> Samples<'_> {
+        let [x, y, z, distance, pdf, weight] = self.columns.each_mut().map(|column| &mut column[..n]);
+        Samples { direction: [x, y, z], distance, pdf, weight, ..Samples::default() }
+    }
+    fn three(&mut self, n: usize) -> [&mut [f32]; 3] {
+        let [x, y, z, ..] = self.columns.each_mut().map(|column| &mut column[..n]);
+        [x, y, z]
+    }
+    /// FNV-1a of the bits.
+    fn hash(&self, n: usize) -> u64 {
+        let bits = self.columns.iter().flat_map(|column| &column[..n]).map(|x| u64::from(x.to_bits()));
+        bits.fold(0xcbf2_9ce4_8422_2325, |hash, bits| (hash ^ bits).wrapping_mul(0x0100_0000_01b3))
+    }
+}
+
+/// The least time of several runs, in nanoseconds per element.
+fn time(n: usize, mut run: impl FnMut()) -> f64 {
+    let repeat = (8192 / n).max(1);
+    let mut least = f64::INFINITY;
+    for _ in 0..24 {
+        let start = Instant::now();
+        for _ in 0..repeat {
+            run();
+        }
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    least * 1e9 / (n * repeat) as f64
+}
+
+struct Bench {
+    only: Vec<String>,
+    results: Results,
+    differ: usize,
+}
+
+impl Bench {
+    /// One row: `batch` runs an entry point over n elements; `core` does the same with the core alone, where that is compared.
+    fn row(&mut self, name: &str, batch: impl Fn(Batch, usize, &mut Results), core: Option<&dyn Fn(&mut Results)>) {
+        if !self.only.iter().all(|word| name.contains(word.as_str())) {
+            return;
+        }
+        print!("{name:45}");
+        let mut hashes = Vec::new();
+        for level in LEVELS {
+            let Some(routines) = Batch::at(level) else {
+                print!(" {:>27}", "-");
+                continue;
+            };
+            for n in SIZES {
+                let ns = time(n, || batch(black_box(routines), n, &mut self.results));
+                print!(" {ns:8.2}");
+            }
+            self.results.columns.iter_mut().for_each(|column| column.fill(0.0));
+            batch(routines, N, &mut self.results);
+            hashes.push(self.results.hash(N));
+        }
+        if let Some(core) = core {
+            print!(" {:8.2}", time(N, || core(&mut self.results)));
+            self.results.columns.iter_mut().for_each(|column| column.fill(0.0));
+            core(&mut self.results);
+            hashes.push(self.results.hash(N));
+        } else {
+            print!(" {:>8}", "");
+        }
+        let same = hashes.iter().all(|hash| *hash == hashes[0]);
+        self.differ += usize::from(!same);
+        println!(" {:016x}{}", hashes[0], if same { "" } else { "  DIFFERS" });
+    }
+
+    fn technique<T>(&mut self, name: &str, light: T::Light<f32>, input: &Inputs)
+    where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
+        let sampler = Batch::new().prepare::<T>(&light, p, normal);
+        let u = |n| Vec2::new(input.column(0, n), input.column(1, n));
+        let core: &dyn Fn(&mut Results) = if cfg!(target_feature = "avx512f") {
+            &|out| by_core::<T, f32x16>(&sampler, u(N), out)
+        } else {
+            &|out| by_core::<T, f32x8>(&sampler, u(N), out)
+        };
+        self.row(&format!("{name}, sample"), |b, n, out| b.sample(&sampler, u(n), out.samples(n)), Some(core));
+        let lights = |n| {
+            let mut k = 8;
+            T::map(light, |_| {
+                k += 1;
+                input.column(k, n)
+            })
+        };
+        self.row(
+            &format!("{name}, sample each"),
+            |b, n, out| b.sample_each::<T>(lights(n), input.vector(2, n), input.vector(5, n), u(n), out.samples(n)),
+            None,
+        );
+        let mut drawn = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
+        Batch::new().sample(&sampler, u(N), drawn.samples(N));
+        let directions = |n: usize| Vec3::new(&drawn.columns[0][..n], &drawn.columns[1][..n], &drawn.columns[2][..n]);
+        let pdf = |b: Batch, n: usize, out: &mut Results| b.pdf(&sampler, directions(n), &mut out.columns[0][..n]);
+        self.row(&format!("{name}, pdf"), pdf, None);
+        let invert = |b: Batch, n, out: &mut Results| {
+            let [x, y, _] = out.three(n);
+            b.invert(&sampler, directions(n), Vec2::new(x, y));
+        };
+        self.row(&format!("{name}, invert"), invert, None);
+        self.row(&format!("{name}, hit"), |b, n, out| b.hit(&sampler, directions(n), out.samples(n)), None);
+    }
+
+    fn warp<W>(&mut self, name: &str, warp: W, input: &Inputs)
+    where
+        W: Map + InTable<Functions = WarpFunctions<W>>,
+    {
+        let u = |n| [input.column(0, n), input.column(1, n)];
+        self.row(&format!("{name}, sample"), |b, n, out| b.map(&warp, u(n), out.three(n)), None);
+        let mut drawn = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
+        Batch::new().map(&warp, u(N), drawn.three(N));
+        let points = |n: usize| [0, 1, 2].map(|k| &drawn.columns[k][..n]);
+        let pdf = |b: Batch, n: usize, out: &mut Results| b.map_pdf(&warp, points(n), &mut out.columns[0][..n]);
+        self.row(&format!("{name}, pdf"), pdf, None);
+        let invert = |b: Batch, n, out: &mut Results| {
+            let [x, y, _] = out.three(n);
+            b.map_invert(&warp, points(n), [x, y]);
+        };
+        self.row(&format!("{name}, invert"), invert, None);
+    }
+
+    fn sequence<S>(&mut self, name: &str, sequence: S)
+    where
+        S: Sequence + InTable<Functions = SequenceFunctions<S>>,
+    {
+        let pairs = |b: Batch, n, out: &mut Results| {
+            let [x, y, _] = out.three(n);
+            b.pairs(&sequence, Counters { pixel: 3, dimension: 1, ..Counters::default() }, Vec2::new(x, y));
+        };
+        self.row(&format!("{name}, pairs"), pairs, None);
+    }
+}
+
+/// The same samples by the core, with the instructions of this build.
+#[inline(never)]
+fn by_core<T: Technique, R: Real<Scalar = f32>>(sampler: &T, u: Vec2<&[f32]>, out: &mut Results) {
+    let sampler = sampler.splat::<R>();
+    for at in (0..N).step_by(R::LANES) {
+        let s = sampler.sample(u.map(|column| R::from_fn(|lane| column[at + lane])));
+        let values = [s.direction.x, s.direction.y, s.direction.z, s.distance, s.pdf, s.weight()];
+        for (column, value) in out.columns.iter_mut().zip(values) {
+            let column = &mut column[at..at + R::LANES];
+            for (lane, x) in column.iter_mut().enumerate() {
+                *x = value.lane(lane);
+            }
+        }
+    }
+}
+
+fn main() {
+    let input = Inputs::new();
+    let only = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let results = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
+    let mut bench = Bench { only, results, differ: 0 };
+    println!("{:45} {:>26} {:>26} {:>26} {:>8} hash", "ns per element", "build: 1, 64, 4096", "v3", "v4", "core");
+    let v = Vec3::new;
+    let triangle = Triangle::new(v(0.0, 1.0, 0.0), v(1.0, 1.2, 0.0), v(0.0, 1.0, 1.0));
+    let panel = Parallelogram::new(v(0.0, 1.0, 0.0), v(1.0, 0.2, 0.0), v(0.0, 0.0, 1.0));
+    let rectangle = Rectangle::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0));
+    let sphere = Sphere::new(v(0.0, 1.0, 0.0), 0.4);
+    let disk = Disk::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5);
+    let line = Line::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0));
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let polygon = Polygon::<f32, 8>::new(core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1])));
+    bench.technique::<SphereByArea<f32>>("sphere by area", sphere, &input);
+    bench.technique::<SphereBySolidAngle<f32>>("sphere by solid angle", sphere, &input);
+    bench.technique::<SphereByProjectedSolidAngle<f32>>("sphere by projected solid angle", sphere, &input);
+    bench.technique::<TriangleByArea<f32>>("triangle by area", triangle, &input);
+    bench.technique::<TriangleBySolidAngle<f32>>("triangle by solid angle", triangle, &input);
+    bench.technique::<TriangleByProjectedSolidAngle<f32>>("triangle by projected solid angle", triangle, &input);
+    bench.technique::<TriangleByCosineWarp<f32>>("triangle by cosine warp", triangle, &input);
+    bench.technique::<ParallelogramByArea<f32>>("parallelogram by area", panel, &input);
+    bench.technique::<ParallelogramBySolidAngle<f32>>("parallelogram by solid angle", panel, &input);
+    bench.technique::<ParallelogramByProjectedSolidAngle<f32>>("parallelogram by projected solid angle", panel, &input);
+    bench.technique::<RectangleBySolidAngle<f32>>("rectangle by solid angle", rectangle, &input);
+    bench.technique::<RectangleByCosineWarp<f32>>("rectangle by cosine warp", rectangle, &input);
+    bench.technique::<DiskByArea<f32>>("disk by area", disk, &input);
+    bench.technique::<DiskBySolidAngle<f32>>("disk by solid angle", disk, &input);
+    bench.technique::<CylinderByArea<f32>>("cylinder by area", Cylinder::new(line.p, line.edge, 0.1), &input);
+    let patch = BilinearPatch::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.0, 0.3, 0.0));
+    bench.technique::<PatchByArea<f32>>("bilinear patch by area", patch, &input);
+    bench.technique::<PolygonByArea<f32, 8>>("polygon by area", polygon, &input);
+    bench.technique::<PolygonBySolidAngle<f32, 8>>("polygon by solid angle", polygon, &input);
+    bench.technique::<PolygonByProjectedSolidAngle<f32, 8>>("polygon by projected solid angle", polygon, &input);
+    bench.technique::<LineByLength<f32>>("line by length", line, &input);
+    bench.technique::<LineByAngle<f32>>("line by angle", line, &input);
+    bench.technique::<LineByProjectedSolidAngle<f32>>("line by projected solid angle", line, &input);
+    bench.technique::<SunBySolidAngle<f32>>("sun by solid angle", Sun::new(v(0.0, 1.0, 0.0), 1e-5), &input);
+    bench.warp("concentric disk", ConcentricDisk, &input);
+    bench.warp("polar disk", PolarDisk, &input);
+    bench.warp("uniform hemisphere", UniformHemisphere, &input);
+    bench.warp("uniform sphere", UniformSphere, &input);
+    bench.warp("cosine hemisphere", CosineHemisphere, &input);
+    bench.warp("octahedral", Octahedral, &input);
+    bench.warp("area triangle", AreaTriangle, &input);
+    bench.warp("low-distortion triangle", LowDistortionTriangle, &input);
+    bench.warp("cone", Cone { one_minus_cos: 0.3 }, &input);
+    bench.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 3.0] }, &input);
+    bench.warp("GGX visible normals", GgxVisibleNormals::new(0.3, 0.5, v(0.6, 0.0, 0.8)), &input);
+    bench.warp("disk surface", DiskSurface { center: sphere.center, normal: v(0.0, 0.0, 1.0), radius: 0.5 }, &input);
+    bench.warp("cylinder side", CylinderSide { p: line.p, axis: line.edge, radius: 0.1 }, &input);
+    bench.warp("sphere surface", SphereSurface { center: sphere.center, radius: 0.4 }, &input);
+    let patch = PatchSurface { p: patch.p, u: v(1.0, 0.0, 0.0), v: v(0.0, 0.0, 1.0), w: v(0.0, 0.3, 0.0) };
+    bench.warp("patch surface", patch, &input);
+    bench.warp("linear", Linear { a: 3.0, b: 1.0 }, &input);
+    bench.warp("tent", Tent { radius: 1.5 }, &input);
+    bench.warp("exponential", Exponential { rate: 2.0 }, &input);
+    bench.warp("normal", Normal { mean: 0.5, sigma: 2.0 }, &input);
+    bench.sequence("independent", Independent::new(1));
+    bench.sequence("Owen-Sobol", OwenSobol::new(1));
+    bench.sequence("joint Sobol", JointSobol::new(1));
+    bench.sequence("stratified", Stratified::new(1, 4096));
+    bench.sequence("Latin hypercube", LatinHypercube::new(1, 4096));
+    bench.sequence("lattice R2", Lattice::r2(1));
+    assert!(bench.differ == 0, "{} entry points differ between levels", bench.differ);
+}

@@ -1,0 +1,140 @@
+//! What a batch reads and writes beside directions.
+
+/// Where samples go: slices of the length of the batch, or empty slices for what is not wanted. The fields are those of
+/// [`etendue::LightSample`].
+#[derive(Debug, Default)]
+pub struct Samples<'a> {
+    /// Unit direction from the shading point to the light.
+    pub direction: [&'a mut [f32]; 3],
+    /// Distance to the light along it, in the unit of the coordinates.
+    pub distance: &'a mut [f32],
+    /// Probability density of the direction, per steradian; 0 where there is no sample.
+    pub pdf: &'a mut [f32],
+    /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
+    pub weight: &'a mut [f32],
+    /// Unit normal of the light at the sampled point.
+    pub normal: [&'a mut [f32]; 3],
+    /// Surface coordinates of the sampled point in [0, 1]².
+    pub uv: [&'a mut [f32]; 2],
+    /// 1 where the shading point is on the side of the light that emits, else 0.
+    pub emits: &'a mut [u8],
+}
+
+/// [`Samples`] by pointers, each null or to as many elements as the batch has.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct SampleColumns {
+    /// Unit direction from the shading point to the light: x, y and z.
+    pub direction: [*mut f32; 3],
+    /// Distance to the light along the direction, in the unit of the coordinates.
+    pub distance: *mut f32,
+    /// Probability density of the direction, per steradian; 0 where there is no sample.
+    pub pdf: *mut f32,
+    /// 1/pdf where there is a sample and the light emits towards the shading point, 0 elsewhere.
+    pub weight: *mut f32,
+    /// Unit normal of the light at the sampled point: x, y and z.
+    pub normal: [*mut f32; 3],
+    /// Surface coordinates of the sampled point in [0, 1]².
+    pub uv: [*mut f32; 2],
+    /// 1 where the shading point is on the side of the light that emits, else 0.
+    pub emits: *mut u8,
+}
+
+impl SampleColumns {
+    /// True if the normal or the surface coordinates are wanted.
+    #[inline(always)]
+    pub(crate) fn needs_surface(&self) -> bool {
+        !self.normal.iter().chain(&self.uv).all(|column| column.is_null())
+    }
+    /// The columns from element `i` on.
+    pub(crate) fn from(&self, i: usize) -> Self {
+        fn from<T>(column: *mut T, i: usize) -> *mut T {
+            if column.is_null() { column } else { column.wrapping_add(i) }
+        }
+        Self {
+            direction: self.direction.map(|column| from(column, i)),
+            distance: from(self.distance, i),
+            pdf: from(self.pdf, i),
+            weight: from(self.weight, i),
+            normal: self.normal.map(|column| from(column, i)),
+            uv: self.uv.map(|column| from(column, i)),
+            emits: from(self.emits, i),
+        }
+    }
+}
+
+impl Samples<'_> {
+    #[track_caller]
+    pub(crate) fn columns(self, n: usize) -> SampleColumns {
+        SampleColumns {
+            direction: self.direction.map(|column| pointer(column, n)),
+            distance: pointer(self.distance, n),
+            pdf: pointer(self.pdf, n),
+            weight: pointer(self.weight, n),
+            normal: self.normal.map(|column| pointer(column, n)),
+            uv: self.uv.map(|column| pointer(column, n)),
+            emits: pointer(self.emits, n),
+        }
+    }
+}
+
+/// Where choices of lights go: slices of the length of the batch, or empty slices for what is not wanted.
+#[derive(Debug, Default)]
+pub struct Choices<'a> {
+    /// Index of the light; [`etendue::select::NO_LIGHT`] where none was chosen.
+    pub light: &'a mut [u32],
+    /// Probability with which it was chosen; 0 where none was.
+    pub pmf: &'a mut [f32],
+    /// What is left of the random number: uniform in [0, 1), independent of the light.
+    pub u: &'a mut [f32],
+}
+
+/// [`Choices`] by pointers, each null or to as many elements as the batch has.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ChoiceColumns {
+    /// Index of the light; 2³² − 1 where none was chosen.
+    pub light: *mut u32,
+    /// Probability with which it was chosen; 0 where none was.
+    pub pmf: *mut f32,
+    /// What is left of the random number: uniform in [0, 1), independent of the light.
+    pub u: *mut f32,
+}
+
+impl Choices<'_> {
+    #[track_caller]
+    pub(crate) fn columns(self, n: usize) -> ChoiceColumns {
+        ChoiceColumns { light: pointer(self.light, n), pmf: pointer(self.pmf, n), u: pointer(self.u, n) }
+    }
+}
+
+/// Which pairs of a sequence a batch needs.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Counters {
+    /// The pixel of all elements, if `pixels` is null.
+    pub pixel: u32,
+    /// The sample of the first element, if `samples` is null; the others follow.
+    pub sample: u32,
+    /// The dimension of all elements.
+    pub dimension: u32,
+    /// The pixel of each element, or null.
+    pub pixels: *const u32,
+    /// The sample of each element, or null.
+    pub samples: *const u32,
+}
+
+impl Default for Counters {
+    fn default() -> Self {
+        Self { pixel: 0, sample: 0, dimension: 0, pixels: core::ptr::null(), samples: core::ptr::null() }
+    }
+}
+
+#[track_caller]
+fn pointer<T>(column: &mut [T], n: usize) -> *mut T {
+    if column.is_empty() {
+        return core::ptr::null_mut();
+    }
+    assert!(column.len() == n, "a column of {} elements in a batch of {n}", column.len());
+    column.as_mut_ptr()
+}

@@ -1,0 +1,353 @@
+//! The loops over a batch: one body for every level of instructions and every kind of light.
+//!
+//! Columns are raw pointers, since callers in other languages pass them so, since an output may be null, and since an output may be
+//! the same memory as an input.
+
+use crate::family::{Map, Technique};
+use crate::{ChoiceColumns, Counters, SampleColumns};
+use core::ptr::copy_nonoverlapping;
+use etendue::select::{LightChoice, LightTree};
+use etendue::sequence::Sequence;
+use etendue::{LightSample, LightSampler, Mask, Real, Uint, Vec2, Vec3};
+
+/// The greatest number of lanes of a packet.
+const MOST_LANES: usize = 16;
+
+/// The elements of a batch that one packet holds: `count` of them from `at` on.
+#[derive(Clone, Copy)]
+struct Place {
+    at: usize,
+    count: usize,
+}
+
+impl Place {
+    /// The element of a lane. Lanes past the end repeat the first one, so that they are as harmless as that.
+    #[inline(always)]
+    fn element(self, lane: usize) -> usize {
+        self.at + if lane < self.count { lane } else { 0 }
+    }
+    #[inline(always)]
+    unsafe fn load<R: Real<Scalar = f32>>(self, column: *const f32) -> R {
+        if self.count == R::LANES {
+            let mut lanes = [0.0; MOST_LANES];
+            // SAFETY: the caller's column has an element for every lane
+            unsafe { copy_nonoverlapping(column.add(self.at), lanes.as_mut_ptr(), R::LANES) };
+            R::from_fn(|lane| lanes[lane])
+        } else {
+            // SAFETY: the caller's
+            unsafe { self.load_some(column) }
+        }
+    }
+    /// The last packet, in a function of its own: the loops have many columns.
+    #[cold]
+    #[inline(never)]
+    unsafe fn load_some<R: Real<Scalar = f32>>(self, column: *const f32) -> R {
+        // SAFETY: the caller's column has an element for every lane below `count`
+        R::from_fn(|lane| unsafe { column.add(self.element(lane)).read_unaligned() })
+    }
+    #[inline(always)]
+    unsafe fn load_uint<U: Uint>(self, column: *const u32) -> U {
+        // SAFETY: the caller's column has an element for every lane
+        U::from_fn(|lane| unsafe { column.add(self.element(lane)).read_unaligned() })
+    }
+    /// Writes a column, unless it is null.
+    #[inline(always)]
+    unsafe fn store<R: Real<Scalar = f32>>(self, column: *mut f32, value: R) {
+        if column.is_null() {
+            return;
+        }
+        if self.count == R::LANES {
+            let mut lanes = [0.0; MOST_LANES];
+            for (lane, x) in lanes.iter_mut().enumerate().take(R::LANES) {
+                *x = value.lane(lane);
+            }
+            // SAFETY: the caller's column has an element for every lane
+            unsafe { copy_nonoverlapping(lanes.as_ptr(), column.add(self.at), R::LANES) };
+        } else {
+            // SAFETY: the caller's
+            unsafe { self.store_some(column, value) };
+        }
+    }
+    #[cold]
+    #[inline(never)]
+    unsafe fn store_some<R: Real<Scalar = f32>>(self, column: *mut f32, value: R) {
+        for lane in 0..self.count {
+            // SAFETY: the caller's column has an element for every lane below `count`
+            unsafe { column.add(self.at + lane).write_unaligned(value.lane(lane)) };
+        }
+    }
+    #[inline(always)]
+    unsafe fn store3<R: Real<Scalar = f32>>(self, columns: [*mut f32; 3], value: Vec3<R>) {
+        let [x, y, z] = columns;
+        // SAFETY: the caller's
+        unsafe {
+            self.store(x, value.x);
+            self.store(y, value.y);
+            self.store(z, value.z);
+        }
+    }
+    #[inline(always)]
+    unsafe fn store_sample<R: Real<Scalar = f32>>(self, out: &SampleColumns, s: &LightSample<R>) {
+        // SAFETY: the caller's
+        unsafe {
+            self.store3(out.direction, s.direction);
+            self.store(out.distance, s.distance);
+            self.store(out.pdf, s.pdf);
+            self.store(out.weight, s.weight());
+            // in one branch, so that the compiler moves there what only the surface needs
+            if out.needs_surface() {
+                self.store3(out.normal, s.normal);
+                self.store(out.uv[0], s.uv.x);
+                self.store(out.uv[1], s.uv.y);
+            }
+        }
+        if !out.emits.is_null() {
+            let bits = s.emits.bits();
+            for lane in 0..self.count {
+                // SAFETY: the caller's column has an element for every lane below `count`
+                unsafe { out.emits.add(self.at + lane).write((bits >> lane & 1) as u8) };
+            }
+        }
+    }
+}
+
+/// Calls `f` for each packet of a batch of `n`.
+#[inline(always)]
+fn packets(n: usize, lanes: usize, mut f: impl FnMut(Place)) {
+    let mut at = 0;
+    while at < n {
+        let count = (n - at).min(lanes);
+        f(Place { at, count });
+        at += count;
+    }
+}
+
+/// Prepares a light for one point.
+pub(crate) unsafe extern "C" fn prepare<T: Technique>(
+    light: &T::Light<f32>,
+    p: Vec3<f32>,
+    normal: Vec3<f32>,
+    out: *mut T,
+) {
+    // SAFETY: the caller's memory has room for it
+    unsafe { out.write_unaligned(T::of(T::prepare::<f32>(*light, p, normal))) };
+}
+
+/// Samples of one prepared light.
+pub(crate) unsafe extern "C" fn sample<T: Technique, R: Real<Scalar = f32>>(
+    sampler: &T,
+    n: usize,
+    u: Vec2<*const f32>,
+    out: &SampleColumns,
+) {
+    let sampler = sampler.splat::<R>();
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        place.store_sample(out, &sampler.sample(u.map(|column| place.load(column))));
+    });
+}
+
+/// Samples of a light of its own for each element, prepared for a point of its own.
+pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Real<Scalar = f32>>(
+    lights: &T::Light<*const f32>,
+    n: usize,
+    points: Vec3<*const f32>,
+    normals: Vec3<*const f32>,
+    u: Vec2<*const f32>,
+    out: &SampleColumns,
+) {
+    if R::LANES == 1 {
+        // SAFETY: the caller's
+        return unsafe { one_by_one::<T>(lights, n, points, normals, u, out) };
+    }
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let light = T::map(*lights, |column| place.load::<R>(column));
+        let p = points.map(|column| place.load::<R>(column));
+        let normal =
+            if T::ON_SURFACE { normals.map(|column| place.load::<R>(column)) } else { Vec3::splat(Vec3::default()) };
+        let u = u.map(|column| place.load(column));
+        place.store_sample(out, &T::prepare(light, p, normal).sample(u));
+    });
+}
+
+/// [`sample_each`] by the functions of one light, whose code is there already.
+unsafe fn one_by_one<T: Technique>(
+    lights: &T::Light<*const f32>,
+    n: usize,
+    points: Vec3<*const f32>,
+    normals: Vec3<*const f32>,
+    u: Vec2<*const f32>,
+    out: &SampleColumns,
+) {
+    for i in 0..n {
+        // SAFETY: the caller's columns have `n` elements
+        unsafe {
+            let number = |column: *const f32| column.add(i).read_unaligned();
+            let normal = if T::ON_SURFACE { normals.map(number) } else { Vec3::default() };
+            let mut sampler = core::mem::MaybeUninit::<T>::uninit();
+            prepare::<T>(&T::map(*lights, number), points.map(number), normal, sampler.as_mut_ptr());
+            sample::<T, f32>(sampler.assume_init_ref(), 1, u.map(|column| column.add(i)), &out.from(i));
+        }
+    }
+}
+
+/// The pdf of directions.
+pub(crate) unsafe extern "C" fn pdf<T: Technique, R: Real<Scalar = f32>>(
+    sampler: &T,
+    n: usize,
+    directions: Vec3<*const f32>,
+    out: *mut f32,
+) {
+    let sampler = sampler.splat::<R>();
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        place.store(out, sampler.pdf(directions.map(|column| place.load(column))));
+    });
+}
+
+/// The random numbers that the sampler maps to directions.
+pub(crate) unsafe extern "C" fn invert<T: Technique, R: Real<Scalar = f32>>(
+    sampler: &T,
+    n: usize,
+    directions: Vec3<*const f32>,
+    out: Vec2<*mut f32>,
+) {
+    let sampler = sampler.splat::<R>();
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let u = sampler.invert(directions.map(|column| place.load(column)));
+        place.store(out.x, u.x);
+        place.store(out.y, u.y);
+    });
+}
+
+/// Where directions hit the light.
+pub(crate) unsafe extern "C" fn hit<T: Technique, R: Real<Scalar = f32>>(
+    sampler: &T,
+    n: usize,
+    directions: Vec3<*const f32>,
+    out: &SampleColumns,
+) {
+    let sampler = sampler.splat::<R>();
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        place.store_sample(out, &sampler.hit(directions.map(|column| place.load(column))));
+    });
+}
+
+/// Points of a warp.
+pub(crate) unsafe extern "C" fn map_sample<W: Map, R: Real<Scalar = f32>>(
+    warp: &W,
+    n: usize,
+    u: Vec2<*const f32>,
+    out: &[*mut f32; 3],
+) {
+    let warp = warp.splat::<R>();
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let x = place.load(u.x);
+        let y = if W::NUMBERS == 2 { place.load(u.y) } else { x };
+        let point = W::sample(&warp, Vec2::new(x, y));
+        for (&column, value) in out.iter().zip(point).take(W::COORDINATES) {
+            place.store(column, value);
+        }
+    });
+}
+
+#[inline(always)]
+unsafe fn load_point<W: Map, R: Real<Scalar = f32>>(place: Place, points: &[*const f32; 3]) -> [R; 3] {
+    // SAFETY: the caller's columns are as many as the point has coordinates
+    core::array::from_fn(|k| if k < W::COORDINATES { unsafe { place.load(points[k]) } } else { R::lit(0.0) })
+}
+
+/// The pdf of a warp at points.
+pub(crate) unsafe extern "C" fn map_pdf<W: Map, R: Real<Scalar = f32>>(
+    warp: &W,
+    n: usize,
+    points: &[*const f32; 3],
+    out: *mut f32,
+) {
+    let warp = warp.splat::<R>();
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe { place.store(out, W::pdf(&warp, load_point::<W, R>(place, points))) });
+}
+
+/// The random numbers that a warp maps to points.
+pub(crate) unsafe extern "C" fn map_invert<W: Map, R: Real<Scalar = f32>>(
+    warp: &W,
+    n: usize,
+    points: &[*const f32; 3],
+    out: Vec2<*mut f32>,
+) {
+    let warp = warp.splat::<R>();
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let u = W::invert(&warp, load_point::<W, R>(place, points));
+        place.store(out.x, u.x);
+        if W::NUMBERS == 2 {
+            place.store(out.y, u.y);
+        }
+    });
+}
+
+/// Pairs of a sequence.
+pub(crate) unsafe extern "C" fn pairs<S: Sequence, R: Real<Scalar = f32>>(
+    sequence: &S,
+    n: usize,
+    counters: &Counters,
+    out: Vec2<*mut f32>,
+) {
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let pixel =
+            if counters.pixels.is_null() { R::Uint::splat(counters.pixel) } else { place.load_uint(counters.pixels) };
+        let sample = if counters.samples.is_null() {
+            R::Uint::from_fn(|lane| counters.sample.wrapping_add(place.element(lane) as u32))
+        } else {
+            place.load_uint(counters.samples)
+        };
+        let u = sequence.pair::<R>(pixel, sample, counters.dimension);
+        place.store(out.x, u.x);
+        place.store(out.y, u.y);
+    });
+}
+
+/// Lights of a tree, chosen for points.
+pub(crate) unsafe extern "C" fn choose<R: Real<Scalar = f32>>(
+    tree: &LightTree<'_>,
+    n: usize,
+    points: Vec3<*const f32>,
+    normals: Vec3<*const f32>,
+    u: *const f32,
+    out: &ChoiceColumns,
+) {
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let [p, normal] = [points, normals].map(|v| v.map(|column| place.load::<R>(column)));
+        let choice = tree.at(p, normal).choose(place.load(u));
+        place.store(out.pmf, choice.pmf);
+        place.store(out.u, choice.u);
+        if !out.light.is_null() {
+            for lane in 0..place.count {
+                out.light.add(place.at + lane).write_unaligned(choice.index.lane(lane));
+            }
+        }
+    });
+}
+
+/// The probabilities with which a tree chooses lights for points.
+pub(crate) unsafe extern "C" fn pmf<R: Real<Scalar = f32>>(
+    tree: &LightTree<'_>,
+    n: usize,
+    points: Vec3<*const f32>,
+    normals: Vec3<*const f32>,
+    lights: *const u32,
+    out: *mut f32,
+) {
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let [p, normal] = [points, normals].map(|v| v.map(|column| place.load::<R>(column)));
+        place.store(out, tree.at(p, normal).pmf(place.load_uint(lights)));
+    });
+}

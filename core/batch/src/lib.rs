@@ -1,0 +1,307 @@
+//! Light sampling in batches of any length, with the widest vector instructions that the processor has.
+//!
+//! [`etendue`] itself uses the instructions for which it was compiled, which by default are those of every x86-64 processor. This crate
+//! compiles its routines for x86-64, x86-64-v3 (AVX2, fused multiply-add) and x86-64-v4 (AVX-512), and chooses when it runs. All of them
+//! return the same bits as the core.
+//!
+//! ```
+//! use etendue::{Parallelogram, Vec2, Vec3, sequence::OwenSobol};
+//! use etendue_batch::{Batch, Counters, Samples};
+//! let batch = Batch::new(); // asks the processor once; a pair of pointers to keep or to make again
+//! let panel = Parallelogram::new([-1.0, 2.0, -1.0].into(), [2.0, 0.0, 0.0].into(), [0.0, 0.0, 2.0].into());
+//! let sampler = panel.by_solid_angle(Vec3::new(0.0, 0.0, 0.0));
+//!
+//! let mut u = [[0.0; 100]; 2];
+//! let [x, y] = &mut u;
+//! batch.pairs(&OwenSobol::new(1), Counters::default(), Vec2::new(x, y));
+//! let (mut height, mut weight) = ([0.0; 100], [0.0; 100]);
+//! let wanted = Samples { direction: [&mut [], &mut height, &mut []], weight: &mut weight, ..Samples::default() };
+//! batch.sample(&sampler, Vec2::new(&u[0], &u[1]), wanted);
+//! // irradiance on a receiver that faces up
+//! let irradiance = height.iter().zip(&weight).map(|(cos, weight)| cos * weight).sum::<f32>() / 100.0;
+//! assert!(irradiance > 0.7 && irradiance < 0.9);
+//! ```
+//!
+//! # Costs
+//! A batch of 64 takes as long as with the core compiled for the processor at hand; a single sample takes some nanoseconds more for the
+//! call through a pointer. Building takes twice as long, since the crate compiles itself two more times; without the default feature
+//! `dispatch` it does not, and uses the instructions of the build.
+#![cfg_attr(not(test), no_std)]
+
+mod columns;
+mod family;
+mod kernel;
+mod table;
+
+pub use columns::{ChoiceColumns, Choices, Counters, SampleColumns, Samples};
+pub use family::{Map, Technique};
+pub use table::{InTable, LightFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions};
+
+use etendue::select::LightTree;
+use etendue::sequence::Sequence;
+use etendue::{Vec2, Vec3};
+
+/// The instructions that a [`Batch`] uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// Those of the build: eight lanes, in as many registers as that takes.
+    Build,
+    /// x86-64-v3: eight lanes with AVX2 and fused multiply-add.
+    V3,
+    /// x86-64-v4: sixteen lanes with AVX-512.
+    V4,
+}
+
+/// The routines for one kind of processor.
+///
+/// All slices of one call must be of one length, the length of the batch, or the call panics. Empty slices stand for results that are
+/// not wanted.
+#[derive(Clone, Copy)]
+pub struct Batch {
+    level: Level,
+    one: &'static Table,
+    many: &'static Table,
+}
+
+impl core::fmt::Debug for Batch {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_tuple("Batch").field(&self.level).finish()
+    }
+}
+
+impl Default for Batch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(levels)]
+cpufeatures::new!(v3_instructions, "avx2", "fma", "bmi1", "bmi2");
+#[cfg(levels)]
+cpufeatures::new!(v4_instructions, "avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl");
+#[cfg(levels)]
+// the build script compiles these tables from this crate
+#[allow(improper_ctypes)]
+unsafe extern "C" {
+    // SAFETY: the tables do not change
+    safe static etendue_batch_v3_one: Table;
+    safe static etendue_batch_v3_many: Table;
+    safe static etendue_batch_v4_many: Table;
+}
+
+impl Batch {
+    /// The routines with the widest instructions of this processor. The processor is asked once, and its answer kept.
+    #[inline]
+    #[must_use]
+    pub fn new() -> Self {
+        Self::at(Level::V4).or_else(|| Self::at(Level::V3)).unwrap_or(Self {
+            level: Level::Build,
+            #[cfg(not(feature = "level-v4"))]
+            one: &table::ONE,
+            #[cfg(feature = "level-v4")]
+            one: &table::MANY,
+            many: &table::MANY,
+        })
+    }
+    /// The routines with certain instructions, or `None` if the processor lacks them or they were not compiled.
+    #[inline]
+    #[must_use]
+    pub fn at(level: Level) -> Option<Self> {
+        match level {
+            #[cfg(not(feature = "level-v4"))]
+            Level::Build => Some(Self { level, one: &table::ONE, many: &table::MANY }),
+            #[cfg(levels)]
+            Level::V3 => v3_instructions::get().then_some(Self {
+                level,
+                one: &etendue_batch_v3_one,
+                many: &etendue_batch_v3_many,
+            }),
+            #[cfg(levels)]
+            Level::V4 => (v3_instructions::get() && v4_instructions::get()).then_some(Self {
+                level,
+                one: &etendue_batch_v3_one,
+                many: &etendue_batch_v4_many,
+            }),
+            #[allow(unreachable_patterns)]
+            _ => None,
+        }
+    }
+    /// The instructions that it uses.
+    #[must_use]
+    pub const fn level(&self) -> Level {
+        self.level
+    }
+    /// The functions for a batch of `n`, by raw pointers: each of them reads and writes `n` elements of every column that is not null.
+    #[inline]
+    #[must_use]
+    pub fn functions<T: InTable>(&self, n: usize) -> &'static T::Functions {
+        T::functions(if n == 1 { self.one } else { self.many })
+    }
+
+    /// Prepares a light for the point `p` of a surface with the unit normal `n`.
+    pub fn prepare<T>(&self, light: &T::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> T
+    where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let mut out = core::mem::MaybeUninit::<T>::uninit();
+        // SAFETY: the function writes a whole sampler
+        unsafe {
+            (self.functions::<T>(1).prepare)(light, p, n, out.as_mut_ptr());
+            out.assume_init()
+        }
+    }
+    /// Samples one prepared light, at the numbers `u` in [0, 1)².
+    pub fn sample<T>(&self, sampler: &T, u: Vec2<&[f32]>, out: Samples<'_>)
+    where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let n = u.x.len();
+        check(n, [u.y.len()]);
+        let out = out.columns(n);
+        // SAFETY: all columns have n elements, and the outputs are borrowed mutably
+        unsafe { (self.functions::<T>(n).sample)(sampler, n, u.map(<[f32]>::as_ptr), &out) };
+    }
+    /// Prepares a light of its own for each element, for the point `p` of a surface with the unit normal `n`, and samples it. Techniques
+    /// that need no normal do not read `n`, which may be empty.
+    pub fn sample_each<T>(
+        &self,
+        lights: T::Light<&[f32]>,
+        p: Vec3<&[f32]>,
+        n: Vec3<&[f32]>,
+        u: Vec2<&[f32]>,
+        out: Samples<'_>,
+    ) where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let count = u.x.len();
+        check(count, [u.y.len(), p.x.len(), p.y.len(), p.z.len()]);
+        if T::ON_SURFACE {
+            check(count, [n.x.len(), n.y.len(), n.z.len()]);
+        }
+        let lights = T::map(lights, |column: &[f32]| {
+            check(count, [column.len()]);
+            column.as_ptr()
+        });
+        let out = out.columns(count);
+        let pointers = |v: Vec3<&[f32]>| v.map(<[f32]>::as_ptr);
+        // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
+        unsafe {
+            let each = self.functions::<T>(count).sample_each;
+            each(&lights, count, pointers(p), pointers(n), u.map(<[f32]>::as_ptr), &out);
+        }
+    }
+    /// The pdf of unit directions, per steradian (lines: see [`etendue::Line`]).
+    pub fn pdf<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: &mut [f32])
+    where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let n = out.len();
+        check(n, [directions.x.len(), directions.y.len(), directions.z.len()]);
+        // SAFETY: all columns have n elements, and the output is borrowed mutably
+        unsafe { (self.functions::<T>(n).pdf)(sampler, n, directions.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+    }
+    /// The numbers in [0, 1)² that the sampler maps to unit directions.
+    pub fn invert<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Vec2<&mut [f32]>)
+    where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let n = out.x.len();
+        check(n, [out.y.len(), directions.x.len(), directions.y.len(), directions.z.len()]);
+        let out = out.map(<[f32]>::as_mut_ptr);
+        // SAFETY: all columns have n elements, and the outputs are borrowed mutably
+        unsafe { (self.functions::<T>(n).invert)(sampler, n, directions.map(<[f32]>::as_ptr), out) };
+    }
+    /// The nearest points of the light in unit directions, with their pdf; 0 where a direction misses it.
+    pub fn hit<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Samples<'_>)
+    where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let n = directions.x.len();
+        check(n, [directions.y.len(), directions.z.len()]);
+        let out = out.columns(n);
+        // SAFETY: all columns have n elements, and the outputs are borrowed mutably
+        unsafe { (self.functions::<T>(n).hit)(sampler, n, directions.map(<[f32]>::as_ptr), &out) };
+    }
+
+    /// Points of a warp, at the numbers `u` in [0, 1)²: as many columns as a point has coordinates are written, and as many columns of
+    /// `u` read as the warp has numbers.
+    pub fn map<W>(&self, warp: &W, u: [&[f32]; 2], mut out: [&mut [f32]; 3])
+    where
+        W: Map + InTable<Functions = WarpFunctions<W>>,
+    {
+        let n = u[0].len();
+        check(n, u.iter().take(W::NUMBERS).map(|column| column.len()));
+        check(n, out.iter().take(W::COORDINATES).map(|column| column.len()));
+        let columns = out.each_mut().map(|column| column.as_mut_ptr());
+        // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
+        unsafe { (self.functions::<W>(n).sample)(warp, n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns) };
+    }
+    /// The pdf of a warp at points.
+    pub fn map_pdf<W>(&self, warp: &W, points: [&[f32]; 3], out: &mut [f32])
+    where
+        W: Map + InTable<Functions = WarpFunctions<W>>,
+    {
+        let n = out.len();
+        check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
+        // SAFETY: the columns that are read have n elements, and the output is borrowed mutably
+        unsafe { (self.functions::<W>(n).pdf)(warp, n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+    }
+    /// The numbers that a warp maps to points.
+    pub fn map_invert<W>(&self, warp: &W, points: [&[f32]; 3], out: [&mut [f32]; 2])
+    where
+        W: Map + InTable<Functions = WarpFunctions<W>>,
+    {
+        let n = out[0].len();
+        check(n, out.iter().take(W::NUMBERS).map(|column| column.len()));
+        check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
+        let [x, y] = out;
+        // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
+        unsafe {
+            let invert = self.functions::<W>(n).invert;
+            invert(warp, n, &points.map(<[f32]>::as_ptr), Vec2::new(x.as_mut_ptr(), y.as_mut_ptr()));
+        }
+    }
+    /// Pairs of a sequence: of the samples from `counters.sample` on, of one pixel and one dimension, or of those in the columns.
+    pub fn pairs<S>(&self, sequence: &S, counters: Counters, out: Vec2<&mut [f32]>)
+    where
+        S: Sequence + InTable<Functions = SequenceFunctions<S>>,
+    {
+        let n = out.x.len();
+        check(n, [out.y.len()]);
+        assert!(counters.pixels.is_null() && counters.samples.is_null(), "columns of counters are for `functions`");
+        // SAFETY: both columns have n elements and are borrowed mutably
+        unsafe { (self.functions::<S>(n).pairs)(sequence, n, &counters, out.map(<[f32]>::as_mut_ptr)) };
+    }
+    /// Chooses a light of a tree for each point `p` of a surface with the unit normal `n`.
+    pub fn choose(&self, tree: &LightTree<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, u: &[f32], out: Choices<'_>) {
+        let count = u.len();
+        check(count, [p, n].iter().flat_map(|v| [v.x.len(), v.y.len(), v.z.len()]));
+        let out = out.columns(count);
+        let [p, n] = [p, n].map(|v| v.map(<[f32]>::as_ptr));
+        // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
+        unsafe { (self.tree(count).choose)(tree, count, p, n, u.as_ptr(), &out) };
+    }
+    /// The probability with which [`choose`](Self::choose) returns each of `lights`.
+    pub fn pmf(&self, tree: &LightTree<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, lights: &[u32], out: &mut [f32]) {
+        let count = out.len();
+        check(count, [p, n].iter().flat_map(|v| [v.x.len(), v.y.len(), v.z.len()]));
+        check(count, [lights.len()]);
+        let [p, n] = [p, n].map(|v| v.map(<[f32]>::as_ptr));
+        // SAFETY: all columns have `count` elements, and the output is borrowed mutably
+        unsafe { (self.tree(count).pmf)(tree, count, p, n, lights.as_ptr(), out.as_mut_ptr()) };
+    }
+    /// The functions of trees for a batch of `n`, by raw pointers.
+    #[inline]
+    #[must_use]
+    pub const fn tree(&self, n: usize) -> &'static TreeFunctions {
+        if n == 1 { &self.one.tree } else { &self.many.tree }
+    }
+}
+
+/// Panics unless all columns are as long as the batch.
+#[track_caller]
+fn check(n: usize, lengths: impl IntoIterator<Item = usize>) {
+    for length in lengths {
+        assert!(length == n, "a column of {length} elements in a batch of {n}");
+    }
+}

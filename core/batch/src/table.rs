@@ -1,0 +1,174 @@
+//! The functions of every level, in tables of the same form.
+
+use crate::family::{Map, Technique};
+use crate::{ChoiceColumns, Counters, SampleColumns, kernel};
+use etendue::light::*;
+use etendue::select::LightTree;
+use etendue::sequence::*;
+use etendue::warp::*;
+use etendue::{Real, Vec2, Vec3};
+
+type Column = *const f32;
+
+/// The functions of a light's technique.
+#[repr(C)]
+pub struct LightFunctions<T: Technique> {
+    pub(crate) prepare: unsafe extern "C" fn(&T::Light<f32>, Vec3<f32>, Vec3<f32>, *mut T),
+    pub(crate) sample: unsafe extern "C" fn(&T, usize, Vec2<Column>, &SampleColumns),
+    pub(crate) sample_each:
+        unsafe extern "C" fn(&T::Light<Column>, usize, Vec3<Column>, Vec3<Column>, Vec2<Column>, &SampleColumns),
+    pub(crate) pdf: unsafe extern "C" fn(&T, usize, Vec3<Column>, *mut f32),
+    pub(crate) invert: unsafe extern "C" fn(&T, usize, Vec3<Column>, Vec2<*mut f32>),
+    pub(crate) hit: unsafe extern "C" fn(&T, usize, Vec3<Column>, &SampleColumns),
+}
+impl<T: Technique> LightFunctions<T> {
+    const fn of<R: Real<Scalar = f32>>() -> Self {
+        Self {
+            prepare: kernel::prepare::<T>,
+            sample: kernel::sample::<T, R>,
+            sample_each: kernel::sample_each::<T, R>,
+            pdf: kernel::pdf::<T, R>,
+            invert: kernel::invert::<T, R>,
+            hit: kernel::hit::<T, R>,
+        }
+    }
+}
+
+/// The functions of a warp.
+#[repr(C)]
+pub struct WarpFunctions<W: Map> {
+    pub(crate) sample: unsafe extern "C" fn(&W, usize, Vec2<Column>, &[*mut f32; 3]),
+    pub(crate) pdf: unsafe extern "C" fn(&W, usize, &[Column; 3], *mut f32),
+    pub(crate) invert: unsafe extern "C" fn(&W, usize, &[Column; 3], Vec2<*mut f32>),
+}
+impl<W: Map> WarpFunctions<W> {
+    const fn of<R: Real<Scalar = f32>>() -> Self {
+        Self { sample: kernel::map_sample::<W, R>, pdf: kernel::map_pdf::<W, R>, invert: kernel::map_invert::<W, R> }
+    }
+}
+
+/// The function of a sequence.
+#[repr(C)]
+pub struct SequenceFunctions<S: Sequence> {
+    pub(crate) pairs: unsafe extern "C" fn(&S, usize, &Counters, Vec2<*mut f32>),
+}
+impl<S: Sequence> SequenceFunctions<S> {
+    const fn of<R: Real<Scalar = f32>>() -> Self {
+        Self { pairs: kernel::pairs::<S, R> }
+    }
+}
+
+/// The functions of a tree of lights.
+#[repr(C)]
+pub struct TreeFunctions {
+    pub(crate) choose: unsafe extern "C" fn(&LightTree<'_>, usize, Vec3<Column>, Vec3<Column>, Column, &ChoiceColumns),
+    pub(crate) pmf: unsafe extern "C" fn(&LightTree<'_>, usize, Vec3<Column>, Vec3<Column>, *const u32, *mut f32),
+}
+impl TreeFunctions {
+    const fn of<R: Real<Scalar = f32>>() -> Self {
+        Self { choose: kernel::choose::<R>, pmf: kernel::pmf::<R> }
+    }
+}
+
+/// A type whose functions are in a [`Table`].
+pub trait InTable: 'static {
+    /// The functions of the type.
+    type Functions: 'static;
+    /// Finds them.
+    fn functions(table: &'static Table) -> &'static Self::Functions;
+}
+
+macro_rules! table {
+    ($($field:ident: $functions:ident<$type:ty>,)+) => {
+        /// The functions of one level of instructions, over packets of one width.
+        #[repr(C)]
+        pub struct Table {
+            $($field: $functions<$type>,)+
+            pub(crate) tree: TreeFunctions,
+        }
+        impl Table {
+            /// The functions over packets `R`, with the instructions of this compilation.
+            const fn of<R: Real<Scalar = f32>>() -> Self {
+                Self { $($field: $functions::of::<R>(),)+ tree: TreeFunctions::of::<R>() }
+            }
+        }
+        $(impl InTable for $type {
+            type Functions = $functions<$type>;
+            #[inline]
+            fn functions(table: &'static Table) -> &'static Self::Functions {
+                &table.$field
+            }
+        })+
+    };
+}
+table! {
+    sphere_by_area: LightFunctions<SphereByArea<f32>>,
+    sphere_by_solid_angle: LightFunctions<SphereBySolidAngle<f32>>,
+    sphere_by_projected_solid_angle: LightFunctions<SphereByProjectedSolidAngle<f32>>,
+    triangle_by_area: LightFunctions<TriangleByArea<f32>>,
+    triangle_by_solid_angle: LightFunctions<TriangleBySolidAngle<f32>>,
+    triangle_by_projected_solid_angle: LightFunctions<TriangleByProjectedSolidAngle<f32>>,
+    triangle_by_cosine_warp: LightFunctions<TriangleByCosineWarp<f32>>,
+    parallelogram_by_area: LightFunctions<ParallelogramByArea<f32>>,
+    parallelogram_by_solid_angle: LightFunctions<ParallelogramBySolidAngle<f32>>,
+    parallelogram_by_projected_solid_angle: LightFunctions<ParallelogramByProjectedSolidAngle<f32>>,
+    rectangle_by_solid_angle: LightFunctions<RectangleBySolidAngle<f32>>,
+    rectangle_by_cosine_warp: LightFunctions<RectangleByCosineWarp<f32>>,
+    disk_by_area: LightFunctions<DiskByArea<f32>>,
+    disk_by_solid_angle: LightFunctions<DiskBySolidAngle<f32>>,
+    cylinder_by_area: LightFunctions<CylinderByArea<f32>>,
+    patch_by_area: LightFunctions<PatchByArea<f32>>,
+    polygon_by_area: LightFunctions<PolygonByArea<f32, 8>>,
+    polygon_by_solid_angle: LightFunctions<PolygonBySolidAngle<f32, 8>>,
+    polygon_by_projected_solid_angle: LightFunctions<PolygonByProjectedSolidAngle<f32, 8>>,
+    line_by_length: LightFunctions<LineByLength<f32>>,
+    line_by_angle: LightFunctions<LineByAngle<f32>>,
+    line_by_projected_solid_angle: LightFunctions<LineByProjectedSolidAngle<f32>>,
+    sun_by_solid_angle: LightFunctions<SunBySolidAngle<f32>>,
+    concentric_disk: WarpFunctions<ConcentricDisk>,
+    polar_disk: WarpFunctions<PolarDisk>,
+    uniform_hemisphere: WarpFunctions<UniformHemisphere>,
+    uniform_sphere: WarpFunctions<UniformSphere>,
+    cosine_hemisphere: WarpFunctions<CosineHemisphere>,
+    octahedral: WarpFunctions<Octahedral>,
+    area_triangle: WarpFunctions<AreaTriangle>,
+    low_distortion_triangle: WarpFunctions<LowDistortionTriangle>,
+    cone: WarpFunctions<Cone<f32>>,
+    bilinear: WarpFunctions<Bilinear<f32>>,
+    ggx_visible_normals: WarpFunctions<GgxVisibleNormals<f32>>,
+    disk_surface: WarpFunctions<DiskSurface<f32>>,
+    cylinder_side: WarpFunctions<CylinderSide<f32>>,
+    sphere_surface: WarpFunctions<SphereSurface<f32>>,
+    patch_surface: WarpFunctions<PatchSurface<f32>>,
+    linear: WarpFunctions<Linear<f32>>,
+    tent: WarpFunctions<Tent<f32>>,
+    exponential: WarpFunctions<Exponential<f32>>,
+    normal: WarpFunctions<Normal<f32>>,
+    independent: SequenceFunctions<Independent>,
+    owen_sobol: SequenceFunctions<OwenSobol>,
+    joint_sobol: SequenceFunctions<JointSobol>,
+    stratified: SequenceFunctions<Stratified>,
+    latin_hypercube: SequenceFunctions<LatinHypercube>,
+    lattice: SequenceFunctions<Lattice>,
+}
+
+/// One element at a time.
+#[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3_one"))]
+#[cfg(not(feature = "level-v4"))]
+pub(crate) static ONE: Table = Table::of::<f32>();
+
+/// A packet at a time.
+#[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3_many"))]
+#[cfg(not(feature = "level-v4"))]
+pub(crate) static MANY: Table = Table::of::<Packet>();
+
+/// The packet of this compilation. Without fused multiply-add, packets gain nothing: their multiply-add works lane by lane.
+#[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
+type Packet = etendue::f32x8;
+#[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
+type Packet = f32;
+
+/// A packet at a time, of sixteen elements.
+#[cfg(feature = "level-v4")]
+#[unsafe(export_name = "etendue_batch_v4_many")]
+pub(crate) static MANY: Table = Table::of::<etendue::f32x16>();
