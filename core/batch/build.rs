@@ -31,7 +31,7 @@ fn main() {
             .arg(out.join(level))
             .args(["--config", "profile.release.panic='abort'", "--config", "profile.release.debug=false"])
             .args(["--", &format!("--emit=obj={}", object.display())])
-            .env("CARGO_ENCODED_RUSTFLAGS", format!("-Ctarget-cpu=x86-64-{level}"))
+            .env("CARGO_ENCODED_RUSTFLAGS", format!("-Ctarget-cpu=x86-64-{level}\x1f-Cforce-unwind-tables=no"))
             .env_remove("RUSTFLAGS")
             // clippy and other wrappers check the code; these objects must be compiled
             .env_remove("RUSTC_WORKSPACE_WRAPPER")

@@ -5,13 +5,23 @@
 
 use crate::family::{Map, Technique};
 use crate::{ChoiceColumns, Counters, SampleColumns};
+use core::mem::MaybeUninit;
 use core::ptr::copy_nonoverlapping;
 use etendue::select::{LightChoice, LightTree};
 use etendue::sequence::Sequence;
 use etendue::{LightSample, LightSampler, Mask, Real, Uint, Vec2, Vec3};
 
-/// The greatest number of lanes of a packet.
-const MOST_LANES: usize = 16;
+/// A packet that consists of its lanes, in order.
+///
+/// # Safety
+/// `Self` is `LANES` numbers in a row, and nothing else.
+pub(crate) unsafe trait Packet: Real<Scalar = f32> {}
+// SAFETY: a number is one lane
+unsafe impl Packet for f32 {}
+// SAFETY: `wide` has `as_array` for it
+unsafe impl Packet for etendue::f32x8 {}
+// SAFETY: as above
+unsafe impl Packet for etendue::f32x16 {}
 
 /// The elements of a batch that one packet holds: `count` of them from `at` on.
 #[derive(Clone, Copy)]
@@ -27,12 +37,17 @@ impl Place {
         self.at + if lane < self.count { lane } else { 0 }
     }
     #[inline(always)]
-    unsafe fn load<R: Real<Scalar = f32>>(self, column: *const f32) -> R {
+    unsafe fn load<R: Packet>(self, column: *const f32) -> R {
         if self.count == R::LANES {
-            let mut lanes = [0.0; MOST_LANES];
-            // SAFETY: the caller's column has an element for every lane
-            unsafe { copy_nonoverlapping(column.add(self.at), lanes.as_mut_ptr(), R::LANES) };
-            R::from_fn(|lane| lanes[lane])
+            let mut packet = MaybeUninit::<R>::uninit();
+            // SAFETY: the caller's column has an element for every lane, and a packet consists of its lanes
+            unsafe {
+                copy_nonoverlapping(column.add(self.at), packet.as_mut_ptr().cast::<f32>(), R::LANES);
+                packet.assume_init()
+            }
+        } else if self.count == 1 {
+            // SAFETY: the caller's column has this element
+            R::splat(unsafe { column.add(self.at).read_unaligned() })
         } else {
             // SAFETY: the caller's
             unsafe { self.load_some(column) }
@@ -41,7 +56,7 @@ impl Place {
     /// The last packet, in a function of its own: the loops have many columns.
     #[cold]
     #[inline(never)]
-    unsafe fn load_some<R: Real<Scalar = f32>>(self, column: *const f32) -> R {
+    unsafe fn load_some<R: Packet>(self, column: *const f32) -> R {
         // SAFETY: the caller's column has an element for every lane below `count`
         R::from_fn(|lane| unsafe { column.add(self.element(lane)).read_unaligned() })
     }
@@ -52,17 +67,16 @@ impl Place {
     }
     /// Writes a column, unless it is null.
     #[inline(always)]
-    unsafe fn store<R: Real<Scalar = f32>>(self, column: *mut f32, value: R) {
+    unsafe fn store<R: Packet>(self, column: *mut f32, value: R) {
         if column.is_null() {
             return;
         }
         if self.count == R::LANES {
-            let mut lanes = [0.0; MOST_LANES];
-            for (lane, x) in lanes.iter_mut().enumerate().take(R::LANES) {
-                *x = value.lane(lane);
-            }
-            // SAFETY: the caller's column has an element for every lane
-            unsafe { copy_nonoverlapping(lanes.as_ptr(), column.add(self.at), R::LANES) };
+            // SAFETY: the caller's column has an element for every lane, and a packet consists of its lanes
+            unsafe { copy_nonoverlapping((&raw const value).cast::<f32>(), column.add(self.at), R::LANES) };
+        } else if self.count == 1 {
+            // SAFETY: the caller's column has this element
+            unsafe { column.add(self.at).write_unaligned(value.lane(0)) };
         } else {
             // SAFETY: the caller's
             unsafe { self.store_some(column, value) };
@@ -70,14 +84,14 @@ impl Place {
     }
     #[cold]
     #[inline(never)]
-    unsafe fn store_some<R: Real<Scalar = f32>>(self, column: *mut f32, value: R) {
+    unsafe fn store_some<R: Packet>(self, column: *mut f32, value: R) {
         for lane in 0..self.count {
             // SAFETY: the caller's column has an element for every lane below `count`
             unsafe { column.add(self.at + lane).write_unaligned(value.lane(lane)) };
         }
     }
     #[inline(always)]
-    unsafe fn store3<R: Real<Scalar = f32>>(self, columns: [*mut f32; 3], value: Vec3<R>) {
+    unsafe fn store3<R: Packet>(self, columns: [*mut f32; 3], value: Vec3<R>) {
         let [x, y, z] = columns;
         // SAFETY: the caller's
         unsafe {
@@ -87,7 +101,7 @@ impl Place {
         }
     }
     #[inline(always)]
-    unsafe fn store_sample<R: Real<Scalar = f32>>(self, out: &SampleColumns, s: &LightSample<R>) {
+    unsafe fn store_sample<R: Packet>(self, out: &SampleColumns, s: &LightSample<R>) {
         // SAFETY: the caller's
         unsafe {
             self.store3(out.direction, s.direction);
@@ -133,13 +147,25 @@ pub(crate) unsafe extern "C" fn prepare<T: Technique>(
     unsafe { out.write_unaligned(T::of(T::prepare::<f32>(*light, p, normal))) };
 }
 
+/// True where one element alone is not worth a packet: to repeat a large sampler in all lanes takes longer than to use it once.
+const fn is_for_one<T, R: Packet>(n: usize) -> bool {
+    n == 1 && R::LANES > 1 && size_of::<T>() > 512
+}
+
+/// Stands for [`prepare`] in tables that are not asked for it.
+pub(crate) unsafe extern "C" fn no_prepare<T: Technique>(_: &T::Light<f32>, _: Vec3<f32>, _: Vec3<f32>, _: *mut T) {}
+
 /// Samples of one prepared light.
-pub(crate) unsafe extern "C" fn sample<T: Technique, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn sample<T: Technique, R: Packet>(
     sampler: &T,
     n: usize,
     u: Vec2<*const f32>,
     out: &SampleColumns,
 ) {
+    if is_for_one::<T, R>(n) {
+        // SAFETY: the caller's
+        return unsafe { sample::<T, f32>(sampler, n, u, out) };
+    }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
@@ -148,7 +174,7 @@ pub(crate) unsafe extern "C" fn sample<T: Technique, R: Real<Scalar = f32>>(
 }
 
 /// Samples of a light of its own for each element, prepared for a point of its own.
-pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Packet>(
     lights: &T::Light<*const f32>,
     n: usize,
     points: Vec3<*const f32>,
@@ -185,7 +211,7 @@ unsafe fn one_by_one<T: Technique>(
         unsafe {
             let number = |column: *const f32| column.add(i).read_unaligned();
             let normal = if T::ON_SURFACE { normals.map(number) } else { Vec3::default() };
-            let mut sampler = core::mem::MaybeUninit::<T>::uninit();
+            let mut sampler = MaybeUninit::<T>::uninit();
             prepare::<T>(&T::map(*lights, number), points.map(number), normal, sampler.as_mut_ptr());
             sample::<T, f32>(sampler.assume_init_ref(), 1, u.map(|column| column.add(i)), &out.from(i));
         }
@@ -193,12 +219,16 @@ unsafe fn one_by_one<T: Technique>(
 }
 
 /// The pdf of directions.
-pub(crate) unsafe extern "C" fn pdf<T: Technique, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn pdf<T: Technique, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,
     out: *mut f32,
 ) {
+    if is_for_one::<T, R>(n) {
+        // SAFETY: the caller's
+        return unsafe { pdf::<T, f32>(sampler, n, directions, out) };
+    }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
@@ -207,12 +237,16 @@ pub(crate) unsafe extern "C" fn pdf<T: Technique, R: Real<Scalar = f32>>(
 }
 
 /// The random numbers that the sampler maps to directions.
-pub(crate) unsafe extern "C" fn invert<T: Technique, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn invert<T: Technique, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,
     out: Vec2<*mut f32>,
 ) {
+    if is_for_one::<T, R>(n) {
+        // SAFETY: the caller's
+        return unsafe { invert::<T, f32>(sampler, n, directions, out) };
+    }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
@@ -223,12 +257,16 @@ pub(crate) unsafe extern "C" fn invert<T: Technique, R: Real<Scalar = f32>>(
 }
 
 /// Where directions hit the light.
-pub(crate) unsafe extern "C" fn hit<T: Technique, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn hit<T: Technique, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,
     out: &SampleColumns,
 ) {
+    if is_for_one::<T, R>(n) {
+        // SAFETY: the caller's
+        return unsafe { hit::<T, f32>(sampler, n, directions, out) };
+    }
     let sampler = sampler.splat::<R>();
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
@@ -237,7 +275,7 @@ pub(crate) unsafe extern "C" fn hit<T: Technique, R: Real<Scalar = f32>>(
 }
 
 /// Points of a warp.
-pub(crate) unsafe extern "C" fn map_sample<W: Map, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn map_sample<W: Map, R: Packet>(
     warp: &W,
     n: usize,
     u: Vec2<*const f32>,
@@ -256,13 +294,13 @@ pub(crate) unsafe extern "C" fn map_sample<W: Map, R: Real<Scalar = f32>>(
 }
 
 #[inline(always)]
-unsafe fn load_point<W: Map, R: Real<Scalar = f32>>(place: Place, points: &[*const f32; 3]) -> [R; 3] {
+unsafe fn load_point<W: Map, R: Packet>(place: Place, points: &[*const f32; 3]) -> [R; 3] {
     // SAFETY: the caller's columns are as many as the point has coordinates
     core::array::from_fn(|k| if k < W::COORDINATES { unsafe { place.load(points[k]) } } else { R::lit(0.0) })
 }
 
 /// The pdf of a warp at points.
-pub(crate) unsafe extern "C" fn map_pdf<W: Map, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn map_pdf<W: Map, R: Packet>(
     warp: &W,
     n: usize,
     points: &[*const f32; 3],
@@ -274,7 +312,7 @@ pub(crate) unsafe extern "C" fn map_pdf<W: Map, R: Real<Scalar = f32>>(
 }
 
 /// The random numbers that a warp maps to points.
-pub(crate) unsafe extern "C" fn map_invert<W: Map, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn map_invert<W: Map, R: Packet>(
     warp: &W,
     n: usize,
     points: &[*const f32; 3],
@@ -292,7 +330,7 @@ pub(crate) unsafe extern "C" fn map_invert<W: Map, R: Real<Scalar = f32>>(
 }
 
 /// Pairs of a sequence.
-pub(crate) unsafe extern "C" fn pairs<S: Sequence, R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn pairs<S: Sequence, R: Packet>(
     sequence: &S,
     n: usize,
     counters: &Counters,
@@ -314,7 +352,7 @@ pub(crate) unsafe extern "C" fn pairs<S: Sequence, R: Real<Scalar = f32>>(
 }
 
 /// Lights of a tree, chosen for points.
-pub(crate) unsafe extern "C" fn choose<R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn choose<R: Packet>(
     tree: &LightTree<'_>,
     n: usize,
     points: Vec3<*const f32>,
@@ -337,7 +375,7 @@ pub(crate) unsafe extern "C" fn choose<R: Real<Scalar = f32>>(
 }
 
 /// The probabilities with which a tree chooses lights for points.
-pub(crate) unsafe extern "C" fn pmf<R: Real<Scalar = f32>>(
+pub(crate) unsafe extern "C" fn pmf<R: Packet>(
     tree: &LightTree<'_>,
     n: usize,
     points: Vec3<*const f32>,

@@ -23,8 +23,7 @@
 //! ```
 //!
 //! # Costs
-//! A batch of 64 takes as long as with the core compiled for the processor at hand; a single sample takes some nanoseconds more for the
-//! call through a pointer. Building takes twice as long, since the crate compiles itself two more times; without the default feature
+//! A batch of 64 takes as long as with the core compiled for the processor at hand. A batch of 1 takes as long as a packet. Building takes twice as long, since the crate compiles itself two more times; without the default feature
 //! `dispatch` it does not, and uses the instructions of the build.
 #![cfg_attr(not(test), no_std)]
 
@@ -59,8 +58,9 @@ pub enum Level {
 #[derive(Clone, Copy)]
 pub struct Batch {
     level: Level,
-    one: &'static Table,
-    many: &'static Table,
+    table: &'static Table,
+    /// Where preparations are.
+    prepare: &'static Table,
 }
 
 impl core::fmt::Debug for Batch {
@@ -84,9 +84,8 @@ cpufeatures::new!(v4_instructions, "avx512f", "avx512bw", "avx512cd", "avx512dq"
 #[allow(improper_ctypes)]
 unsafe extern "C" {
     // SAFETY: the tables do not change
-    safe static etendue_batch_v3_one: Table;
-    safe static etendue_batch_v3_many: Table;
-    safe static etendue_batch_v4_many: Table;
+    safe static etendue_batch_v3: Table;
+    safe static etendue_batch_v4: Table;
 }
 
 impl Batch {
@@ -96,11 +95,8 @@ impl Batch {
     pub fn new() -> Self {
         Self::at(Level::V4).or_else(|| Self::at(Level::V3)).unwrap_or(Self {
             level: Level::Build,
-            #[cfg(not(feature = "level-v4"))]
-            one: &table::ONE,
-            #[cfg(feature = "level-v4")]
-            one: &table::MANY,
-            many: &table::MANY,
+            table: &table::TABLE,
+            prepare: &table::TABLE,
         })
     }
     /// The routines with certain instructions, or `None` if the processor lacks them or they were not compiled.
@@ -108,20 +104,17 @@ impl Batch {
     #[must_use]
     pub fn at(level: Level) -> Option<Self> {
         match level {
-            #[cfg(not(feature = "level-v4"))]
-            Level::Build => Some(Self { level, one: &table::ONE, many: &table::MANY }),
+            Level::Build => Some(Self { level, table: &table::TABLE, prepare: &table::TABLE }),
             #[cfg(levels)]
-            Level::V3 => v3_instructions::get().then_some(Self {
-                level,
-                one: &etendue_batch_v3_one,
-                many: &etendue_batch_v3_many,
-            }),
+            Level::V3 => {
+                let table = &etendue_batch_v3;
+                v3_instructions::get().then_some(Self { level, table, prepare: table })
+            }
             #[cfg(levels)]
-            Level::V4 => (v3_instructions::get() && v4_instructions::get()).then_some(Self {
-                level,
-                one: &etendue_batch_v3_one,
-                many: &etendue_batch_v4_many,
-            }),
+            Level::V4 => {
+                let (table, prepare) = (&etendue_batch_v4, &etendue_batch_v3);
+                (v3_instructions::get() && v4_instructions::get()).then_some(Self { level, table, prepare })
+            }
             #[allow(unreachable_patterns)]
             _ => None,
         }
@@ -131,11 +124,12 @@ impl Batch {
     pub const fn level(&self) -> Level {
         self.level
     }
-    /// The functions for a batch of `n`, by raw pointers: each of them reads and writes `n` elements of every column that is not null.
+    /// The functions by raw pointers: each of them reads and writes as many elements of every column that is not null as the batch has.
+    /// A light is prepared by [`prepare`](Self::prepare).
     #[inline]
     #[must_use]
-    pub fn functions<T: InTable>(&self, n: usize) -> &'static T::Functions {
-        T::functions(if n == 1 { self.one } else { self.many })
+    pub fn functions<T: InTable>(&self) -> &'static T::Functions {
+        T::functions(self.table)
     }
 
     /// Prepares a light for the point `p` of a surface with the unit normal `n`.
@@ -146,7 +140,7 @@ impl Batch {
         let mut out = core::mem::MaybeUninit::<T>::uninit();
         // SAFETY: the function writes a whole sampler
         unsafe {
-            (self.functions::<T>(1).prepare)(light, p, n, out.as_mut_ptr());
+            (T::functions(self.prepare).prepare)(light, p, n, out.as_mut_ptr());
             out.assume_init()
         }
     }
@@ -159,7 +153,7 @@ impl Batch {
         check(n, [u.y.len()]);
         let out = out.columns(n);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>(n).sample)(sampler, n, u.map(<[f32]>::as_ptr), &out) };
+        unsafe { (self.functions::<T>().sample)(sampler, n, u.map(<[f32]>::as_ptr), &out) };
     }
     /// Prepares a light of its own for each element, for the point `p` of a surface with the unit normal `n`, and samples it. Techniques
     /// that need no normal do not read `n`, which may be empty.
@@ -186,7 +180,7 @@ impl Batch {
         let pointers = |v: Vec3<&[f32]>| v.map(<[f32]>::as_ptr);
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
         unsafe {
-            let each = self.functions::<T>(count).sample_each;
+            let each = self.functions::<T>().sample_each;
             each(&lights, count, pointers(p), pointers(n), u.map(<[f32]>::as_ptr), &out);
         }
     }
@@ -198,7 +192,7 @@ impl Batch {
         let n = out.len();
         check(n, [directions.x.len(), directions.y.len(), directions.z.len()]);
         // SAFETY: all columns have n elements, and the output is borrowed mutably
-        unsafe { (self.functions::<T>(n).pdf)(sampler, n, directions.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+        unsafe { (self.functions::<T>().pdf)(sampler, n, directions.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
     }
     /// The numbers in [0, 1)² that the sampler maps to unit directions.
     pub fn invert<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Vec2<&mut [f32]>)
@@ -209,7 +203,7 @@ impl Batch {
         check(n, [out.y.len(), directions.x.len(), directions.y.len(), directions.z.len()]);
         let out = out.map(<[f32]>::as_mut_ptr);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>(n).invert)(sampler, n, directions.map(<[f32]>::as_ptr), out) };
+        unsafe { (self.functions::<T>().invert)(sampler, n, directions.map(<[f32]>::as_ptr), out) };
     }
     /// The nearest points of the light in unit directions, with their pdf; 0 where a direction misses it.
     pub fn hit<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Samples<'_>)
@@ -220,7 +214,7 @@ impl Batch {
         check(n, [directions.y.len(), directions.z.len()]);
         let out = out.columns(n);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>(n).hit)(sampler, n, directions.map(<[f32]>::as_ptr), &out) };
+        unsafe { (self.functions::<T>().hit)(sampler, n, directions.map(<[f32]>::as_ptr), &out) };
     }
 
     /// Points of a warp, at the numbers `u` in [0, 1)²: as many columns as a point has coordinates are written, and as many columns of
@@ -234,7 +228,7 @@ impl Batch {
         check(n, out.iter().take(W::COORDINATES).map(|column| column.len()));
         let columns = out.each_mut().map(|column| column.as_mut_ptr());
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<W>(n).sample)(warp, n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns) };
+        unsafe { (self.functions::<W>().sample)(warp, n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns) };
     }
     /// The pdf of a warp at points.
     pub fn map_pdf<W>(&self, warp: &W, points: [&[f32]; 3], out: &mut [f32])
@@ -244,7 +238,7 @@ impl Batch {
         let n = out.len();
         check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
         // SAFETY: the columns that are read have n elements, and the output is borrowed mutably
-        unsafe { (self.functions::<W>(n).pdf)(warp, n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+        unsafe { (self.functions::<W>().pdf)(warp, n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
     }
     /// The numbers that a warp maps to points.
     pub fn map_invert<W>(&self, warp: &W, points: [&[f32]; 3], out: [&mut [f32]; 2])
@@ -257,7 +251,7 @@ impl Batch {
         let [x, y] = out;
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
         unsafe {
-            let invert = self.functions::<W>(n).invert;
+            let invert = self.functions::<W>().invert;
             invert(warp, n, &points.map(<[f32]>::as_ptr), Vec2::new(x.as_mut_ptr(), y.as_mut_ptr()));
         }
     }
@@ -270,7 +264,7 @@ impl Batch {
         check(n, [out.y.len()]);
         assert!(counters.pixels.is_null() && counters.samples.is_null(), "columns of counters are for `functions`");
         // SAFETY: both columns have n elements and are borrowed mutably
-        unsafe { (self.functions::<S>(n).pairs)(sequence, n, &counters, out.map(<[f32]>::as_mut_ptr)) };
+        unsafe { (self.functions::<S>().pairs)(sequence, n, &counters, out.map(<[f32]>::as_mut_ptr)) };
     }
     /// Chooses a light of a tree for each point `p` of a surface with the unit normal `n`.
     pub fn choose(&self, tree: &LightTree<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, u: &[f32], out: Choices<'_>) {
@@ -279,7 +273,7 @@ impl Batch {
         let out = out.columns(count);
         let [p, n] = [p, n].map(|v| v.map(<[f32]>::as_ptr));
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
-        unsafe { (self.tree(count).choose)(tree, count, p, n, u.as_ptr(), &out) };
+        unsafe { (self.tree().choose)(tree, count, p, n, u.as_ptr(), &out) };
     }
     /// The probability with which [`choose`](Self::choose) returns each of `lights`.
     pub fn pmf(&self, tree: &LightTree<'_>, p: Vec3<&[f32]>, n: Vec3<&[f32]>, lights: &[u32], out: &mut [f32]) {
@@ -288,13 +282,13 @@ impl Batch {
         check(count, [lights.len()]);
         let [p, n] = [p, n].map(|v| v.map(<[f32]>::as_ptr));
         // SAFETY: all columns have `count` elements, and the output is borrowed mutably
-        unsafe { (self.tree(count).pmf)(tree, count, p, n, lights.as_ptr(), out.as_mut_ptr()) };
+        unsafe { (self.tree().pmf)(tree, count, p, n, lights.as_ptr(), out.as_mut_ptr()) };
     }
-    /// The functions of trees for a batch of `n`, by raw pointers.
+    /// The functions of trees, by raw pointers.
     #[inline]
     #[must_use]
-    pub const fn tree(&self, n: usize) -> &'static TreeFunctions {
-        if n == 1 { &self.one.tree } else { &self.many.tree }
+    pub const fn tree(&self) -> &'static TreeFunctions {
+        &self.table.tree
     }
 }
 

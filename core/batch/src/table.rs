@@ -1,30 +1,38 @@
 //! The functions of every level, in tables of the same form.
 
 use crate::family::{Map, Technique};
+use crate::kernel::Packet;
 use crate::{ChoiceColumns, Counters, SampleColumns, kernel};
 use etendue::light::*;
 use etendue::select::LightTree;
 use etendue::sequence::*;
 use etendue::warp::*;
-use etendue::{Real, Vec2, Vec3};
+use etendue::{Vec2, Vec3};
 
 type Column = *const f32;
 
-/// The functions of a light's technique.
+/// The functions of a light's technique, by raw pointers to columns.
 #[repr(C)]
 pub struct LightFunctions<T: Technique> {
-    pub(crate) prepare: unsafe extern "C" fn(&T::Light<f32>, Vec3<f32>, Vec3<f32>, *mut T),
-    pub(crate) sample: unsafe extern "C" fn(&T, usize, Vec2<Column>, &SampleColumns),
-    pub(crate) sample_each:
+    /// Prepares a light for a point of a surface with a normal.
+    pub prepare: unsafe extern "C" fn(&T::Light<f32>, Vec3<f32>, Vec3<f32>, *mut T),
+    /// See [`Batch::sample`](crate::Batch::sample).
+    pub sample: unsafe extern "C" fn(&T, usize, Vec2<Column>, &SampleColumns),
+    /// See [`Batch::sample_each`](crate::Batch::sample_each).
+    pub sample_each:
         unsafe extern "C" fn(&T::Light<Column>, usize, Vec3<Column>, Vec3<Column>, Vec2<Column>, &SampleColumns),
-    pub(crate) pdf: unsafe extern "C" fn(&T, usize, Vec3<Column>, *mut f32),
-    pub(crate) invert: unsafe extern "C" fn(&T, usize, Vec3<Column>, Vec2<*mut f32>),
-    pub(crate) hit: unsafe extern "C" fn(&T, usize, Vec3<Column>, &SampleColumns),
+    /// See [`Batch::pdf`](crate::Batch::pdf).
+    pub pdf: unsafe extern "C" fn(&T, usize, Vec3<Column>, *mut f32),
+    /// See [`Batch::invert`](crate::Batch::invert).
+    pub invert: unsafe extern "C" fn(&T, usize, Vec3<Column>, Vec2<*mut f32>),
+    /// See [`Batch::hit`](crate::Batch::hit).
+    pub hit: unsafe extern "C" fn(&T, usize, Vec3<Column>, &SampleColumns),
 }
 impl<T: Technique> LightFunctions<T> {
-    const fn of<R: Real<Scalar = f32>>() -> Self {
+    const fn of<R: Packet>() -> Self {
         Self {
-            prepare: kernel::prepare::<T>,
+            // the other levels prepare faster or as fast, with the instructions of x86-64-v3
+            prepare: if cfg!(feature = "level-v4") { kernel::no_prepare::<T> } else { kernel::prepare::<T> },
             sample: kernel::sample::<T, R>,
             sample_each: kernel::sample_each::<T, R>,
             pdf: kernel::pdf::<T, R>,
@@ -34,15 +42,18 @@ impl<T: Technique> LightFunctions<T> {
     }
 }
 
-/// The functions of a warp.
+/// The functions of a warp, by raw pointers to columns.
 #[repr(C)]
 pub struct WarpFunctions<W: Map> {
-    pub(crate) sample: unsafe extern "C" fn(&W, usize, Vec2<Column>, &[*mut f32; 3]),
-    pub(crate) pdf: unsafe extern "C" fn(&W, usize, &[Column; 3], *mut f32),
-    pub(crate) invert: unsafe extern "C" fn(&W, usize, &[Column; 3], Vec2<*mut f32>),
+    /// See [`Batch::map`](crate::Batch::map).
+    pub sample: unsafe extern "C" fn(&W, usize, Vec2<Column>, &[*mut f32; 3]),
+    /// See [`Batch::map_pdf`](crate::Batch::map_pdf).
+    pub pdf: unsafe extern "C" fn(&W, usize, &[Column; 3], *mut f32),
+    /// See [`Batch::map_invert`](crate::Batch::map_invert).
+    pub invert: unsafe extern "C" fn(&W, usize, &[Column; 3], Vec2<*mut f32>),
 }
 impl<W: Map> WarpFunctions<W> {
-    const fn of<R: Real<Scalar = f32>>() -> Self {
+    const fn of<R: Packet>() -> Self {
         Self { sample: kernel::map_sample::<W, R>, pdf: kernel::map_pdf::<W, R>, invert: kernel::map_invert::<W, R> }
     }
 }
@@ -50,10 +61,11 @@ impl<W: Map> WarpFunctions<W> {
 /// The function of a sequence.
 #[repr(C)]
 pub struct SequenceFunctions<S: Sequence> {
-    pub(crate) pairs: unsafe extern "C" fn(&S, usize, &Counters, Vec2<*mut f32>),
+    /// See [`Batch::pairs`](crate::Batch::pairs).
+    pub pairs: unsafe extern "C" fn(&S, usize, &Counters, Vec2<*mut f32>),
 }
 impl<S: Sequence> SequenceFunctions<S> {
-    const fn of<R: Real<Scalar = f32>>() -> Self {
+    const fn of<R: Packet>() -> Self {
         Self { pairs: kernel::pairs::<S, R> }
     }
 }
@@ -61,11 +73,13 @@ impl<S: Sequence> SequenceFunctions<S> {
 /// The functions of a tree of lights.
 #[repr(C)]
 pub struct TreeFunctions {
-    pub(crate) choose: unsafe extern "C" fn(&LightTree<'_>, usize, Vec3<Column>, Vec3<Column>, Column, &ChoiceColumns),
-    pub(crate) pmf: unsafe extern "C" fn(&LightTree<'_>, usize, Vec3<Column>, Vec3<Column>, *const u32, *mut f32),
+    /// See [`Batch::choose`](crate::Batch::choose).
+    pub choose: unsafe extern "C" fn(&LightTree<'_>, usize, Vec3<Column>, Vec3<Column>, Column, &ChoiceColumns),
+    /// See [`Batch::pmf`](crate::Batch::pmf).
+    pub pmf: unsafe extern "C" fn(&LightTree<'_>, usize, Vec3<Column>, Vec3<Column>, *const u32, *mut f32),
 }
 impl TreeFunctions {
-    const fn of<R: Real<Scalar = f32>>() -> Self {
+    const fn of<R: Packet>() -> Self {
         Self { choose: kernel::choose::<R>, pmf: kernel::pmf::<R> }
     }
 }
@@ -88,7 +102,7 @@ macro_rules! table {
         }
         impl Table {
             /// The functions over packets `R`, with the instructions of this compilation.
-            const fn of<R: Real<Scalar = f32>>() -> Self {
+            const fn of<R: Packet>() -> Self {
                 Self { $($field: $functions::of::<R>(),)+ tree: TreeFunctions::of::<R>() }
             }
         }
@@ -152,23 +166,15 @@ table! {
     lattice: SequenceFunctions<Lattice>,
 }
 
-/// One element at a time.
-#[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3_one"))]
-#[cfg(not(feature = "level-v4"))]
-pub(crate) static ONE: Table = Table::of::<f32>();
+/// The functions of this compilation.
+#[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3"))]
+#[cfg_attr(feature = "level-v4", unsafe(export_name = "etendue_batch_v4"))]
+pub(crate) static TABLE: Table = Table::of::<Lanes>();
 
-/// A packet at a time.
-#[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3_many"))]
-#[cfg(not(feature = "level-v4"))]
-pub(crate) static MANY: Table = Table::of::<Packet>();
-
-/// The packet of this compilation. Without fused multiply-add, packets gain nothing: their multiply-add works lane by lane.
-#[cfg(any(target_feature = "fma", target_arch = "aarch64"))]
-type Packet = etendue::f32x8;
-#[cfg(not(any(target_feature = "fma", target_arch = "aarch64")))]
-type Packet = f32;
-
-/// A packet at a time, of sixteen elements.
+/// The packet of this compilation. Without fused multiply-add, a packet gains little, as its multiply-add takes many instructions.
 #[cfg(feature = "level-v4")]
-#[unsafe(export_name = "etendue_batch_v4_many")]
-pub(crate) static MANY: Table = Table::of::<etendue::f32x16>();
+type Lanes = etendue::f32x16;
+#[cfg(all(not(feature = "level-v4"), any(target_feature = "fma", target_arch = "aarch64")))]
+type Lanes = etendue::f32x8;
+#[cfg(all(not(feature = "level-v4"), not(any(target_feature = "fma", target_arch = "aarch64"))))]
+type Lanes = f32;

@@ -2,6 +2,7 @@
 
 /// A bound of what a light of finite extent can contribute.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct LightBound {
     /// Centre of a sphere around the light, in the coordinates of the scene. A flat light is centred on it.
     pub center: [f32; 3],
