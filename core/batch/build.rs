@@ -19,6 +19,13 @@ fn main() {
     }
     let out = var("OUT_DIR").unwrap();
     let out = Path::new(&out);
+    println!("cargo::rustc-cfg=levels");
+    // clippy only looks at the code
+    if var("RUSTC_WORKSPACE_WRAPPER").is_ok_and(|wrapper| wrapper.contains("clippy")) {
+        return;
+    }
+    // OUT_DIR is target/PROFILE/build/PACKAGE/out: all profiles share the levels
+    let levels = out.ancestors().nth(4).unwrap_or(out).join("levels");
     let archive = out.join("libetendue_levels.a");
     let _ = std::fs::remove_file(&archive);
     for level in ["v3", "v4"] {
@@ -28,13 +35,11 @@ fn main() {
             .args(["rustc", "--release", "--lib", "--no-default-features", "--features", &format!("level-{level}")])
             .args(["--manifest-path", "Cargo.toml", "--target", &var("TARGET").unwrap()])
             .arg("--target-dir")
-            .arg(out.join(level))
+            .arg(levels.join(level))
             .args(["--config", "profile.release.panic='abort'", "--config", "profile.release.debug=false"])
             .args(["--", &format!("--emit=obj={}", object.display())])
             .env("CARGO_ENCODED_RUSTFLAGS", format!("-Ctarget-cpu=x86-64-{level}\x1f-Cforce-unwind-tables=no"))
             .env_remove("RUSTFLAGS")
-            // clippy and other wrappers check the code; these objects must be compiled
-            .env_remove("RUSTC_WORKSPACE_WRAPPER")
             .env_remove("CARGO_MAKEFLAGS");
         run(cargo);
         // a static library that the linker searches after the objects that need it
@@ -44,7 +49,6 @@ fn main() {
             ar
         });
     }
-    println!("cargo::rustc-cfg=levels");
     println!("cargo::rustc-link-search=native={}", out.display());
     println!("cargo::rustc-link-lib=static=etendue_levels");
 }

@@ -4,11 +4,13 @@
 //! The columns are the levels of this library, at batches of 1, 64 and 4,096, and the core with the instructions of the build, at 4,096.
 //! For the best that a build for one processor gives, compile for it: `CARGO_ENCODED_RUSTFLAGS=-Ctarget-cpu=x86-64-v4 cargo bench …`.
 
-use etendue::light::*;
-use etendue::sequence::*;
-use etendue::warp::*;
+#[path = "../tests/every/mod.rs"]
+mod every;
+
+use etendue::sequence::{Independent, Sequence};
 use etendue::{LightSampler, Real, Vec2, Vec3, f32x8, f32x16};
 use etendue_batch::*;
+use every::Visitor;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -111,11 +113,14 @@ impl Bench {
         self.differ += usize::from(!same);
         println!(" {:016x}{}", hashes[0], if same { "" } else { "  DIFFERS" });
     }
+}
 
-    fn technique<T>(&mut self, name: &str, light: T::Light<f32>, input: &Inputs)
+impl Visitor for Bench {
+    fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
     where
         T: Technique + InTable<Functions = LightFunctions<T>>,
     {
+        let input = &Inputs::new();
         let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
         let sampler = Batch::new().prepare::<T>(&light, p, normal);
         let u = |n| Vec2::new(input.column(0, n), input.column(1, n));
@@ -150,10 +155,11 @@ impl Bench {
         self.row(&format!("{name}, hit"), |b, n, out| b.hit(&sampler, directions(n), out.samples(n)), None);
     }
 
-    fn warp<W>(&mut self, name: &str, warp: W, input: &Inputs)
+    fn warp<W>(&mut self, name: &str, warp: W)
     where
         W: Map + InTable<Functions = WarpFunctions<W>>,
     {
+        let input = &Inputs::new();
         let u = |n| [input.column(0, n), input.column(1, n)];
         self.row(&format!("{name}, sample"), |b, n, out| b.map(&warp, u(n), out.three(n)), None);
         let mut drawn = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
@@ -197,69 +203,10 @@ fn by_core<T: Technique, R: Real<Scalar = f32>>(sampler: &T, u: Vec2<&[f32]>, ou
 }
 
 fn main() {
-    let input = Inputs::new();
     let only = std::env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
     let results = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
     let mut bench = Bench { only, results, differ: 0 };
     println!("{:45} {:>26} {:>26} {:>26} {:>8} hash", "ns per element", "build: 1, 64, 4096", "v3", "v4", "core");
-    let v = Vec3::new;
-    let triangle = Triangle::new(v(0.0, 1.0, 0.0), v(1.0, 1.2, 0.0), v(0.0, 1.0, 1.0));
-    let panel = Parallelogram::new(v(0.0, 1.0, 0.0), v(1.0, 0.2, 0.0), v(0.0, 0.0, 1.0));
-    let rectangle = Rectangle::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0));
-    let sphere = Sphere::new(v(0.0, 1.0, 0.0), 0.4);
-    let disk = Disk::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5);
-    let line = Line::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0));
-    let corners = [[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [1.0, 2.0], [0.0, 2.0]];
-    let polygon = Polygon::<f32, 8>::new(core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1])));
-    bench.technique::<SphereByArea<f32>>("sphere by area", sphere, &input);
-    bench.technique::<SphereBySolidAngle<f32>>("sphere by solid angle", sphere, &input);
-    bench.technique::<SphereByProjectedSolidAngle<f32>>("sphere by projected solid angle", sphere, &input);
-    bench.technique::<TriangleByArea<f32>>("triangle by area", triangle, &input);
-    bench.technique::<TriangleBySolidAngle<f32>>("triangle by solid angle", triangle, &input);
-    bench.technique::<TriangleByProjectedSolidAngle<f32>>("triangle by projected solid angle", triangle, &input);
-    bench.technique::<TriangleByCosineWarp<f32>>("triangle by cosine warp", triangle, &input);
-    bench.technique::<ParallelogramByArea<f32>>("parallelogram by area", panel, &input);
-    bench.technique::<ParallelogramBySolidAngle<f32>>("parallelogram by solid angle", panel, &input);
-    bench.technique::<ParallelogramByProjectedSolidAngle<f32>>("parallelogram by projected solid angle", panel, &input);
-    bench.technique::<RectangleBySolidAngle<f32>>("rectangle by solid angle", rectangle, &input);
-    bench.technique::<RectangleByCosineWarp<f32>>("rectangle by cosine warp", rectangle, &input);
-    bench.technique::<DiskByArea<f32>>("disk by area", disk, &input);
-    bench.technique::<DiskBySolidAngle<f32>>("disk by solid angle", disk, &input);
-    bench.technique::<CylinderByArea<f32>>("cylinder by area", Cylinder::new(line.p, line.edge, 0.1), &input);
-    let patch = BilinearPatch::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.0, 0.3, 0.0));
-    bench.technique::<PatchByArea<f32>>("bilinear patch by area", patch, &input);
-    bench.technique::<PolygonByArea<f32, 8>>("polygon by area", polygon, &input);
-    bench.technique::<PolygonBySolidAngle<f32, 8>>("polygon by solid angle", polygon, &input);
-    bench.technique::<PolygonByProjectedSolidAngle<f32, 8>>("polygon by projected solid angle", polygon, &input);
-    bench.technique::<LineByLength<f32>>("line by length", line, &input);
-    bench.technique::<LineByAngle<f32>>("line by angle", line, &input);
-    bench.technique::<LineByProjectedSolidAngle<f32>>("line by projected solid angle", line, &input);
-    bench.technique::<SunBySolidAngle<f32>>("sun by solid angle", Sun::new(v(0.0, 1.0, 0.0), 1e-5), &input);
-    bench.warp("concentric disk", ConcentricDisk, &input);
-    bench.warp("polar disk", PolarDisk, &input);
-    bench.warp("uniform hemisphere", UniformHemisphere, &input);
-    bench.warp("uniform sphere", UniformSphere, &input);
-    bench.warp("cosine hemisphere", CosineHemisphere, &input);
-    bench.warp("octahedral", Octahedral, &input);
-    bench.warp("area triangle", AreaTriangle, &input);
-    bench.warp("low-distortion triangle", LowDistortionTriangle, &input);
-    bench.warp("cone", Cone { one_minus_cos: 0.3 }, &input);
-    bench.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 3.0] }, &input);
-    bench.warp("GGX visible normals", GgxVisibleNormals::new(0.3, 0.5, v(0.6, 0.0, 0.8)), &input);
-    bench.warp("disk surface", DiskSurface { center: sphere.center, normal: v(0.0, 0.0, 1.0), radius: 0.5 }, &input);
-    bench.warp("cylinder side", CylinderSide { p: line.p, axis: line.edge, radius: 0.1 }, &input);
-    bench.warp("sphere surface", SphereSurface { center: sphere.center, radius: 0.4 }, &input);
-    let patch = PatchSurface { p: patch.p, u: v(1.0, 0.0, 0.0), v: v(0.0, 0.0, 1.0), w: v(0.0, 0.3, 0.0) };
-    bench.warp("patch surface", patch, &input);
-    bench.warp("linear", Linear { a: 3.0, b: 1.0 }, &input);
-    bench.warp("tent", Tent { radius: 1.5 }, &input);
-    bench.warp("exponential", Exponential { rate: 2.0 }, &input);
-    bench.warp("normal", Normal { mean: 0.5, sigma: 2.0 }, &input);
-    bench.sequence("independent", Independent::new(1));
-    bench.sequence("Owen-Sobol", OwenSobol::new(1));
-    bench.sequence("joint Sobol", JointSobol::new(1));
-    bench.sequence("stratified", Stratified::new(1, 4096));
-    bench.sequence("Latin hypercube", LatinHypercube::new(1, 4096));
-    bench.sequence("lattice R2", Lattice::r2(1));
+    every::visit(&mut bench);
     assert!(bench.differ == 0, "{} entry points differ between levels", bench.differ);
 }

@@ -1,0 +1,271 @@
+//! Batches against the core: the same bits with the instructions of every level, for any count, at any alignment, for any numbers.
+
+mod every;
+
+use etendue::select::{LightBound, LightChoice, LightTree, Node8};
+use etendue::sequence::{Independent, Sequence};
+use etendue::{LightSample, LightSampler, Vec2, Vec3};
+use etendue_batch::*;
+use every::Visitor;
+
+/// Less than a packet, whole packets, and what is left of them.
+const COUNTS: [usize; 9] = [0, 1, 2, 7, 8, 15, 16, 17, 100];
+
+fn levels() -> Vec<Batch> {
+    let levels: Vec<_> = [Level::Build, Level::V3, Level::V4].into_iter().filter_map(Batch::at).collect();
+    println!("{levels:?}");
+    levels
+}
+
+/// Columns of numbers: uniform in [0, 1), or hostile ones.
+struct Columns(Vec<Vec<f32>>);
+
+impl Columns {
+    fn new(hostile: bool) -> Self {
+        const ODD: [f32; 12] = [
+            0.0,
+            -0.0,
+            1.0,
+            -1.0,
+            0.999_999_94,
+            f32::MIN_POSITIVE,
+            1e-45,
+            f32::MAX,
+            f32::MIN,
+            f32::INFINITY,
+            f32::NAN,
+            1e20,
+        ];
+        let number = |k: u32, i: u32| {
+            let [x, y, ..] = Independent::new(5).words(k, i, 0);
+            let uniform = (x >> 8) as f32 / 16_777_216.0;
+            if hostile && y % 4 == 0 { ODD[(y / 4 % 12) as usize] } else { uniform }
+        };
+        Self((0..40).map(|k| (0..100).map(|i| number(k, i)).collect()).collect())
+    }
+    fn of(&self, k: usize, n: usize) -> &[f32] {
+        &self.0[k][..n]
+    }
+    fn three(&self, k: usize, n: usize) -> Vec3<&[f32]> {
+        Vec3::new(self.of(k, n), self.of(k + 1, n), self.of(k + 2, n))
+    }
+}
+
+fn at(v: Vec3<&[f32]>, i: usize) -> Vec3<f32> {
+    v.map(|column| column[i])
+}
+
+/// The numbers of a sample; NaNs, of whose bits nothing is promised, count as one.
+fn figures(s: &LightSample<f32>) -> [u32; 12] {
+    let truth = f32::from(u8::from(s.emits));
+    let [w, n] = [s.direction, s.normal];
+    [w.x, w.y, w.z, s.distance, s.pdf, s.weight(), n.x, n.y, n.z, s.uv.x, s.uv.y, truth].map(bits)
+}
+fn bits(x: f32) -> u32 {
+    if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() }
+}
+
+/// What a batch has written.
+#[derive(Default)]
+struct Written {
+    columns: Vec<Vec<f32>>,
+    emits: Vec<u8>,
+}
+
+impl Written {
+    fn new(n: usize) -> Self {
+        Self { columns: vec![vec![-7.0; n]; 11], emits: vec![9; n] }
+    }
+    fn samples(&mut self) -> Samples<'_> {
+        let [x, y, z, distance, pdf, weight, nx, ny, nz, s, t] = &mut self.columns[..] else { unreachable!() };
+        Samples {
+            direction: [x, y, z],
+            distance,
+            pdf,
+            weight,
+            normal: [nx, ny, nz],
+            uv: [s, t],
+            emits: &mut self.emits,
+        }
+    }
+    fn figures(&self, i: usize) -> [u32; 12] {
+        core::array::from_fn(|k| if k < 11 { bits(self.columns[k][i]) } else { bits(f32::from(self.emits[i])) })
+    }
+}
+
+struct Equal {
+    inputs: [Columns; 2],
+    compared: usize,
+}
+
+impl Visitor for Equal {
+    fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
+    where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
+        {
+            for n in COUNTS {
+                let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
+                let alone = T::of(T::prepare::<f32>(light, p, normal));
+                let sampler = batch.prepare::<T>(&light, p, normal);
+                let u = Vec2::new(input.of(0, n), input.of(1, n));
+                let one = |i: usize| Vec2::new(u.x[i], u.y[i]);
+                let say = |i: usize| format!("{name}, {batch:?}, element {i} of {n}");
+
+                let mut written = Written::new(n);
+                batch.sample(&sampler, u, written.samples());
+                let drawn: Vec<_> = (0..n).map(|i| alone.sample(one(i))).collect();
+                for (i, s) in drawn.iter().enumerate() {
+                    assert_eq!(written.figures(i), figures(s), "sample: {}", say(i));
+                }
+
+                // half of the directions hit, half are any numbers
+                let directions: [Vec<f32>; 3] = core::array::from_fn(|axis| {
+                    let coordinate = |i: usize| match axis {
+                        _ if i % 2 == 1 => input.of(2 + axis, n)[i],
+                        0 => drawn[i].direction.x,
+                        1 => drawn[i].direction.y,
+                        _ => drawn[i].direction.z,
+                    };
+                    (0..n).map(coordinate).collect()
+                });
+                let w = Vec3::new(&directions[0][..], &directions[1][..], &directions[2][..]);
+                let mut pdf = vec![-7.0; n];
+                batch.pdf(&sampler, w, &mut pdf);
+                let mut inverse = [vec![-7.0; n], vec![-7.0; n]];
+                let [x, y] = &mut inverse;
+                batch.invert(&sampler, w, Vec2::new(x, y));
+                let mut written = Written::new(n);
+                batch.hit(&sampler, w, written.samples());
+                for i in 0..n {
+                    assert_eq!(bits(pdf[i]), bits(alone.pdf(at(w, i))), "pdf: {}", say(i));
+                    let u = alone.invert(at(w, i));
+                    assert_eq!([inverse[0][i], inverse[1][i]].map(bits), [u.x, u.y].map(bits), "inverse: {}", say(i));
+                    assert_eq!(written.figures(i), figures(&alone.hit(at(w, i))), "hit: {}", say(i));
+                }
+
+                let mut k = 5;
+                let lights = T::map(light, |_| {
+                    k += 1;
+                    input.of(k, n)
+                });
+                let mut written = Written::new(n);
+                batch.sample_each::<T>(lights, input.three(30, n), input.three(33, n), u, written.samples());
+                for i in 0..n {
+                    let light = T::map(lights, |column| column[i]);
+                    let sampler = T::prepare::<f32>(light, at(input.three(30, n), i), at(input.three(33, n), i));
+                    assert_eq!(written.figures(i), figures(&sampler.sample(one(i))), "sample each: {}", say(i));
+                }
+                self.compared += n;
+            }
+        }
+    }
+    fn warp<W>(&mut self, name: &str, warp: W)
+    where
+        W: Map + InTable<Functions = WarpFunctions<W>>,
+    {
+        for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
+        {
+            for n in COUNTS {
+                let alone = warp.splat::<f32>();
+                let u = [input.of(0, n), input.of(1, n)];
+                let mut points = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
+                batch.map(&warp, u, points.each_mut().map(|column| &mut column[..]));
+                for i in 0..n {
+                    let expected = W::sample(&alone, Vec2::new(u[0][i], u[1][i]));
+                    for k in 0..W::COORDINATES {
+                        assert_eq!(bits(points[k][i]), bits(expected[k]), "{name}, {batch:?}, element {i} of {n}");
+                    }
+                }
+                let points = points.each_ref().map(|column| &column[..]);
+                let mut pdf = vec![0.0; n];
+                batch.map_pdf(&warp, points, &mut pdf);
+                let mut inverse = [vec![0.0; n], vec![0.0; n]];
+                batch.map_invert(&warp, points, inverse.each_mut().map(|column| &mut column[..]));
+                for i in 0..n {
+                    let point = core::array::from_fn(|k| if k < W::COORDINATES { points[k][i] } else { 0.0 });
+                    assert_eq!(bits(pdf[i]), bits(W::pdf(&alone, point)), "{name}, {batch:?}, element {i} of {n}");
+                    let u = W::invert(&alone, point);
+                    let expected = [u.x, if W::NUMBERS == 2 { u.y } else { 0.0 }];
+                    let found = [inverse[0][i], inverse[1][i]];
+                    assert_eq!(found.map(bits), expected.map(bits), "{name}, {batch:?}, element {i} of {n}");
+                }
+                self.compared += n;
+            }
+        }
+    }
+    fn sequence<S>(&mut self, name: &str, sequence: S)
+    where
+        S: Sequence + InTable<Functions = SequenceFunctions<S>>,
+    {
+        for batch in levels() {
+            for n in COUNTS {
+                let mut u = [vec![0.0; n], vec![0.0; n]];
+                let [x, y] = &mut u;
+                let counters = Counters { pixel: 11, sample: u32::MAX - 20, dimension: 2, ..Counters::default() };
+                batch.pairs(&sequence, counters, Vec2::new(x, y));
+                for i in 0..n {
+                    let expected = sequence.pair::<f32>(11, (u32::MAX - 20).wrapping_add(i as u32), 2);
+                    let found = [u[0][i], u[1][i]];
+                    assert_eq!(found.map(bits), [expected.x, expected.y].map(bits), "{name}, {batch:?}, {i} of {n}");
+                }
+                self.compared += n;
+            }
+        }
+    }
+}
+
+#[test]
+fn every_level_gives_the_bits_of_the_core() {
+    let mut equal = Equal { inputs: [Columns::new(false), Columns::new(true)], compared: 0 };
+    every::visit(&mut equal);
+    println!("{} elements", equal.compared);
+    assert!(equal.compared > 10_000);
+}
+
+#[test]
+fn the_levels_of_this_processor_were_compiled() {
+    #[cfg(all(target_arch = "x86_64", feature = "dispatch"))]
+    {
+        let v3 = std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma");
+        assert_eq!(Batch::at(Level::V3).is_some(), v3);
+        assert_eq!(Batch::at(Level::V4).is_some(), v3 && std::arch::is_x86_feature_detected!("avx512dq"));
+    }
+    let best = *levels().last().unwrap();
+    assert_eq!(Batch::new().level(), best.level());
+}
+
+#[test]
+fn a_tree_chooses_alike_at_every_level() {
+    let input = Columns::new(false);
+    let lamp = |i: usize| {
+        let place = |k: usize| input.of(k, 100)[i] * 9.0;
+        LightBound { center: [place(0), 3.0, place(1)], radius: 0.1, power: 1.0 + place(2), ..LightBound::default() }
+    };
+    let lamps: Vec<_> = (0..100).map(lamp).collect();
+    let mut nodes = vec![Node8::default(); LightTree::nodes_for(lamps.len())];
+    let mut places = vec![0; lamps.len()];
+    let tree = LightTree::build(&lamps, &mut nodes, &mut places).unwrap();
+    for batch in levels() {
+        for n in COUNTS {
+            let (p, normals, u) = (input.three(3, n), input.three(6, n), input.of(9, n));
+            let (mut light, mut pmf, mut rest) = (vec![0; n], vec![0.0; n], vec![0.0; n]);
+            batch.choose(&tree, p, normals, u, Choices { light: &mut light, pmf: &mut pmf, u: &mut rest });
+            let mut again = vec![-7.0; n];
+            batch.pmf(&tree, p, normals, &light, &mut again);
+            assert_eq!(again, pmf, "{batch:?}, {n}");
+            for i in 0..n {
+                let one = tree.at::<f32>(at(p, i), at(normals, i)).choose(u[i]);
+                assert_eq!((light[i], pmf[i], rest[i]), (one.index, one.pmf, one.u), "{batch:?}, element {i} of {n}");
+            }
+        }
+    }
+}
+
+#[test]
+#[should_panic(expected = "a column of 3 elements in a batch of 4")]
+fn columns_of_other_lengths_panic() {
+    let light = etendue::Sphere::new(Vec3::new(0.0, 2.0, 0.0), 0.5).by_solid_angle(Vec3::new(0.0, 0.0, 0.0));
+    Batch::new().sample(&light, Vec2::new(&[0.0; 4], &[0.0; 3]), Samples::default());
+}
