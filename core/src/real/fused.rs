@@ -8,7 +8,10 @@ pub(super) const IN_HARDWARE: bool = cfg!(any(target_feature = "fma", target_arc
 /// In double precision the product is exact. Rounding the sum to double and then to single precision differs from rounding once only
 /// where the first rounding ends halfway between two numbers of single precision, or where the result is subnormal. These rare lanes are
 /// left to `libm`.
-#[inline(always)]
+///
+/// Builds with assertions do not inline it, because that takes LLVM minutes for every program that uses many routines.
+#[cfg_attr(debug_assertions, inline(never))]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn single<const N: usize>(a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
     let mut sums = [0.0_f64; N];
     for i in 0..N {
@@ -30,7 +33,8 @@ fn exactly<const N: usize>(a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
 }
 
 /// `a·b + c` of each lane, rounded once.
-#[inline(always)]
+#[cfg_attr(debug_assertions, inline(never))]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn double<const N: usize>(a: [f64; N], b: [f64; N], c: [f64; N]) -> [f64; N] {
     core::array::from_fn(|i| libm::fma(a[i], b[i], c[i]))
 }
