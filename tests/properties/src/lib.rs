@@ -16,9 +16,11 @@
 
 pub mod checks;
 pub mod fixtures;
+#[cfg(feature = "bodies")]
 pub mod fuzz_bodies;
 pub mod generators;
 pub mod light_tree;
+#[cfg(feature = "bodies")]
 pub mod mutants;
 pub mod occlusion;
 pub mod properties;
