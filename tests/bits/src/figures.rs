@@ -118,15 +118,13 @@ pub(crate) struct Entry {
 }
 
 fn widths<T: Routine>(routine: &T) -> Vec<(&'static str, Figures)> {
-    #[allow(unused_mut, reason = "few widths")]
-    let mut all = vec![
-        ("f32", Figures::of::<f32>(routine)),
-        ("f32x8", Figures::of::<f32x8>(routine)),
-        ("f64", Figures::of::<f64>(routine)),
-    ];
+    let mut all = Vec::new();
     #[cfg(feature = "all-widths")]
-    all.extend([("f32x4", Figures::of::<f32x4>(routine)), ("f64x4", Figures::of::<f64x4>(routine))]);
-    // the others have no registers of this width
+    all.extend([("f32", Figures::of::<f32>(routine)), ("f32x4", Figures::of::<f32x4>(routine))]);
+    all.extend([("f32x8", Figures::of::<f32x8>(routine)), ("f64", Figures::of::<f64>(routine))]);
+    #[cfg(feature = "all-widths")]
+    all.push(("f64x4", Figures::of::<f64x4>(routine)));
+    // others have no registers of this width
     #[cfg(any(feature = "all-widths", target_feature = "avx512f"))]
     if T::MOST >= 16 {
         all.push(("f32x16", Figures::of::<f32x16>(routine)));

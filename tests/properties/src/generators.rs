@@ -45,6 +45,10 @@ impl Random {
         z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ z >> 31
     }
+    /// One of the first `n` numbers; the same also where addresses have 32 bits.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.word() % n as u64) as usize
+    }
     /// A multiple of 2⁻²⁴ in [0, 1).
     pub fn unit(&mut self) -> f32 {
         (self.word() >> 40) as f32 / 16_777_216.0

@@ -71,6 +71,7 @@ impl Lamp {
         }
     }
 
+    #[cfg(feature = "checks")]
     /// The first of its samples by any technique that contributes to a surface at `p` with the normal `n`.
     #[must_use]
     pub fn contribution(&self, p: [f32; 3], n: [f32; 3], u: [f32; 2]) -> Option<LightSample<f32>> {

@@ -84,7 +84,7 @@ impl Regime {
             Self::Spots | Self::NarrowSpots => 5..6,
             _ => 0..8,
         };
-        Self::SHAPES[among.start + random.word() as usize % among.len()]
+        Self::SHAPES[among.start + random.below(among.len())]
     }
 
     /// Lights of this regime.
@@ -124,9 +124,7 @@ impl Regime {
             }
             let power = match self {
                 Self::Powers => random.magnitude(1e-30, 1e30),
-                Self::Malformed => {
-                    [0.0, f64::NAN, -1.0, f64::INFINITY, 1.0, 3.0, 1e-45, 1e38][random.word() as usize % 8]
-                }
+                Self::Malformed => [0.0, f64::NAN, -1.0, f64::INFINITY, 1.0, 3.0, 1e-45, 1e38][random.below(8)],
                 Self::Room => random.magnitude(1e-3, 1e3),
                 _ => 1.0,
             };
@@ -176,7 +174,7 @@ fn shape(kind: Kind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f6
 /// A point of a surface that a light, or its plane or its corner, makes difficult, and the index of that light.
 pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (Place, usize) {
     let unit_length = regime.unit();
-    let light = random.word() as usize % lamps.len();
+    let light = random.below(lamps.len());
     let lamp = lamps[light];
     let bound = lamp.bound();
     let (center, normal, size) = (wide(bound.center), wide(bound.normal), f64::from(bound.radius));
