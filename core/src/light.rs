@@ -67,7 +67,7 @@
 //! |  | projected solid angle | 421.8 | 56.6 | 198.8 | 26.3 | 0.94 | 6.62 | 57.7 |
 //! <!-- end of table -->
 //!
-//! Without compiler flags a packet of 8 is two registers, and the error of a product takes seventeen operations instead of one;
+//! Without compiler flags a packet of 8 is two registers, and software computes each fused multiply-add, with the same bits;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
 mod cylinder;

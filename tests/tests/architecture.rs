@@ -232,11 +232,12 @@ const EXCEPTIONS: [(&str, &str, &str, &str); 2] = [
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
-const PACKAGES: [(&str, bool); 7] = [
+const PACKAGES: [(&str, bool); 8] = [
     ("core", false),
     ("render", true),
     ("render/laboratory", true),
     ("render/cli", true),
+    ("tests/bits", true),
     ("tests/oracle", true),
     ("tests/properties", false),
     ("benches/routines", true),
@@ -317,14 +318,15 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 11] = [
+const ARROWS: [(&str, &[&str], &[&str]); 12] = [
     ("core", &[], &[]),
     ("render", &["etendue"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render"], &[]),
+    ("tests/bits", &["etendue", "etendue-properties"], &[]),
     ("tests/oracle", &[], &[]),
     ("tests/properties", &["etendue", "etendue-oracle"], &[]),
-    ("tests", &[], &["etendue", "etendue-oracle", "etendue-properties"]),
+    ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
     ("benches/routines", &["etendue", "etendue-render"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines"]),
     ("fuzz/bodies", &["etendue-oracle", "etendue-render"], &[]),

@@ -6,32 +6,6 @@ use etendue_properties::generators::Random;
 use etendue_properties::properties::{Coordinates, squares_of};
 use etendue_properties::techniques::{self, AreaLight, LightShape, Measure, Technique};
 
-/// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
-fn light(kind: usize, round: u32, random: &mut Random) -> AreaLight {
-    let (shape, by) = AreaLight::KINDS[kind];
-    let mut unit = || random.direction().map(|x| x as f32);
-    let (mut b, mut c, n, towards) = (unit(), unit(), unit(), unit());
-    if shape == LightShape::Rectangle {
-        let along = dot(wide(b), wide(c));
-        c = core::array::from_fn(|k| (f64::from(c[k]) - along * f64::from(b[k])) as f32);
-    }
-    let size = [1.0, 1e-3, 1e-6, 30.0][round as usize % 4];
-    if shape != LightShape::Disk {
-        b = b.map(|x| x * size);
-    }
-    c = c.map(|x| x * size);
-    // the fourth corner of a patch: nearly opposite
-    let n = if shape == LightShape::Patch { core::array::from_fn(|k| b[k] + c[k] + 0.2 * size * n[k]) } else { n };
-    let mut a = towards.map(|x| x * (0.1 + random.unit()) * if size > 1.0 { 10.0 } else { 1.0 });
-    if round % 5 == 4 {
-        // nearly in its plane
-        let normal = cross(wide(b), wide(c));
-        let lift = dot(wide(a), normal) / dot(normal, normal) * 0.999;
-        a = core::array::from_fn(|k| (f64::from(a[k]) - lift * normal[k]) as f32);
-    }
-    AreaLight { shape, by, p: [0.0; 3], a, b, c, n, radius: size * 0.3 }
-}
-
 /// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.
 fn clear(light: &AreaLight) -> bool {
     let (v, b, c) = (wide(light.a), wide(light.b), wide(light.c));
@@ -48,7 +22,7 @@ fn pdf_of_a_sample_is_the_pdf_of_its_direction() {
     for (kind, checked) in checked.iter_mut().enumerate() {
         let mut random = Random::new(kind as u64);
         for round in 0..4000 {
-            let light = light(kind, round, &mut random);
+            let light = AreaLight::any(kind, round, &mut random);
             let u = [random.unit(), random.unit()];
             if clear(&light) {
                 techniques::one_pdf(&light, u);
@@ -65,7 +39,7 @@ fn every_lane_agrees_in_all_that_a_sampler_returns() {
     for kind in 0..AreaLight::KINDS.len() {
         let mut random = Random::new(100 + kind as u64);
         for round in 0..200 {
-            let lights = core::array::from_fn(|i| light(kind, round + i as u32, &mut random));
+            let lights = core::array::from_fn(|i| AreaLight::any(kind, round + i as u32, &mut random));
             let us = core::array::from_fn(|_| [random.unit(), random.unit()]);
             techniques::any_bits(&lights, &us);
         }
@@ -79,7 +53,7 @@ fn inverse_of_a_sample_is_its_number() {
         let mut random = Random::new(200 + kind as u64);
         let mut worst = 0.0_f64;
         for round in 0..1000 {
-            let light = light(kind, round * 20, &mut random);
+            let light = AreaLight::any(kind, round * 20, &mut random);
             let (v, normal) = (wide(light.a), cross(wide(light.b), wide(light.c)));
             if !clear(&light) || dot(v, normal).abs() < 0.2 * length(v) * length(normal) || length(normal) < 0.3 {
                 continue;
@@ -119,7 +93,7 @@ fn a_hit_is_the_point_that_was_sampled() {
         let mut random = Random::new(300 + kind as u64);
         let mut seen = 0;
         for round in 0..500 {
-            let light = light(kind, round * 20, &mut random);
+            let light = AreaLight::any(kind, round * 20, &mut random);
             let sampler = AreaLight::prepare::<f64>(&[light]);
             let s = sampler.sample(Vec2::new(random.unit_f64(), random.unit_f64()));
             let cos = dot(s.direction.at(0), s.normal.at(0)).abs();
@@ -160,7 +134,7 @@ fn directions_beside_the_light_miss() {
         let (shape, by) = AreaLight::KINDS[kind];
         let mut random = Random::new(400 + kind as u64);
         for round in 0..300 {
-            let light = light(kind, round * 20 + 1, &mut random);
+            let light = AreaLight::any(kind, round * 20 + 1, &mut random);
             let sampler = AreaLight::prepare::<f32>(&[light]);
             let w = sampler.sample(Vec2::new(0.5, 0.5)).direction;
             for miss in [-w, Vec3::new(w.y, w.z, w.x)] {

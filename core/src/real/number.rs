@@ -3,6 +3,9 @@
 use super::{Mask, MaskF64X4, MaskX4, MaskX8, MaskX16, Real, fused};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, u32x4, u32x8, u32x16, u64x4};
 
+/// True where rounding to an integer is an instruction.
+const ROUNDS: bool = cfg!(any(target_feature = "sse4.1", target_feature = "simd128", target_arch = "aarch64"));
+
 /// What single precision needs beside the polynomials that [`Real`] provides.
 macro_rules! polynomials {
     () => {
@@ -163,7 +166,8 @@ macro_rules! scalar_real {
             }
             #[inline(always)]
             fn round_ties_even(self) -> Self {
-                $packet::splat(self).round_ties_even().to_array()[0]
+                let rounded = $packet::splat(self).round_ties_even().to_array()[0];
+                if ROUNDS { rounded } else { Real::copysign(rounded, self) }
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
@@ -293,7 +297,9 @@ macro_rules! packet_real {
             }
             #[inline(always)]
             fn round_ties_even(self) -> Self {
-                $packet::round_ties_even(self)
+                let rounded = $packet::round_ties_even(self);
+                // without an instruction, `wide` goes through integers, which have no −0
+                if ROUNDS { rounded } else { rounded.copysign(self) }
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {

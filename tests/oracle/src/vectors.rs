@@ -27,11 +27,16 @@ pub fn along(a: V3, b: V3, s: f64) -> V3 {
 pub fn sub(a: V3, b: V3) -> V3 {
     along(a, b, -1.0)
 }
-/// Length, without overflow or underflow.
+/// Length, without overflow or underflow: a power of two first takes the greatest coordinate to [1, 2). The standard library's `hypot` is
+/// the C library's, and not the same on every platform.
 #[must_use]
 #[inline]
 pub fn length(a: V3) -> f64 {
-    a[0].hypot(a[1]).hypot(a[2])
+    let greatest = a[0].abs().max(a[1].abs()).max(a[2].abs());
+    let exponent = (greatest.to_bits() >> 52).clamp(1, 2045);
+    let scale = f64::from_bits((2046 - exponent) << 52);
+    let scaled = a.map(|x| x * scale);
+    dot(scaled, scaled).sqrt() / scale
 }
 /// Unit vector; the zero vector stays zero.
 #[must_use]

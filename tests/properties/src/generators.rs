@@ -1,4 +1,7 @@
 //! Arguments: points of the unit square biased towards its edges, and shapes from each regime in which some method fails.
+//!
+//! They are the same on every platform: `libm` computes the sines and logarithms here, since those of the standard library are the
+//! C library's, which differ in their last bits.
 
 mod flat;
 mod horizon;
@@ -9,6 +12,7 @@ mod warps;
 use etendue_oracle::narrow;
 pub use flat::*;
 pub use horizon::*;
+use libm::{cos, exp, log, sin};
 pub use line::*;
 pub use round::*;
 pub use warps::*;
@@ -41,6 +45,10 @@ impl Random {
         z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^ z >> 31
     }
+    /// One of the first `n` numbers; the same also where addresses have 32 bits.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.word() % n as u64) as usize
+    }
     /// A multiple of 2⁻²⁴ in [0, 1).
     pub fn unit(&mut self) -> f32 {
         (self.word() >> 40) as f32 / 16_777_216.0
@@ -55,13 +63,13 @@ impl Random {
     }
     /// Log-uniform from `low` to `high`.
     pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
-        self.range(low.ln(), high.ln()).exp()
+        exp(self.range(log(low), log(high)))
     }
     /// A uniform unit vector.
     pub fn direction(&mut self) -> [f64; 3] {
         let (z, phi) = (self.range(-1.0, 1.0), self.range(0.0, core::f64::consts::TAU));
         let r = (1.0 - z * z).sqrt();
-        [r * phi.cos(), r * phi.sin(), z]
+        [r * cos(phi), r * sin(phi), z]
     }
     /// A finite f32 from random bits.
     pub fn any_f32(&mut self) -> f32 {
@@ -114,7 +122,7 @@ fn frame(random: &mut Random) -> [[f64; 3]; 3] {
     let (s, t) = etendue_oracle::basis(n);
     let turn = random.range(0.0, core::f64::consts::TAU);
     let mix = |a: [f64; 3], b: [f64; 3], c: f64, d: f64| core::array::from_fn(|i| a[i] * c + b[i] * d);
-    [mix(s, t, turn.cos(), turn.sin()), mix(s, t, -turn.sin(), turn.cos()), n]
+    [mix(s, t, cos(turn), sin(turn)), mix(s, t, -sin(turn), cos(turn)), n]
 }
 
 fn combine(axes: &[[f64; 3]; 3], x: f64, y: f64, z: f64) -> [f64; 3] {

@@ -14,15 +14,22 @@
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
+#[cfg(feature = "checks")]
 pub mod checks;
 pub mod fixtures;
+#[cfg(feature = "checks")]
 pub mod fuzz_bodies;
 pub mod generators;
+#[cfg_attr(not(feature = "checks"), allow(dead_code, unused_imports, reason = "only its lamps remain"))]
 pub mod light_tree;
+#[cfg(feature = "checks")]
 pub mod mutants;
+#[cfg(feature = "checks")]
 pub mod occlusion;
 pub mod properties;
+#[cfg(feature = "checks")]
 pub mod stats;
+#[cfg(feature = "checks")]
 pub mod suite;
 pub mod techniques;
 pub mod tolerances;

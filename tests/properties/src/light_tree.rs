@@ -58,6 +58,7 @@ pub struct Reached {
     pub levels: usize,
 }
 
+#[cfg(feature = "checks")]
 impl Grove {
     /// Builds a tree.
     ///

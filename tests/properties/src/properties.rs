@@ -1,8 +1,11 @@
 //! The properties. Each is a plain function that panics when its property is broken.
 
 use crate::generators::Random;
+#[cfg(feature = "checks")]
 use crate::stats;
-use crate::tolerances::{self, SIGNIFICANCE, Tolerance, ULP, ULP_F64};
+#[cfg(feature = "checks")]
+use crate::tolerances::SIGNIFICANCE;
+use crate::tolerances::{self, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
 use etendue::spherical::DirectionSample;
 use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8, f64x4};
@@ -500,6 +503,7 @@ fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
     (sum - 1.0).abs()
 }
 
+#[cfg(feature = "checks")]
 /// χ² of 2²⁰ samples against the true pdf, over 16 × 16 cells of the independent parameterisation. A shape too small for a rounded
 /// direction uses 2¹⁸ samples of the f64 code instead.
 ///
@@ -511,6 +515,7 @@ pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
         chi_square_of::<S, f64x4>(s, seed, 1 << 18)
     }
 }
+#[cfg(feature = "checks")]
 fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
     const N: usize = 16;
     let cells = N as f64;

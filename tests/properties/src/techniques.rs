@@ -1,5 +1,6 @@
 //! Lights by one technique each, and the properties of their samples.
 
+use crate::generators::Random;
 use crate::properties::{Coordinates, lanes_of, squares_of, vectors_of};
 use crate::tolerances::ULP;
 use core::f64::consts::{PI, TAU};
@@ -239,6 +240,32 @@ impl AreaLight {
         (LightShape::Line, Measure::SolidAngle),
         (LightShape::Line, Measure::ProjectedSolidAngle),
     ];
+    /// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
+    #[must_use]
+    pub fn any(kind: usize, round: u32, random: &mut Random) -> Self {
+        let (shape, by) = Self::KINDS[kind];
+        let mut unit = || random.direction().map(|x| x as f32);
+        let (mut b, mut c, n, towards) = (unit(), unit(), unit(), unit());
+        if shape == LightShape::Rectangle {
+            let along = dot(wide(b), wide(c));
+            c = core::array::from_fn(|k| (f64::from(c[k]) - along * f64::from(b[k])) as f32);
+        }
+        let size = [1.0, 1e-3, 1e-6, 30.0][round as usize % 4];
+        if shape != LightShape::Disk {
+            b = b.map(|x| x * size);
+        }
+        c = c.map(|x| x * size);
+        // the fourth corner of a patch: nearly opposite
+        let n = if shape == LightShape::Patch { core::array::from_fn(|k| b[k] + c[k] + 0.2 * size * n[k]) } else { n };
+        let mut a = towards.map(|x| x * (0.1 + random.unit()) * if size > 1.0 { 10.0 } else { 1.0 });
+        if round % 5 == 4 {
+            // nearly in its plane
+            let normal = cross(wide(b), wide(c));
+            let lift = dot(wide(a), normal) / dot(normal, normal) * 0.999;
+            a = core::array::from_fn(|k| (f64::from(a[k]) - lift * normal[k]) as f32);
+        }
+        Self { shape, by, p: [0.0; 3], a, b, c, n, radius: size * 0.3 }
+    }
     fn vectors<R: Real>(lanes: &[Self]) -> ([Vec3<R>; 5], R) {
         let of = |i: usize| lanes[i % lanes.len()];
         let vectors = [

@@ -199,40 +199,40 @@ impl Node8 {
         let squared = square.x + square.y + square.z + lit(SMALL * SMALL);
         // what 1/d² is on average, to the second order of the extent
         let along = varied.dot(square) * scale;
-        let mean = (squared + variance) - lit(4.0) * along / variance.mul_add(lit(0.01), squared);
+        let mean = (squared + variance) - lit(4.0) * along / fused(variance, lit(0.01), squared);
         let mean = mean.greater((squared + variance) * lit(NEAR));
-        let squared = variance.mul_add(lit(1.0 / 3.0), squared);
+        let squared = fused(variance, lit(1.0 / 3.0), squared);
         let distance = squared.sqrt();
         // all cosines are multiplied by the distance, so that the square roots do not wait for each other
         let above = v.dot(n);
-        let estimate = above + above.mul_add(above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
-        let bound = lit(MARGIN).mul_add(distance, half.dot(slope).mul_add(unit, above)).lesser(distance);
+        let estimate = above + fused(above, above, varied.dot(squares) * (scale * lit(SMOOTH))).sqrt();
+        let bound = fused(lit(MARGIN), distance, fused(half.dot(slope), unit, above)).lesser(distance);
         let bias = lit(-128.0 / 127.0);
         let normal = three(normals).mul_add(lit(1.0 / 127.0), Vec3::new(bias, bias, bias));
         let ahead = -v.dot(normal);
         let [xy, xz, yz] = [byte(turns[0], 3), byte(turns[1], 0), byte(turns[1], 1)].map(|x| x - lit(128.0));
         let mixed = xy * (v.x * v.y) + xz * (v.x * v.z) + yz * (v.y * v.z);
         let turned = three(turns[0]).dot(square) * lit(SMOOTH / 255.0) + mixed * lit(2.0 * SMOOTH / 254.0);
-        let turned = variance.mul_add(lit(SMOOTH / 3.0), turned.greater(zero));
-        let spread = byte(normals, 3).mul_add(lit(1.0 / 127.5), lit(MARGIN));
-        let mut front = spread.mul_add(distance, (byte(bounds, 3) + byte(bounds, 3)).mul_add(unit, ahead));
+        let turned = fused(variance, lit(SMOOTH / 3.0), turned.greater(zero));
+        let spread = fused(byte(normals, 3), lit(1.0 / 127.5), lit(MARGIN));
+        let mut front = fused(spread, distance, fused(byte(bounds, 3) + byte(bounds, 3), unit, ahead));
         let facing = if self.plain {
-            ahead + ahead.mul_add(ahead, turned).sqrt()
+            ahead + fused(ahead, ahead, turned).sqrt()
         } else {
             let top = byte(deviations, 3);
             let both = top.gt(lit(254.0));
             let cone = (top * lit(1.0 / 254.0)).keep(!both);
             // no position is nearer than this
             let near = distance - lit(3.5 * 255.0) * unit;
-            front = (-near).mul_add(cone, front);
+            front = fused(-near, cone, front);
             let y = ahead - cone * distance;
-            let root = y.mul_add(y, turned).sqrt();
+            let root = fused(y, y, turned).sqrt();
             <f32x8 as Real>::blend(both, root + root, y + root)
         };
         let front = front.lesser(distance);
         let power = f32x8::from(self.power);
         let bright = bound.gt(zero) & front.gt(zero) & power.gt(zero);
-        let cosines = (bound * front).mul_add(lit(4.0 * BOUND), estimate * facing);
+        let cosines = fused(bound * front, lit(4.0 * BOUND), estimate * facing);
         ((power * cosines / (mean * squared)).keep(bright), bright.bits())
     }
 
@@ -282,6 +282,12 @@ impl Shares {
         let before: u32 = self.units.iter().take(slot).sum();
         self.units[slot & 7].min(WHOLE.wrapping_sub(before))
     }
+}
+
+/// `a·b + c`, rounded once: the packet's own method of that name rounds twice where the target has no such instruction.
+#[inline(always)]
+fn fused<R: Real>(a: R, b: R, c: R) -> R {
+    a.mul_add(b, c)
 }
 
 /// All ones where the mask is true.

@@ -2,6 +2,7 @@
 
 use super::{Case, Random, combine, frame, narrow};
 use crate::fixtures::{CosineRectangle, CosineTriangle, Hexagon, Parallelogram, Rectangle, Triangle};
+use libm::{cos, exp2, log2, sin};
 
 /// Computes a corner and two edges in the given frame.
 type Place<'a> = dyn FnMut(&mut Random, [[f64; 3]; 3]) -> [[f64; 3]; 3] + 'a;
@@ -20,7 +21,7 @@ fn flats(each: usize, seed: u64) -> Vec<(&'static str, [[f32; 3]; 3])> {
             let (x, y) = (r.range(-1.0, 1.0) * shift, r.range(-1.0, 1.0) * shift);
             let angle = r.range(0.6, 2.4);
             let e1 = combine(&a, size, 0.0, 0.0);
-            let e2 = combine(&a, size * angle.cos(), size * angle.sin(), 0.0);
+            let e2 = combine(&a, size * cos(angle), size * sin(angle), 0.0);
             let v0 = combine(&a, x - 0.4 * size, y - 0.3 * size, 1.0);
             [v0, e1, e2]
         };
@@ -118,7 +119,7 @@ fn exact_axes(random: &mut Random) -> [[f64; 3]; 3] {
 
 /// Rounds to 8 bits.
 fn coarse(x: f64) -> f64 {
-    let unit = (x.abs().log2().floor() - 7.0).exp2();
+    let unit = exp2(log2(x.abs()).floor() - 7.0);
     (x / unit).round() * unit
 }
 
@@ -203,7 +204,7 @@ pub fn hexagons(each: usize, seed: u64) -> Vec<Case<Hexagon>> {
             let corner = |i: usize, random: &mut Random| {
                 let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 6.0;
                 let [x, y, z] = center;
-                narrow(combine(&axes, x + size[0] * angle.cos(), y + size[1] * angle.sin(), z))
+                narrow(combine(&axes, x + size[0] * cos(angle), y + size[1] * sin(angle), z))
             };
             all.push((name, Hexagon::new(core::array::from_fn(|i| corner(i, &mut random)))));
         }

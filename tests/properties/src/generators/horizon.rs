@@ -2,6 +2,7 @@
 
 use super::{Case, Random, combine, frame, narrow};
 use crate::fixtures::{ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle};
+use libm::{cos, sin};
 
 /// How a flat shape is placed relative to the horizon.
 #[derive(Clone, Copy, Debug)]
@@ -62,14 +63,14 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
             let axes = frame(&mut random);
             let angle = random.range(0.8, 2.2);
             let e1 = combine(&axes, size, 0.0, 0.0);
-            let e2 = combine(&axes, size / aspect * angle.cos(), size / aspect * angle.sin(), 0.0);
+            let e2 = combine(&axes, size / aspect * cos(angle), size / aspect * sin(angle), 0.0);
             let (x, y) = (random.range(-1.0, 1.0) * shift, random.range(0.5, 1.0) * shift);
             let corner = combine(&axes, x - 0.4 * size, y - 0.3 * size / aspect, 1.0);
             let at = |s: f64, t: f64| core::array::from_fn::<f64, 3, _>(|i| corner[i] + e1[i] * s + e2[i] * t);
             let [a, b] = {
                 let (a, b) = etendue_oracle::basis(etendue_oracle::unit(at(0.33, 0.33)));
                 let turn = random.range(0.0, core::f64::consts::TAU);
-                [a, b].map(|_| core::array::from_fn::<f64, 3, _>(|i| a[i] * turn.cos() + b[i] * turn.sin()))
+                [a, b].map(|_| core::array::from_fn::<f64, 3, _>(|i| a[i] * cos(turn) + b[i] * sin(turn)))
             };
             let middle = etendue_oracle::unit(at(0.33, 0.33));
             // the unit vector perpendicular to p that is nearest to v
@@ -87,7 +88,7 @@ pub fn over_horizon(each: usize, seed: u64) -> Vec<Case<[[f32; 3]; 4]>> {
                     let reach = size / aspect / etendue_oracle::length(at(0.33, 0.33));
                     let lift = f64::atan(reach * below);
                     let up = upright(middle, b);
-                    core::array::from_fn(|i| up[i] * lift.cos() - middle[i] * lift.sin())
+                    core::array::from_fn(|i| up[i] * cos(lift) - middle[i] * sin(lift))
                 }
                 Corner => upright(corner, b),
                 Zenith(s, t) => etendue_oracle::unit(at(s, t)),
@@ -150,7 +151,7 @@ pub fn projected_pentagons(each: usize, seed: u64) -> Vec<Case<ProjectedPentagon
             let corner = |i: usize, random: &mut Random| {
                 let angle = (i as f64 + random.range(-0.3, 0.3)) * core::f64::consts::TAU / 5.0;
                 let [x, y, z] = center;
-                narrow(combine(&axes, x + size[0] * angle.cos(), y + size[1] * angle.sin(), z))
+                narrow(combine(&axes, x + size[0] * cos(angle), y + size[1] * sin(angle), z))
             };
             let corners = core::array::from_fn(|i| corner(i, &mut random));
             let normal = narrow(combine(&axes, normal[0], normal[1], normal[2]));

@@ -49,7 +49,7 @@ pub fn segment_parameters(each: usize, seed: u64) -> (Vec<Case<[[f32; 3]; 2]>>, 
             let [p, e] = [a, edge].map(|v| narrow(combine(&axes, v[0], v[1], 0.0)));
             plain.push((name, [p, e]));
             // relative to the distance, so that small segments cross the horizon too
-            let size = f64::hypot(edge[0], edge[1]).min(1.0) / f64::hypot(a[0], a[1]).max(1.0);
+            let size = libm::hypot(edge[0], edge[1]).min(1.0) / libm::hypot(a[0], a[1]).max(1.0);
             for (place, tilt, lift) in [
                 ("overhead", 0.7, 0.7),
                 ("turned", -0.5, 0.6),

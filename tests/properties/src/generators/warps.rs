@@ -9,7 +9,7 @@ use crate::fixtures::{
 /// Cones of half-angles from 1e−15 to π.
 #[must_use]
 pub fn cones() -> Vec<Case<Cone>> {
-    let of = |sigma: f64| Cone { one_minus_cos: (2.0 * (sigma / 2.0).sin().powi(2)) as f32 };
+    let of = |sigma: f64| Cone { one_minus_cos: (2.0 * libm::sin(sigma / 2.0).powi(2)) as f32 };
     let mut all: Vec<_> = [
         ("1e-15", 1e-15),
         ("1e-9", 1e-9),

@@ -52,7 +52,7 @@ impl Lamp {
                 (center, far.into_iter().fold(0.0, f64::max), cross(b, c))
             }
             Kind::Area(LightShape::Disk) => (a, r, b),
-            Kind::Area(LightShape::Cylinder) => (along(a, b, 0.5), (0.5 * length(b)).hypot(r), ZERO),
+            Kind::Area(LightShape::Cylinder) => (along(a, b, 0.5), libm::hypot(0.5 * length(b), r), ZERO),
             Kind::Area(LightShape::Line) => (along(a, b, 0.5), 0.5 * length(b), ZERO),
             Kind::Area(_) => {
                 let diagonals = [1.0, -1.0].map(|sign| length(along(b, c, sign)));
@@ -71,6 +71,7 @@ impl Lamp {
         }
     }
 
+    #[cfg(feature = "checks")]
     /// The first of its samples by any technique that contributes to a surface at `p` with the normal `n`.
     #[must_use]
     pub fn contribution(&self, p: [f32; 3], n: [f32; 3], u: [f32; 2]) -> Option<LightSample<f32>> {

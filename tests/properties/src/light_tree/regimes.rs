@@ -71,8 +71,8 @@ impl Regime {
     #[must_use]
     pub fn unit(self) -> f64 {
         match self {
-            Self::Tiny => (-60.0_f64).exp2(),
-            Self::Huge => 60.0_f64.exp2(),
+            Self::Tiny => libm::exp2(-60.0),
+            Self::Huge => libm::exp2(60.0),
             _ => 1.0,
         }
     }
@@ -84,7 +84,7 @@ impl Regime {
             Self::Spots | Self::NarrowSpots => 5..6,
             _ => 0..8,
         };
-        Self::SHAPES[among.start + random.word() as usize % among.len()]
+        Self::SHAPES[among.start + random.below(among.len())]
     }
 
     /// Lights of this regime.
@@ -109,7 +109,7 @@ impl Regime {
                 Self::Lattice => core::array::from_fn(|k| (i >> (2 * k) & 3) as f64 * 0.5),
                 Self::SphereOutwards => normal,
                 Self::Shells => {
-                    let radius = (-0.02 * i as f64).exp2().max(1e-12);
+                    let radius = libm::exp2(-0.02 * i as f64).max(1e-12);
                     size *= radius;
                     random.direction().map(|x| x * radius)
                 }
@@ -124,9 +124,7 @@ impl Regime {
             }
             let power = match self {
                 Self::Powers => random.magnitude(1e-30, 1e30),
-                Self::Malformed => {
-                    [0.0, f64::NAN, -1.0, f64::INFINITY, 1.0, 3.0, 1e-45, 1e38][random.word() as usize % 8]
-                }
+                Self::Malformed => [0.0, f64::NAN, -1.0, f64::INFINITY, 1.0, 3.0, 1e-45, 1e38][random.below(8)],
                 Self::Room => random.magnitude(1e-3, 1e3),
                 _ => 1.0,
             };
@@ -158,7 +156,7 @@ impl Lamp {
 fn shape(kind: Kind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f64, random: &mut Random) -> Lamp {
     let (s, t) = basis(normal);
     let turn = random.range(0.0, TAU);
-    let mix = |turn: f64, size: f64| along(s.map(|x| x * turn.cos() * size), t, turn.sin() * size);
+    let mix = |turn: f64, size: f64| along(s.map(|x| x * libm::cos(turn) * size), t, libm::sin(turn) * size);
     let (e, f) = (mix(turn, size), mix(turn + random.range(0.5, 2.5), size * slim));
     let third = along(along(center, e, -1.0 / 3.0), f, -1.0 / 3.0);
     let corner = along(along(center, e, -0.5), f, -0.5);
@@ -176,7 +174,7 @@ fn shape(kind: Kind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f6
 /// A point of a surface that a light, or its plane or its corner, makes difficult, and the index of that light.
 pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (Place, usize) {
     let unit_length = regime.unit();
-    let light = random.word() as usize % lamps.len();
+    let light = random.below(lamps.len());
     let lamp = lamps[light];
     let bound = lamp.bound();
     let (center, normal, size) = (wide(bound.center), wide(bound.normal), f64::from(bound.radius));

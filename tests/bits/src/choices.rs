@@ -1,0 +1,176 @@
+//! Choices of lights over the regimes of the trees' tests, and tables.
+
+use crate::figures::{Figures, Lanes, List, Routine};
+use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
+use etendue::select::{
+    Allocation, Choice, FEW, LightBound, LightChoice, LightTree, Node8, PowerLights, SpatialLights, UniformLights,
+};
+use etendue::{Mask, Real, Uint, Warp, Warp1};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::light_tree::{Lamp, Place, Regime, place};
+use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
+
+fn choice<R: Real>(lanes: &mut Lanes<'_>, choice: &Choice<R>) {
+    lanes.words(choice.index);
+    lanes.reals([choice.pmf, choice.u]);
+}
+fn chosen<R: Real>(lanes: &mut Lanes<'_>, all: &impl LightChoice<R>, us: &[f32], lights: &[u32]) {
+    let one = all.choose(lanes_of(|i| f64::from(us[i])));
+    choice(lanes, &one);
+    lanes.reals([all.pmf(one.index), all.pmf(R::Uint::from_fn(|i| lights[i])), all.pmf_of(3)]);
+}
+
+/// Lights of a regime, as many numbers and indices as there are slots, and points that the lights make difficult.
+struct Set {
+    bounds: Vec<LightBound>,
+    slots: Vec<(f32, u32, Place, [u32; 2])>,
+}
+
+fn sets(count: usize, slots: usize) -> Vec<Set> {
+    let set = |(k, regime): (usize, Regime)| {
+        let mut random = Random::new(1100 + k as u64);
+        let lamps = regime.lamps(count, &mut random);
+        let slot = |_| {
+            let word = random.word();
+            let u = (generators::unit_or_edge(&mut random) as f32).min(1.0 - 1.0 / 16_777_216.0);
+            let (place, light) = place(regime, &lamps, &mut random);
+            (u, if word & 1 == 0 { light as u32 } else { word as u32 % 50 }, place, [word as u32, (word >> 32) as u32])
+        };
+        let slots = (0..slots).map(slot).collect();
+        Set { bounds: lamps.iter().map(Lamp::bound).collect(), slots }
+    };
+    Regime::ALL.into_iter().enumerate().map(set).collect()
+}
+
+/// The choices of one kind.
+#[derive(Clone, Copy)]
+enum Kind {
+    Uniform,
+    Power,
+    Spatial,
+    Tree,
+}
+struct Choices(Kind, Vec<Set>);
+
+impl Routine for Choices {
+    // a tree of lights takes eight lanes
+    const MOST: usize = 8;
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        for Set { bounds, slots } in &self.1 {
+            let powers: Vec<_> = bounds.iter().map(|bound| bound.power).collect();
+            let mut sums = vec![0.0; powers.len()];
+            let power = PowerLights::new(&powers, &mut sums).expect("the lengths agree");
+            let few = &bounds[..bounds.len().min(FEW)];
+            let spatial = SpatialLights::new(few).expect("there are few lights");
+            let mut nodes = vec![Node8::default(); LightTree::nodes_for(bounds.len())];
+            let mut places = vec![0; bounds.len()];
+            let tree = LightTree::build(bounds, &mut nodes, &mut places).expect("there is enough memory");
+            figures.packets::<R>(slots.len(), |first, lanes| {
+                let slots = &slots[first..first + R::LANES];
+                let us: Vec<_> = slots.iter().map(|slot| slot.0).collect();
+                let lights: Vec<_> = slots.iter().map(|slot| slot.1).collect();
+                let (p, n) = (vectors_of::<R>(|i| slots[i].2.0), vectors_of(|i| slots[i].2.1));
+                match self.0 {
+                    Kind::Uniform => chosen::<R>(lanes, &UniformLights { count: bounds.len() as u32 }, &us, &lights),
+                    Kind::Power => chosen::<R>(lanes, &power, &us, &lights),
+                    Kind::Spatial => {
+                        let at = spatial.at(p, n);
+                        chosen(lanes, &at, &us, &lights);
+                        at.weights().for_each(|weight| lanes.real(weight));
+                        let some = at.only(|k| R::Mask::splat(k % 3 != 1));
+                        chosen(lanes, &some, &us, &lights);
+                    }
+                    Kind::Tree => {
+                        let at = tree.at(p, n);
+                        chosen(lanes, &at, &us, &lights);
+                        choice(lanes, &at.choose_by([0, 1].map(|k| R::Uint::from_fn(|i| slots[i].3[k]))));
+                    }
+                }
+            });
+        }
+    }
+}
+
+/// Samples allocated to few lights.
+struct Allocations;
+
+impl Routine for Allocations {
+    // so does an allocation
+    const MOST: usize = 8;
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(1200);
+        for round in 0..50 {
+            let weights: Vec<f32> = (0..1 + round % 8).map(|_| random.magnitude(1e-6, 1e3) as f32).collect();
+            let mut before = Allocation::NONE;
+            for size in [8, 16, 64] {
+                let block = Allocation::new(&weights, size, &mut before);
+                figures.packets::<R>(4 * Figures::MOST, |first, lanes| {
+                    let samples = block.samples::<R>(first as u32);
+                    choice(lanes, &samples.choose(R::lit(0.3)));
+                    lanes.words(samples.sample);
+                    lanes.real(samples.pmf_of(1));
+                });
+            }
+        }
+    }
+}
+
+/// Weights of cells, some of them 0.
+fn weights(count: usize, random: &mut Random) -> Vec<f32> {
+    (0..count).map(|_| if random.word().is_multiple_of(5) { 0.0 } else { random.magnitude(1e-4, 1e4) as f32 }).collect()
+}
+
+/// Tables of one and two dimensions, and Vose's alias tables.
+struct Tables;
+
+impl Routine for Tables {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(1300);
+        for count in [1, 2, 7, 40, 360] {
+            let mut weights = weights(count, &mut random);
+            weights[0] = 1.0;
+            let mut cdf = vec![0.0; count];
+            let line = PiecewiseConstant1d::build(&weights, &mut cdf).expect("the weights are valid");
+            let (mut thresholds, mut aliases) = (vec![0.0; count], vec![0; count]);
+            let alias = AliasTable::build(&weights, &mut thresholds, &mut aliases).expect("the weights are valid");
+            let width = count.min(20);
+            let mut buffer = vec![0.0; PiecewiseConstant2d::buffer(width, count / width)];
+            let image = PiecewiseConstant2d::build(&weights[..width * (count / width)], width, &mut buffer)
+                .expect("the weights are valid");
+            figures.packets::<R>(40 * Figures::MOST, |_, lanes| {
+                let us: Vec<_> = (0..R::LANES)
+                    .map(|_| {
+                        let edge = generators::EDGES[random.word() as u32 as usize % 11];
+                        if random.word() & 1 == 0 { [edge, random.unit()] } else { [random.unit(), edge] }
+                    })
+                    .collect();
+                let u = squares_of::<R>(&us);
+                for cell in [line.cell(u.x), alias.cell(u.x)] {
+                    lanes.words(cell.index);
+                    lanes.reals([cell.offset, cell.pmf]);
+                }
+                let cell = line.cell(u.x);
+                lanes.reals([line.pmf(cell.index), alias.pmf(cell.index), line.invert_cell(cell.index, cell.offset)]);
+                let x = line.sample(u.y);
+                lanes.reals([x, line.pdf(x), line.invert(x), line.pdf(u.x), line.invert(u.y)]);
+                let cell = image.cell(u);
+                lanes.words(cell.x);
+                lanes.words(cell.y);
+                lanes.pair(cell.offset);
+                lanes.reals([cell.pmf, image.pmf(cell.x, cell.y), image.pdf(u)]);
+                lanes.pair(image.sample(u));
+                lanes.pair(image.invert(u));
+                lanes.pair(image.invert_cell(cell.x, cell.y, cell.offset));
+            });
+        }
+    }
+}
+
+pub(crate) fn add(list: &mut List<'_>) {
+    list.add("choice/UniformLights", &Choices(Kind::Uniform, sets(20, 2 * Figures::MOST)));
+    list.add("choice/PowerLights", &Choices(Kind::Power, sets(50, 4 * Figures::MOST)));
+    list.add("choice/SpatialLights", &Choices(Kind::Spatial, sets(12, 8 * Figures::MOST)));
+    list.add("choice/LightTree", &Choices(Kind::Tree, sets(200, 8 * Figures::MOST)));
+    list.add("choice/Allocation", &Allocations);
+    list.add("tables", &Tables);
+}

@@ -1,0 +1,195 @@
+//! Every light by every technique: samples, pdfs, inverses, hits and points by area; environment images, and visible parts.
+
+use crate::figures::{Figures, Lanes, List, Routine};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
+use etendue::occlusion::{Convex, Occlusion};
+use etendue::{
+    ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
+};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
+use etendue_properties::techniques::{AreaLight, Technique};
+
+const SLOTS: usize = 50 * Figures::MOST;
+
+fn sample<R: Real>(lanes: &mut Lanes<'_>, s: &LightSample<R>) {
+    lanes.vector(s.direction);
+    lanes.vector(s.normal);
+    lanes.pair(s.uv);
+    lanes.reals([s.distance, s.pdf, s.weight()]);
+    lanes.truth::<R>(s.emits);
+    lanes.truth::<R>(s.delta);
+}
+fn sampler<R: Real>(lanes: &mut Lanes<'_>, sampler: &dyn LightSampler<R>, us: &[[f32; 2]], ws: &[[f32; 3]]) {
+    let u = squares_of(us);
+    let s = sampler.sample(u);
+    sample(lanes, &s);
+    lanes.real(sampler.pdf(s.direction));
+    lanes.pair(sampler.invert(s.direction));
+    sample(lanes, &sampler.hit(s.direction));
+    let area = sampler.area_sample(u);
+    lanes.vector(area.point);
+    lanes.real(area.pdf);
+    let w = vectors_of(|i| ws[i]);
+    lanes.pair(sampler.invert(w));
+    sample(lanes, &sampler.hit(w));
+}
+
+fn unit(random: &mut Random) -> [f32; 3] {
+    random.direction().map(|x| x as f32)
+}
+/// Points of the square, half of them on its edges.
+fn square(random: &mut Random) -> [f32; 2] {
+    [(); 2].map(|()| generators::unit_or_edge(random) as f32).map(|u| u.min(1.0 - 1.0 / 16_777_216.0))
+}
+
+/// Lights of one kind: in one slot of eight, some coordinates are extreme.
+struct Area(Vec<(AreaLight, [f32; 2], [f32; 3])>);
+
+impl Area {
+    fn new(kind: usize) -> Self {
+        let mut random = Random::new(500 + kind as u64);
+        let slot = |round| {
+            let mut light = AreaLight::any(kind, round as u32 / 3, &mut random);
+            if round % 8 == 7 {
+                match random.word() % 4 {
+                    0 => light.a = generators::nasty(&mut random),
+                    1 => light.p = light.a,
+                    2 => light.radius = generators::nasty(&mut random)[2],
+                    _ => (light.a, light.c) = (generators::nasty(&mut random), generators::nasty(&mut random)),
+                }
+            }
+            (light, square(&mut random), unit(&mut random))
+        };
+        Self((0..SLOTS).map(slot).collect())
+    }
+}
+impl Routine for Area {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        figures.packets::<R>(self.0.len(), |first, lanes| {
+            let slots = &self.0[first..first + R::LANES];
+            let us: Vec<_> = slots.iter().map(|slot| slot.1).collect();
+            let ws: Vec<_> = slots.iter().map(|slot| slot.2).collect();
+            let lights: Vec<_> = slots.iter().map(|slot| slot.0).collect();
+            sampler::<R>(lanes, &*AreaLight::prepare(&lights), &us, &ws);
+        });
+    }
+}
+
+/// Lights without a surface.
+struct Distant(usize);
+
+impl Routine for Distant {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(600 + self.0 as u64);
+        figures.packets::<R>(SLOTS, |_, lanes| {
+            let mut places = Vec::new();
+            for _ in 0..R::LANES {
+                let extreme = random.word().is_multiple_of(4);
+                let p = if extreme { generators::nasty(&mut random) } else { unit(&mut random) };
+                places.push((p, unit(&mut random), unit(&mut random), square(&mut random), unit(&mut random)));
+            }
+            let [p, position, n] =
+                [vectors_of(|i| places[i].0), vectors_of(|i| places[i].1), vectors_of(|i| places[i].2)];
+            let cosine = |k: usize| lanes_of::<R>(|i| f64::from(places[i].3[k]));
+            let all: Box<dyn LightSampler<R>> = match self.0 {
+                0 => Box::new(PointLight { position }.prepare(p)),
+                1 => {
+                    let (cos_inner, cos_outer) = (cosine(0), cosine(1) * R::lit(0.5));
+                    Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.prepare(p))
+                }
+                2 => Box::new(DirectionalLight::new(n).prepare(p)),
+                3 => Box::new(Sun::new(n, cosine(0)).by_solid_angle()),
+                4 => Box::new(ConstantEnvironment.by_solid_angle()),
+                _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),
+            };
+            let us: Vec<_> = places.iter().map(|place| place.3).collect();
+            let ws: Vec<_> = places.iter().map(|place| place.4).collect();
+            sampler(lanes, &*all, &us, &ws);
+        });
+    }
+}
+
+/// An image of the sky.
+struct Sky(EnvironmentMap, usize, usize);
+
+impl Routine for Sky {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let Self(map, width, height) = *self;
+        let mut random = Random::new(700);
+        let weights: Vec<_> = (0..width * height).map(|_| random.unit().powi(4)).collect();
+        let mut buffer = vec![0.0; ImageEnvironment::buffer(width, height)];
+        let image = ImageEnvironment::build(&weights, width, map, &mut buffer).expect("the weights are valid");
+        (0..height).for_each(|y| figures.number(map.texel_solid_angle(width, height, y)));
+        figures.packets::<R>(SLOTS, |_, lanes| {
+            let (us, ws): (Vec<_>, Vec<_>) = (0..R::LANES).map(|_| (square(&mut random), unit(&mut random))).unzip();
+            sampler::<R>(lanes, &image.by_radiance(), &us, &ws);
+            let drawn = image.draw::<R>(squares_of(&us));
+            sample(lanes, &drawn.light);
+            let Texel { x, y, offset } = image.texel::<R>(vectors_of(|i| ws[i]));
+            [drawn.x, drawn.y, x, y].into_iter().for_each(|at| lanes.words(at));
+            lanes.pair(offset);
+        });
+    }
+}
+
+/// A polygon or a sphere above, past polygons and spheres, as seen from points below.
+struct Visible;
+
+impl Routine for Visible {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(800);
+        for round in 0..60 {
+            let size = 0.3 + random.unit_f64();
+            let light = shape::<R>(&mut random, [0.0, 0.0, 2.0], size, round % 4 == 3);
+            let blockers: Vec<_> = (0..round % 4)
+                .map(|k| {
+                    let at = core::array::from_fn(|i| [0.0, 0.0, 1.0][i] + 0.3 * random.range(-1.0, 1.0));
+                    let size = 0.05 + 0.3 * random.unit_f64();
+                    shape::<R>(&mut random, at, size, round % 3 == 2 && k == 0)
+                })
+                .collect();
+            figures.packets::<R>(Figures::MOST, |_, lanes| {
+                let places: Vec<_> = (0..R::LANES)
+                    .map(|_| {
+                        let [x, y, z] = random.direction();
+                        ([x, y, -0.5 * z.abs()].map(|x| x as f32), unit(&mut random))
+                    })
+                    .collect();
+                let (p, n) = (vectors_of::<R>(|i| places[i].0), vectors_of::<R>(|i| places[i].1));
+                let found = Occlusion::new().visible(p, n, &light, &blockers);
+                // `None` concerns all lanes of a packet, so that each is asked alone
+                for (lane, (p, n)) in places.iter().enumerate() {
+                    let (p, n) = (vectors_of::<R::Scalar>(|_| *p), vectors_of(|_| *n));
+                    let one = Occlusion::new().visible(p, n, &light, &blockers);
+                    let same = found.map(|found| found.lane(lane)).or(one);
+                    lanes.lane(lane, same.map_or(-1.0, |x| x.lane_f64(0)));
+                }
+            });
+        }
+    }
+}
+fn shape<R: Real>(random: &mut Random, center: [f64; 3], size: f64, round: bool) -> Convex<R::Scalar> {
+    let lit = |x: f64| R::Scalar::lit(f64::from(x as f32));
+    let vector = |v: [f64; 3]| Vec3::new(lit(v[0]), lit(v[1]), lit(v[2]));
+    if round {
+        return Convex::Sphere { center: vector(center), radius: lit(0.5 * size) };
+    }
+    let (a, b) = (random.direction().map(|x| x * size), random.direction().map(|x| x * size));
+    let corner = |s: f64, t: f64| vector(core::array::from_fn(|k| center[k] + s * a[k] + t * b[k]));
+    let count = if random.word().is_multiple_of(3) { 3 } else { 4 };
+    Convex::Polygon { corners: [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], count }
+}
+
+pub(crate) fn add(list: &mut List<'_>) {
+    for (kind, (shape, by)) in AreaLight::KINDS.into_iter().enumerate() {
+        list.add(format!("light/{shape:?}/{by:?}"), &Area::new(kind));
+    }
+    let distant = ["Point", "Spot", "Directional", "Sun", "Constant/SolidAngle", "Constant/ProjectedSolidAngle"];
+    for (kind, name) in distant.into_iter().enumerate() {
+        list.add(format!("light/{name}"), &Distant(kind));
+    }
+    list.add("light/Image/EqualArea", &Sky(EnvironmentMap::EqualArea, 16, 16));
+    list.add("light/Image/Equirectangular", &Sky(EnvironmentMap::Equirectangular, 24, 13));
+    list.add("occlusion", &Visible);
+}
