@@ -1,9 +1,9 @@
 //! Light sampling for renderers: for every shape of light the map from random numbers to directions, its pdf and its inverse, one
-//! sample at a time or 4 or 8 at once, without std and without alloc.
+//! sample at a time or 4, 8 or 16 at once, without std and without alloc.
 //!
 //! ```
 //! use etendue::{LightSampler, Parallelogram, Vec2, Vec3, f32x8, u32x8, sequence::{Independent, Sequence}};
-//! // eight samples of a panel overhead from the origin; the same code serves f32, f32x4, f32x8, f64 and f64x4
+//! // eight samples of a panel overhead from the origin; the same code serves f32, f32x4, f32x8, f32x16, f64 and f64x4
 //! let panel = Parallelogram::new(Vec3::lit([-1.0, 2.0, -1.0]), Vec3::lit([2.0, 0.0, 0.0]), Vec3::lit([0.0, 0.0, 2.0]));
 //! let sampler = panel.by_solid_angle(Vec3::lit([0.0; 3]));
 //! let u: Vec2<f32x8> = Independent::new(1).pair(u32x8::splat(0), u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]), 0);
@@ -22,9 +22,9 @@
 //! 2. **Closed.** `invert(sample(u)) = u` to rounding, ∫pdf = 1, and the pdf of a sample is the pdf that is evaluated for its direction.
 //! 3. **Threshold-free.** No size, distance or unit at which a routine switches to a worse formula. Scaling all lengths by a power of two
 //!    changes no bit of a direction or a pdf.
-//! 4. **Lane-identical.** Equal input gives the same bits in `f32`, `f32x4` and `f32x8`, on every processor and with all compiler flags.
-//!    A hash per routine is compared on x86-64 with and without AVX2, FMA and AVX-512, on 64-bit ARM, and on WebAssembly with and without
-//!    vectors.
+//! 4. **Lane-identical.** Equal input gives the same bits in `f32`, `f32x4`, `f32x8` and `f32x16`, on every processor and with all
+//!    compiler flags. CI compares a hash per routine on x86-64 with and without AVX2, FMA and AVX-512, on 64-bit ARM, and on WebAssembly
+//!    with and without vectors.
 //! 5. **Bounded.** Each routine states its greatest error, as measured by the tests.
 //!
 //! *Closed* and *bounded* hold where single precision can express the answer. Below, the table of limits names the exceptions: points
