@@ -28,8 +28,9 @@ fn main() {
     let levels = out.ancestors().nth(4).unwrap_or(out).join("levels");
     let archive = out.join("libetendue_levels.a");
     let _ = std::fs::remove_file(&archive);
-    for level in ["v3", "v4"] {
-        let object = out.join(format!("{level}.o"));
+    let compile = |level: &str| {
+        // the same path for all profiles, since cargo compiles again if its arguments change
+        let object = levels.join(level).join(format!("{level}.o"));
         let mut cargo = Command::new(var("CARGO").unwrap());
         cargo
             .args(["rustc", "--release", "--lib", "--no-default-features", "--features", &format!("level-{level}")])
@@ -41,19 +42,20 @@ fn main() {
             .env("CARGO_ENCODED_RUSTFLAGS", format!("-Ctarget-cpu=x86-64-{level}\x1f-Cforce-unwind-tables=no"))
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_MAKEFLAGS");
-        run(cargo);
-        // a static library that the linker searches after the objects that need it
-        let mut ar = Command::new(var("AR").unwrap_or_else(|_| "ar".into()));
-        run({
-            ar.arg("crs").arg(&archive).arg(&object);
-            ar
-        });
-    }
+        (cargo.spawn().unwrap_or_else(|e| panic!("cannot run {cargo:?}: {e}")), object)
+    };
+    // both at once: each is one crate, which takes one thread
+    let running = ["v3", "v4"].map(compile);
+    let objects = running.map(|(mut cargo, object)| {
+        let status = cargo.wait().expect("cargo was started");
+        assert!(status.success(), "compiling {} failed: {status}", object.display());
+        object
+    });
+    // a static library, which the linker searches after the objects that need it
+    let ar = var("AR").unwrap_or_else(|_| "ar".into());
+    let status = Command::new(&ar).arg("crs").arg(&archive).args(&objects).status();
+    let status = status.unwrap_or_else(|e| panic!("cannot run {ar}: {e}"));
+    assert!(status.success(), "{ar} failed: {status}");
     println!("cargo::rustc-link-search=native={}", out.display());
     println!("cargo::rustc-link-lib=static=etendue_levels");
-}
-
-fn run(mut command: Command) {
-    let status = command.status().unwrap_or_else(|e| panic!("cannot run {command:?}: {e}"));
-    assert!(status.success(), "{command:?} failed: {status}");
 }
