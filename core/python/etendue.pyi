@@ -1,6 +1,6 @@
 """Light sampling: maps of random numbers to directions, their densities and inverses, over numpy arrays of single precision."""
 
-from typing import Final, Literal
+from typing import Final, Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,11 +11,58 @@ _BySolidAngle = Literal["solid_angle"]
 _ByProjectedSolidAngle = Literal["projected_solid_angle"]
 _ByCosineWarp = Literal["cosine_warp"]
 
+__all__ = [
+    "AreaTriangle",
+    "Bilinear",
+    "BilinearPatch",
+    "ConcentricDisk",
+    "Cone",
+    "CosineHemisphere",
+    "Cylinder",
+    "CylinderSide",
+    "Disk",
+    "DiskSurface",
+    "Exponential",
+    "GgxVisibleNormals",
+    "Independent",
+    "JointSobol",
+    "LatinHypercube",
+    "Lattice",
+    "LightTree",
+    "Line",
+    "Linear",
+    "LowDistortionTriangle",
+    "NO_LIGHT",
+    "Normal",
+    "Octahedral",
+    "OwenSobol",
+    "Parallelogram",
+    "PatchSurface",
+    "PolarDisk",
+    "Polygon",
+    "Rectangle",
+    "Sampler",
+    "Samples",
+    "Sequence",
+    "Sphere",
+    "SphereSurface",
+    "Stratified",
+    "Sun",
+    "Tent",
+    "Triangle",
+    "UniformHemisphere",
+    "UniformSphere",
+    "Warp",
+    "__version__",
+    "level",
+]
+
 __version__: Final[str]
 NO_LIGHT: Final[int]
 
 def level() -> Literal["v4", "v3", "build"]: ...
 
+@final
 class Samples:
     @property
     def direction(self) -> _F32: ...
@@ -32,6 +79,7 @@ class Samples:
     @property
     def emits(self) -> NDArray[np.bool_]: ...
 
+@final
 class Sampler:
     def sample(self, u: ArrayLike) -> Samples: ...
     def hit(self, w: ArrayLike) -> Samples: ...
@@ -46,6 +94,7 @@ class Sampler:
     @property
     def angle(self) -> float: ...
 
+@final
 class Sphere:
     def __new__(cls, center: ArrayLike, radius: ArrayLike) -> Sphere: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -62,6 +111,7 @@ class Sphere:
         by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
     ) -> Samples: ...
 
+@final
 class Triangle:
     def __new__(cls, v0: ArrayLike, v1: ArrayLike, v2: ArrayLike) -> Triangle: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -80,6 +130,7 @@ class Triangle:
         by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle | _ByCosineWarp = "solid_angle",
     ) -> Samples: ...
 
+@final
 class Parallelogram:
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike) -> Parallelogram: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -97,6 +148,7 @@ class Parallelogram:
         by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
     ) -> Samples: ...
 
+@final
 class Rectangle:
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike) -> Rectangle: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
@@ -113,6 +165,7 @@ class Rectangle:
         by: _BySolidAngle | _ByCosineWarp = "solid_angle",
     ) -> Samples: ...
 
+@final
 class Disk:
     def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike) -> Disk: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -129,6 +182,7 @@ class Disk:
         by: _ByArea | _BySolidAngle = "solid_angle",
     ) -> Samples: ...
 
+@final
 class Cylinder:
     def __new__(cls, start: ArrayLike, axis: ArrayLike, radius: ArrayLike) -> Cylinder: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -144,6 +198,7 @@ class Cylinder:
         by: _ByArea = "area",
     ) -> Samples: ...
 
+@final
 class BilinearPatch:
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike, diagonal: ArrayLike) -> BilinearPatch: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -160,6 +215,7 @@ class BilinearPatch:
         by: _ByArea = "area",
     ) -> Samples: ...
 
+@final
 class Polygon:
     def __new__(cls, corners: ArrayLike) -> Polygon: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -175,6 +231,7 @@ class Polygon:
         by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
     ) -> Samples: ...
 
+@final
 class Line:
     def __new__(cls, start: ArrayLike, edge: ArrayLike) -> Line: ...
     def by_length(self, p: ArrayLike) -> Sampler: ...
@@ -191,6 +248,7 @@ class Line:
         by: Literal["length"] | Literal["angle"] | _ByProjectedSolidAngle = "angle",
     ) -> Samples: ...
 
+@final
 class Sun:
     def __new__(cls, direction: ArrayLike, one_minus_cos: ArrayLike) -> Sun: ...
     def by_solid_angle(self) -> Sampler: ...
@@ -210,84 +268,110 @@ class Warp:
     def pdf(self, x: ArrayLike) -> _F32: ...
     def invert(self, x: ArrayLike) -> _F32: ...
 
+@final
 class ConcentricDisk(Warp):
     def __new__(cls) -> ConcentricDisk: ...
 
+@final
 class PolarDisk(Warp):
     def __new__(cls) -> PolarDisk: ...
 
+@final
 class UniformHemisphere(Warp):
     def __new__(cls) -> UniformHemisphere: ...
 
+@final
 class UniformSphere(Warp):
     def __new__(cls) -> UniformSphere: ...
 
+@final
 class CosineHemisphere(Warp):
     def __new__(cls) -> CosineHemisphere: ...
 
+@final
 class Octahedral(Warp):
     def __new__(cls) -> Octahedral: ...
 
+@final
 class AreaTriangle(Warp):
     def __new__(cls) -> AreaTriangle: ...
 
+@final
 class LowDistortionTriangle(Warp):
     def __new__(cls) -> LowDistortionTriangle: ...
 
+@final
 class Cone(Warp):
     def __new__(cls, one_minus_cos: ArrayLike) -> Cone: ...
 
+@final
 class Bilinear(Warp):
     def __new__(cls, corners: ArrayLike) -> Bilinear: ...
 
+@final
 class GgxVisibleNormals(Warp):
     def __new__(cls, alpha_x: ArrayLike, alpha_y: ArrayLike, wi: ArrayLike) -> GgxVisibleNormals: ...
 
+@final
 class DiskSurface(Warp):
     def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike) -> DiskSurface: ...
 
+@final
 class CylinderSide(Warp):
     def __new__(cls, start: ArrayLike, axis: ArrayLike, radius: ArrayLike) -> CylinderSide: ...
 
+@final
 class SphereSurface(Warp):
     def __new__(cls, center: ArrayLike, radius: ArrayLike) -> SphereSurface: ...
 
+@final
 class PatchSurface(Warp):
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike, diagonal: ArrayLike) -> PatchSurface: ...
 
+@final
 class Linear(Warp):
     def __new__(cls, a: ArrayLike, b: ArrayLike) -> Linear: ...
 
+@final
 class Tent(Warp):
     def __new__(cls, radius: ArrayLike) -> Tent: ...
 
+@final
 class Exponential(Warp):
     def __new__(cls, rate: ArrayLike) -> Exponential: ...
 
+@final
 class Normal(Warp):
     def __new__(cls, mean: ArrayLike, sigma: ArrayLike) -> Normal: ...
 
 class Sequence:
     def pairs(self, count: int, *, pixel: ArrayLike | None = None, dimension: int = 0, first: int = 0) -> _F32: ...
 
+@final
 class Independent(Sequence):
     def __new__(cls, seed: int = 0) -> Independent: ...
 
+@final
 class OwenSobol(Sequence):
     def __new__(cls, seed: int = 0) -> OwenSobol: ...
 
+@final
 class JointSobol(Sequence):
     def __new__(cls, seed: int = 0) -> JointSobol: ...
 
+@final
 class Stratified(Sequence):
     def __new__(cls, seed: int, count: int) -> Stratified: ...
 
+@final
 class LatinHypercube(Sequence):
     def __new__(cls, seed: int, count: int) -> LatinHypercube: ...
 
+@final
 class Lattice(Sequence):
     def __new__(cls, seed: int = 0, count: int | None = None) -> Lattice: ...
 
+@final
 class LightTree:
     def __new__(
         cls,

@@ -131,7 +131,7 @@ impl<'py> Argument<'py> {
         let whole = PyTuple::new(py, [shape, &self.axes].concat())?;
         let array = numpy.call_method1("broadcast_to", (&self.array, whole))?;
         let array = numpy.call_method1("require", (array, dtype, ["C", "A", "E"]))?;
-        Ok(array.extract::<PyReadonlyArrayDyn<'py, T>>()?)
+        array.extract()
     }
     /// Its columns, of one number for each element of `shape`.
     pub(crate) fn columns(&self, shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {

@@ -30,16 +30,15 @@ impl Sequence {
     fn pairs<'py>(
         &self,
         py: Python<'py>,
-        count: u64,
+        count: i128,
         pixel: Option<&Bound<'py, PyAny>>,
-        dimension: u32,
-        first: u32,
+        dimension: i128,
+        first: i128,
     ) -> PyResult<Bound<'py, PyAny>> {
-        if u64::from(first) + count > 1 << 32 {
-            return Err(PyValueError::new_err(format!(
-                "first + count must be at most 2**32, not {}",
-                u64::from(first) + count
-            )));
+        let (dimension, first) = (unsigned("dimension", dimension)?, unsigned::<u32>("first", first)?);
+        let count: u64 = unsigned("count", count)?;
+        if count > (1 << 32) - u64::from(first) {
+            return Err(PyValueError::new_err(format!("first + count must be at most 2**32, not {first} + {count}")));
         }
         let (mut shape, pixels) = match pixel {
             None => (vec![], vec![0]),
@@ -66,10 +65,16 @@ impl Sequence {
     }
 }
 
+fn unsigned<T: TryFrom<i128>>(name: &str, number: i128) -> PyResult<T> {
+    let bits = 8 * size_of::<T>();
+    let wrong = |_| PyValueError::new_err(format!("{name} must be in [0, 2**{bits}), not {number}"));
+    number.try_into().map_err(wrong)
+}
 /// A number of samples in the domain of stratified sequences.
-fn strata(count: u32) -> PyResult<u32> {
+fn strata(count: i128) -> PyResult<u32> {
     let inside = (1..=1 << 22).contains(&count);
-    inside.then_some(count).ok_or_else(|| PyValueError::new_err(format!("count must be in [1, 2**22], not {count}")))
+    let wrong = || PyValueError::new_err(format!("count must be in [1, 2**22], not {count}"));
+    if inside { unsigned("count", count) } else { Err(wrong()) }
 }
 
 macro_rules! sequences {
@@ -95,18 +100,18 @@ macro_rules! sequences {
 }
 sequences! {
     /// Independent numbers by a hash of the counters.
-    Independent(seed: u64) (seed=0) etendue::sequence::Independent::new(seed);
+    Independent(seed: i128) (seed=0) etendue::sequence::Independent::new(unsigned("seed", seed)?);
     /// Owen-scrambled Sobol pairs: in each dimension, 2ᵐ samples from a multiple of 2ᵐ on are a (0, m, 2)-net. Best with powers of two.
-    OwenSobol(seed: u64) (seed=0) etendue::sequence::OwenSobol::new(seed);
+    OwenSobol(seed: i128) (seed=0) etendue::sequence::OwenSobol::new(unsigned("seed", seed)?);
     /// Owen-scrambled Sobol points in eight dimensions: dimensions 0 to 3 of a sample belong to one point.
-    JointSobol(seed: u64) (seed=0) etendue::sequence::JointSobol::new(seed);
+    JointSobol(seed: i128) (seed=0) etendue::sequence::JointSobol::new(unsigned("seed", seed)?);
     /// Jittered strata: `count` samples, at most 2²², have one in each cell of a grid.
-    Stratified(seed: u64, count: u32) (seed, count) etendue::sequence::Stratified::new(seed, strata(count)?);
+    Stratified(seed: i128, count: i128) (seed, count) etendue::sequence::Stratified::new(unsigned("seed", seed)?, strata(count)?);
     /// A Latin hypercube: `count` samples, at most 2²², have one in each column and each row of width 1/count.
-    LatinHypercube(seed: u64, count: u32) (seed, count) etendue::sequence::LatinHypercube::new(seed, strata(count)?);
+    LatinHypercube(seed: i128, count: i128) (seed, count) etendue::sequence::LatinHypercube::new(unsigned("seed", seed)?, strata(count)?);
     /// A shifted lattice: Roberts's R2 for any number of samples or, with `count`, at most 2²², a Fibonacci lattice of so many.
-    Lattice(seed: u64, count: Option<u32>) (seed=0, count=None) match count {
-        None => etendue::sequence::Lattice::r2(seed),
-        Some(count) => etendue::sequence::Lattice::fibonacci(seed, strata(count)?),
+    Lattice(seed: i128, count: Option<i128>) (seed=0, count=None) match count {
+        None => etendue::sequence::Lattice::r2(unsigned("seed", seed)?),
+        Some(count) => etendue::sequence::Lattice::fibonacci(unsigned("seed", seed)?, strata(count)?),
     };
 }
