@@ -1,0 +1,387 @@
+"""Light sampling: maps of random numbers to directions, their densities and inverses, over numpy arrays of single precision."""
+
+from typing import Final, Literal, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+_F32 = NDArray[np.float32]
+_ByArea = Literal["area"]
+_BySolidAngle = Literal["solid_angle"]
+_ByProjectedSolidAngle = Literal["projected_solid_angle"]
+_ByCosineWarp = Literal["cosine_warp"]
+
+__all__ = [
+    "AreaTriangle",
+    "Bilinear",
+    "BilinearPatch",
+    "ConcentricDisk",
+    "Cone",
+    "CosineHemisphere",
+    "Cylinder",
+    "CylinderSide",
+    "Disk",
+    "DiskSurface",
+    "Exponential",
+    "GgxVisibleNormals",
+    "Independent",
+    "JointSobol",
+    "LatinHypercube",
+    "Lattice",
+    "LightTree",
+    "Line",
+    "Linear",
+    "LowDistortionTriangle",
+    "NO_LIGHT",
+    "Normal",
+    "Octahedral",
+    "OwenSobol",
+    "Parallelogram",
+    "PatchSurface",
+    "PolarDisk",
+    "Polygon",
+    "Rectangle",
+    "Sampler",
+    "Samples",
+    "Sequence",
+    "Sphere",
+    "SphereSurface",
+    "Stratified",
+    "Sun",
+    "Tent",
+    "Triangle",
+    "UniformHemisphere",
+    "UniformSphere",
+    "Warp",
+    "__version__",
+    "level",
+]
+
+__version__: Final[str]
+NO_LIGHT: Final[int]
+
+def level() -> Literal["v4", "v3", "build"]: ...
+
+@final
+class Samples:
+    @property
+    def direction(self) -> _F32: ...
+    @property
+    def distance(self) -> _F32: ...
+    @property
+    def pdf(self) -> _F32: ...
+    @property
+    def weight(self) -> _F32: ...
+    @property
+    def normal(self) -> _F32: ...
+    @property
+    def uv(self) -> _F32: ...
+    @property
+    def emits(self) -> NDArray[np.bool_]: ...
+
+@final
+class Sampler:
+    def sample(self, u: ArrayLike) -> Samples: ...
+    def hit(self, w: ArrayLike) -> Samples: ...
+    def pdf(self, w: ArrayLike) -> _F32: ...
+    def invert(self, w: ArrayLike) -> _F32: ...
+    @property
+    def area(self) -> float: ...
+    @property
+    def solid_angle(self) -> float: ...
+    @property
+    def projected_solid_angle(self) -> float: ...
+    @property
+    def angle(self) -> float: ...
+
+@final
+class Sphere:
+    def __new__(cls, center: ArrayLike, radius: ArrayLike) -> Sphere: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        center: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
+    ) -> Samples: ...
+
+@final
+class Triangle:
+    def __new__(cls, v0: ArrayLike, v1: ArrayLike, v2: ArrayLike) -> Triangle: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        v0: ArrayLike,
+        v1: ArrayLike,
+        v2: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle | _ByCosineWarp = "solid_angle",
+    ) -> Samples: ...
+
+@final
+class Parallelogram:
+    def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike) -> Parallelogram: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
+    ) -> Samples: ...
+
+@final
+class Rectangle:
+    def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike) -> Rectangle: ...
+    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _BySolidAngle | _ByCosineWarp = "solid_angle",
+    ) -> Samples: ...
+
+@final
+class Disk:
+    def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike) -> Disk: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByArea | _BySolidAngle = "solid_angle",
+    ) -> Samples: ...
+
+@final
+class Cylinder:
+    def __new__(cls, start: ArrayLike, axis: ArrayLike, radius: ArrayLike) -> Cylinder: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        start: ArrayLike,
+        axis: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByArea = "area",
+    ) -> Samples: ...
+
+@final
+class BilinearPatch:
+    def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike, diagonal: ArrayLike) -> BilinearPatch: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        diagonal: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByArea = "area",
+    ) -> Samples: ...
+
+@final
+class Polygon:
+    def __new__(cls, corners: ArrayLike) -> Polygon: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
+    ) -> Samples: ...
+
+@final
+class Line:
+    def __new__(cls, start: ArrayLike, edge: ArrayLike) -> Line: ...
+    def by_length(self, p: ArrayLike) -> Sampler: ...
+    def by_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        start: ArrayLike,
+        edge: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["length"] | Literal["angle"] | _ByProjectedSolidAngle = "angle",
+    ) -> Samples: ...
+
+@final
+class Sun:
+    def __new__(cls, direction: ArrayLike, one_minus_cos: ArrayLike) -> Sun: ...
+    def by_solid_angle(self) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        direction: ArrayLike,
+        one_minus_cos: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: _BySolidAngle = "solid_angle",
+    ) -> Samples: ...
+
+class Warp:
+    def sample(self, u: ArrayLike) -> _F32: ...
+    def pdf(self, x: ArrayLike) -> _F32: ...
+    def invert(self, x: ArrayLike) -> _F32: ...
+
+@final
+class ConcentricDisk(Warp):
+    def __new__(cls) -> ConcentricDisk: ...
+
+@final
+class PolarDisk(Warp):
+    def __new__(cls) -> PolarDisk: ...
+
+@final
+class UniformHemisphere(Warp):
+    def __new__(cls) -> UniformHemisphere: ...
+
+@final
+class UniformSphere(Warp):
+    def __new__(cls) -> UniformSphere: ...
+
+@final
+class CosineHemisphere(Warp):
+    def __new__(cls) -> CosineHemisphere: ...
+
+@final
+class Octahedral(Warp):
+    def __new__(cls) -> Octahedral: ...
+
+@final
+class AreaTriangle(Warp):
+    def __new__(cls) -> AreaTriangle: ...
+
+@final
+class LowDistortionTriangle(Warp):
+    def __new__(cls) -> LowDistortionTriangle: ...
+
+@final
+class Cone(Warp):
+    def __new__(cls, one_minus_cos: ArrayLike) -> Cone: ...
+
+@final
+class Bilinear(Warp):
+    def __new__(cls, corners: ArrayLike) -> Bilinear: ...
+
+@final
+class GgxVisibleNormals(Warp):
+    def __new__(cls, alpha_x: ArrayLike, alpha_y: ArrayLike, wi: ArrayLike) -> GgxVisibleNormals: ...
+
+@final
+class DiskSurface(Warp):
+    def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike) -> DiskSurface: ...
+
+@final
+class CylinderSide(Warp):
+    def __new__(cls, start: ArrayLike, axis: ArrayLike, radius: ArrayLike) -> CylinderSide: ...
+
+@final
+class SphereSurface(Warp):
+    def __new__(cls, center: ArrayLike, radius: ArrayLike) -> SphereSurface: ...
+
+@final
+class PatchSurface(Warp):
+    def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike, diagonal: ArrayLike) -> PatchSurface: ...
+
+@final
+class Linear(Warp):
+    def __new__(cls, a: ArrayLike, b: ArrayLike) -> Linear: ...
+
+@final
+class Tent(Warp):
+    def __new__(cls, radius: ArrayLike) -> Tent: ...
+
+@final
+class Exponential(Warp):
+    def __new__(cls, rate: ArrayLike) -> Exponential: ...
+
+@final
+class Normal(Warp):
+    def __new__(cls, mean: ArrayLike, sigma: ArrayLike) -> Normal: ...
+
+class Sequence:
+    def pairs(self, count: int, *, pixel: ArrayLike | None = None, dimension: int = 0, first: int = 0) -> _F32: ...
+
+@final
+class Independent(Sequence):
+    def __new__(cls, seed: int = 0) -> Independent: ...
+
+@final
+class OwenSobol(Sequence):
+    def __new__(cls, seed: int = 0) -> OwenSobol: ...
+
+@final
+class JointSobol(Sequence):
+    def __new__(cls, seed: int = 0) -> JointSobol: ...
+
+@final
+class Stratified(Sequence):
+    def __new__(cls, seed: int, count: int) -> Stratified: ...
+
+@final
+class LatinHypercube(Sequence):
+    def __new__(cls, seed: int, count: int) -> LatinHypercube: ...
+
+@final
+class Lattice(Sequence):
+    def __new__(cls, seed: int = 0, count: int | None = None) -> Lattice: ...
+
+@final
+class LightTree:
+    def __new__(
+        cls,
+        center: ArrayLike,
+        radius: ArrayLike,
+        normal: ArrayLike | None = None,
+        cos_cone: ArrayLike | None = None,
+        two_sided: ArrayLike | None = None,
+        power: ArrayLike | None = None,
+    ) -> LightTree: ...
+    def choose(self, p: ArrayLike, n: ArrayLike, u: ArrayLike) -> tuple[NDArray[np.uint32], _F32, _F32]: ...
+    def pmf(self, p: ArrayLike, n: ArrayLike, light: ArrayLike) -> _F32: ...
+    def __len__(self) -> int: ...

@@ -1,0 +1,44 @@
+//! The Python package of Étendue: the batches of [`etendue_batch`] with numpy arrays.
+//!
+//! All arrays are copied, so that no other thread can change them while a batch runs without Python's lock.
+#![forbid(unsafe_code)]
+
+mod arrays;
+mod lights;
+mod sequences;
+mod tree;
+mod warps;
+
+use etendue_batch::{Batch, Level};
+use pyo3::prelude::*;
+
+/// The instructions in use: "v4" for x86-64-v4 (AVX-512), "v3" for x86-64-v3 (AVX2 and fused multiply-add), "build" for those that every
+/// processor has.
+#[pyfunction]
+fn level() -> &'static str {
+    match Batch::new().level() {
+        Level::V4 => "v4",
+        Level::V3 => "v3",
+        Level::Build => "build",
+    }
+}
+
+/// Light sampling: maps of random numbers to directions, their densities and inverses, over numpy arrays of single precision.
+///
+///     u = etendue.OwenSobol(seed=1).pairs(1024)
+///     sampler = etendue.Triangle([0, 2, 0], [1, 2, 0], [0, 2, 1]).by_solid_angle(p=[0, 0, 0])
+///     s = sampler.sample(u)
+///     irradiance = (s.direction[:, 1] * s.weight).mean()
+///
+/// Arguments may be anything that numpy makes an array of. Random numbers u are in [0, 1), pdfs per steradian, angles in radians, lengths
+/// in any unit. Degenerate input has pdf 0 and weight 0.
+#[pymodule]
+#[pyo3(name = "etendue")]
+fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(level, module)?)?;
+    lights::add(module)?;
+    warps::add(module)?;
+    sequences::add(module)?;
+    tree::add(module)
+}

@@ -1,0 +1,185 @@
+//! Maps of random numbers that need no shading point.
+
+use crate::arrays::{Argument, Kind, array, room, rows, run, zero_columns, zeros};
+use etendue_batch::{Batch, InTable, Map, WarpFunctions};
+use pyo3::prelude::*;
+
+/// A map of any kind.
+trait Mapping: Send + Sync {
+    /// How many random numbers it maps, and to how many coordinates.
+    fn sizes(&self) -> [usize; 2];
+    fn sample(&self, u: [&[f32]; 2], out: [&mut [f32]; 3]);
+    fn pdf(&self, points: [&[f32]; 3], out: &mut [f32]);
+    fn invert(&self, points: [&[f32]; 3], out: [&mut [f32]; 2]);
+}
+impl<W: Map + InTable<Functions = WarpFunctions<W>> + Send + Sync> Mapping for W {
+    fn sizes(&self) -> [usize; 2] {
+        [W::NUMBERS, W::COORDINATES]
+    }
+    fn sample(&self, u: [&[f32]; 2], out: [&mut [f32]; 3]) {
+        Batch::new().map(self, u, out);
+    }
+    fn pdf(&self, points: [&[f32]; 3], out: &mut [f32]) {
+        Batch::new().map_pdf(self, points, out);
+    }
+    fn invert(&self, points: [&[f32]; 3], out: [&mut [f32]; 2]) {
+        Batch::new().map_invert(self, points, out);
+    }
+}
+
+/// A map of random numbers to points: each of its subclasses is one.
+#[pyclass(module = "etendue", subclass, frozen)]
+pub(crate) struct Warp {
+    map: Box<dyn Mapping>,
+}
+
+/// The first K columns; those that are missing are empty.
+fn slices<const K: usize>(columns: &[Vec<f32>]) -> [&[f32]; K] {
+    core::array::from_fn(|k| columns.get(k).map_or(&[][..], Vec::as_slice))
+}
+/// An array of the columns, without an axis of its own for a single one.
+fn result<'py>(
+    py: Python<'py>,
+    shape: &[usize],
+    mut columns: Vec<Vec<f32>>,
+    width: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    columns.truncate(width);
+    if width == 1 { array(py, shape, columns.remove(0)) } else { rows(py, shape, &columns) }
+}
+
+impl Warp {
+    fn points<'py>(&self, points: &Bound<'py, PyAny>) -> PyResult<(Argument<'py>, Vec<Vec<f32>>)> {
+        let kind = match self.map.sizes()[1] {
+            1 => Kind::Number,
+            coordinates => Kind::Row(coordinates),
+        };
+        let points = Argument::new("x", kind, points)?;
+        let columns = points.columns(&points.shape)?;
+        Ok((points, columns))
+    }
+}
+
+#[pymethods]
+impl Warp {
+    /// Points for numbers u in [0, 1)², (..., 2), or in [0, 1), (...), as the warp needs.
+    fn sample<'py>(&self, py: Python<'py>, u: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let [width, coordinates] = self.map.sizes();
+        let u = Argument::new("u", if width == 2 { Kind::Units } else { Kind::Unit }, u)?;
+        let columns = u.columns(&u.shape)?;
+        let n = columns[0].len();
+        let mut out = room(3)?;
+        for k in 0..3 {
+            out.push(zeros(if k < coordinates { n } else { 0 })?);
+        }
+        run(py, n, || {
+            let [x, y, z] = &mut out[..] else { return };
+            self.map.sample(slices(&columns), [x, y, z]);
+        });
+        result(py, &u.shape, out, coordinates)
+    }
+    /// The probability density of points x, in the measure of the warp.
+    fn pdf<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let (points, columns) = self.points(x)?;
+        let mut out = zeros(columns[0].len())?;
+        run(py, out.len(), || self.map.pdf(slices(&columns), &mut out));
+        array(py, &points.shape, out)
+    }
+    /// The numbers that `sample` maps to points x.
+    fn invert<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let (points, columns) = self.points(x)?;
+        let n = columns[0].len();
+        let mut out = zero_columns::<2>(n)?;
+        run(py, n, || self.map.invert(slices(&columns), out.each_mut().map(Vec::as_mut_slice)));
+        result(py, &points.shape, out.into(), self.map.sizes()[0])
+    }
+}
+
+type Field<'a, 'py> = (&'static str, Kind, &'a Bound<'py, PyAny>);
+
+fn numbers(fields: &[Field<'_, '_>]) -> PyResult<Vec<f32>> {
+    let mut numbers = Vec::new();
+    for &(name, kind, object) in fields {
+        numbers.extend(Argument::single(name, kind, object)?.columns(&[])?.iter().flatten());
+    }
+    Ok(numbers)
+}
+fn v(numbers: &[f32], at: usize) -> etendue::Vec3<f32> {
+    etendue::Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2])
+}
+
+macro_rules! warps {
+    ($($(#[$doc:meta])* $name:ident($($field:ident: $kind:expr),*) |$x:ident| $build:expr;)+) => {
+        mod classes {
+            use super::*;
+            $($(#[$doc])*
+            #[pyclass(module = "etendue", extends = Warp, frozen)]
+            pub(super) struct $name;
+            #[pymethods]
+            impl $name {
+                #[new]
+                fn new($($field: &Bound<'_, PyAny>),*) -> PyResult<PyClassInitializer<Self>> {
+                    let fields: &[Field<'_, '_>] = &[$((stringify!($field), $kind, $field)),*];
+                    let $x = &numbers(fields)?[..];
+                    Ok(PyClassInitializer::from(Warp { map: Box::new($build) }).add_subclass(Self))
+                }
+            })+
+        }
+        /// Adds the warps to the module.
+        pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+            module.add_class::<Warp>()?;
+            $(module.add_class::<classes::$name>()?;)+
+            Ok(())
+        }
+    };
+}
+use Kind::{Direction, Number};
+const POINT: Kind = Kind::Row(3);
+warps! {
+    /// Points of the unit disk, uniform in area, by the map of concentric squares to rings: (2) to (2), pdf 1/π per unit area.
+    ConcentricDisk() |_x| etendue::warp::ConcentricDisk;
+    /// Points of the unit disk, uniform in area, by r = √u₀ and φ = 2πu₁: (2) to (2), pdf 1/π per unit area.
+    PolarDisk() |_x| etendue::warp::PolarDisk;
+    /// Directions with z ≥ 0, uniform in solid angle: (2) to (3), pdf 1/(2π) per steradian.
+    UniformHemisphere() |_x| etendue::warp::UniformHemisphere;
+    /// Directions of the whole sphere, uniform in solid angle, by z = 1 − 2u₀ and φ = 2πu₁: (2) to (3), pdf 1/(4π) per steradian.
+    UniformSphere() |_x| etendue::warp::UniformSphere;
+    /// Directions about +z in proportion to the cosine: (2) to (3), pdf z/π per steradian where z ≥ 0.
+    CosineHemisphere() |_x| etendue::warp::CosineHemisphere;
+    /// Directions of the whole sphere, uniform in solid angle, by an unfolded octahedron: (2) to (3), pdf 1/(4π) per steradian.
+    Octahedral() |_x| etendue::warp::Octahedral;
+    /// Barycentric coordinates (b₁, b₂) of a triangle, uniform in area, by b₀ = 1 − √u₀: (2) to (2), pdf 2 per unit of barycentric area.
+    AreaTriangle() |_x| etendue::warp::AreaTriangle;
+    /// Barycentric coordinates (b₁, b₂) of a triangle, uniform in area, by folding the square: (2) to (2), pdf 2 per unit of barycentric
+    /// area.
+    LowDistortionTriangle() |_x| etendue::warp::LowDistortionTriangle;
+    /// Directions within an angle σ of +z, uniform in solid angle: (2) to (3), pdf 1/(2π(1 − cosσ)) per steradian. `one_minus_cos` is
+    /// 1 − cosσ in [0, 2]; at 0 the pdf is 0.
+    Cone(one_minus_cos: Number) |x| etendue::warp::Cone { one_minus_cos: x[0] };
+    /// Points of the unit square with a density bilinear between the values `corners` (4) at (0, 0), (1, 0), (0, 1) and (1, 1): (2) to (2).
+    /// Without a positive corner the pdf is 0.
+    Bilinear(corners: Kind::Row(4)) |x| etendue::warp::Bilinear { corners: [x[0], x[1], x[2], x[3]] };
+    /// GGX normals of roughness alpha_x and alpha_y that are visible from the direction wi (3, z up): (2) to (3), pdf
+    /// 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal. A mirror, α ≤ 1e-15, has pdf 0.
+    GgxVisibleNormals(alpha_x: Number, alpha_y: Number, wi: POINT)
+    |x| etendue::warp::GgxVisibleNormals::new(x[0], x[1], v(x, 2));
+    /// Points of a disk in space, uniform in area: (2) to (3), pdf 1/(πR²) per unit area. A radius of 0 gives pdf 0.
+    DiskSurface(center: POINT, normal: Direction, radius: Number)
+    |x| etendue::warp::DiskSurface { center: v(x, 0), normal: v(x, 3), radius: x[6] };
+    /// Points of the side of a cylinder, uniform in area: (2) to (3), pdf 1/(2πR·|axis|) per unit area. Without area the pdf is 0.
+    CylinderSide(start: POINT, axis: POINT, radius: Number)
+    |x| etendue::warp::CylinderSide { p: v(x, 0), axis: v(x, 3), radius: x[6] };
+    /// Points of a sphere, uniform in area: (2) to (3), pdf 1/(4πR²) per unit area. A radius of 0 gives pdf 0.
+    SphereSurface(center: POINT, radius: Number) |x| etendue::warp::SphereSurface { center: v(x, 0), radius: x[3] };
+    /// Points of a bilinear patch (see `BilinearPatch`), nearly uniform in area: (2) to (3), exact pdf per unit area. Without area it is 0.
+    PatchSurface(corner: POINT, edge_s: POINT, edge_t: POINT, diagonal: POINT)
+    |x| etendue::warp::PatchSurface { p: v(x, 0), u: v(x, 3), v: v(x, 6), w: v(x, 9) };
+    /// Numbers in [0, 1) with a density linear from a at 0 to b at 1: pdf 2(a(1−x) + bx)/(a+b) per unit length; 0 if neither is positive.
+    Linear(a: Number, b: Number) |x| etendue::warp::Linear { a: x[0], b: x[1] };
+    /// Numbers within ±r with the density of a tent: pdf (1 − |x|/r)/r per unit length; 0 if the radius r is 0.
+    Tent(radius: Number) |x| etendue::warp::Tent { radius: x[0] };
+    /// Distances x = −ln(1−u)/λ: pdf λ exp(−λx) per unit length for x ≥ 0; 0 if the rate λ is 0.
+    Exponential(rate: Number) |x| etendue::warp::Exponential { rate: x[0] };
+    /// Numbers with a normal distribution, x = μ + σΦ⁻¹(u): pdf exp(−(x−μ)²/2σ²)/(σ√(2π)) per unit length; 0 if sigma is 0.
+    Normal(mean: Number, sigma: Number) |x| etendue::warp::Normal { mean: x[0], sigma: x[1] };
+}
