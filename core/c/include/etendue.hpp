@@ -53,12 +53,18 @@ template <class T>
 using IsVec3 = std::enable_if_t<HasXy<T>::value && HasZ<T>::value, int>;
 template <class T>
 using IsVec2 = std::enable_if_t<HasXy<T>::value && !HasZ<T>::value, int>;
-template <class T, class = std::enable_if_t<std::is_class_v<T> && (HasXy<T>::value || HasIndex<T>::value)>,
-          class = decltype(T{0.0f, 0.0f})>
-using FromTwo = int;
-template <class T, class = std::enable_if_t<std::is_class_v<T> && (HasXy<T>::value || HasIndex<T>::value)>,
-          class = decltype(T{0.0f, 0.0f, 0.0f})>
-using FromThree = int;
+template <class T, class = void>
+struct HasTwo : std::false_type {};
+template <class T>
+struct HasTwo<T, std::void_t<decltype(T{0.0f, 0.0f})>> : std::true_type {};
+template <class T, class = void>
+struct HasThree : std::false_type {};
+template <class T>
+struct HasThree<T, std::void_t<decltype(T{0.0f, 0.0f, 0.0f})>> : std::true_type {};
+template <class T>
+using FromTwo = std::enable_if_t<std::is_class_v<T> && (HasXy<T>::value || HasIndex<T>::value) && HasTwo<T>::value, int>;
+template <class T>
+using FromThree = std::enable_if_t<std::is_class_v<T> && (HasXy<T>::value || HasIndex<T>::value) && HasThree<T>::value, int>;
 } // namespace detail
 
 // Three numbers.
