@@ -368,7 +368,7 @@ typedef struct {
 } EtenduePolygonByProjectedSolidAngle;
 
 // A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Its samplers use the
-// first random number alone; their pdf is per unit of sin(gamma) ds/r^2 (gamma from the line, s along it).
+// first random number alone; their pdf is per unit of sin(gamma) ds/r^2 (gamma from the line, s along it). No ray hits a line.
 typedef struct {
   // One end, in the coordinates of the scene.
   float p[3];
@@ -478,7 +478,7 @@ typedef struct {
 
 // Columns of chosen lights, each NULL or of as many elements as the batch has.
 typedef struct {
-  // Index of the light; UINT32_MAX where none was chosen.
+  // Index of the light; UINT32_MAX where none was chosen, since a part of the tree was reached none of whose lights can contribute.
   uint32_t *light;
   // Probability with which it was chosen; 0 where none was.
   float *pmf;

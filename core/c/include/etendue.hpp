@@ -1,0 +1,798 @@
+// Etendue: light sampling for renderers, in C++17. MIT or Apache-2.0.
+//
+// A wrapper of etendue.h, whose rules hold here too: nothing is allocated or thrown, and no type information is needed at run time.
+//
+//     etendue::Triangle lamp({0, 2, 0}, {1, 0, 0}, {0, 0, 1});
+//     auto sampler = lamp.by_solid_angle({0, 0, 0});         // once for a shading point
+//     etendue::LightSample s = sampler.sample({0.3f, 0.6f}); // as often as needed
+//
+// - Numbers: Vec3, Vec2. A vector class of the host that has members x, y, z, or an array of three floats, converts to Vec3. Vec3 converts
+//   to every class with such members or an operator[] that three floats initialise: T{x, y, z}. The same holds for Vec2.
+// - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, Cylinder, BilinearPatch, Polygon, Line, Sun. Their methods by_... prepare
+//   them for a shading point.
+// - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
+//   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
+// - Warps, sequences and LightTree.
+// - At the end, functions of the names and arguments of pbrt-v4, for hosts that replace those one by one.
+#ifndef ETENDUE_HPP
+#define ETENDUE_HPP
+
+#include "etendue.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+namespace etendue {
+
+using Status = EtendueStatus;
+// The fields are those of the C struct; `direction` and `normal` convert to Vec3, `uv` to Vec2.
+using LightSample = EtendueLightSample;
+
+// ---- numbers ----
+
+namespace detail {
+template <class T, class = void>
+struct HasZ : std::false_type {};
+template <class T>
+struct HasZ<T, std::void_t<decltype(float(std::declval<const T&>().z))>> : std::true_type {};
+template <class T, class = void>
+struct HasXy : std::false_type {};
+template <class T>
+struct HasXy<T, std::void_t<decltype(float(std::declval<const T&>().x) + float(std::declval<const T&>().y))>> : std::true_type {};
+template <class T, class = void>
+struct HasIndex : std::false_type {};
+template <class T>
+struct HasIndex<T, std::void_t<decltype(float(std::declval<const T&>()[0]))>> : std::true_type {};
+
+// conditions on a conversion: where one does not hold, the conversion is not considered, so that no vector loses its z on the way
+template <class T>
+using IsVec3 = std::enable_if_t<HasXy<T>::value && HasZ<T>::value, int>;
+template <class T>
+using IsVec2 = std::enable_if_t<HasXy<T>::value && !HasZ<T>::value, int>;
+template <class T, class = void>
+struct HasTwo : std::false_type {};
+template <class T>
+struct HasTwo<T, std::void_t<decltype(T{0.0f, 0.0f})>> : std::true_type {};
+template <class T, class = void>
+struct HasThree : std::false_type {};
+template <class T>
+struct HasThree<T, std::void_t<decltype(T{0.0f, 0.0f, 0.0f})>> : std::true_type {};
+template <class T>
+using FromTwo = std::enable_if_t<std::is_class_v<T> && (HasXy<T>::value || HasIndex<T>::value) && HasTwo<T>::value, int>;
+template <class T>
+using FromThree = std::enable_if_t<std::is_class_v<T> && (HasXy<T>::value || HasIndex<T>::value) && HasThree<T>::value, int>;
+} // namespace detail
+
+// Three numbers.
+struct Vec3 {
+    float x = 0, y = 0, z = 0;
+
+    constexpr Vec3() = default;
+    constexpr Vec3(float x_, float y_, float z_) : x(x_), y(y_), z(z_) {}
+    constexpr Vec3(const float (&v)[3]) : x(v[0]), y(v[1]), z(v[2]) {}
+    template <class T, detail::IsVec3<T> = 0>
+    constexpr Vec3(const T& v) : x(float(v.x)), y(float(v.y)), z(float(v.z)) {}
+    template <class T, detail::FromThree<T> = 0>
+    constexpr operator T() const { return T{x, y, z}; }
+
+    constexpr float operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+};
+
+// Two numbers.
+struct Vec2 {
+    float x = 0, y = 0;
+
+    constexpr Vec2() = default;
+    constexpr Vec2(float x_, float y_) : x(x_), y(y_) {}
+    constexpr Vec2(const float (&v)[2]) : x(v[0]), y(v[1]) {}
+    template <class T, detail::IsVec2<T> = 0>
+    constexpr Vec2(const T& v) : x(float(v.x)), y(float(v.y)) {}
+    template <class T, detail::FromTwo<T> = 0>
+    constexpr operator T() const { return T{x, y}; }
+
+    constexpr float operator[](int i) const { return i == 0 ? x : y; }
+};
+
+namespace detail {
+// numbers in a row, as the C functions take them
+template <int N>
+struct Row;
+template <>
+struct Row<1> {
+    using Value = float;
+    float v[1] = {};
+    Row() = default;
+    Row(float x) : v{x} {}
+    float value() const { return v[0]; }
+};
+template <>
+struct Row<2> {
+    using Value = Vec2;
+    float v[2] = {};
+    Row() = default;
+    Row(Vec2 a) : v{a.x, a.y} {}
+    Vec2 value() const { return {v[0], v[1]}; }
+};
+template <>
+struct Row<3> {
+    using Value = Vec3;
+    float v[3] = {};
+    Row() = default;
+    Row(Vec3 a) : v{a.x, a.y, a.z} {}
+    Vec3 value() const { return {v[0], v[1], v[2]}; }
+};
+} // namespace detail
+
+// ---- columns ----
+
+// A pointer and a size: what std::span is in C++20.
+template <class T>
+class Span {
+  public:
+    constexpr Span() = default;
+    constexpr Span(T* data, size_t size) : data_(data), size_(size) {}
+    template <size_t N>
+    constexpr Span(T (&array)[N]) : data_(array), size_(N) {}
+    // from std::vector, std::array, std::span and their like
+    template <class C, class = std::enable_if_t<std::is_convertible_v<decltype(std::declval<C&>().data()), T*>>,
+              class = decltype(std::declval<C&>().size())>
+    constexpr Span(C&& container) : data_(container.data()), size_(container.size()) {}
+
+    constexpr T* data() const { return data_; }
+    constexpr size_t size() const { return size_; }
+    constexpr T& operator[](size_t i) const { return data_[i]; }
+
+  private:
+    T* data_ = nullptr;
+    size_t size_ = 0;
+};
+
+// N columns, one for each coordinate.
+template <class T, int N>
+struct Columns {
+    Span<T> column[N];
+
+    constexpr Columns() = default;
+    template <class... C, class = std::enable_if_t<sizeof...(C) == N && std::conjunction_v<std::is_convertible<C&&, Span<T>>...>>>
+    constexpr Columns(C&&... columns) : column{Span<T>(std::forward<C>(columns))...} {}
+    // columns that are written can be read
+    template <class U, class = std::enable_if_t<std::is_same_v<const U, T>>>
+    constexpr Columns(const Columns<U, N>& other) {
+        for (int i = 0; i < N; i++) column[i] = other.column[i];
+    }
+
+    constexpr size_t size() const { return column[0].size(); }
+};
+template <int N>
+using In = Columns<const float, N>;
+template <int N>
+using Out = Columns<float, N>;
+
+namespace detail {
+template <class T>
+bool fits(Span<T> column, size_t n) {
+    return column.size() == n;
+}
+template <class T, int N>
+bool fits(const Columns<T, N>& columns, size_t n) {
+    for (auto& column : columns.column)
+        if (column.size() != n) return false;
+    return true;
+}
+// for results, which may be absent
+template <class T>
+bool fits_or_absent(Span<T> column, size_t n) {
+    return column.size() == n || column.size() == 0;
+}
+template <class T, int N>
+bool fits_or_absent(const Columns<T, N>& columns, size_t n) {
+    for (auto& column : columns.column)
+        if (!fits_or_absent(column, n)) return false;
+    return true;
+}
+// an empty column may have a pointer, but must not be written
+template <class T>
+T* pointer(Span<T> column) {
+    return column.size() == 0 ? nullptr : column.data();
+}
+template <class T, int N>
+struct Pointers {
+    T* p[N];
+    Pointers(const Columns<T, N>& columns) {
+        for (int i = 0; i < N; i++) p[i] = pointer(columns.column[i]);
+    }
+};
+} // namespace detail
+
+// Columns of samples. Empty ones are not wanted.
+struct SampleColumns {
+    Out<3> direction;
+    Span<float> distance, pdf, weight;
+    Out<3> normal;
+    Out<2> uv;
+    Span<uint8_t> emits;
+
+    bool fits(size_t n) const {
+        using detail::fits_or_absent;
+        return fits_or_absent(direction, n) && fits_or_absent(distance, n) && fits_or_absent(pdf, n) && fits_or_absent(weight, n) &&
+               fits_or_absent(normal, n) && fits_or_absent(uv, n) && fits_or_absent(emits, n);
+    }
+    EtendueSampleColumns c() const {
+        using detail::pointer;
+        EtendueSampleColumns out;
+        for (int i = 0; i < 3; i++) out.direction[i] = pointer(direction.column[i]);
+        out.distance = pointer(distance);
+        out.pdf = pointer(pdf);
+        out.weight = pointer(weight);
+        for (int i = 0; i < 3; i++) out.normal[i] = pointer(normal.column[i]);
+        for (int i = 0; i < 2; i++) out.uv[i] = pointer(uv.column[i]);
+        out.emits = pointer(emits);
+        return out;
+    }
+};
+
+// Columns of lights: the fields of the light in their order, each a Columns<.., 3> or a Span.
+//
+//     TriangleColumns lights({v0x, v0y, v0z}, {e1x, e1y, e1z}, {e2x, e2y, e2z});
+template <class C>
+class LightColumns {
+    static constexpr size_t COUNT = sizeof(C) / sizeof(const float*);
+    Span<const float> columns_[COUNT];
+    size_t at_ = 0;
+
+    void add(Span<const float> column) { columns_[at_++] = column; }
+    void add(const In<3>& three) {
+        for (auto& column : three.column) add(column);
+    }
+
+  public:
+    // flat lights: three vectors
+    template <size_t N = COUNT, class = std::enable_if_t<N == 9>>
+    LightColumns(In<3> a, In<3> b, In<3> c) { add(a), add(b), add(c); }
+    // spheres and suns
+    template <size_t N = COUNT, class = std::enable_if_t<N == 4>>
+    LightColumns(In<3> a, Span<const float> b) { add(a), add(b); }
+    // disks and cylinders
+    template <size_t N = COUNT, class = std::enable_if_t<N == 7>>
+    LightColumns(In<3> a, In<3> b, Span<const float> c) { add(a), add(b), add(c); }
+    // lines
+    template <size_t N = COUNT, class = std::enable_if_t<N == 6>>
+    LightColumns(In<3> a, In<3> b) { add(a), add(b); }
+    // patches
+    template <size_t N = COUNT, class = std::enable_if_t<N == 12>>
+    LightColumns(In<3> a, In<3> b, In<3> c, In<3> d) { add(a), add(b), add(c), add(d); }
+    // polygons
+    template <size_t N = COUNT, class = std::enable_if_t<N == 24>>
+    LightColumns(const In<3> (&corners)[8]) {
+        for (auto& corner : corners) add(corner);
+    }
+
+    bool fits(size_t n) const {
+        for (auto& column : columns_)
+            if (column.size() != n) return false;
+        return true;
+    }
+    C c() const {
+        const float* pointers[COUNT];
+        for (size_t i = 0; i < COUNT; i++) pointers[i] = columns_[i].data();
+        C out;
+        std::memcpy(&out, pointers, sizeof out);
+        return out;
+    }
+};
+
+// ---- lights ----
+
+// One technique: a light prepared for a shading point.
+//
+// NORMAL is the surface's unit normal, where the technique needs it: the arguments are (parameter, its C pointer, columns, check).
+#define ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, PARAMETER, POINTER, COLUMNS, COLUMNS_FIT, COLUMNS_POINTER)                               \
+    class NAME {                                                                                                                       \
+        Etendue##NAME c_;                                                                                                              \
+                                                                                                                                       \
+      public:                                                                                                                          \
+        NAME(const Etendue##LIGHT& light, Vec3 p PARAMETER) {                                                                          \
+            PREFIX##_prepare(&light, detail::Row<3>(p).v POINTER, &c_);                                                                \
+        }                                                                                                                              \
+        const Etendue##NAME& c() const { return c_; }                                                                                  \
+        /* Draws a direction for u. */                                                                                                 \
+        LightSample sample(Vec2 u) const {                                                                                             \
+            LightSample out;                                                                                                           \
+            PREFIX##_sample(&c_, detail::Row<2>(u).v, &out);                                                                           \
+            return out;                                                                                                                \
+        }                                                                                                                              \
+        /* The pdf with which the unit direction w is drawn. */                                                                        \
+        float pdf(Vec3 w) const { return PREFIX##_pdf(&c_, detail::Row<3>(w).v); }                                                     \
+        /* The random numbers that are mapped to w. */                                                                                 \
+        Vec2 invert(Vec3 w) const {                                                                                                    \
+            detail::Row<2> u;                                                                                                          \
+            PREFIX##_invert(&c_, detail::Row<3>(w).v, u.v);                                                                            \
+            return u.value();                                                                                                          \
+        }                                                                                                                              \
+        /* The nearest point of the light in the unit direction w; pdf 0 where w misses it. */                                         \
+        LightSample hit(Vec3 w) const {                                                                                                \
+            LightSample out;                                                                                                           \
+            PREFIX##_hit(&c_, detail::Row<3>(w).v, &out);                                                                              \
+            return out;                                                                                                                \
+        }                                                                                                                              \
+                                                                                                                                       \
+        Status sample(In<2> u, const SampleColumns& out) const {                                                                       \
+            const size_t n = u.size();                                                                                                 \
+            if (!detail::fits(u, n) || !out.fits(n)) return ETENDUE_STATUS_COUNT;                                                      \
+            const EtendueSampleColumns c_out = out.c();                                                                                \
+            return PREFIX##_sample_batch(&c_, n, detail::Pointers<const float, 2>(u).p, &c_out);                                       \
+        }                                                                                                                              \
+        Status pdf(In<3> w, Span<float> out) const {                                                                                   \
+            const size_t n = w.size();                                                                                                 \
+            if (!detail::fits(w, n) || !detail::fits(out, n)) return ETENDUE_STATUS_COUNT;                                             \
+            return PREFIX##_pdf_batch(&c_, n, detail::Pointers<const float, 3>(w).p, out.data());                                      \
+        }                                                                                                                              \
+        Status invert(In<3> w, Out<2> u) const {                                                                                       \
+            const size_t n = w.size();                                                                                                 \
+            if (!detail::fits(w, n) || !detail::fits_or_absent(u, n)) return ETENDUE_STATUS_COUNT;                                     \
+            return PREFIX##_invert_batch(&c_, n, detail::Pointers<const float, 3>(w).p, detail::Pointers<float, 2>(u).p);              \
+        }                                                                                                                              \
+        Status hit(In<3> w, const SampleColumns& out) const {                                                                          \
+            const size_t n = w.size();                                                                                                 \
+            if (!detail::fits(w, n) || !out.fits(n)) return ETENDUE_STATUS_COUNT;                                                      \
+            const EtendueSampleColumns c_out = out.c();                                                                                \
+            return PREFIX##_hit_batch(&c_, n, detail::Pointers<const float, 3>(w).p, &c_out);                                          \
+        }                                                                                                                              \
+        /* Prepares a light of its own for each shading point, and draws a direction for each u. */                                    \
+        static Status sample_each(const LightColumns<Etendue##LIGHT##Columns>& lights, In<3> p COLUMNS, In<2> u,                       \
+                                  const SampleColumns& out) {                                                                          \
+            const size_t n = u.size();                                                                                                 \
+            if (!lights.fits(n) || !detail::fits(p, n) COLUMNS_FIT || !detail::fits(u, n) || !out.fits(n)) return ETENDUE_STATUS_COUNT; \
+            const Etendue##LIGHT##Columns c_lights = lights.c();                                                                       \
+            const EtendueSampleColumns c_out = out.c();                                                                                \
+            return PREFIX##_sample_each(&c_lights, n, detail::Pointers<const float, 3>(p).p COLUMNS_POINTER,                           \
+                                        detail::Pointers<const float, 2>(u).p, &c_out);                                                \
+        }                                                                                                                              \
+    };
+#define ETENDUE_COMMA ,
+#define ETENDUE_ANYWHERE(NAME, LIGHT, PREFIX) ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, , , , , )
+#define ETENDUE_ON_SURFACE(NAME, LIGHT, PREFIX)                                                                                        \
+    ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, ETENDUE_COMMA Vec3 normal, ETENDUE_COMMA detail::Row<3>(normal).v,                          \
+                      ETENDUE_COMMA In<3> normals, || !detail::fits(normals, n),                                                       \
+                      ETENDUE_COMMA detail::Pointers<const float ETENDUE_COMMA 3>(normals).p)
+
+ETENDUE_ANYWHERE(SphereByArea, Sphere, etendue_sphere_by_area)
+ETENDUE_ANYWHERE(SphereBySolidAngle, Sphere, etendue_sphere_by_solid_angle)
+ETENDUE_ON_SURFACE(SphereByProjectedSolidAngle, Sphere, etendue_sphere_by_projected_solid_angle)
+ETENDUE_ANYWHERE(TriangleByArea, Triangle, etendue_triangle_by_area)
+ETENDUE_ANYWHERE(TriangleBySolidAngle, Triangle, etendue_triangle_by_solid_angle)
+ETENDUE_ON_SURFACE(TriangleByProjectedSolidAngle, Triangle, etendue_triangle_by_projected_solid_angle)
+ETENDUE_ON_SURFACE(TriangleByCosineWarp, Triangle, etendue_triangle_by_cosine_warp)
+ETENDUE_ANYWHERE(ParallelogramByArea, Parallelogram, etendue_parallelogram_by_area)
+ETENDUE_ANYWHERE(ParallelogramBySolidAngle, Parallelogram, etendue_parallelogram_by_solid_angle)
+ETENDUE_ON_SURFACE(ParallelogramByProjectedSolidAngle, Parallelogram, etendue_parallelogram_by_projected_solid_angle)
+ETENDUE_ANYWHERE(RectangleBySolidAngle, Rectangle, etendue_rectangle_by_solid_angle)
+ETENDUE_ON_SURFACE(RectangleByCosineWarp, Rectangle, etendue_rectangle_by_cosine_warp)
+ETENDUE_ANYWHERE(DiskByArea, Disk, etendue_disk_by_area)
+ETENDUE_ANYWHERE(DiskBySolidAngle, Disk, etendue_disk_by_solid_angle)
+ETENDUE_ANYWHERE(CylinderByArea, Cylinder, etendue_cylinder_by_area)
+ETENDUE_ANYWHERE(PatchByArea, BilinearPatch, etendue_patch_by_area)
+ETENDUE_ANYWHERE(PolygonByArea, Polygon, etendue_polygon_by_area)
+ETENDUE_ANYWHERE(PolygonBySolidAngle, Polygon, etendue_polygon_by_solid_angle)
+ETENDUE_ON_SURFACE(PolygonByProjectedSolidAngle, Polygon, etendue_polygon_by_projected_solid_angle)
+ETENDUE_ANYWHERE(LineByLength, Line, etendue_line_by_length)
+ETENDUE_ANYWHERE(LineByAngle, Line, etendue_line_by_angle)
+ETENDUE_ON_SURFACE(LineByProjectedSolidAngle, Line, etendue_line_by_projected_solid_angle)
+ETENDUE_ANYWHERE(SunBySolidAngle, Sun, etendue_sun_by_solid_angle)
+
+using SphereColumns = LightColumns<EtendueSphereColumns>;
+using TriangleColumns = LightColumns<EtendueTriangleColumns>;
+using ParallelogramColumns = LightColumns<EtendueParallelogramColumns>;
+using RectangleColumns = LightColumns<EtendueRectangleColumns>;
+using DiskColumns = LightColumns<EtendueDiskColumns>;
+using CylinderColumns = LightColumns<EtendueCylinderColumns>;
+using BilinearPatchColumns = LightColumns<EtendueBilinearPatchColumns>;
+using PolygonColumns = LightColumns<EtenduePolygonColumns>;
+using LineColumns = LightColumns<EtendueLineColumns>;
+using SunColumns = LightColumns<EtendueSunColumns>;
+
+// The lights are the C structs with constructors. `p` is a shading point, `n` the unit normal of the surface there.
+
+// A sphere that emits outwards.
+struct Sphere : EtendueSphere {
+    Sphere(Vec3 center_, float radius_) : EtendueSphere{{center_.x, center_.y, center_.z}, radius_} {}
+    SphereByArea by_area(Vec3 p) const { return {*this, p}; }
+    SphereBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
+    SphereByProjectedSolidAngle by_projected_solid_angle(Vec3 p, Vec3 n) const { return {*this, p, n}; }
+};
+// A triangle that emits from the side of e1 x e2: a vertex, and the edges from there to the other two.
+struct Triangle : EtendueTriangle {
+    Triangle(Vec3 a, Vec3 ab, Vec3 ac) : EtendueTriangle{{a.x, a.y, a.z}, {ab.x, ab.y, ab.z}, {ac.x, ac.y, ac.z}} {}
+    static Triangle from_vertices(Vec3 a, Vec3 b, Vec3 c) {
+        return {a, {b.x - a.x, b.y - a.y, b.z - a.z}, {c.x - a.x, c.y - a.y, c.z - a.z}};
+    }
+    TriangleByArea by_area(Vec3 p) const { return {*this, p}; }
+    TriangleBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
+    TriangleByProjectedSolidAngle by_projected_solid_angle(Vec3 p, Vec3 n) const { return {*this, p, n}; }
+    TriangleByCosineWarp by_cosine_warp(Vec3 p, Vec3 n) const { return {*this, p, n}; }
+};
+// A parallelogram that emits from the side of u x v: a corner and the edges from there.
+struct Parallelogram : EtendueParallelogram {
+    Parallelogram(Vec3 corner, Vec3 s, Vec3 t)
+        : EtendueParallelogram{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}} {}
+    ParallelogramByArea by_area(Vec3 at) const { return {*this, at}; }
+    ParallelogramBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+};
+// A rectangle that emits from the side of u x v: a corner and the edges from there, which are perpendicular.
+struct Rectangle : EtendueRectangle {
+    Rectangle(Vec3 corner, Vec3 s, Vec3 t) : EtendueRectangle{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}} {}
+    RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+};
+// A disk that emits from the side of its unit normal.
+struct Disk : EtendueDisk {
+    Disk(Vec3 center_, Vec3 axis, float radius_)
+        : EtendueDisk{{center_.x, center_.y, center_.z}, {axis.x, axis.y, axis.z}, radius_} {}
+    DiskByArea by_area(Vec3 p) const { return {*this, p}; }
+    DiskBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
+};
+// The side of a cylinder, which emits outwards: the centre of one end, from there to that of the other, and the radius.
+struct Cylinder : EtendueCylinder {
+    Cylinder(Vec3 end, Vec3 to_other, float radius_)
+        : EtendueCylinder{{end.x, end.y, end.z}, {to_other.x, to_other.y, to_other.z}, radius_} {}
+    CylinderByArea by_area(Vec3 at) const { return {*this, at}; }
+};
+// A bilinear patch: a corner, and from there to the next, to the other next, and to the opposite one.
+struct BilinearPatch : EtendueBilinearPatch {
+    BilinearPatch(Vec3 corner, Vec3 s, Vec3 t, Vec3 opposite)
+        : EtendueBilinearPatch{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}, {opposite.x, opposite.y, opposite.z}} {}
+    PatchByArea by_area(Vec3 at) const { return {*this, at}; }
+};
+// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Corners beyond the eighth are
+// left out; without corners it is a point, whose pdf is 0.
+struct Polygon : EtenduePolygon {
+    Polygon(const Vec3* given, size_t count) : EtenduePolygon{} {
+        for (size_t i = 0; i < 8 && count > 0; i++) {
+            const Vec3 corner = given[i < count ? i : count - 1];
+            for (int k = 0; k < 3; k++) corners[i][k] = corner[k];
+        }
+    }
+    template <size_t N>
+    Polygon(const Vec3 (&given)[N]) : Polygon(given, N) {
+        static_assert(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
+    }
+    PolygonByArea by_area(Vec3 p) const { return {*this, p}; }
+    PolygonBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
+    PolygonByProjectedSolidAngle by_projected_solid_angle(Vec3 p, Vec3 n) const { return {*this, p, n}; }
+};
+// A line: one end, and from there to the other.
+struct Line : EtendueLine {
+    Line(Vec3 end, Vec3 to_other) : EtendueLine{{end.x, end.y, end.z}, {to_other.x, to_other.y, to_other.z}} {}
+    LineByLength by_length(Vec3 at) const { return {*this, at}; }
+    LineByAngle by_angle(Vec3 at) const { return {*this, at}; }
+    LineByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+};
+// A sun: the unit vector to its centre, and 1 - cos of the angle between its centre and its rim.
+struct Sun : EtendueSun {
+    Sun(Vec3 to, float one_minus_cos_) : EtendueSun{{to.x, to.y, to.z}, one_minus_cos_} {}
+    // The same at every point.
+    SunBySolidAngle by_solid_angle() const { return {*this, Vec3()}; }
+};
+
+// ---- warps ----
+
+// One warp of U random numbers to P coordinates. SELF is its C struct, if it has one.
+#define ETENDUE_WARP_METHODS(PREFIX, U, P, SELF)                                                                                       \
+    using Numbers = detail::Row<U>::Value;                                                                                             \
+    using Point = detail::Row<P>::Value;                                                                                               \
+    /* Maps random numbers to a point. */                                                                                              \
+    Point sample(Numbers u) const {                                                                                                    \
+        detail::Row<P> point;                                                                                                          \
+        PREFIX##_sample(SELF detail::Row<U>(u).v, point.v);                                                                            \
+        return point.value();                                                                                                          \
+    }                                                                                                                                  \
+    /* The pdf at a point; 0 outside the range of the warp. */                                                                         \
+    float pdf(Point point) const { return PREFIX##_pdf(SELF detail::Row<P>(point).v); }                                                \
+    /* The random numbers that are mapped to a point. */                                                                               \
+    Numbers invert(Point point) const {                                                                                                \
+        detail::Row<U> u;                                                                                                              \
+        PREFIX##_invert(SELF detail::Row<P>(point).v, u.v);                                                                            \
+        return u.value();                                                                                                              \
+    }                                                                                                                                  \
+    Status sample(In<U> u, Out<P> points) const {                                                                                      \
+        const size_t n = u.size();                                                                                                     \
+        if (!detail::fits(u, n) || !detail::fits_or_absent(points, n)) return ETENDUE_STATUS_COUNT;                                    \
+        return PREFIX##_sample_batch(SELF n, detail::Pointers<const float, U>(u).p, detail::Pointers<float, P>(points).p);             \
+    }                                                                                                                                  \
+    Status pdf(In<P> points, Span<float> out) const {                                                                                  \
+        const size_t n = points.size();                                                                                                \
+        if (!detail::fits(points, n) || !detail::fits(out, n)) return ETENDUE_STATUS_COUNT;                                            \
+        return PREFIX##_pdf_batch(SELF n, detail::Pointers<const float, P>(points).p, out.data());                                     \
+    }                                                                                                                                  \
+    Status invert(In<P> points, Out<U> u) const {                                                                                      \
+        const size_t n = points.size();                                                                                                \
+        if (!detail::fits(points, n) || !detail::fits_or_absent(u, n)) return ETENDUE_STATUS_COUNT;                                    \
+        return PREFIX##_invert_batch(SELF n, detail::Pointers<const float, P>(points).p, detail::Pointers<float, U>(u).p);             \
+    }
+#define ETENDUE_FIXED_WARP(NAME, PREFIX, P)                                                                                            \
+    struct NAME {                                                                                                                      \
+        ETENDUE_WARP_METHODS(PREFIX, 2, P, )                                                                                           \
+    };
+#define ETENDUE_WARP(PREFIX, U, P) ETENDUE_WARP_METHODS(PREFIX, U, P, this ETENDUE_COMMA)
+
+// Points of the unit disk, by concentric squares, and by radius and angle.
+ETENDUE_FIXED_WARP(ConcentricDisk, etendue_concentric_disk, 2)
+ETENDUE_FIXED_WARP(PolarDisk, etendue_polar_disk, 2)
+// Directions, uniform or in proportion to the cosine to +z.
+ETENDUE_FIXED_WARP(UniformHemisphere, etendue_uniform_hemisphere, 3)
+ETENDUE_FIXED_WARP(UniformSphere, etendue_uniform_sphere, 3)
+ETENDUE_FIXED_WARP(CosineHemisphere, etendue_cosine_hemisphere, 3)
+ETENDUE_FIXED_WARP(Octahedral, etendue_octahedral, 3)
+// Barycentric coordinates of the second and third vertex of a triangle.
+ETENDUE_FIXED_WARP(AreaTriangle, etendue_area_triangle, 2)
+ETENDUE_FIXED_WARP(LowDistortionTriangle, etendue_low_distortion_triangle, 2)
+
+// Directions within an angle of +z, by 1 - cos of that angle.
+struct Cone : EtendueCone {
+    explicit Cone(float one_minus_cos_) : EtendueCone{one_minus_cos_} {}
+    ETENDUE_WARP(etendue_cone, 2, 3)
+};
+// Points of the unit square: relative densities at (0, 0), (1, 0), (0, 1) and (1, 1).
+struct Bilinear : EtendueBilinear {
+    Bilinear(float c00, float c10, float c01, float c11) : EtendueBilinear{{c00, c10, c01, c11}} {}
+    ETENDUE_WARP(etendue_bilinear, 2, 2)
+};
+// Visible normals of a GGX microsurface: roughnesses along x and y, and the unit direction to the viewer, where z is the normal.
+struct GgxVisibleNormals : EtendueGgxVisibleNormals {
+    GgxVisibleNormals(float alpha_x, float alpha_y, Vec3 wi) {
+        etendue_ggx_visible_normals_prepare(alpha_x, alpha_y, detail::Row<3>(wi).v, this);
+    }
+    ETENDUE_WARP(etendue_ggx_visible_normals, 2, 3)
+};
+// Surfaces in space, by area: their parameters are those of the lights.
+struct DiskSurface : EtendueDiskSurface {
+    DiskSurface(Vec3 center_, Vec3 axis, float radius_)
+        : EtendueDiskSurface{{center_.x, center_.y, center_.z}, {axis.x, axis.y, axis.z}, radius_} {}
+    ETENDUE_WARP(etendue_disk_surface, 2, 3)
+};
+struct CylinderSide : EtendueCylinderSide {
+    CylinderSide(Vec3 end, Vec3 to_other, float radius_)
+        : EtendueCylinderSide{{end.x, end.y, end.z}, {to_other.x, to_other.y, to_other.z}, radius_} {}
+    ETENDUE_WARP(etendue_cylinder_side, 2, 3)
+};
+struct SphereSurface : EtendueSphereSurface {
+    SphereSurface(Vec3 center_, float radius_) : EtendueSphereSurface{{center_.x, center_.y, center_.z}, radius_} {}
+    ETENDUE_WARP(etendue_sphere_surface, 2, 3)
+};
+struct PatchSurface : EtenduePatchSurface {
+    PatchSurface(Vec3 corner, Vec3 s, Vec3 t, Vec3 opposite)
+        : EtenduePatchSurface{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}, {opposite.x, opposite.y, opposite.z}} {}
+    ETENDUE_WARP(etendue_patch_surface, 2, 3)
+};
+// Densities on the line.
+struct Linear : EtendueLinear {
+    Linear(float at_0, float at_1) : EtendueLinear{at_0, at_1} {}
+    ETENDUE_WARP(etendue_linear, 1, 1)
+};
+struct Tent : EtendueTent {
+    explicit Tent(float radius_) : EtendueTent{radius_} {}
+    ETENDUE_WARP(etendue_tent, 1, 1)
+};
+struct Exponential : EtendueExponential {
+    explicit Exponential(float rate_) : EtendueExponential{rate_} {}
+    ETENDUE_WARP(etendue_exponential, 1, 1)
+};
+struct Normal : EtendueNormal {
+    Normal(float mean_, float sigma_) : EtendueNormal{mean_, sigma_} {}
+    ETENDUE_WARP(etendue_normal, 1, 1)
+};
+
+// ---- sequences ----
+
+// Which pairs of a sequence a batch needs: of one pixel and consecutive samples, unless there are columns of them.
+struct Counters {
+    uint32_t pixel = 0, sample = 0, dimension = 0;
+    Span<const uint32_t> pixels = {}, samples = {};
+};
+
+#define ETENDUE_SEQUENCE(NAME, FUNCTION, FIELDS, ARGUMENTS)                                                                            \
+    struct NAME {                                                                                                                      \
+        FIELDS                                                                                                                         \
+        /* One pair in [0, 1)^2. */                                                                                                    \
+        Vec2 pair(uint32_t pixel, uint32_t sample, uint32_t dimension) const {                                                         \
+            Vec2 u;                                                                                                                    \
+            float* const out[2] = {&u.x, &u.y};                                                                                        \
+            const EtendueCounters counters = {pixel, sample, dimension, nullptr, nullptr};                                             \
+            FUNCTION(ARGUMENTS, &counters, 1, out);                                                                                    \
+            return u;                                                                                                                  \
+        }                                                                                                                              \
+        Status pairs(const Counters& counters, Out<2> u) const {                                                                       \
+            using namespace detail;                                                                                                    \
+            const size_t n = u.size();                                                                                                 \
+            if (!fits(u, n) || !fits_or_absent(counters.pixels, n) || !fits_or_absent(counters.samples, n)) return ETENDUE_STATUS_COUNT; \
+            const EtendueCounters c = {counters.pixel, counters.sample, counters.dimension, pointer(counters.pixels),                  \
+                                       pointer(counters.samples)};                                                                     \
+            return FUNCTION(ARGUMENTS, &c, n, Pointers<float, 2>(u).p);                                                                \
+        }                                                                                                                              \
+    };
+#define ETENDUE_SEEDED(NAME, FUNCTION) ETENDUE_SEQUENCE(NAME, FUNCTION, uint64_t seed = 0;, seed)
+#define ETENDUE_COUNTED(NAME, FUNCTION)                                                                                                \
+    ETENDUE_SEQUENCE(NAME, FUNCTION, uint64_t seed = 0; uint32_t count = 1;, seed ETENDUE_COMMA count)
+
+ETENDUE_SEEDED(Independent, etendue_independent_pairs)
+ETENDUE_SEEDED(OwenSobol, etendue_owen_sobol_pairs)
+ETENDUE_SEEDED(JointSobol, etendue_joint_sobol_pairs)
+ETENDUE_SEEDED(R2, etendue_r2_pairs)
+// `count` is the number of samples of a pixel
+ETENDUE_COUNTED(Stratified, etendue_stratified_pairs)
+ETENDUE_COUNTED(LatinHypercube, etendue_latin_hypercube_pairs)
+ETENDUE_COUNTED(Fibonacci, etendue_fibonacci_pairs)
+
+// ---- trees of lights ----
+
+using LightBound = EtendueLightBound;
+using LightTreeNode = EtendueLightTreeNode;
+
+// A light that a tree chose: UINT32_MAX with pmf 0 where none can contribute. `u` is what is left of the random number.
+struct Choice {
+    uint32_t light = UINT32_MAX;
+    float pmf = 0, u = 0;
+};
+// Columns of chosen lights. Empty ones are not wanted.
+struct ChoiceColumns {
+    Span<uint32_t> light;
+    Span<float> pmf, u;
+};
+
+// A tree of lights in the caller's memory, which must live as long as the tree is used.
+class LightTree {
+    EtendueLightTree c_ = {};
+
+  public:
+    // Number of nodes for so many lights.
+    static size_t nodes(size_t lights) { return etendue_light_tree_nodes(lights); }
+
+    // Builds the tree: `nodes` has nodes(lights.size()) elements, `places` as many as there are lights.
+    Status build(Span<const LightBound> lights, Span<LightTreeNode> nodes, Span<uint32_t> places) {
+        if (nodes.size() != LightTree::nodes(lights.size()) || places.size() != lights.size()) return ETENDUE_STATUS_COUNT;
+        return etendue_light_tree_build(lights.data(), lights.size(), nodes.data(), places.data(), &c_);
+    }
+    const EtendueLightTree& c() const { return c_; }
+
+    // Chooses a light for the point p of a surface with the unit normal n.
+    Choice choose(Vec3 p, Vec3 n, float u) const {
+        Choice out;
+        const EtendueChoiceColumns columns = {&out.light, &out.pmf, &out.u};
+        const float *const ps[3] = {&p.x, &p.y, &p.z}, *const ns[3] = {&n.x, &n.y, &n.z};
+        etendue_light_tree_choose_batch(&c_, 1, ps, ns, &u, &columns);
+        return out;
+    }
+    // The probability with which that light is chosen there.
+    float pmf(Vec3 p, Vec3 n, uint32_t light) const {
+        float out = 0;
+        const float *const ps[3] = {&p.x, &p.y, &p.z}, *const ns[3] = {&n.x, &n.y, &n.z};
+        etendue_light_tree_pmf_batch(&c_, 1, ps, ns, &light, &out);
+        return out;
+    }
+    Status choose(In<3> p, In<3> n, Span<const float> u, const ChoiceColumns& out) const {
+        using namespace detail;
+        const size_t count = u.size();
+        if (!fits(p, count) || !fits(n, count)) return ETENDUE_STATUS_COUNT;
+        if (!fits_or_absent(out.light, count) || !fits_or_absent(out.pmf, count) || !fits_or_absent(out.u, count)) return ETENDUE_STATUS_COUNT;
+        const EtendueChoiceColumns columns = {pointer(out.light), pointer(out.pmf), pointer(out.u)};
+        return etendue_light_tree_choose_batch(&c_, count, Pointers<const float, 3>(p).p, Pointers<const float, 3>(n).p, u.data(), &columns);
+    }
+    Status pmf(In<3> p, In<3> n, Span<const uint32_t> lights, Span<float> out) const {
+        using namespace detail;
+        const size_t count = lights.size();
+        if (!fits(p, count) || !fits(n, count) || !fits(out, count)) return ETENDUE_STATUS_COUNT;
+        return etendue_light_tree_pmf_batch(&c_, count, Pointers<const float, 3>(p).p, Pointers<const float, 3>(n).p, lights.data(), out.data());
+    }
+};
+
+// The instructions that batches use on this processor: 0, 3 or 4, see etendue_level.
+inline uint32_t level() { return etendue_level(); }
+
+// ---- the functions of pbrt-v4 ----
+//
+// Names, arguments and results are pbrt's, so that a host can replace one function at a time. Samples and inverses agree with each other,
+// but not with pbrt's for the same u: replace both of a pair. Where there is no sample, pdf is 0 and the result zeros.
+
+// Barycentric coordinates of a point of the triangle v[0], v[1], v[2], uniform in the solid angle at p.
+template <class Vertices>
+Vec3 SampleSphericalTriangle(const Vertices& v, Vec3 p, Vec2 u, float* pdf) {
+    const LightSample s = Triangle::from_vertices(v[0], v[1], v[2]).by_solid_angle(p).sample(u);
+    if (pdf) *pdf = s.pdf;
+    if (!(s.pdf > 0)) return {};
+    return {1 - s.uv[0] - s.uv[1], s.uv[0], s.uv[1]};
+}
+// The random numbers of the unit direction w.
+template <class Vertices>
+Vec2 InvertSphericalTriangleSample(const Vertices& v, Vec3 p, Vec3 w) {
+    return Triangle::from_vertices(v[0], v[1], v[2]).by_solid_angle(p).invert(w);
+}
+// A point of the rectangle s + a ex + b ey, uniform in the solid angle at pRef.
+inline Vec3 SampleSphericalRectangle(Vec3 pRef, Vec3 s, Vec3 ex, Vec3 ey, Vec2 u, float* pdf) {
+    const LightSample sample = Rectangle(s, ex, ey).by_solid_angle(pRef).sample(u);
+    if (pdf) *pdf = sample.pdf;
+    if (!(sample.pdf > 0)) return {};
+    const float a = sample.uv[0], b = sample.uv[1];
+    return {s.x + a * ex.x + b * ey.x, s.y + a * ex.y + b * ey.y, s.z + a * ex.z + b * ey.z};
+}
+// The random numbers of the point pRect of the rectangle.
+inline Vec2 InvertSphericalRectangleSample(Vec3 pRef, Vec3 s, Vec3 ex, Vec3 ey, Vec3 pRect) {
+    const Vec3 d = {pRect.x - pRef.x, pRect.y - pRef.y, pRect.z - pRef.z};
+    const float length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    return Rectangle(s, ex, ey).by_solid_angle(pRef).invert({d.x / length, d.y / length, d.z / length});
+}
+
+inline Vec3 SampleUniformSphere(Vec2 u) { return UniformSphere().sample(u); }
+inline float UniformSpherePDF() { return 0.0795774715f; }
+inline Vec2 InvertUniformSphereSample(Vec3 w) { return UniformSphere().invert(w); }
+
+inline Vec3 SampleUniformHemisphere(Vec2 u) { return UniformHemisphere().sample(u); }
+inline float UniformHemispherePDF() { return 0.159154943f; }
+inline Vec2 InvertUniformHemisphereSample(Vec3 w) { return UniformHemisphere().invert(w); }
+
+inline Vec3 SampleCosineHemisphere(Vec2 u) { return CosineHemisphere().sample(u); }
+inline float CosineHemispherePDF(float cosTheta) { return cosTheta * 0.318309886f; }
+inline Vec2 InvertCosineHemisphereSample(Vec3 w) { return CosineHemisphere().invert(w); }
+
+// These take the cosine, as pbrt's do, of which small angles leave few digits: there, use Cone, which takes 1 - cos.
+inline Vec3 SampleUniformCone(Vec2 u, float cosThetaMax) { return Cone(1 - cosThetaMax).sample(u); }
+inline float UniformConePDF(float cosThetaMax) { return 0.159154943f / (1 - cosThetaMax); }
+inline Vec2 InvertUniformConeSample(Vec3 w, float cosThetaMax) { return Cone(1 - cosThetaMax).invert(w); }
+
+inline Vec2 SampleUniformDiskConcentric(Vec2 u) { return ConcentricDisk().sample(u); }
+inline Vec2 InvertUniformDiskConcentricSample(Vec2 p) { return ConcentricDisk().invert(p); }
+inline Vec2 SampleUniformDiskPolar(Vec2 u) { return PolarDisk().sample(u); }
+inline Vec2 InvertUniformDiskPolarSample(Vec2 p) { return PolarDisk().invert(p); }
+
+// Barycentric coordinates of all three vertices.
+inline Vec3 SampleUniformTriangle(Vec2 u) {
+    const Vec2 b = LowDistortionTriangle().sample(u);
+    return {1 - b.x - b.y, b.x, b.y};
+}
+inline Vec2 InvertUniformTriangleSample(Vec3 b) { return LowDistortionTriangle().invert({b.y, b.z}); }
+
+inline float SampleLinear(float u, float a, float b) { return Linear(a, b).sample(u); }
+inline float LinearPDF(float x, float a, float b) { return Linear(a, b).pdf(x); }
+inline float InvertLinearSample(float x, float a, float b) { return Linear(a, b).invert(x); }
+inline float SampleTent(float u, float r) { return Tent(r).sample(u); }
+inline float TentPDF(float x, float r) { return Tent(r).pdf(x); }
+inline float InvertTentSample(float x, float r) { return Tent(r).invert(x); }
+inline float SampleExponential(float u, float a) { return Exponential(a).sample(u); }
+inline float ExponentialPDF(float x, float a) { return Exponential(a).pdf(x); }
+inline float InvertExponentialSample(float x, float a) { return Exponential(a).invert(x); }
+inline float SampleNormal(float u, float mu = 0, float sigma = 1) { return Normal(mu, sigma).sample(u); }
+inline float NormalPDF(float x, float mu = 0, float sigma = 1) { return Normal(mu, sigma).pdf(x); }
+inline float InvertNormalSample(float x, float mu = 0, float sigma = 1) { return Normal(mu, sigma).invert(x); }
+
+// `w` are four densities, in pbrt's order: at (0, 0), (1, 0), (0, 1) and (1, 1).
+template <class Weights>
+Vec2 SampleBilinear(Vec2 u, const Weights& w) {
+    return Bilinear(w[0], w[1], w[2], w[3]).sample(u);
+}
+template <class Weights>
+float BilinearPDF(Vec2 p, const Weights& w) {
+    return Bilinear(w[0], w[1], w[2], w[3]).pdf(p);
+}
+template <class Weights>
+Vec2 InvertBilinearSample(Vec2 p, const Weights& w) {
+    return Bilinear(w[0], w[1], w[2], w[3]).invert(p);
+}
+
+#undef ETENDUE_TECHNIQUE
+#undef ETENDUE_ANYWHERE
+#undef ETENDUE_ON_SURFACE
+#undef ETENDUE_WARP_METHODS
+#undef ETENDUE_FIXED_WARP
+#undef ETENDUE_WARP
+#undef ETENDUE_SEQUENCE
+#undef ETENDUE_SEEDED
+#undef ETENDUE_COUNTED
+#undef ETENDUE_COMMA
+
+} // namespace etendue
+
+#endif // ETENDUE_HPP

@@ -191,7 +191,7 @@ light! {
 }
 light! {
     /// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Its samplers use the
-    /// first random number alone; their pdf is per unit of sin(gamma) ds/r^2 (gamma from the line, s along it).
+    /// first random number alone; their pdf is per unit of sin(gamma) ds/r^2 (gamma from the line, s along it). No ray hits a line.
     EtendueLine, EtendueLineColumns = Line {
         /// One end, in the coordinates of the scene.
         p: [3],

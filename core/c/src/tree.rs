@@ -74,7 +74,7 @@ impl EtendueLightTree {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct EtendueChoiceColumns {
-    /// Index of the light; UINT32_MAX where none was chosen.
+    /// Index of the light; UINT32_MAX where none was chosen, since a part of the tree was reached none of whose lights can contribute.
     pub light: *mut u32,
     /// Probability with which it was chosen; 0 where none was.
     pub pmf: *mut f32,

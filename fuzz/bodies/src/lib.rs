@@ -1,8 +1,11 @@
-//! Bodies of the fuzz targets of the renderer: scenes, images, parts of images and certificates. `tests/seeds.rs` runs the same functions without a fuzzer.
+//! Bodies of the fuzz targets of the renderer, scenes, images, parts of images and certificates, and of the C interface. `tests/seeds.rs` runs
+//! the same functions without a fuzzer.
 
+mod c_interface;
 mod certificates;
 mod part;
 
+pub use c_interface::c_interface;
 pub use certificates::certificates;
 use etendue_render::compare::Comparison;
 use etendue_render::{World, image as images, scene};

@@ -1,4 +1,4 @@
-//! Runs the fuzz bodies of the renderer without a fuzzer, on the committed seeds and findings, and on randomly damaged copies of them.
+//! Runs the fuzz bodies of the renderer and of the C interface without a fuzzer, on the committed seeds and findings, and on randomly damaged copies of them.
 
 use etendue_fuzz_bodies as files;
 use std::path::Path;
@@ -56,11 +56,20 @@ fn certificates() {
     damaged("certificates", files::certificates, 30_000);
 }
 #[test]
+fn c_interface() {
+    damaged("c_interface", files::c_interface, 3000);
+}
+#[test]
 #[ignore = "half a million damaged files of each kind: some minutes"]
 fn many_files() {
     damaged("scene", files::scene, 500_000);
     damaged("image", files::image, 500_000);
     damaged("part", files::part, 500_000);
+}
+#[test]
+#[ignore = "a million calls for each seed: some minutes"]
+fn many_calls() {
+    damaged("c_interface", files::c_interface, 1_000_000);
 }
 #[test]
 #[ignore = "ten million small scenes: some minutes"]

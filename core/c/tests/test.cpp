@@ -1,0 +1,242 @@
+// Tests of etendue.hpp: its values are those of the C functions, its batches check lengths, and the functions of pbrt's names close.
+#include "etendue.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+using namespace etendue;
+
+static int checks = 0, failures = 0;
+#define CHECK(condition)                                                               \
+    do {                                                                               \
+        checks++;                                                                      \
+        if (!(condition) && failures++ < 20)                                           \
+            std::fprintf(stderr, "test.cpp:%d: not so: %s\n", __LINE__, #condition);   \
+    } while (0)
+
+// A host's own types, of the forms that renderers have.
+struct Point2 {
+    float x, y;
+};
+struct Point3 {
+    float x, y, z;
+};
+struct Direction {
+    Direction(float a, float b, float c) : x(a), y(b), z(c) {}
+    double x, y, z;
+};
+
+static bool near(Vec2 a, Vec2 b, float tolerance = 2e-5f) { return std::fabs(a.x - b.x) < tolerance && std::fabs(a.y - b.y) < tolerance; }
+static bool near(Vec3 a, Vec3 b, float tolerance = 2e-5f) { return near(Vec2(a.x, a.y), Vec2(b.x, b.y), tolerance) && std::fabs(a.z - b.z) < tolerance; }
+
+static const Vec3 p = {0.1f, 0, -0.2f}, n = {0, 1, 0};
+static const Vec2 u = {0.3f, 0.6f};
+
+// One prepared light: singles agree with each other, and batches with singles.
+template <class Sampler>
+static void test(const Sampler& sampler, bool is_line = false) {
+    const LightSample s = sampler.sample(u);
+    CHECK(s.pdf > 0);
+    const Vec3 w = s.direction;
+    CHECK(is_line || (sampler.pdf(w) > 0 && sampler.hit(w).pdf == sampler.pdf(w)));
+    CHECK(near(Vec3(sampler.sample(sampler.invert(w)).direction), w));
+
+    std::vector<float> x(37), y(37), a(37), b(37), c(37), pdf(37), back(37), front(37), other(36);
+    CHECK(OwenSobol{7}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
+    SampleColumns out;
+    out.direction = {a, b, c};
+    out.pdf = pdf;
+    CHECK(sampler.sample({x, y}, out) == ETENDUE_STATUS_OK);
+    for (size_t i = 0; i < x.size(); i++) {
+        const LightSample one = sampler.sample({x[i], y[i]});
+        CHECK(one.direction[0] == a[i] && one.direction[1] == b[i] && one.direction[2] == c[i] && one.pdf == pdf[i]);
+    }
+    CHECK(sampler.pdf({a, b, c}, pdf) == ETENDUE_STATUS_OK && sampler.invert({a, b, c}, {back, front}) == ETENDUE_STATUS_OK);
+    CHECK(sampler.invert({a, b, c}, {back, Span<float>()}) == ETENDUE_STATUS_OK);
+    SampleColumns hits;
+    hits.distance = front;
+    CHECK(sampler.hit({a, b, c}, hits) == ETENDUE_STATUS_OK);
+    for (size_t i = 0; i < x.size(); i++) {
+        const Vec3 d = {a[i], b[i], c[i]};
+        CHECK(sampler.pdf(d) == pdf[i] && sampler.invert(d).x == back[i] && sampler.hit(d).distance == front[i]);
+    }
+    // one column too short
+    CHECK(sampler.sample({x, other}, out) == ETENDUE_STATUS_COUNT && sampler.pdf({a, b, other}, pdf) == ETENDUE_STATUS_COUNT);
+    CHECK(sampler.pdf({a, b, c}, other) == ETENDUE_STATUS_COUNT && sampler.invert({a, other, c}, {back, front}) == ETENDUE_STATUS_COUNT);
+    CHECK(sampler.invert({a, b, c}, {back, other}) == ETENDUE_STATUS_COUNT && sampler.hit({other, b, c}, hits) == ETENDUE_STATUS_COUNT);
+    hits.distance = other;
+    CHECK(sampler.hit({a, b, c}, hits) == ETENDUE_STATUS_COUNT);
+    std::vector<uint8_t> bytes(38);
+    out.emits = bytes;
+    CHECK(sampler.sample({x, y}, out) == ETENDUE_STATUS_COUNT);
+    CHECK(sampler.pdf(In<3>(), Span<float>()) == ETENDUE_STATUS_OK);
+}
+
+template <class W>
+static void test_warp(const W& warp) {
+    constexpr bool is_line = std::is_same_v<typename W::Point, float>;
+    typename W::Numbers numbers;
+    if constexpr (is_line) numbers = u.x;
+    else numbers = u;
+    const auto point = warp.sample(numbers);
+    CHECK(warp.pdf(point) > 0);
+    if constexpr (is_line) CHECK(std::fabs(warp.invert(point) - u.x) < 2e-5f);
+    else CHECK(near(Vec2(warp.invert(point)), u));
+}
+
+static void test_lights() {
+    const Sphere sphere({0.3f, 2, 0.1f}, 0.5f);
+    test(sphere.by_area(p)), test(sphere.by_solid_angle(p)), test(sphere.by_projected_solid_angle(p, n));
+    const Triangle triangle({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f});
+    test(triangle.by_area(p)), test(triangle.by_solid_angle(p)), test(triangle.by_projected_solid_angle(p, n)), test(triangle.by_cosine_warp(p, n));
+    const Parallelogram parallelogram({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f});
+    test(parallelogram.by_area(p)), test(parallelogram.by_solid_angle(p)), test(parallelogram.by_projected_solid_angle(p, n));
+    const Rectangle rectangle({-0.5f, 2, -0.3f}, {1.2f, 0, 0}, {0, 0.3f, 0.9f});
+    test(rectangle.by_solid_angle(p)), test(rectangle.by_cosine_warp(p, n));
+    const Disk disk({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f);
+    test(disk.by_area(p)), test(disk.by_solid_angle(p));
+    test(Cylinder({-1, 2, 0.3f}, {2, 0.1f, 0.2f}, 0.3f).by_area(p));
+    test(BilinearPatch({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}).by_area(p));
+    const Polygon polygon({{-0.5f, 2, -0.3f}, {0.6f, 2, -0.4f}, {0.9f, 2, 0.4f}, {0.2f, 2, 0.9f}, {-0.6f, 2, 0.5f}});
+    test(polygon.by_area(p)), test(polygon.by_solid_angle(p)), test(polygon.by_projected_solid_angle(p, n));
+    CHECK(Polygon(nullptr, 0).by_solid_angle(p).sample(u).pdf == 0);
+    const Line line({-1, 2, 0.3f}, {2, 0.1f, 0.2f});
+    test(line.by_length(p), true), test(line.by_angle(p), true), test(line.by_projected_solid_angle(p, n), true);
+    test(Sun({0.36f, 0.8f, 0.48f}, 1e-3f).by_solid_angle());
+
+    // the same light for each point, in columns
+    std::vector<float> zeros(5), ones(5, 1), twos(5, 2), x(5), y(5), pdf(5), shorter(4), p0(5, 0.1f), p2(5, -0.2f);
+    CHECK(Independent{3}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
+    const TriangleColumns lights({zeros, twos, zeros}, {ones, zeros, zeros}, {zeros, zeros, ones});
+    SampleColumns out;
+    out.pdf = pdf;
+    CHECK(TriangleBySolidAngle::sample_each(lights, {p0, zeros, p2}, {x, y}, out) == ETENDUE_STATUS_OK);
+    const auto own = Triangle({0, 2, 0}, {1, 0, 0}, {0, 0, 1}).by_solid_angle(p);
+    for (size_t i = 0; i < 5; i++) CHECK(pdf[i] == own.sample({x[i], y[i]}).pdf);
+    CHECK(TriangleByCosineWarp::sample_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, {x, y}, out) == ETENDUE_STATUS_OK);
+    CHECK(pdf[4] == Triangle({0, 2, 0}, {1, 0, 0}, {0, 0, 1}).by_cosine_warp(p, n).sample({x[4], y[4]}).pdf);
+    CHECK(TriangleByCosineWarp::sample_each(lights, {p0, zeros, p2}, {zeros, shorter, zeros}, {x, y}, out) == ETENDUE_STATUS_COUNT);
+    CHECK(TriangleBySolidAngle::sample_each(lights, {p0, shorter, p2}, {x, y}, out) == ETENDUE_STATUS_COUNT);
+    const TriangleColumns uneven({zeros, twos, zeros}, {ones, zeros, zeros}, {zeros, zeros, shorter});
+    CHECK(TriangleBySolidAngle::sample_each(uneven, {p0, zeros, p2}, {x, y}, out) == ETENDUE_STATUS_COUNT);
+    const SphereColumns spheres({zeros, twos, zeros}, ones);
+    CHECK(SphereBySolidAngle::sample_each(spheres, {p0, zeros, p2}, {x, y}, out) == ETENDUE_STATUS_OK);
+    CHECK(pdf[1] == Sphere({0, 2, 0}, 1).by_solid_angle(p).sample({x[1], y[1]}).pdf);
+}
+
+static void test_warps() {
+    test_warp(ConcentricDisk()), test_warp(PolarDisk()), test_warp(UniformHemisphere()), test_warp(UniformSphere()), test_warp(CosineHemisphere());
+    test_warp(Octahedral()), test_warp(AreaTriangle()), test_warp(LowDistortionTriangle()), test_warp(Cone(0.3f));
+    test_warp(Bilinear(1, 2, 0.5f, 3)), test_warp(GgxVisibleNormals(0.3f, 0.5f, {0.48f, 0.36f, 0.8f}));
+    test_warp(DiskSurface({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f)), test_warp(CylinderSide({-1, 2, 0.3f}, {2, 0.1f, 0.2f}, 0.3f));
+    test_warp(SphereSurface({0.3f, 2, 0.1f}, 0.5f));
+    test_warp(PatchSurface({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}));
+    test_warp(Linear(1, 3)), test_warp(Tent(2)), test_warp(Exponential(1.5f)), test_warp(Normal(0.5f, 2));
+
+    std::array<float, 20> x, y, a, b, c, pdf;
+    CHECK(R2{1}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
+    CHECK(CosineHemisphere().sample({x, y}, {a, b, c}) == ETENDUE_STATUS_OK && CosineHemisphere().pdf({a, b, c}, pdf) == ETENDUE_STATUS_OK);
+    CHECK(Vec3(CosineHemisphere().sample({x[7], y[7]})).y == b[7] && std::fabs(pdf[7] - c[7] * 0.318309886f) < 1e-6f);
+    CHECK(CosineHemisphere().invert({a, b, c}, {a, b}) == ETENDUE_STATUS_OK && std::fabs(a[7] - x[7]) < 1e-5f);
+    CHECK(CosineHemisphere().sample({x, y}, {a, b, Span<float>(c.data(), 19)}) == ETENDUE_STATUS_COUNT);
+    const Span<float> line[] = {x, y};
+    CHECK(Tent(2).sample(In<1>(line[0]), Out<1>(line[1])) == ETENDUE_STATUS_OK && y[3] == Tent(2).sample(x[3]));
+}
+
+static void test_sequences() {
+    float x[9], y[9];
+    const auto test = [&](const auto& sequence) {
+        CHECK(sequence.pairs({5, 3, 1}, {x, y}) == ETENDUE_STATUS_OK);
+        for (uint32_t i = 0; i < 9; i++) CHECK(x[i] == sequence.pair(5, 3 + i, 1).x && y[i] == sequence.pair(5, 3 + i, 1).y);
+    };
+    test(Independent{1}), test(OwenSobol{1}), test(JointSobol{1}), test(R2{1});
+    test(Stratified{1, 16}), test(LatinHypercube{1, 16}), test(Fibonacci{1, 21});
+    const uint32_t samples[9] = {8, 7, 6, 5, 4, 3, 2, 1, 0};
+    CHECK(OwenSobol{1}.pairs({5, 0, 1, {}, samples}, {x, y}) == ETENDUE_STATUS_OK && x[2] == OwenSobol{1}.pair(5, 6, 1).x);
+    CHECK(OwenSobol{1}.pairs({5, 0, 1, {}, Span<const uint32_t>(samples, 8)}, {x, y}) == ETENDUE_STATUS_COUNT);
+    CHECK(OwenSobol{1}.pairs({}, {x, Span<float>(y, 8)}) == ETENDUE_STATUS_COUNT);
+}
+
+static void test_tree() {
+    std::vector<LightBound> lights(100);
+    for (size_t i = 0; i < lights.size(); i++) lights[i] = {{float(i % 10), 3, float(i / 10)}, 0.1f, {0, -1, 0}, 0, 0, 1};
+    std::vector<LightTreeNode> nodes(LightTree::nodes(lights.size()));
+    std::vector<uint32_t> places(lights.size());
+    LightTree tree;
+    CHECK(tree.choose(p, n, 0.5f).pmf == 0 && tree.pmf(p, n, 0) == 0); // not built
+    CHECK(tree.build(lights, nodes, Span<uint32_t>(places.data(), 99)) == ETENDUE_STATUS_COUNT);
+    CHECK(tree.build(lights, nodes, places) == ETENDUE_STATUS_OK);
+    std::vector<float> x(13), y(13), z(13), up(13, 1), flat(13), r(13), pmf(13), rest(13);
+    std::vector<uint32_t> light(13);
+    CHECK(Independent{1}.pairs({}, {r, x}) == ETENDUE_STATUS_OK);
+    CHECK(tree.choose({x, y, z}, {flat, up, flat}, r, {light, pmf, rest}) == ETENDUE_STATUS_OK);
+    for (size_t i = 0; i < 13; i++) {
+        const Choice one = tree.choose({x[i], 0, 0}, n, r[i]);
+        CHECK(one.light == light[i] && one.pmf == pmf[i] && one.u == rest[i] && tree.pmf({x[i], 0, 0}, n, one.light) == one.pmf);
+    }
+    CHECK(tree.pmf({x, y, z}, {flat, up, flat}, light, rest) == ETENDUE_STATUS_OK && rest == pmf);
+    CHECK(tree.choose({x, y, z}, {flat, up, flat}, r, {{}, Span<float>(pmf.data(), 5), {}}) == ETENDUE_STATUS_COUNT);
+    CHECK(tree.pmf({x, y, z}, {flat, up, flat}, light, Span<float>(pmf.data(), 5)) == ETENDUE_STATUS_COUNT);
+}
+
+static void test_pbrt() {
+    const std::array<Point3, 3> v = {Point3{-0.5f, 2, -0.3f}, {0.7f, 2.1f, -0.1f}, {-0.4f, 2.2f, 0.8f}};
+    const Point2 number = {0.3f, 0.6f};
+    const Point3 at = {0.1f, 0, -0.2f};
+    float pdf = -1;
+    const std::array<float, 3> b = SampleSphericalTriangle(v, at, number, &pdf);
+    CHECK(std::fabs(b[0] + b[1] + b[2] - 1) < 1e-6f && pdf == Triangle::from_vertices(v[0], v[1], v[2]).by_solid_angle(at).sample(u).pdf);
+    Direction w(0, 0, 0);
+    float length = 0;
+    for (int k = 0; k < 3; k++) {
+        w.x += double(b[size_t(k)]) * v[size_t(k)].x, w.y += double(b[size_t(k)]) * v[size_t(k)].y, w.z += double(b[size_t(k)]) * v[size_t(k)].z;
+    }
+    w = Direction(float(w.x - at.x), float(w.y - at.y), float(w.z - at.z));
+    length = float(std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z));
+    w = Direction(float(w.x) / length, float(w.y) / length, float(w.z) / length);
+    const Point2 back = InvertSphericalTriangleSample(v, at, w);
+    CHECK(near(back, number));
+    const std::array<Point3, 3> flat = {Point3{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    const Vec3 none = SampleSphericalTriangle(flat, at, number, &pdf);
+    CHECK(pdf == 0 && none.x == 0 && none.y == 0 && none.z == 0);
+    SampleSphericalTriangle(v, at, number, nullptr);
+
+    const Point3 s = {-0.5f, 2, -0.3f}, ex = {1.2f, 0, 0}, ey = {0, 0.3f, 0.9f};
+    const Point3 on = SampleSphericalRectangle(at, s, ex, ey, number, &pdf);
+    CHECK(pdf > 0 && near(InvertSphericalRectangleSample(at, s, ex, ey, on), u));
+    CHECK(near(Rectangle(s, ex, ey).by_solid_angle(at).hit(Vec3(Rectangle(s, ex, ey).by_solid_angle(at).sample(u).direction)).uv,
+               Vec2((on.x - s.x) / 1.2f, (on.z - s.z) / 0.9f)));
+
+    CHECK(near(InvertUniformSphereSample(SampleUniformSphere(u)), u) && near(InvertUniformHemisphereSample(SampleUniformHemisphere(u)), u));
+    CHECK(near(InvertCosineHemisphereSample(SampleCosineHemisphere(u)), u) && near(InvertUniformConeSample(SampleUniformCone(u, 0.75f), 0.75f), u));
+    CHECK(near(InvertUniformDiskConcentricSample(SampleUniformDiskConcentric(u)), u));
+    CHECK(near(InvertUniformDiskPolarSample(SampleUniformDiskPolar(u)), u) && near(InvertUniformTriangleSample(SampleUniformTriangle(u)), u));
+    CHECK(UniformSpherePDF() == UniformSphere().pdf({0, 0, 1}) && UniformHemispherePDF() == UniformHemisphere().pdf({0, 0, 1}));
+    CHECK(std::fabs(CosineHemispherePDF(0.5f) - CosineHemisphere().pdf({0.866025404f, 0, 0.5f})) < 1e-7f);
+    CHECK(std::fabs(UniformConePDF(0.75f) / Cone(0.25f).pdf({0, 0, 1}) - 1) < 1e-6f);
+    CHECK(std::fabs(InvertLinearSample(SampleLinear(0.3f, 1, 3), 1, 3) - 0.3f) < 1e-6f && std::fabs(LinearPDF(0.5f, 1, 3) - 1) < 1e-6f);
+    CHECK(std::fabs(InvertTentSample(SampleTent(0.3f, 2), 2) - 0.3f) < 1e-6f && std::fabs(TentPDF(1, 2) - 0.25f) < 1e-6f);
+    CHECK(std::fabs(InvertExponentialSample(SampleExponential(0.3f, 2), 2) - 0.3f) < 1e-6f && std::fabs(ExponentialPDF(0, 2) - 2) < 1e-6f);
+    CHECK(std::fabs(InvertNormalSample(SampleNormal(0.3f)) - 0.3f) < 1e-6f && std::fabs(NormalPDF(0) - 0.398942280f) < 1e-6f);
+    const float weights[4] = {1, 2, 0.5f, 3};
+    CHECK(near(InvertBilinearSample(SampleBilinear(u, weights), weights), u) && std::fabs(BilinearPDF({1, 0}, weights) - 2 / 1.625f) < 1e-6f);
+}
+
+// What converts to what.
+static_assert(std::is_convertible_v<Point3, Vec3> && std::is_convertible_v<Vec3, Point3> && std::is_convertible_v<Vec3, Direction>);
+static_assert(std::is_convertible_v<Point2, Vec2> && std::is_convertible_v<Vec2, Point2> && std::is_convertible_v<Vec3, std::array<float, 3>>);
+static_assert(!std::is_convertible_v<Vec3, Vec2> && !std::is_convertible_v<Point3, Vec2> && !std::is_convertible_v<Vec3, LightSample>);
+static_assert(std::is_trivially_copyable_v<TriangleBySolidAngle> && sizeof(Triangle) == sizeof(EtendueTriangle));
+
+int main() {
+    test_lights();
+    test_warps();
+    test_sequences();
+    test_tree();
+    test_pbrt();
+    std::printf("%d checks, %d failed\n", checks, failures);
+    return failures > 0;
+}
