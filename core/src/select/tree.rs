@@ -20,7 +20,7 @@ pub const NO_LIGHT: u32 = u32::MAX;
 /// Points farther away than this, relative to the extent of the lights, count as this far.
 const FAR: f64 = (1_u64 << 30) as f64;
 /// The greatest number of lanes of a packet.
-const MOST_LANES: usize = 8;
+const MOST_LANES: usize = 16;
 /// More than the number of levels of 2²⁷ lights: seven splits, each of which leaves at most 15/16, leave a child at most 0.64 of a node.
 const DEEPEST: usize = 64;
 
