@@ -7,7 +7,7 @@ use crate::real::{Real, Uint, unit_interval};
 const LEAST: f32 = 0.02;
 
 /// The greatest number of lanes of a packet.
-const MOST_LANES: usize = 8;
+const MOST_LANES: usize = 16;
 
 /// Allocates a block of samples to a few lights in advance, instead of choosing a light at random for each sample.
 ///

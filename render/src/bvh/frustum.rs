@@ -1,6 +1,6 @@
 //! Packet traversal: a group moves through the tree as one frustum, or a packet on its own.
 
-use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
+use super::node::{INNER, Node, Stack, WIDTH, greater, push_in_order, slabs};
 use super::rays::{Hits, Rays, any, common_sign};
 use super::tree::{Primitives, Tree};
 use crate::packet::{M8, V8, X8, max, min, select};
@@ -176,6 +176,7 @@ fn packets_with<const ANY: bool, const COMMON: bool>(
     let mut height = 0;
     // the greatest remaining search distance of any ray
     let mut reach = farthest(hits, active);
+    let mut changed = false;
     let mut place = 0_u32;
     loop {
         let node = &tree.nodes[place as usize];
@@ -202,7 +203,11 @@ fn packets_with<const ANY: bool, const COMMON: bool>(
             }
             height -= 1;
             let Pending { node, slot, near } = stack[height];
-            // without a frustum, `near` bounds only the leading lane, and leaves are tested again below
+            // a leaf tests the rays against its box anyway
+            if slot == INNER && changed {
+                (reach, changed) = (farthest(hits, active), false);
+            }
+            // without a frustum, `near` bounds only the leading lane
             if !ANY && packets.frustum.is_some() && near > reach {
                 continue;
             }
@@ -210,9 +215,7 @@ fn packets_with<const ANY: bool, const COMMON: bool>(
                 break node;
             }
             let node = &tree.nodes[node as usize];
-            if visit_leaf::<ANY, COMMON>(tree, packets, node, slot as usize & 7, active, hits) {
-                reach = farthest(hits, active);
-            }
+            changed |= visit_leaf::<ANY, COMMON>(tree, packets, node, slot as usize & 7, active, hits);
         };
     }
 }
@@ -245,5 +248,6 @@ fn visit_leaf<const ANY: bool, const COMMON: bool>(
 #[inline]
 fn farthest(hits: &[Hits], active: &[M8]) -> f32 {
     let most = hits.iter().zip(active).fold(X8::lit(0.0), |m, (h, &a)| max(m, h.distance.keep(a)));
-    most.to_array().into_iter().fold(0.0, f32::max)
+    let [a, b, c, d, e, f, g, h] = most.to_array();
+    greater(greater(greater(a, b), greater(c, d)), greater(greater(e, f), greater(g, h)))
 }

@@ -94,9 +94,8 @@ impl TriangleLeaves {
     }
     /// Corners of one triangle of a leaf, broadcast to all lanes.
     #[inline(always)]
-    fn one(&self, leaf: &Range<usize>, index: usize) -> [V8; 3] {
-        let data = &self.coordinates[9 * leaf.start..9 * leaf.end];
-        let at = |k: usize| X8::splat(data[k * leaf.len() + index]);
+    fn one(columns: &[&[f32]; 9], index: usize) -> [V8; 3] {
+        let at = |k: usize| X8::splat(columns[k][index]);
         let corner = |k: usize| Vec3::new(at(k), at(k + 1), at(k + 2));
         [corner(0), corner(3), corner(6)]
     }
@@ -169,27 +168,28 @@ impl Primitives for TriangleLeaves {
         hits: &mut Hits,
     ) -> M8 {
         let mut hidden = M8::splat(false);
-        for index in 0..leaf.len() {
-            let projected = project(self.one(&leaf, index), rays.origin, rays.frame);
-            let inside = projected.inside & active;
-            if inside.any() {
-                let (distance, inverse) = projected.distance(rays.direction, near);
-                let ahead = inside & distance.gt(X8::lit(0.0));
-                let mut nearer = ahead & distance.lt(hits.distance);
-                if ANY {
-                    hidden = hidden | nearer;
-                    continue;
-                }
-                let place = (leaf.start + index) as u32;
-                let tie = ahead & distance.le(hits.distance) & !nearer;
-                if tie.any() {
-                    nearer = nearer | self.goes_first(tie, place, hits);
-                }
-                hits.distance = select(nearer, distance, hits.distance);
-                hits.place = pick(nearer, u32x8::splat(place), hits.place);
-                hits.b1 = select(nearer, projected.weights[1] * inverse, hits.b1);
-                hits.b2 = select(nearer, projected.weights[2] * inverse, hits.b2);
+        let count = leaf.len();
+        let data = &self.coordinates[9 * leaf.start..9 * leaf.end];
+        let columns: [&[f32]; 9] = std::array::from_fn(|k| &data[k * count..(k + 1) * count]);
+        for index in 0..count {
+            let projected = project(Self::one(&columns, index), rays.origin, rays.frame);
+            // without a branch on whether any ray hits: it would often be mispredicted, which costs more than the division
+            let (distance, inverse) = projected.distance(rays.direction, near);
+            let ahead = projected.inside & active & distance.gt(X8::lit(0.0));
+            let mut nearer = ahead & distance.lt(hits.distance);
+            if ANY {
+                hidden = hidden | nearer;
+                continue;
             }
+            let place = (leaf.start + index) as u32;
+            let tie = ahead & distance.le(hits.distance) & !nearer;
+            if tie.any() {
+                nearer = nearer | self.goes_first(tie, place, hits);
+            }
+            hits.distance = select(nearer, distance, hits.distance);
+            hits.place = pick(nearer, u32x8::splat(place), hits.place);
+            hits.b1 = select(nearer, projected.weights[1] * inverse, hits.b1);
+            hits.b2 = select(nearer, projected.weights[2] * inverse, hits.b2);
         }
         hidden
     }
