@@ -53,8 +53,6 @@ enum Kind {
 struct Choices(Kind, Vec<Set>);
 
 impl Routine for Choices {
-    // a tree of lights takes eight lanes
-    const MOST: usize = 8;
     fn run<R: Real>(&self, figures: &mut Figures) {
         for Set { bounds, slots } in &self.1 {
             let powers: Vec<_> = bounds.iter().map(|bound| bound.power).collect();
@@ -95,8 +93,6 @@ impl Routine for Choices {
 struct Allocations;
 
 impl Routine for Allocations {
-    // so does an allocation
-    const MOST: usize = 8;
     fn run<R: Real>(&self, figures: &mut Figures) {
         let mut random = Random::new(1200);
         for round in 0..50 {
