@@ -1,7 +1,7 @@
 //! Tables over slices: the frequencies of the cells over every possible `u` match the reported pmf.
 
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
-use etendue::{Uint, Vec2, Warp, Warp1, f32x4, f32x8, u32x4, u32x8};
+use etendue::{Real, Uint, Vec2, Warp, Warp1, f32x4, f32x8, f32x16, u32x4, u32x8};
 use etendue_properties::generators::Random;
 
 const STEPS: u32 = 1 << 24;
@@ -119,21 +119,26 @@ fn piecewise_constant_2d_counts() {
                     (back.x - u.x).abs() <= allowed[0] && (back.y - u.y).abs() <= allowed[1],
                     "{name}: {u:?} {back:?}"
                 );
-                // every lane gives the scalar result
                 if i % 16 == 0 {
-                    let us: [Vec2<f32>; 8] = core::array::from_fn(|_| Vec2::new(random.unit(), random.unit()));
-                    let u8: Vec2<f32x8> = Vec2::new(us.map(|u| u.x).into(), us.map(|u| u.y).into());
-                    let (cells, points) = (table.cell(u8), table.sample(u8));
-                    let (pdfs, backs) = (table.pdf(points), table.invert(points));
-                    for (k, &u) in us.iter().enumerate() {
-                        let (one, p) = (table.cell(u), table.sample(u));
-                        assert_eq!((cells.x.lane(k), cells.y.lane(k)), (one.x, one.y));
-                        assert_eq!((cells.offset.lane(k), points.lane(k)), (one.offset, p));
-                        assert_eq!((pdfs.as_array()[k], backs.lane(k)), (table.pdf(p), table.invert(p)));
-                    }
+                    every_lane::<f32x8>(&table, &mut random);
+                    every_lane::<f32x16>(&table, &mut random);
                 }
             }
         }
+    }
+}
+
+/// Every lane gives the scalar result.
+fn every_lane<R: Real<Scalar = f32>>(table: &PiecewiseConstant2d<'_>, random: &mut Random) {
+    let us: Vec<Vec2<f32>> = (0..R::LANES).map(|_| Vec2::new(random.unit(), random.unit())).collect();
+    let packet = Vec2::new(R::from_fn(|k| us[k].x), R::from_fn(|k| us[k].y));
+    let (cells, points) = (table.cell(packet), table.sample(packet));
+    let (pdfs, backs) = (table.pdf(points), table.invert(points));
+    for (k, &u) in us.iter().enumerate() {
+        let (one, p) = (table.cell(u), table.sample(u));
+        assert_eq!((cells.x.lane(k), cells.y.lane(k)), (one.x, one.y));
+        assert_eq!((cells.offset.lane(k), points.lane(k)), (one.offset, p));
+        assert_eq!((pdfs.lane(k), backs.lane(k)), (table.pdf(p), table.invert(p)));
     }
 }
 

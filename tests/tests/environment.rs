@@ -3,10 +3,10 @@
 use core::f64::consts::{PI, TAU};
 use etendue::discrete::TableError;
 use etendue::light::{EnvironmentMap, ImageEnvironment};
-use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8};
+use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
 use etendue_oracle::{V3, length, sub};
 use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, squares_of, vectors_of};
+use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
 use etendue_properties::stats;
 use etendue_properties::tolerances::{SIGNIFICANCE, ULP};
 
@@ -294,6 +294,10 @@ fn any_bits_in_every_lane() {
                 for i in 0..8 {
                     let one = bits::<f32>(&sky, squares_of(&u[i..=i]), vectors_of(|_| w[i]), 0);
                     assert_eq!(one, bits::<f32x8>(&sky, squares_of(&u), vectors_of(|i| w[i]), i));
+                    for lane in [i, 15 - i] {
+                        let w = vectors_of(|k| twice(&w)[k]);
+                        assert_eq!(one, bits::<f32x16>(&sky, squares_of(&twice(&u)), w, lane));
+                    }
                     let four = &u[i / 4 * 4..][..4];
                     assert_eq!(one, bits::<f32x4>(&sky, squares_of(four), vectors_of(|k| w[i / 4 * 4 + k]), i % 4));
                     let float = |k: usize| f64::from_bits(one[k]);

@@ -2,7 +2,7 @@
 
 use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, log_variance_error, technique_pdf};
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Real, Uint, Vec2, f32x4, f32x8};
+use etendue::{Real, Uint, Vec2, f32x4, f32x8, f32x16};
 use etendue_properties::checks::{self, EXTREMES, HEURISTICS};
 use etendue_properties::stats;
 
@@ -45,10 +45,12 @@ fn weights_are_their_formula_at_every_scale_and_width() {
             let lane = |k: usize| if k.is_multiple_of(2) { densities } else { [other, densities[1], other] };
             let four = heuristic.weights([0, 1, 2].map(|t| f32x4::from_fn(|k| lane(k)[t])));
             let eight = heuristic.weights([0, 1, 2].map(|t| f32x8::from_fn(|k| lane(k)[t])));
-            for k in 0..8 {
+            let sixteen = heuristic.weights([0, 1, 2].map(|t| f32x16::from_fn(|k| lane(k)[t])));
+            for k in 0..16 {
                 let one = heuristic.weights(lane(k));
                 for t in 0..3 {
-                    assert_eq!(eight[t].lane(k).to_bits(), one[t].to_bits());
+                    assert_eq!(sixteen[t].lane(k).to_bits(), one[t].to_bits());
+                    assert!(k > 7 || eight[t].lane(k).to_bits() == one[t].to_bits());
                     assert!(k > 3 || four[t].lane(k).to_bits() == one[t].to_bits());
                 }
             }

@@ -3,13 +3,13 @@
 use core::f64::consts::{PI, TAU};
 use etendue::{
     ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, PointLight, Real,
-    Rectangle, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
+    Rectangle, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16,
 };
 use etendue_oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, perpendicular_disk, projected_polygon, sub, unit,
 };
 use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, squares_of, vectors_of};
+use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
 
 /// Mean of f over an n × n grid of `u`.
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
@@ -321,6 +321,14 @@ fn any_bits_in_every_lane() {
             f32x8::from_fn(radius),
             squares_of(&us),
         );
+        let [p16, a16, b16] = [p, a, b].map(|v| twice(&v));
+        let sixteen = samples::<f32x16>(
+            vectors_of(|i| p16[i]),
+            vectors_of(|i| a16[i]),
+            vectors_of(|i| b16[i]),
+            f32x16::from_fn(|i| twice(&r)[i][0]),
+            squares_of(&twice(&us)),
+        );
         let four = samples::<f32x4>(
             vectors_of(|i| p[i]),
             vectors_of(|i| a[i]),
@@ -332,6 +340,9 @@ fn any_bits_in_every_lane() {
             for (k, scalar) in scalars.iter().enumerate() {
                 assert_eq!(bits(scalar, 0), bits(&eight[k], i), "light {k}, lane {i}: {scalar:?}\n{:?}", eight[k]);
                 assert!(i > 3 || bits(scalar, 0) == bits(&four[k], i), "light {k}, lane {i}");
+                for lane in [i, 15 - i] {
+                    assert_eq!(bits(scalar, 0), bits(&sixteen[k], lane), "light {k}, lane {lane} of 16");
+                }
                 let s = scalar;
                 let finite = length(s.direction.at(0)).is_finite() && s.pdf.is_finite() && s.pdf >= 0.0;
                 assert!(

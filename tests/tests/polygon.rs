@@ -1,9 +1,9 @@
 //! Polygons as lights: irradiance against Lambert's formula, coincident corners, lanes, arbitrary bits.
 
-use etendue::{LightSample, LightSampler, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8};
+use etendue::{LightSample, LightSampler, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8, f32x16};
 use etendue_oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
 use etendue_properties::generators::{self, Random};
-use etendue_properties::properties::{Coordinates, squares_of, vectors_of};
+use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
 
 fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
     let at = |i: usize| (i as f64 + 0.5) / n as f64;
@@ -111,6 +111,13 @@ fn any_bits_in_every_lane() {
             eight.by_solid_angle(vectors_of(|i| p[i])).sample(squares_of(&us)),
             eight.by_projected_solid_angle(vectors_of(|i| p[i]), vectors_of(|i| p[7 - i])).sample(squares_of(&us)),
         ];
+        let sixteen = Polygon::<f32x16, 5> { corners: core::array::from_fn(|k| vectors_of(|i| twice(&corners[k])[i])) };
+        let (at, up) = (vectors_of(|i| twice(&p)[i]), vectors_of(|i| twice(&p)[15 - (i ^ 8)]));
+        let sixteen = [
+            sixteen.by_area(at).sample(squares_of(&twice(&us))),
+            sixteen.by_solid_angle(at).sample(squares_of(&twice(&us))),
+            sixteen.by_projected_solid_angle(at, up).sample(squares_of(&twice(&us))),
+        ];
         let four = Polygon::<f32x4, 5> { corners: core::array::from_fn(|k| vectors_of(|i| corners[k][i])) };
         let four = four.by_area(vectors_of(|i| p[i])).sample(squares_of(&us[..4]));
         for i in 0..8 {
@@ -128,6 +135,14 @@ fn any_bits_in_every_lane() {
                 );
                 let finite = s.direction.at(0).iter().all(|x| x.is_finite());
                 assert!(finite && s.distance.is_finite() && s.pdf.is_finite() && s.pdf >= 0.0, "{s:?}");
+            }
+            for (s, packet) in one.iter().zip(&sixteen) {
+                for lane in [i, 15 - i] {
+                    assert_eq!(
+                        (s.direction.at(0), s.distance, s.pdf),
+                        (packet.direction.at(lane), packet.distance.lane(lane), packet.pdf.lane(lane))
+                    );
+                }
             }
             if i < 4 {
                 assert_eq!((one[0].direction.at(0), one[0].pdf), (four.direction.at(i), four.pdf.lane(i)));

@@ -1,7 +1,7 @@
 //! Point sets: they are the nets, strata and lattices that they claim to be, at every width, and reduce the variance as expected.
 
 use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
-use etendue::{Real, Uint, Vec2, f32x4, f32x8, f64x4, u32x4};
+use etendue::{Real, Uint, Vec2, f32x4, f32x8, f32x16, f64x4, u32x4};
 use etendue_properties::generators::AlongCurve;
 use etendue_properties::stats;
 use etendue_properties::tolerances::SIGNIFICANCE;
@@ -474,12 +474,14 @@ fn packets_are_scalars() {
                 let pixels = |k: usize| start.wrapping_add(k as u32 * 977);
                 let samples = |k: usize| (start / 2).wrapping_add(k as u32 * 3);
                 let eight: Vec2<f32x8> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
+                let sixteen: Vec2<f32x16> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
                 let four: Vec2<f32x4> = sequence.pair(Uint::from_fn(pixels), Uint::from_fn(samples), dimension);
                 let double: Vec2<f64x4> = sequence.pair(u32x4::from_fn(pixels), u32x4::from_fn(samples), dimension);
-                for k in 0..8 {
+                for k in 0..16 {
                     let one: Vec2<f32> = sequence.pair(pixels(k), samples(k), dimension);
                     assert!((0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y), "{name}: {one:?}");
-                    assert_eq!(eight.lane(k), one, "{name}, lane {k}");
+                    assert_eq!(sixteen.lane(k), one, "{name}, lane {k} of 16");
+                    assert!(k > 7 || eight.lane(k) == one, "{name}, lane {k} of 8");
                     let wide: Vec2<f64> = sequence.pair(pixels(k), samples(k), dimension);
                     assert!((wide.x - f64::from(one.x)).abs() < 2.4e-7, "{name}: {one:?} {wide:?}");
                     if k < 4 {
@@ -502,6 +504,9 @@ fn packets_are_scalars() {
 #[test]
 fn bits_are_reversed_at_every_width() {
     let value = |k: usize| (k as u32 + 1).wrapping_mul(0x9e37_79b1);
+    for k in 0..16 {
+        assert_eq!(etendue::u32x16::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
+    }
     for k in 0..8 {
         assert_eq!(etendue::u32x8::from_fn(value).reverse_bits().lane(k), value(k).reverse_bits());
     }

@@ -3,11 +3,11 @@
 mod lamp;
 mod regimes;
 
-use crate::properties::{lanes_of, vectors_of};
+use crate::properties::{lanes_of, twice, vectors_of};
 use etendue::select::{
     Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild,
 };
-use etendue::{Real, Uint, f32x4, f32x8, u32x4, u32x8};
+use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
 pub use lamp::{Kind, Lamp};
 pub use regimes::{Regime, place};
 
@@ -180,6 +180,12 @@ impl Grove {
         let eight = tree.at(p, n);
         let [p, n] = [vectors_of::<f32x4>(|i| places[i].0), vectors_of(|i| places[i].1)];
         let four = tree.at(p, n);
+        let (all, all_words, all_us) = (twice(places), twice(words), twice(us));
+        let sixteen = tree.at(vectors_of::<f32x16>(|i| all[i].0), vectors_of(|i| all[i].1));
+        let wide = [
+            sixteen.choose_by([0, 1].map(|k| u32x16::from_fn(|i| all_words[i][k]))),
+            sixteen.choose(lanes_of(|i| f64::from(all_us[i]))),
+        ];
         let by_bits = (
             eight.choose_by([0, 1].map(|k| u32x8::from_fn(|i| words[i][k]))),
             four.choose_by([0, 1].map(|k| u32x4::from_fn(|i| words[i][k]))),
@@ -189,12 +195,15 @@ impl Grove {
         let (pmf_of_bits, pmf_of_u) = (eight.pmf(by_bits.0.index), eight.pmf(by_u.0.index));
         for i in 0..8 {
             let one = self.at(places[i]);
-            for (eight, four, evaluated, one) in [
-                (&by_bits.0, &by_bits.1, pmf_of_bits, one.choose_by(words[i])),
-                (&by_u.0, &by_u.1, pmf_of_u, one.choose(us[i])),
+            for (sixteen, eight, four, evaluated, one) in [
+                (&wide[0], &by_bits.0, &by_bits.1, pmf_of_bits, one.choose_by(words[i])),
+                (&wide[1], &by_u.0, &by_u.1, pmf_of_u, one.choose(us[i])),
             ] {
                 self.one_choice(places[i], one);
                 let bits = figures(&one, 0);
+                for lane in [i, 15 - i] {
+                    assert_eq!(bits, figures(sixteen, lane), "lane {lane} of 16 at {places:?}");
+                }
                 assert_eq!(bits, figures(eight, i), "lane {i} of 8 at {places:?}");
                 assert!(i >= 4 || bits == figures(four, i), "lane {i} of 4 at {places:?}");
                 assert_eq!(evaluated.lane(i).to_bits(), one.pmf.to_bits(), "lane {i} at {places:?}");

@@ -1,8 +1,8 @@
 //! Lights behind blockers, and the properties of their visible parts that hold for any numbers.
 
-use crate::properties::vectors_of;
+use crate::properties::{twice, vectors_of};
 use etendue::occlusion::{Convex, Edge, Occlusion, Polyhedron};
-use etendue::{Real, Vec3, f32x4, f32x8};
+use etendue::{Real, Vec3, f32x4, f32x8, f32x16};
 use etendue_oracle::{V3, along, cross, dot, narrow, sub, unit, wide};
 
 /// A light, blockers, and eight points with the normals of their surfaces.
@@ -98,7 +98,7 @@ fn converted<S: From<f32>>(shape: &Convex<f32>) -> Convex<S> {
 }
 
 impl Scene {
-    /// Ω⊥ of the visible part from the points `first` and after, in any precision and width.
+    /// Ω⊥ of the visible part from the points `first` and after, in any precision and width. Sixteen lanes have the points [`twice`].
     #[must_use]
     pub fn found<R: Real>(&self, first: usize) -> Option<R>
     where
@@ -108,9 +108,10 @@ impl Scene {
         let parts: Vec<Parts<R::Scalar>> = self.solids.iter().map(parts).collect();
         let solids: Vec<_> =
             parts.iter().map(|(center, faces, edges)| Polyhedron { center: *center, faces, edges }).collect();
+        let (points, normals) = (twice(&self.points), twice(&self.normals));
         Occlusion::new().visible_past(
-            vectors_of::<R>(|i| self.points[first + i]),
-            vectors_of::<R>(|i| self.normals[first + i]),
+            vectors_of::<R>(|i| points[first + i]),
+            vectors_of::<R>(|i| normals[first + i]),
             &converted(&self.light),
             &blockers,
             &solids,
@@ -129,12 +130,15 @@ impl Scene {
             assert!((0.0..=*all).contains(left), "{left} of {all}: {self:?}");
         }
     }
-    /// f32, f32x4 and f32x8 give the same bits. What eight lanes can compute, each can alone.
+    /// f32, f32x4, f32x8 and f32x16 give the same bits. What eight lanes can compute, each can alone.
     ///
     /// # Panics
     /// If they do not.
     pub fn lanes(&self) {
         let Some(eight) = self.found::<f32x8>(0) else { return };
+        let sixteen = self.found::<f32x16>(0).map(|x| x.to_array().map(f32::to_bits));
+        let expected = twice(&eight.to_array().map(f32::to_bits));
+        assert_eq!(sixteen, Some(expected), "{self:?}");
         for lane in 0..8 {
             let four = self.found::<f32x4>(lane / 4 * 4).map(|x| x.lane(lane % 4).to_bits());
             let one = self.found::<f32>(lane).map(f32::to_bits);

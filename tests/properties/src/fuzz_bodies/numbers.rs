@@ -2,14 +2,14 @@
 
 use super::Input;
 use crate::checks;
-use crate::properties::{lanes_of, squares_of, vectors_of};
+use crate::properties::{lanes_of, squares_of, twice, vectors_of};
 use core::f64::consts::PI;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d, TableError};
 use etendue::estimate::{Heuristic, Reservoir, Welford};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
 use etendue::select::{Allocation, Choice, LightBound, LightChoice, PowerLights, SpatialLights, UniformLights};
-use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x8, u32x8};
+use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, Warp1, f32x4, f32x8, f32x16, u32x8};
 use etendue_oracle::{dot, length, sub};
 
 /// Weights, some of them 0 and rarely one invalid, with the error that an invalid one must give.
@@ -229,7 +229,12 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     }
     let mut found = Allocation::NONE;
     for first in (0..size).step_by(8) {
-        let samples = block.samples::<f32x8>(first);
+        let (samples, sixteen) = (block.samples::<f32x8>(first), block.samples::<f32x16>(first));
+        for lane in 0..16 {
+            let one = block.samples::<f32>(first + lane as u32);
+            let figures = (sixteen.light.lane(lane), sixteen.sample.lane(lane), sixteen.share.lane(lane));
+            assert_eq!((one.light, one.sample, one.share), figures, "lane {lane} of 16 from {first}");
+        }
         for lane in 0..8 {
             let one = block.samples::<f32>(first + lane as u32);
             let light = samples.light.lane(lane);
@@ -254,10 +259,11 @@ pub(super) fn math(input: &mut Input<'_>) {
         let off = (f64::from(value) - truth).abs();
         assert!(off <= relative * truth.abs() + absolute, "{name} of {x:e}, {y:e}: {value:e}, truth {truth:e}");
     };
-    let same = |name: &str, one: f32, eight: f32x8| {
-        assert!(one.to_bits() == eight.lane(7).to_bits(), "{name} of {x:e}, {y:e}: {one:e}, {:e}", eight.lane(7));
+    let same = |name: &str, one: f32, eight: f32x8, sixteen: f32x16| {
+        let lanes = [eight.lane(7), sixteen.lane(13)];
+        assert!(lanes.map(f32::to_bits) == [one.to_bits(); 2], "{name} of {x:e}, {y:e}: {one:e}, {lanes:?}");
     };
-    let (x8, y8): (f32x8, f32x8) = (f32x8::splat(x), f32x8::splat(y));
+    let (x8, y8, x16, y16) = (f32x8::splat(x), f32x8::splat(y), f32x16::splat(x), f32x16::splat(y));
     let angle = Real::atan2(y, x);
     // a subnormal angle is rounded to the subnormal grid, and so is the bound of the octant if both numbers are a few steps of 2⁻¹⁴⁹
     let largest = x.abs().max(y.abs());
@@ -265,34 +271,38 @@ pub(super) fn math(input: &mut Input<'_>) {
         let relative = if largest < 9e-44 { 5.2e-6 } else { 2.0e-7 };
         close("atan2", angle, if x == 0.0 && y == 0.0 { 0.0 } else { dy.atan2(dx) }, relative, 3e-45);
     }
-    same("atan2", angle, Real::atan2(y8, x8));
+    same("atan2", angle, Real::atan2(y8, x8), Real::atan2(y16, x16));
     assert!(angle == 0.0 || angle.is_sign_negative() == y.is_sign_negative());
     close("acos", Real::acos(x), dx.clamp(-1.0, 1.0).acos(), 2.1e-7, 0.0);
-    same("acos", Real::acos(x), Real::acos(x8));
+    same("acos", Real::acos(x), Real::acos(x8), Real::acos(x16));
     if (-87.0..88.0).contains(&x) {
         close("exp", Real::exp(x), dx.exp(), 8.2e-8, 0.0);
         close("exp_m1", Real::exp_m1(x), dx.exp_m1(), 1.2e-7, 1e-45);
     }
     assert!(Real::exp(x).is_finite() && Real::exp(x) >= 0.0 && Real::exp_m1(x) >= -1.0);
-    same("exp", Real::exp(x), Real::exp(x8));
-    same("exp_m1", Real::exp_m1(x), Real::exp_m1(x8));
+    same("exp", Real::exp(x), Real::exp(x8), Real::exp(x16));
+    same("exp_m1", Real::exp_m1(x), Real::exp_m1(x8), Real::exp_m1(x16));
     if x > -1.0 && x <= 1e30 {
         close("ln_1p", Real::ln_1p(x), dx.ln_1p(), 1.3e-7, 1e-45);
-        same("ln_1p", Real::ln_1p(x), Real::ln_1p(x8));
+        same("ln_1p", Real::ln_1p(x), Real::ln_1p(x8), Real::ln_1p(x16));
     }
     if x == 0.0 || x > 8e-31 {
         close("cbrt", Real::cbrt(x), dx.cbrt(), 7.9e-8, 0.0);
-        same("cbrt", Real::cbrt(x), Real::cbrt(x8));
+        same("cbrt", Real::cbrt(x), Real::cbrt(x8), Real::cbrt(x16));
     }
     let phi = Real::normal_cdf(x);
     assert!((0.0..=1.0).contains(&phi), "Φ({x:e}) = {phi}");
-    same("normal_cdf", phi, Real::normal_cdf(x8));
+    same("normal_cdf", phi, Real::normal_cdf(x8), Real::normal_cdf(x16));
     let u = input.unit();
     let quantile = Real::normal_quantile(u);
     let truth: f64 = Real::normal_quantile(f64::from(u));
     close("normal_quantile", quantile, truth, 3.3e-7, 0.0);
     assert!(Real::normal_quantile(x).abs() < 5.43, "{x:e}");
+    same("normal_quantile", Real::normal_quantile(x), Real::normal_quantile(x8), Real::normal_quantile(x16));
     let (sin, cos) = Real::sin_cos_turns(u);
+    let (eight, sixteen) = (f32x8::splat(u).sin_cos_turns(), f32x16::splat(u).sin_cos_turns());
+    same("sin", sin, eight.0, sixteen.0);
+    same("cos", cos, eight.1, sixteen.1);
     let (s, c) = (2.0 * PI * f64::from(u)).sin_cos();
     close("sin", sin, s, 0.0, 8.4e-8);
     close("cos", cos, c, 0.0, 8.4e-8);
@@ -366,40 +376,75 @@ pub(super) fn bits(input: &mut Input<'_>) {
     let words: [u32; 8] = core::array::from_fn(|_| input.word());
     let others: [u32; 8] = core::array::from_fn(|_| input.word());
     let shift = u32::from(input.below(32));
-    let (a, b) = (u32x8::from_fn(|k| words[k]), u32x8::from_fn(|k| others[k]));
     let numbers: [f32; 8] = core::array::from_fn(|_| input.number());
-    let x = f32x8::from_fn(|k| numbers[k]);
-    let mask = <f32x8 as Real>::Mask::from_bits(words[0] & 255);
-    assert_eq!(mask.bits(), words[0] & 255);
-    assert_eq!((mask.any(), mask.all()), (words[0] & 255 != 0, words[0] & 255 == 255));
-    for k in 0..8 {
+    let (words, others, numbers) = (twice(&words), twice(&others), twice(&numbers));
+    bits_of::<f32x4>(&words, &others, shift, &numbers);
+    bits_of::<f32x8>(&words, &others, shift, &numbers);
+    bits_of::<f32x16>(&words, &others, shift, &numbers);
+}
+
+fn bits_of<R: Real<Scalar = f32>>(words: &[u32; 16], others: &[u32; 16], shift: u32, numbers: &[f32; 16]) {
+    let (a, b) = (R::Uint::from_fn(|k| words[k]), R::Uint::from_fn(|k| others[k]));
+    let x = R::from_fn(|k| numbers[k]);
+    let all = u32::MAX >> (32 - R::LANES);
+    // the bits past the last lane count for nothing
+    let (mask, other) = (R::Mask::from_bits(words[0]), R::Mask::from_bits(others[0]));
+    let set = words[0] & all;
+    assert_eq!((mask.bits(), mask.any(), mask.all()), (set, set != 0, set == all));
+    assert_eq!([mask & other, mask | other, mask ^ other, !mask].map(Mask::bits), {
+        let (p, q) = (words[0], others[0]);
+        [p & q, p | q, p ^ q, !p].map(|bits| bits & all)
+    });
+    for value in [false, true] {
+        let mask = R::Mask::splat(value);
+        assert_eq!((mask.bits(), mask.any(), mask.all()), (if value { all } else { 0 }, value, value));
+    }
+    assert_eq!((a.any(), R::Uint::splat(0).any()), (words[..R::LANES].iter().any(|w| *w != 0), false));
+    assert!((R::LANES..40).all(|k| !mask.lane(k)));
+    for k in 0..R::LANES {
         let (p, q) = (words[k], others[k]);
+        assert_eq!(mask.lane(k), words[0] >> k & 1 == 1);
+        assert_eq!([a & b, a | b, a ^ b].map(|x| x.lane(k)), [p & q, p | q, p ^ q]);
         assert_eq!(Uint::wrapping_add(a, b).lane(k), p.wrapping_add(q));
         assert_eq!(Uint::wrapping_sub(a, b).lane(k), p.wrapping_sub(q));
         assert_eq!(Uint::wrapping_mul(a, b).lane(k), p.wrapping_mul(q));
         assert_eq!((Uint::shl(a, shift).lane(k), Uint::shr(a, shift).lane(k)), (p << shift, p >> shift));
         assert_eq!(Uint::reverse_bits(a).lane(k), p.reverse_bits());
         assert_eq!(Uint::lt(a, b).lane(k), if p < q { u32::MAX } else { 0 });
-        let unit = <f32x8 as Real>::unit(a).lane(k);
-        assert_eq!(unit, (p >> 8) as f32 / 16_777_216.0);
-        let y = numbers[(k + 3) % 8];
+        assert_eq!(R::blend_uint(mask, a, b).lane(k), if mask.lane(k) { p } else { q });
+        assert_eq!(R::unit(a).lane(k), (p >> 8) as f32 / 16_777_216.0);
+        assert_eq!(R::from_uint(Uint::shr(a, 8)).lane(k), (p >> 8) as f32);
+        assert_eq!(R::from_uint(Uint::shr(a, 8)).to_uint().lane(k), p >> 8);
+        // any power of two, and its exponent
+        let exponent = f32::from((p >> 24) as u8 % 254) - 126.0;
+        let power = R::splat(exponent).power_of_two();
+        assert_eq!((power.lane(k), power.exponent().lane(k)), (exponent.exp2(), exponent));
+        let y = numbers[(k + 3) % R::LANES];
         let lane = numbers[k];
-        let y8 = f32x8::splat(y);
-        assert_eq!(Real::lt(x, y8).lane(k), lane < y);
-        assert_eq!(Real::le(x, y8).lane(k), lane <= y);
+        let ys = R::splat(y);
+        assert_eq!((x.lt(ys).lane(k), x.gt(ys).lane(k)), (lane < y, lane > y));
+        assert_eq!((x.le(ys).lane(k), x.ge(ys).lane(k)), (lane <= y, lane >= y));
         let pairs = [
-            (Real::lesser(x, y8).lane(k), Real::lesser(lane, y)),
-            (Real::greater(x, y8).lane(k), Real::greater(lane, y)),
-            (Real::abs(x).lane(k), lane.abs()),
-            (Real::copysign(x, y8).lane(k), lane.copysign(y)),
-            (Real::mul_add(x, y8, x).lane(k), Real::mul_add(lane, y, lane)),
-            (Real::keep(x, mask).lane(k), if mask.lane(k) { lane } else { 0.0 }),
-            (Real::negate_where(x, mask).lane(k), if mask.lane(k) { -lane } else { lane }),
+            (x.lesser(ys), Real::lesser(lane, y)),
+            (x.greater(ys), Real::greater(lane, y)),
+            (x.abs(), lane.abs()),
+            (x.copysign(ys), lane.copysign(y)),
+            (x.sqrt(), lane.sqrt()),
+            (x / ys, lane / y),
+            (x.round_ties_even(), lane.round_ties_even()),
+            (x.pow2_scale(), lane.pow2_scale()),
+            (x.mul_add(ys, x), Real::mul_add(lane, y, lane)),
+            (R::two_prod_error(x, ys, x * ys), Real::two_prod_error(lane, y, lane * y)),
+            (x.keep(mask), if mask.lane(k) { lane } else { 0.0 }),
+            (R::blend(mask, x, ys), if mask.lane(k) { lane } else { y }),
+            (x.negate_where(mask), if mask.lane(k) { -lane } else { lane }),
         ];
-        for (i, (eight, one)) in pairs.into_iter().enumerate() {
+        for (i, (packet, one)) in pairs.into_iter().enumerate() {
+            let packet = packet.lane(k);
             assert!(
-                eight.to_bits() == one.to_bits() || eight.is_nan() && one.is_nan(),
-                "{i}: {lane:e} {y:e}: {eight:e}"
+                packet.to_bits() == one.to_bits() || packet.is_nan() && one.is_nan(),
+                "{i}, {} lanes: {lane:e} {y:e}: {packet:e} is not {one:e}",
+                R::LANES
             );
         }
     }

@@ -5,15 +5,24 @@ use crate::generators::AlongCurve;
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
 };
-use etendue::{Uint, Vec2, f32x8, u32x8};
+use etendue::{Real, Uint, Vec2, f32x8, f32x16};
 
 /// Every sequence at any index: points are in [0, 1)², and the same in packets and when evaluated again.
 pub(super) fn sequence(input: &mut Input<'_>) {
     fn check(sequence: &(impl Sequence + core::fmt::Debug), pixel: u32, sample: u32, dimension: u32) {
-        let (pixels, samples) =
-            (u32x8::from_fn(|k| pixel.wrapping_add(k as u32)), u32x8::from_fn(|k| sample.wrapping_add(7 * k as u32)));
-        let packet: Vec2<f32x8> = sequence.pair(pixels, samples, dimension);
-        for k in 0..8 {
+        packet::<f32x8>(sequence, pixel, sample, dimension);
+        packet::<f32x16>(sequence, pixel, sample, dimension);
+    }
+    fn packet<R: Real<Scalar = f32>>(
+        sequence: &(impl Sequence + core::fmt::Debug),
+        pixel: u32,
+        sample: u32,
+        dimension: u32,
+    ) {
+        let pixels = R::Uint::from_fn(|k| pixel.wrapping_add(k as u32));
+        let samples = R::Uint::from_fn(|k| sample.wrapping_add(7 * k as u32));
+        let packet: Vec2<R> = sequence.pair(pixels, samples, dimension);
+        for k in 0..R::LANES {
             let one: Vec2<f32> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
             assert_eq!(packet.lane(k), one, "{sequence:?} lane {k}: pixel {pixel}, sample {sample}, {dimension}");
             let inside = (0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y);
