@@ -158,6 +158,10 @@ warps! {
     (EtendueNormal) 1 1 etendue_normal_sample etendue_normal_pdf etendue_normal_invert etendue_normal_sample_batch etendue_normal_pdf_batch etendue_normal_invert_batch;
 }
 
+/// Techniques whose lights have a unit vector, and where in their numbers it is: disks and suns.
+const UNITS: [(usize, usize); 3] = [(12, 3), (13, 3), (22, 0)];
+/// The warp with a unit vector, a disk.
+const DISK: usize = 11;
 /// The warp whose parameters a function prepares.
 const GGX: usize = 10;
 
@@ -328,20 +332,26 @@ pub fn c_interface(bytes: &[u8]) {
     let mut input = Input { bytes: bytes.iter(), any: false, state: 0 };
     input.any = input.below(2) == 1;
     match input.below(TECHNIQUES.len() + WARPS.len() + 2) {
-        k if k < TECHNIQUES.len() => technique(&mut input, &TECHNIQUES[k]),
+        k if k < TECHNIQUES.len() => technique(&mut input, k),
         k if k < TECHNIQUES.len() + WARPS.len() => warp(&mut input, k - TECHNIQUES.len()),
         k if k == TECHNIQUES.len() + WARPS.len() => sequence(&mut input),
         _ => tree(&mut input),
     }
 }
 
-fn technique(input: &mut Input<'_>, t: &Technique) {
+fn technique(input: &mut Input<'_>, index: usize) {
+    let t = &TECHNIQUES[index];
     let call = input.below(6);
     let n = COUNTS[input.below(COUNTS.len())];
     // the pointer that is null, if any
     let null_at = input.below(64);
     let absent = u16::from(input.byte()) << 8 | u16::from(input.byte());
-    let light: Vec<f32> = (0..t.light).map(|_| input.number()).collect();
+    let mut light: Vec<f32> = (0..t.light).map(|_| input.number()).collect();
+    let unit_at = UNITS.iter().find(|(of, _)| *of == index).map(|(_, at)| *at);
+    if let Some(at) = unit_at {
+        let vector = unit([light[at], light[at + 1], light[at + 2]]);
+        light[at..at + 3].copy_from_slice(&vector);
+    }
     let (p, normal) = ([(); 3].map(|()| input.number()), unit([(); 3].map(|()| input.number())));
     let u: [Vec<f32>; 2] = input.columns(n, fraction);
     let w: [Vec<f32>; 3] = units(input.columns(n, |x| x));
@@ -472,7 +482,11 @@ fn technique(input: &mut Input<'_>, t: &Technique) {
                 }
             }
             _ => {
-                let lights: [Vec<f32>; LIGHT] = input.columns(n, |x| x);
+                let mut lights: [Vec<f32>; LIGHT] = input.columns(n, |x| x);
+                if let Some(at) = unit_at {
+                    let vectors = units([0, 1, 2].map(|k| lights[at + k].clone()));
+                    lights[at..at + 3].clone_from_slice(&vectors);
+                }
                 let (points, normals): ([Vec<f32>; 3], _) = (input.columns(n, |x| x), units(input.columns(n, |x| x)));
                 for column in lights.iter().chain(&points).chain(&normals) {
                     is_finite &= all_finite(&[column]);
@@ -510,6 +524,10 @@ fn warp(input: &mut Input<'_>, index: usize) {
     let n = COUNTS[input.below(COUNTS.len())];
     let null_at = input.below(16);
     let mut parameters: Vec<f32> = (0..t.parameters.max(1)).map(|_| input.number()).collect();
+    if index == DISK {
+        let normal = unit([parameters[3], parameters[4], parameters[5]]);
+        parameters[3..6].copy_from_slice(&normal);
+    }
     let u: [Vec<f32>; 2] = input.columns(n, fraction);
     let x: [Vec<f32>; 3] = input.columns(n, |x| x);
     let is_finite = all_finite(&[&parameters, &u[0], &u[1], &x[0], &x[1], &x[2]]);
