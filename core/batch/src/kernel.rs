@@ -42,7 +42,8 @@ impl Place {
             let mut packet = MaybeUninit::<R>::uninit();
             // SAFETY: the caller's column has an element for every lane, and a packet consists of its lanes
             unsafe {
-                copy_nonoverlapping(column.add(self.at), packet.as_mut_ptr().cast::<f32>(), R::LANES);
+                // as bytes, since columns have any alignment
+                copy_nonoverlapping(column.add(self.at).cast::<u8>(), packet.as_mut_ptr().cast::<u8>(), 4 * R::LANES);
                 packet.assume_init()
             }
         } else if self.count == 1 {
@@ -73,7 +74,10 @@ impl Place {
         }
         if self.count == R::LANES {
             // SAFETY: the caller's column has an element for every lane, and a packet consists of its lanes
-            unsafe { copy_nonoverlapping((&raw const value).cast::<f32>(), column.add(self.at), R::LANES) };
+            unsafe {
+                let bytes = (&raw const value).cast::<u8>();
+                copy_nonoverlapping(bytes, column.add(self.at).cast::<u8>(), 4 * R::LANES);
+            }
         } else if self.count == 1 {
             // SAFETY: the caller's column has this element
             unsafe { column.add(self.at).write_unaligned(value.lane(0)) };
