@@ -1,7 +1,7 @@
-//! Time per sample of every routine in f32, f32x4 and f32x8. `cargo bench -p etendue-benches --bench warps -- "cone"` selects by name.
+//! Time per sample of every routine in f32, f32x4, f32x8 and f32x16. `cargo bench -p etendue-benches --bench warps -- "cone"` selects by name.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use etendue::{f32x4, f32x8};
+use etendue::{f32x4, f32x8, f32x16};
 use etendue_routines::{Routine, SAMPLES, routines};
 use std::time::{Duration, Instant};
 
@@ -25,6 +25,7 @@ fn warps(criterion: &mut Criterion) {
     width(criterion, routines::<f32>(), "f32");
     width(criterion, routines::<f32x4>(), "f32x4");
     width(criterion, routines::<f32x8>(), "f32x8");
+    width(criterion, routines::<f32x16>(), "f32x16");
 }
 
 criterion_group! {

@@ -1,7 +1,7 @@
 //! Instructions per sample, which do not depend on how busy the machine is: Valgrind counts them, and Callgrind dumps its counters at every
 //! call of a marker function.
 
-use etendue::{f32x4, f32x8};
+use etendue::{f32x4, f32x8, f32x16};
 use etendue_routines::{Routine, SAMPLES, without_tables};
 use std::fs;
 use std::hint::black_box;
@@ -11,6 +11,9 @@ use std::process::{Command, Stdio};
 /// The argument that makes the program run the routines for [`count`].
 pub(crate) const CHILD: &str = "--callgrind-child";
 
+/// The widths of packets that are measured: 1, 4, 8 and 16 lanes.
+pub(crate) const WIDTHS: usize = 4;
+
 /// The marker: Callgrind dumps its counters before each call.
 #[inline(never)]
 fn etendue_bench_mark() {
@@ -19,11 +22,9 @@ fn etendue_bench_mark() {
 
 /// Calls each routine whose name contains `filter`, in the order of the results of [`count`].
 pub(crate) fn child(filter: &str) {
-    let mut every: Vec<Routine> = [without_tables::<f32>(), without_tables::<f32x4>(), without_tables::<f32x8>()]
-        .into_iter()
-        .flatten()
-        .filter(|r| r.name.contains(filter))
-        .collect();
+    let widths =
+        [without_tables::<f32>(), without_tables::<f32x4>(), without_tables::<f32x8>(), without_tables::<f32x16>()];
+    let mut every: Vec<Routine> = widths.into_iter().flatten().filter(|r| r.name.contains(filter)).collect();
     for routine in &mut every {
         // the first call initialises lazily built state
         (routine.run)();
@@ -33,10 +34,10 @@ pub(crate) fn child(filter: &str) {
     }
 }
 
-/// Instructions per sample in f32, f32x4 and f32x8, of each routine whose name contains `filter`.
+/// Instructions per sample in f32, f32x4, f32x8 and f32x16, of each routine whose name contains `filter`.
 ///
 /// Fails if Valgrind is missing, does not run the program, or reports an unexpected number of dumps.
-pub(crate) fn count(filter: &str) -> Result<Vec<(String, [f64; 3])>, String> {
+pub(crate) fn count(filter: &str) -> Result<Vec<(String, [f64; WIDTHS])>, String> {
     let scratch = std::env::temp_dir().join(format!("etendue-callgrind-{}", std::process::id()));
     fs::create_dir_all(&scratch).map_err(|e| format!("{}: {e}", scratch.display()))?;
     let counts = dumps(filter, &scratch);
@@ -47,11 +48,11 @@ pub(crate) fn count(filter: &str) -> Result<Vec<(String, [f64; 3])>, String> {
     let counts = counts?;
     // dumps alternate between a routine and what lies between two routines
     let runs: Vec<f64> = counts.into_iter().skip(1).step_by(2).map(|n| n as f64 / SAMPLES as f64).collect();
-    if runs.len() != 3 * names.len() {
-        return Err(format!("callgrind counted {} runs of {} routines at three widths", runs.len(), names.len()));
-    }
     let n = names.len();
-    Ok(names.into_iter().enumerate().map(|(i, name)| (name, [runs[i], runs[n + i], runs[2 * n + i]])).collect())
+    if runs.len() != WIDTHS * n {
+        return Err(format!("callgrind counted {} runs of {n} routines at {WIDTHS} widths", runs.len()));
+    }
+    Ok(names.into_iter().enumerate().map(|(i, name)| (name, std::array::from_fn(|w| runs[w * n + i]))).collect())
 }
 
 /// The instructions between consecutive markers.

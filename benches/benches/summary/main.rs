@@ -1,5 +1,5 @@
-//! Two tables: the time per sample of every routine in f32, f32x4 and f32x8, with the speed-up of eight lanes over one; and rays per second
-//! on one thread.
+//! Two tables: the time per sample of every routine in f32, f32x4, f32x8 and f32x16, with the speed-ups of eight lanes over one and of
+//! sixteen over eight; and rays per second on one thread.
 //!
 //! `cargo bench -p etendue-benches --bench summary -- cone` selects routines by name, `-- --markdown` prints the format of the README, `--
 //! --instructions` counts instructions instead (requires Valgrind), `-- rays --json=FILE` also writes the rays to FILE (an absolute path).
@@ -11,11 +11,12 @@
 
 mod instructions;
 
-use etendue::{f32x4, f32x8};
+use etendue::{f32x4, f32x8, f32x16};
 use etendue_laboratory::cost::{self, Rounds};
 use etendue_render::bvh::Scratch;
 use etendue_routines::rays::{How, Kind, Workload};
 use etendue_routines::{SAMPLES, routines, tables};
+use instructions::WIDTHS;
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -23,13 +24,13 @@ const REPETITIONS: usize = 31;
 /// The calls of a round take a few hundred microseconds.
 const ROUNDS: Rounds = Rounds { count: REPETITIONS, calls: 64, samples: SAMPLES };
 
-/// Prints a row; the last column is the speed-up of eight lanes over one.
-fn row(markdown: bool, name: &str, [one, four, eight]: [f64; 3]) {
-    let gain = one / eight;
+/// Prints a row; the last columns are the speed-ups of eight lanes over one, and of sixteen over eight.
+fn row(markdown: bool, name: &str, [one, four, eight, sixteen]: [f64; WIDTHS]) {
+    let (gain, further) = (one / eight, eight / sixteen);
     if markdown {
-        println!("| {name} | {one:.2} | {four:.2} | {eight:.2} | {gain:.1} |");
+        println!("| {name} | {one:.2} | {four:.2} | {eight:.2} | {sixteen:.2} | {gain:.1} | {further:.2} |");
     } else {
-        println!("{name:38} {one:8.2} {four:8.2} {eight:8.2} {gain:7.1}");
+        println!("{name:38} {one:8.2} {four:8.2} {eight:8.2} {sixteen:8.2} {gain:7.1} {further:7.2}");
     }
 }
 
@@ -45,9 +46,9 @@ fn main() {
     let what = if counted { "instructions/sample" } else { "ns/sample, median" };
     let json = arguments.iter().find_map(|a| a.strip_prefix("--json="));
     if markdown {
-        println!("| {what} | f32 | x4 | x8 | x1/x8 |\n|---|---|---|---|---|");
+        println!("| {what} | f32 | x4 | x8 | x16 | x1/x8 | x8/x16 |\n|---|---|---|---|---|---|---|");
     } else {
-        println!("{what:38} {:>8} {:>8} {:>8} {:>7}", "f32", "f32x4", "f32x8", "x1/x8");
+        println!("{what:38} {:>8} {:>8} {:>8} {:>8} {:>7} {:>7}", "f32", "f32x4", "f32x8", "f32x16", "x1/x8", "x8/x16");
     }
     if counted {
         match instructions::count(&filter) {
@@ -61,13 +62,14 @@ fn main() {
     }
     let mut times = std::collections::HashMap::new();
     let [one, four, eight] = [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()];
-    let widths = one.into_iter().zip(four).zip(eight);
-    for ((one, four), eight) in widths.filter(|((one, _), _)| one.name.contains(&filter)) {
+    let widths = one.into_iter().zip(four).zip(eight).zip(routines::<f32x16>());
+    for (((one, four), eight), sixteen) in widths.filter(|(((one, ..), _), _)| one.name.contains(&filter)) {
         let name = one.name;
-        let mut each = [one.run, four.run, eight.run];
+        let mut each = [one.run, four.run, eight.run, sixteen.run];
         let times_of = cost::measure(&mut each, ROUNDS, |_| true);
-        let [one, four, eight] = [0, 1, 2].map(|k| cost::median(&times_of[k]));
-        row(markdown, &name, [one, four, eight]);
+        let medians: [f64; WIDTHS] = std::array::from_fn(|k| cost::median(&times_of[k]));
+        row(markdown, &name, medians);
+        let [one, four, eight, _] = medians;
         times.insert(name, [one, four, eight]);
     }
     if given("--tables") {
