@@ -205,9 +205,9 @@ impl Visitor for Equal {
                 let [x, y] = &mut u;
                 let counters = Counters { pixel: 11, sample: u32::MAX - 20, dimension: 2, ..Counters::default() };
                 batch.pairs(&sequence, counters, Vec2::new(x, y));
-                for i in 0..n {
+                for (i, (&x, &y)) in u[0].iter().zip(&u[1]).enumerate() {
                     let expected = sequence.pair::<f32>(11, (u32::MAX - 20).wrapping_add(i as u32), 2);
-                    let found = [u[0][i], u[1][i]];
+                    let found = [x, y];
                     assert_eq!(found.map(bits), [expected.x, expected.y].map(bits), "{name}, {batch:?}, {i} of {n}");
                 }
                 self.compared += n;
