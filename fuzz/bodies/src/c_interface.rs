@@ -1,5 +1,8 @@
 //! The C interface, called with any counts, addresses, null pointers and numbers.
 
+// an element is the same place in several columns
+#![allow(clippy::needless_range_loop)]
+
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 
@@ -668,9 +671,8 @@ fn tree(input: &mut Input<'_>) {
             power: input.number(),
         })
         .collect();
-    let canary = EtendueLightTreeNode::clone(&unsafe {
-        std::mem::transmute::<[u32; 90], EtendueLightTreeNode>([0xA5A5_A5A5; 90])
-    });
+    // SAFETY: a node is 90 words
+    let canary: EtendueLightTreeNode = unsafe { std::mem::transmute([0xA5A5_A5A5_u32; 90]) };
     let node_count = etendue_light_tree_nodes(light_count);
     let (mut nodes, mut places) = (vec![canary; node_count + 1], vec![0xA5A5_A5A5_u32; light_count + 1]);
     let mut tree = EtendueLightTree { nodes: null(), node_count: 0, places: null(), light_count: 0 };
