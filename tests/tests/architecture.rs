@@ -318,8 +318,11 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 12] = [
+const ARROWS: [(&str, &[&str], &[&str]); 15] = [
     ("core", &[], &[]),
+    ("core/batch", &["etendue"], &[]),
+    ("core/c", &["etendue", "etendue-batch"], &[]),
+    ("core/python", &["etendue", "etendue-batch"], &[]),
     ("render", &["etendue"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render"], &[]),
@@ -329,7 +332,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 12] = [
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
     ("benches/routines", &["etendue", "etendue-render"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines"]),
-    ("fuzz/bodies", &["etendue-oracle", "etendue-render"], &[]),
+    ("fuzz/bodies", &["etendue-c", "etendue-oracle", "etendue-render"], &[]),
     ("fuzz", &["etendue-fuzz-bodies", "etendue-properties"], &[]),
 ];
 

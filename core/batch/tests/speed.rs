@@ -4,7 +4,6 @@
 //! The columns are the levels of this library, at batches of 1, 64 and 4,096, and the core with the instructions of the build, at 4,096.
 //! For the best that a build for one processor gives, compile for it: `CARGO_ENCODED_RUSTFLAGS=-Ctarget-cpu=x86-64-v4 cargo bench …`.
 
-#[path = "../tests/every/mod.rs"]
 mod every;
 
 use etendue::sequence::{Independent, Sequence};
