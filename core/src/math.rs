@@ -21,7 +21,7 @@
 //! Double precision uses `libm`.
 
 use crate::real::Real;
-pub(crate) use crate::real::{exp_minus_half_square, polynomial, sin_cos_quarter};
+pub(crate) use crate::real::{exp_minus_half_square, polynomial};
 
 /// 1/√x for x > 0, by a correctly rounded square root and division. 0 gives infinity; callers must guard against it.
 #[inline(always)]
@@ -55,14 +55,6 @@ pub(crate) fn ratio<R: Real>(a: R, b: R) -> R {
 #[inline(always)]
 pub(crate) fn double<R: Real>() -> bool {
     size_of::<R::Scalar>() > 4
-}
-
-/// `a + b` and its rounding error, exactly (Knuth's TwoSum).
-#[inline(always)]
-pub fn two_sum<R: Real>(a: R, b: R) -> (R, R) {
-    let sum = a + b;
-    let other = sum - a;
-    (sum, (a - (sum - other)) + (b - other))
 }
 
 /// Angle of (x, y) in turns, in [0, 1): the inverse of [`Real::sin_cos_turns`]. 0 at the origin.

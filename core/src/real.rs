@@ -13,7 +13,7 @@ mod uint;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
-pub(crate) use functions::{exp_minus_half_square, polynomial, sin_cos_quarter};
+pub(crate) use functions::{exp_minus_half_square, polynomial};
 pub use mask::{MaskF64X4, MaskX4, MaskX8, MaskX16};
 
 /// A truth value per lane.
@@ -156,6 +156,13 @@ pub trait Real:
     fn two_prod_error(a: Self, b: Self, product: Self) -> Self {
         a.mul_add(b, -product)
     }
+    /// `self + other` and its rounding error, exactly, barring overflow (Knuth's TwoSum).
+    #[inline(always)]
+    fn two_sum(self, other: Self) -> (Self, Self) {
+        let sum = self + other;
+        let addend = sum - self;
+        (sum, (self - (sum - addend)) + (other - addend))
+    }
     /// 2⁻ᵉ, where e is the exponent of `self`: a power of two that scales a finite number to [1, 4) (a subnormal one to less),
     /// and has a finite reciprocal.
     fn pow2_scale(self) -> Self;
@@ -176,6 +183,11 @@ pub trait Real:
     fn sin_cos_turns(self) -> (Self, Self) {
         functions::sin_cos_turns_f32(self)
     }
+    /// (sin πx/2, cos πx/2) for x = `self` in [−½, ½].
+    #[inline(always)]
+    fn sin_cos_quarters(self) -> (Self, Self) {
+        functions::sin_cos_quarters_f32(self)
+    }
     /// Arc cosine in radians of the argument clamped to [−1, 1].
     #[inline(always)]
     fn acos(self) -> Self {
@@ -185,6 +197,11 @@ pub trait Real:
     #[inline(always)]
     fn atan2(self, other: Self) -> Self {
         functions::atan2_f32(self, other)
+    }
+    /// Arc tangent in radians of a number in [−tan π/8, tan π/8]: what [`atan2`](Real::atan2) reduces its arguments to.
+    #[inline(always)]
+    fn atan_eighth(self) -> Self {
+        functions::atan_eighth_f32(self)
     }
     /// eˣ; 0 below −87.3, where it would be subnormal, and at most e^88.3 (−708 and 709 in double precision).
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Points, directions and orthonormal frames over scalars or packets.
 
 use crate::lanewise::lanewise;
-use crate::math::{difference_of_products, rsqrt, two_sum};
+use crate::math::{difference_of_products, rsqrt};
 use crate::real::Real;
 use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 
@@ -153,9 +153,9 @@ impl<R: Real> Vec3<R> {
             (p, R::two_prod_error(a, a, p))
         };
         let ((x, ex), (y, ey), (z, ez), (q, eq)) = (square(self.x), square(self.y), square(self.z), square(r));
-        let (s, e1) = two_sum(x, -q);
-        let (s, e2) = two_sum(s, y);
-        let (s, e3) = two_sum(s, z);
+        let (s, e1) = x.two_sum(-q);
+        let (s, e2) = s.two_sum(y);
+        let (s, e3) = s.two_sum(z);
         s + ((e1 + e2 + e3) + ((ex - eq) + (ey + ez)))
     }
     /// The vector where the mask is true, 0 elsewhere.

@@ -15,7 +15,7 @@ pub(crate) fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) 
 
 /// Sine and cosine of `r` quarter turns, |r| ≤ ½: minimax polynomials of degrees 7 and 8.
 #[inline(always)]
-pub(crate) fn sin_cos_quarter<R: Real>(r: R) -> (R, R) {
+pub(super) fn sin_cos_quarters_f32<R: Real>(r: R) -> (R, R) {
     let s = r * r;
     let sin = r * polynomial(s, [1.570_796_321_71, -0.645_963_460_233, 0.079_680_032_770_4, -0.004_601_657_891_18]);
     let cos = polynomial(s, [1.0, -1.233_700_543_35, 0.253_669_244_033, -0.020_860_288_526, 0.000_904_021_705_154]);
@@ -28,7 +28,7 @@ pub(crate) fn sin_cos_quarter<R: Real>(r: R) -> (R, R) {
 pub(crate) fn sin_cos_turns_f32<R: Real>(u: R) -> (R, R) {
     let u4 = u * R::lit(4.0);
     let q = u4.round_ties_even();
-    let (s, c) = sin_cos_quarter(u4 - q);
+    let (s, c) = (u4 - q).sin_cos_quarters();
     // q modulo 4, in {−2, −1, 0, 1, 2}
     let q = q - R::lit(4.0) * (q * R::lit(0.25)).round_ties_even();
     let odd = (q.abs() - R::lit(1.0)).abs().lt(R::lit(0.5));
@@ -59,6 +59,14 @@ pub(crate) fn acos_f32<R: Real>(x: R) -> R {
     R::blend(x.lt(R::lit(0.0)), R::lit(core::f64::consts::PI) - angle, angle)
 }
 
+/// Arc tangent of t for |t| ≤ tan(π/8), by a minimax polynomial of degree 9.
+#[inline(always)]
+pub(super) fn atan_eighth_f32<R: Real>(t: R) -> R {
+    let s = t * t;
+    let q = polynomial(s, [-0.333_329_552_665, 0.199_779_264_785, -0.138_798_536_444, 0.080_603_193_725_4]);
+    t.mul_add(q * s, t)
+}
+
 /// Angle of (x, y), reduced to |t| ≤ tan(π/8) by one division; relative accuracy holds down to subnormal numbers, and 0/0 is 0.
 #[inline(always)]
 pub(crate) fn atan2_f32<R: Real>(y: R, x: R) -> R {
@@ -69,9 +77,7 @@ pub(crate) fn atan2_f32<R: Real>(y: R, x: R) -> R {
     let numerator = R::blend(beyond, small - large, small);
     let denominator = R::blend(beyond, small + large, large);
     let t = numerator / R::blend(denominator.gt(R::lit(0.0)), denominator, R::lit(1.0));
-    let s = t * t;
-    let q = polynomial(s, [-0.333_329_552_665, 0.199_779_264_785, -0.138_798_536_444, 0.080_603_193_725_4]);
-    let angle = t.mul_add(q * s, t);
+    let angle = t.atan_eighth();
     let angle = angle + R::lit(core::f64::consts::FRAC_PI_4).keep(beyond);
     let angle = R::blend(swap, R::lit(core::f64::consts::FRAC_PI_2) - angle, angle);
     // the sign bit of x decides, so that −0 counts as negative, as in IEEE 754

@@ -39,6 +39,14 @@ macro_rules! lane_by_lane {
             (Self::from_fn(|i| value(i).0), Self::from_fn(|i| value(i).1))
         }
         #[inline(always)]
+        fn sin_cos_quarters(self) -> (Self, Self) {
+            (self * Self::lit(0.25)).sin_cos_turns()
+        }
+        #[inline(always)]
+        fn atan_eighth(self) -> Self {
+            Self::from_fn(|i| libm::atan(self.lane(i)))
+        }
+        #[inline(always)]
         fn acos(self) -> Self {
             Self::from_fn(|i| libm::acos(self.lane(i).clamped(-1.0, 1.0)))
         }

@@ -2,7 +2,7 @@
 //! keep their digits. Built from TwoSum and TwoProd (Ogita, Rump and Oishi 2005, "Accurate Sum and Dot Product", algorithm
 //! 5.3).
 
-use crate::math::{rsqrt, two_sum};
+use crate::math::rsqrt;
 use crate::real::Real;
 use crate::vector::Vec3;
 
@@ -21,15 +21,15 @@ pub(super) fn dot_dw<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [R; 2] {
         (p, R::two_prod_error(a, b, p))
     };
     let ((x, ex), (y, ey), (z, ez)) = (product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
-    let (s, e1) = two_sum(x, y);
-    let (s, e2) = two_sum(s, z);
+    let (s, e1) = x.two_sum(y);
+    let (s, e2) = s.two_sum(z);
     [s, (e1 + e2) + (ex + (ey + ez))]
 }
 
 /// The sum of two such numbers, rounded once.
 #[inline(always)]
 pub(super) fn rounded_sum<R: Real>([a, ra]: [R; 2], [b, rb]: [R; 2]) -> R {
-    let (sum, rest) = two_sum(a, b);
+    let (sum, rest) = a.two_sum(b);
     sum + (rest + (ra + rb))
 }
 
@@ -52,7 +52,7 @@ pub(super) fn height_dw<R: Real>(p: Vec3<R>, [n, more]: [Vec3<R>; 2]) -> [R; 2] 
 pub(crate) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
     let cross = |a: R, b: R, c: R, d: R| {
         let (ab, cd) = (a * b, c * d);
-        let (sum, error) = two_sum(ab, -cd);
+        let (sum, error) = ab.two_sum(-cd);
         (sum, error + (R::two_prod_error(a, b, ab) - R::two_prod_error(c, d, cd)))
     };
     let ((x, ex), (y, ey), (z, ez)) = (cross(u.y, v.z, u.z, v.y), cross(u.z, v.x, u.x, v.z), cross(u.x, v.y, u.y, v.x));
@@ -62,7 +62,7 @@ pub(crate) fn cross_dw<R: Real>(u: Vec3<R>, v: Vec3<R>) -> [Vec3<R>; 2] {
 /// a + b for two unevaluated sums; a plain vector has the rest 0.
 #[inline(always)]
 pub(super) fn sum_dw<R: Real>([a, ra]: [Vec3<R>; 2], [b, rb]: [Vec3<R>; 2]) -> [Vec3<R>; 2] {
-    let ((x, ex), (y, ey), (z, ez)) = (two_sum(a.x, b.x), two_sum(a.y, b.y), two_sum(a.z, b.z));
+    let ((x, ex), (y, ey), (z, ez)) = (a.x.two_sum(b.x), a.y.two_sum(b.y), a.z.two_sum(b.z));
     [Vec3::new(x, y, z), Vec3::new(ex, ey, ez) + (ra + rb)]
 }
 

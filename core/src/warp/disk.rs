@@ -1,5 +1,5 @@
 use super::Warp;
-use crate::math::{atan2_turns, sin_cos_quarter};
+use crate::math::atan2_turns;
 use crate::real::{Real, unit_interval};
 use crate::vector::Vec2;
 
@@ -16,7 +16,7 @@ pub(crate) fn concentric<R: Real>(u: Vec2<R>) -> (R, Vec2<R>) {
     let (r, other) = (R::blend(first, a, b), R::blend(first, b, a));
     // at the centre r = 0, and any finite ratio will do
     let quarters = other * R::lit(0.5) / R::blend(r.abs().gt(R::lit(0.0)), r, one);
-    let (s, c) = sin_cos_quarter(quarters);
+    let (s, c) = quarters.sin_cos_quarters();
     (r, Vec2 { x: R::blend(first, c, s), y: R::blend(first, s, c) })
 }
 

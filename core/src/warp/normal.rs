@@ -1,6 +1,6 @@
 use super::Warp1;
 use crate::lanewise::lanewise;
-use crate::math::{exp_minus_half_square, two_sum};
+use crate::math::exp_minus_half_square;
 use crate::real::{GREATEST, Real, unit_interval};
 
 const INV_SQRT_TWO_PI: f64 = 0.398_942_280_401_432_7;
@@ -38,7 +38,7 @@ impl<R: Real> Normal<R> {
     fn standard(&self, sigma: R, x: R) -> (R, R, R) {
         let inverse = R::lit(1.0) / sigma;
         let limit = (R::lit(20.0) * sigma).lesser(R::lit(GREATEST));
-        let (d, lost) = two_sum(x, -self.mean);
+        let (d, lost) = x.two_sum(-self.mean);
         let d = d.clamped(-limit, limit);
         let z = (d * inverse).clamped(R::lit(-20.0), R::lit(20.0));
         let product = z * sigma;

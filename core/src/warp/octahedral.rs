@@ -1,5 +1,4 @@
 use super::Warp;
-use crate::math::sin_cos_quarter;
 use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
@@ -41,7 +40,7 @@ impl<R: Real> Warp<R> for Octahedral {
         let some = r.gt(R::lit(0.0));
         // azimuth from the diagonal, in quarter turns
         let turn = ((b - a) * R::lit(0.5) / R::blend(some, r, one)).clamped(R::lit(-0.5), R::lit(0.5));
-        let (s, c) = sin_cos_quarter(turn);
+        let (s, c) = turn.sin_cos_quarters();
         let square = r * r;
         let sin = r * (two - square).sqrt() * R::lit(HALF_ROOT);
         let z = one - square;

@@ -2,7 +2,7 @@
 
 use crate::figures::{Figures, Lanes, List, Routine};
 use etendue::estimate::{Heuristic, Reservoir, Welford, log_variance_error, technique_pdf};
-use etendue::math::{atan2_turns, difference_of_products, one_minus_cos, rsqrt, two_sum};
+use etendue::math::{atan2_turns, difference_of_products, one_minus_cos, rsqrt};
 use etendue::{Frame, Real, Uint, Vec3};
 use etendue_properties::generators::{NASTY, Random};
 
@@ -136,7 +136,7 @@ pub(crate) fn add(list: &mut List<'_>) {
         "normal_quantile", Unit, |[a, ..], lanes: R| { lanes.real(a.normal_quantile()); };
         "one_minus_cos", Unit, |[a, ..], lanes: R| { lanes.real(one_minus_cos(a)); };
         "two_sum", Wide, |[a, b, ..], lanes: R| {
-            let (sum, error) = two_sum(a, b);
+            let (sum, error) = a.two_sum(b);
             lanes.reals([sum, error]);
         };
         "vectors", Signed, |[a, b, c, d, e], lanes: R| {
