@@ -368,7 +368,7 @@ fn normal_distribution(all: &mut String, extent: Extent) {
     let call = |u| [Real::normal_quantile(u)];
     check(all, extent, "Real::normal_quantile", figures, call, truth, |u, [z], [], at, found| {
         // 1 − 2⁻²⁵ is no number of single precision, so all below 1 are in the domain
-        if u >= 1.0 / 33_554_432.0 && u < 1.0 {
+        if (1.0 / 33_554_432.0..1.0).contains(&u) {
             found.error(0, quantile_error(f64::from(u), f64::from(z)), at);
         } else {
             let truth = if u >= 1.0 { LAST_QUANTILE } else { -LAST_QUANTILE };

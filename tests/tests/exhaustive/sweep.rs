@@ -7,26 +7,26 @@ use std::time::Instant;
 
 /// Which inputs are taken: all, or one packet of [`SPARSE`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Extent {
+pub(crate) enum Extent {
     All,
     Part,
 }
 
 /// A prime, so that all patterns of the low bits occur.
-pub const SPARSE: u64 = 257;
+pub(crate) const SPARSE: u64 = 257;
 
 /// What the documentation states: the greatest error, rounded up, and the input at which it occurs.
 #[derive(Clone, Copy, Debug)]
-pub struct Figure {
-    pub of: &'static str,
-    pub documented: f64,
+pub(crate) struct Figure {
+    pub(crate) of: &'static str,
+    pub(crate) documented: f64,
     /// The first of them if there are several.
-    pub worst: u64,
+    pub(crate) worst: u64,
 }
 
 /// What was found at the inputs so far.
 #[derive(Clone, Debug)]
-pub struct Found<const M: usize> {
+pub(crate) struct Found<const M: usize> {
     errors: [Greatest<u64>; M],
     counted: [u64; M],
     /// How many inputs are outside of the domain.
@@ -36,23 +36,23 @@ pub struct Found<const M: usize> {
 }
 
 impl<const M: usize> Found<M> {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { errors: [Greatest::NONE; M], counted: [0; M], outside: 0, broken: 0, first_broken: None }
     }
     /// Takes the error of one input into account: the one of a figure.
-    pub fn error(&mut self, figure: usize, error: f64, at: u64) {
+    pub(crate) fn error(&mut self, figure: usize, error: f64, at: u64) {
         self.counted[figure] += 1;
         self.errors[figure].take(error, at);
     }
     /// An input for which the documentation states more than an error.
-    pub fn demand(&mut self, what: &'static str, holds: bool, at: u64) {
+    pub(crate) fn demand(&mut self, what: &'static str, holds: bool, at: u64) {
         if !holds {
             self.broken += 1;
             self.first_broken.get_or_insert((at, what));
         }
     }
     /// An input outside of the domain, for which the documentation states what is returned.
-    pub fn outside(&mut self, what: &'static str, holds: bool, at: u64) {
+    pub(crate) fn outside(&mut self, what: &'static str, holds: bool, at: u64) {
         self.outside += 1;
         self.demand(what, holds, at);
     }
@@ -75,7 +75,13 @@ impl<const M: usize> Found<M> {
         };
     }
     /// Prints the figures and returns what contradicts the documentation.
-    pub fn against(&self, name: &str, figures: &[Figure; M], extent: Extent, show: impl Fn(u64) -> String) -> String {
+    pub(crate) fn against(
+        &self,
+        name: &str,
+        figures: &[Figure; M],
+        extent: Extent,
+        show: impl Fn(u64) -> String,
+    ) -> String {
         let mut faults = String::new();
         let mut fault = |text: String| {
             println!("    FAULT {text}");
@@ -111,7 +117,7 @@ impl<const M: usize> Found<M> {
 }
 
 /// Runs `each` for the numbers below `chunks`, on all processors, and merges what they found.
-pub fn on_all_processors<const M: usize>(
+pub(crate) fn on_all_processors<const M: usize>(
     name: &str,
     chunks: u64,
     each: impl Fn(u64, &mut Found<M>) + Sync,

@@ -105,8 +105,9 @@ const OF: [&str; 4] =
 
 /// Goes over the values of `u` for each of the parameters.
 ///
-/// Samples must not decrease with `u`. Then the Kolmogorov distance of the law that equally likely `u` give from the law that is meant is
-/// the greatest difference between the probability below a sample and the part of the samples before it, or up to it.
+/// If no sample falls from one `u` to the next, the Kolmogorov distance of the law that equally likely `u` give from the law that is meant
+/// is the greatest difference between the probability below a sample and the part of the samples before it, or up to it. Otherwise this
+/// is an upper bound, since sorting the samples can only lower it.
 fn check<W: Law + core::fmt::Debug, P: Warp1<f32x8> + Sync>(
     name: &str,
     extent: Extent,
