@@ -163,8 +163,8 @@ pub trait Real:
         let addend = sum - self;
         (sum, (self - (sum - addend)) + (other - addend))
     }
-    /// 2⁻ᵉ, where e is the exponent of `self`: a power of two that scales a finite number to [1, 4) (a subnormal one to less),
-    /// and has a finite reciprocal.
+    /// 2⁻ᵉ, where e is the exponent of `self`: a power of two that scales a normal number to [1, 2), and has a
+    /// finite reciprocal. Of 0 and subnormal numbers it is 2¹²⁷ (2¹⁰²³ in double precision).
     fn pow2_scale(self) -> Self;
     /// floor(log₂ self) of a positive normal number.
     fn exponent(self) -> Self;
@@ -213,7 +213,7 @@ pub trait Real:
     fn exp_m1(self) -> Self {
         functions::exp_m1_f32(self)
     }
-    /// ln(1 + x) for x > −1, free of cancellation. At and below −1 the result is unspecified; callers must guard against it.
+    /// ln(1 + x) for −1 < x ≤ 1.2e38, free of cancellation. Elsewhere the result is unspecified; callers must guard against it.
     #[inline(always)]
     fn ln_1p(self) -> Self {
         functions::ln_1p_f32(self)

@@ -72,7 +72,7 @@ pub trait Warp<R: Real> {
 }
 
 /// A monotone bijection between the unit interval and a part of the line, together with its pdf: [`Warp`] in one dimension,
-/// with the same properties.
+/// with the same properties. The rounding of [`Linear`] may swap neighbours; the others keep the order of all `u`.
 pub trait Warp1<R: Real> {
     /// Maps `u` in [0, 1) to a point; also accepts exactly 1.
     fn sample(&self, u: R) -> R;

@@ -19,7 +19,10 @@ lanewise! {
     /// - Domain: u in [0, 1 − 2⁻²⁴], so that λx ≤ 16.7; λ > 0.
     /// - Density: the pdf is λ exp(−λx) per unit length for x ≥ 0; 0 elsewhere (and where it would be below about 1e−38 λ).
     /// - Degenerate input: λ ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = 0.
-    /// - Greatest error: 2e−7 relative in x, 2e−7 relative in the pdf however large λx.
+    /// - Over all 2²⁴ values of u and six rates: greatest error 1.4e−7 at u = 0xa68546/2²⁴ of `Exponential { rate: 0.13 }`;
+    ///   inverse within 1 · 2⁻²⁴ at u = 0xa1d2b1/2²⁴ of `Exponential { rate: 1.0 }`; Kolmogorov distance 1.9 · 2⁻²⁴ at
+    ///   u = 0xa68546/2²⁴ of `Exponential { rate: 0.13 }`, where exact samples have 2⁻²⁴; monotone.
+    /// - Greatest error: 1.4e−7 relative in x, 2e−7 relative in the pdf however large λx.
     /// - Source: the inverse of the distribution function.
     pub struct Exponential {
         /// λ, the reciprocal of the mean distance: > 0, per unit length.

@@ -19,7 +19,12 @@ lanewise! {
     /// - Domain: u in [0, 1); a, b ≥ 0, in any unit (negative ones count as 0).
     /// - Density: the pdf is 2(a(1−x) + bx)/(a+b) per unit length on [0, 1]; 0 elsewhere.
     /// - Degenerate input: a = b = 0 gives pdf 0 and x = u.
-    /// - Greatest error: 1.4e−7 in x, 2.1e−7 relative in the pdf.
+    /// - Greatest error: 1.8e−7 in x, 2.1e−7 relative in the pdf.
+    /// - Over all 2²⁴ values of u and fourteen pairs of a and b: greatest error 1.8e−7 at u = 0xf6361c/2²⁴ of
+    ///   `Linear { a: 1e38, b: 3e38 }`; inverse within 5 · 2⁻²⁴ at u = 0xa71523/2²⁴ of `Linear { a: 1e-6, b: 1.0 }`;
+    ///   Kolmogorov distance 5.7 · 2⁻²⁴ at u = 0xf7ffe3/2²⁴ of `Linear { a: 1e-6, b: 1.0 }`, where exact samples have 2⁻²⁴. Rounding
+    ///   leaves it not quite monotone: x falls by up to 1.2e−7 from one u to the next at u = 0xd9c7e7/2²⁴ of
+    ///   `Linear { a: 1e38, b: 3e38 }`.
     /// - Source: the inverse of the distribution function, rationalised: Pharr, Jakob and Humphreys, PBR 4th ed., 2.3.2.
     pub struct Linear {
         /// Relative density at 0: ≥ 0, in any unit.
@@ -95,7 +100,10 @@ lanewise! {
     /// - Domain: u in [0, 1); r > 0.
     /// - Density: the pdf is (1 − |x|/r)/r per unit length within ±r; 0 elsewhere.
     /// - Degenerate input: r ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = 0.
-    /// - Greatest error: 1.6e−7 relative in x, 2e−7 relative in the pdf.
+    /// - Greatest error: 1.7e−7 relative in x, 2e−7 relative in the pdf.
+    /// - Over all 2²⁴ values of u and six radii: greatest error 1.7e−7 at u = 0x47ddb0/2²⁴ of `Tent { radius: 1.01e-37 }`;
+    ///   inverse within 2 · 2⁻²⁴ at u = 0x800b8a/2²⁴ of `Tent { radius: 1e-30 }`; Kolmogorov distance 1.7 · 2⁻²⁴ at
+    ///   u = 0xe3609c/2²⁴ of `Tent { radius: 1.9 }`, where exact samples have 2⁻²⁴; monotone.
     /// - Source: the inverse of the distribution function, rationalised.
     pub struct Tent {
         /// r, half the width of the tent: > 0, in the unit of x.

@@ -15,7 +15,12 @@ lanewise! {
     /// - Domain: u in [0, 1), kept at least 2⁻²⁵ away from 0 and 1, so that |x − μ| ≤ 5.42σ; σ > 0.
     /// - Density: the pdf is exp(−z²/2)/(σ√(2π)) per unit length, z = (x−μ)/σ; 0 where |z| > 13.2.
     /// - Degenerate input: σ ≤ 1e−37 (0, negative or nearly subnormal) gives pdf 0 and x = μ.
-    /// - Greatest error: 3.6e−7 σz in x − μ, besides the rounding of the sum; 5e−7 relative in the pdf, in the tails too.
+    /// - Over all 2²⁴ values of u and six pairs of μ and σ: greatest error 3.7e−7 at u = 0x4e389d/2²⁴ of
+    ///   `Normal { mean: 0.0, sigma: 2.7 }`, relative to σz and besides the rounding of the sum; inverse within 4 · 2⁻²⁴ at
+    ///   u = 0x7c3671/2²⁴ of `Normal { mean: -3.0, sigma: 0.7 }`; Kolmogorov distance 2.9 · 2⁻²⁴ at u = 0x4c95f6/2²⁴ of
+    ///   `Normal { mean: -3.0, sigma: 0.7 }`, where exact samples have 2⁻²⁴ (more if |μ| exceeds 5σ, by the rounding of the sum);
+    ///   monotone.
+    /// - Greatest error: 3.7e−7 σz in x − μ, besides the rounding of the sum; 5e−7 relative in the pdf, in the tails too.
     /// - Source: Giles, "Approximating the erfinv function", GPU Computing Gems, 2011, for the form of the approximation; the
     ///   coefficients are fitted here.
     pub struct Normal {

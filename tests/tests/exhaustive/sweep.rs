@@ -1,0 +1,150 @@
+//! Goes over many inputs on all processors, keeps the greatest errors, and compares them with the documented ones.
+
+use core::fmt::Write;
+use core::sync::atomic::{AtomicU64, Ordering};
+use etendue_oracle::Greatest;
+use std::time::Instant;
+
+/// Which inputs are taken: all, or one packet of [`SPARSE`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Extent {
+    All,
+    Part,
+}
+
+/// A prime, so that all patterns of the low bits occur.
+pub(crate) const SPARSE: u64 = 257;
+
+/// What the documentation states: the greatest error, rounded up, and the input at which it occurs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Figure {
+    pub(crate) of: &'static str,
+    pub(crate) documented: f64,
+    /// The first of them if there are several.
+    pub(crate) worst: u64,
+}
+
+/// What was found at the inputs so far.
+#[derive(Clone, Debug)]
+pub(crate) struct Found<const M: usize> {
+    errors: [Greatest<u64>; M],
+    counted: [u64; M],
+    /// How many inputs are outside of the domain.
+    outside: u64,
+    broken: u64,
+    first_broken: Option<(u64, &'static str)>,
+}
+
+impl<const M: usize> Found<M> {
+    pub(crate) fn new() -> Self {
+        Self { errors: [Greatest::NONE; M], counted: [0; M], outside: 0, broken: 0, first_broken: None }
+    }
+    /// Takes the error of one input into account: the one of a figure.
+    pub(crate) fn error(&mut self, figure: usize, error: f64, at: u64) {
+        self.counted[figure] += 1;
+        self.errors[figure].take(error, at);
+    }
+    /// An input for which the documentation states more than an error.
+    pub(crate) fn demand(&mut self, what: &'static str, holds: bool, at: u64) {
+        if !holds {
+            self.broken += 1;
+            self.first_broken.get_or_insert((at, what));
+        }
+    }
+    /// An input outside of the domain, for which the documentation states what is returned.
+    pub(crate) fn outside(&mut self, what: &'static str, holds: bool, at: u64) {
+        self.outside += 1;
+        self.demand(what, holds, at);
+    }
+    /// The union of two parts. Of equal errors it keeps the one with the least input, so that the result does not depend on threads.
+    fn merge(&mut self, other: &Self) {
+        for (k, theirs) in other.errors.iter().enumerate() {
+            self.counted[k] += other.counted[k];
+            let Some(at) = theirs.at() else { continue };
+            let ours = &mut self.errors[k];
+            if theirs.measured() == ours.measured() && Some(at) < ours.at() {
+                *ours = Greatest::NONE;
+            }
+            ours.take(theirs.measured(), at);
+        }
+        self.outside += other.outside;
+        self.broken += other.broken;
+        self.first_broken = match (self.first_broken, other.first_broken) {
+            (Some(a), Some(b)) => Some(if b.0 < a.0 { b } else { a }),
+            (a, b) => a.or(b),
+        };
+    }
+    /// Prints the figures and returns what contradicts the documentation.
+    pub(crate) fn against(
+        &self,
+        name: &str,
+        figures: &[Figure; M],
+        extent: Extent,
+        show: impl Fn(u64) -> String,
+    ) -> String {
+        let mut faults = String::new();
+        let mut fault = |text: String| {
+            println!("    FAULT {text}");
+            writeln!(faults, "{name}: {text}").expect("text");
+        };
+        for (k, figure) in figures.iter().enumerate() {
+            let Figure { of, documented, worst } = *figure;
+            let error = self.errors[k].measured();
+            let Some(at) = self.errors[k].at() else {
+                fault(format!("{of}: no input"));
+                continue;
+            };
+            let inputs = self.counted[k];
+            println!("    {name}, {of}: {error:.4e} at {}, documented {documented:.2e}; {inputs} inputs", show(at));
+            if error > documented {
+                fault(format!("{of}: {error:e} at {}, more than the documented {documented:e}", show(at)));
+            }
+            if error < 0.9 * documented {
+                fault(format!("{of}: the documented {documented:e} can be tightened to {error:e}"));
+            }
+            if extent == Extent::All && at != worst {
+                fault(format!("{of}: the worst input is {} and not {}", show(at), show(worst)));
+            }
+        }
+        if self.outside > 0 {
+            println!("    {name}: {} inputs outside of the domain", self.outside);
+        }
+        if let Some((at, what)) = self.first_broken {
+            fault(format!("not {what}: {} inputs, the first is {}", self.broken, show(at)));
+        }
+        faults
+    }
+}
+
+/// Runs `each` for the numbers below `chunks`, on all processors, and merges what they found.
+pub(crate) fn on_all_processors<const M: usize>(
+    name: &str,
+    chunks: u64,
+    each: impl Fn(u64, &mut Found<M>) + Sync,
+) -> Found<M> {
+    let (next, start) = (AtomicU64::new(0), Instant::now());
+    let quarter = chunks.div_ceil(4).max(256);
+    let work = || {
+        let mut found = Found::new();
+        loop {
+            let chunk = next.fetch_add(1, Ordering::Relaxed);
+            if chunk >= chunks {
+                return found;
+            }
+            if chunk % quarter == 0 && chunk > 0 {
+                println!("    {name}: {} % after {:.0?}", 100 * chunk / chunks, start.elapsed());
+            }
+            each(chunk, &mut found);
+        }
+    };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let found = std::thread::scope(|scope| {
+        let all: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        all.into_iter().map(|thread| thread.join().expect("no panic")).fold(Found::new(), |mut sum, part| {
+            sum.merge(&part);
+            sum
+        })
+    });
+    println!("{name}: {:.1?}", start.elapsed());
+    found
+}
