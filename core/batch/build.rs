@@ -7,6 +7,10 @@ use std::env::var;
 use std::path::Path;
 use std::process::Command;
 
+/// The instructions of each level: those for which `src/lib.rs` asks the processor, and no others.
+const V3: &str = "+avx2,+fma,+bmi1,+bmi2,+popcnt";
+const V4: &str = "+avx2,+fma,+bmi1,+bmi2,+popcnt,+avx512f,+avx512bw,+avx512cd,+avx512dq,+avx512vl";
+
 fn main() {
     println!("cargo::rustc-check-cfg=cfg(levels)");
     for path in ["build.rs", "src", "Cargo.toml", "../src", "../Cargo.toml"] {
@@ -28,7 +32,7 @@ fn main() {
     let levels = out.ancestors().nth(4).unwrap_or(out).join("levels");
     let archive = out.join("libetendue_levels.a");
     let _ = std::fs::remove_file(&archive);
-    let compile = |level: &str| {
+    let compile = |(level, features): (&str, &str)| {
         // the same path for all profiles, since cargo compiles again if its arguments change
         let object = levels.join(level).join(format!("{level}.o"));
         let mut cargo = Command::new(var("CARGO").unwrap());
@@ -39,13 +43,16 @@ fn main() {
             .arg(levels.join(level))
             .args(["--config", "profile.release.panic='abort'", "--config", "profile.release.debug=false"])
             .args(["--", &format!("--emit=obj={}", object.display())])
-            .env("CARGO_ENCODED_RUSTFLAGS", format!("-Ctarget-cpu=x86-64-{level}\x1f-Cforce-unwind-tables=no"))
+            .env(
+                "CARGO_ENCODED_RUSTFLAGS",
+                format!("-Ctarget-cpu=x86-64\x1f-Ctarget-feature={features}\x1f-Cforce-unwind-tables=no"),
+            )
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_MAKEFLAGS");
         (cargo.spawn().unwrap_or_else(|e| panic!("cannot run {cargo:?}: {e}")), object)
     };
     // both at once: each is one crate, which takes one thread
-    let running = ["v3", "v4"].map(compile);
+    let running = [("v3", V3), ("v4", V4)].map(compile);
     let objects = running.map(|(mut cargo, object)| {
         let status = cargo.wait().expect("cargo was started");
         assert!(status.success(), "compiling {} failed: {status}", object.display());

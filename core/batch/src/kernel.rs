@@ -3,7 +3,8 @@
 //! Columns are raw pointers, since callers in other languages pass them so, since an output may be null, and since an output may be
 //! the same memory as an input.
 
-use crate::family::{Map, Technique};
+use crate::technique::Technique;
+use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, SampleColumns};
 use core::mem::MaybeUninit;
 use core::ptr::copy_nonoverlapping;
@@ -279,7 +280,7 @@ pub(crate) unsafe extern "C" fn hit<T: Technique, R: Packet>(
 }
 
 /// Points of a warp.
-pub(crate) unsafe extern "C" fn map_sample<W: Map, R: Packet>(
+pub(crate) unsafe extern "C" fn warp_sample<W: BatchWarp, R: Packet>(
     warp: &W,
     n: usize,
     u: Vec2<*const f32>,
@@ -298,13 +299,13 @@ pub(crate) unsafe extern "C" fn map_sample<W: Map, R: Packet>(
 }
 
 #[inline(always)]
-unsafe fn load_point<W: Map, R: Packet>(place: Place, points: &[*const f32; 3]) -> [R; 3] {
+unsafe fn load_point<W: BatchWarp, R: Packet>(place: Place, points: &[*const f32; 3]) -> [R; 3] {
     // SAFETY: the caller's columns are as many as the point has coordinates
     core::array::from_fn(|k| if k < W::COORDINATES { unsafe { place.load(points[k]) } } else { R::lit(0.0) })
 }
 
 /// The pdf of a warp at points.
-pub(crate) unsafe extern "C" fn map_pdf<W: Map, R: Packet>(
+pub(crate) unsafe extern "C" fn warp_pdf<W: BatchWarp, R: Packet>(
     warp: &W,
     n: usize,
     points: &[*const f32; 3],
@@ -316,7 +317,7 @@ pub(crate) unsafe extern "C" fn map_pdf<W: Map, R: Packet>(
 }
 
 /// The random numbers that a warp maps to points.
-pub(crate) unsafe extern "C" fn map_invert<W: Map, R: Packet>(
+pub(crate) unsafe extern "C" fn warp_invert<W: BatchWarp, R: Packet>(
     warp: &W,
     n: usize,
     points: &[*const f32; 3],

@@ -1,7 +1,8 @@
 //! The functions of every level, in tables of the same form.
 
-use crate::family::{Map, Technique};
 use crate::kernel::Packet;
+use crate::technique::Technique;
+use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, SampleColumns, kernel};
 use etendue::light::*;
 use etendue::select::LightTree;
@@ -44,17 +45,17 @@ impl<T: Technique> LightFunctions<T> {
 
 /// The functions of a warp, by raw pointers to columns.
 #[repr(C)]
-pub struct WarpFunctions<W: Map> {
-    /// See [`Batch::map`](crate::Batch::map).
+pub struct WarpFunctions<W: BatchWarp> {
+    /// See [`Batch::warp`](crate::Batch::warp).
     pub sample: unsafe extern "C" fn(&W, usize, Vec2<Column>, &[*mut f32; 3]),
-    /// See [`Batch::map_pdf`](crate::Batch::map_pdf).
+    /// See [`Batch::warp_pdf`](crate::Batch::warp_pdf).
     pub pdf: unsafe extern "C" fn(&W, usize, &[Column; 3], *mut f32),
-    /// See [`Batch::map_invert`](crate::Batch::map_invert).
+    /// See [`Batch::warp_invert`](crate::Batch::warp_invert).
     pub invert: unsafe extern "C" fn(&W, usize, &[Column; 3], Vec2<*mut f32>),
 }
-impl<W: Map> WarpFunctions<W> {
+impl<W: BatchWarp> WarpFunctions<W> {
     const fn of<R: Packet>() -> Self {
-        Self { sample: kernel::map_sample::<W, R>, pdf: kernel::map_pdf::<W, R>, invert: kernel::map_invert::<W, R> }
+        Self { sample: kernel::warp_sample::<W, R>, pdf: kernel::warp_pdf::<W, R>, invert: kernel::warp_invert::<W, R> }
     }
 }
 
@@ -85,7 +86,11 @@ impl TreeFunctions {
 }
 
 /// A type whose functions are in a [`Table`].
-pub trait InTable: 'static {
+///
+/// # Safety
+/// The functions must be those of the type: [`Batch`](crate::Batch) calls them with columns as long as the batch, and relies on them to
+/// read and write no more.
+pub unsafe trait InTable: 'static {
     /// The functions of the type.
     type Functions: 'static;
     /// Finds them.
@@ -106,7 +111,8 @@ macro_rules! table {
                 Self { $($field: $functions::of::<R>(),)+ tree: TreeFunctions::of::<R>() }
             }
         }
-        $(impl InTable for $type {
+        // SAFETY: the field holds the functions of this type
+        $(unsafe impl InTable for $type {
             type Functions = $functions<$type>;
             #[inline]
             fn functions(table: &'static Table) -> &'static Self::Functions {

@@ -163,7 +163,7 @@ impl Visitor for Equal {
     }
     fn warp<W>(&mut self, name: &str, warp: W)
     where
-        W: Map + InTable<Functions = WarpFunctions<W>>,
+        W: BatchWarp + InTable<Functions = WarpFunctions<W>>,
     {
         for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
         {
@@ -171,7 +171,7 @@ impl Visitor for Equal {
                 let alone = warp.splat::<f32>();
                 let u = [input.of(0, n), input.of(1, n)];
                 let mut points = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
-                batch.map(&warp, u, points.each_mut().map(|column| &mut column[..]));
+                batch.warp(&warp, u, points.each_mut().map(|column| &mut column[..]));
                 for i in 0..n {
                     let expected = W::sample(&alone, Vec2::new(u[0][i], u[1][i]));
                     for k in 0..W::COORDINATES {
@@ -180,9 +180,9 @@ impl Visitor for Equal {
                 }
                 let points = points.each_ref().map(|column| &column[..]);
                 let mut pdf = vec![0.0; n];
-                batch.map_pdf(&warp, points, &mut pdf);
+                batch.warp_pdf(&warp, points, &mut pdf);
                 let mut inverse = [vec![0.0; n], vec![0.0; n]];
-                batch.map_invert(&warp, points, inverse.each_mut().map(|column| &mut column[..]));
+                batch.warp_invert(&warp, points, inverse.each_mut().map(|column| &mut column[..]));
                 for i in 0..n {
                     let point = core::array::from_fn(|k| if k < W::COORDINATES { points[k][i] } else { 0.0 });
                     assert_eq!(bits(pdf[i]), bits(W::pdf(&alone, point)), "{name}, {batch:?}, element {i} of {n}");

@@ -156,19 +156,19 @@ impl Visitor for Bench {
 
     fn warp<W>(&mut self, name: &str, warp: W)
     where
-        W: Map + InTable<Functions = WarpFunctions<W>>,
+        W: BatchWarp + InTable<Functions = WarpFunctions<W>>,
     {
         let input = &Inputs::new();
         let u = |n| [input.column(0, n), input.column(1, n)];
-        self.row(&format!("{name}, sample"), |b, n, out| b.map(&warp, u(n), out.three(n)), None);
+        self.row(&format!("{name}, sample"), |b, n, out| b.warp(&warp, u(n), out.three(n)), None);
         let mut drawn = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
-        Batch::new().map(&warp, u(N), drawn.three(N));
+        Batch::new().warp(&warp, u(N), drawn.three(N));
         let points = |n: usize| [0, 1, 2].map(|k| &drawn.columns[k][..n]);
-        let pdf = |b: Batch, n: usize, out: &mut Results| b.map_pdf(&warp, points(n), &mut out.columns[0][..n]);
+        let pdf = |b: Batch, n: usize, out: &mut Results| b.warp_pdf(&warp, points(n), &mut out.columns[0][..n]);
         self.row(&format!("{name}, pdf"), pdf, None);
         let invert = |b: Batch, n, out: &mut Results| {
             let [x, y, _] = out.three(n);
-            b.map_invert(&warp, points(n), [x, y]);
+            b.warp_invert(&warp, points(n), [x, y]);
         };
         self.row(&format!("{name}, invert"), invert, None);
     }

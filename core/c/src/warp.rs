@@ -4,7 +4,7 @@ use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
 use core::mem::size_of;
 use etendue::warp;
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, Map};
+use etendue_batch::{Batch, BatchWarp};
 
 /// Three columns from N of them; a warp does not touch the others.
 fn three<T: Copy, const N: usize>(columns: [T; N]) -> [T; 3] {
@@ -18,7 +18,7 @@ fn two<T: Copy, const N: usize>(columns: [T; N]) -> Vec2<T> {
 macro_rules! warp {
     ($(#[$doc:meta])* $type:ty, $numbers:literal -> $coordinates:literal, ($($warp:ident: $struct:ident)?), $value:expr,
      $sample:ident $pdf:ident $invert:ident $sample_batch:ident $pdf_batch:ident $invert_batch:ident) => {
-        const _: () = assert!(<$type as Map>::NUMBERS == $numbers && <$type as Map>::COORDINATES == $coordinates);
+        const _: () = assert!(<$type as BatchWarp>::NUMBERS == $numbers && <$type as BatchWarp>::COORDINATES == $coordinates);
         $(#[$doc])*
         ///
         /// Maps random numbers `u` to a point.

@@ -1,7 +1,7 @@
 //! Maps of random numbers that need no shading point.
 
 use crate::arrays::{Argument, Kind, array, room, rows, run, zero_columns, zeros};
-use etendue_batch::{Batch, InTable, Map, WarpFunctions};
+use etendue_batch::{Batch, BatchWarp, InTable, WarpFunctions};
 use pyo3::prelude::*;
 
 /// A map of any kind.
@@ -12,18 +12,18 @@ trait Mapping: Send + Sync {
     fn pdf(&self, points: [&[f32]; 3], out: &mut [f32]);
     fn invert(&self, points: [&[f32]; 3], out: [&mut [f32]; 2]);
 }
-impl<W: Map + InTable<Functions = WarpFunctions<W>> + Send + Sync> Mapping for W {
+impl<W: BatchWarp + InTable<Functions = WarpFunctions<W>> + Send + Sync> Mapping for W {
     fn sizes(&self) -> [usize; 2] {
         [W::NUMBERS, W::COORDINATES]
     }
     fn sample(&self, u: [&[f32]; 2], out: [&mut [f32]; 3]) {
-        Batch::new().map(self, u, out);
+        Batch::new().warp(self, u, out);
     }
     fn pdf(&self, points: [&[f32]; 3], out: &mut [f32]) {
-        Batch::new().map_pdf(self, points, out);
+        Batch::new().warp_pdf(self, points, out);
     }
     fn invert(&self, points: [&[f32]; 3], out: [&mut [f32]; 2]) {
-        Batch::new().map_invert(self, points, out);
+        Batch::new().warp_invert(self, points, out);
     }
 }
 

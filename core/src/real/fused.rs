@@ -38,3 +38,68 @@ fn exactly<const N: usize>(a: [f32; N], b: [f32; N], c: [f32; N]) -> [f32; N] {
 pub(super) fn double<const N: usize>(a: [f64; N], b: [f64; N], c: [f64; N]) -> [f64; N] {
     core::array::from_fn(|i| libm::fma(a[i], b[i], c[i]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::single;
+
+    fn check(a: f32, b: f32, c: f32) {
+        let (found, right) = (single([a], [b], [c])[0], libm::fmaf(a, b, c));
+        let same = found.to_bits() == right.to_bits() || found.is_nan() && right.is_nan();
+        assert!(same, "{a:e} × {b:e} + {c:e} is {right:e} and not {found:e}");
+    }
+    /// A generator of bits (Marsaglia 2003).
+    fn bits(state: &mut u64) -> u32 {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        (*state >> 16) as u32
+    }
+
+    #[test]
+    fn any_numbers_are_rounded_once() {
+        let mut state = 1;
+        for _ in 0..2_000_000 {
+            let [a, b, c] = [(); 3].map(|()| f32::from_bits(bits(&mut state)));
+            check(a, b, c);
+        }
+    }
+    /// Sums next to the middle of two numbers, where rounding to double precision first loses on which side they are.
+    #[test]
+    fn halfway_sums_are_rounded_once() {
+        let mut state = 2;
+        for _ in 0..500_000 {
+            let c = 1.0 + (bits(&mut state) >> 9) as f32 * f32::EPSILON;
+            // a product of half a step of c, but for some 2⁻²⁵ of itself and often much less
+            let a = 1.0 + (bits(&mut state) >> 9) as f32 * f32::EPSILON;
+            let b = 0.5 * f32::EPSILON / a;
+            check(a, b, c);
+            check(a, -b, c);
+        }
+    }
+    /// The same about subnormal numbers, whose middles are at other bits.
+    #[test]
+    fn subnormal_sums_are_rounded_once() {
+        let mut state = 3;
+        // 2⁻⁷⁵, whose square is half of the least number
+        let root = f32::from_bits((127 - 75) << 23);
+        for _ in 0..500_000 {
+            let c = f32::from_bits(bits(&mut state) & 0x80ff_ffff);
+            let a = 1.0 + (bits(&mut state) >> 9) as f32 * f32::EPSILON;
+            check(a * root, root / a, c);
+            check(a * root, -root / a, c);
+            check(a * root, root / a, 0.0);
+            check(a * root, f32::from_bits(bits(&mut state) & 0x83ff_ffff), c);
+        }
+    }
+    #[test]
+    fn infinities_and_zeros() {
+        let special =
+            [0.0, -0.0, 1.0, -1.0, f32::MAX, f32::MIN, f32::INFINITY, f32::NEG_INFINITY, f32::NAN, 1e-45, -1e-45];
+        for a in special {
+            for b in special {
+                special.iter().for_each(|&c| check(a, b, c));
+            }
+        }
+    }
+}

@@ -15,7 +15,7 @@ pub(crate) trait Visitor {
     /// A warp.
     fn warp<W>(&mut self, name: &str, warp: W)
     where
-        W: Map + InTable<Functions = WarpFunctions<W>>;
+        W: BatchWarp + InTable<Functions = WarpFunctions<W>>;
     /// A sequence.
     fn sequence<S>(&mut self, name: &str, sequence: S)
     where

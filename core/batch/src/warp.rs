@@ -1,0 +1,119 @@
+//! Warps over any kind of number: what a loop over packets needs to know of them.
+
+use etendue::warp::*;
+use etendue::{Real, Vec2, Vec3};
+
+/// A warp in numbers of single precision.
+pub trait BatchWarp: Copy + 'static {
+    /// The warp over packets.
+    type Of<R: Real>: Copy;
+    /// How many random numbers it maps.
+    const NUMBERS: usize;
+    /// How many coordinates a point has; those beyond are 0.
+    const COORDINATES: usize;
+    /// The warp in every lane of a packet.
+    fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R>;
+    /// Maps random numbers to a point.
+    fn sample<R: Real>(warp: &Self::Of<R>, u: Vec2<R>) -> [R; 3];
+    /// The pdf of a point.
+    fn pdf<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> R;
+    /// The random numbers that map to a point.
+    fn invert<R: Real>(warp: &Self::Of<R>, point: [R; 3]) -> Vec2<R>;
+}
+
+/// A point as coordinates, and back.
+trait Point<R: Real> {
+    fn coordinates(self) -> [R; 3];
+    fn from_coordinates(coordinates: [R; 3]) -> Self;
+}
+impl<R: Real> Point<R> for Vec2<R> {
+    #[inline(always)]
+    fn coordinates(self) -> [R; 3] {
+        [self.x, self.y, R::lit(0.0)]
+    }
+    #[inline(always)]
+    fn from_coordinates([x, y, _]: [R; 3]) -> Self {
+        Self::new(x, y)
+    }
+}
+impl<R: Real> Point<R> for Vec3<R> {
+    #[inline(always)]
+    fn coordinates(self) -> [R; 3] {
+        [self.x, self.y, self.z]
+    }
+    #[inline(always)]
+    fn from_coordinates([x, y, z]: [R; 3]) -> Self {
+        Self::new(x, y, z)
+    }
+}
+
+macro_rules! warps {
+    ($($name:ident $([$packets:tt])?: $coordinates:literal;)+) => {$(
+        warps!(@ $name $([$packets])?; $coordinates, 2;
+            |warp, u| Point::coordinates(Warp::sample(warp, u)),
+            |warp, point| Warp::pdf(warp, Point::from_coordinates(point)),
+            |warp, point| Warp::invert(warp, Point::from_coordinates(point)));
+    )+};
+    (@ $name:ident; $($rest:tt)+) => {
+        impl BatchWarp for $name {
+            type Of<R: Real> = $name;
+            #[inline(always)]
+            fn splat<R: Real<Scalar = f32>>(&self) -> Self {
+                *self
+            }
+            warps!(# $($rest)+);
+        }
+    };
+    (@ $name:ident [R]; $($rest:tt)+) => {
+        impl BatchWarp for $name<f32> {
+            type Of<R: Real> = $name<R>;
+            #[inline(always)]
+            fn splat<R: Real<Scalar = f32>>(&self) -> $name<R> {
+                $name::splat(*self)
+            }
+            warps!(# $($rest)+);
+        }
+    };
+    (# $coordinates:literal, $numbers:literal; |$w:ident, $u:ident| $sample:expr, |$pw:ident, $pp:ident| $pdf:expr, |$iw:ident, $ip:ident| $invert:expr) => {
+        const NUMBERS: usize = $numbers;
+        const COORDINATES: usize = $coordinates;
+        #[inline(always)]
+        fn sample<R: Real>($w: &Self::Of<R>, $u: Vec2<R>) -> [R; 3] {
+            $sample
+        }
+        #[inline(always)]
+        fn pdf<R: Real>($pw: &Self::Of<R>, $pp: [R; 3]) -> R {
+            $pdf
+        }
+        #[inline(always)]
+        fn invert<R: Real>($iw: &Self::Of<R>, $ip: [R; 3]) -> Vec2<R> {
+            $invert
+        }
+    };
+}
+warps! {
+    ConcentricDisk: 2;
+    PolarDisk: 2;
+    UniformHemisphere: 3;
+    UniformSphere: 3;
+    CosineHemisphere: 3;
+    Octahedral: 3;
+    AreaTriangle: 2;
+    LowDistortionTriangle: 2;
+    Cone [R]: 3;
+    Bilinear [R]: 2;
+    GgxVisibleNormals [R]: 3;
+    DiskSurface [R]: 3;
+    CylinderSide [R]: 3;
+    SphereSurface [R]: 3;
+    PatchSurface [R]: 3;
+}
+macro_rules! lines {
+    ($($name:ident)+) => {$(
+        warps!(@ $name [R]; 1, 1;
+            |warp, u| [Warp1::sample(warp, u.x), R::lit(0.0), R::lit(0.0)],
+            |warp, point| Warp1::pdf(warp, point[0]),
+            |warp, point| Vec2::new(Warp1::invert(warp, point[0]), R::lit(0.0)));
+    )+};
+}
+lines!(Linear Tent Exponential Normal);
