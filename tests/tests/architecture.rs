@@ -318,7 +318,7 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 15] = [
+const ARROWS: [(&str, &[&str], &[&str]); 16] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
@@ -328,6 +328,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 15] = [
     ("render/cli", &["etendue-laboratory", "etendue-render"], &[]),
     ("tests/bits", &["etendue", "etendue-properties"], &[]),
     ("tests/oracle", &[], &[]),
+    ("tests/proof", &["etendue"], &["etendue-oracle"]),
     ("tests/properties", &["etendue", "etendue-oracle"], &[]),
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
     ("benches/routines", &["etendue", "etendue-render"], &[]),

@@ -56,7 +56,7 @@ fn disk_pdf<R: Real>(p: Vec2<R>) -> R {
 /// - Formula: a = 2u₀−1, b = 2u₁−1; r = a, φ = (π/4)(b/a) where |a| > |b|, else r = b, φ = π/2 − (π/4)(a/b).
 /// - Domain: u in [0, 1)²; the centre u = (½, ½) maps to the origin.
 /// - Density: the pdf is 1/π per unit area inside, 0 outside.
-/// - Greatest error: 1.5e−7 in the point; 2e−7 in `invert(sample(u))`.
+/// - Greatest error: 1.5e−7 in the point (proved for all u: 2.2e−7); 2e−7 in `invert(sample(u))`.
 /// - Source: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ConcentricDisk;
@@ -86,7 +86,7 @@ impl<R: Real> Warp<R> for ConcentricDisk {
 /// - Formula: r = √u₀, φ = 2πu₁.
 /// - Domain: u in [0, 1)²; u₀ = 0 maps to the centre, whose inverse is (0, 0).
 /// - Density: the pdf is 1/π per unit area inside, 0 outside.
-/// - Greatest error: 1.2e−7 in the point.
+/// - Greatest error: 1.2e−7 in the point (proved for all u: 2.2e−7).
 /// - Source: the inverse of the disk's distribution function.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PolarDisk;
