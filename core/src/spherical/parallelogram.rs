@@ -1,7 +1,7 @@
 use super::double_word::{compensated_height, cross_dw, sum_dw};
 use super::triangle::Planes;
 use super::{DirectionSample, SphericalTriangle, to_unit};
-use crate::real::{Real, unit_interval};
+use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
@@ -20,7 +20,8 @@ use crate::warp::Warp;
 /// - Degenerate input: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
 /// - Greatest error over the atlas: Ω 5e−7 relative. The direction is as for the triangle, if the point is at least 1e−5 of the
 ///   parallelogram's size above its plane; add what half a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the
-///   elevation of the nearest corner, since u₀ = Ω₁/Ω, where the second triangle begins, is rounded.
+///   elevation of the nearest corner, since u₀ = Ω₁/Ω, where the second triangle begins, is rounded. The inverse is as for
+///   the triangle.
 /// - Source: as for [`SphericalTriangle`].
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
@@ -118,10 +119,23 @@ impl<R: Real> Warp<R> for SphericalParallelogram<R> {
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (a, b) = (self.first.solid_angle(), self.second.solid_angle());
-        let first = self.second.beyond_v0_v1(w);
-        let (u, v) = (self.first.invert(w), self.second.invert(w));
+        // next to an outer edge, a direction may seem to be on the other side of the diagonal, if all three lie in one plane
+        let away = self.second.away_from_v0(w);
+        let (start, end) = (self.first.beside_v0(w) & away, self.second.beside_v2(w) & away);
+        let first = (self.second.beyond_v0_v1(w) | start) & !end;
+        let ((u, moved), (v, _)) = (self.first.locate(w), self.second.locate(w));
         let swept = R::blend(first, u.x * a, v.x.mul_add(b, a));
         let sum = a + b;
-        Vec2 { x: unit_interval(swept / R::blend(sum.gt(R::lit(0.0)), sum, R::lit(1.0))), y: R::blend(first, u.y, v.y) }
+        let inverse = R::lit(1.0) / R::blend(sum.gt(R::lit(0.0)), sum, R::lit(1.0));
+        let mut x = unit_interval(swept * inverse);
+        let mut y = R::blend(first, u.y, v.y);
+        let steep = self.first.steep(sum) | self.second.steep(sum);
+        if steep.any() {
+            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
+            x = unit_interval((triangle.area_beyond(u.x, rest, w, sum) * inverse).keep(steep) + x);
+            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
+            y = R::blend(steep, triangle.share_of_arc(u.x, rest, moved), y);
+        }
+        Vec2 { x, y }
     }
 }

@@ -151,16 +151,33 @@ impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
         let zero = R::lit(0.0);
         let mut chosen = self.fan[0];
         let (mut before, mut sum) = (zero, self.fan[0].solid_angle());
+        // next to an outer edge, a direction may seem to be on the other side of one within, if both lie in one plane
+        let (start, end) = (self.fan[0].beside_v0(w), self.fan[Self::TRIANGLES - 1].beside_v2(w));
         for triangle in &self.fan[1..Self::TRIANGLES] {
             let some = triangle.solid_angle().gt(zero);
-            let later = some & (!triangle.beyond_v0_v1(w) | sum.le(zero));
+            let away = triangle.away_from_v0(w);
+            let later = some & ((!triangle.beyond_v0_v1(w) & !(start & away)) | (end & away) | sum.le(zero));
             chosen = SphericalTriangle::blend(later, *triangle, chosen);
             before = R::blend(later, sum, before);
             sum += triangle.solid_angle();
         }
-        let u = chosen.invert(w);
+        let (u, moved) = chosen.locate(w);
         let some = sum.gt(zero);
         let swept = u.x.mul_add(chosen.solid_angle(), before);
-        Vec2 { x: unit_interval(swept / R::blend(some, sum, R::lit(1.0))), y: u.y }
+        let inverse = R::lit(1.0) / R::blend(some, sum, R::lit(1.0));
+        let mut x = unit_interval(swept * inverse);
+        let mut y = u.y;
+        // rounding may move u₀ into the next triangle
+        let mut steep = R::Mask::splat(false);
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            steep = steep | triangle.steep(sum);
+        }
+        if steep.any() {
+            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
+            x = unit_interval((triangle.area_beyond(u.x, rest, w, sum) * inverse).keep(steep) + x);
+            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
+            y = R::blend(steep, triangle.share_of_arc(u.x, rest, moved), y);
+        }
+        Vec2 { x, y }
     }
 }

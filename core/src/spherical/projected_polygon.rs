@@ -1,6 +1,7 @@
 mod horizon;
 mod piece;
 mod sector;
+mod zenith;
 
 use super::double_word::{compensated_height, cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use super::triangle::SLACK;
@@ -13,6 +14,7 @@ use crate::warp::Warp;
 use horizon::{Exact, clip};
 use piece::{Corners, Piece, narrowest};
 use sector::Sector;
+use zenith::{Found, Side, sectors, surrounds, without_narrow};
 
 /// Heights below this, in units of the greatest coordinate, count as on the horizon.
 const LEAST_HEIGHT: f64 = 1e-30;
@@ -36,9 +38,10 @@ lanewise! {
     /// ```
     ///
     /// The horizon leaves one triangle or two. Each is swept by azimuth about the normal, between its first and last vertex: up
-    /// to the azimuth of the middle vertex from the first, and from there on to the last (if it contains the zenith, from each
-    /// vertex to the next). So in every sector two edges meet in a vertex, an outer (lower) one and an inner one. u₀ is the
-    /// share of the projected area that is swept; u₁ goes from the inner edge to the outer, uniform in the squared radius.
+    /// to the azimuth of the middle vertex from the first, and from there on to the last. So in every sector two edges meet in a
+    /// vertex, an outer (lower) one and an inner one. A triangle that contains the zenith is swept all around from its first
+    /// vertex instead, by the sectors between each edge, or the horizon below which it lies, and the zenith. u₀ is the share of
+    /// the projected area that is swept; u₁ goes from the inner edge to the outer, uniform in the squared radius.
     ///
     /// - Formula: at the angle θ from that vertex along the outer edge, let z = ζ cosθ + τ sinθ be the height, D = sinδ sinθ
     ///   the distance from the inner edge's plane (δ is the angle between the edges), c and k the cosines of the outer and the
@@ -54,16 +57,15 @@ lanewise! {
     ///   nothing above the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some vector, of unit length or 0.
     /// - Greatest error: Ω⊥ 4e−7 relative, and at most 1e−5 over the atlas, slivers and points next to the triangle's plane
     ///   included, since products and heights that are small differences are formed in twice the working precision. It grows in
-    ///   three cases: overhead, by 1e−15 over the triangle's size and over the sine of the elevation above its plane (which
-    ///   matters for sizes below 1e−6); from less than 1e−3 of its length beside slivers with an aspect ratio over 1e3, by 1e−9
-    ///   times the aspect ratio; and where the triangle covers all but 1e−4 of a hemisphere, by the error of its plane's
-    ///   normal. Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; next to the plane of a triangle that surrounds the point, a step
-    ///   counts 1/sin of the elevation, since the areas of the sectors then differ by that much. Distance as for
-    ///   `SphericalTriangle`. The inverse is that of a direction 1.4e−6 away, times the triangle's apparent aspect ratio,
-    ///   besides as many steps. In a corner, a sweep begins like √u₀ (on the horizon ∛u₀), so the share counts from the nearer
-    ///   end. Within 2⁻²⁴ of the whole the inverse is the nearest `u` below 1. If the horizon cuts the triangle in two, a u₀
-    ///   near the join belongs to one or the other; about the zenith, the azimuth at which the sweep begins may have 0 or 1 as
-    ///   its inverse.
+    ///   one case: overhead, by at most 5e−16 over the triangle's size and over the sine of the elevation above its plane (which
+    ///   matters for sizes below 1e−6). Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; next to the plane of a triangle that
+    ///   surrounds the point, a step counts 1/sin of the elevation, since the areas of the sectors then differ by that much.
+    ///   Distance as for `SphericalTriangle`. The inverse is that of a direction 1.4e−6 away, times the triangle's apparent
+    ///   aspect ratio, besides as many steps; for a point that the triangle surrounds, nearer to the plane than 1e−3 of its
+    ///   size, u₁ may be that of a neighbouring azimuth. In a corner, a sweep begins like √u₀ (on the horizon ∛u₀), so the share
+    ///   counts from the nearer end. Within 2⁻²⁴ of the whole the inverse is the nearest `u` below 1. If the horizon cuts the
+    ///   triangle in two, a u₀ near the join belongs to one or the other; about the zenith, the azimuth at which the sweep
+    ///   begins may have 0 or 1 as its inverse.
     /// - Source: Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 4, for the sectors of the disk; Lambert
     ///   for the areas. Unlike there, sectors start at vertices, not at sorted azimuths: where both edges meet, every quantity
     ///   is a length or a volume of the triangle and as small as the triangle, and the zenith may lie on an edge. The forms
@@ -89,6 +91,8 @@ lanewise! {
         volume: R,
         /// unit of the lengths above, a power of two
         unit: R,
+        /// 1 if the triangle contains the zenith and has sectors about it, else 0
+        central: R,
         /// Ω⊥ in steradians
         projected: R,
     }
@@ -125,6 +129,24 @@ fn lack<R: Real>(v: Vec3<R>, p: Vec3<R>, e: [Vec3<R>; 2]) -> Vec3<R> {
 #[inline(always)]
 fn with_rest<R: Real>([n, rest]: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
     [n, rest + a.cross(b)]
+}
+
+/// The product of the normal and the cross product `n` of the ends of an edge, one of which is `v` with the rounding error `rest`.
+///
+/// Only the part of the normal across v counts. Overhead it is a small difference: formed first, it leaves as many digits as the normal
+/// has.
+#[inline(always)]
+fn area<R: Real>(normal: Vec3<R>, [v, rest]: [Vec3<R>; 2], n: [Vec3<R>; 2]) -> [R; 2] {
+    let along = ratio(R::lit(1.0), v.length_squared()).lesser(R::lit(1e36)) * v.dot(normal);
+    let across = |normal: R, v: R, rest: R| {
+        let p = along * v;
+        let (sum, error) = normal.two_sum(-p);
+        sum.two_sum(error - along.mul_add(rest, R::two_prod_error(along, v, p)))
+    };
+    let ((x, ex), (y, ey), (z, ez)) =
+        (across(normal.x, v.x, rest.x), across(normal.y, v.y, rest.y), across(normal.z, v.z, rest.z));
+    let [sum, more] = height_dw(Vec3::new(x, y, z), n);
+    [sum, more + Vec3::new(ex, ey, ez).dot(n[0])]
 }
 
 impl<R: Real> ProjectedTriangle<R> {
@@ -187,7 +209,7 @@ impl<R: Real> ProjectedTriangle<R> {
 
     #[inline]
     fn prepare(given: &Given<R>, normal: Vec3<R>, scale: R) -> Self {
-        let zero = R::lit(0.0);
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Given { vertices: v, rests, edges: e, products, plane } = *given;
         let volume = compensated_height(v[0], plane);
         let plane = plane[0] + plane[1];
@@ -202,10 +224,13 @@ impl<R: Real> ProjectedTriangle<R> {
         };
         // below this the errors of products are subnormal, and the horizon would cut by rounding
         let heights = heights.map(|pair| {
-            let some = pair[0].abs().gt(R::lit(LEAST_HEIGHT));
+            let some = (pair[0] + pair[1]).abs().gt(R::lit(LEAST_HEIGHT));
             pair.map(|x| x.keep(some))
         });
-        let volumes = products.map(|n| height_dw(long, n));
+        // each edge from an end whose rounding error is exact: the last from the first vertex
+        let none = Vec3::default();
+        let rest = [none, rests.map_or(none, |[rest, _]| rest), none];
+        let volumes: [[R; 2]; 3] = core::array::from_fn(|i| area(long, [v[i % 2], rest[i]], products[i]));
         let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
         let (z, areas) = (heights.map(rounded), volumes.map(rounded));
         let exact = Exact { edges: e, products, heights, volumes, shrink };
@@ -217,21 +242,36 @@ impl<R: Real> ProjectedTriangle<R> {
         let below = z.map(|z| z.lt(zero));
         let cut = below[0] | below[1] | below[2];
         let mut corners = Corners { vertices: v, poles, lengths, areas, heights: z, volume };
-        let (mut second, mut diagonal) = (Piece::default(), Vec3::default());
-        if cut.any() {
-            let rest;
-            (corners, rest, diagonal) = clip(&corners, &exact, normal);
-            if rest.volume.abs().gt(zero).any() {
-                second = Piece::new(&rest, normal);
+        let sides: [Side<R>; 3] = core::array::from_fn(|i| Side {
+            a: v[i],
+            b: v[(i + 1) % 3],
+            product: products[i],
+            area: areas[i],
+            heights: [z[i], z[(i + 1) % 3]],
+        });
+        let turn = one.negate_where(volume.lt(zero));
+        let central = surrounds(&sides, turn) & volume.abs().gt(zero);
+        let (mut first, mut second, mut diagonal) = (Piece::default(), Piece::default(), Vec3::default());
+        if !central.all() {
+            if cut.any() {
+                let rest;
+                (corners, rest, diagonal) = clip(&corners, &exact, normal);
+                if rest.volume.abs().gt(zero).any() {
+                    second = Piece::new(&rest, normal);
+                }
+            }
+            first = Piece::new(&corners, normal);
+            // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
+            let least = narrowest::<R>() * (first.area + second.area);
+            for piece in [&mut first, &mut second] {
+                piece.area = piece.area.keep(piece.area.gt(least));
             }
         }
-        let mut first = Piece::new(&corners, normal);
-        // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
-        let least = narrowest::<R>() * (first.area + second.area);
-        for piece in [&mut first, &mut second] {
-            piece.area = piece.area.keep(piece.area.gt(least));
+        if central.any() {
+            let pieces = sectors(&sides, 0, normal, turn);
+            let [a, b] = without_narrow(pieces, pieces[0].area + pieces[1].area);
+            (first, second) = (Piece::blend(central, a, first), Piece::blend(central, b, second));
         }
-
         let side = |i: usize| {
             // the plane of nearly opposite vertices is known only to −cos : sin of their angle; shorten the pole by that much
             let length = lengths[i];
@@ -248,6 +288,7 @@ impl<R: Real> ProjectedTriangle<R> {
             plane,
             volume,
             unit: scale.pow2_scale(),
+            central: one.keep(central),
             // from the triangle's plane nothing is visible, whatever the rounded areas are
             projected: (first.area + second.area).keep(volume.abs().gt(zero)),
         }
@@ -307,10 +348,11 @@ impl<R: Real> ProjectedTriangle<R> {
     }
     /// Turns the poles inwards as for a triangle seen from the front (`front`) or from the back.
     #[inline(always)]
-    fn faced(self, front: R::Mask) -> Self {
+    fn face(&mut self, front: R::Mask) {
         let turn = R::lit(1.0).negate_where(front ^ self.in_front());
-        let [pole0, pole1, pole2] = [self.pole0, self.pole1, self.pole2].map(|pole| pole * turn);
-        Self { pole0, pole1, pole2, ..self }
+        for pole in [&mut self.pole0, &mut self.pole1, &mut self.pole2] {
+            *pole = *pole * turn;
+        }
     }
     /// The area before a direction of the triangle, and u₁; areas are kept `edge` away from a jump of the map.
     #[inline(always)]
@@ -325,7 +367,16 @@ impl<R: Real> ProjectedTriangle<R> {
             found.x = R::blend(later, self.first.area + other.x.greater(edge), before);
             found.y = R::blend(later, other.y, found.y);
         }
+        let central = self.central.gt(zero);
+        if central.any() {
+            found = Vec2::blend(central, self.look(Found::nothing(), w).place(self.normal, w), found);
+        }
         found
+    }
+    /// Looks for the azimuth of a direction in the sectors about the zenith.
+    #[inline(always)]
+    fn look(&self, found: Found<R>, w: Vec3<R>) -> Found<R> {
+        found.look(&self.first, self.normal, w).look(&self.second, self.normal, w)
     }
 }
 
@@ -374,33 +425,36 @@ impl<R: Real> Warp<R> for ProjectedTriangle<R> {
 /// `sample_direction`. A point in the polygon's plane, zero area, or a polygon below the horizon gives pdf 0.
 ///
 /// It is a fan of N − 2 [`ProjectedTriangle`]s about the first corner, which u₀ takes in turn. Each is clipped to the horizon
-/// by itself; nothing is sorted by azimuth, whose order is noise where azimuths are close.
+/// by itself; nothing is sorted by azimuth, whose order is noise where azimuths are close. A polygon that contains the zenith
+/// is swept all around it from the first corner instead, as a triangle is, without edges inside.
 ///
 /// - Formula: Ω⊥ = ΣΩ⊥ᵢ; the first triangle i with Ω⊥₁ + … + Ω⊥ᵢ > u₀Ω⊥, at the rest of u₀Ω⊥ over Ω⊥ᵢ.
 /// - Domain: u in [0, 1)²; corners in order, either way round, coplanar to within their rounding.
 /// - Density: the pdf is cosθ/Ω⊥ per steradian inside (and within 8 ulp beyond) and above the horizon, 0 elsewhere.
 /// - Degenerate input: corners may coincide or be collinear; otherwise as for the triangle.
-/// - Greatest error: as for the triangle. The map jumps from one triangle to the next: a `u₀` within the rounding of the areas
-///   before it may belong to either. If the zenith lies, to rounding, on an edge between two triangles, the last bit of the
-///   normal may change the direction of a `u`, and its inverse may be that of the other triangle; pdf and area are not
-///   affected. As with [`SphericalPolygon`](super::SphericalPolygon), up to all of Ω⊥ may be wrong where the point is no
-///   farther from the plane than the rounding of the corners.
+/// - Greatest error: as for the triangle. Unless the polygon contains the zenith, the map jumps from one triangle to the next: a
+///   `u₀` within the rounding of the areas before it may belong to either. As with
+///   [`SphericalPolygon`](super::SphericalPolygon), up to all of Ω⊥ may be wrong where the point is no farther from the plane
+///   than the rounding of the corners, which then may not even be convex.
 /// - Source: as for [`ProjectedTriangle`].
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ProjectedPolygon<R, const N: usize> {
     /// The N − 2 triangles; the last two entries are unused.
     fan: [ProjectedTriangle<R>; N],
-    /// Sums over the triangles: normals, V₀·normal, and Ω⊥.
+    /// Sums over the triangles: normals, V₀·normal, and Ω⊥
     plane: Vec3<R>,
     volume: R,
     projected: R,
+    /// 1 if the polygon contains the zenith and its triangles have the sectors about it, else 0
+    central: R,
 }
 
 impl<R: Real, const N: usize> Default for ProjectedPolygon<R, N> {
     fn default() -> Self {
         let zero = R::lit(0.0);
-        Self { fan: [ProjectedTriangle::default(); N], plane: Vec3::default(), volume: zero, projected: zero }
+        let fan = [ProjectedTriangle::default(); N];
+        Self { fan, plane: Vec3::default(), volume: zero, projected: zero, central: zero }
     }
 }
 
@@ -413,6 +467,7 @@ impl<R, const N: usize> ProjectedPolygon<R, N> {
             plane: self.plane.map(&mut f),
             volume: f(self.volume),
             projected: f(self.projected),
+            central: f(self.central),
         }
     }
 }
@@ -426,12 +481,19 @@ impl<R: Real> ProjectedPolygon<R, 4> {
         let ([p, u, v, a, b, c], scale) = to_unit([p, u, v, p + u, p + v, p + u + v]);
         let both = sum_dw([u, none], [v, none]);
         let (at_a, at_b, at_c) = (lack(a, p, [u, none]), lack(b, p, [v, none]), lack(c, p, both));
-        let mut fan = [ProjectedTriangle::default(); 4];
+        let mut this = Self::default();
         let sides = [[u, none], [v, none], both.map(|e| -e)];
-        fan[0] = ProjectedTriangle::with_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
+        this.fan[0] = ProjectedTriangle::with_sides([p, a, c], [at_a, at_c], sides, [u, v], normal, scale);
         let sides = [both, [-u, none], [-v, none]];
-        fan[1] = ProjectedTriangle::with_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
-        Self::of(fan)
+        this.fan[1] = ProjectedTriangle::with_sides([p, c, b], [at_c, at_b], sides, [u, v], normal, scale);
+        let of = |v: Vec3<R>, rest: Vec3<R>, e: Vec3<R>| with_rest(cross_dw(v, e), rest, e);
+        let zero = Vec3::default();
+        // each from the end of the edge whose rounding error is exact: not from c
+        let ends = [[p, zero], [a, at_a], [b, at_b], [p, zero]];
+        let [e0, e1, e2, e3] = [u, v, -u, -v];
+        let products = [of(p, zero, e0), of(a, at_a, e1), of(b, at_b, e2), of(p, zero, e3)];
+        this.join(&[p, a, c, b], &[zero, at_a, at_c, at_b], &ends, &products, normal);
+        this
     }
 }
 
@@ -444,27 +506,128 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// length).
     #[inline(always)]
     pub fn new(corners: [Vec3<R>; N], normal: Vec3<R>) -> Self {
-        let mut fan = [ProjectedTriangle::default(); N];
+        let mut this = Self::default();
         for i in 0..Self::TRIANGLES {
-            fan[i] = ProjectedTriangle::new(corners[0], corners[i + 1], corners[i + 2], normal);
+            this.fan[i] = ProjectedTriangle::new(corners[0], corners[i + 1], corners[i + 2], normal);
         }
-        Self::of(fan)
+        let (corners, _) = to_unit(corners);
+        let products = core::array::from_fn(|i| {
+            let (v, next) = (corners[i], corners[(i + 1) % N]);
+            let [e, d] = difference(next, v);
+            with_rest(cross_dw(v, e), v, d)
+        });
+        let none = Vec3::default();
+        this.join(&corners, &[none; N], &corners.map(|v| [v, none]), &products, normal);
+        this
     }
+    /// Joins the triangles of the fan, given the corners with their rounding errors, and for each edge from a corner to the next an
+    /// end with its rounding error, and the cross product of both ends.
     #[inline(always)]
-    fn of(mut fan: [ProjectedTriangle<R>; N]) -> Self {
-        let mut this = Self { fan: [ProjectedTriangle::default(); N], ..Self::default() };
-        for triangle in &fan[..Self::TRIANGLES] {
-            this.plane += triangle.plane;
-            this.volume += triangle.volume;
-            this.projected += triangle.projected;
+    fn join(
+        &mut self,
+        corners: &[Vec3<R>; N],
+        rests: &[Vec3<R>; N],
+        ends: &[[Vec3<R>; 2]; N],
+        products: &[[Vec3<R>; 2]; N],
+        normal: Vec3<R>,
+    ) {
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            self.plane += triangle.plane;
+            self.volume += triangle.volume;
+            self.projected += triangle.projected;
         }
-        let least = narrowest::<R>() * this.projected;
-        for triangle in &mut fan[..Self::TRIANGLES] {
-            triangle.projected = triangle.projected.keep(triangle.projected.gt(least));
-        }
+        self.about_zenith(corners, rests, ends, products, normal);
         // rounding decides the side of a triangle with collinear corners
-        let front = this.in_front();
-        Self { fan: fan.map(|triangle| triangle.faced(front)), ..this }
+        let (front, least) = (self.in_front(), narrowest::<R>() * self.projected);
+        for triangle in &mut self.fan[..Self::TRIANGLES] {
+            triangle.projected = triangle.projected.keep(triangle.projected.gt(least));
+            triangle.face(front);
+        }
+    }
+    /// Where the polygon contains the zenith, replaces the sectors of the fan by sectors about the zenith: an edge between two triangles
+    /// that passes the zenith closely would bound two slivers in which rounding decides.
+    #[inline(always)]
+    fn about_zenith(
+        &mut self,
+        corners: &[Vec3<R>; N],
+        rests: &[Vec3<R>; N],
+        ends: &[[Vec3<R>; 2]; N],
+        products: &[[Vec3<R>; 2]; N],
+        normal: Vec3<R>,
+    ) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (unit, long, shrink) = unit_normal(normal);
+        let turn = one.negate_where(self.volume.lt(zero));
+        // a quick look, with rounded normals: most polygons do not contain the zenith
+        let mut near = R::Mask::splat(true);
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate() {
+            let facing = turn.negate_where(triangle.volume.lt(zero));
+            let inside = |pole: Vec3<R>| (unit.dot(pole) * facing).ge(R::lit(-SLACK));
+            near = near & inside(triangle.pole1);
+            if i == 0 {
+                near = near & inside(triangle.pole0);
+            }
+            if i + 1 == Self::TRIANGLES {
+                near = near & inside(triangle.pole2);
+            }
+        }
+        if !near.any() {
+            return;
+        }
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let areas: [R; N] = core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
+        let heights: [R; N] = core::array::from_fn(|i| {
+            let [z, more] = dot_dw(corners[i], long);
+            let z = rounded([z, more + rests[i].dot(long)]);
+            z.keep(z.abs().gt(R::lit(LEAST_HEIGHT)))
+        });
+        let sides: [Side<R>; N] = core::array::from_fn(|i| {
+            let next = (i + 1) % N;
+            Side {
+                a: corners[i],
+                b: corners[next],
+                product: products[i][0] + products[i][1],
+                area: areas[i],
+                heights: [heights[i], heights[next]],
+            }
+        });
+        let central = near & surrounds(&sides, turn) & self.volume.abs().gt(zero);
+        if !central.any() {
+            return;
+        }
+        let (whole, mut sum) = (self.projected, zero);
+        for (i, triangle) in self.fan[..Self::TRIANGLES].iter_mut().enumerate() {
+            let [first, second] = without_narrow(sectors(&sides, i, unit, turn), whole);
+            let area = first.area + second.area;
+            triangle.first = Piece::blend(central, first, triangle.first);
+            triangle.second = Piece::blend(central, second, triangle.second);
+            triangle.central = triangle.central.keep(!central);
+            triangle.projected = R::blend(central, area, triangle.projected);
+            sum += area;
+        }
+        // a sector reaches beyond its triangle, which may even have no area: all take the plane of the largest, in the
+        // unit of the farthest
+        let first = self.fan[0];
+        let (mut plane, mut volume, mut scale, mut most) = (first.plane, first.volume, first.unit, zero);
+        let mut farthest = first.unit;
+        for triangle in &self.fan[..Self::TRIANGLES] {
+            let unit = triangle.unit / first.unit;
+            let size = triangle.plane.length_squared() * (unit * unit) * (unit * unit);
+            let larger = size.gt(most);
+            plane = Vec3::blend(larger, triangle.plane, plane);
+            volume = R::blend(larger, triangle.volume, volume);
+            scale = R::blend(larger, triangle.unit, scale);
+            most = R::blend(larger, size, most);
+            farthest = farthest.greater(triangle.unit);
+        }
+        let volume = volume * (scale / farthest);
+        for triangle in &mut self.fan[..Self::TRIANGLES] {
+            triangle.plane = Vec3::blend(central, plane, triangle.plane);
+            triangle.volume = R::blend(central, volume, triangle.volume);
+            triangle.unit = R::blend(central, farthest, triangle.unit);
+        }
+        self.projected = R::blend(central, sum, self.projected);
+        self.central = one.keep(central);
     }
     /// Repeats one prepared polygon in every lane.
     #[inline(always)]
@@ -563,6 +726,14 @@ impl<R: Real, const N: usize> Warp<R> for ProjectedPolygon<R, N> {
             found.x = R::blend(later, sum + other.x.greater(edge), before.greater(zero));
             found.y = R::blend(later, other.y, found.y);
             sum += triangle.projected;
+        }
+        let central = self.central.gt(zero);
+        if central.any() {
+            let mut there = Found::nothing();
+            for triangle in &self.fan[..Self::TRIANGLES] {
+                there = triangle.look(there, w);
+            }
+            found = Vec2::blend(central, there.place(self.fan[0].normal, w), found);
         }
         Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
     }

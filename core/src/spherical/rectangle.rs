@@ -1,5 +1,5 @@
 use super::DirectionSample;
-use super::double_word::{compensated_height, cross_dw, dot_dw, rounded_sum};
+use super::double_word::{compensated_height, cross_dw, dot_dw, rounded_sum, sum_dw};
 use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
@@ -35,8 +35,8 @@ lanewise! {
     /// - Greatest error over the atlas: direction 6e−7 (4e−5 of the rectangle's size if that is 1e−6 and the point is 1e−7
     ///   above its plane), besides what 8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded; u₀ counts from the nearer end
     ///   where the rectangle lies on both sides of the foot). pdf 5e−7 relative, since heights and coordinates are formed in
-    ///   twice the working precision. Next to the plane of a rectangle that surrounds the point, nearly all of u₀ and u₁ lies
-    ///   within the rounding of a direction, and the inverse is worthless.
+    ///   twice the working precision. Next to the plane of a rectangle that surrounds the point, nearly all of u₀ lies within the
+    ///   rounding of a direction at the ends: the inverse is then one of the `u` that lead back to the direction.
     /// - Source: Ureña, Fajardo and King 2013, "An Area-Preserving Parametrization for Spherical Rectangles"; the forms without
     ///   cancellation are derived here from w = w₁ − 2e.
     pub struct SphericalRectangle {
@@ -100,6 +100,9 @@ lanewise! {
         unit: R,
     }
 }
+
+/// Height over the plane in units of the far end, and share of the area, below which a change of the strips counts as steep.
+const STEEP: f64 = 1.0 / 16.0;
 
 /// Unit normal of the plane through `p` along `u` and `v`, and p·normal. From a far corner that height is a small difference,
 /// so it is formed in twice the working precision.
@@ -234,15 +237,17 @@ impl<R: Real> SphericalRectangle<R> {
             & sin_w1.gt(zero)
             & z.gt(R::lit(1e-18));
 
-        // planes through the viewpoint and the sides
-        let plane = |a: Vec3<R>, b: Vec3<R>, edge: Vec3<R>| {
-            let (unit, length) = a.cross(edge).unit_and_length();
+        // planes through the viewpoint and the sides, from p, u and v, since the other corners are rounded sums
+        let (pu, pv, uv) = (cross_dw(p, u), cross_dw(p, v), cross_dw(u, v));
+        let minus = |n: [Vec3<R>; 2]| n.map(|n| -n);
+        let plane = |n: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>| {
+            let (unit, length) = (n[0] + n[1]).unit_and_length();
             (turn(unit, side.lt(zero)), ratio(-a.dot(b), length).greater(one).lesser(R::lit(1e18)) * R::lit(SLACK))
         };
-        let (low_x, slack_low_x) = plane(corners[0], corners[3], -v);
-        let (high_x, slack_high_x) = plane(corners[1], corners[2], v);
-        let (low_y, slack_low_y) = plane(corners[0], corners[1], u);
-        let (high_y, slack_high_y) = plane(corners[3], corners[2], -u);
+        let (low_x, slack_low_x) = plane(minus(pv), corners[0], corners[3]);
+        let (high_x, slack_high_x) = plane(sum_dw(pv, uv), corners[1], corners[2]);
+        let (low_y, slack_low_y) = plane(pu, corners[0], corners[1]);
+        let (high_y, slack_high_y) = plane(sum_dw(uv, minus(pu)), corners[3], corners[2]);
         Self {
             base,
             side_x,
@@ -295,16 +300,14 @@ impl<R: Real> SphericalRectangle<R> {
         self.side.lt(R::lit(0.0))
     }
 
-    /// The point of the rectangle for `u`.
+    /// X and x² + z² for u₀.
     #[inline(always)]
-    fn point(&self, u: Vec2<R>) -> Vec3<R> {
+    fn strip_end(&self, u: R) -> (R, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let Self { far: Vec2 { x: x1, y: y1 }, near: Vec2 { x: x0, y: y0 }, height: z, .. } = *self;
-        let turned = |u: R, flip: R| R::blend(flip.gt(zero), u, one - u);
-        let (left, swept) = (turned(u.x, self.flip.x), turned(one - u.x, self.flip.x));
-        let (v, rest) = (turned(u.y, self.flip.y), turned(one - u.y, self.flip.y));
-
-        // x: from k = cosw − cosw₁, counted from the nearer end on either side of the foot
+        let Self { far: Vec2 { x: x1, .. }, near: Vec2 { x: x0, .. }, height: z, .. } = *self;
+        let turned = |u: R| R::blend(self.flip.x.gt(zero), u, one - u);
+        let (left, swept) = (turned(u), turned(one - u));
+        // from k = cosw − cosw₁, counted from the nearer end on either side of the foot
         let near = left.gt(self.half);
         let part = R::blend(near, swept, left);
         let (sin_w1, cos_w1) = (R::blend(near, self.near_sin, self.sin_w1), R::blend(near, self.near_cos, self.cos_w1));
@@ -328,11 +331,18 @@ impl<R: Real> SphericalRectangle<R> {
         let some = denominator.gt(zero);
         let x = numerator / R::blend(some, denominator, one);
         let x = x.clamped(R::blend(anchored, -self.size.x, x0), R::blend(anchored, zero, x1));
-        let d = {
-            let x = x + x1.keep(anchored);
-            x.mul_add(x, z * z)
-        };
+        let from_foot = x + x1.keep(anchored);
+        (x, from_foot.mul_add(from_foot, z * z))
+    }
 
+    /// The point of the rectangle for `u`.
+    #[inline(always)]
+    fn point(&self, u: Vec2<R>) -> Vec3<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Self { far: Vec2 { y: y1, .. }, near: Vec2 { y: y0, .. }, .. } = *self;
+        let (x, d) = self.strip_end(u.x);
+        let turned = |u: R| R::blend(self.flip.y.gt(zero), u, one - u);
+        let (v, rest) = (turned(u.y), turned(one - u.y));
         // y: from h₁ − h
         let (r0, r1) = (y0.mul_add(y0, d).sqrt(), y1.mul_add(y1, d).sqrt());
         let sum = y1.mul_add(r0, y0.abs() * r1);
@@ -419,16 +429,31 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
         };
         let (x, dx) = place(along_x, x0, x1, self.size.x, self.anchor.x);
         let (y, dy) = place(along_y, y0, y1, self.size.y, self.anchor.y);
-        let u = ratio(window(Vec2::new(x, y0), self.far, Vec2::new(dx, self.size.y), z), self.solid_angle);
+        // the strip from x to the nearer end: before the foot, mirrored
+        let before = x.lt(zero);
+        let ends = [R::blend(before, -x, x), R::blend(before, -x0, x1), R::blend(before, x - x0, dx)];
+        let strip = window(Vec2::new(ends[0], y0), Vec2::new(ends[1], y1), Vec2::new(ends[2], self.size.y), z);
+        let share = ratio(strip, self.solid_angle);
+        let from_far = self.flip.x.gt(zero) ^ before;
+        let u = unit_interval(R::blend(from_far, share, one - share));
         let d = x.mul_add(x, z * z);
-        let fall = |low: R, gap: R| {
-            // h(y₁) − h(low), up to a common factor
+        let fall = |low: R, gap: R, d: R| {
+            // h(y₁) − h(low), times r₁
             let (r0, r1) = (low.mul_add(low, d).sqrt(), y1.mul_add(y1, d).sqrt());
             let sum = y1.mul_add(r0, low.abs() * r1);
-            ratio(R::blend(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0)
+            (ratio(R::blend(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0), r1)
         };
-        let v = ratio(fall(y, dy), fall(y0, self.size.y));
-        let turned = |u: R, flip: R| R::blend(flip.gt(zero), u, one - u);
-        Vec2 { x: unit_interval(turned(u, self.flip.x)), y: unit_interval(turned(v, self.flip.y)) }
+        let (fallen, r1) = fall(y, dy, d);
+        let mut v = ratio(fallen, fall(y0, self.size.y, d).0);
+        // next to u₀ = 1 and near the plane, the strip ends elsewhere within the rounding of u₀, and the pair must lead back to h
+        let steep = z.lt(R::lit(STEEP) * x1) & share.lt(R::lit(STEEP)) & !from_far;
+        if steep.any() {
+            let (end, rounded) = self.strip_end(u);
+            let end = end + x1.keep(self.anchor.x.gt(zero));
+            let (all, r) = fall(y0, self.size.y, rounded);
+            let moved = y1 * ratio((x - end) * (x + end), r1 + r);
+            v = R::blend(steep, ratio(fallen.mul_add(r, moved), r1 * all), v);
+        }
+        Vec2 { x: u, y: unit_interval(R::blend(self.flip.y.gt(zero), v, one - v)) }
     }
 }

@@ -10,6 +10,12 @@ use crate::warp::Warp;
 const BEYOND: f64 = 12.0 / 16_777_216.0;
 /// The same for samples by projected solid angle: 8 ulp.
 pub(super) const SLACK: f64 = 8.0 / 16_777_216.0;
+/// Part of the sweep below which a change of the arc counts as steep: a step of u₀ then changes u₁ by less than 1e−5 elsewhere.
+const STEEP: f64 = 1.0 / 128.0;
+/// Share of the area by which an inverse may be corrected: some roundings.
+const BEYOND_ARC: f64 = 8.0 / 16_777_216.0;
+/// Sine of the angle within which a direction counts as on an edge: the rounding of both.
+const BESIDE: f64 = 4.0 / 16_777_216.0;
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 
 lanewise! {
@@ -42,8 +48,9 @@ lanewise! {
     ///   except 7e−5 beside the middle of an edge that is a million times longer than the triangle is wide and than the point
     ///   is far; direction 5.4e−7 (1.4e−5 of the angular size where that nears π); distance 5.4e−7 of itself over |cos| at the
     ///   plane, and 5.4e−7 of the farthest vertex's. The inverse is that of a direction 6e−7 away, times the triangle's
-    ///   apparent aspect ratio; it is worthless from less than 1e−3 of its size above the plane of a triangle that surrounds
-    ///   the point, where most of u₀ lies within the rounding of a direction.
+    ///   apparent aspect ratio. From less than 1e−3 of its size above the plane of a triangle that surrounds the point, most of
+    ///   u₀ lies within the rounding of a direction near the ends of the sweep: there u₁ follows from the rounded u₀, so that
+    ///   both lead back to the direction, and may itself be another one.
     /// - Source: Arvo 1995, "Stratified Sampling of Spherical Triangles"; Van Oosterom and Strackee 1983 for Ω; Peters 2021,
     ///   "BRDF Importance Sampling for Polygonal Lights", section 3, for the form without inverse trigonometry, here expressed
     ///   in edges.
@@ -498,21 +505,10 @@ impl<R: Real> SphericalTriangle<R> {
     pub(super) fn beyond_v0_v1(&self, w: Vec3<R>) -> R::Mask {
         w.dot(self.across).lt(R::lit(0.0))
     }
-}
 
-impl<R: Real> Warp<R> for SphericalTriangle<R> {
-    type Point = Vec3<R>;
+    /// The inverse of a direction, and 1 − cos of its angle from v1.
     #[inline(always)]
-    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.sample_from(u, R::lit(1.0) - u.x)
-    }
-    /// The pdf per steradian; 0 for a direction that misses the triangle.
-    #[inline(always)]
-    fn pdf(&self, w: Vec3<R>) -> R {
-        self.uniform_pdf().keep(self.contains(w))
-    }
-    #[inline(always)]
-    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+    pub(super) fn locate(&self, w: Vec3<R>) -> (Vec2<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let (x, y) = (w.dot(self.along), w.dot(self.across).greater(zero));
         let squared = x.mul_add(x, y * y);
@@ -531,9 +527,82 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
         let (x, y) = (away.dot(self.along), away.dot(self.across));
         let by_sine = x.mul_add(x, y * y) / (one + ahead.keep(near));
         let moved = R::blend(near, by_sine, away.length_squared() * R::lit(0.5));
-        Vec2 {
+        let u = Vec2 {
             x: unit_interval(swept / self.solid_angle.greater(R::lit(1e-37))),
             y: unit_interval(moved / minus.greater(R::lit(1e-37))),
+        };
+        (u, moved)
+    }
+    /// Where the arc to the far edge changes within the rounding of a u₀ that sweeps `whole`, at one of its ends.
+    #[inline(always)]
+    pub(super) fn steep(&self, whole: R) -> R::Mask {
+        let small = whole * R::lit(STEEP);
+        // P leaves v0 and arrives at v2 within these parts of η
+        let steep = (self.g2_over * small).gt(R::lit(1.0)) | (self.g2_over * self.half.x * self.half.x).lt(small);
+        steep & self.solid_angle.gt(R::lit(0.0))
+    }
+    /// The area by which a direction lies beyond the arc for `u` that leaves `rest` = 1−u₀, at most a few roundings: the map is more
+    /// accurate than a swept area.
+    #[inline(always)]
+    pub(super) fn area_beyond(&self, u: R, rest: R, w: Vec3<R>, whole: R) -> R {
+        let arc = self.arc(u, rest);
+        let (x, y) = (w.dot(self.along), w.dot(self.across));
+        let turned = arc.x * y - arc.y * x;
+        // sine of the angle between both arcs, times 1 − cos of the length of this one
+        let squared = (arc.m * x.mul_add(x, y * y)).greater(R::lit(1e-36));
+        let most = whole * R::lit(BEYOND_ARC);
+        (turned * rsqrt(squared) * (arc.m + arc.m) / (R::lit(1.0) + arc.m)).clamped(-most, most)
+    }
+    /// Whether a direction lies at more than 90° from the edge from v1 to v0, about v1.
+    #[inline(always)]
+    pub(super) fn away_from_v0(&self, w: Vec3<R>) -> R::Mask {
+        w.dot(self.along).lt(R::lit(0.0))
+    }
+    /// Whether a direction lies on the edge from v1 to v0 or outside, to rounding.
+    #[inline(always)]
+    pub(super) fn beside_v0(&self, w: Vec3<R>) -> R::Mask {
+        let zero = R::lit(0.0);
+        w.dot(self.across).le(R::lit(BESIDE)) & w.dot(self.along).gt(zero) & self.solid_angle.gt(zero)
+    }
+    /// Whether a direction lies on the edge from v1 to v2 or outside, to rounding.
+    #[inline(always)]
+    pub(super) fn beside_v2(&self, w: Vec3<R>) -> R::Mask {
+        let zero = R::lit(0.0);
+        let towards = self.x2.mul_add(w.dot(self.along), self.y2 * w.dot(self.across));
+        w.dot(self.side12).le(self.slack.y * R::lit(BESIDE / BEYOND)) & towards.gt(zero) & self.solid_angle.gt(zero)
+    }
+    /// u₁ of a direction, given 1 − cos of its angle from v1, on the arc for `u` that leaves `rest` = 1−u₀: a rounded u₀ has an arc of
+    /// its own, and the pair must lead back to the direction.
+    #[inline(always)]
+    pub(super) fn share_of_arc(&self, u: R, rest: R, moved: R) -> R {
+        let (one, half) = (R::lit(1.0), R::lit(0.5));
+        let m = self.arc(u, rest).m.greater(R::lit(1e-37));
+        unit_interval(moved * (half * (one + m) / m))
+    }
+}
+
+impl<R: Real> Warp<R> for SphericalTriangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        self.sample_from(u, R::lit(1.0) - u.x)
+    }
+    /// The pdf per steradian; 0 for a direction that misses the triangle.
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.uniform_pdf().keep(self.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let (u, moved) = self.locate(w);
+        let whole = self.solid_angle;
+        let steep = self.steep(whole);
+        if !steep.any() {
+            return u;
         }
+        let one = R::lit(1.0);
+        let off = self.area_beyond(u.x, one - u.x, w, whole) / whole.greater(R::lit(1e-37));
+        let x = unit_interval(u.x + off.keep(steep));
+        Vec2 { x, y: R::blend(steep, self.share_of_arc(x, one - x, moved), u.y) }
     }
 }

@@ -1,4 +1,4 @@
-//! A triangle wholly above the horizon: two sectors, or three if it contains the zenith.
+//! A triangle wholly above the horizon and not about the zenith: two sectors.
 #![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
 use super::sector::{Corner, Sector};
@@ -17,19 +17,16 @@ pub(super) fn narrowest<R: Real>() -> R {
 }
 
 lanewise! {
-    /// A triangle swept by azimuth: from the first vertex to the middle one, from there to the last, and about the zenith on to
-    /// the first.
+    /// A triangle swept by azimuth: from the first vertex to the middle one, and from there to the last. Or three sectors about the zenith.
     pub struct Piece {
         /// from the first vertex to the middle one
         first: Sector<R>,
         /// from the middle vertex to the last, given from the last
         second: Sector<R>,
-        /// about the zenith, from the last vertex to the first; otherwise empty
+        /// about the zenith, a further one after these; otherwise empty
         third: Sector<R>,
         /// horizontal normal of the azimuth plane of the middle vertex: positive beyond it
         middle: Vec3<R>,
-        /// 1 if the azimuth runs counterclockwise, else −1
-        turn: R,
         /// sum of the sectors
         pub(super) area: R,
     }
@@ -63,10 +60,10 @@ impl<R: Real> Piece<R> {
         let cosine: [R; 3] = core::array::from_fn(|i| (areas[i] * m_inverse[i]).clamped(-one, one));
         let reversed = volume.lt(zero);
         let cosine = cosine.map(|c| c.negate_where(reversed));
-        // an edge is inner if its plane lies over the triangle: one is, or two are, or, about the zenith, none
+        // an edge is inner if its plane lies over the triangle: one is, or two are, since a triangle that contains the zenith has sectors of
+        // its own
         let inner = cosine.map(|c| c.lt(zero));
         let two = (inner[0] & inner[1]) | (inner[1] & inner[2]) | (inner[2] & inner[0]);
-        let central = !(inner[0] | inner[1] | inner[2]);
         let (long0, long1) = (inner[0] ^ two, inner[1] ^ two);
         let cosine = cosine.map(R::abs);
         let pick = |x: [R; 3], i: usize| R::blend(long0, x[next[i]], R::blend(long1, x[next[next[i]]], x[i]));
@@ -95,17 +92,18 @@ impl<R: Real> Piece<R> {
             let over = Vec3::blend(away ^ two, -over, over);
             let tangent = over.cross(apex);
             let far = [mine * lengths[2], (mine * dots[2]).mul_add(one, other * size * size)];
+            // sinδ: as small as the triangle, or from the cosine where that is small
+            let cos = -poles[own].dot(poles[2]);
+            let thin = (volume_abs * size * inverses[own] * inverses[2]).lesser(one);
+            let fold = R::blend(cos.abs().lt(R::lit(0.5)), ((one - cos) * (one + cos)).greater(zero).sqrt(), thin);
             let corner = Corner {
                 apex,
                 tangent,
                 height,
                 slope: tangent.dot(normal),
                 outer: R::blend(two, cosines[2], cosines[own]),
-                inner: R::blend(two, cosines[own], cosines[2]).keep(!central),
-                fold: [
-                    R::blend(central, one, (volume_abs * size * inverses[own] * inverses[2]).lesser(one)),
-                    (-poles[own].dot(poles[2])).keep(!central),
-                ],
+                inner: R::blend(two, cosines[own], cosines[2]),
+                fold: [fold, cos],
                 end: [R::blend(two, far[0], lengths[own]), R::blend(two, far[1], dots[own])],
             };
             let mut sector = Sector::new(corner);
@@ -115,24 +113,9 @@ impl<R: Real> Piece<R> {
         let (no, yes) = (R::Mask::splat(false), R::Mask::splat(true));
         let mut first = sector(0, no, a, size_a, height_a, before, after);
         let mut second = sector(1, yes, c, size_c, height_c, after, before);
-        let mut third = Sector::default();
-        if central.any() {
-            let tangent = poles[2].cross(c);
-            third = Sector::new(Corner {
-                apex: c,
-                tangent,
-                height: height_c,
-                slope: tangent.dot(normal),
-                outer: cosines[2],
-                inner: zero,
-                fold: [one, zero],
-                end: [lengths[2], dots[2]],
-            });
-            third.area = third.area.keep(central & some);
-        }
         // beside an upright edge a sector has no width, and a direction in it would be pure rounding: only u = 0 falls into it
-        let least = narrowest::<R>() * (first.area + second.area + third.area);
-        for sector in [&mut first, &mut second, &mut third] {
+        let least = narrowest::<R>() * (first.area + second.area);
+        for sector in [&mut first, &mut second] {
             sector.area = sector.area.keep(sector.area.gt(least));
         }
         // with the long edge outside, the sectors run the other way round
@@ -140,11 +123,21 @@ impl<R: Real> Piece<R> {
         Self {
             first,
             second,
-            third,
+            third: Sector::default(),
             middle: normal.cross(turned(unit, 1)) * turn,
-            turn,
-            area: first.area + second.area + third.area,
+            area: first.area + second.area,
         }
+    }
+
+    /// Three sectors about the zenith; the second counts from its far end.
+    #[inline(always)]
+    pub(super) fn about_zenith(first: Sector<R>, second: Sector<R>, third: Sector<R>) -> Self {
+        let area = first.area + second.area + third.area;
+        Self { first, second, third, area, ..Self::default() }
+    }
+    #[inline(always)]
+    pub(super) fn sectors(&self) -> [Sector<R>; 3] {
+        [self.first, self.second, self.third]
     }
 
     /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
@@ -171,21 +164,11 @@ impl<R: Real> Piece<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let beyond = self.middle.dot(w).ge(zero);
         let some = |s: &Sector<R>| s.area.gt(zero);
-        let mut later = (beyond | !some(&self.first)) & some(&self.second);
-        let mut last = R::Mask::splat(false);
-        let about = some(&self.third);
-        if about.any() {
-            let past = |apex: Vec3<R>| (normal.cross(apex).dot(w) * self.turn).ge(zero);
-            let (past_a, past_c) = (past(self.first.apex), past(self.second.apex));
-            last = about & past_c & !past_a;
-            later = (about & !last & !(past_a & !beyond)) | (!about & later);
-        }
+        let later = (beyond | !some(&self.first)) & some(&self.second);
         let sector = Sector::blend(later, self.second, self.first);
-        let sector = if last.any() { Sector::blend(last, self.third, sector) } else { sector };
         let found = sector.locate(normal, w);
         let share = R::blend(later, one - found.x, found.x);
         let before = R::blend(later, self.first.area, zero);
-        let before = R::blend(last, self.first.area + self.second.area, before);
         Vec2 { x: share.mul_add(sector.area, before), y: unit_interval(found.y) }
     }
 }

@@ -112,7 +112,7 @@ impl<R: Real> Sector<R> {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         // c − k = c(1−cosδ) + τ sinδ; near the zenith c and k are small, and the plain difference is better
         let versine = R::blend(cos.gt(zero), sin * sin / (one + cos.greater(zero)), one - cos);
-        let gap = R::blend((outer + inner).lt(sin), outer - inner, outer.mul_add(versine, slope * sin));
+        let gap = R::blend((outer + inner).le(sin), outer - inner, outer.mul_add(versine, slope * sin));
         let (near, steep) = (R::lit(NEAR), R::lit(STEEP));
         let rise = height * sin * y;
         let tangent_inner = near * inner.mul_add(x, rise);
@@ -309,6 +309,24 @@ impl<R: Real> Sector<R> {
         w * rsqrt(R::blend(squared.gt(R::lit(1e-30)), squared, one))
     }
 
+    /// Numbers proportional to the sine and the cosine of the angle θ on the outer arc at the azimuth of a direction, in a sector about
+    /// the zenith. A direction beyond the arc, as rounding may place it, counts as the nearest one on the arc: along its azimuth that may
+    /// be far.
+    #[inline(always)]
+    fn azimuth_about_zenith(&self, normal: Vec3<R>, w: Vec3<R>) -> [R; 2] {
+        let pole = self.apex.cross(self.tangent);
+        let inwards = w.dot(pole).negate_where(pole.dot(normal).lt(R::lit(0.0))).greater(R::lit(0.0));
+        let along = (w - self.apex).dot(self.tangent);
+        [self.outer * along - self.slope * inwards, self.outer * w.dot(self.apex) - self.height * inwards]
+    }
+    /// How far the azimuth of a direction is outside a sector about the zenith, as an angle along the outer arc.
+    #[inline(always)]
+    pub(super) fn miss(&self, normal: Vec3<R>, w: Vec3<R>) -> R {
+        let [y, x] = self.azimuth_about_zenith(normal, w);
+        let theta = y.atan2(x);
+        (-theta).greater(theta - self.wide).greater(R::lit(0.0))
+    }
+
     /// The share of the area before the azimuth of a direction, and u₁.
     #[inline(never)]
     pub(super) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
@@ -323,6 +341,13 @@ impl<R: Real> Sector<R> {
         let way = w.cross(self.apex).length();
         let y = y.greater(way * self.outer.lesser(self.inner));
         let y = R::blend(self.slope.ge(zero), y.lesser(way * self.outer), y);
+        let about = self.inner.le(zero);
+        let (y, x) = if about.any() {
+            let [sin, cos] = self.azimuth_about_zenith(normal, w);
+            (R::blend(about, sin.greater(zero), y), R::blend(about, cos, x))
+        } else {
+            (y, x)
+        };
         let small = self.near.gt(zero);
         let (mut s, mut c, mut area) = (zero, one, zero);
         if small.any() {

@@ -258,7 +258,7 @@ pub struct Summary {
     pub method: (&'static str, bool),
     /// Greatest errors of direction, pdf and round trip, and greatest bias; NaN if not measured.
     pub greatest: [Greatest; 4],
-    /// Numbers of cells within the contract, of cells with an invalid sample, and of all cells.
+    /// Numbers of cells within the contract, of cells with an invalid sample, and of all measured cells.
     pub cells: [usize; 3],
     /// Numbers of cells whose bias is within the limit, and of all cells with a measured bias.
     pub unbiased: [usize; 2],
@@ -296,9 +296,9 @@ pub fn summary(charts: &[ErrorMap]) -> Vec<Summary> {
                     most.take(x, ());
                 }
             }
-            entry.cells[0] += usize::from(cell.meets());
+            entry.cells[0] += usize::from(cell.measured() && cell.meets());
             entry.cells[1] += usize::from(cell.invalid > 0.0);
-            entry.cells[2] += 1;
+            entry.cells[2] += usize::from(cell.measured());
             entry.unbiased[0] += usize::from(cell.bias <= LIMIT);
             entry.unbiased[1] += usize::from(!cell.bias.is_nan());
         }

@@ -14,6 +14,8 @@ use std::hint::black_box;
 pub const LIMIT: f64 = 1e-5;
 /// The contract also allows this error in each component of a direction: 2 ulp.
 const DIRECTION_ULP: f64 = 2.0 * f32::EPSILON as f64;
+/// It allows the same in each coordinate of u: 2 ulp of a number below 1.
+const U_ULP: f64 = f32::EPSILON as f64;
 /// Step of u for the derivatives of directions.
 const STEP: f64 = 1.0 / 4_294_967_296.0;
 /// Smaller solid angles have a reciprocal close to overflow, and are not measured.
@@ -23,7 +25,8 @@ const NOTHING: f64 = 1e-36;
 #[derive(Clone, Copy, Debug)]
 pub struct Figures {
     /// Greatest error of a direction in any component, relative to the angular size or to 0.024, whichever is greater. At 0.024 the
-    /// limit is 2 ulp.
+    /// limit is 2 ulp. Where the map is so steep that 2 ulp of u turn the direction by more than the limit, it is the distance to the
+    /// nearest true direction of a u that near.
     pub direction: f64,
     /// Greatest relative error of the pdf, in excess of the change that 2 ulp of the direction cause.
     pub pdf: f64,
@@ -31,7 +34,8 @@ pub struct Figures {
     /// than the limit, the error is relative to that change, times the limit. Samples where they change u by more than 0.1 do not count,
     /// as f32 has no inverse there. At a discontinuity of the map (about the zenith, or between two parts) two values of u are equally
     /// good: there the error is the distance from the sample to the direction of the inverse, relative to 6 ulp (2 of each
-    /// direction, 2 of the inverse), times the limit.
+    /// direction, 2 of the inverse), times the limit; or, if that is less, to the nearest true direction of a u within 2 ulp of the
+    /// inverse, relative to 4 ulp.
     pub round_trip: f64,
     /// Fraction of the samples that have an inverse in f32.
     pub invertible: f64,
@@ -53,6 +57,11 @@ impl Figures {
         variance_ratio: f64::NAN,
         bias: f64::NAN,
     };
+    /// Whether there was a shape to measure: rounding may leave a polygon that is none.
+    #[must_use]
+    pub fn measured(&self) -> bool {
+        !self.invalid.is_nan()
+    }
     /// Whether all measured errors are within the contract.
     #[must_use]
     pub fn meets(&self) -> bool {
@@ -193,6 +202,37 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
     Reference { direction, sensitivity: [per(length(b)), per(length(a))] }
 }
 
+/// Distance in any component from a direction to the nearest true direction of any u within 2 ulp; searches until it is at most
+/// `enough`.
+fn nearest(truth: &Truth, u: [f32; 2], w: V3, enough: f64) -> f64 {
+    let apart = |u: [f64; 2]| sub(w, truth.direction(u)).into_iter().map(f64::abs).collect::<Greatest>().error();
+    let center = u.map(f64::from);
+    let within = |x: f64, axis: usize| x.clamp((center[axis] - U_ULP).max(0.0), (center[axis] + U_ULP).min(LAST));
+    let (mut best, mut at) = (apart(center), center);
+    // finer and finer grids about the nearest point so far: the direction may turn within a small part of a step
+    let (mut reach, mut points) = (U_ULP, 8);
+    while best > enough && reach > U_ULP * 1e-4 {
+        let middle = at;
+        for i in -points..=points {
+            for j in -1..=1 {
+                let moved = [
+                    within(middle[0] + reach * f64::from(i) / f64::from(points), 0),
+                    within(middle[1] + reach * f64::from(j), 1),
+                ];
+                let off = apart(moved);
+                if off < best {
+                    (best, at) = (off, moved);
+                }
+            }
+        }
+        reach *= if points == 8 { 0.125 } else { 0.5 };
+        points = 2;
+    }
+    best
+}
+/// The greatest u in f64.
+const LAST: f64 = 1.0 - 0.5 * f64::EPSILON;
+
 /// Measures one cell with all methods.
 #[must_use]
 pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], detail: Detail) -> Vec<Figures> {
@@ -201,6 +241,9 @@ pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], det
     for turn in 0..detail.turns {
         let pose = sweep.pose(kind, x, y, turn);
         let truth = Truth::new(kind, &pose);
+        if !truth.defined {
+            continue;
+        }
         let us = pose::square(detail.samples, turn);
         let seen = truth.measure > NOTHING && truth.measure.is_finite();
         let references: Vec<_> = if seen { us.iter().map(|&u| reference(&truth, u)).collect() } else { Vec::new() };
@@ -247,7 +290,7 @@ fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> 
     let truth = Truth::new(kind, pose);
     let normal = if kind.projected() { unit(wide(pose.normal)) } else { truth.towards() };
     let closed = truth.irradiance(normal);
-    if !(truth.measure > NOTHING && truth.measure.is_finite()) || closed <= NOTHING {
+    if !(truth.defined && truth.measure > NOTHING && truth.measure.is_finite()) || closed <= NOTHING {
         return vec![f64::NAN; methods.len()];
     }
     let us = strata(side);
@@ -370,7 +413,12 @@ impl Tally {
             return;
         }
         let apart = |a: V3| sub(w, a).into_iter().map(f64::abs).collect::<Greatest>().error();
-        self.direction.take(apart(expected) / truth.extent.max(DIRECTION_ULP / LIMIT), u);
+        let size = truth.extent.max(DIRECTION_ULP / LIMIT);
+        let mut error = apart(expected) / size;
+        if error > LIMIT && !sample.by_area {
+            error = error.min(nearest(truth, u, w, LIMIT * size) / size);
+        }
+        self.direction.take(error, u);
         let off = (f64::from(sample.pdf) - density[0]).abs() - density[1] * DIRECTION_ULP;
         self.pdf.take(off.max(0.0) / density[0].max(density[1] * DIRECTION_ULP), u);
         let Some(inverse) = sample.inverse else { return };
@@ -390,6 +438,10 @@ impl Tally {
         let mut error = off(0).max(off(1));
         if error > LIMIT {
             error = error.min(apart(again(inverse)) / (3.0 * DIRECTION_ULP) * LIMIT);
+        }
+        if error > LIMIT {
+            let enough = 2.0 * DIRECTION_ULP;
+            error = error.min(nearest(truth, inverse, w, enough) / enough * LIMIT);
         }
         self.round_trip.take(error, u);
     }

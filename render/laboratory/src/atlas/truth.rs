@@ -7,7 +7,7 @@ use etendue::spherical::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
 use etendue::warp::ConcentricDisk;
 use etendue::{Frame, Vec2, Vec3, Warp};
 use etendue_oracle::curves::{Arc, Ellipse};
-use etendue_oracle::double_double::{Dd, Dd3, add, cross, dd, dot, length, narrow, normalized, times};
+use etendue_oracle::double_double::{Dd, Dd3, add, cross, dd, determinant, dot, length, narrow, normalized, times};
 use etendue_oracle::flat::{Fan, Window};
 use etendue_oracle::{V3, above_horizon, cap, lambert, projected_cap, unit, wide};
 
@@ -34,6 +34,9 @@ pub struct Truth {
     pub measure: f64,
     /// Greatest angle between two directions to the shape.
     pub extent: f64,
+    /// Whether the shape is one: rounding the corners of a polygon may leave it no longer convex as seen from the viewpoint, where that is
+    /// nearer to the plane than the rounding.
+    pub defined: bool,
     projected: bool,
     normal: V3,
     shape: Shape,
@@ -101,13 +104,13 @@ impl Truth {
                     Kind::ProjectedTriangle => {
                         let body = ProjectedTriangle::with_edges(pw, pw + uw, pw + vw, uw, vw, wide_normal);
                         let corners = [p, pu, pv];
-                        let measure = lambert(&above_horizon(&corners, n), n);
+                        let measure = facing(&corners, n);
                         (Map::Triangle(Box::new(body)), measure, widest(&corners))
                     }
                     Kind::ProjectedParallelogram => {
                         let body = ProjectedPolygon::parallelogram(pw, uw, vw, wide_normal);
                         let corners = [p, pu, puv, pv];
-                        let measure = lambert(&above_horizon(&corners, n), n);
+                        let measure = facing(&corners, n);
                         (Map::Quad(Box::new(body)), measure, widest(&corners))
                     }
                     _ => {
@@ -121,11 +124,12 @@ impl Truth {
                 let c = corners.map(|c| dd(wide(c)));
                 if projected {
                     let body = ProjectedPolygon::new(corners.map(|c| vector(wide(c))), vector(wide(pose.normal)));
-                    let measure = lambert(&above_horizon(&c, n), n);
+                    let measure = facing(&c, n);
                     return Self {
                         map: Map::Hexagon(Box::new(body)),
                         measure,
                         extent: widest(&c),
+                        defined: convex(&c),
                         projected,
                         normal,
                         shape: pose.shape.clone(),
@@ -138,7 +142,11 @@ impl Truth {
                 (Map::Fans(fans), measure, widest(&c))
             }
         };
-        Self { map, measure, extent, projected, normal, shape: pose.shape.clone(), kind }
+        let defined = match &pose.shape {
+            Shape::Corners(corners) => convex(&corners.map(|c| dd(wide(c)))),
+            _ => true,
+        };
+        Self { map, measure, extent, defined, projected, normal, shape: pose.shape.clone(), kind }
     }
 
     /// The direction for `u`, computed from the definition of the map. For projected spheres, triangles, parallelograms and polygons it
@@ -284,6 +292,28 @@ impl Truth {
         }
         (narrow(normalized(point)), (d * d * d / along).to_f64())
     }
+}
+
+/// The determinant of each corner and the next two.
+fn turns(corners: &[Dd3]) -> impl Iterator<Item = f64> + '_ {
+    let n = corners.len();
+    (0..n).map(move |i| determinant(corners[i], corners[(i + 1) % n], corners[(i + 2) % n]).to_f64())
+}
+
+/// Whether a polygon has corners that all turn the same way, as seen from the viewpoint.
+fn convex(corners: &[Dd3]) -> bool {
+    let (mut left, mut right) = (true, true);
+    for turn in turns(corners) {
+        left &= turn >= 0.0;
+        right &= turn <= 0.0;
+    }
+    left != right
+}
+
+/// Projected solid angle of a polygon; 0 from its plane, where Lambert's sum has half of the hemisphere on either side.
+fn facing(corners: &[Dd3], n: Dd3) -> f64 {
+    let touches = turns(corners).all(|turn| turn == 0.0);
+    if touches { 0.0 } else { lambert(&above_horizon(corners, n), n) }
 }
 
 fn sampled(body: &impl Warp<f64, Point = Vec3<f64>>, u: [f64; 2]) -> V3 {
