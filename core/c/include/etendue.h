@@ -156,7 +156,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[166];
+  float data[165];
 } EtendueTriangleByProjectedSolidAngle;
 
 // An EtendueTriangle prepared for a shading point, by solid angle times a bilinear approximation of the cosine to n.
@@ -204,7 +204,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[552];
+  float data[549];
 } EtendueParallelogramByProjectedSolidAngle;
 
 // A rectangle p + s u + t v, s and t in [0, 1], u perpendicular to v, that emits from the side of u x v. By area, it is an
@@ -364,7 +364,7 @@ typedef struct {
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
-  float data[1091];
+  float data[1084];
 } EtenduePolygonByProjectedSolidAngle;
 
 // A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Its samplers use the

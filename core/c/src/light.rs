@@ -433,7 +433,7 @@ technique!(
 );
 technique!(
     /// An [`EtendueTriangle`] prepared for a shading point, uniform over the projected solid angle above the horizon of n: pdf cos(theta)/Omega'. No variance on an unoccluded diffuse surface.
-    EtendueTriangleByProjectedSolidAngle [166] = light::TriangleByProjectedSolidAngle<f32>, EtendueTriangle, EtendueTriangleColumns, (n, *const f32, normals),
+    EtendueTriangleByProjectedSolidAngle [165] = light::TriangleByProjectedSolidAngle<f32>, EtendueTriangle, EtendueTriangleColumns, (n, *const f32, normals),
     etendue_triangle_by_projected_solid_angle_prepare etendue_triangle_by_projected_solid_angle_sample etendue_triangle_by_projected_solid_angle_pdf etendue_triangle_by_projected_solid_angle_invert etendue_triangle_by_projected_solid_angle_hit etendue_triangle_by_projected_solid_angle_sample_once etendue_triangle_by_projected_solid_angle_sample_batch etendue_triangle_by_projected_solid_angle_pdf_batch etendue_triangle_by_projected_solid_angle_invert_batch etendue_triangle_by_projected_solid_angle_hit_batch etendue_triangle_by_projected_solid_angle_sample_each
 );
 technique!(
@@ -453,7 +453,7 @@ technique!(
 );
 technique!(
     /// An [`EtendueParallelogram`] prepared for a shading point, uniform over the projected solid angle above the horizon of n: pdf cos(theta)/Omega'.
-    EtendueParallelogramByProjectedSolidAngle [552] = light::ParallelogramByProjectedSolidAngle<f32>, EtendueParallelogram, EtendueParallelogramColumns, (n, *const f32, normals),
+    EtendueParallelogramByProjectedSolidAngle [549] = light::ParallelogramByProjectedSolidAngle<f32>, EtendueParallelogram, EtendueParallelogramColumns, (n, *const f32, normals),
     etendue_parallelogram_by_projected_solid_angle_prepare etendue_parallelogram_by_projected_solid_angle_sample etendue_parallelogram_by_projected_solid_angle_pdf etendue_parallelogram_by_projected_solid_angle_invert etendue_parallelogram_by_projected_solid_angle_hit etendue_parallelogram_by_projected_solid_angle_sample_once etendue_parallelogram_by_projected_solid_angle_sample_batch etendue_parallelogram_by_projected_solid_angle_pdf_batch etendue_parallelogram_by_projected_solid_angle_invert_batch etendue_parallelogram_by_projected_solid_angle_hit_batch etendue_parallelogram_by_projected_solid_angle_sample_each
 );
 technique!(
@@ -498,7 +498,7 @@ technique!(
 );
 technique!(
     /// An [`EtenduePolygon`] prepared for a shading point, uniform over the projected solid angle above the horizon of n: pdf cos(theta)/Omega'.
-    EtenduePolygonByProjectedSolidAngle [1091] = light::PolygonByProjectedSolidAngle<f32, 8>, EtenduePolygon, EtenduePolygonColumns, (n, *const f32, normals),
+    EtenduePolygonByProjectedSolidAngle [1084] = light::PolygonByProjectedSolidAngle<f32, 8>, EtenduePolygon, EtenduePolygonColumns, (n, *const f32, normals),
     etendue_polygon_by_projected_solid_angle_prepare etendue_polygon_by_projected_solid_angle_sample etendue_polygon_by_projected_solid_angle_pdf etendue_polygon_by_projected_solid_angle_invert etendue_polygon_by_projected_solid_angle_hit etendue_polygon_by_projected_solid_angle_sample_once etendue_polygon_by_projected_solid_angle_sample_batch etendue_polygon_by_projected_solid_angle_pdf_batch etendue_polygon_by_projected_solid_angle_invert_batch etendue_polygon_by_projected_solid_angle_hit_batch etendue_polygon_by_projected_solid_angle_sample_each
 );
 technique!(

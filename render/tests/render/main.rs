@@ -6,6 +6,7 @@ mod analytic;
 mod closed_forms;
 mod images;
 mod lens;
+mod lights;
 mod parts;
 mod references;
 mod sampler;
