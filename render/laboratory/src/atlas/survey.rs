@@ -206,7 +206,8 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
 /// `enough`.
 fn nearest(truth: &Truth, u: [f32; 2], w: V3, enough: f64) -> f64 {
     let apart = |u: [f64; 2]| sub(w, truth.direction(u)).into_iter().map(f64::abs).collect::<Greatest>().error();
-    let center = u.map(f64::from);
+    // the inverse of a textbook's formula may be outside
+    let center = u.map(|u| f64::from(u).clamp(0.0, LAST));
     let within = |x: f64, axis: usize| x.clamp((center[axis] - U_ULP).max(0.0), (center[axis] + U_ULP).min(LAST));
     let (mut best, mut at) = (apart(center), center);
     // finer and finer grids about the nearest point so far: the direction may turn within a small part of a step
