@@ -94,6 +94,31 @@ fn a_parallelogram_is_a_polygon() {
     assert_eq!(s.0, s.1);
 }
 
+// whichever corner stands for several, and whether the polygon faces the surface, contains the zenith or crosses the horizon
+#[test]
+fn samples_of_polygons_with_repeated_corners_hit_them() {
+    let mut random = Random(9);
+    for _ in 0..300 {
+        let (corners, n) = polygon::<5>(1.0, 1.5, 0, &mut random);
+        for repeated in 0..5 {
+            let corners: [_; 8] = core::array::from_fn(|i| corners[i.min(repeated) + i.saturating_sub(repeated + 3)]);
+            let light = Polygon { corners: corners.map(|c| Vec3::<f32>::from(c.map(|x| x as f32))) };
+            for receiver in [n, unit(along(n, basis(n).0, 0.2)), unit(along(n, basis(n).0, 2.0))] {
+                let receiver = Vec3::from(receiver.map(|x| x as f32));
+                let sampler = light.by_projected_solid_angle(Vec3::default(), receiver);
+                for _ in 0..4 {
+                    let s = sampler.sample(Vec2::new(random.unit(), random.unit()));
+                    let pdf = sampler.pdf(s.direction);
+                    assert!(
+                        s.pdf > 0.0 && pdf == s.pdf,
+                        "{corners:?} {receiver:?}: {s:?}, but the direction's pdf is {pdf}"
+                    );
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn any_bits_in_every_lane() {
     let mut random = Random::new(3);

@@ -536,12 +536,15 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
             self.volume += triangle.volume;
             self.projected += triangle.projected;
         }
-        self.about_zenith(corners, rests, ends, products, normal);
         // rounding decides the side of a triangle with collinear corners
-        let (front, least) = (self.in_front(), narrowest::<R>() * self.projected);
+        let front = self.in_front();
+        for triangle in &mut self.fan[..Self::TRIANGLES] {
+            triangle.face(front);
+        }
+        self.about_zenith(corners, rests, ends, products, normal);
+        let least = narrowest::<R>() * self.projected;
         for triangle in &mut self.fan[..Self::TRIANGLES] {
             triangle.projected = triangle.projected.keep(triangle.projected.gt(least));
-            triangle.face(front);
         }
     }
     /// Where the polygon contains the zenith, replaces the sectors of the fan by sectors about the zenith: an edge between two triangles
@@ -561,8 +564,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
         // a quick look, with rounded normals: most polygons do not contain the zenith
         let mut near = R::Mask::splat(true);
         for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate() {
-            let facing = turn.negate_where(triangle.volume.lt(zero));
-            let inside = |pole: Vec3<R>| (unit.dot(pole) * facing).ge(R::lit(-SLACK));
+            let inside = |pole: Vec3<R>| within(unit.dot(pole));
             near = near & inside(triangle.pole1);
             if i == 0 {
                 near = near & inside(triangle.pole0);
