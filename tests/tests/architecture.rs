@@ -328,7 +328,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 16] = [
     ("render/cli", &["etendue-laboratory", "etendue-render"], &[]),
     ("tests/bits", &["etendue", "etendue-properties"], &[]),
     ("tests/oracle", &[], &[]),
-    ("tests/proof", &["etendue"], &["etendue-oracle"]),
+    ("tests/proof", &["etendue", "etendue-oracle"], &[]),
     ("tests/properties", &["etendue", "etendue-oracle"], &[]),
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
     ("benches/routines", &["etendue", "etendue-render"], &[]),

@@ -1,6 +1,6 @@
 //! The errors of elementary functions, by trying all arguments.
 
-use crate::traced::limits::{self, Error};
+use crate::limits::{self, Error};
 use etendue::{Real, f32x8};
 use rayon::prelude::*;
 

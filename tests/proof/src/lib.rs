@@ -10,8 +10,10 @@
 //! in double precision, to within 10⁻⁹.
 
 pub mod affine;
+pub mod defect;
 pub mod interval;
 pub mod lemmas;
+pub mod limits;
 pub mod search;
 pub mod tape;
 pub mod theorems;

@@ -39,7 +39,8 @@ fn main() -> ExitCode {
         }
     }
     for theorem in theorems::all(whole) {
-        if !names.is_empty() && !names.iter().any(|name| theorem.name().to_lowercase().contains(name)) {
+        let statement = theorem.statement();
+        if !names.is_empty() && !names.iter().any(|name| statement.name.to_lowercase().contains(name)) {
             continue;
         }
         let began = Instant::now();
@@ -48,8 +49,8 @@ fn main() -> ExitCode {
         let tried = theorem.trial().map(|trial| (trial.what, trial.run()));
         let holds = proof.failed.is_none() && difference < 1e-9 && tried.is_none_or(|(_, pairs)| pairs.is_some());
         proved &= holds;
-        println!("{} {}: for {}", if holds { "Theorem." } else { "NOT PROVED:" }, theorem.name(), theorem.domain());
-        for (limit, greatest) in theorem.limits().iter().zip(&proof.greatest) {
+        println!("{} {}: for {}", if holds { "Theorem." } else { "NOT PROVED:" }, statement.name, statement.domain);
+        for (limit, greatest) in statement.limits.iter().zip(&proof.greatest) {
             println!("    {} ≤ {:.3e} (proved: {greatest:.3e})", limit.what, limit.most);
         }
         match tried {

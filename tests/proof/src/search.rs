@@ -1,7 +1,8 @@
 //! Branch and bound: divides a box until a theorem holds on every part.
 
+use crate::defect::{self, Defect};
 use crate::tape;
-use crate::traced::{self, Defect, Traced};
+use crate::traced::Traced;
 use etendue::{Real, Vec2, f32x8};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -131,16 +132,23 @@ impl Trial {
     }
 }
 
-/// A statement about all values of the parameters.
-pub trait Theorem: Sync {
+/// What a theorem states.
+#[derive(Clone, Debug)]
+pub struct Statement {
     /// Name of the routine.
-    fn name(&self) -> &'static str;
-    /// The box: in words.
-    fn domain(&self) -> String;
-    /// The box.
-    fn ranges(&self) -> Vec<Range>;
+    pub name: &'static str,
+    /// The box of the parameters, in words.
+    pub domain: String,
+    /// That box.
+    pub ranges: Vec<Range>,
     /// What is bounded.
-    fn limits(&self) -> Vec<Limit>;
+    pub limits: Vec<Limit>,
+}
+
+/// A statement about all values of the parameters, and how it follows from the routine.
+pub trait Theorem: Sync {
+    /// What is stated.
+    fn statement(&self) -> Statement;
     /// Runs the routine itself: what it returns for some of its results.
     fn run(&self, x: &[f32]) -> Vec<f32>;
     /// Traces the same results.
@@ -176,21 +184,19 @@ fn bounds(theorem: &dyn Theorem, limits: &[Limit], part: &[Range], hasty: bool) 
     let complete = tape::all_paths(
         MOST_PATHS,
         || {
-            traced::begin();
+            defect::begin();
             theorem.bounds(&Range::all_traced(part))
         },
         |bounds| {
-            assert_eq!(bounds.len(), greatest.len(), "{}: a bound for each limit", theorem.name());
+            assert_eq!(bounds.len(), greatest.len(), "{}: a bound for each limit", theorem.statement().name);
             for (most, bound) in greatest.iter_mut().zip(bounds) {
                 *most = if bound.is_nan() { f64::INFINITY } else { most.max(bound) };
             }
             !hasty || score(&greatest, limits) <= 1.0
         },
     );
-    if !complete && !hasty {
-        greatest.fill(f64::INFINITY);
-    }
-    if !complete && hasty && score(&greatest, limits) <= 1.0 {
+    let passed = hasty && score(&greatest, limits) > 1.0;
+    if !complete && !passed {
         greatest.fill(f64::INFINITY);
     }
     greatest
@@ -239,11 +245,11 @@ fn divide(theorem: &dyn Theorem, limits: &[Limit], part: &[Range]) -> Option<[Ve
 /// Proves a theorem, with at most this many parts and divisions.
 #[must_use]
 pub fn prove(theorem: &dyn Theorem, most_boxes: u64) -> Proof {
-    let limits = theorem.limits();
-    let defect = traced::planted();
+    let Statement { ranges, limits, .. } = theorem.statement();
+    let defect = defect::planted();
     let none = || Proof { greatest: vec![0.0; limits.len()], boxes: 0, failed: None };
     // many parts at first, so that all threads have work
-    let (mut open, mut done) = (vec![theorem.ranges()], none());
+    let (mut open, mut done) = (vec![ranges], none());
     while !open.is_empty() && open.len() < 256 && done.boxes < 1000 {
         let mut next = Vec::new();
         for part in open {
@@ -256,7 +262,7 @@ pub fn prove(theorem: &dyn Theorem, most_boxes: u64) -> Proof {
     }
     let boxes = AtomicU64::new(done.boxes);
     let parts = open.into_par_iter().map(|part| {
-        traced::plant(defect);
+        defect::plant(defect);
         let (mut open, mut done) = (vec![part], none());
         while let Some(part) = open.pop() {
             if boxes.fetch_add(1, Ordering::Relaxed) > most_boxes {
@@ -301,8 +307,8 @@ fn step(theorem: &dyn Theorem, limits: &[Limit], part: Vec<Range>, done: &mut Pr
 /// definition, and where that is; it is infinite if the routine itself leaves the intervals or the bounds of its errors.
 #[must_use]
 pub fn try_points(theorem: &dyn Theorem, points: u64) -> (f64, Vec<f64>) {
-    let ranges = theorem.ranges();
-    let defect = traced::planted();
+    let ranges = theorem.statement().ranges;
+    let defect = defect::planted();
     // these defects are in the traced routine alone
     let is_the_same_routine = !matches!(defect, Defect::Constant { .. } | Defect::NoClamp(_));
     (0..points)
@@ -314,12 +320,12 @@ pub fn try_points(theorem: &dyn Theorem, points: u64) -> (f64, Vec<f64>) {
             let mut greatest = 0.0_f64;
             let numbers: Vec<f32> = values.iter().map(|x| *x as f32).collect();
             let computed = theorem.run(&numbers);
-            traced::plant(defect);
+            defect::plant(defect);
             let mut follows_a_path = false;
             tape::all_paths(
                 MOST_PATHS,
                 || {
-                    traced::begin();
+                    defect::begin();
                     theorem.trace(&Range::all_traced(&point))
                 },
                 |traced| {
@@ -334,7 +340,7 @@ pub fn try_points(theorem: &dyn Theorem, points: u64) -> (f64, Vec<f64>) {
             tape::all_paths(
                 MOST_PATHS,
                 || {
-                    traced::begin();
+                    defect::begin();
                     theorem.definition(&Range::all_traced(&point), &values)
                 },
                 |pairs| {

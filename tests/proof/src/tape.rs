@@ -204,8 +204,7 @@ pub fn error(of: u32) -> f64 {
     error_of_sum(&[(of, 1.0)])
 }
 /// The same for a sum of nodes, each with a factor.
-#[must_use]
-pub fn error_of_sum(terms: &[(u32, f64)]) -> f64 {
+fn error_of_sum(terms: &[(u32, f64)]) -> f64 {
     let none = Interval::point(0.0);
     TAPE.with_borrow_mut(|tape| {
         let Tape { nodes, by_value, by_noise, .. } = tape;

@@ -1,7 +1,7 @@
 //! The theorems hold, and a planted defect makes a proof fail.
 
+use etendue_proof::defect::{Defect, plant};
 use etendue_proof::search::{Theorem, prove, try_points};
-use etendue_proof::traced::{Defect, plant};
 use etendue_proof::{lemmas, theorems};
 
 /// Whether a theorem is proved, with a defect or without; else why not.
@@ -16,7 +16,7 @@ fn refusal(theorem: &dyn Theorem, defect: Defect) -> Option<String> {
     proof.failed.map(|(part, bounds)| format!("not proved: {bounds:?} on {part:?}"))
 }
 fn theorem(name: &str) -> Box<dyn Theorem> {
-    theorems::all(false).into_iter().find(|t| t.name() == name).unwrap_or_else(|| panic!("no theorem {name}"))
+    theorems::all(false).into_iter().find(|t| t.statement().name == name).unwrap_or_else(|| panic!("no theorem {name}"))
 }
 const QUICK: [&str; 5] = ["ConcentricDisk", "PolarDisk", "CosineHemisphere", "AreaTriangle", "Cone"];
 
@@ -39,7 +39,7 @@ fn all_hold() {
     }
     for theorem in theorems::all(true) {
         let proof = prove(&*theorem, 30_000_000);
-        assert!(proof.failed.is_none(), "{} for {}: {:?}", theorem.name(), theorem.domain(), proof.failed);
+        assert!(proof.failed.is_none(), "{:?}: {:?}", theorem.statement(), proof.failed);
     }
 }
 
