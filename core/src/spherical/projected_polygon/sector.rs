@@ -214,77 +214,75 @@ impl<R: Real> Sector<R> {
     }
 
     /// Sine and cosine of the θ up to which the share `v` of the area lies.
+    ///
+    /// A packet may need both forms. Their iterations take turns, so that a processor works on both chains of operations at once.
     #[inline(never)]
     pub(super) fn sweep(&self, v: R) -> [R; 2] {
-        let one = R::lit(1.0);
-        let zero = R::lit(0.0);
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let small = self.near.gt(zero);
+        let target = v * ratio(R::lit(2.0) * self.area, self.outer);
+        let start = self.start(v);
+        let narrow = self.narrow();
+        let mut x = self.near * start;
+        // about the zenith, the area is proportional to θ
+        let mut theta = self.wide * R::blend(self.inner.gt(zero), start, v);
+        let mut bracket = [zero, self.wide];
+        let mut going = [x.gt(zero), theta.gt(zero) & self.inner.gt(zero)];
+        for _ in 0..24 {
+            let [tangent, angle] = going.map(Mask::any);
+            if tangent {
+                self.step_tangent(&narrow, target, &mut x, &mut going[0]);
+            }
+            if angle {
+                self.step_angle(target, &mut theta, &mut bracket, &mut going[1]);
+            }
+            if !(tangent | angle) {
+                break;
+            }
+        }
         let (mut s, mut c) = (zero, one);
         if small.any() {
-            let x = self.invert_tangent(v);
             c = one / x.mul_add(x, one).sqrt();
             s = x * c;
         }
         if !small.all() {
-            let theta = self.invert_angle(v);
             let (sin, cos) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
             (s, c) = (R::blend(small, s, sin), R::blend(small, c, cos));
         }
         [s, c]
     }
 
-    /// Newton's method in x², which is nearly proportional to the area.
+    /// A step of Newton's method in x², which is nearly proportional to the area.
     #[inline(always)]
-    fn invert_tangent(&self, v: R) -> R {
-        let two = R::lit(2.0);
-        let target = v * ratio(two * self.area, self.outer);
-        let narrow = self.narrow();
+    fn step_tangent(&self, narrow: &[R; 4], target: R, x: &mut R, going: &mut R::Mask) {
         let most = self.near * self.near;
-        let mut x = self.near * self.start(v);
-        let mut going = x.gt(R::lit(0.0));
-        for _ in 0..16 {
-            let swept = self.by_tangent(&narrow, x);
-            let square = x * x;
-            let step = two * x * ratio(target - swept.area, swept.density);
-            let moved = (square + step).clamped(square * R::lit(0.0625), most).sqrt();
-            x = R::blend(going, moved, x);
-            going = going & step.abs().gt(enough::<R>() * square);
-            if !going.any() {
-                break;
-            }
-        }
-        x
+        let swept = self.by_tangent(narrow, *x);
+        let square = *x * *x;
+        let step = R::lit(2.0) * *x * ratio(target - swept.area, swept.density);
+        let moved = (square + step).clamped(square * R::lit(0.0625), most).sqrt();
+        *x = R::blend(*going, moved, *x);
+        *going = *going & step.abs().gt(enough::<R>() * square);
     }
 
-    /// Newton's method, within a bracket, in θ² or θ, whichever is more nearly proportional to the area.
+    /// A step of Newton's method, within a bracket, in θ² or θ, whichever is more nearly proportional to the area.
     #[inline(always)]
-    fn invert_angle(&self, v: R) -> R {
+    fn step_angle(&self, target: R, theta: &mut R, [low, high]: &mut [R; 2], going: &mut R::Mask) {
         let (zero, two, half) = (R::lit(0.0), R::lit(2.0), R::lit(0.5));
-        let target = v * ratio(two * self.area, self.outer);
-        // about the zenith, the area is proportional to θ
-        let mut theta = self.wide * R::blend(self.inner.gt(zero), self.start(v), v);
-        let mut going = theta.gt(zero) & self.inner.gt(zero);
-        let (mut low, mut high) = (zero, self.wide);
-        for _ in 0..24 {
-            if !going.any() {
-                break;
-            }
-            let (s, c) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
-            let swept = self.by_angle(theta, s, c);
-            let short = swept.area.lt(target);
-            low = R::blend(short, theta, low);
-            high = R::blend(short, high, theta);
-            let step = ratio(target - swept.area, swept.density);
-            let quadratic = (theta * swept.density).gt(R::lit(1.5) * swept.area);
-            let square = theta * (theta + two * step);
-            let moved = R::blend(quadratic, square.greater(zero).sqrt(), theta + step);
-            let inside = moved.ge(low) & moved.le(high);
-            let moved = R::blend(inside, moved, half * (low + high));
-            let far = (moved - theta).abs().gt(enough::<R>() * theta);
-            theta = R::blend(going, moved, theta);
-            going = going & far;
-        }
-        theta
+        let at = *theta;
+        let (s, c) = (at * R::lit(INV_TWO_PI)).sin_cos_turns();
+        let swept = self.by_angle(at, s, c);
+        let short = swept.area.lt(target);
+        *low = R::blend(short, at, *low);
+        *high = R::blend(short, *high, at);
+        let step = ratio(target - swept.area, swept.density);
+        let quadratic = (at * swept.density).gt(R::lit(1.5) * swept.area);
+        let square = at * (at + two * step);
+        let moved = R::blend(quadratic, square.greater(zero).sqrt(), at + step);
+        let inside = moved.ge(*low) & moved.le(*high);
+        let moved = R::blend(inside, moved, half * (*low + *high));
+        let far = (moved - at).abs().gt(enough::<R>() * at);
+        *theta = R::blend(*going, moved, at);
+        *going = *going & far;
     }
 
     /// The direction at the azimuth of θ on the outer arc, at `u` of the way there from the inner one.
