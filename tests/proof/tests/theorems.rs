@@ -20,7 +20,7 @@ fn theorem(name: &str) -> Box<dyn Theorem> {
 }
 const QUICK: [&str; 5] = ["ConcentricDisk", "PolarDisk", "CosineHemisphere", "AreaTriangle", "Cone"];
 
-/// `cargo run --release -p etendue-proof` also proves the others.
+/// `cargo run --release -p etendue-proof` also proves the others, and the lemmas.
 #[test]
 fn the_quick_ones_hold() {
     for name in QUICK {
@@ -40,15 +40,6 @@ fn all_hold() {
     for theorem in theorems::all(true) {
         let proof = prove(&*theorem, 30_000_000);
         assert!(proof.failed.is_none(), "{:?}: {:?}", theorem.statement(), proof.failed);
-    }
-}
-
-#[test]
-fn lemmas_hold_for_part_of_all_arguments() {
-    for lemma in lemmas::all() {
-        let found = lemma.check(false);
-        assert!(found.holds, "{}: {:?}", lemma.statement, found.greatest);
-        assert!(found.tried > 40_000_000, "{}", found.tried);
     }
 }
 
