@@ -48,7 +48,7 @@ lanewise! {
 }
 
 /// The inputs of [`Sector::new`].
-pub(super) struct Corner<R> {
+pub(in crate::spherical) struct Corner<R> {
     /// as in [`Sector`]
     pub(super) apex: Vec3<R>,
     pub(super) tangent: Vec3<R>,
@@ -107,7 +107,7 @@ struct Swept<R> {
 
 impl<R: Real> Sector<R> {
     #[inline]
-    pub(super) fn new(corner: Corner<R>) -> Self {
+    pub(in crate::spherical) fn new(corner: Corner<R>) -> Self {
         let Corner { apex, tangent, height, slope, outer, inner, fold: [sin, cos], end: [y, x] } = corner;
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         // c − k = c(1−cosδ) + τ sinδ; near the zenith c and k are small, and the plain difference is better
@@ -217,7 +217,7 @@ impl<R: Real> Sector<R> {
     ///
     /// A packet may need both forms. Their iterations take turns, so that a processor works on both chains of operations at once.
     #[inline(never)]
-    pub(super) fn sweep(&self, v: R) -> [R; 2] {
+    pub(in crate::spherical) fn sweep(&self, v: R) -> [R; 2] {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let small = self.near.gt(zero);
         let target = v * ratio(R::lit(2.0) * self.area, self.outer);
@@ -287,7 +287,7 @@ impl<R: Real> Sector<R> {
 
     /// The direction at the azimuth of θ on the outer arc, at `u` of the way there from the inner one.
     #[inline(always)]
-    pub(super) fn direction(&self, normal: Vec3<R>, [s, c]: [R; 2], u: R) -> Vec3<R> {
+    pub(in crate::spherical) fn direction(&self, normal: Vec3<R>, [s, c]: [R; 2], u: R) -> Vec3<R> {
         let one = R::lit(1.0);
         let z = self.height(s, c);
         let rise = self.rise(s, z);
@@ -319,7 +319,7 @@ impl<R: Real> Sector<R> {
     }
     /// How far the azimuth of a direction is outside a sector about the zenith, as an angle along the outer arc.
     #[inline(always)]
-    pub(super) fn miss(&self, normal: Vec3<R>, w: Vec3<R>) -> R {
+    pub(in crate::spherical) fn miss(&self, normal: Vec3<R>, w: Vec3<R>) -> R {
         let [y, x] = self.azimuth_about_zenith(normal, w);
         let theta = y.atan2(x);
         (-theta).greater(theta - self.wide).greater(R::lit(0.0))
@@ -327,7 +327,7 @@ impl<R: Real> Sector<R> {
 
     /// The share of the area before the azimuth of a direction, and u₁.
     #[inline(never)]
-    pub(super) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
+    pub(in crate::spherical) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // q_A × q_w and q_w × q_T for the horizontal parts q of apex, direction and tangent
         let (start, far) = (normal.cross(self.apex), normal.cross(self.tangent));

@@ -12,7 +12,7 @@ const NARROWEST: f64 = 1.0 / 4_294_967_296.0;
 const NARROWEST_F64: f64 = 1e-16;
 
 #[inline(always)]
-pub(super) fn narrowest<R: Real>() -> R {
+pub(in crate::spherical) fn narrowest<R: Real>() -> R {
     R::lit(if double::<R>() { NARROWEST_F64 } else { NARROWEST })
 }
 
@@ -28,12 +28,12 @@ lanewise! {
         /// horizontal normal of the azimuth plane of the middle vertex: positive beyond it
         middle: Vec3<R>,
         /// sum of the sectors
-        pub(super) area: R,
+        pub(in crate::spherical) area: R,
     }
 }
 
 /// A triangle, with the quantities that give its sectors.
-pub(super) struct Corners<R> {
+pub(in crate::spherical) struct Corners<R> {
     /// relative to the point
     pub(super) vertices: [Vec3<R>; 3],
     /// unit normals of the planes through the viewpoint and each vertex and the next
@@ -50,7 +50,7 @@ pub(super) struct Corners<R> {
 
 impl<R: Real> Piece<R> {
     #[inline(never)]
-    pub(super) fn new(corners: &Corners<R>, normal: Vec3<R>) -> Self {
+    pub(in crate::spherical) fn new(corners: &Corners<R>, normal: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let Corners { vertices: v, poles: pole, lengths: length, areas, heights: z, volume } = *corners;
         let squared = v.map(Vec3::length_squared);
@@ -131,19 +131,19 @@ impl<R: Real> Piece<R> {
 
     /// Three sectors about the zenith; the second counts from its far end.
     #[inline(always)]
-    pub(super) fn about_zenith(first: Sector<R>, second: Sector<R>, third: Sector<R>) -> Self {
+    pub(in crate::spherical) fn about_zenith(first: Sector<R>, second: Sector<R>, third: Sector<R>) -> Self {
         let area = first.area + second.area + third.area;
         Self { first, second, third, area, ..Self::default() }
     }
     #[inline(always)]
-    pub(super) fn sectors(&self) -> [Sector<R>; 3] {
+    pub(in crate::spherical) fn sectors(&self) -> [Sector<R>; 3] {
         [self.first, self.second, self.third]
     }
 
     /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
     /// counted from its apex: each from the nearer end, where the azimuth is a root of the area.
     #[inline(always)]
-    pub(super) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
+    pub(in crate::spherical) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let later = swept.ge(self.first.area) & self.second.area.gt(zero);
         let mut sector = Sector::blend(later, self.second, self.first);
@@ -160,7 +160,7 @@ impl<R: Real> Piece<R> {
 
     /// The area before a direction, and u₁.
     #[inline(always)]
-    pub(super) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
+    pub(in crate::spherical) fn locate(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let beyond = self.middle.dot(w).ge(zero);
         let some = |s: &Sector<R>| s.area.gt(zero);

@@ -10,15 +10,15 @@ use crate::vector::{Vec2, Vec3};
 const BORDER: f64 = 8.0 / 16_777_216.0;
 
 /// An edge of a polygon, from `a` to `b`.
-pub(super) struct Side<R> {
-    pub(super) a: Vec3<R>,
-    pub(super) b: Vec3<R>,
+pub(in crate::spherical) struct Side<R> {
+    pub(in crate::spherical) a: Vec3<R>,
+    pub(in crate::spherical) b: Vec3<R>,
     /// a × b
-    pub(super) product: Vec3<R>,
+    pub(in crate::spherical) product: Vec3<R>,
     /// (a × b)·normal
-    pub(super) area: R,
+    pub(in crate::spherical) area: R,
     /// heights of a and b over the horizon
-    pub(super) heights: [R; 2],
+    pub(in crate::spherical) heights: [R; 2],
 }
 
 #[inline(always)]
@@ -154,7 +154,7 @@ impl<R: Real> Slice<R> {
 
 /// Whether the zenith is inside the polygon: on the inner side of every edge.
 #[inline(always)]
-pub(super) fn surrounds<R: Real, const N: usize>(sides: &[Side<R>; N], turn: R) -> R::Mask {
+pub(in crate::spherical) fn surrounds<R: Real, const N: usize>(sides: &[Side<R>; N], turn: R) -> R::Mask {
     let mut inside = R::Mask::splat(true);
     for side in sides {
         inside = inside & (side.area * turn).ge(R::lit(0.0));
@@ -165,7 +165,7 @@ pub(super) fn surrounds<R: Real, const N: usize>(sides: &[Side<R>; N], turn: R) 
 /// The sectors about the zenith for triangle `i` of a fan of N − 2: those of its outer edge, before them in the first triangle and after
 /// them in the last those of the other outer edge.
 #[inline(always)]
-pub(super) fn sectors<R: Real, const N: usize>(
+pub(in crate::spherical) fn sectors<R: Real, const N: usize>(
     sides: &[Side<R>; N],
     i: usize,
     normal: Vec3<R>,
@@ -182,7 +182,7 @@ pub(super) fn sectors<R: Real, const N: usize>(
 
 /// Drops the sectors with next to no area, so that only u = 0 falls into them.
 #[inline(always)]
-pub(super) fn without_narrow<R: Real>(pieces: [Piece<R>; 2], whole: R) -> [Piece<R>; 2] {
+pub(in crate::spherical) fn without_narrow<R: Real>(pieces: [Piece<R>; 2], whole: R) -> [Piece<R>; 2] {
     let least = narrowest::<R>() * whole;
     pieces.map(|piece| {
         let [a, b, c] = piece.sectors().map(|mut sector| {
@@ -194,7 +194,7 @@ pub(super) fn without_narrow<R: Real>(pieces: [Piece<R>; 2], whole: R) -> [Piece
 }
 
 /// The sector about the zenith that contains the azimuth of a direction, as far as it has been found.
-pub(super) struct Found<R> {
+pub(in crate::spherical) struct Found<R> {
     sector: Sector<R>,
     /// area before the sector
     before: R,
@@ -207,13 +207,13 @@ pub(super) struct Found<R> {
 }
 impl<R: Real> Found<R> {
     #[inline(always)]
-    pub(super) fn nothing() -> Self {
+    pub(in crate::spherical) fn nothing() -> Self {
         let zero = R::lit(0.0);
         Self { sector: Sector::default(), before: zero, sum: zero, backwards: zero, miss: R::lit(8.0) }
     }
     /// Looks in the sectors of a piece.
     #[inline(always)]
-    pub(super) fn look(self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>) -> Self {
+    pub(in crate::spherical) fn look(self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>) -> Self {
         let mut this = self;
         for (i, sector) in piece.sectors().iter().enumerate() {
             let some = sector.area.gt(R::lit(0.0));
@@ -232,7 +232,7 @@ impl<R: Real> Found<R> {
     }
     /// The area before the direction, and u₁.
     #[inline(always)]
-    pub(super) fn place(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
+    pub(in crate::spherical) fn place(&self, normal: Vec3<R>, w: Vec3<R>) -> Vec2<R> {
         let found = self.sector.locate(normal, w);
         let share = R::blend(self.backwards.gt(R::lit(0.0)), R::lit(1.0) - found.x, found.x);
         Vec2 { x: share.mul_add(self.sector.area, self.before), y: unit_interval(found.y) }

@@ -1,0 +1,419 @@
+mod horizon;
+pub(super) mod piece;
+pub(super) mod sector;
+pub(super) mod zenith;
+
+use super::double_word::{compensated_height, cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
+use super::triangle::SLACK;
+use super::{DirectionSample, to_unit};
+use crate::lanewise::lanewise;
+use crate::math::{ratio, rsqrt};
+use crate::real::{Mask, Real, unit_interval};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::Warp;
+use horizon::{Exact, clip};
+use piece::{Corners, Piece, narrowest};
+use sector::Sector;
+use zenith::{Found, Side, sectors, surrounds, without_narrow};
+
+/// Heights below this, in units of the greatest coordinate, count as on the horizon.
+pub(super) const LEAST_HEIGHT: f64 = 1e-30;
+
+lanewise! {
+    /// Directions from a point to a triangle above the horizon of a surface, by projected solid angle (pdf ∝ cosine to the
+    /// normal): for diffuse surfaces where a ray costs more than a sample.
+    ///
+    /// Call `ProjectedTriangle::new(v0, v1, v2, normal)` with the vertices relative to the point, then `sample_direction`. A
+    /// point in the triangle's plane, zero area, or a triangle below the horizon gives pdf 0.
+    ///
+    /// ```
+    /// use etendue::spherical::ProjectedTriangle;
+    /// use etendue::{Vec2, Vec3, Warp};
+    /// // an eighth of the sphere, wholly above the horizon: projected to the floor, it covers a quarter of the unit disk
+    /// let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0_f32]].map(|[x, y, z]| Vec3::new(x, y, z));
+    /// let seen = ProjectedTriangle::new(x, y, z, z);
+    /// assert!((seen.projected_solid_angle() - std::f32::consts::FRAC_PI_4).abs() < 1e-6);
+    /// let w = seen.sample(Vec2::new(0.3, 0.9));
+    /// assert!((seen.pdf(w) - w.z / std::f32::consts::FRAC_PI_4).abs() < 1e-6);
+    /// ```
+    ///
+    /// The horizon leaves one triangle or two. Each is swept by azimuth about the normal, between its first and last vertex: up
+    /// to the azimuth of the middle vertex from the first, and from there on to the last. So in every sector two edges meet in a
+    /// vertex, an outer (lower) one and an inner one. A triangle that contains the zenith is swept all around from its first
+    /// vertex instead, by the sectors between each edge, or the horizon below which it lies, and the zenith. u₀ is the share of
+    /// the projected area that is swept; u₁ goes from the inner edge to the outer, uniform in the squared radius.
+    ///
+    /// - Formula: at the angle θ from that vertex along the outer edge, let z = ζ cosθ + τ sinθ be the height, D = sinδ sinθ
+    ///   the distance from the inner edge's plane (δ is the angle between the edges), c and k the cosines of the outer and the
+    ///   inner plane to the horizon, and y = D(2kz + D). Squared radii are as k² : k² + y; the area is ½c ∫ y/(k² + y) dθ =
+    ///   ½(cθ − k atan2(c sinθ, k cosθ + ζ sinδ sinθ)). That difference of arcs is formed from c − k and the angle between
+    ///   their ends; up to tangents x, v of 0.7 as ½c (x²/B)(Zθ/x + x(G − Zx)(c/k + B)/B² · ∫₀¹ t²/((1+x²t²)(1+v²t²)) dt), Z =
+    ///   ζ sinδ/k, G = c/k − 1, B = 1 + Zx, which is accurate relative to its own size at any size. Newton's method inverts it
+    ///   in x², or in θ in a bracket, until a step is below 3e−4 of the angle. The direction is the point of the outer edge
+    ///   plus a displacement. Ω⊥ is the sum of the areas.
+    /// - Domain: u in [0, 1)²; any triangle, from either side, in any position to the horizon; a normal of any length.
+    /// - Density: the pdf is cosθ/Ω⊥ per steradian inside (and within 8 ulp beyond) and above the horizon, 0 elsewhere.
+    /// - Degenerate input: the point in the plane (also inside the triangle), zero area, lengths whose sums overflow, or
+    ///   nothing above the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some vector, of unit length or 0.
+    /// - Greatest error: Ω⊥ 4e−7 relative, and at most 1e−5 over the atlas, slivers and points next to the triangle's plane
+    ///   included, since products and heights that are small differences are formed in twice the working precision. It grows in
+    ///   one case: overhead, by at most 5e−16 over the triangle's size and over the sine of the elevation above its plane (which
+    ///   matters for sizes below 1e−6). Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; next to the plane of a triangle that
+    ///   surrounds the point, a step counts 1/sin of the elevation, since the areas of the sectors then differ by that much.
+    ///   Distance as for `SphericalTriangle`. The inverse is that of a direction 1.4e−6 away, times the triangle's apparent
+    ///   aspect ratio, besides as many steps; for a point that the triangle surrounds, nearer to the plane than 1e−3 of its
+    ///   size, u₁ may be that of a neighbouring azimuth. In a corner, a sweep begins like √u₀ (on the horizon ∛u₀), so the share
+    ///   counts from the nearer end. Within 2⁻²⁴ of the whole the inverse is the nearest `u` below 1. If the horizon cuts the
+    ///   triangle in two, a u₀ near the join belongs to one or the other; about the zenith, the azimuth at which the sweep
+    ///   begins may have 0 or 1 as its inverse.
+    /// - Source: Peters 2021, "BRDF Importance Sampling for Polygonal Lights", section 4, for the sectors of the disk; Lambert
+    ///   for the areas. Unlike there, sectors start at vertices, not at sorted azimuths: where both edges meet, every quantity
+    ///   is a length or a volume of the triangle and as small as the triangle, and the zenith may lie on an edge. The forms
+    ///   without cancellation are derived here.
+    pub struct ProjectedTriangle {
+        /// unit normal of the surface
+        pub(super) normal: Vec3<R>,
+        /// the part above the horizon, or the first of two
+        pub(super) first: Piece<R>,
+        /// the second part, beyond `diagonal`; empty if there is one
+        pub(super) second: Piece<R>,
+        /// unit normal of the plane between the parts, towards the second
+        pub(super) diagonal: Vec3<R>,
+        /// normal of the plane through the viewpoint, v0 and v1, pointing inwards; shorter where the plane is less well known
+        pub(super) pole0: Vec3<R>,
+        /// the same for v1 and v2
+        pub(super) pole1: Vec3<R>,
+        /// the same for v2 and v0
+        pub(super) pole2: Vec3<R>,
+        /// (v1−v0)×(v2−v0)
+        pub(super) plane: Vec3<R>,
+        /// V₀·plane
+        pub(super) volume: R,
+        /// unit of the lengths above, a power of two
+        pub(super) unit: R,
+        /// 1 if the triangle contains the zenith and has sectors about it, else 0
+        pub(super) central: R,
+        /// Ω⊥ in steradians
+        pub(super) projected: R,
+    }
+}
+
+/// A triangle, with its derived quantities as accurately as they are known.
+struct Given<R> {
+    /// relative to the point, scaled so that all lengths are below 4
+    vertices: [Vec3<R>; 3],
+    /// rounding errors of the second and third vertex, if they are rounded
+    rests: Option<[Vec3<R>; 2]>,
+    /// from each vertex to the next
+    edges: [Vec3<R>; 3],
+    /// cross products of each vertex and the next, as unevaluated sums
+    products: [[Vec3<R>; 2]; 3],
+    /// (v1−v0)×(v2−v0), as an unevaluated sum
+    plane: [Vec3<R>; 2],
+}
+
+/// a − b as an unevaluated sum.
+#[inline(always)]
+pub(super) fn difference<R: Real>(a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    sum_dw([a, Vec3::default()], [-b, Vec3::default()])
+}
+
+/// The rounding error p + e − v of the vertex v ≈ p + e.
+#[inline(always)]
+pub(super) fn lack<R: Real>(v: Vec3<R>, p: Vec3<R>, e: [Vec3<R>; 2]) -> Vec3<R> {
+    let [sum, rest] = sum_dw([p, Vec3::default()], e);
+    (sum - v) + rest
+}
+
+/// n + a×b for an unevaluated sum n and a small a×b.
+#[inline(always)]
+pub(super) fn with_rest<R: Real>([n, rest]: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>) -> [Vec3<R>; 2] {
+    [n, rest + a.cross(b)]
+}
+
+/// The product of the normal and the cross product `n` of the ends of an edge, one of which is `v` with the rounding error `rest`.
+///
+/// Only the part of the normal across v counts. Overhead it is a small difference: formed first, it leaves as many digits as the normal
+/// has.
+#[inline(always)]
+pub(super) fn area<R: Real>(normal: Vec3<R>, [v, rest]: [Vec3<R>; 2], n: [Vec3<R>; 2]) -> [R; 2] {
+    let along = ratio(R::lit(1.0), v.length_squared()).lesser(R::lit(1e36)) * v.dot(normal);
+    let across = |normal: R, v: R, rest: R| {
+        let p = along * v;
+        let (sum, error) = normal.two_sum(-p);
+        sum.two_sum(error - along.mul_add(rest, R::two_prod_error(along, v, p)))
+    };
+    let ((x, ex), (y, ey), (z, ez)) =
+        (across(normal.x, v.x, rest.x), across(normal.y, v.y, rest.y), across(normal.z, v.z, rest.z));
+    let [sum, more] = height_dw(Vec3::new(x, y, z), n);
+    [sum, more + Vec3::new(ex, ey, ez).dot(n[0])]
+}
+
+impl<R: Real> ProjectedTriangle<R> {
+    /// Prepares for the vertices `v0`, `v1`, `v2` relative to the point (in any unit of length), on a surface with the normal
+    /// `normal` (of any length).
+    #[inline]
+    pub fn new(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let ([v0, v1, v2], scale) = to_unit([v0, v1, v2]);
+        let edges = [difference(v1, v0), difference(v2, v1), difference(v0, v2)];
+        let product = |v: Vec3<R>, [e, d]: [Vec3<R>; 2]| with_rest(cross_dw(v, e), v, d);
+        let products = [product(v0, edges[0]), product(v1, edges[1]), product(v2, edges[2])];
+        let ([e1, d1], [e2, d2]) = (edges[0], edges[2]);
+        let [plane, rest] = cross_dw(e2, e1);
+        let plane = [plane, rest + (d2.cross(e1) + e2.cross(d1))];
+        let corners = Given { vertices: [v0, v1, v2], rests: None, edges: edges.map(|e| e[0]), products, plane };
+        Self::prepare(&corners, normal, scale)
+    }
+
+    /// As `new`, with the edges `e1` = v1−v0 and `e2` = v2−v0.
+    ///
+    /// Take this for a small and far triangle if you know the edges more accurately than the difference of the vertices: they
+    /// then give the shape.
+    #[inline]
+    pub fn with_edges(v0: Vec3<R>, v1: Vec3<R>, v2: Vec3<R>, e1: Vec3<R>, e2: Vec3<R>, normal: Vec3<R>) -> Self {
+        let ([v0, v1, v2, e1, e2], scale) = to_unit([v0, v1, v2, e1, e2]);
+        let none = Vec3::default();
+        Self::with_sides(
+            [v0, v1, v2],
+            [lack(v1, v0, [e1, none]), lack(v2, v0, [e2, none])],
+            [[e1, none], difference(e2, e1), [-e2, none]],
+            [e1, e2],
+            normal,
+            scale,
+        )
+    }
+
+    /// Prepares from vertices with the rounding errors of the second and third, all three edges (from each vertex to the next,
+    /// as unevaluated sums), and the plane's normal as a cross product of two factors; all lengths below 4.
+    #[inline(always)]
+    pub(super) fn with_sides(
+        vertices: [Vec3<R>; 3],
+        rests: [Vec3<R>; 2],
+        edges: [[Vec3<R>; 2]; 3],
+        factors: [Vec3<R>; 2],
+        normal: Vec3<R>,
+        scale: R,
+    ) -> Self {
+        let [v0, v1, _] = vertices;
+        let [e0, e1, e2] = edges;
+        let [n, rest] = cross_dw(v1, e1[0]);
+        let products = [
+            with_rest(cross_dw(v0, e0[0]), v0, e0[1]),
+            [n, rest + (v1.cross(e1[1]) + rests[0].cross(e1[0]))],
+            with_rest(cross_dw(v0, e2[0]), v0, e2[1]),
+        ];
+        let plane = cross_dw(factors[0], factors[1]);
+        let corners = Given { vertices, rests: Some(rests), edges: edges.map(|e| e[0]), products, plane };
+        Self::prepare(&corners, normal, scale)
+    }
+
+    #[inline]
+    fn prepare(given: &Given<R>, normal: Vec3<R>, scale: R) -> Self {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let Given { vertices: v, rests, edges: e, products, plane } = *given;
+        let volume = compensated_height(v[0], plane);
+        let plane = plane[0] + plane[1];
+        let (normal, long, shrink) = unit_normal(normal);
+        let over = |v: Vec3<R>, rest: Vec3<R>| {
+            let [z, more] = dot_dw(v, long);
+            [z, more + rest.dot(long)]
+        };
+        let heights = match rests {
+            Some([r1, r2]) => [dot_dw(v[0], long), over(v[1], r1), over(v[2], r2)],
+            None => v.map(|v| dot_dw(v, long)),
+        };
+        // below this the errors of products are subnormal, and the horizon would cut by rounding
+        let heights = heights.map(|pair| {
+            let some = (pair[0] + pair[1]).abs().gt(R::lit(LEAST_HEIGHT));
+            pair.map(|x| x.keep(some))
+        });
+        // each edge from an end whose rounding error is exact: the last from the first vertex
+        let none = Vec3::default();
+        let rest = [none, rests.map_or(none, |[rest, _]| rest), none];
+        let volumes: [[R; 2]; 3] = core::array::from_fn(|i| area(long, [v[i % 2], rest[i]], products[i]));
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let (z, areas) = (heights.map(rounded), volumes.map(rounded));
+        let exact = Exact { edges: e, products, heights, volumes, shrink };
+        let products = products.map(|[n, rest]| n + rest);
+        let m_squared = products.map(Vec3::length_squared);
+        let inverses = m_squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
+        let lengths: [R; 3] = core::array::from_fn(|i| m_squared[i] * inverses[i]);
+        let poles: [Vec3<R>; 3] = core::array::from_fn(|i| products[i] * inverses[i]);
+        let below = z.map(|z| z.lt(zero));
+        let cut = below[0] | below[1] | below[2];
+        let mut corners = Corners { vertices: v, poles, lengths, areas, heights: z, volume };
+        let sides: [Side<R>; 3] = core::array::from_fn(|i| Side {
+            a: v[i],
+            b: v[(i + 1) % 3],
+            product: products[i],
+            area: areas[i],
+            heights: [z[i], z[(i + 1) % 3]],
+        });
+        let turn = one.negate_where(volume.lt(zero));
+        let central = surrounds(&sides, turn) & volume.abs().gt(zero);
+        let (mut first, mut second, mut diagonal) = (Piece::default(), Piece::default(), Vec3::default());
+        if !central.all() {
+            if cut.any() {
+                let rest;
+                (corners, rest, diagonal) = clip(&corners, &exact, normal);
+                if rest.volume.abs().gt(zero).any() {
+                    second = Piece::new(&rest, normal);
+                }
+            }
+            first = Piece::new(&corners, normal);
+            // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
+            let least = narrowest::<R>() * (first.area + second.area);
+            for piece in [&mut first, &mut second] {
+                piece.area = piece.area.keep(piece.area.gt(least));
+            }
+        }
+        if central.any() {
+            let pieces = sectors(&sides, 0, normal, turn);
+            let [a, b] = without_narrow(pieces, pieces[0].area + pieces[1].area);
+            (first, second) = (Piece::blend(central, a, first), Piece::blend(central, b, second));
+        }
+        let side = |i: usize| {
+            // the plane of nearly opposite vertices is known only to −cos : sin of their angle; shorten the pole by that much
+            let length = lengths[i];
+            poles[i] * ratio(length, length.greater(-v[i].dot(v[(i + 1) % 3]))).negate_where(volume.lt(zero))
+        };
+        Self {
+            normal,
+            first,
+            second,
+            diagonal,
+            pole0: side(0),
+            pole1: side(1),
+            pole2: side(2),
+            plane,
+            volume,
+            unit: scale.pow2_scale(),
+            central: one.keep(central),
+            // from the triangle's plane nothing is visible, whatever the rounded areas are
+            projected: (first.area + second.area).keep(volume.abs().gt(zero)),
+        }
+    }
+
+    /// Projected solid angle Ω⊥ in [0, π]: irradiance per unit of radiance.
+    #[inline(always)]
+    pub fn projected_solid_angle(&self) -> R {
+        self.projected
+    }
+    /// The pdf per steradian of a direction that is known to hit the triangle and has the cosine `cos` to the normal: cosθ/Ω⊥.
+    #[inline(always)]
+    pub fn pdf_at_cosine(&self, cos: R) -> R {
+        cos.greater(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
+    }
+    /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
+    #[inline(always)]
+    pub fn in_front(&self) -> R::Mask {
+        self.volume.lt(R::lit(0.0))
+    }
+
+    /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
+    /// counted from its apex.
+    #[inline(always)]
+    pub(super) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
+        let (mut sector, mut share) = self.first.choose(swept, left - self.second.area);
+        let some = self.second.area.gt(R::lit(0.0));
+        if some.any() {
+            let later = some & swept.ge(self.first.area);
+            let (other, rest) = self.second.choose(swept - self.first.area, left);
+            sector = Sector::blend(later, other, sector);
+            share = R::blend(later, rest, share);
+        }
+        (sector, share)
+    }
+    /// The distance to the plane along a direction; 0 where there is none.
+    #[inline(always)]
+    pub(super) fn distance(&self, w: Vec3<R>) -> R {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let along = w.dot(self.plane).abs();
+        let some = along.gt(zero) & self.projected.gt(zero);
+        // a point of the triangle is within 4 units; a distance that does not fit f32 becomes the largest finite number
+        let distance = (self.volume.abs() / R::blend(some, along, one)).lesser(R::lit(4.0)) * self.unit;
+        distance.lesser(R::lit(f64::from(f32::MAX))).keep(some)
+    }
+    /// Maps `u` to a direction and the distance to the triangle along it.
+    #[inline(always)]
+    pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
+        let direction = self.sample(u);
+        DirectionSample { direction, distance: self.distance(direction) }
+    }
+    /// True where a direction hits the triangle, to within the rounding of the direction. The horizon is not tested.
+    #[inline(always)]
+    pub fn contains(&self, w: Vec3<R>) -> R::Mask {
+        let least = w.dot(self.pole0).lesser(w.dot(self.pole1)).lesser(w.dot(self.pole2));
+        within(least) & ahead(w, self.plane, self.in_front())
+    }
+    /// Turns the poles inwards as for a triangle seen from the front (`front`) or from the back.
+    #[inline(always)]
+    pub(super) fn face(&mut self, front: R::Mask) {
+        let turn = R::lit(1.0).negate_where(front ^ self.in_front());
+        for pole in [&mut self.pole0, &mut self.pole1, &mut self.pole2] {
+            *pole = *pole * turn;
+        }
+    }
+    /// The area before a direction of the triangle, and u₁; areas are kept `edge` away from a jump of the map.
+    #[inline(always)]
+    pub(super) fn locate(&self, w: Vec3<R>, edge: R) -> Vec2<R> {
+        let zero = R::lit(0.0);
+        let mut found = self.first.locate(self.normal, w);
+        let some = self.second.area.gt(zero);
+        if some.any() {
+            let later = some & (w.dot(self.diagonal).gt(zero) | self.first.area.le(zero));
+            let other = self.second.locate(self.normal, w);
+            let before = found.x.lesser(R::blend(some, self.first.area - edge, self.first.area)).greater(zero);
+            found.x = R::blend(later, self.first.area + other.x.greater(edge), before);
+            found.y = R::blend(later, other.y, found.y);
+        }
+        let central = self.central.gt(zero);
+        if central.any() {
+            found = Vec2::blend(central, self.look(Found::nothing(), w).place(self.normal, w), found);
+        }
+        found
+    }
+    /// Looks for the azimuth of a direction in the sectors about the zenith.
+    #[inline(always)]
+    pub(super) fn look(&self, found: Found<R>, w: Vec3<R>) -> Found<R> {
+        found.look(&self.first, self.normal, w).look(&self.second, self.normal, w)
+    }
+}
+
+/// Tells whether a direction is inside all sides, given the least sine over them; allows for the rounding of the direction
+/// itself.
+#[inline(always)]
+pub(super) fn within<R: Real>(least: R) -> R::Mask {
+    least.ge(R::lit(-SLACK))
+}
+/// Tells whether a direction leads towards the plane with that normal, with the same allowance.
+#[inline(always)]
+pub(super) fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
+    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(SLACK)))
+}
+
+/// Two steps of u₀, in units of area: between two parts the map may jump, and u₀Ω⊥ is known only to this accuracy.
+#[inline(always)]
+pub(super) fn edge<R: Real>(whole: R) -> R {
+    let step = R::lit(1.0) - R::ONE_MINUS_EPSILON;
+    whole * (step + step)
+}
+
+impl<R: Real> Warp<R> for ProjectedTriangle<R> {
+    type Point = Vec3<R>;
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> Vec3<R> {
+        let (sector, share) = self.choose(u.x * self.projected, (R::lit(1.0) - u.x) * self.projected);
+        sector.direction(self.normal, sector.sweep(share), u.y)
+    }
+    /// The pdf per steradian; 0 for a direction that misses the triangle or lies below the horizon.
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        self.pdf_at_cosine(w.dot(self.normal)).keep(self.contains(w))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let found = self.locate(w, edge(self.projected));
+        Vec2 { x: unit_interval(ratio(found.x, self.projected)), y: found.y }
+    }
+}
