@@ -182,6 +182,8 @@ impl Observed {
 }
 
 /// Evaluates a prepared warp in every lane.
+// the compiler would repeat it in every property
+#[inline(never)]
 pub fn observe<S: Fixture, R: Real>(warp: &S::Warp<R>, u: Vec2<R>) -> Vec<Observed> {
     let point = warp.sample(u);
     let (pdf, inverse, sighting) = (warp.pdf(point), warp.invert(point), S::sample_direction(warp, u));

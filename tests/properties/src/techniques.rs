@@ -39,6 +39,12 @@ pub trait Technique: Copy + Debug {
     }
 }
 
+/// A function of its own for each technique: a compiler takes several times as long for one with all of them.
+#[inline(never)]
+fn boxed<R: Real, S: LightSampler<R> + 'static>(prepare: impl FnOnce() -> S) -> Box<dyn LightSampler<R>> {
+    Box::new(prepare())
+}
+
 /// All numbers of one lane of a sample.
 fn figures<R: Real>(s: &LightSample<R>, i: usize) -> [f64; 12] {
     let ([x, y, z], [nx, ny, nz]) = (s.direction.at(i), s.normal.at(i));
@@ -306,31 +312,31 @@ impl Technique for AreaLight {
         let polygon = Polygon::new([a, a + b, a + b + c, a + c]);
         let line = Line::new(a, b);
         match (lanes[0].shape, lanes[0].by) {
-            (LightShape::Sphere, Measure::SolidAngle) => Box::new(sphere.by_solid_angle(p)),
-            (LightShape::Sphere, Measure::ProjectedSolidAngle) => Box::new(sphere.by_projected_solid_angle(p, n)),
-            (LightShape::Sphere, _) => Box::new(sphere.by_area(p)),
-            (LightShape::Triangle, Measure::SolidAngle) => Box::new(triangle.by_solid_angle(p)),
-            (LightShape::Triangle, Measure::ProjectedSolidAngle) => Box::new(triangle.by_projected_solid_angle(p, n)),
-            (LightShape::Triangle, Measure::CosineWarp) => Box::new(triangle.by_cosine_warp(p, n)),
-            (LightShape::Triangle, Measure::Area) => Box::new(triangle.by_area(p)),
-            (LightShape::Parallelogram, Measure::SolidAngle) => Box::new(parallelogram.by_solid_angle(p)),
+            (LightShape::Sphere, Measure::SolidAngle) => boxed(|| sphere.by_solid_angle(p)),
+            (LightShape::Sphere, Measure::ProjectedSolidAngle) => boxed(|| sphere.by_projected_solid_angle(p, n)),
+            (LightShape::Sphere, _) => boxed(|| sphere.by_area(p)),
+            (LightShape::Triangle, Measure::SolidAngle) => boxed(|| triangle.by_solid_angle(p)),
+            (LightShape::Triangle, Measure::ProjectedSolidAngle) => boxed(|| triangle.by_projected_solid_angle(p, n)),
+            (LightShape::Triangle, Measure::CosineWarp) => boxed(|| triangle.by_cosine_warp(p, n)),
+            (LightShape::Triangle, Measure::Area) => boxed(|| triangle.by_area(p)),
+            (LightShape::Parallelogram, Measure::SolidAngle) => boxed(|| parallelogram.by_solid_angle(p)),
             (LightShape::Parallelogram, Measure::ProjectedSolidAngle) => {
-                Box::new(parallelogram.by_projected_solid_angle(p, n))
+                boxed(|| parallelogram.by_projected_solid_angle(p, n))
             }
-            (LightShape::Parallelogram, _) => Box::new(parallelogram.by_area(p)),
-            (LightShape::Rectangle, Measure::SolidAngle) => Box::new(rectangle.by_solid_angle(p)),
-            (LightShape::Rectangle, Measure::CosineWarp) => Box::new(rectangle.by_cosine_warp(p, n)),
-            (LightShape::Rectangle, _) => Box::new(rectangle.by_area(p)),
-            (LightShape::Disk, Measure::SolidAngle) => Box::new(disk.by_solid_angle(p)),
-            (LightShape::Disk, _) => Box::new(disk.by_area(p)),
-            (LightShape::Cylinder, _) => Box::new(Cylinder::new(a, b, radius).by_area(p)),
-            (LightShape::Polygon, Measure::SolidAngle) => Box::new(polygon.by_solid_angle(p)),
-            (LightShape::Polygon, Measure::ProjectedSolidAngle) => Box::new(polygon.by_projected_solid_angle(p, n)),
-            (LightShape::Polygon, _) => Box::new(polygon.by_area(p)),
-            (LightShape::Patch, _) => Box::new(BilinearPatch::new(a, b, c, n).by_area(p)),
-            (LightShape::Line, Measure::SolidAngle) => Box::new(line.by_angle(p)),
-            (LightShape::Line, Measure::ProjectedSolidAngle) => Box::new(line.by_projected_solid_angle(p, n)),
-            (LightShape::Line, _) => Box::new(line.by_length(p)),
+            (LightShape::Parallelogram, _) => boxed(|| parallelogram.by_area(p)),
+            (LightShape::Rectangle, Measure::SolidAngle) => boxed(|| rectangle.by_solid_angle(p)),
+            (LightShape::Rectangle, Measure::CosineWarp) => boxed(|| rectangle.by_cosine_warp(p, n)),
+            (LightShape::Rectangle, _) => boxed(|| rectangle.by_area(p)),
+            (LightShape::Disk, Measure::SolidAngle) => boxed(|| disk.by_solid_angle(p)),
+            (LightShape::Disk, _) => boxed(|| disk.by_area(p)),
+            (LightShape::Cylinder, _) => boxed(|| Cylinder::new(a, b, radius).by_area(p)),
+            (LightShape::Polygon, Measure::SolidAngle) => boxed(|| polygon.by_solid_angle(p)),
+            (LightShape::Polygon, Measure::ProjectedSolidAngle) => boxed(|| polygon.by_projected_solid_angle(p, n)),
+            (LightShape::Polygon, _) => boxed(|| polygon.by_area(p)),
+            (LightShape::Patch, _) => boxed(|| BilinearPatch::new(a, b, c, n).by_area(p)),
+            (LightShape::Line, Measure::SolidAngle) => boxed(|| line.by_angle(p)),
+            (LightShape::Line, Measure::ProjectedSolidAngle) => boxed(|| line.by_projected_solid_angle(p, n)),
+            (LightShape::Line, _) => boxed(|| line.by_length(p)),
         }
     }
     /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
