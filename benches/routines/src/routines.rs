@@ -82,6 +82,35 @@ impl<R: Real + 'static> List<R> {
         self.push(&format!("{name} pdf"), warp, points.clone(), |w, p| w.pdf(p));
         self.push(&format!("{name} invert"), warp, points, |w, p| w.invert(p));
     }
+    /// The same of directions, and samples each of which waits for the one before: the length of the chain of operations.
+    fn directions<W: Warp<R, Point = Vec3<R>> + Copy + 'static>(&mut self, name: &str, warp: W) {
+        self.warp(name, warp);
+        self.chain(&format!("{name} sample"), warp, |w, _, u| w.sample(u));
+    }
+    /// Something that is prepared for every direction, and the length of its chain of operations.
+    fn prepared_direction(&mut self, name: &str, compute: impl Fn(Vec3<R>, Vec2<R>) -> Vec3<R> + Copy + 'static) {
+        self.prepared(name, compute);
+        self.chain(name, (), move |(), p, u| compute(p, u));
+    }
+    fn chain<W: Copy + 'static>(
+        &mut self,
+        name: &str,
+        with: W,
+        compute: impl Fn(&W, Vec3<R>, Vec2<R>) -> Vec3<R> + 'static,
+    ) {
+        let arguments: Vec<_> = self.viewpoints.iter().copied().zip(self.squares.iter().copied()).collect();
+        let run = move || {
+            let with = with;
+            let mut nothing = R::lit(0.0);
+            for &(p, u) in &arguments {
+                let waiting = Vec3::new(nothing, nothing, nothing);
+                let w = black_box(compute(&with, p + waiting, Vec2::new(u.x + nothing, u.y + nothing)));
+                // 0, which the compiler does not know
+                nothing = (w.x + w.y + w.z) * R::lit(0.0);
+            }
+        };
+        self.routines.push(Routine { name: format!("{name}, in a chain"), run: Box::new(run) });
+    }
     /// Samples of one pixel, then one sample each of as many pixels.
     fn sequence(&mut self, name: &str, sequence: impl Sequence + Copy + 'static) {
         let indices: Vec<_> = (0..SAMPLES / R::LANES).map(index::<R>).collect();
@@ -206,45 +235,47 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.line("normal", Normal { mean: R::lit(0.5), sigma: R::lit(2.0) });
 
     let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
-    list.warp("spherical cap", SphericalCap::new(a, R::lit(0.7)));
-    list.warp("projected cap, whole", ProjectedCap::new(a, R::lit(0.7), vector([0.0, 1.0, 0.0])));
-    list.warp("projected cap, cut", ProjectedCap::new(a, R::lit(0.7), vector([0.8, 0.6, 0.0])));
-    list.warp("projected cap, lune", ProjectedCap::new(a, R::lit(0.7), vector([0.96, 0.28, 0.0])));
-    list.warp("spherical triangle", SphericalTriangle::new(a, b, c));
-    list.warp("spherical parallelogram", SphericalParallelogram::new(a, b - a, c - a));
+    list.directions("spherical cap", SphericalCap::new(a, R::lit(0.7)));
+    list.directions("projected cap, whole", ProjectedCap::new(a, R::lit(0.7), vector([0.0, 1.0, 0.0])));
+    list.directions("projected cap, cut", ProjectedCap::new(a, R::lit(0.7), vector([0.8, 0.6, 0.0])));
+    list.directions("projected cap, lune", ProjectedCap::new(a, R::lit(0.7), vector([0.96, 0.28, 0.0])));
+    list.directions("spherical triangle", SphericalTriangle::new(a, b, c));
+    list.directions("spherical parallelogram", SphericalParallelogram::new(a, b - a, c - a));
     let [corner, du, dv] = [[-1.0, 2.0, -0.5], [2.0, 0.5, 0.0], [-0.25, 1.0, 1.5]].map(vector);
-    list.warp("spherical rectangle", SphericalRectangle::new(corner, du, dv));
+    list.directions("spherical rectangle", SphericalRectangle::new(corner, du, dv));
     for (name, normal) in [("", [0.3, 0.8, 0.5]), (", overhead", [0.0, 1.0, 0.0]), (", cut", [0.9, -0.2, 0.4])] {
         let normal = vector(normal);
-        list.warp(&format!("projected triangle{name}"), ProjectedTriangle::new(a, b, c, normal));
+        list.directions(&format!("projected triangle{name}"), ProjectedTriangle::new(a, b, c, normal));
         let quad = ProjectedPolygon::parallelogram(a, b - a, c - a, normal);
-        list.warp(&format!("projected parallelogram{name}"), quad);
+        list.directions(&format!("projected parallelogram{name}"), quad);
     }
     // a loaded value each time, so that nothing of the preparation is moved out of the loop
     let (radius, corners) = (black_box(R::lit(0.7)), black_box([a, b, c]));
-    list.prepared("spherical cap new + sample", move |p, u| SphericalCap::new(corners[0] - p, radius).sample(u));
-    list.prepared("projected cap new + sample", move |p, u| {
+    list.prepared_direction("spherical cap new + sample", move |p, u| {
+        SphericalCap::new(corners[0] - p, radius).sample(u)
+    });
+    list.prepared_direction("projected cap new + sample", move |p, u| {
         ProjectedCap::new(corners[0] - p, radius, Vec3::new(R::lit(0.0), R::lit(1.0), R::lit(0.0))).sample(u)
     });
-    list.prepared("spherical triangle new + sample", move |p, u| {
+    list.prepared_direction("spherical triangle new + sample", move |p, u| {
         SphericalTriangle::new(corners[0] - p, corners[1] - p, corners[2] - p).sample(u)
     });
     for (name, normal) in [("", [0.3, 0.8, 0.5]), (", overhead", [0.0, 1.0, 0.0]), (", cut", [0.9, -0.2, 0.4])] {
         let normal = black_box(vector(normal));
-        list.prepared(&format!("projected triangle{name} new + sample"), move |p, u| {
+        list.prepared_direction(&format!("projected triangle{name} new + sample"), move |p, u| {
             ProjectedTriangle::new(corners[0] - p, corners[1] - p, corners[2] - p, normal).sample(u)
         });
-        list.prepared(&format!("projected parallelogram{name} new + sample"), move |p, u| {
+        list.prepared_direction(&format!("projected parallelogram{name} new + sample"), move |p, u| {
             let (side, other) = (corners[1] - corners[0], corners[2] - corners[0]);
             ProjectedPolygon::parallelogram(corners[0] - p, side, other, normal).sample(u)
         });
     }
     let (e1, e2) = (b - a, c - a);
-    list.prepared("spherical parallelogram new + sample", move |p, u| {
+    list.prepared_direction("spherical parallelogram new + sample", move |p, u| {
         SphericalParallelogram::new(corners[0] - p, e1, e2).sample(u)
     });
     let [corner, du, dv] = black_box([corner, du, dv]);
-    list.prepared("spherical rectangle new + sample", move |p, u| {
+    list.prepared_direction("spherical rectangle new + sample", move |p, u| {
         SphericalRectangle::new(corner - p, du, dv).sample(u)
     });
 
