@@ -3,7 +3,7 @@
 
 use super::input::{Input, fraction, unit, units};
 use super::memory::Memory;
-use super::{COUNTS, Column, Output, expected, same, total};
+use super::{COUNTS, Column, Output, expected, same};
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 

@@ -5,8 +5,8 @@ use super::{CANARY, Column, GAP, Output};
 
 /// Columns of any alignment, with canaries around them.
 pub(super) struct Memory {
-    bytes: Vec<u8>,
-    starts: Vec<usize>,
+    pub(super) bytes: Vec<u8>,
+    pub(super) starts: Vec<usize>,
     n: usize,
 }
 

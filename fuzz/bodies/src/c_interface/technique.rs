@@ -3,7 +3,9 @@
 
 use super::input::{Input, fraction, unit, units};
 use super::memory::Memory;
-use super::{COUNTS, Column, FIELDS, Output, all_finite, expected, fields, same, sample_columns, total};
+use super::{
+    COUNTS, Column, FIELDS, LIGHT, Output, SAMPLER, all_finite, expected, fields, same, sample_columns, total,
+};
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 

@@ -1,7 +1,7 @@
 //! The functions of warps.
 #![allow(clippy::needless_range_loop, reason = "several columns have the same index")]
 
-use super::input::{Input, fraction, units};
+use super::input::{Input, fraction, unit};
 use super::memory::Memory;
 use super::{COUNTS, Column, Output, all_finite, expected, same, total};
 use etendue_c::*;
