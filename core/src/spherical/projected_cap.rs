@@ -4,13 +4,13 @@ mod segment;
 use super::DirectionSample;
 use super::double_word::dot_dw;
 use crate::lanewise::lanewise;
-use crate::math::{double, ratio, rsqrt};
+use crate::math::{difference_of_products, double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp, concentric, invert_concentric};
 use core::f64::consts::{FRAC_PI_2, PI};
-use lune::arcs;
-use segment::invert_segment;
+use lune::half;
+use segment::{invert_segment, segment_of};
 
 pub(super) use segment::segment;
 
@@ -67,14 +67,14 @@ lanewise! {
         cos_omega: R,
         /// sinθ, θ half the angle of the horizon that the cap covers
         sin_theta: R,
-        /// tanθ
-        tan_theta: R,
-        /// S(θ) = θ − sinθ cosθ
-        segment: R,
-        /// 1/b = |cosω|/tanθ
-        beta: R,
-        /// area of half the lune, from t = 0 to 1, in the units of a slice
-        half: R,
+        /// cosθ = cosσ/sinω
+        cos_theta: R,
+        /// κ = |cosω|/sinσ, at most 1
+        kappa: R,
+        /// 1 − κ, accurate relative to its own size
+        spread: R,
+        /// with the axis above the horizon S(θ); below, the area of half the lune in the units of its slices
+        part: R,
         /// Ω⊥ in steradians
         projected: R,
         /// x of the centre in the frame, in units of `unit`
@@ -107,6 +107,13 @@ fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
     (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))))
 }
 
+/// a×b, each component rounded once or twice: that of nearly parallel vectors keeps its digits.
+#[inline(always)]
+fn cross<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
+    let of = difference_of_products;
+    Vec3::new(of(a.y, b.z, a.z, b.y), of(a.z, b.x, a.x, b.z), of(a.x, b.y, a.y, b.x))
+}
+
 impl<R: Real> ProjectedCap<R> {
     /// Prepares for a sphere with its centre at `center` relative to the point (both lengths in one unit), on a surface with
     /// the normal `normal` (of any length).
@@ -130,7 +137,7 @@ impl<R: Real> ProjectedCap<R> {
         let along_z = (heights[0] + heights[1]) * shrink;
         let margin = tangent_distance(r, normal, heights) * shrink;
         // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
-        let across = normal.cross(c) * shrink;
+        let across = cross(normal, c) * shrink;
         let normal = normal * shrink;
         let normal = Vec3::new(normal.x, normal.y, R::blend(flat, one, normal.z));
         let width_squared = across.length_squared();
@@ -154,18 +161,26 @@ impl<R: Real> ProjectedCap<R> {
         // from inside, the cap is whole
         let whole = !outside | (margin.le(zero) & along_z.ge(zero));
         let sin_theta = ratio(height, sin_omega).lesser(one);
-        let floor = R::lit(1e-9);
-        let tan_theta = height / cos_sigma.greater(floor);
-        let beta = ratio(cos_omega.abs(), tan_theta).greater(floor);
+        let cos_theta = ratio(cos_sigma, sin_omega).lesser(one);
+        let kappa = ratio(along_z.abs(), r).lesser(one);
+        let spread = ratio(margin, r).clamped(zero, one);
 
         let area = sin_sigma * sin_sigma * cos_omega;
-        let theta = height.atan2(cos_sigma);
-        let psi = height.atan2(cos_sigma * cos_omega);
-        let theta_segment = segment(theta.lesser(R::lit(FRAC_PI_2)));
-        let above = theta_segment + area * (R::lit(PI) - segment(psi.lesser(R::lit(FRAC_PI_2))));
-        let (_, lune) = arcs(tan_theta.lesser(one / beta), one / beta);
-        let below = height * height * tan_theta * lune;
-        let projected = R::blend(cos_omega.ge(zero), R::blend(whole, R::lit(PI) * area, above), below);
+        let near = kappa * cos_theta;
+        let over = cos_omega.ge(zero);
+        let (mut part, mut projected) = (zero, R::lit(PI) * area);
+        let cut = over & !whole;
+        if cut.any() {
+            part = segment_of(sin_theta, cos_theta);
+            let above = part + area * (R::lit(PI) - segment_of(ratio(sin_theta, sin_sigma).lesser(one), near));
+            projected = R::blend(whole, projected, above);
+        }
+        if !over.all() {
+            let lune = half(cos_theta, near);
+            part = R::blend(over, part, lune);
+            let below = R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune;
+            projected = R::blend(over, projected, below);
+        }
         let visible = (whole | margin.gt(zero)) & r.gt(zero);
         let axis = c * inverse;
         Self {
@@ -177,10 +192,10 @@ impl<R: Real> ProjectedCap<R> {
             sin_omega,
             cos_omega,
             sin_theta,
-            tan_theta,
-            segment: theta_segment,
-            beta,
-            half: R::lit(0.5) * lune,
+            cos_theta,
+            kappa,
+            spread,
+            part,
             projected: projected.keep(visible),
             along_x,
             along_z,
@@ -283,7 +298,7 @@ impl<R: Real> ProjectedCap<R> {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
         let from_right = u.x * self.projected;
-        let on_circle = from_right.lt(self.segment);
+        let on_circle = from_right.lt(self.part);
         let share = R::blend(on_circle, from_right, ratio((one - u.x) * self.projected, area)).lesser(R::lit(PI));
         let late = share.gt(R::lit(FRAC_PI_2));
         let (s, c) = invert_segment(R::blend(late, R::lit(PI) - share, share));
@@ -359,15 +374,15 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         if cut.any() {
             let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
             let span = round.sqrt();
-            let phi = span.atan2(w.x);
-            let in_segment = segment(phi.clamped(zero, R::lit(FRAC_PI_2)));
-            let on_circle = span.le(self.sin_theta) & w.x.gt(zero);
+            let in_segment = segment_of(span.lesser(one), w.x.clamped(zero, one));
+            // of x and the span, the one that changes faster tells on which side of the chord the point is
+            let near_side = R::blend(w.x.gt(half), self.sin_theta - span, w.x - self.cos_theta);
+            let on_circle = near_side.ge(zero);
             let c = (-across).clamped(-one, one);
             // sinφ from y, and from the height of z above the rim at the same x
             let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).greater(zero);
             let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).greater(zero)).sqrt() / self.sin_sigma).lesser(one);
-            let phi = s.atan2(c.abs());
-            let from_left = segment(phi);
+            let from_left = segment_of(s, c.abs());
             let from_left = R::blend(c.lt(zero), R::lit(PI) - from_left, from_left) * area;
             let from_right = R::blend(on_circle, in_segment, self.projected - from_left);
             let high = R::blend(on_circle, span, self.sin_sigma * s);
@@ -378,17 +393,8 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             u = Vec2 { x: R::blend(cut, found.x, u.x), y: R::blend(cut, found.y, u.y) };
         }
         if below.any() {
-            let t = ratio(w.y.abs(), self.sin_theta).lesser(one);
-            let slice = self.slice(t, true);
-            let mut left = half - half * ratio(slice.area, self.half);
-            let ends = Self::ends(left + left);
-            if ends.any() {
-                left = R::blend(ends, half * ratio(self.tail(t), self.half), left);
-            }
-            let arc = ((one - w.y) * (one + w.y)).greater(zero).sqrt();
-            let inward = ratio(z * z, arc + w.x.greater(zero));
-            let x = unit_interval(R::blend(w.y.lt(zero), left, one - left));
-            let y = unit_interval(ratio(inward, self.width(t)));
+            let found = self.invert_in_lune(w);
+            let (x, y) = (unit_interval(found.x), unit_interval(found.y));
             u = Vec2 { x: R::blend(below, x, u.x), y: R::blend(below, y, u.y) };
         }
         u
