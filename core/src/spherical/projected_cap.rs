@@ -71,10 +71,10 @@ lanewise! {
         cos_theta: R,
         /// κ = |cosω|/sinσ, at most 1
         kappa: R,
-        /// 1 − κ, accurate relative to its own size
-        spread: R,
-        /// with the axis above the horizon S(θ); below, the area of half the lune in the units of its slices
+        /// with the axis above the horizon S(θ), the part on the circle; below, the area of half the lune in the units of its slices
         part: R,
+        /// with the axis above the horizon Ω⊥ less that of the whole ellipse; below, 1 − κ; both accurate relative to their own size
+        rest: R,
         /// Ω⊥ in steradians
         projected: R,
         /// x of the centre in the frame, in units of `unit`
@@ -92,19 +92,23 @@ lanewise! {
     }
 }
 
-/// r|n| − |c·n|, where `height` is c·n as an unevaluated sum: how far the sphere reaches across the horizon, accurate relative
-/// to its own size.
+/// 1/|n| and r|n| − |c·n|, where `height` is c·n as an unevaluated sum: how far the sphere reaches across the horizon, accurate
+/// relative to its own size.
 #[inline(always)]
-fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
+fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> (R, R) {
     let [squared, more] = dot_dw(n, n);
-    let some = squared.gt(R::lit(0.0));
-    let length = squared * rsqrt(R::blend(some, squared, R::lit(1.0)));
+    let shrink = rsqrt(squared);
+    let length = squared * shrink;
     let again = length * length;
     let off = (squared - again) - (R::two_prod_error(length, length, again) - more);
-    let length_rest = off * R::lit(0.5) / R::blend(some, length, R::lit(1.0));
+    let length_rest = off * (R::lit(0.5) * shrink);
     let reach = r * length;
     let reach_rest = r.mul_add(length_rest, R::two_prod_error(r, length, reach));
-    (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))))
+    let distance = (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))));
+    // one step of Newton's method rounds 1/|n| once
+    let product = shrink * length;
+    let off = (R::lit(1.0) - product) - shrink.mul_add(length_rest, R::two_prod_error(shrink, length, product));
+    (shrink.mul_add(off, shrink), distance)
 }
 
 /// a×b, each component rounded once or twice: that of nearly parallel vectors keeps its digits.
@@ -130,22 +134,21 @@ impl<R: Real> ProjectedCap<R> {
 
         // normalise, at any scale
         let normal = normal * normal.max_abs().pow2_scale();
-        let length_squared = normal.length_squared();
-        let flat = length_squared.le(zero);
-        let shrink = rsqrt(R::blend(flat, one, length_squared));
-        let heights = dot_dw(c, normal);
-        let along_z = (heights[0] + heights[1]) * shrink;
-        let margin = tangent_distance(r, normal, heights) * shrink;
-        // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
-        let across = cross(normal, c) * shrink;
-        let normal = normal * shrink;
+        let flat = normal.max_abs().le(zero);
         let normal = Vec3::new(normal.x, normal.y, R::blend(flat, one, normal.z));
+        let [height, rest] = dot_dw(c, normal);
+        let (height, rest) = height.two_sum(rest);
+        let (shrink, margin) = tangent_distance(r, normal, [height, rest]);
+        let (along_z, margin) = (height * shrink, margin * shrink);
+        // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
+        let across = cross(normal, c);
+        let normal = normal * shrink;
         let width_squared = across.length_squared();
         let oblique = width_squared.gt(R::lit(1e-36));
         let inverse_width = rsqrt(R::blend(oblique, width_squared, one));
         let t = Vec3::blend(oblique, across * inverse_width, Frame::new(normal).t);
-        let frame = Frame { s: t.cross(normal), t, n: normal };
-        let along_x = (width_squared * inverse_width).keep(oblique);
+        let frame = Frame { s: cross(t, normal), t, n: normal };
+        let along_x = (width_squared * inverse_width * shrink).keep(oblique);
 
         // from inside, the hemisphere is a cap about the normal
         let pick = |yes: R, no: f64| R::blend(outside, yes, R::lit(no));
@@ -163,21 +166,22 @@ impl<R: Real> ProjectedCap<R> {
         let sin_theta = ratio(height, sin_omega).lesser(one);
         let cos_theta = ratio(cos_sigma, sin_omega).lesser(one);
         let kappa = ratio(along_z.abs(), r).lesser(one);
-        let spread = ratio(margin, r).clamped(zero, one);
 
         let area = sin_sigma * sin_sigma * cos_omega;
         let near = kappa * cos_theta;
         let over = cos_omega.ge(zero);
-        let (mut part, mut projected) = (zero, R::lit(PI) * area);
+        let (mut part, mut rest, mut projected) = (zero, zero, R::lit(PI) * area);
         let cut = over & !whole;
         if cut.any() {
             part = segment_of(sin_theta, cos_theta);
-            let above = part + area * (R::lit(PI) - segment_of(ratio(sin_theta, sin_sigma).lesser(one), near));
-            projected = R::blend(whole, projected, above);
+            let on_ellipse = segment_of(ratio(sin_theta, sin_sigma).lesser(one), near);
+            rest = part - area * on_ellipse;
+            projected = R::blend(whole, projected, part + area * (R::lit(PI) - on_ellipse));
         }
         if !over.all() {
             let lune = half(cos_theta, near);
-            part = R::blend(over, part, lune);
+            let spread = ratio(margin, r).clamped(zero, one);
+            (part, rest) = (R::blend(over, part, lune), R::blend(over, rest, spread));
             let below = R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune;
             projected = R::blend(over, projected, below);
         }
@@ -194,8 +198,8 @@ impl<R: Real> ProjectedCap<R> {
             sin_theta,
             cos_theta,
             kappa,
-            spread,
             part,
+            rest,
             projected: projected.keep(visible),
             along_x,
             along_z,
@@ -292,17 +296,26 @@ impl<R: Real> ProjectedCap<R> {
         (Vec3::new(point, y, z), self.cos_omega * ratio(inward, z + rim))
     }
 
+    /// The slice at u₀ of a cap cut with its axis above the horizon: whether it ends on the circle rather than on the ellipse, and
+    /// the sine and cosine of φ, from the right on the circle and from the left on the ellipse.
+    #[inline(always)]
+    fn cut_slice(&self, u: R) -> (R::Mask, R, R) {
+        let one = R::lit(1.0);
+        let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
+        let from_right = u * self.projected;
+        let on_circle = from_right.lt(self.part);
+        // on the ellipse, the area from its nearer end
+        let (from_left, from_end) = ((one - u) * self.projected, (from_right - self.rest).greater(R::lit(0.0)));
+        let late = from_end.lt(from_left) & !on_circle;
+        let share = R::blend(on_circle, from_right, ratio(from_left.lesser(from_end), area)).lesser(R::lit(FRAC_PI_2));
+        let (s, c) = invert_segment(share);
+        (on_circle, s, c.negate_where(late))
+    }
     /// The cap cut with its axis above the horizon: two circular segments.
     #[inline]
     fn slices(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
-        let from_right = u.x * self.projected;
-        let on_circle = from_right.lt(self.part);
-        let share = R::blend(on_circle, from_right, ratio((one - u.x) * self.projected, area)).lesser(R::lit(PI));
-        let late = share.gt(R::lit(FRAC_PI_2));
-        let (s, c) = invert_segment(R::blend(late, R::lit(PI) - share, share));
-        let c = c.negate_where(late);
+        let (on_circle, s, c) = self.cut_slice(u.x);
         let v = two.mul_add(u.y, -one);
         let inward = (R::lit(4.0) * u.y * (one - u.y)).greater(zero);
         // on the circle: x = cosφ, |y| ≤ sinφ
@@ -382,15 +395,13 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             // sinφ from y, and from the height of z above the rim at the same x
             let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).greater(zero);
             let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).greater(zero)).sqrt() / self.sin_sigma).lesser(one);
-            let from_left = segment_of(s, c.abs());
-            let from_left = R::blend(c.lt(zero), R::lit(PI) - from_left, from_left) * area;
-            let from_right = R::blend(on_circle, in_segment, self.projected - from_left);
+            let from_end = segment_of(s, c.abs()) * area;
+            let on_ellipse = R::blend(c.lt(zero), self.rest + from_end, self.projected - from_end);
+            let from_right = R::blend(on_circle, in_segment, on_ellipse);
             let high = R::blend(on_circle, span, self.sin_sigma * s);
-            let found = Vec2 {
-                x: unit_interval(ratio(from_right, self.projected)),
-                y: unit_interval(half.mul_add(ratio(w.y, high), half)),
-            };
-            u = Vec2 { x: R::blend(cut, found.x, u.x), y: R::blend(cut, found.y, u.y) };
+            let x = unit_interval(ratio(from_right, self.projected));
+            let y = unit_interval(half.mul_add(ratio(w.y, high), half));
+            u = Vec2 { x: R::blend(cut, x, u.x), y: R::blend(cut, y, u.y) };
         }
         if below.any() {
             let found = self.invert_in_lune(w);

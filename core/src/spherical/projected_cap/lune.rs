@@ -82,7 +82,7 @@ impl<R: Real> ProjectedCap<R> {
     #[inline(always)]
     fn width(&self, m: R) -> (R, R) {
         let (arc, width) = self.shape(m);
-        (arc, self.sin_theta * self.sin_theta * self.spread * width)
+        (arc, self.sin_theta * self.sin_theta * self.rest * width)
     }
     /// For m = 1 − t²: x on the circle, and the width in the units of the slices.
     #[inline(always)]
