@@ -398,8 +398,14 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             let from_end = segment_of(s, c.abs()) * area;
             let on_ellipse = R::blend(c.lt(zero), self.rest + from_end, self.projected - from_end);
             let from_right = R::blend(on_circle, in_segment, on_ellipse);
-            let high = R::blend(on_circle, span, self.sin_sigma * s);
+            let mut high = R::blend(on_circle, span, self.sin_sigma * s);
             let x = unit_interval(ratio(from_right, self.projected));
+            // u₀ ends before 1, at a slice that may be far from the end of a thin ellipse
+            let last = x.ge(R::ONE_MINUS_EPSILON) & !on_circle;
+            if last.any() {
+                let (circle, s, _) = self.cut_slice(x);
+                high = R::blend(last, R::blend(circle, s, self.sin_sigma * s), high);
+            }
             let y = unit_interval(half.mul_add(ratio(w.y, high), half));
             u = Vec2 { x: R::blend(cut, x, u.x), y: R::blend(cut, y, u.y) };
         }
