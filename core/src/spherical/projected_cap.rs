@@ -147,7 +147,9 @@ impl<R: Real> ProjectedCap<R> {
         let oblique = width_squared.gt(R::lit(1e-36));
         let inverse_width = rsqrt(R::blend(oblique, width_squared, one));
         let t = Vec3::blend(oblique, across * inverse_width, Frame::new(normal).t);
-        let frame = Frame { s: cross(t, normal), t, n: normal };
+        let side = cross(t, normal);
+        let s = side.mul_add(R::lit(0.5) * (one - side.length_squared()), side);
+        let frame = Frame { s, t, n: normal };
         let along_x = (width_squared * inverse_width * shrink).keep(oblique);
 
         // from inside, the hemisphere is a cap about the normal
