@@ -162,11 +162,13 @@ impl<R: Real> ProjectedCap<R> {
         let sin_omega = pick((along_x * by_height).lesser(one), 0.0);
         let cos_omega = pick((along_z * by_height).clamped(-one, one), 1.0);
         let height_squared = (margin * (r + along_z.abs())).greater(zero) * inverse * inverse;
-        let height = height_squared.sqrt().keep(outside);
+        let height_squared = height_squared.keep(outside);
         // from inside, the cap is whole
         let whole = !outside | (margin.le(zero) & along_z.ge(zero));
-        let sin_theta = ratio(height, sin_omega).lesser(one);
-        let cos_theta = ratio(cos_sigma, sin_omega).lesser(one);
+        // sin²ω = y² + cos²σ
+        let by_sin_omega = reciprocal(cos_sigma.mul_add(cos_sigma, height_squared));
+        let sin_theta = height_squared.sqrt() * by_sin_omega;
+        let cos_theta = R::blend(height_squared.gt(zero), cos_sigma * by_sin_omega, one);
         let kappa = ratio(along_z.abs(), r).lesser(one);
 
         let area = sin_sigma * sin_sigma * cos_omega;

@@ -138,10 +138,10 @@ impl<R: Real> ProjectedCap<R> {
         }
         sum * rest
     }
-    /// Where single precision would leave few digits of the area beyond t: a share of less than 1/256 of the half.
+    /// Where single precision would leave few digits of the area beyond t: a share of less than 1/64 of the half.
     #[inline(always)]
     fn ends(share: R) -> R::Mask {
-        share.lt(R::lit(if double::<R>() { -1.0 } else { 1.0 / 256.0 }))
+        share.lt(R::lit(if double::<R>() { -1.0 } else { 1.0 / 64.0 }))
     }
     /// 1 − t for the t in [0, 1] beyond which lies the share `left` of the half-lune.
     #[inline]
