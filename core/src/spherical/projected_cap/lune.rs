@@ -20,7 +20,9 @@ struct Slice<R> {
     area: R,
     /// the width
     width: R,
-    /// (d width/dt)/width
+    /// m = 1 − t²
+    m: R,
+    /// m (d width/dt)/width
     slope: R,
 }
 
@@ -94,28 +96,25 @@ impl<R: Real> ProjectedCap<R> {
     /// The slice at t = 1 − `rest`.
     #[inline(always)]
     fn slice(&self, rest: R) -> Slice<R> {
-        let (one, two, half) = (R::lit(1.0), R::lit(2.0), R::lit(0.5));
-        let (t, m) = (one - rest, rest * (two - rest));
+        let (one, half) = (R::lit(1.0), R::lit(0.5));
+        let (t, m) = (one - rest, rest * (R::lit(2.0) - rest));
         let (arc, ellipse) = self.cosines(m);
         let near = self.near();
-        let (a, b, c) = (self.cos_theta + arc, near + ellipse, self.kappa.mul_add(arc, ellipse));
-        let (ab, sum, both) = (a * b, arc + ellipse, arc * ellipse);
-        // one division serves all the quotients below
-        let inverse = ratio(one, ab * c * (sum * both));
-        let by_abc = inverse * (sum * both);
-        let by_sum_both = inverse * (ab * c);
-        let width = (one + self.kappa) * (m * m) * by_abc;
-        let (by_ellipse, by_sum) = (arc * sum * by_sum_both, both * by_sum_both);
-        let across = m * (ab * by_abc) * segment_ratio(arc);
+        let (outer, inner, c) = (self.cos_theta + arc, near + ellipse, self.kappa.mul_add(arc, ellipse));
+        let (ends, sum) = (outer * inner, arc + ellipse);
+        // two divisions serve all the quotients below
+        let (by_ends, by_both) = (ratio(one, ends * c), ratio(one, arc * ellipse * sum));
+        let (by_c, by_sum) = (ends * by_ends, arc * ellipse * by_both);
+        let (by_arc, by_ellipse) = (ellipse * (sum * by_both), arc * (sum * by_both));
+        let up = one + self.kappa;
+        let width = up * (m * m) * by_ends;
+        let across = m * by_c * segment_ratio(arc);
         let along = near * self.cos_theta * (t * t) * by_sum * segment_difference(arc, ellipse);
-        let area = t * (half * (t * t) * (one + self.kappa) * by_ellipse).mul_add(across + along, width);
-        // derivative of log m² − log a − log b − log c by m, times dm/dt = −2t
-        let by_both = half * (by_sum_both * sum);
-        let (arc_by_m, ellipse_by_m) =
-            (self.sin_theta * self.sin_theta * (ellipse * by_both), (one - near) * (one + near) * (arc * by_both));
-        let falls =
-            (arc_by_m * (b * c) + ellipse_by_m * (a * c) + self.kappa.mul_add(arc_by_m, ellipse_by_m) * ab) * by_abc;
-        Slice { area, width, slope: -(t + t) * (ratio(two, m) - falls) }
+        let area = t * (half * (t * t) * up * by_ellipse).mul_add(across + along, width);
+        // m times the derivative of log width by t, at most 4
+        let shares = self.cos_theta.mul_add(by_arc, near * by_ellipse);
+        let slope = -t * (one + (near * by_c).mul_add(shares, shares));
+        Slice { area, width, m, slope }
     }
     /// The half-area beyond t = 1 − `rest`, by quadrature: a difference would leave few digits.
     #[inline]
@@ -153,11 +152,15 @@ impl<R: Real> ProjectedCap<R> {
             [6.91802, -22.14491, 16.69282],
             [-2.79944, 9.41089, -7.06435],
         ];
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
         let target = (one - left) * self.part;
         let ends = Self::ends(left);
         let mean = (one + self.cos_theta) * (one + self.near()) * self.part;
-        let root = left.cbrt();
+        // ∛left within 1e−4
+        let guess = left.greater(R::lit(1e-30)).inverse_cbrt_estimate();
+        let off = one - left * guess * guess * guess;
+        let guess = (guess * off).mul_add(R::lit(2.0 / 9.0).mul_add(off, R::lit(1.0 / 3.0)), guess);
+        let root = left * guess * guess;
         let start = START.map(|[c0, c1, c2]| mean.mul_add(mean.mul_add(R::lit(c2), R::lit(c1)), R::lit(c0)));
         let series = root.mul_add(root.mul_add(root.mul_add(start[3], start[2]), start[1]), start[0]);
         let mut rest = (root * series).clamped(zero, one);
@@ -170,10 +173,9 @@ impl<R: Real> ProjectedCap<R> {
             if (ends & open).any() {
                 off = R::blend(ends, left * self.part - self.tail(rest), off);
             }
-            let newton = ratio(off, slice.width);
-            // Halley: off/(1 − ½ off f′/f)
-            let halley = one - R::lit(0.5) * newton * slice.slope;
-            let step = newton / halley.greater(R::lit(0.5));
+            // Halley's method, off/(f − ½ off f′/f), and at most twice Newton's step
+            let steep = slice.m * slice.width;
+            let step = ratio(slice.m * off, (steep - half * off * slice.slope).greater(half * steep));
             // a converged lane stays as it is, so that it does not depend on its neighbours
             let next = (rest + step).greater(R::lit(0.125) * rest).lesser(one);
             let moves = (next - rest).abs().gt(R::lit(enough) * next);
