@@ -31,23 +31,24 @@ lanewise! {
     ///    axis.
     ///
     /// - Formula: centre sinω cosσ, semi-axes sinσ cosω and sinσ; y = √((sinσ−cosω)(sinσ+cosω)) from the sphere and the normal
-    ///   in twice the working precision, sinθ = y/sinω, tanθ = y/cosσ, tanψ = y/(cosσ cosω), S(φ) = φ − sinφ cosφ. Ω⊥ is π
-    ///   sin²σ cosω if whole; S(θ) + sin²σ cosω (π − S(ψ)) if cut with the axis above, where no term is negative. With the axis
-    ///   below, C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds = ((1+x²) atan x − x)/x³, k = |cosω| and b = tanθ/k, Ω⊥ = sin²ω sin²θ tanθ
-    ///   (C(tanθ) − C(b))/(1−k²): a difference that is itself an integral of positive terms where b ≤ 1. At sinθ·t across, the
-    ///   width of the lune is sinθ tanθ sin²ω b² m²/((1+P)(1+Q)(P+Q)), m = 1−t², P = √(1+m tan²θ), Q = √(1+mb²); its area up to
-    ///   t has a similar form, and a fixed number of steps of Halley's method inverts it.
+    ///   in twice the working precision, sinθ = y/sinω, cosθ = cosσ/sinω, κ = |cosω|/sinσ, cosψ = κ cosθ, S(φ) = φ − sinφ cosφ
+    ///   and ρ(cosφ) = S(φ)/sin³φ, a polynomial of 1 − cosφ. Ω⊥ is π sin²σ cosω if whole; S(θ) + sin²σ cosω (π − S(ψ)) if cut
+    ///   with the axis above, where no term is negative. With the axis below it is sin³θ (1−κ) D(cosθ, cosψ), where D(x, y) is
+    ///   the divided difference of x ρ(x), itself a polynomial. At sinθ·t across, with m = 1−t², X = √(cos²θ + m sin²θ) on the
+    ///   circle and Y = √(cos²ψ + m sin²ψ) on the ellipse, the width of the lune is sin²θ (1−κ) w with
+    ///   w = (1+κ) m²/((cosθ+X)(cosψ+Y)(κX+Y)), and half its area up to t is sin³θ (1−κ) times
+    ///   t w + ½t³ (1+κ)/Y·(m ρ(X)/(κX+Y) + t² cosθ cosψ D(X, Y)/(X+Y)): no difference is left. Halley's method inverts it.
     /// - Domain: u in [0, 1)²; any centre and radius > 0, from outside or inside; a normal of any length.
     /// - Density: the pdf is cosθ/Ω⊥ per steradian within the cone (and within 10 ulp beyond) and above the horizon, 0
     ///   elsewhere. From inside the sphere it is cosθ/π over the whole hemisphere.
     /// - Degenerate input: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some unit
     ///   vector.
-    /// - Greatest error: Ω⊥ 3e−7 relative. A sphere whose centre is below the horizon and that rises above it by less than 1e−6
-    ///   of its distance has 1.6e−6, and 4e−14 over that fraction. For a cap of more than 80° whose centre is below the
-    ///   horizon, multiply by 1/sin²ω: the cap is then a ring about the nadir, and circle and ellipse are nearly the same.
-    ///   Direction 4e−7, besides 4 steps of 2⁻²⁴ in u, times the same factor; where the horizon touches the cap, the direction
-    ///   has the slope of a square root there and may be off by 1e−3 of the size. A cap of less than 1e−6 on the horizon has
-    ///   cosines below the rounding of its directions, and some samples are lost.
+    /// - Greatest error: Ω⊥ 1.2e−6 relative. A sphere whose centre is below the horizon and that rises above it by less than 1e−6
+    ///   of its distance has 1.6e−6, and 4e−14 over that fraction. Direction 4e−7, besides 4 steps of 2⁻²⁴ in u; where the
+    ///   horizon touches the cap, the direction has the slope of a square root there and may be off by 1e−3 of the size. The
+    ///   inverse leads back to the direction, except where the axis is within 4e−7 of the horizon: u may be off by 3e−3 there.
+    ///   A cap that rises less than 1e−6 above the horizon has cosines below the rounding of its directions, and some samples
+    ///   are lost; all others have an estimate without bias, to 1e−5.
     /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two
     ///   maps of the cut cap and the forms without cancellation are derived here.
     pub struct ProjectedCap {

@@ -152,7 +152,7 @@ impl<R: Real> ProjectedCap<R> {
             [6.91802, -22.14491, 16.69282],
             [-2.79944, 9.41089, -7.06435],
         ];
-        let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
+        let (one, half) = (R::lit(1.0), R::lit(0.5));
         let target = (one - left) * self.part;
         let ends = Self::ends(left);
         let mean = (one + self.cos_theta) * (one + self.near()) * self.part;
@@ -163,7 +163,8 @@ impl<R: Real> ProjectedCap<R> {
         let root = left * guess * guess;
         let start = START.map(|[c0, c1, c2]| mean.mul_add(mean.mul_add(R::lit(c2), R::lit(c1)), R::lit(c0)));
         let series = root.mul_add(root.mul_add(root.mul_add(start[3], start[2]), start[1]), start[0]);
-        let mut rest = (root * series).clamped(zero, one);
+        // the thickest lune has 0.88 root² near its ends
+        let mut rest = (root * series).greater(half * root * root).lesser(one);
         // a step cubes the error, so one below `enough` of the rest is the last
         let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 128.0) };
         let mut open = R::Mask::splat(true);
