@@ -4,13 +4,13 @@ mod segment;
 use super::DirectionSample;
 use super::double_word::dot_dw;
 use crate::lanewise::lanewise;
-use crate::math::{double, ratio, rsqrt};
+use crate::math::{difference_of_products, double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp, concentric, invert_concentric};
 use core::f64::consts::{FRAC_PI_2, PI};
-use lune::arcs;
-use segment::invert_segment;
+use lune::half;
+use segment::{invert_segment, segment_of};
 
 pub(super) use segment::segment;
 
@@ -31,23 +31,24 @@ lanewise! {
     ///    axis.
     ///
     /// - Formula: centre sinω cosσ, semi-axes sinσ cosω and sinσ; y = √((sinσ−cosω)(sinσ+cosω)) from the sphere and the normal
-    ///   in twice the working precision, sinθ = y/sinω, tanθ = y/cosσ, tanψ = y/(cosσ cosω), S(φ) = φ − sinφ cosφ. Ω⊥ is π
-    ///   sin²σ cosω if whole; S(θ) + sin²σ cosω (π − S(ψ)) if cut with the axis above, where no term is negative. With the axis
-    ///   below, C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds = ((1+x²) atan x − x)/x³, k = |cosω| and b = tanθ/k, Ω⊥ = sin²ω sin²θ tanθ
-    ///   (C(tanθ) − C(b))/(1−k²): a difference that is itself an integral of positive terms where b ≤ 1. At sinθ·t across, the
-    ///   width of the lune is sinθ tanθ sin²ω b² m²/((1+P)(1+Q)(P+Q)), m = 1−t², P = √(1+m tan²θ), Q = √(1+mb²); its area up to
-    ///   t has a similar form, and a fixed number of steps of Halley's method inverts it.
+    ///   in twice the working precision, sinθ = y/sinω, cosθ = cosσ/sinω, κ = |cosω|/sinσ, cosψ = κ cosθ, S(φ) = φ − sinφ cosφ
+    ///   and ρ(cosφ) = S(φ)/sin³φ, a polynomial of 1 − cosφ. Ω⊥ is π sin²σ cosω if whole; S(θ) + sin²σ cosω (π − S(ψ)) if cut
+    ///   with the axis above, where no term is negative. With the axis below it is sin³θ (1−κ) D(cosθ, cosψ), where D(x, y) is
+    ///   the divided difference of x ρ(x), itself a polynomial. At sinθ·t across, with m = 1−t², X = √(cos²θ + m sin²θ) on the
+    ///   circle and Y = √(cos²ψ + m sin²ψ) on the ellipse, the width of the lune is sin²θ (1−κ) w with
+    ///   w = (1+κ) m²/((cosθ+X)(cosψ+Y)(κX+Y)), and half its area up to t is sin³θ (1−κ) times
+    ///   t w + ½t³ (1+κ)/Y·(m ρ(X)/(κX+Y) + t² cosθ cosψ D(X, Y)/(X+Y)): no difference is left. Halley's method inverts it.
     /// - Domain: u in [0, 1)²; any centre and radius > 0, from outside or inside; a normal of any length.
     /// - Density: the pdf is cosθ/Ω⊥ per steradian within the cone (and within 10 ulp beyond) and above the horizon, 0
     ///   elsewhere. From inside the sphere it is cosθ/π over the whole hemisphere.
     /// - Degenerate input: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some unit
     ///   vector.
-    /// - Greatest error: Ω⊥ 3e−7 relative. A sphere whose centre is below the horizon and that rises above it by less than 1e−6
-    ///   of its distance has 1.6e−6, and 4e−14 over that fraction. For a cap of more than 80° whose centre is below the
-    ///   horizon, multiply by 1/sin²ω: the cap is then a ring about the nadir, and circle and ellipse are nearly the same.
-    ///   Direction 4e−7, besides 4 steps of 2⁻²⁴ in u, times the same factor; where the horizon touches the cap, the direction
-    ///   has the slope of a square root there and may be off by 1e−3 of the size. A cap of less than 1e−6 on the horizon has
-    ///   cosines below the rounding of its directions, and some samples are lost.
+    /// - Greatest error: Ω⊥ 1.2e−6 relative. A sphere whose centre is below the horizon and that rises above it by less than 1e−6
+    ///   of its distance has 1.6e−6, and 4e−14 over that fraction. Direction 4e−7, besides 4 steps of 2⁻²⁴ in u; where the
+    ///   horizon touches the cap, the direction has the slope of a square root there and may be off by 1e−3 of the size. The
+    ///   inverse leads back to the direction, except where the axis is within 4e−7 of the horizon: u may be off by 3e−3 there.
+    ///   A cap that rises less than 1e−6 above the horizon has cosines below the rounding of its directions, and some samples
+    ///   are lost; all others have an estimate without bias, to 1e−5.
     /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two
     ///   maps of the cut cap and the forms without cancellation are derived here.
     pub struct ProjectedCap {
@@ -67,14 +68,14 @@ lanewise! {
         cos_omega: R,
         /// sinθ, θ half the angle of the horizon that the cap covers
         sin_theta: R,
-        /// tanθ
-        tan_theta: R,
-        /// S(θ) = θ − sinθ cosθ
-        segment: R,
-        /// 1/b = |cosω|/tanθ
-        beta: R,
-        /// area of half the lune, from t = 0 to 1, in the units of a slice
-        half: R,
+        /// cosθ = cosσ/sinω
+        cos_theta: R,
+        /// κ = |cosω|/sinσ, at most 1
+        kappa: R,
+        /// with the axis above the horizon S(θ), the part on the circle; below, the area of half the lune in the units of its slices
+        part: R,
+        /// with the axis above the horizon Ω⊥ less that of the whole ellipse; below, 1 − κ; both accurate relative to their own size
+        rest: R,
         /// Ω⊥ in steradians
         projected: R,
         /// x of the centre in the frame, in units of `unit`
@@ -92,19 +93,30 @@ lanewise! {
     }
 }
 
-/// r|n| − |c·n|, where `height` is c·n as an unevaluated sum: how far the sphere reaches across the horizon, accurate relative
-/// to its own size.
+/// 1/|n| and r|n| − |c·n|, where `height` is c·n as an unevaluated sum: how far the sphere reaches across the horizon, accurate
+/// relative to its own size.
 #[inline(always)]
-fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> R {
+fn tangent_distance<R: Real>(r: R, n: Vec3<R>, [height, rest]: [R; 2]) -> (R, R) {
     let [squared, more] = dot_dw(n, n);
-    let some = squared.gt(R::lit(0.0));
-    let length = squared * rsqrt(R::blend(some, squared, R::lit(1.0)));
+    let shrink = rsqrt(squared);
+    let length = squared * shrink;
     let again = length * length;
     let off = (squared - again) - (R::two_prod_error(length, length, again) - more);
-    let length_rest = off * R::lit(0.5) / R::blend(some, length, R::lit(1.0));
+    let length_rest = off * (R::lit(0.5) * shrink);
     let reach = r * length;
     let reach_rest = r.mul_add(length_rest, R::two_prod_error(r, length, reach));
-    (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))))
+    let distance = (reach - height.abs()) + (reach_rest - rest.negate_where(height.lt(R::lit(0.0))));
+    // one step of Newton's method rounds 1/|n| once
+    let product = shrink * length;
+    let off = (R::lit(1.0) - product) - shrink.mul_add(length_rest, R::two_prod_error(shrink, length, product));
+    (shrink.mul_add(off, shrink), distance)
+}
+
+/// a×b, each component rounded once or twice: that of nearly parallel vectors keeps its digits.
+#[inline(always)]
+fn cross<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
+    let of = difference_of_products;
+    Vec3::new(of(a.y, b.z, a.z, b.y), of(a.z, b.x, a.x, b.z), of(a.x, b.y, a.y, b.x))
 }
 
 impl<R: Real> ProjectedCap<R> {
@@ -123,22 +135,23 @@ impl<R: Real> ProjectedCap<R> {
 
         // normalise, at any scale
         let normal = normal * normal.max_abs().pow2_scale();
-        let length_squared = normal.length_squared();
-        let flat = length_squared.le(zero);
-        let shrink = rsqrt(R::blend(flat, one, length_squared));
-        let heights = dot_dw(c, normal);
-        let along_z = (heights[0] + heights[1]) * shrink;
-        let margin = tangent_distance(r, normal, heights) * shrink;
-        // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
-        let across = normal.cross(c) * shrink;
-        let normal = normal * shrink;
+        let flat = normal.max_abs().le(zero);
         let normal = Vec3::new(normal.x, normal.y, R::blend(flat, one, normal.z));
+        let [height, rest] = dot_dw(c, normal);
+        let (height, rest) = height.two_sum(rest);
+        let (shrink, margin) = tangent_distance(r, normal, [height, rest]);
+        let (along_z, margin) = (height * shrink, margin * shrink);
+        // y axis: horizontal, perpendicular to the plane of normal and axis, before the normal is rounded
+        let across = cross(normal, c);
+        let normal = normal * shrink;
         let width_squared = across.length_squared();
         let oblique = width_squared.gt(R::lit(1e-36));
         let inverse_width = rsqrt(R::blend(oblique, width_squared, one));
         let t = Vec3::blend(oblique, across * inverse_width, Frame::new(normal).t);
-        let frame = Frame { s: t.cross(normal), t, n: normal };
-        let along_x = (width_squared * inverse_width).keep(oblique);
+        let side = cross(t, normal);
+        let s = side.mul_add(R::lit(0.5) * (one - side.length_squared()), side);
+        let frame = Frame { s, t, n: normal };
+        let along_x = (width_squared * inverse_width * shrink).keep(oblique);
 
         // from inside, the hemisphere is a cap about the normal
         let pick = |yes: R, no: f64| R::blend(outside, yes, R::lit(no));
@@ -150,22 +163,33 @@ impl<R: Real> ProjectedCap<R> {
         let sin_omega = pick((along_x * by_height).lesser(one), 0.0);
         let cos_omega = pick((along_z * by_height).clamped(-one, one), 1.0);
         let height_squared = (margin * (r + along_z.abs())).greater(zero) * inverse * inverse;
-        let height = height_squared.sqrt().keep(outside);
+        let height_squared = height_squared.keep(outside);
         // from inside, the cap is whole
         let whole = !outside | (margin.le(zero) & along_z.ge(zero));
-        let sin_theta = ratio(height, sin_omega).lesser(one);
-        let floor = R::lit(1e-9);
-        let tan_theta = height / cos_sigma.greater(floor);
-        let beta = ratio(cos_omega.abs(), tan_theta).greater(floor);
+        // sin²ω = y² + cos²σ
+        let by_sin_omega = reciprocal(cos_sigma.mul_add(cos_sigma, height_squared));
+        let sin_theta = height_squared.sqrt() * by_sin_omega;
+        let cos_theta = R::blend(height_squared.gt(zero), cos_sigma * by_sin_omega, one);
+        let kappa = ratio(along_z.abs(), r).lesser(one);
 
         let area = sin_sigma * sin_sigma * cos_omega;
-        let theta = height.atan2(cos_sigma);
-        let psi = height.atan2(cos_sigma * cos_omega);
-        let theta_segment = segment(theta.lesser(R::lit(FRAC_PI_2)));
-        let above = theta_segment + area * (R::lit(PI) - segment(psi.lesser(R::lit(FRAC_PI_2))));
-        let (_, lune) = arcs(tan_theta.lesser(one / beta), one / beta);
-        let below = height * height * tan_theta * lune;
-        let projected = R::blend(cos_omega.ge(zero), R::blend(whole, R::lit(PI) * area, above), below);
+        let near = kappa * cos_theta;
+        let over = cos_omega.ge(zero);
+        let (mut part, mut rest, mut projected) = (zero, zero, R::lit(PI) * area);
+        let cut = over & !whole;
+        if cut.any() {
+            part = segment_of(sin_theta, cos_theta);
+            let on_ellipse = segment_of(ratio(sin_theta, sin_sigma).lesser(one), near);
+            rest = part - area * on_ellipse;
+            projected = R::blend(whole, projected, part + area * (R::lit(PI) - on_ellipse));
+        }
+        if !over.all() {
+            let lune = half(cos_theta, near);
+            let spread = ratio(margin, r).clamped(zero, one);
+            (part, rest) = (R::blend(over, part, lune), R::blend(over, rest, spread));
+            let below = R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune;
+            projected = R::blend(over, projected, below);
+        }
         let visible = (whole | margin.gt(zero)) & r.gt(zero);
         let axis = c * inverse;
         Self {
@@ -177,10 +201,10 @@ impl<R: Real> ProjectedCap<R> {
             sin_omega,
             cos_omega,
             sin_theta,
-            tan_theta,
-            segment: theta_segment,
-            beta,
-            half: R::lit(0.5) * lune,
+            cos_theta,
+            kappa,
+            part,
+            rest,
             projected: projected.keep(visible),
             along_x,
             along_z,
@@ -277,17 +301,26 @@ impl<R: Real> ProjectedCap<R> {
         (Vec3::new(point, y, z), self.cos_omega * ratio(inward, z + rim))
     }
 
+    /// The slice at u₀ of a cap cut with its axis above the horizon: whether it ends on the circle rather than on the ellipse, and
+    /// the sine and cosine of φ, from the right on the circle and from the left on the ellipse.
+    #[inline(always)]
+    fn cut_slice(&self, u: R) -> (R::Mask, R, R) {
+        let one = R::lit(1.0);
+        let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
+        let from_right = u * self.projected;
+        let on_circle = from_right.lt(self.part);
+        // on the ellipse, the area from its nearer end
+        let (from_left, from_end) = ((one - u) * self.projected, (from_right - self.rest).greater(R::lit(0.0)));
+        let late = from_end.lt(from_left) & !on_circle;
+        let share = R::blend(on_circle, from_right, ratio(from_left.lesser(from_end), area)).lesser(R::lit(FRAC_PI_2));
+        let (s, c) = invert_segment(share);
+        (on_circle, s, c.negate_where(late))
+    }
     /// The cap cut with its axis above the horizon: two circular segments.
     #[inline]
     fn slices(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
-        let from_right = u.x * self.projected;
-        let on_circle = from_right.lt(self.segment);
-        let share = R::blend(on_circle, from_right, ratio((one - u.x) * self.projected, area)).lesser(R::lit(PI));
-        let late = share.gt(R::lit(FRAC_PI_2));
-        let (s, c) = invert_segment(R::blend(late, R::lit(PI) - share, share));
-        let c = c.negate_where(late);
+        let (on_circle, s, c) = self.cut_slice(u.x);
         let v = two.mul_add(u.y, -one);
         let inward = (R::lit(4.0) * u.y * (one - u.y)).greater(zero);
         // on the circle: x = cosφ, |y| ≤ sinφ
@@ -359,36 +392,31 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         if cut.any() {
             let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
             let span = round.sqrt();
-            let phi = span.atan2(w.x);
-            let in_segment = segment(phi.clamped(zero, R::lit(FRAC_PI_2)));
-            let on_circle = span.le(self.sin_theta) & w.x.gt(zero);
+            let in_segment = segment_of(span.lesser(one), w.x.clamped(zero, one));
+            // of x and the span, the one that changes faster tells on which side of the chord the point is
+            let near_side = R::blend(w.x.gt(half), self.sin_theta - span, w.x - self.cos_theta);
+            let on_circle = near_side.ge(zero);
             let c = (-across).clamped(-one, one);
             // sinφ from y, and from the height of z above the rim at the same x
             let rim = (self.cos_omega * self.cos_sigma + self.sin_omega * self.sin_sigma * c).greater(zero);
             let s = (w.y.mul_add(w.y, ((z - rim) * (z + rim)).greater(zero)).sqrt() / self.sin_sigma).lesser(one);
-            let phi = s.atan2(c.abs());
-            let from_left = segment(phi);
-            let from_left = R::blend(c.lt(zero), R::lit(PI) - from_left, from_left) * area;
-            let from_right = R::blend(on_circle, in_segment, self.projected - from_left);
-            let high = R::blend(on_circle, span, self.sin_sigma * s);
-            let found = Vec2 {
-                x: unit_interval(ratio(from_right, self.projected)),
-                y: unit_interval(half.mul_add(ratio(w.y, high), half)),
-            };
-            u = Vec2 { x: R::blend(cut, found.x, u.x), y: R::blend(cut, found.y, u.y) };
+            let from_end = segment_of(s, c.abs()) * area;
+            let on_ellipse = R::blend(c.lt(zero), self.rest + from_end, self.projected - from_end);
+            let from_right = R::blend(on_circle, in_segment, on_ellipse);
+            let mut high = R::blend(on_circle, span, self.sin_sigma * s);
+            let x = unit_interval(ratio(from_right, self.projected));
+            // u₀ ends before 1, at a slice that may be far from the end of a thin ellipse
+            let last = x.ge(R::ONE_MINUS_EPSILON) & !on_circle;
+            if last.any() {
+                let (circle, s, _) = self.cut_slice(x);
+                high = R::blend(last, R::blend(circle, s, self.sin_sigma * s), high);
+            }
+            let y = unit_interval(half.mul_add(ratio(w.y, high), half));
+            u = Vec2 { x: R::blend(cut, x, u.x), y: R::blend(cut, y, u.y) };
         }
         if below.any() {
-            let t = ratio(w.y.abs(), self.sin_theta).lesser(one);
-            let slice = self.slice(t, true);
-            let mut left = half - half * ratio(slice.area, self.half);
-            let ends = Self::ends(left + left);
-            if ends.any() {
-                left = R::blend(ends, half * ratio(self.tail(t), self.half), left);
-            }
-            let arc = ((one - w.y) * (one + w.y)).greater(zero).sqrt();
-            let inward = ratio(z * z, arc + w.x.greater(zero));
-            let x = unit_interval(R::blend(w.y.lt(zero), left, one - left));
-            let y = unit_interval(ratio(inward, self.width(t)));
+            let found = self.invert_in_lune(w);
+            let (x, y) = (unit_interval(found.x), unit_interval(found.y));
             u = Vec2 { x: R::blend(below, x, u.x), y: R::blend(below, y, u.y) };
         }
         u

@@ -1,76 +1,28 @@
 //! A cap cut by the horizon with its centre below: the lune between circle and ellipse.
+//!
+//! All slices have one unit, sin³θ (1 − κ) for areas and sin²θ (1 − κ) for widths, so that nothing here under- or overflows.
 
 use super::ProjectedCap;
+use super::segment::{segment_difference, segment_ratio};
 use crate::math::{double, ratio};
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 
-/// C(x), and (C(x) − C(y))/(1 − x²/y²), for 0 ≤ x ≤ y, with C(x) = ∫₀¹ (1−s²)/(1+x²s²) ds.
-///
-/// Up to 1 (2.5 in single precision) by Gauss–Legendre quadrature, where (C(x)−C(y))/(y²−x²) = ∫ s²(1−s²)/((1+x²s²)(1+y²s²))
-/// ds; beyond, in closed form.
-#[inline]
-pub(super) fn arcs<R: Real>(x: R, y: R) -> (R, R) {
-    // s² and weight · (1−s²)
-    const NARROW: [(f64, f64); 5] = [
-        (0.022_163_568_807_217_638, 0.288_974_353_226_087_8),
-        (0.187_831_567_652_445_52, 0.218_689_929_305_368_82),
-        (0.461_597_361_496_266_73, 0.117_956_675_638_790_13),
-        (0.748_334_627_387_280_5, 0.037_611_729_322_003_11),
-        (0.948_493_926_288_368_7, 0.003_433_979_174_416_841),
-    ];
-    const WIDE: [(f64, f64); 10] = [
-        (0.005_856_308_436_795_614_6, 0.151_858_816_180_923_5),
-        (0.051_886_393_980_323_686, 0.141_432_938_125_265_2),
-        (0.139_656_240_742_977, 0.122_251_500_866_774),
-        (0.260_985_093_682_225_4, 0.097_319_866_806_633_61),
-        (0.404_564_284_765_747_5, 0.070_377_245_675_284_54),
-        (0.557_011_314_600_443_3, 0.045_153_889_780_458_76),
-        (0.704_117_292_400_090_4, 0.024_640_147_777_813_36),
-        (0.832_171_652_087_023_6, 0.010_518_146_332_235_684),
-        (0.929_241_876_579_895_5, 0.002_872_880_980_848_451),
-        (0.986_304_414_519_349_03, 0.000_241_234_140_431_037_57),
-    ];
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let quadrature = |nodes: &[(f64, f64)], reach: R| {
-        let (x, y) = (x.lesser(reach), y.lesser(reach));
-        let (x2, y2) = (x * x, y * y);
-        let (mut first, mut both) = (zero, zero);
-        for &(s2, weight) in nodes {
-            let s2 = R::lit(s2);
-            let (dx, dy) = (x2.mul_add(s2, one), y2.mul_add(s2, one));
-            let term = R::lit(weight) / (dx * dy);
-            first = term.mul_add(dy, first);
-            both = term.mul_add(s2, both);
-        }
-        (first, both * y2)
-    };
-    let far = y.gt(one);
-    let (first, difference) = quadrature(if double::<R>() { &WIDE } else { &NARROW }, one);
-    if !far.any() {
-        return (first, difference);
-    }
-    // in single precision, the closed form has too few digits below 2.5, where twice as many nodes suffice
-    let reach = R::lit(if double::<R>() { 1.0 } else { 2.5 });
-    let wide = if double::<R>() { (first, difference) } else { quadrature(&WIDE, reach) };
-    let closed = |x: R| {
-        // ((1+x²) atan x − x)/x³, in terms of 1/x
-        let inverse = one / x.greater(one);
-        let square = inverse * inverse;
-        (one + square) * inverse * one.atan2(inverse) - square
-    };
-    let far_first = R::blend(x.gt(reach), closed(x), wide.0);
-    let q = x / y.greater(one);
-    let beyond = ratio(far_first - closed(y), (one - q) * (one + q));
-    let far_difference = R::blend(y.gt(reach), beyond, wide.1);
-    (R::blend(far, far_first, first), R::blend(far, far_difference, difference))
+/// Area of half a lune, from t = 0 to 1, from cosθ and κ cosθ.
+#[inline(always)]
+pub(super) fn half<R: Real>(cos_theta: R, near: R) -> R {
+    R::lit(0.5) * segment_difference(cos_theta, near)
 }
 
-/// A slice of the lune at ±t: its half-area up to t and its width, in units common to all slices of a cap.
-pub(super) struct Slice<R> {
-    pub(super) area: R,
+/// The slice of a lune at ±t.
+struct Slice<R> {
+    /// the half-area up to t
+    area: R,
+    /// the width
     width: R,
-    /// (d width/dt)/width
+    /// m = 1 − t²
+    m: R,
+    /// m (d width/dt)/width
     slope: R,
 }
 
@@ -80,10 +32,9 @@ impl<R: Real> ProjectedCap<R> {
     pub(super) fn lune(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
         let side = two.mul_add(u.x, -one);
-        let t = self.invert_lune(two * u.x.lesser(one - u.x));
-        let width = self.width(t);
-        let y = (self.sin_theta * t).copysign(side);
-        let arc = ((one - y) * (one + y)).greater(zero).sqrt();
+        let rest = self.invert_lune(two * u.x.lesser(one - u.x));
+        let (arc, width) = self.width(rest * (two - rest));
+        let y = (self.sin_theta * (one - rest)).copysign(side);
         let inward = width * u.y;
         let x = arc - inward;
         let z = (inward * (arc + x)).greater(zero).sqrt();
@@ -92,41 +43,83 @@ impl<R: Real> ProjectedCap<R> {
         let beyond = width * (one - u.y) * (self.sin_omega - self.cos_omega * ratio(x + rim_x, z + rim_z));
         (Vec3::new(x, y, z), beyond)
     }
-    /// Width of the lune at ±t, on the unit disk.
-    #[inline(always)]
-    pub(super) fn width(&self, t: R) -> R {
-        self.sin_theta * self.tan_theta * self.sin_omega * self.sin_omega * self.slice(t, false).width
-    }
-    /// The slice at t; `area` is 0 without `with_area`.
+    /// The inverse of [`lune`](Self::lune).
     #[inline]
-    pub(super) fn slice(&self, t: R, with_area: bool) -> Slice<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let (a, beta) = (self.tan_theta, self.beta);
-        let m = ((one - t) * (one + t)).greater(zero);
-        let p = (a * a).mul_add(m, one).sqrt();
-        let q = beta.mul_add(beta, m).sqrt();
-        let (p1, q1, pq) = (one + p, beta + q, beta.mul_add(p, q));
-        // two divisions serve all the quotients below: P ≥ 1, and Q ≥ β ≥ 1e−9
-        let (a_pair, a_triple) = (one / (p * q), one / (p1 * q1 * pq));
-        let (by_p, by_q, by_pq) = (q * a_pair, p * a_pair, p1 * q1 * a_triple);
-        let width = m * m * a_triple;
-        let mut area = zero;
-        if with_area {
-            let (x, y) = (t * a * by_p, t * by_q);
-            let (c, difference) = arcs(x.lesser(y), y);
-            let tail = R::lit(0.5) * t * t * t * a_pair;
-            area = t.mul_add(width, tail * (c * m * by_pq + beta * difference * by_p));
+    pub(super) fn invert_in_lune(&self, w: Vec3<R>) -> Vec2<R> {
+        let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
+        let (x, z) = (w.x.greater(zero), w.z.greater(zero));
+        // near y = ±1, x and z determine 1 − t² better than y does
+        let tall = w.y.abs().gt(R::lit(0.7));
+        let arc = R::blend(tall, x.mul_add(x, z * z), (one - w.y) * (one + w.y)).greater(zero).sqrt();
+        let m =
+            ratio((arc - self.cos_theta) * (arc + self.cos_theta), self.sin_theta * self.sin_theta).clamped(zero, one);
+        let t = ratio(w.y.abs(), self.sin_theta).lesser(one);
+        let rest = R::blend(tall, m / (one + (one - m).sqrt()), one - t);
+        let mut left = half - half * ratio(self.slice(rest).area, self.part);
+        let ends = Self::ends(left + left);
+        if ends.any() {
+            left = R::blend(ends, half * ratio(self.tail(rest), self.part), left);
         }
-        // derivative of log m² − log(1+P) − log(β+Q) − log(βP+Q) by m, times dm/dt = −2t
-        let (dp, dq) = (R::lit(0.5) * a * a * by_p, R::lit(0.5) * by_q);
-        let by_m = ratio(R::lit(2.0), m) - (dp * q1 + dq * p1) * pq * a_triple - beta.mul_add(dp, dq) * by_pq;
-        Slice { area, width, slope: -(t + t) * by_m }
+        let inward = ratio(z * z, arc + x);
+        Vec2 {
+            x: R::blend(w.y.lt(zero), left, one - left),
+            y: ratio(inward, self.width(rest * (R::lit(2.0) - rest)).1),
+        }
     }
-    /// The half-lune's area beyond t, in the units of a slice, by quadrature: a difference would leave few digits.
+    /// κ cosθ, the cosine of the ellipse's angle at the horizon.
+    #[inline(always)]
+    fn near(&self) -> R {
+        self.kappa * self.cos_theta
+    }
+    /// For m = 1 − t²: x on the circle and the ellipse's cosψ, both from sums of positive terms.
+    #[inline(always)]
+    fn cosines(&self, m: R) -> (R, R) {
+        let (one, near) = (R::lit(1.0), self.near());
+        let sin_squared = self.sin_theta * self.sin_theta;
+        let arc = (self.cos_theta * self.cos_theta + sin_squared * m).sqrt();
+        let ellipse = ((one - near) * (one + near)).mul_add(m, near * near).sqrt();
+        (arc, ellipse)
+    }
+    /// For m = 1 − t²: x on the circle, and the width of the lune on the unit disk.
+    #[inline(always)]
+    fn width(&self, m: R) -> (R, R) {
+        let (arc, width) = self.shape(m);
+        (arc, self.sin_theta * self.sin_theta * self.rest * width)
+    }
+    /// For m = 1 − t²: x on the circle, and the width in the units of the slices.
+    #[inline(always)]
+    fn shape(&self, m: R) -> (R, R) {
+        let (arc, ellipse) = self.cosines(m);
+        let below = (self.cos_theta + arc) * (self.near() + ellipse) * self.kappa.mul_add(arc, ellipse);
+        (arc, (R::lit(1.0) + self.kappa) * ratio(m * m, below))
+    }
+    /// The slice at t = 1 − `rest`.
+    #[inline(always)]
+    fn slice(&self, rest: R) -> Slice<R> {
+        let (one, half) = (R::lit(1.0), R::lit(0.5));
+        let (t, m) = (one - rest, rest * (R::lit(2.0) - rest));
+        let (arc, ellipse) = self.cosines(m);
+        let near = self.near();
+        let (outer, inner, c) = (self.cos_theta + arc, near + ellipse, self.kappa.mul_add(arc, ellipse));
+        let (ends, sum) = (outer * inner, arc + ellipse);
+        // two divisions serve all the quotients below
+        let (by_ends, by_both) = (ratio(one, ends * c), ratio(one, arc * ellipse * sum));
+        let (by_c, by_sum) = (ends * by_ends, arc * ellipse * by_both);
+        let (by_arc, by_ellipse) = (ellipse * (sum * by_both), arc * (sum * by_both));
+        let up = one + self.kappa;
+        let width = up * (m * m) * by_ends;
+        let across = m * by_c * segment_ratio(arc);
+        let along = near * self.cos_theta * (t * t) * by_sum * segment_difference(arc, ellipse);
+        let area = t * (half * (t * t) * up * by_ellipse).mul_add(across + along, width);
+        // m times the derivative of log width by t, at most 4
+        let shares = self.cos_theta.mul_add(by_arc, near * by_ellipse);
+        let slope = -t * (one + (near * by_c).mul_add(shares, shares));
+        Slice { area, width, m, slope }
+    }
+    /// The half-area beyond t = 1 − `rest`, by quadrature: a difference would leave few digits.
     #[inline]
-    pub(super) fn tail(&self, t: R) -> R {
-        let one = R::lit(1.0);
-        let rest = one - t;
+    fn tail(&self, rest: R) -> R {
+        let two = R::lit(2.0);
         let mut sum = R::lit(0.0);
         for (x, weight) in [
             (0.0198550717512319, 0.0506142681451885),
@@ -138,55 +131,61 @@ impl<R: Real> ProjectedCap<R> {
             (0.8983332387068134, 0.1111905172266872),
             (0.9801449282487681, 0.0506142681451885),
         ] {
-            // in terms of √(1−t), where P and Q have no steep root
-            sum = R::lit(2.0 * weight * x).mul_add(self.slice(rest.mul_add(R::lit(-x * x), one), false).width, sum);
+            // in terms of √(1−t), where the lune has no steep root
+            let part = rest * R::lit(x * x);
+            sum = R::lit(2.0 * weight * x).mul_add(self.shape(part * (two - part)).1, sum);
         }
         sum * rest
     }
-    /// Where single precision would leave few digits of the area beyond t: a share of less than 1/8 of the half.
+    /// Where single precision would leave few digits of the area beyond t: a share of less than 1/64 of the half.
     #[inline(always)]
-    pub(super) fn ends(share: R) -> R::Mask {
-        share.lt(R::lit(if double::<R>() { -1.0 } else { 0.125 }))
+    fn ends(share: R) -> R::Mask {
+        share.lt(R::lit(if double::<R>() { -1.0 } else { 1.0 / 64.0 }))
     }
-    /// The t in [0, 1] beyond which lies the share `left` of the half-lune.
+    /// 1 − t for the t in [0, 1] beyond which lies the share `left` of the half-lune.
     #[inline]
     fn invert_lune(&self, left: R) -> R {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let v = one - left;
-        let target = v * self.half;
+        // fitted within 0.013, over all lunes, to polynomials of ∛left and of the mean width over the greatest
+        const START: [[f64; 3]; 4] = [
+            [3.79463, -7.63498, 3.56300],
+            [-6.93468, 20.43162, -13.23997],
+            [6.91802, -22.14491, 16.69282],
+            [-2.79944, 9.41089, -7.06435],
+        ];
+        let (one, half) = (R::lit(1.0), R::lit(0.5));
+        let target = (one - left) * self.part;
         let ends = Self::ends(left);
-        let start = self.slice(zero, false);
-        // estimates from the two ends: area ≈ width · t; and near P = 1 and t = 1, with r = Q − β, the rest is r⁴/8 + βr³/6
-        let near = v * ratio(self.half, start.width);
-        let rest = left.greater(zero) * self.half;
-        let mut r = (R::lit(8.0) * rest).sqrt().sqrt().lesser((R::lit(6.0) * ratio(rest, self.beta)).cbrt());
-        for _ in 0..2 {
-            let (cube, sum) = (r * r * r, R::lit(0.5) * (r + self.beta));
-            let off = cube.mul_add(R::lit(0.125).mul_add(r, R::lit(1.0 / 6.0) * self.beta), -rest);
-            r -= ratio(off, r * r * sum);
-        }
-        let far = (one - r * (r + self.beta + self.beta)).greater(zero).sqrt();
-        let mut t = R::blend(v.lt(R::lit(0.5)), near, near.greater(far)).clamped(zero, one);
+        let mean = (one + self.cos_theta) * (one + self.near()) * self.part;
+        // ∛left within 1e−4
+        let guess = left.greater(R::lit(1e-30)).inverse_cbrt_estimate();
+        let off = one - left * guess * guess * guess;
+        let guess = (guess * off).mul_add(R::lit(2.0 / 9.0).mul_add(off, R::lit(1.0 / 3.0)), guess);
+        let root = left * guess * guess;
+        let start = START.map(|[c0, c1, c2]| mean.mul_add(mean.mul_add(R::lit(c2), R::lit(c1)), R::lit(c0)));
+        let series = root.mul_add(root.mul_add(root.mul_add(start[3], start[2]), start[1]), start[0]);
+        // the thickest lune has 0.88 root² near its ends
+        let mut rest = (root * series).greater(half * root * root).lesser(one);
         // a step cubes the error, so one below `enough` of the rest is the last
-        let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 256.0) };
+        let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 128.0) };
         let mut open = R::Mask::splat(true);
         for _ in 0..steps {
-            let slice = self.slice(t, true);
+            let slice = self.slice(rest);
             let mut off = slice.area - target;
             if (ends & open).any() {
-                off = R::blend(ends, left * self.half - self.tail(t), off);
+                off = R::blend(ends, left * self.part - self.tail(rest), off);
             }
-            let newton = ratio(off, slice.width);
-            // Halley: off/(1 − ½ off f′/f)
-            let halley = one - R::lit(0.5) * newton * slice.slope;
-            let step = newton / halley.greater(R::lit(0.5));
+            // Halley's method, off/(f − ½ off f′/f), and at most twice Newton's step
+            let steep = slice.m * slice.width;
+            let step = ratio(slice.m * off, (steep - half * off * slice.slope).greater(half * steep));
             // a converged lane stays as it is, so that it does not depend on its neighbours
-            t = R::blend(open, (t - step).clamped(zero, one), t);
-            open = open & (step.abs()).gt(R::lit(enough) * (one - t));
+            let next = (rest + step).greater(R::lit(0.125) * rest).lesser(one);
+            let moves = (next - rest).abs().gt(R::lit(enough) * next);
+            rest = R::blend(open, next, rest);
+            open = open & moves;
             if !open.any() {
                 break;
             }
         }
-        t
+        rest
     }
 }

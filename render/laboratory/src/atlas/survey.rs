@@ -212,7 +212,7 @@ fn nearest(truth: &Truth, u: [f32; 2], w: V3, enough: f64) -> f64 {
     let (mut best, mut at) = (apart(center), center);
     // finer and finer grids about the nearest point so far: the direction may turn within a small part of a step
     let (mut reach, mut points) = (U_ULP, 8);
-    while best > enough && reach > U_ULP * 1e-4 {
+    while best > enough && reach > U_ULP * 1e-8 {
         let middle = at;
         for i in -points..=points {
             for j in -1..=1 {
