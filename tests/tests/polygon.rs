@@ -97,7 +97,7 @@ fn a_parallelogram_is_a_polygon() {
 // whichever corner stands for several, and whether the polygon faces the surface, contains the zenith or crosses the horizon
 #[test]
 fn samples_of_polygons_with_repeated_corners_hit_them() {
-    let mut random = Random(9);
+    let mut random = Random::new(9);
     for _ in 0..300 {
         let (corners, n) = polygon::<5>(1.0, 1.5, 0, &mut random);
         for repeated in 0..5 {
