@@ -196,6 +196,39 @@ fn alias_table_counts() {
     }
 }
 
+/// The buckets give each item exactly its share: below its threshold a bucket is its own, the rest is its alias's.
+#[test]
+fn alias_buckets_hold_the_shares() {
+    let mut random = Random::new(12);
+    for n in [1_usize, 2, 3, 5, 17, 256, 1000] {
+        for round in 0..20 {
+            // from nearly equal weights to very different ones, some of them 0
+            let spread = f64::from(round) * 0.5;
+            let weights: Vec<f32> = (0..n)
+                .map(|i| {
+                    let weight = (spread * random.range(-1.0, 1.0)).exp() as f32;
+                    if i > 0 && round % 4 == 3 && random.below(3) == 0 { 0.0 } else { weight }
+                })
+                .collect();
+            let (mut thresholds, mut aliases) = (vec![0.0; n], vec![0; n]);
+            AliasTable::build(&weights, &mut thresholds, &mut aliases).unwrap();
+            let mut shares = vec![0.0; n];
+            for (bucket, (&threshold, &alias)) in thresholds.iter().zip(&aliases).enumerate() {
+                assert!((0.0..=1.0).contains(&threshold), "{n} {round}: bucket {bucket} has threshold {threshold}");
+                shares[bucket] += f64::from(threshold);
+                shares[alias as usize] += 1.0 - f64::from(threshold);
+            }
+            let sum: f64 = weights.iter().map(|&weight| f64::from(weight)).sum();
+            for (i, (share, &weight)) in shares.into_iter().zip(&weights).enumerate() {
+                let truth = f64::from(weight) / sum * n as f64;
+                // each threshold is rounded to single precision
+                let buckets = 1.0 + aliases.iter().filter(|alias| **alias as usize == i).count() as f64;
+                assert!((share - truth).abs() < 1e-7 * buckets, "{n} {round}: item {i} has {share}, not {truth}");
+            }
+        }
+    }
+}
+
 /// One-dimensional tables give the same bits at every width.
 #[test]
 fn lanes() {
@@ -241,5 +274,10 @@ fn invalid_tables_are_errors() {
         assert_eq!(alias(weights, n), Some(error));
         let side = if n == 4 { 2 } else { n };
         assert_eq!(image(weights, side), Some(error), "{weights:?}");
+    }
+    // either of two buffers
+    for (thresholds, aliases) in [(2, 3), (4, 3), (3, 2), (3, 4)] {
+        let built = AliasTable::build(&[1.0; 3], &mut vec![0.0; thresholds], &mut vec![0; aliases]).err();
+        assert_eq!(built, Some(TableError::Length), "{thresholds} {aliases}");
     }
 }

@@ -2,7 +2,7 @@
 
 use etendue::estimate::{Heuristic, Measured, Reservoir, Welford, log_variance_error, technique_pdf};
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Real, Uint, Vec2, f32x4, f32x8, f32x16};
+use etendue::{LightSample, LightSampler, PointLight, Real, Sphere, Triangle, Uint, Vec2, Vec3, f32x4, f32x8, f32x16};
 use etendue_properties::checks::{self, EXTREMES, HEURISTICS};
 use etendue_properties::stats;
 
@@ -101,6 +101,88 @@ fn combinations_are_unbiased() {
             }
         }
         assert!((sum - 1.0 / 3.0).abs() < 1e-5, "{heuristic:?}: {sum}");
+    }
+}
+
+/// A direction that both the light and the surface can draw has weights of both that sum to 1, and a delta light has all.
+#[test]
+fn weights_of_both_techniques_sum_to_one() {
+    let p = Vec3::lit([0.0, 0.0, 0.0]);
+    let triangle = Triangle::new(Vec3::lit([-1.0, 2.0, -1.0]), Vec3::lit([1.5, 2.0, 0.0]), Vec3::lit([0.0, 2.5, 1.0]));
+    let sphere = Sphere::new(Vec3::lit([1.0, 2.0, 0.5]), 0.4_f32);
+    let (by_angle, by_area, ball) = (
+        triangle.by_solid_angle(p),
+        triangle.by_area(p),
+        sphere.by_projected_solid_angle(p, Vec3::lit([0.0, 1.0, 0.0])),
+    );
+    let lights: [(&str, &dyn Fn(Vec2<f32>) -> [LightSample<f32>; 2]); 3] = [
+        ("triangle by solid angle", &|u| both(&by_angle, u)),
+        ("triangle by area", &|u| both(&by_area, u)),
+        ("sphere by projected solid angle", &|u| both(&ball, u)),
+    ];
+    for (name, light) in lights {
+        let mut compared = 0;
+        for i in 0..500 {
+            let [sample, hit] = light(Independent::new(4).pair(0, i, 0));
+            let u: Vec2<f32> = Independent::new(4).pair(0, i, 1);
+            // from a pdf far below that of the light to one far above
+            let bsdf = sample.pdf * (u.x * 20.0 - 10.0).exp2();
+            for heuristic in HEURISTICS {
+                let of_light = heuristic.light_weight(&sample, bsdf) * sample.pdf;
+                let of_bsdf = heuristic.bsdf_weight(bsdf, &hit) * bsdf;
+                let off = of_light + of_bsdf - 1.0;
+                assert!(!sample.valid() || off.abs() < 5e-7, "{name}, {heuristic:?}: {of_light} + {of_bsdf}");
+                // neither counts where the light does not emit, nor for a direction that the surface cannot draw
+                let dark = LightSample { emits: false, ..sample };
+                assert_eq!([heuristic.light_weight(&dark, bsdf), heuristic.bsdf_weight(bsdf, &dark)], [0.0; 2]);
+                assert_eq!(heuristic.bsdf_weight(0.0, &hit), 0.0);
+                // a mirror counts as pdf 1
+                assert!(!sample.valid() || heuristic.bsdf_weight(f32::INFINITY, &hit) == 1.0);
+            }
+            compared += u32::from(sample.valid());
+        }
+        assert!(compared > 400, "{name}: {compared}");
+    }
+    let point = PointLight::new(Vec3::lit([0.0, 3.0, 0.0])).prepare(p).sample(Vec2::lit([0.5, 0.5]));
+    assert!(point.delta);
+    for heuristic in HEURISTICS {
+        assert_eq!(heuristic.light_weight(&point, 7.0), 1.0 / point.pdf);
+    }
+}
+
+/// A sample of a light, and what a ray of its direction hits.
+fn both(light: &impl LightSampler<f32>, u: Vec2<f32>) -> [LightSample<f32>; 2] {
+    let sample = light.sample(u);
+    [sample, light.hit(sample.direction)]
+}
+
+/// Over all sequences of n values of a small distribution, the variance of a sequence has the expectation σ², also of merged parts.
+#[test]
+fn variance_has_the_true_expectation() {
+    let (values, chances) = ([0.0, 1.0, 7.0], [0.5, 0.3, 0.2]);
+    let mean = 0.3 + 1.4;
+    let variance = 0.3 + 0.2 * 49.0 - mean * mean;
+    for n in 2_u32..8 {
+        let mut expectations = [0.0; 3];
+        for sequence in 0..3_usize.pow(n) {
+            let digits = (0..n).map(|k| sequence / 3_usize.pow(k) % 3);
+            let chance: f64 = digits.clone().map(|digit| chances[digit]).product();
+            let run = |range: core::ops::Range<usize>| {
+                let mut welford = Welford::<f64>::default();
+                digits.clone().skip(range.start).take(range.len()).for_each(|digit| welford.push(values[digit]));
+                welford
+            };
+            let n = n as usize;
+            let (whole, merged) = (run(0..n), run(0..n / 3).merge(run(n / 3..n)));
+            for (expectation, figure) in
+                expectations.iter_mut().zip([whole.mean(), whole.variance(), merged.variance()])
+            {
+                *expectation += chance * figure;
+            }
+        }
+        for (expectation, truth) in expectations.into_iter().zip([mean, variance, variance]) {
+            assert!((expectation - truth).abs() < 1e-12, "{n}: {expectations:?}");
+        }
     }
 }
 

@@ -300,6 +300,41 @@ fn light(center: [f32; 3], radius: f32, power: f32) -> LightBound {
     LightBound { center, radius, power, ..LightBound::default() }
 }
 
+/// A light whose place, size or power is not finite is never chosen, and the others share as without it.
+#[test]
+fn malformed_lights_are_never_chosen() {
+    let good = [light([1.0, 0.0, 2.0], 0.1, 1.0), light([-1.0, 0.5, 2.0], 0.2, 3.0)];
+    let place = ([0.0; 3], [0.0, 0.0, 1.0]);
+    let alone = Grove::new(good.to_vec());
+    for odd in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for malformed in [
+            light([odd, 0.0, 2.0], 0.1, 1.0),
+            light([0.0, 0.0, odd], 0.1, 1.0),
+            light([0.0, 0.0, 2.0], odd, 1.0),
+            light([0.0, 0.0, 2.0], 0.1, odd),
+        ] {
+            let grove = Grove::new(vec![good[0], malformed, good[1]]);
+            assert_eq!(grove.pmf(place, 1), 0.0, "{malformed:?}");
+            for (light, own) in [(0, 0), (2, 1)] {
+                // a share is a multiple of 2⁻¹⁶, and the last light receives what the others leave
+                let off = grove.pmf(place, light) - alone.pmf(place, own);
+                assert!(off.abs() <= 2.0 / 65_536.0, "{malformed:?}: light {light} is off by {off}");
+            }
+        }
+    }
+}
+
+/// On the axis of a spot light, nearly all samples are its own as soon as its cone is narrow, even if its cosine is 1.
+#[test]
+fn narrow_spots_take_the_place_they_light() {
+    for cos_cone in [0.999, 0.999_999_94, 1.0] {
+        let spot = LightBound { normal: [0.0, 0.0, -1.0], cos_cone, ..light([0.0, 0.0, 2.0], 0.0, 1.0) };
+        let grove = Grove::new(vec![spot, light([0.5, 0.0, 2.0], 0.0, 1.0)]);
+        let pmf = [0, 1].map(|light| grove.pmf(([0.0; 3], [0.0, 0.0, 1.0]), light));
+        assert!(pmf[0] > 0.99 && pmf[1] > 0.0 && pmf[0] + pmf[1] == 1.0, "{cos_cone}: {pmf:?}");
+    }
+}
+
 #[test]
 fn memory_of_the_wrong_size_is_refused() {
     let lights: Vec<_> = (0..100).map(|i| light([i as f32, 0.0, 1.0], 0.1, 1.0)).collect();
@@ -318,6 +353,8 @@ fn memory_of_the_wrong_size_is_refused() {
     assert_eq!(LightTree::refit(&lights[1..], &mut nodes, &places), Err(TableError::Length));
     assert_eq!(LightTree::refit(&lights, &mut nodes[1..], &places), Err(TableError::Length));
     assert_eq!(LightTree::refit(&lights[1..], &mut nodes, &places[1..]), Err(TableError::Length));
+    let more: Vec<_> = lights.iter().chain(&lights[..1]).copied().collect();
+    assert_eq!(LightTree::refit(&more, &mut nodes, &places), Err(TableError::Length));
     let none = Grove::new(Vec::new());
     assert!(none.tree().is_empty());
     let choice = none.at(([0.0; 3], [0.0, 0.0, 1.0])).choose_by([1 << 31, 0]);

@@ -1,9 +1,11 @@
 //! Lights: means against closed forms, points on the shape, lanes, scale, arguments of any bits.
 
 use core::f64::consts::{PI, TAU};
+use etendue::warp::per_steradian;
 use etendue::{
-    ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, PointLight, Real,
-    Rectangle, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8, f32x16,
+    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask,
+    Parallelogram, PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
+    f32x16,
 };
 use etendue_oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, perpendicular_disk, projected_polygon, sub, unit,
@@ -96,6 +98,61 @@ fn disk_has_its_variance() {
         let truth = 4.0 * PI * PI * (1.0 - c) * (1.0 - c * c * c) / 3.0;
         assert!((by_solid_angle / truth - 1.0).abs() < 1e-5, "{k}: {by_solid_angle} for {truth}");
     }
+}
+
+/// The area of each light that is sampled by it, against closed forms, and the mean of what its samples are worth.
+#[test]
+fn areas_are_those_of_the_shapes() {
+    fn check(name: &str, own: f64, sampler: &impl LightSampler<f64>, area: f64) {
+        // nine Gauss points measure a twisted patch
+        assert!((own / area - 1.0).abs() < 2e-5, "{name}: {own} is not {area}");
+        let worth = mean(64, |u| sampler.area_sample(u).weight());
+        assert!((worth / area - 1.0).abs() < 2e-5, "{name}: samples are worth {worth}, not {area}");
+    }
+    let place = Vec3::lit([0.3, -0.2, 0.1]);
+    let [p, u, v, w] = [[1.0, 0.5, 2.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]].map(Vec3::<f64>::lit);
+    let triangle = Triangle::new(p, p + u, p + w).by_area(place);
+    check("triangle", triangle.area(), &triangle, 1.0);
+    let parallelogram = Parallelogram::new(p, u, w).by_area(place);
+    check("parallelogram", parallelogram.area(), &parallelogram, 2.0);
+    let rectangle = Rectangle::new(p, u, v).by_area(place);
+    check("rectangle", rectangle.area(), &rectangle, 2.0);
+    let polygon = Polygon::new([p, p + u, p + w, p + v, p + v * 0.5]).by_area(place);
+    check("polygon", polygon.area(), &polygon, 1.5);
+    let disk = Disk::new(p, Vec3::lit([0.0, 0.6, 0.8]), 0.5).by_area(place);
+    check("disk", disk.area(), &disk, 0.25 * PI);
+    let sphere = Sphere::new(p, 0.5).by_area(place);
+    check("sphere", sphere.area(), &sphere, PI);
+    let cylinder = Cylinder::new(p, u, 0.25).by_area(place);
+    check("cylinder", cylinder.area(), &cylinder, PI);
+    let trapezium = BilinearPatch::new(p, u, v, w).by_area(place);
+    check("trapezium", trapezium.area(), &trapezium, 1.5);
+    // z = st over a square
+    let saddle = BilinearPatch::new(p, u * 0.5, v, Vec3::lit([1.0, 1.0, 1.0])).by_area(place);
+    let nodes = gauss_legendre::<20>();
+    let by_s = |s: f64| nodes.iter().map(|(t, weight)| weight * (1.0 + s * s + t * t).sqrt()).sum::<f64>();
+    check("saddle", saddle.area(), &saddle, nodes.iter().map(|&(s, weight)| weight * by_s(s)).sum());
+}
+
+/// A pdf per unit area becomes the pdf of the direction, whichever side of the surface the normal points to; 0 edge-on.
+#[test]
+fn pdf_per_area_becomes_one_per_steradian() {
+    let mut random = Random::new(31);
+    let disk = Disk::new(Vec3::lit([0.4, -1.0, 2.0]), unit([0.3, 0.2, -0.7]).into(), 0.7_f64).by_area(origin());
+    for _ in 0..200 {
+        let s = disk.sample(Vec2::new(random.unit_f64(), random.unit_f64()));
+        let point = s.direction * s.distance;
+        for normal in [s.normal, -s.normal] {
+            let pdf = per_steradian(1.0 / disk.area(), point, normal);
+            assert!((pdf / s.pdf - 1.0).abs() < 1e-12, "{pdf} is not {}", s.pdf);
+        }
+    }
+    let per_steradian = |point: [f32; 3], normal: [f32; 3]| per_steradian(2.0_f32, point.into(), normal.into());
+    assert_eq!(per_steradian([0.0, 0.0, 3.0], [0.0, 0.0, 1.0]), 18.0);
+    assert_eq!(per_steradian([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]), 18.0);
+    // edge-on, and where the result is too large
+    assert_eq!(per_steradian([0.0, 0.0, 3.0], [1.0, 0.0, 0.0]), 0.0);
+    assert_eq!(per_steradian([0.0, 0.0, 1e19], [0.0, 0.0, 1.0]), 0.0);
 }
 
 #[test]

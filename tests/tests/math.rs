@@ -55,6 +55,8 @@ fn exact_values() {
     assert_eq!([0.0_f32, 1.0].map(one_minus_cos), [0.0, 1.0]);
     assert_eq!([0.0, -0.0, 1e-40, 1.0, 8.0].map(|x: f32| Real::cbrt(x)), [0.0, 0.0, 0.0, 1.0, 2.0]);
     assert_eq!([-1e30_f32, -100.0, -0.0, 0.0].map(Real::exp), [0.0, 0.0, 1.0, 1.0]);
+    // the last number that is not 0, and the next below it
+    assert!(Real::exp(-87.3_f32) > 0.0 && Real::exp((-87.3_f32).next_down()) == 0.0);
     assert_eq!([-1e30_f32, -0.0, 0.0].map(Real::exp_m1), [-1.0, 0.0, 0.0]);
     assert!(Real::exp(1e30_f32).is_finite() && Real::exp_m1(1e30_f32).is_finite());
     assert_eq!(Real::ln_1p(0.0_f32), 0.0);

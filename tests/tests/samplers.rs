@@ -1,7 +1,7 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
-use etendue::{LightSampler, Mask, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3, f32x8};
-use etendue_oracle::{cross, dot, length, sub, wide};
+use etendue::{LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, f32x8};
+use etendue_oracle::{cross, dot, length, sub, unit, wide};
 use etendue_properties::generators::Random;
 use etendue_properties::properties::{Coordinates, squares_of};
 use etendue_properties::techniques::{self, AreaLight, LightShape, Measure, Technique};
@@ -199,4 +199,36 @@ fn invalid_lanes_weigh_nothing() {
     let s = back.by_solid_angle(zero).sample(u);
     assert!(s.pdf.lane(0) > 0.0 && s.two_sided().valid().all());
     assert_eq!(s.two_sided().weight(), f32x8::splat(1.0) / s.pdf);
+}
+
+/// The point is beside the middle of an edge, as near to it as a millionth of its length: samples on that edge belong to the rectangle.
+/// Its ends are seen in nearly opposite directions, so that rounding turns the plane through it.
+#[test]
+fn edges_beside_the_point_belong_to_their_rectangle() {
+    let mut random = Random::new(60);
+    for _ in 0..20_000 {
+        let s = random.direction();
+        let t = unit(cross(s, random.direction()));
+        let n = cross(s, t);
+        let near = |random: &mut Random| 10.0_f64.powf(-6.0 * random.unit_f64());
+        let length = random.magnitude(1e-7, 10.0);
+        let other = length * random.magnitude(1e-2, 1e2);
+        let (along, height) = (-length * random.range(0.3, 0.7), length * near(&mut random));
+        // the first edge of this direction, or the second
+        let (first, off) = (random.word().is_multiple_of(2), length * near(&mut random));
+        let across = if first { off } else { -other - off };
+        let corner: [f64; 3] = core::array::from_fn(|k| along * s[k] + across * t[k] + height * n[k]);
+        let number = random.range(0.3, 0.7) as f32;
+        let end = if first { 0.0 } else { f32::ONE_MINUS_EPSILON };
+        let edges = [s.map(|x| (x * length) as f32), t.map(|x| (x * other) as f32)];
+        for (u, v, number) in
+            [(edges[0], edges[1], Vec2::new(number, end)), (edges[1], edges[0], Vec2::new(end, number))]
+        {
+            let rectangle = Rectangle::new(corner.map(|x| x as f32).into(), u.into(), v.into());
+            let sampler = rectangle.by_solid_angle(Vec3::from([0.0; 3]));
+            let sample = sampler.sample(number);
+            let pdf = sampler.pdf(sample.direction);
+            assert_eq!(pdf, sample.pdf, "{rectangle:?} at {number:?}: {sample:?}");
+        }
+    }
 }

@@ -107,6 +107,7 @@ fn main() {
             other("spheres_are_hit_on_the_near_side", spheres_are_hit_on_the_near_side),
             other("no_point_is_beyond_its_shape", no_point_is_beyond_its_shape),
             other("nasty_rectangles", nasty_rectangles),
+            other("mirrors_have_no_density", mirrors_have_no_density),
         ],
     );
     let mut checked = CHECKED.lock().unwrap();
@@ -226,6 +227,32 @@ fn no_point_is_beyond_its_shape() {
     check(&cases("nearly in plane").map(|(n, [v, a, b])| (n, Parallelogram::new(v, a, b))).collect::<Vec<_>>());
     check(&generators::rectangles(4, 14));
     check(&generators::hexagons(4, 15));
+}
+/// Surfaces too smooth for a density, and views that see no normal, have pdf 0 everywhere; a little rougher, they have one.
+fn mirrors_have_no_density() {
+    use etendue::warp::{GgxVisibleNormals, Warp};
+    use etendue::{Vec2, Vec3};
+    let (view, up, below) = ([0.6_f32, 0.0, 0.8], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]);
+    for (alpha, wi, some) in [
+        ([1e-15, 0.5], view, false),
+        ([0.5, 1e-15], view, false),
+        ([0.0, 0.0], up, false),
+        ([-0.5, 0.5], view, false),
+        ([0.5, 0.5], [0.0; 3], false),
+        ([0.5, 0.5], below, false),
+        ([1e-6, 0.5], view, true),
+        ([0.5, 0.5], view, true),
+    ] {
+        let normals = GgxVisibleNormals::new(alpha[0], alpha[1], Vec3::from(wi));
+        for [x, y] in generators::square(20, 8) {
+            let m = normals.sample(Vec2::new(x, y));
+            let densities = [normals.pdf(m), normals.reflected_pdf(m)];
+            assert!((m.length_squared() - 1.0).abs() < 1e-5, "{alpha:?} {wi:?}: {m:?}");
+            assert!(some || densities == [0.0; 2], "{alpha:?} {wi:?}: {densities:?} at {m:?}");
+        }
+        let around = normals.pdf(normals.sample(Vec2::new(0.5, 0.5)));
+        assert_eq!(around > 0.0, some, "{alpha:?} {wi:?}: {around}");
+    }
 }
 fn nasty_rectangles() {
     let mut random = Random::new(15);
