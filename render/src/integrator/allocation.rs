@@ -75,3 +75,47 @@ impl Blocks {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each block of each pixel is allocated by the weights of that pixel, and continues the samples of the blocks before it, wherever the
+    /// search begins.
+    #[test]
+    fn blocks_follow_the_weights_of_their_pixel() {
+        let (lights, area) = (3, [5, 7, 8, 9]);
+        let of: Vec<f32> = (0..6 * lights).map(|i| (i * 7 % 11) as f32 + 0.5).collect();
+        let begun: Vec<[u32; APART]> = (0..6).map(|i| [i + 1, 2, 5 - i, 0, 0, 0, 0, 0]).collect();
+        for begun in [&[][..], &begun] {
+            let weights = Weights { lights, of: of.as_slice().into(), area, begun };
+            let mut blocks = Blocks::new(8);
+            for (pixel, [x, y]) in [[5, 7], [6, 7], [7, 7], [5, 8], [6, 8], [7, 8]].into_iter().enumerate() {
+                let own = &of[pixel * lights..][..lights];
+                let mut before = Allocation::NONE;
+                if let Some(begun) = begun.get(pixel) {
+                    before[..lights].copy_from_slice(&begun[..lights]);
+                }
+                // where the pilot has taken the first block, its samples are not asked for
+                let first = if begun.is_empty() { 0 } else { 8 };
+                for start in [0, 8, 16, 32, 64].into_iter().filter(|&start| start >= first) {
+                    let size = start.max(8);
+                    let last = before;
+                    let expected = Allocation::new(own, size, &mut before);
+                    for sample in [start, start + size - 1] {
+                        let (block, index) = blocks.find(&weights, [x, y], sample);
+                        assert_eq!(index, sample - start);
+                        let found = blocks.allocations()[block];
+                        for light in 0..lights as u32 {
+                            assert_eq!(found.share(light), expected.share(light), "pixel {pixel} from {start}");
+                        }
+                        let own = found.samples::<f32>(0);
+                        assert_eq!(own.sample, last[own.light as usize], "pixel {pixel} from {start}");
+                    }
+                }
+                blocks.forget();
+                assert_eq!(blocks.allocations().len(), 1);
+            }
+        }
+    }
+}

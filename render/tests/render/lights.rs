@@ -1,11 +1,14 @@
 //! Laws of the choice and the sampling of lights, which an image cannot show: a wrong weight of two percent hides in its noise.
 
 use etendue::sequence::{Independent, Sequence};
-use etendue::{Mask, Real, Uint, Vec2, u32x8};
+use etendue::{Mask, Real, Uint, Vec2, Vec3, u32x8};
+use etendue_render::geometry::Geometry;
 use etendue_render::lights::Lights;
 use etendue_render::packet::{V8, X8};
-use etendue_render::scene::{self, Scene};
+use etendue_render::scene::{self, DeltaLight, Scene};
+use etendue_render::sky::Sky;
 use etendue_render::technique::Measure;
+use std::sync::Arc;
 
 /// Points about the lights of a scene, each with a unit normal, and four random numbers.
 fn packet(scene: &Scene, number: u32) -> (V8, V8, [X8; 4]) {
@@ -64,6 +67,40 @@ fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
     assert!(kinds.iter().all(|&scenes| scenes > 0), "{kinds:?}");
 }
 
+/// The same of the sky, among other lights.
+#[test]
+fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
+    let mut compared = 0;
+    for (name, _) in scene::builtin() {
+        let mut scene = scene::load(name).unwrap();
+        let Some(environment) = scene.environment.take() else { continue };
+        let sky = Arc::new(Sky::new(&environment));
+        // as bright as the sky, or nearly so
+        let intensity = [0.1 * sky.flux() as f32; 3];
+        scene.delta_lights.push(DeltaLight::Point { position: [0.0, 3.0, 0.0], intensity });
+        let lights = Lights::new(&scene, Some(sky)).unwrap();
+        for number in 0..50 {
+            let lanes = u32x8::from_fn(|k| number * 8 + k as u32);
+            let pair = |dimension| -> Vec2<X8> { Independent::new(9).pair(u32x8::splat(0), lanes, dimension) };
+            let away = |x: X8| (x - X8::lit(0.5)) * X8::lit(10.0);
+            let (p, normal) = (V8::new(away(pair(0).x), away(pair(0).y), away(pair(1).x)), V8::lit([0.0, 0.6, 0.8]));
+            let (Vec2 { x: u, y: second }, Vec2 { x, y }) = (pair(2), pair(3));
+            let choice = lights.choose(p, normal, [u, second]);
+            let mut chosen = lights.chosen(choice.index);
+            let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
+            let pdf = lights.sky_pdf(&lights.pmf(p, normal), normal, drawn.direction);
+            for lane in (0..8).filter(|&lane| choice.index.lane(lane) + 1 == lights.len() as u32) {
+                assert!(choice.pmf.lane(lane) < 1.0, "{name}: another light has a share, too");
+                let own = drawn.pdf.lane(lane) * choice.pmf.lane(lane);
+                let pdf = pdf.lane(lane);
+                assert!((pdf - own).abs() <= 1e-5 * own, "{name}: {pdf} and {own}");
+                compared += u32::from(own > 0.0);
+            }
+        }
+    }
+    assert!(compared > 50, "{compared}");
+}
+
 /// At each point that a light can reach, the probabilities of all lights sum to 1; to less where some of several lights are infinitely far
 /// away, since a choice among the others may find none.
 #[test]
@@ -90,4 +127,80 @@ fn the_pmf_of_all_lights_sums_to_one() {
         }
     }
     assert!(exact > 1000, "{exact}");
+}
+
+/// The bound of a light with an area is the least sphere about its centre that holds it, with the power of one side in units of π.
+#[test]
+fn bounds_are_those_of_the_shapes() {
+    let mut kinds = [0; 3];
+    for (name, _) in scene::builtin() {
+        let scene = scene::load(name).unwrap();
+        let shapes = scene.shapes.iter().filter(|shape| shape.emission.is_some());
+        let bounds = Lights::bounds(&scene);
+        assert_eq!(bounds.len(), shapes.clone().count(), "{name}");
+        for (shape, bound) in shapes.zip(bounds).step_by(7) {
+            let emission = shape.emission.unwrap();
+            let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
+            let (corners, center, normal) = match shape.geometry {
+                Geometry::Sphere { center, .. } => (vec![], wide(center), Vec3::default()),
+                Geometry::Triangle(corners) => {
+                    let [a, b, c] = corners.map(wide);
+                    (vec![a, b, c], (a + b + c) * (1.0 / 3.0), (b - a).cross(c - a))
+                }
+                Geometry::Parallelogram { p, u, v } => {
+                    let [p, u, v] = [p, u, v].map(wide);
+                    (vec![p, p + u, p + v, p + u + v], p + (u + v) * 0.5, u.cross(v))
+                }
+            };
+            kinds[[0, 3, 4].iter().position(|&n| n == corners.len()).unwrap()] += 1;
+            let radius = match shape.geometry {
+                Geometry::Sphere { radius, .. } => f64::from(radius),
+                _ => corners.iter().map(|&corner| (corner - center).length()).fold(0.0, f64::max),
+            };
+            let reach = wide(bound.center).length() + radius;
+            assert!((wide(bound.center) - center).length() < 1e-6 * reach, "{name}: {bound:?}");
+            let off = f64::from(bound.radius) - radius;
+            assert!(off >= 0.0 && off < 2e-6 * radius, "{name}: {bound:?} for the radius {radius}");
+            let unit = normal * (1.0 / normal.length().max(f64::MIN_POSITIVE));
+            assert!((wide(bound.normal) - unit).length() < 1e-6, "{name}: {bound:?}");
+            assert_eq!((bound.two_sided, bound.cos_cone), (emission.two_sided && !corners.is_empty(), 0.0), "{name}");
+            let sum: f64 = emission.radiance.iter().map(|&x| f64::from(x)).sum();
+            assert!((f64::from(bound.power) / (sum * shape.geometry.area()) - 1.0).abs() < 1e-6, "{name}: {bound:?}");
+        }
+    }
+    assert!(kinds.iter().all(|&kind| kind > 0), "spheres, triangles, parallelograms: {kinds:?}");
+}
+
+/// Lights that are infinitely far away are chosen in proportion to the power that enters the sphere about the scene: of what a point light
+/// and a spot light emit, the part that a parallel light sends through that sphere.
+#[test]
+fn lights_far_away_have_their_share_of_the_power() {
+    let mut scene = scene::load("sphere-light").unwrap();
+    let (intensity, axis) = ([1.0, 2.0, 4.0], [0.0, -1.0, 0.0]);
+    let irradiance = [0.5, 0.25, 2.0];
+    let (cos_inner, cos_outer) = (0.9_f32, 0.75_f32);
+    let position = [0.1, 20.0, 0.2];
+    let spot = DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity };
+    let point = DeltaLight::Point { position, intensity };
+    let distant = DeltaLight::Distant { direction: [0.0, 1.0, 0.0], irradiance };
+    // half the diagonal of the box about everything
+    let boxes = scene.shapes.iter().map(|shape| shape.geometry.bounds());
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for [least, most] in scene.triangles.iter().flatten().map(|&p| [p, p]).chain(boxes) {
+        for k in 0..3 {
+            (low[k], high[k]) = (low[k].min(least[k]), high[k].max(most[k]));
+        }
+    }
+    let squared = (0..3).map(|k| f64::from(high[k] - low[k]).powi(2)).sum::<f64>() / 4.0;
+    let p = V8::splat(Vec3::from([0.0, 0.5, 0.0]));
+    for (near, power) in [(point, 4.0 * 7.0), (spot, (2.0 - 0.9 - 0.75) * 7.0)] {
+        scene.delta_lights = vec![near, distant.clone()];
+        let lights = Lights::deltas(&scene).unwrap();
+        let pmf = lights.pmf(p, V8::lit([0.0, 1.0, 0.0]));
+        let far = 2.75 * squared;
+        let shares = [0, 1].map(|light| pmf.of(light).lane_f64(3));
+        let truth = far / (far + power);
+        assert!((shares[1] - truth).abs() < 1e-6, "{shares:?}, not {truth}");
+        assert!((shares[0] + shares[1] - 1.0).abs() < 1e-6, "{shares:?}");
+    }
 }

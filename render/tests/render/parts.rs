@@ -421,3 +421,22 @@ fn pieces_are_read_as_written() {
     assert_eq!(*some, all.crop([0, 16, 50, 32]));
     assert_eq!(some.packets.len(), count(rows[0].area));
 }
+
+/// Areas of whole tiles: their sides are multiples of 16 or the image's edges, they are not empty, and they lie within the image.
+#[test]
+fn only_whole_tiles_are_an_area_of_tiles() {
+    let settings = Settings { width: 40, height: 32, ..SETTINGS };
+    let sides =
+        |end: u32| [0, 1, 15, 16, 17, 31, 32, 33, 39, 40, 41, 48].map(move |at| (at, at % 16 == 0 || at == end));
+    for (x0, is_x0) in sides(40) {
+        for (x1, is_x1) in sides(40) {
+            for (y0, is_y0) in sides(32) {
+                for (y1, is_y1) in sides(32) {
+                    let within = x0 < x1 && x1 <= 40 && y0 < y1 && y1 <= 32;
+                    let expected = within && is_x0 && is_x1 && is_y0 && is_y1;
+                    assert_eq!(settings.is_of_tiles([x0, y0, x1, y1]), expected, "{:?}", [x0, y0, x1, y1]);
+                }
+            }
+        }
+    }
+}

@@ -4,6 +4,7 @@ use etendue::{Mask, Real, u32x8};
 use etendue_render::Sampler;
 use etendue_render::packet::X8;
 use etendue_render::sampler::{CHOICE, FILM, LENS, LIGHT, Packet, Source};
+use std::collections::HashMap;
 
 type M8 = <X8 as Real>::Mask;
 
@@ -140,6 +141,62 @@ fn the_choice_of_a_light_has_numbers_of_its_own() {
         let all = [FILM, LIGHT, CHOICE, LENS, 4, 5, 9].map(|dimension| source.pair(&packet, dimension));
         for (i, a) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|b| a != b), "{sampler:?}");
+        }
+    }
+}
+
+/// Each pixel and replicate has numbers of its own, of whatever sampler.
+#[test]
+fn each_replicate_has_numbers_of_its_own() {
+    for sampler in [
+        Sampler::Independent,
+        Sampler::Stratified,
+        Sampler::Stratified4d,
+        Sampler::Latin,
+        Sampler::Sobol,
+        Sampler::Sobol4d,
+        Sampler::ZOrder,
+    ] {
+        let source = Source::new(sampler, 5, 64, 4, false, 16);
+        let mut seen = HashMap::new();
+        for pixel in (0..256).map(|i| [i % 16, i / 16]) {
+            for first in (0..64).step_by(8) {
+                let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]) + u32x8::splat(first);
+                let replicate = u32x8::splat(first.checked_div(source.span()).unwrap_or(0));
+                let (x, y) = (u32x8::splat(pixel[0]), u32x8::splat(pixel[1]));
+                let packet = Packet { x, y, sample, replicate, active: M8::splat(true) };
+                let pair = source.pair(&packet, LIGHT);
+                let numbers: Vec<u32> = (0..8).map(|k| pair.lane(k).x.to_bits()).collect();
+                let other = seen.insert(numbers, (pixel, first));
+                assert_eq!(other, None, "{sampler:?}: the numbers of {:?}", (pixel, first));
+            }
+        }
+    }
+}
+
+/// Samples that are counted per light: each pixel, replicate and light has numbers of its own on the light, and the pixel's own on the film.
+#[test]
+fn each_light_has_numbers_of_its_own() {
+    let source = Source::new(Sampler::Sobol, 3, 64, 4, false, 256);
+    assert!(source.allocates());
+    let lanes = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
+    let mut seen = HashMap::new();
+    for pixel in (0..64).map(|i| [i % 8 * 36, i / 8]).chain([[1, 0], [255, 255]]) {
+        for replicate in 0..4 {
+            let packet = Packet {
+                x: u32x8::splat(pixel[0]),
+                y: u32x8::splat(pixel[1]),
+                sample: lanes + u32x8::splat(replicate * source.span()),
+                replicate: u32x8::splat(replicate),
+                active: M8::splat(true),
+            };
+            for light in 0..5 {
+                let [film, pair] = source.film_and_light_of(&packet, u32x8::splat(light), lanes);
+                assert_eq!(film, source.pair(&packet, FILM));
+                let numbers: Vec<u32> = (0..8).map(|k| pair.lane(k).x.to_bits()).collect();
+                let other = seen.insert(numbers, (pixel, replicate, light));
+                assert_eq!(other, None, "the numbers of {:?}", (pixel, replicate, light));
+            }
         }
     }
 }
