@@ -44,7 +44,7 @@ lanewise! {
     /// - Degenerate input: a radius ≤ 0, or a sphere wholly below the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some unit
     ///   vector.
     /// - Greatest error: Ω⊥ 1.2e−6 relative. A sphere whose centre is below the horizon and that rises above it by less than 1e−6
-    ///   of its distance has 1.6e−6, and 4e−14 over that fraction. Direction 4e−7, besides 4 steps of 2⁻²⁴ in u; where the
+    ///   of its distance has 1.6e−6, and 8e−14 over that fraction. Direction 4e−7, besides 4 steps of 2⁻²⁴ in u; where the
     ///   horizon touches the cap, the direction has the slope of a square root there and may be off by 1e−3 of the size. The
     ///   inverse leads back to the direction, except where the axis is within 4e−7 of the horizon: u may be off by 3e−3 there.
     ///   A cap that rises less than 1e−6 above the horizon has cosines below the rounding of its directions, and some samples
