@@ -115,7 +115,8 @@ fn weights_of_both_techniques_sum_to_one() {
         triangle.by_area(p),
         sphere.by_projected_solid_angle(p, Vec3::lit([0.0, 1.0, 0.0])),
     );
-    let lights: [(&str, &dyn Fn(Vec2<f32>) -> [LightSample<f32>; 2]); 3] = [
+    type Both<'a> = &'a dyn Fn(Vec2<f32>) -> [LightSample<f32>; 2];
+    let lights: [(&str, Both<'_>); 3] = [
         ("triangle by solid angle", &|u| both(&by_angle, u)),
         ("triangle by area", &|u| both(&by_area, u)),
         ("sphere by projected solid angle", &|u| both(&ball, u)),

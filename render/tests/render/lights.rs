@@ -194,7 +194,7 @@ fn lights_far_away_have_their_share_of_the_power() {
     let squared = (0..3).map(|k| f64::from(high[k] - low[k]).powi(2)).sum::<f64>() / 4.0;
     let p = V8::splat(Vec3::from([0.0, 0.5, 0.0]));
     for (near, power) in [(point, 4.0 * 7.0), (spot, (2.0 - 0.9 - 0.75) * 7.0)] {
-        scene.delta_lights = vec![near, distant.clone()];
+        scene.delta_lights = vec![near, distant];
         let lights = Lights::deltas(&scene).unwrap();
         let pmf = lights.pmf(p, V8::lit([0.0, 1.0, 0.0]));
         let far = 2.75 * squared;

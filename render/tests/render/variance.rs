@@ -53,9 +53,10 @@ fn reported_variance_has_the_true_expectation() {
                 .collect();
             let pixel = Pixel::of_sets(sets.iter().copied(), independent);
             assert_eq!(pixel.samples, n);
-            for k in 0..3 {
-                expectations[0][k] += chance * f64::from(pixel.mean[k]);
-                expectations[1][k] += chance * f64::from(pixel.variance[k]);
+            for (expectation, found) in expectations.iter_mut().zip([pixel.mean, pixel.variance]) {
+                for (sum, x) in expectation.iter_mut().zip(found) {
+                    *sum += chance * f64::from(x);
+                }
             }
         }
         for k in 0..3 {
