@@ -28,10 +28,9 @@
 //! 5. **Bounded.** Each routine states its greatest error, as measured by the tests.
 //!
 //! *Closed* and *bounded* hold where single precision can express the answer. Below, the table of limits names the exceptions: points
-//! nearly in the plane of a flat light, lights on the horizon, and projected caps that are nearly a hemisphere. Over the atlas of sizes,
-//! elevations, distances and aspect ratios, direction, pdf and inverse stay within 10⁻⁵ in all cells for spheres, disks and lines by solid
-//! angle, in 99 % of them for flat lights, in 96 % for projected flat ones and in 99 % for projected spheres
-//! (`cargo run --release -- atlas --quick`).
+//! nearly in the plane of a flat light, and lights on the horizon. Over the atlas of sizes, elevations, distances and aspect ratios,
+//! direction, pdf and inverse stay within 10⁻⁵ in all cells for spheres, disks and lines, in 99 % of them for flat lights by solid angle
+//! and in 96 % by projected solid angle (`cargo run --release -- atlas --quick`).
 //!
 //! # Conventions
 //! Lengths may be in any unit. Angles are in radians, or in turns where the name says so; solid angles in steradians; pdfs per steradian

@@ -29,7 +29,7 @@ pub struct Options {
     /// Shapes to measure [default: all]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub shape: Vec<Kind>,
-    /// Measure coarse maps, in less than a minute
+    /// Measure coarse maps, in two minutes on two cores
     #[arg(long)]
     pub quick: bool,
     /// Number of threads; 0 means one per core

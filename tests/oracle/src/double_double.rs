@@ -39,20 +39,29 @@ impl Dd {
     /// Sine and cosine by their series at a sixteenth of the angle, followed by doublings.
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
-        let part = self / Self(16.0, 0.0);
+        let part = Self(self.0 / 16.0, self.1 / 16.0);
         let square = part * part;
         let (mut s, mut versine, mut term) = (part, Self::default(), part);
-        for k in 1..14 {
-            let term_even = term * part / Self(f64::from(2 * k), 0.0);
-            versine = if k % 2 == 1 { versine + term_even } else { versine - term_even };
-            term = term * square / Self(f64::from(2 * k * (2 * k + 1)), 0.0);
-            s = if k % 2 == 1 { s - term } else { s + term };
+        // until the terms are below the last bits: three of them at 1e-8, eleven at 2π/16
+        let mut k = 1.0;
+        while k < 14.0 && term.0.abs() > part.0.abs() * f64::EPSILON * f64::EPSILON {
+            let even = (term * part).over(2.0 * k);
+            term = -(term * square).over(2.0 * k * (2.0 * k + 1.0));
+            versine = versine + even;
+            s = s + term;
+            k += 1.0;
         }
         for _ in 0..4 {
             let c = Self(1.0, 0.0) - versine;
             (s, versine) = (s * c + s * c, s * s + s * s);
         }
         (s, Self(1.0, 0.0) - versine)
+    }
+    /// The quotient by an f64.
+    fn over(self, divisor: f64) -> Self {
+        let q = self.0 / divisor;
+        let rest = (-q).mul_add(divisor, self.0) + self.1;
+        two_sum(q, rest / divisor)
     }
     /// Absolute value.
     #[must_use]

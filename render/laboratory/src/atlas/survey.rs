@@ -108,7 +108,7 @@ pub struct Detail {
     pub quick: bool,
 }
 impl Detail {
-    /// Details for less than 1 minute (`quick`) or less than 20 minutes.
+    /// Details for a coarse map (`quick`), or for a fine one, which takes some ten times as long.
     #[must_use]
     pub fn new(quick: bool) -> Self {
         if quick {
@@ -203,28 +203,35 @@ fn reference(truth: &Truth, u: [f32; 2]) -> Reference {
 }
 
 /// Distance in any component from a direction to the nearest true direction of any u within 2 ulp; searches until it is at most
-/// `enough`.
+/// `enough`, and not at all if it is far more.
 fn nearest(truth: &Truth, u: [f32; 2], w: V3, enough: f64) -> f64 {
-    let apart = |u: [f64; 2]| sub(w, truth.direction(u)).into_iter().map(f64::abs).collect::<Greatest>().error();
+    let distance = |a: V3, b: V3| sub(a, b).into_iter().map(f64::abs).collect::<Greatest>().error();
     // the inverse of a textbook's formula may be outside
     let center = u.map(|u| f64::from(u).clamp(0.0, LAST));
     let within = |x: f64, axis: usize| x.clamp((center[axis] - U_ULP).max(0.0), (center[axis] + U_ULP).min(LAST));
-    let (mut best, mut at) = (apart(center), center);
+    let middle = truth.direction(center);
+    let (mut best, mut at, mut reached) = (distance(w, middle), center, 0.0_f64);
     // finer and finer grids about the nearest point so far: the direction may turn within a small part of a step
     let (mut reach, mut points) = (U_ULP, 8);
     while best > enough && reach > U_ULP * 1e-8 {
-        let middle = at;
+        let from = at;
         for i in -points..=points {
             for j in -1..=1 {
                 let moved = [
-                    within(middle[0] + reach * f64::from(i) / f64::from(points), 0),
-                    within(middle[1] + reach * f64::from(j), 1),
+                    within(from[0] + reach * f64::from(i) / f64::from(points), 0),
+                    within(from[1] + reach * f64::from(j), 1),
                 ];
-                let off = apart(moved);
+                let direction = truth.direction(moved);
+                let off = distance(w, direction);
+                reached = reached.max(distance(middle, direction));
                 if off < best {
                     (best, at) = (off, moved);
                 }
             }
+        }
+        if best > enough + 4.0 * reached {
+            // no u that near has a direction that far from the middle
+            break;
         }
         reach *= if points == 8 { 0.125 } else { 0.5 };
         points = 2;
