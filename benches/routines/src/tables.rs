@@ -119,7 +119,7 @@ fn warps() -> Table {
         warp("convex polygon, 5 corners", "solid angle", "[`SphericalPolygon`](crate::spherical::SphericalPolygon)", ["light pentagon by solid angle, prepared", "light pentagon by solid angle"], "spherical_polygon", ["as the triangle", "a fan", "polygons"]),
         warp("bilinear patch", "area", "[`PatchSurface`](crate::warp::PatchSurface)", ["patch surface sample", ""], "patch_surface", ["6 steps of u", "PBR 6.6", "twisted quads"]),
         warp("cylinder, its side", "area", "[`CylinderSide`](crate::warp::CylinderSide)", ["cylinder side sample", ""], "cylinder_side", ["3 ulp of the radius", "cylindrical coordinates", "tubes"]),
-        warp("line", "angle", "[`SphericalSegment`](crate::spherical::SphericalSegment)", ["spherical segment sample", "light line by angle"], "spherical_segment", ["2.9e−7", "Kulla and Fajardo 2012", "thin tubes"]),
+        warp("line", "angle", "[`SphericalSegment`](crate::spherical::SphericalSegment)", ["spherical segment sample", "light line by angle"], "spherical_segment", ["3e−7", "Kulla and Fajardo 2012", "thin tubes"]),
         warp("", "projected", "[`ProjectedSegment`](crate::spherical::ProjectedSegment)", ["projected segment sample", "light line by projected solid angle"], "projected_segment", ["4e−7 and 4 steps of u", "Peters 2021; derived there", "thin tubes over diffuse surfaces"]),
         warp("image of the sky", "its radiance", "[`ImageEnvironment`](crate::light::ImageEnvironment)", ["image environment 64x32 sample", ""], "", ["5.3e−7", "PBR 12.5.2, without the sine", "environments"]),
         warp("square onto sphere", "solid angle", "[`Octahedral`](crate::warp::Octahedral)", ["octahedral sample", ""], "octahedral", ["2.4e−7", "Clarberg 2008", "equal-area maps"]),

@@ -123,7 +123,8 @@ impl<R: Real> AreaSample<R> {
 /// Pdf per steradian of a point that is uniform by area: distance²/(|cosθ'| area), given `along` = |cosθ'| area; 0 where that is not finite.
 #[inline(always)]
 pub(super) fn solid_angle_pdf<R: Real>(distance: R, along: R) -> R {
-    let pdf = distance * distance / R::blend(along.gt(R::lit(0.0)), along, R::lit(1.0));
+    // in this order, as the square of a short distance may underflow
+    let pdf = distance * (distance / R::blend(along.gt(R::lit(0.0)), along, R::lit(1.0)));
     pdf.keep(along.gt(R::lit(0.0)) & pdf.lt(R::lit(1e37)) & distance.gt(R::lit(0.0)))
 }
 

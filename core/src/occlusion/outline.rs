@@ -134,13 +134,26 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         for i in 0..N {
             left = Vec3::blend(inside[i] & !inside[next(i)], crossing[i], left);
         }
+        // corners outside at both ends of the list: those at its beginning become the point where the outline returns. So a corner that other
+        // lanes make a lane repeat does not change with which corner the list begins, nor the order of any sum.
+        let mut head = !inside[N - 1] & !inside[0];
+        let (around, mut back) = ((head & !inside[1]).any(), Vec3::default());
+        if around {
+            for i in 0..N {
+                back = Vec3::blend(!inside[i] & inside[next(i)], crossing[i], back);
+            }
+        }
         let (mut moved, mut carried) = (no, Vec3::default());
         for i in 0..N {
             let outside = !inside[i];
             let (leaves, returns) = (outside & inside[before(i)], outside & inside[next(i)]);
             let splits = leaves & returns;
             let corner = Vec3::blend(returns & !leaves, crossing[i], left);
-            let corner = Vec3::blend(inside[i], corners[i], corner);
+            let mut corner = Vec3::blend(inside[i], corners[i], corner);
+            if around {
+                head = head & outside;
+                corner = Vec3::blend(head, back, corner);
+            }
             corners[i] = Vec3::blend(moved, carried, corner);
             carried = Vec3::blend(splits, crossing[i], corner);
             moved = moved | splits;

@@ -41,7 +41,7 @@ lanewise! {
     ///   is sinγ/r times that, with γ the angle between direction and segment.
     /// - Degenerate input: the point on the line of the segment (|a×e| < 1e−30 of the squared greatest coordinate), a length of
     ///   0, or α < 1e−30 gives pdf 0.
-    /// - Greatest error: direction 2.9e−7; pdf 3e−7 relative; distance 4e−7 relative, over sinγ.
+    /// - Greatest error: direction 3e−7; pdf 3.3e−7 relative; distance 4e−7 relative, over sinγ.
     /// - Source: Kulla and Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012, 4.1,
     ///   by angles at the ends instead of the foot of the perpendicular.
     pub struct SphericalSegment {

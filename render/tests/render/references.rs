@@ -134,7 +134,7 @@ fn threads_do_not_matter_and_seeds_do() {
 #[test]
 fn any_number_of_samples_and_any_size() {
     let world = World::new(&scene::load("triangle-light").unwrap()).unwrap();
-    for (width, height) in [(1, 1), (17, 5), (64, 33)] {
+    for (width, height) in [(1, 1), (17, 5), (33, 18)] {
         let of = |spp, technique, sampler, seed| {
             let settings = Settings { width, height, spp, technique, depth: 8, sets: 0, sampler, seed };
             let (film, rays) = world.render(&settings, |_| ());

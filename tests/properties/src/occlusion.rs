@@ -130,7 +130,7 @@ impl Scene {
             assert!((0.0..=*all).contains(left), "{left} of {all}: {self:?}");
         }
     }
-    /// f32, f32x4, f32x8 and f32x16 give the same bits. What eight lanes can compute, each can alone.
+    /// f32, f32x4, f32x8 and f32x16 give the same bits. What eight lanes can compute, each can alone; four may have too many corners.
     ///
     /// # Panics
     /// If they do not.
@@ -143,7 +143,8 @@ impl Scene {
             let four = self.found::<f32x4>(lane / 4 * 4).map(|x| x.lane(lane % 4).to_bits());
             let one = self.found::<f32>(lane).map(f32::to_bits);
             let expected = Some(eight.lane(lane).to_bits());
-            assert!(one == expected && four == expected, "lane {lane}: {one:?} {four:?} {expected:?}: {self:?}");
+            let four_agree = four.is_none() || four == expected;
+            assert!(one == expected && four_agree, "lane {lane}: {one:?} {four:?} {expected:?}: {self:?}");
         }
     }
     /// Multiplying all lengths by a power of two changes no bit.

@@ -449,19 +449,28 @@ pub fn accurate<S: Fixture>(s: &S, u: [f32; 2]) -> f64 {
     let at = |u: [f64; 2]| observe::<S, f64>(&warp, Vec2::new(u[0], u[1]))[0];
     let u = u.map(f64::from);
     let wide = at(u);
-    let near = [[ULP, 0.0], [-ULP, 0.0], [0.0, ULP], [0.0, -ULP]]
-        // up to 1 inclusive: rounding may go beyond the last step of the grid
-        .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0), (u[1] + d[1]).clamp(0.0, 1.0)]));
-    let step = |change: &dyn Fn(&Observed) -> f64| near.iter().map(change).collect::<Greatest>().error();
-    let excess =
-        s.distance(narrow.point, wide.point) - s.tolerance().steps * step(&|o| s.distance(o.point, wide.point));
-    let point = excess / rounding(s, ULP);
+    let at_steps = |n: f64| {
+        let h = n * ULP;
+        [[h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]]
+            // up to 1 inclusive: rounding may go beyond the last step of the grid
+            .map(|d| at([(u[0] + d[0]).clamp(0.0, 1.0), (u[1] + d[1]).clamp(0.0, 1.0)]))
+    };
+    let near = at_steps(1.0);
+    // what an error exceeds the change over some steps by: as many times that over one, or if the map jumps between them, that over all
+    let excess = |error: f64, steps: f64, change: &dyn Fn(&Observed) -> f64| {
+        let greatest = |near: &[Observed; 4]| near.iter().map(change).collect::<Greatest>().error();
+        let smooth = error - steps * greatest(&near);
+        if smooth > 0.0 && steps > 0.0 { smooth.min(error - greatest(&at_steps(steps))) } else { smooth }
+    };
+    let away = |o: &Observed| s.distance(o.point, wide.point);
+    let excess_of_point = excess(away(&narrow), s.tolerance().steps, &away);
+    let point = excess_of_point / rounding(s, ULP);
     assert!(point <= s.tolerance().point, "point: {s:?} at {u:?}: {point:e} units\n{narrow:?}\n{wide:?}");
     let (d, e) = (narrow.sighting[3], wide.sighting[3]);
     // the distance belongs to the sampled direction, and moves by as many steps
-    let steps = s.tolerance().steps.max(4.0);
-    let excess = (d - e).abs() - steps * step(&|o| (o.sighting[3] - e).abs());
-    let distance = if e > 0.0 { excess / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
+    let farther = |o: &Observed| (o.sighting[3] - e).abs();
+    let excess_of_distance = excess(farther(&narrow), s.tolerance().steps.max(4.0), &farther);
+    let distance = if e > 0.0 { excess_of_distance / ((e * s.slant(wide.point) + s.reach()) * ULP) } else { 0.0 };
     assert!(distance <= s.tolerance().distance, "distance: {s:?} at {u:?}: {d}, f64 {e}: {distance:e} units");
     point.max(distance)
 }

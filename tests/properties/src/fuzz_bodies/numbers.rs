@@ -199,7 +199,7 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
     let (p, n) = (input.vector(&before), input.direction());
     let lights = SpatialLights::new(&bounds).expect("few lights");
     let (one, eight) = (lights.at::<f32>(p.into(), n.into()), lights.at::<f32x8>(p.into(), n.into()));
-    // what cannot contribute counts as without power; lengths below 2⁻⁵⁰ of the extent of the lights do not count
+    // what cannot contribute counts as without power; lengths below 2⁻⁵⁰ of the extent of the lights do not count, nor subnormal ones
     let reach = |bound: &LightBound| bound.center.iter().fold(bound.radius, |m, x| m.max(x.abs()));
     let extent = bounds.iter().map(reach).fold(0.0, f32::max);
     let able: Vec<f32> = one.weights().collect();
@@ -207,7 +207,7 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
         let wide = |v: [f32; 3]| v.map(f64::from);
         let to = sub(wide(bound.center), wide(p));
         let room = 1e-5 * (length(to) + length(wide(bound.center)) + length(wide(p)) + f64::from(bound.radius));
-        let room = room + 1e-14 * f64::from(extent);
+        let room = room + 1e-14 * f64::from(extent) + f64::from(f32::MIN_POSITIVE);
         let facing = bound.normal == [0.0; 3] || bound.two_sided || -dot(to, wide(bound.normal)) > room;
         let away = dot(to, wide(bound.normal)).abs() > room || bound.normal == [0.0; 3];
         let above = dot(to, wide(n)) + f64::from(bound.radius) > room;
