@@ -15,7 +15,7 @@ use crate::vector::Vec3;
 ///   all lengths by a power of two changes no bit.
 /// - Bounds: a light that can contribute counts as at least 2⁻¹⁸ of the sum, so that some u on the grid of 2⁻²⁴ finds it. The weight is 0
 ///   only where the bounding sphere is below the horizon or the light faces away, as far as rounding can tell; lengths below 2⁻⁵⁰ of the
-///   extent of the lights do not count.
+///   extent of the lights do not count, nor do subnormal ones.
 /// - Degenerate: where no light can contribute, the pmf is 0.
 /// - Precision: a light's frequency is within 2⁻²² of its probability.
 /// - Source: after Shirley, Wang and Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", ACM TOG 15(1), 1996, 3.1.

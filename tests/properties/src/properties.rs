@@ -8,7 +8,7 @@ use crate::tolerances::SIGNIFICANCE;
 use crate::tolerances::{self, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
 use etendue::spherical::DirectionSample;
-use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8, f64x4};
+use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8};
 use etendue_oracle::{Greatest, V3, cross, integrate, length, sub};
 
 /// Points of the plane or of space, one in each lane.
@@ -520,7 +520,7 @@ pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
     if s.extent()[1] > tolerances::RESOLVED * s.granularity() {
         chi_square_of::<S, f32x8>(s, seed, 1 << 20)
     } else {
-        chi_square_of::<S, f64x4>(s, seed, 1 << 18)
+        chi_square_of::<S, etendue::f64x4>(s, seed, 1 << 18)
     }
 }
 #[cfg(feature = "checks")]
