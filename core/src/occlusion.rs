@@ -32,16 +32,16 @@
 //! Nanoseconds per point, one at a time and in packets of 8. A blocker beside the light takes a quarter of the time of one before it.
 //!
 //! <!-- table: visible -->
-//! Intel(R) Xeon(R) Processor, x86-64-v3, 2026-11-22.
+//! AMD EPYC, x86-64-v3, 2026-11-23.
 //!
 //! | light | blockers | x1 | x8 |
 //! |---|---|---|---|
-//! | polygon | none | 133.6 | 19.7 |
-//! |  | a polygon before it | 370.9 | 64.8 |
-//! |  | 4 polygons, 1 before it | 619.5 | 101.7 |
-//! |  | a sphere before it | 329.7 | 65.6 |
-//! | sphere | none | 22.3 | 3.01 |
-//! |  | a polygon before it | 418.7 | 64.4 |
+//! | polygon | none | 130.8 | 14.5 |
+//! |  | a polygon before it | 315.4 | 51.0 |
+//! |  | 4 polygons, 1 before it | 535.6 | 83.7 |
+//! |  | a sphere before it | 266.6 | 52.9 |
+//! | sphere | none | 18.5 | 2.80 |
+//! |  | a polygon before it | 340.3 | 55.1 |
 //! <!-- end of table -->
 
 mod cap;

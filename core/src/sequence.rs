@@ -7,19 +7,19 @@
 //! `cargo bench -p etendue-benches --bench summary -- sequence`.)
 //!
 //! <!-- table: sequences -->
-//! Intel(R) Xeon(R) Processor, x86-64-v3, 2026-11-22.
+//! AMD EPYC, x86-64-v3, 2026-11-23.
 //!
 //! | sequence | variance: smooth, edge | gain at 16 | gain at 64 | f32 | f32x4 | f32x8 | when |
 //! |---|---|---|---|---|---|---|---|
-//! | [`Independent`] | N⁻¹ | 1 | 1 | 4.03 | 2.07 | 1.04 | the baseline; the spread of samples gives the variance |
-//! | [`LatinHypercube`] | N⁻¹, less parts in x or y alone | 22, 3.5 | 25, 3.7 | 73.2 | 35.4 | 18.3 | any count, nearly additive integrands |
-//! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 65.4 | 29.6 | 14.8 | any count |
-//! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 6.18 | 1.35 | 0.70 | a count not known in advance; cheap |
-//! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 6.18 | 1.35 | 0.70 | a Fibonacci count; edges |
-//! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 12.9 | 3.92 | 1.99 | the choice wherever the count is a power of two |
-//! | [`JointSobol`] | pair 0 as [`OwenSobol`] |  |  | 15.4 | 4.68 | 2.39 | integrands that depend on two or more pairs together |
-//! | [`JointStratified`] | √N strata in each pair |  |  | 62.9 | 22.6 | 11.2 | as [`JointSobol`], at n⁴ samples |
-//! | [`ZOrder`] | within a pixel as [`OwenSobol`] |  |  | 43.3 | 12.8 | 9.54 | few samples per pixel, images for human viewers: blue noise |
+//! | [`Independent`] | N⁻¹ | 1 | 1 | 3.74 | 1.02 | 0.50 | the baseline; the spread of samples gives the variance |
+//! | [`LatinHypercube`] | N⁻¹, less parts in x or y alone | 22, 3.5 | 25, 3.7 | 60.9 | 15.5 | 7.77 | any count, nearly additive integrands |
+//! | [`Stratified`] | N⁻², N^(−3/2) | 14, 4.2 | 56, 8.5 | 50.0 | 12.5 | 6.26 | any count |
+//! | [`Lattice::r2`] | about N^(−1.8), N^(−1.6) | 2.5, 3.1 | 7.4, 7.1 | 3.67 | 0.96 | 0.48 | a count not known in advance; cheap |
+//! | [`Lattice::fibonacci`] | about N^(−1.7), N^(−1.6) | 9.6, 5.6 | 27, 12.6 | 3.67 | 0.96 | 0.48 | a Fibonacci count; edges |
+//! | [`OwenSobol`] | about N^(−2.9), N^(−3/2) | 125, 6.0 | 1630, 12.0 | 6.06 | 2.38 | 1.19 | the choice wherever the count is a power of two |
+//! | [`JointSobol`] | pair 0 as [`OwenSobol`] |  |  | 6.03 | 2.57 | 1.34 | integrands that depend on two or more pairs together |
+//! | [`JointStratified`] | √N strata in each pair |  |  | 37.0 | 10.1 | 5.07 | as [`JointSobol`], at n⁴ samples |
+//! | [`ZOrder`] | within a pixel as [`OwenSobol`] |  |  | 31.4 | 5.65 | 3.85 | few samples per pixel, images for human viewers: blue noise |
 //! <!-- end of table -->
 //!
 //! These figures are for pairs of one dimension. Different dimensions are associated at random.
