@@ -409,7 +409,8 @@ mod tests {
     fn lights_are_weighted_by_their_spread() {
         let mut spread = [0.0; APART];
         let mut pairs = [0; APART];
-        (spread[..3].copy_from_slice(&[64.0, 6.0, 0.0]), pairs[..3].copy_from_slice(&[2, 6, 4]));
+        spread[..3].copy_from_slice(&[64.0, 6.0, 0.0]);
+        pairs[..3].copy_from_slice(&[2, 6, 4]);
         // mean squares of 32, 1 and 0: weights of 4, 1 and 0, (4 + 1)^2.5 = 55.9
         let part = |seen: f64| Statistics { lights: 3, spread, pairs, variance: seen, ..Statistics::default() };
         let side = 64;
