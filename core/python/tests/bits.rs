@@ -113,7 +113,7 @@ fn hashes() {
 const HASHES: [u64; 7] = [
     0x439e_036c_2d2d_0933,
     0x49d5_0300_2e88_bf3e,
-    0x3282_5aff_9deb_3c60,
+    0x816c_598b_e881_736f,
     0xbd53_c1b4_5446_2aeb,
     0x97c5_a8d1_d416_3335,
     0x9f61_cb62_c759_b6ab,
