@@ -1,3 +1,6 @@
+mod arc;
+mod inverse;
+
 use super::double_word::{compensated_height, cross_dw, sum_dw};
 use super::{DirectionSample, to_unit};
 use crate::lanewise::lanewise;
@@ -10,13 +13,6 @@ use crate::warp::Warp;
 const BEYOND: f64 = 12.0 / 16_777_216.0;
 /// The same for samples by projected solid angle: 8 ulp.
 pub(super) const SLACK: f64 = 8.0 / 16_777_216.0;
-/// Part of the sweep below which a change of the arc counts as steep: a step of u₀ then changes u₁ by less than 1e−5 elsewhere.
-const STEEP: f64 = 1.0 / 128.0;
-/// Share of the area by which an inverse may be corrected: some roundings.
-const BEYOND_ARC: f64 = 8.0 / 16_777_216.0;
-/// Sine of the angle within which a direction counts as on an edge: the rounding of both.
-const BESIDE: f64 = 4.0 / 16_777_216.0;
-const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 
 lanewise! {
     /// Directions from a point to a triangle, uniform in solid angle: for every triangle that is not far.
@@ -153,18 +149,6 @@ fn sum_of_units<R: Real>([a, b]: [Vec3<R>; 2], [ia, ib]: [R; 2], n: Vec3<R>) -> 
     let lack = |v: Vec3<R>, i: R| height * i * i / (one + v.dot(along).abs() * i);
     let sum = foot.mul_add(ia + ib, along * (lack(a, ia) - lack(b, ib)));
     Vec3::blend(opposite & some, sum, plain)
-}
-
-/// The arc from `v1` to the point P of the far edge.
-struct Arc<R> {
-    /// X, the stereographic projection of P from opposite `v1`, towards v0: tan(θ/2) cosφ
-    x: R,
-    /// Y, the same perpendicular to it: tan(θ/2) sinφ
-    y: R,
-    /// M = X² + Y² = tan²(θ/2)
-    m: R,
-    /// sinη, and r = sin(H−η)/sinH
-    swept: [R; 2],
 }
 
 impl<R: Real> SphericalTriangle<R> {
@@ -332,113 +316,6 @@ impl<R: Real> SphericalTriangle<R> {
         self.volume.lt(R::lit(0.0))
     }
 
-    /// The arc that cuts off the share `u` of the area and leaves `rest` = 1−u.
-    #[inline(always)]
-    fn arc(&self, u: R, rest: R) -> Arc<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // from the nearer end: near the other, α−η and H−η are small differences
-        let far = u.gt(R::lit(0.5));
-        let part = R::blend(far, rest, u);
-        let (sin, cos) = (part * self.solid_angle * R::lit(0.5 * INV_TWO_PI)).sin_cos_turns();
-        let s = R::blend(far, self.half.x * cos - self.half.y * sin, sin);
-        // cos(α−η) and sin(α−η), over sinα
-        let from_sin = R::blend(far, self.turned.x, one);
-        let from_cos = R::blend(far, self.turned.y, -self.cot_alpha);
-        let turn_sin = from_sin.mul_add(cos, from_cos * sin);
-        let turn_cos = from_cos.mul_add(cos, -(from_sin * sin)).negate_where(!far);
-        let stretched = s * self.stretch;
-        // P opposite v1 would be at infinity; keep its square finite
-        let most = R::lit(1e15);
-        let x = (-stretched).mul_add(turn_cos, self.tan_half).clamped(-most, most);
-        let y = (stretched * turn_sin).clamped(zero, most);
-        let left = R::blend(far, sin * self.inv_half_sin, (-sin).mul_add(self.total_over, cos));
-        let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, left] };
-        // a side of more than 120° is rare: do the extra work only where there is one
-        let long = self.g2.lt(R::lit(0.5));
-        if long.any() { self.opposite_arc(arc, long) } else { arc }
-    }
-
-    /// Where v0 lies nearly opposite v1, the angle no longer determines the arc: takes it from P itself where that is better
-    /// conditioned.
-    #[inline]
-    fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let [w0, w2] = self.weights(arc.swept);
-        // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, where S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ are small; 1 − P·V₀/l₀ comes from the sine
-        let along = w2.mul_add(self.plus02 - one, w0);
-        let apart = R::blend(along.gt(zero), w2 * w2 * self.sin02 / (one + along.greater(zero)), one - along);
-        let sum = w0.mul_add(self.g2, apart + w2 * self.g1.abs());
-        let plus = w0.mul_add(self.g2, apart + w2 * self.g1);
-        let inverse = one / plus.greater(R::lit(1e-30));
-        let (first, second) = (w0 * self.sin_side * inverse, w2 * self.x2 * inverse);
-        // either X is a sum: of these two terms, or of tan(c/2) and the rest; take the one with less cancellation. The weights
-        // of P sum to at least 1, unless v0 is opposite v1 to the last bit, which loses them
-        let known = plus.gt(sum * R::lit(0.125))
-            & (w0 + w2).gt(R::lit(0.5))
-            & (first + second.abs()).lt(self.tan_half.greater(arc.x.abs()));
-        let better = long & known;
-        let most = R::lit(1e15);
-        let x = R::blend(better, (first + second).clamped(-most, most), arc.x);
-        let y = R::blend(better, (w2 * self.y2 * inverse).lesser(most), arc.y);
-        Arc { x, y, m: x.mul_add(x, y * y), swept: arc.swept }
-    }
-
-    /// The weights w₀ and w₂ of P = w₀V₀/l₀ + w₂V₂/l₂.
-    #[inline(always)]
-    fn weights(&self, [s, left]: [R; 2]) -> [R; 2] {
-        let (zero, two) = (R::lit(0.0), R::lit(2.0));
-        // r = a − b = cosη − sinη (G₁+G₂)/G₀ = sin(H−η)/sinH
-        let b = s * self.g2_over;
-        let a = left + b;
-        let w0 = (left * (a + b)).greater(zero);
-        // b d₀₂ + a, w₂ − w₀ and |P|²: small differences where v0 and v2 are nearly opposite
-        let w2 = (two * b * b.mul_add(self.plus02, left)).greater(zero);
-        let more = two * b * b * self.plus02 - left * left;
-        let squared = more.mul_add(more, two * self.plus02 * w0 * w2);
-        let inverse = rsqrt(squared.greater(R::lit(1e-30)));
-        [w0 * inverse, w2 * inverse]
-    }
-
-    /// Sine and cosine of the angle at v0.
-    #[inline(always)]
-    fn alpha(&self) -> (R, R) {
-        // past 1e18 the square of the cotangent would overflow, and the sine is 0 to working precision
-        let cot = self.cot_alpha.clamped(R::lit(-1e18), R::lit(1e18));
-        let sin = rsqrt(cot.mul_add(cot, R::lit(1.0)));
-        (sin, cot * sin)
-    }
-
-    /// The side from v1 to the far edge, at the azimuth φ from v0: its sine over the unit, 1−|cos| and cos, by cotθ = (cosφ
-    /// cos(side) + sinφ cotα)/sin(side). `x` and `y` are cosφ and sinφ in a unit whose square is `unit_squared`.
-    #[inline(always)]
-    fn side(&self, x: R, y: R, unit_squared: R) -> (R, R, R) {
-        let one = R::lit(1.0);
-        let (sin_alpha, cos_alpha) = self.alpha();
-        let opposite = sin_alpha * self.sin_side;
-        let adjacent = (self.g2 - one).mul_add(x * sin_alpha, y * cos_alpha);
-        let squared = (opposite * opposite).mul_add(unit_squared, adjacent * adjacent);
-        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
-        let (sin, cos) = (opposite * inverse, adjacent * inverse);
-        (sin, sin * sin * unit_squared / (one + cos.abs()), cos)
-    }
-
-    /// The direction at `u` along the arc, the cosine z of its angle to v1, and the sine of that angle over √M.
-    #[inline]
-    fn along_arc(&self, arc: &Arc<R>, u: R) -> (Vec3<R>, R, R) {
-        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        // 1−z = 2uM/(1+M), and the sine over √M
-        let over = u * (two / (one + arc.m));
-        let z = (-over).mul_add(arc.m, one);
-        // 1+z = 2(1 + (1−u)M)/(1+M): near the antipode of v1, z no longer determines the sine
-        let plus = (one - u).mul_add(arc.m, one) * (two / (one + arc.m));
-        let sin_over = (over * plus).greater(zero).sqrt();
-        let tangent = self.along.mul_add(arc.x, self.across * arc.y);
-        let direction = self.apex.mul_add(z, tangent * sin_over);
-        // a unit vector up to rounding: one Newton step for 1/√
-        let unit = direction * direction.length_squared().mul_add(R::lit(-0.5), R::lit(1.5));
-        (unit, z, sin_over)
-    }
-
     /// Maps `u` to a direction and the distance to the triangle along it.
     #[inline(always)]
     pub fn sample_direction(&self, u: Vec2<R>) -> DirectionSample<R> {
@@ -504,80 +381,6 @@ impl<R: Real> SphericalTriangle<R> {
     #[inline(always)]
     pub(super) fn beyond_v0_v1(&self, w: Vec3<R>) -> R::Mask {
         w.dot(self.across).lt(R::lit(0.0))
-    }
-
-    /// The inverse of a direction, and 1 − cos of its angle from v1.
-    #[inline(always)]
-    pub(super) fn locate(&self, w: Vec3<R>) -> (Vec2<R>, R) {
-        let (zero, one, two) = (R::lit(0.0), R::lit(1.0), R::lit(2.0));
-        let (x, y) = (w.dot(self.along), w.dot(self.across).greater(zero));
-        let squared = x.mul_add(x, y * y);
-        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-36)));
-        let (x, y) = (x * inverse, y * inverse);
-        let (sin, small, cos) = self.side(x, y, one);
-        let acute = cos.gt(zero);
-        let (minus, plus) = (R::blend(acute, small, two - small), R::blend(acute, two - small, small));
-        // tan(swept/2) from two sides and the angle between them
-        let both = self.sin_side * sin;
-        let swept = two * (both * y).atan2(self.g2.mul_add(plus, both * x));
-        // 1 − cos of the angle from v1; ahead it comes from the tangents, since along v1 w has a rounding error that would
-        // swamp a small triangle
-        let (away, ahead) = (w - self.apex, w.dot(self.apex));
-        let near = ahead.gt(zero);
-        let (x, y) = (away.dot(self.along), away.dot(self.across));
-        let by_sine = x.mul_add(x, y * y) / (one + ahead.keep(near));
-        let moved = R::blend(near, by_sine, away.length_squared() * R::lit(0.5));
-        let u = Vec2 {
-            x: unit_interval(swept / self.solid_angle.greater(R::lit(1e-37))),
-            y: unit_interval(moved / minus.greater(R::lit(1e-37))),
-        };
-        (u, moved)
-    }
-    /// Where the arc to the far edge changes within the rounding of a u₀ that sweeps `whole`, at one of its ends.
-    #[inline(always)]
-    pub(super) fn steep(&self, whole: R) -> R::Mask {
-        let small = whole * R::lit(STEEP);
-        // P leaves v0 and arrives at v2 within these parts of η
-        let steep = (self.g2_over * small).gt(R::lit(1.0)) | (self.g2_over * self.half.x * self.half.x).lt(small);
-        steep & self.solid_angle.gt(R::lit(0.0))
-    }
-    /// The area by which a direction lies beyond the arc for `u` that leaves `rest` = 1−u₀, at most a few roundings: the map is more
-    /// accurate than a swept area.
-    #[inline(always)]
-    pub(super) fn area_beyond(&self, u: R, rest: R, w: Vec3<R>, whole: R) -> R {
-        let arc = self.arc(u, rest);
-        let (x, y) = (w.dot(self.along), w.dot(self.across));
-        let turned = arc.x * y - arc.y * x;
-        // sine of the angle between both arcs, times 1 − cos of the length of this one
-        let squared = (arc.m * x.mul_add(x, y * y)).greater(R::lit(1e-36));
-        let most = whole * R::lit(BEYOND_ARC);
-        (turned * rsqrt(squared) * (arc.m + arc.m) / (R::lit(1.0) + arc.m)).clamped(-most, most)
-    }
-    /// Whether a direction lies at more than 90° from the edge from v1 to v0, about v1.
-    #[inline(always)]
-    pub(super) fn away_from_v0(&self, w: Vec3<R>) -> R::Mask {
-        w.dot(self.along).lt(R::lit(0.0))
-    }
-    /// Whether a direction lies on the edge from v1 to v0 or outside, to rounding.
-    #[inline(always)]
-    pub(super) fn beside_v0(&self, w: Vec3<R>) -> R::Mask {
-        let zero = R::lit(0.0);
-        w.dot(self.across).le(R::lit(BESIDE)) & w.dot(self.along).gt(zero) & self.solid_angle.gt(zero)
-    }
-    /// Whether a direction lies on the edge from v1 to v2 or outside, to rounding.
-    #[inline(always)]
-    pub(super) fn beside_v2(&self, w: Vec3<R>) -> R::Mask {
-        let zero = R::lit(0.0);
-        let towards = self.x2.mul_add(w.dot(self.along), self.y2 * w.dot(self.across));
-        w.dot(self.side12).le(self.slack.y * R::lit(BESIDE / BEYOND)) & towards.gt(zero) & self.solid_angle.gt(zero)
-    }
-    /// u₁ of a direction, given 1 − cos of its angle from v1, on the arc for `u` that leaves `rest` = 1−u₀: a rounded u₀ has an arc of
-    /// its own, and the pair must lead back to the direction.
-    #[inline(always)]
-    pub(super) fn share_of_arc(&self, u: R, rest: R, moved: R) -> R {
-        let (one, half) = (R::lit(1.0), R::lit(0.5));
-        let m = self.arc(u, rest).m.greater(R::lit(1e-37));
-        unit_interval(moved * (half * (one + m) / m))
     }
 }
 
