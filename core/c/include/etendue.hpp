@@ -698,21 +698,36 @@ inline uint32_t level() { return etendue_level(); }
 // Names, arguments and results are pbrt's, so that a host can replace one function at a time. Samples and inverses agree with each other,
 // but not with pbrt's for the same u: replace both of a pair. Where there is no sample, pdf is 0 and the result zeros.
 
+// What pbrt takes as an array or a span may be an array of any kind, or a list in braces.
+
+namespace detail {
+template <class T>
+using IsIndexed = std::enable_if_t<HasIndex<T>::value, int>;
+} // namespace detail
+
 // Barycentric coordinates of a point of the triangle v[0], v[1], v[2], uniform in the solid angle at p.
 template <class Vertices>
-Vec3 SampleSphericalTriangle(const Vertices& v, Vec3 p, Vec2 u, float* pdf) {
+Vec3 SampleSphericalTriangle(const Vertices& v, Vec3 p, Vec2 u, float* pdf = nullptr) {
     const LightSample s = Triangle::from_vertices(v[0], v[1], v[2]).by_solid_angle(p).sample(u);
     if (pdf) *pdf = s.pdf;
     if (!(s.pdf > 0)) return {};
     return {1 - s.uv[0] - s.uv[1], s.uv[0], s.uv[1]};
+}
+template <class Vertex>
+Vec3 SampleSphericalTriangle(const Vertex (&v)[3], Vec3 p, Vec2 u, float* pdf = nullptr) {
+    return SampleSphericalTriangle(static_cast<const Vertex*>(v), p, u, pdf);
 }
 // The random numbers of the unit direction w.
 template <class Vertices>
 Vec2 InvertSphericalTriangleSample(const Vertices& v, Vec3 p, Vec3 w) {
     return Triangle::from_vertices(v[0], v[1], v[2]).by_solid_angle(p).invert(w);
 }
+template <class Vertex>
+Vec2 InvertSphericalTriangleSample(const Vertex (&v)[3], Vec3 p, Vec3 w) {
+    return InvertSphericalTriangleSample(static_cast<const Vertex*>(v), p, w);
+}
 // A point of the rectangle s + a ex + b ey, uniform in the solid angle at pRef.
-inline Vec3 SampleSphericalRectangle(Vec3 pRef, Vec3 s, Vec3 ex, Vec3 ey, Vec2 u, float* pdf) {
+inline Vec3 SampleSphericalRectangle(Vec3 pRef, Vec3 s, Vec3 ex, Vec3 ey, Vec2 u, float* pdf = nullptr) {
     const LightSample sample = Rectangle(s, ex, ey).by_solid_angle(pRef).sample(u);
     if (pdf) *pdf = sample.pdf;
     if (!(sample.pdf > 0)) return {};
@@ -754,6 +769,10 @@ inline Vec3 SampleUniformTriangle(Vec2 u) {
     return {1 - b.x - b.y, b.x, b.y};
 }
 inline Vec2 InvertUniformTriangleSample(Vec3 b) { return LowDistortionTriangle().invert({b.y, b.z}); }
+template <class Barycentric, detail::IsIndexed<Barycentric> = 0>
+Vec2 InvertUniformTriangleSample(const Barycentric& b) {
+    return LowDistortionTriangle().invert({float(b[1]), float(b[2])});
+}
 
 inline float SampleLinear(float u, float a, float b) { return Linear(a, b).sample(u); }
 inline float LinearPDF(float x, float a, float b) { return Linear(a, b).pdf(x); }
@@ -781,6 +800,9 @@ template <class Weights>
 Vec2 InvertBilinearSample(Vec2 p, const Weights& w) {
     return Bilinear(w[0], w[1], w[2], w[3]).invert(p);
 }
+inline Vec2 SampleBilinear(Vec2 u, const float (&w)[4]) { return Bilinear(w[0], w[1], w[2], w[3]).sample(u); }
+inline float BilinearPDF(Vec2 p, const float (&w)[4]) { return Bilinear(w[0], w[1], w[2], w[3]).pdf(p); }
+inline Vec2 InvertBilinearSample(Vec2 p, const float (&w)[4]) { return Bilinear(w[0], w[1], w[2], w[3]).invert(p); }
 
 #undef ETENDUE_TECHNIQUE
 #undef ETENDUE_ANYWHERE

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <initializer_list>
 #include <vector>
 
 using namespace etendue;
@@ -225,6 +226,106 @@ static void test_pbrt() {
     CHECK(near(InvertBilinearSample(SampleBilinear(u, weights), weights), u) && std::fabs(BilinearPDF({1, 0}, weights) - 2 / 1.625f) < 1e-6f);
 }
 
+// pbrt-v4's own types, as far as its calls need them.
+namespace renderer {
+template <class T, int N>
+class array {
+  public:
+    array() = default;
+    array(std::initializer_list<T> v) {
+        size_t i = 0;
+        for (const T& x : v) values[i++] = x;
+    }
+    T& operator[](size_t i) { return values[i]; }
+    const T& operator[](size_t i) const { return values[i]; }
+
+  private:
+    T values[N] = {};
+};
+template <class T>
+class span {
+  public:
+    template <class V>
+    span(const V& v) : first(&v[0]) {}
+    const T& operator[](size_t i) const { return first[i]; }
+
+  private:
+    const T* first;
+};
+template <template <class> class Child, class T>
+struct Tuple3 {
+    Tuple3() = default;
+    Tuple3(T x_, T y_, T z_) : x(x_), y(y_), z(z_) {}
+    T operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
+    T x{}, y{}, z{};
+};
+template <class T>
+struct Point3;
+template <class T>
+struct Vector3 : Tuple3<Vector3, T> {
+    using Tuple3<renderer::Vector3, T>::Tuple3;
+    template <class U>
+    explicit Vector3(Point3<U> p) : Tuple3<renderer::Vector3, T>(p.x, p.y, p.z) {}
+};
+template <class T>
+struct Point3 : Tuple3<Point3, T> {
+    using Tuple3<renderer::Point3, T>::Tuple3;
+    template <class U>
+    explicit Point3(Vector3<U> v) : Tuple3<renderer::Point3, T>(v.x, v.y, v.z) {}
+    Vector3<T> operator-(Point3 o) const { return {this->x - o.x, this->y - o.y, this->z - o.z}; }
+};
+struct Point2f {
+    Point2f() = default;
+    Point2f(float x_, float y_) : x(x_), y(y_) {}
+    float operator[](int i) const { return i == 0 ? x : y; }
+    float x = 0, y = 0;
+};
+using Point3f = Point3<float>;
+using Vector3f = Vector3<float>;
+} // namespace renderer
+
+// Calls as they are in pbrt-v4.
+static void test_calls_of_pbrt() {
+    using namespace renderer;
+    const Point3f p0(-0.5f, 2, -0.3f), p1(0.7f, 2.1f, -0.1f), p2(-0.4f, 2.2f, 0.8f), at(0.1f, 0, -0.2f);
+    const Point2f number(0.3f, 0.6f);
+    float pdf = 0;
+    renderer::array<float, 3> b = SampleSphericalTriangle({p0, p1, p2}, at, number, &pdf);
+    const renderer::array<Point3f, 3> v = {p0, p1, p2};
+    b = SampleSphericalTriangle(v, at, number);
+    CHECK(pdf > 0 && std::fabs(b[0] + b[1] + b[2] - 1) < 1e-6f);
+    const Vector3f w = Vec3(Triangle::from_vertices(p0, p1, p2).by_solid_angle(at).sample(number).direction);
+    Point2f u2 = InvertSphericalTriangleSample({p0, p1, p2}, at, w);
+    CHECK(near(u2, u) && near(InvertSphericalTriangleSample(v, at, w), u));
+
+    const Point3f corner(-0.5f, 2, -0.3f), right(0.7f, 2, -0.3f), up(-0.5f, 2.3f, 0.6f);
+    Point3f p3 = SampleSphericalRectangle(at, corner, right - corner, up - corner, number, &pdf);
+    p3 = SampleSphericalRectangle(at, corner, right - corner, up - corner, number);
+    u2 = InvertSphericalRectangleSample(at, corner, right - corner, up - corner, p3);
+    CHECK(pdf > 0 && near(u2, u));
+
+    Vector3f d = SampleUniformSphere(number);
+    CHECK(near(InvertUniformSphereSample(d), u));
+    d = SampleUniformHemisphere(number);
+    u2 = InvertUniformHemisphereSample(d);
+    d = SampleCosineHemisphere(number);
+    CHECK(near(u2, u) && near(InvertCosineHemisphereSample(d), u));
+    d = SampleUniformCone(number, 0.75f);
+    CHECK(near(InvertUniformConeSample(d, 0.75f), u) && UniformConePDF(0.75f) > 0);
+    Point2f disk = SampleUniformDiskConcentric(number);
+    u2 = InvertUniformDiskConcentricSample(disk);
+    disk = SampleUniformDiskPolar(number);
+    CHECK(near(u2, u) && near(InvertUniformDiskPolarSample(disk), u));
+    b = SampleUniformTriangle(number);
+    CHECK(near(InvertUniformTriangleSample(b), u) && near(InvertUniformTriangleSample({b[0], b[1], b[2]}), u));
+    const renderer::array<float, 4> weights = {1, 2, 0.5f, 3};
+    u2 = SampleBilinear(number, weights);
+    CHECK(near(InvertBilinearSample(u2, weights), u) && BilinearPDF(u2, renderer::span<float>(weights)) == BilinearPDF(u2, weights));
+    CHECK(near(InvertBilinearSample(SampleBilinear(number, {1, 2, 0.5f, 3}), {1, 2, 0.5f, 3}), u) && BilinearPDF(u2, {1, 2, 0.5f, 3}) > 0);
+    CHECK(SampleTent(number[0], 2) < 0 && SampleNormal(number[1], 0., .1) > 0 && SampleLinear(number[0], 0, 1) > 0);
+    CHECK(SampleExponential(number[0], 2) > 0);
+}
+
 // What converts to what.
 static_assert(std::is_convertible_v<Point3, Vec3> && std::is_convertible_v<Vec3, Point3> && std::is_convertible_v<Vec3, Direction>);
 static_assert(std::is_convertible_v<Point2, Vec2> && std::is_convertible_v<Vec2, Point2> && std::is_convertible_v<Vec3, std::array<float, 3>>);
@@ -237,6 +338,7 @@ int main() {
     test_sequences();
     test_tree();
     test_pbrt();
+    test_calls_of_pbrt();
     std::printf("%d checks, %d failed\n", checks, failures);
     return failures > 0;
 }

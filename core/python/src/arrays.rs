@@ -50,6 +50,10 @@ impl Kind {
             Self::Corners => 24,
         }
     }
+    /// Whether its numbers are in [0, 1).
+    fn is_unit(self) -> bool {
+        matches!(self, Self::Unit | Self::Units)
+    }
     /// The number of its own axes.
     fn rank(self) -> usize {
         match self {
@@ -135,8 +139,36 @@ impl<'py> Argument<'py> {
     }
     /// Its columns, of one number for each element of `shape`.
     pub(crate) fn columns(&self, shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {
-        let array = self.spread::<f32>(shape, "float32")?;
-        let numbers = array.as_slice()?;
+        let columns = if self.kind.is_unit() && !self.is_single()? {
+            // a number of double precision that is below 1 may round to 1: what it is shows only before
+            let columns = self.split(self.spread::<f64>(shape, "float64")?.as_slice()?, shape)?;
+            self.check_unit(&columns, shape)?;
+            let mut rounded = Vec::with_capacity(columns.len());
+            for column in columns {
+                let mut to = room(column.len())?;
+                to.extend(column.iter().map(|&x| (x as f32).min(LAST)));
+                rounded.push(to);
+            }
+            rounded
+        } else {
+            let columns = self.split(self.spread::<f32>(shape, "float32")?.as_slice()?, shape)?;
+            if self.kind.is_unit() {
+                self.check_unit(&columns, shape)?;
+            }
+            columns
+        };
+        if self.kind == Kind::Direction {
+            self.check_length(&columns, shape)?;
+        }
+        Ok(columns)
+    }
+    /// Whether its numbers are of single precision.
+    fn is_single(&self) -> PyResult<bool> {
+        let letter: String = self.array.getattr("dtype")?.getattr("char")?.extract()?;
+        Ok(letter == "f")
+    }
+    /// Rows of numbers as columns.
+    fn split<T: Copy>(&self, numbers: &[T], shape: &[usize]) -> PyResult<Vec<Vec<T>>> {
         let n = shape.iter().product();
         let width = self.axes.iter().product::<usize>();
         let mut columns = Vec::with_capacity(self.kind.width());
@@ -147,34 +179,45 @@ impl<'py> Argument<'py> {
             column.extend(numbers.iter().skip(k).step_by(width.max(1)).take(n));
             columns.push(column);
         }
-        self.check(&mut columns)?;
         Ok(columns)
     }
-    fn check(&self, columns: &mut [Vec<f32>]) -> PyResult<()> {
-        let name = self.name;
-        match self.kind {
-            Kind::Unit | Kind::Units => {
-                for x in columns.iter_mut().flatten() {
-                    if !(0.0..=1.0).contains(x) {
-                        return Err(PyValueError::new_err(format!("{name} must be in [0, 1), not {x}")));
-                    }
-                    // numbers of double precision round to 1
-                    *x = x.min(LAST);
-                }
+    fn check_unit<T: Copy + Into<f64>>(&self, columns: &[Vec<T>], shape: &[usize]) -> PyResult<()> {
+        for (k, column) in columns.iter().enumerate() {
+            let wrong = column.iter().position(|&x| !(0.0..1.0).contains(&x.into()));
+            if let Some((at, &x)) = wrong.and_then(|at| Some((at, column.get(at)?))) {
+                let at = self.index(at, shape, (columns.len() > 1).then_some(k));
+                return Err(PyValueError::new_err(format!("{at} must be in [0, 1), not {}", x.into())));
             }
-            Kind::Direction => {
-                let [x, y, z] = columns else { return Ok(()) };
-                for ((x, y), z) in x.iter().zip(y).zip(z) {
-                    let square = x * x + *y * *y + *z * *z;
-                    if square > 0.0 && square.is_finite() && (square - 1.0).abs() > 0.01 {
-                        let message = format!("{name} must be unit vectors, not of length {}", square.sqrt());
-                        return Err(PyValueError::new_err(message));
-                    }
-                }
-            }
-            _ => {}
         }
         Ok(())
+    }
+    fn check_length(&self, columns: &[Vec<f32>], shape: &[usize]) -> PyResult<()> {
+        let [x, y, z] = columns else { return Ok(()) };
+        for (at, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
+            let square = x * x + *y * *y + *z * *z;
+            if square > 0.0 && square.is_finite() && (square - 1.0).abs() > 0.01 {
+                let at = self.index(at, shape, None);
+                let message = format!("{at} must be a unit vector, not of length {}", square.sqrt());
+                return Err(PyValueError::new_err(message));
+            }
+        }
+        Ok(())
+    }
+    /// Its element that is the `at`-th of those of `shape`, as one writes it in Python.
+    fn index(&self, mut at: usize, shape: &[usize], last: Option<usize>) -> String {
+        let mut places: Vec<usize> = last.into_iter().collect();
+        // from the last axis on, which is where the argument's own axes end, too
+        for (i, &length) in shape.iter().rev().enumerate() {
+            if let Some(&own) = self.shape.iter().rev().nth(i) {
+                places.insert(0, if own == 1 { 0 } else { at % length });
+            }
+            at /= length;
+        }
+        if places.is_empty() {
+            return self.name.into();
+        }
+        let places: Vec<String> = places.iter().map(usize::to_string).collect();
+        format!("{}[{}]", self.name, places.join(", "))
     }
     /// Its indices, one for each element of `shape`.
     pub(crate) fn indices(&self, shape: &[usize]) -> PyResult<Vec<u32>> {

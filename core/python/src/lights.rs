@@ -93,6 +93,12 @@ impl Samples {
 }
 
 /// A light prepared for one shading point by one technique: `light.by_…` makes it, and it draws as often as needed.
+///
+/// What is easily done wrong: directions and normals that are not of length 1 raise ValueError. With the opposite normal, a light by
+/// projected solid angle is below the surface, and has pdf 0. A light seen from behind has a pdf, but `emits` is False and the weight 0;
+/// one of two sides has the weight 1/pdf. From a point on a flat light the pdf is 0; from one on a curved light rounding decides whether
+/// it is inside. A direction computed anew from the point of a sample has other last bits, and may miss beside an edge: keep the
+/// `direction` and the `pdf` of the sample.
 #[pyclass(module = "etendue", frozen)]
 pub(crate) struct Sampler {
     prepared: Box<dyn Prepared>,
