@@ -69,6 +69,10 @@ const TERMS: u32 = 48;
 /// this much shorter agrees with that.
 pub const SPARED: f64 = 1.0 / 131_072.0;
 
+/// A flat light looks small if its corners are within this fraction of the distance of the first one, squared. What is visible of it is then
+/// accurate relative to its solid angle, apart from the rounding of blockers, not just to the angle around it.
+pub const SMALL: f64 = 0.0025;
+
 /// A convex shape: a light or a blocker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Convex<S> {
@@ -79,6 +83,14 @@ pub enum Convex<S> {
         /// Number of corners: 3 or 4.
         count: usize,
     },
+    /// The parallelogram `corner + s edges[0] + t edges[1]` for s, t in \[0, 1\], as [`Parallelogram`](crate::Parallelogram) has it: however
+    /// small it is for its coordinates, its edges are not rounded.
+    Parallelogram {
+        /// One corner.
+        corner: Vec3<S>,
+        /// The two edges from that corner.
+        edges: [Vec3<S>; 2],
+    },
     /// A sphere.
     Sphere {
         /// Centre.
@@ -86,6 +98,22 @@ pub enum Convex<S> {
         /// Radius.
         radius: S,
     },
+}
+
+impl<S: Copy> Convex<S> {
+    /// Replaces each number x by `f(x)`.
+    #[inline]
+    pub fn map<T>(self, mut f: impl FnMut(S) -> T) -> Convex<T> {
+        match self {
+            Self::Polygon { corners, count } => {
+                Convex::Polygon { corners: corners.map(|corner| corner.map(&mut f)), count }
+            }
+            Self::Parallelogram { corner, edges } => {
+                Convex::Parallelogram { corner: corner.map(&mut f), edges: edges.map(|edge| edge.map(&mut f)) }
+            }
+            Self::Sphere { center, radius } => Convex::Sphere { center: center.map(&mut f), radius: f(radius) },
+        }
+    }
 }
 
 /// A closed convex polyhedron, such as a box: one blocker instead of a dozen triangles. From inside it hides everything.
@@ -106,6 +134,56 @@ pub struct Edge<S> {
     pub ends: [Vec3<S>; 2],
     /// Indices of the two faces that meet there.
     pub faces: [usize; 2],
+}
+
+/// A flat shape as seen from the points, in units of a power of two. Only directions matter, so that each shape can have its own unit.
+///
+/// The edges are those of the shape, not differences of rounded corners: the plane through a point and an edge is then as accurate as the
+/// direction to it, however short the edge is.
+#[derive(Clone, Copy, Debug)]
+struct Flat<R> {
+    corners: [Vec3<R>; 4],
+    /// The same from the first corner.
+    offsets: [Vec3<R>; 4],
+    /// From each corner to the next.
+    edges: [Vec3<R>; 4],
+    count: usize,
+    /// The reciprocal of the unit.
+    scale: R,
+    /// Unit normal of the plane, and n·x on it.
+    normal: Vec3<R>,
+    height: R,
+}
+
+impl<R: Real> Flat<R> {
+    /// The shape relative to the points; `None` for a sphere.
+    #[inline(always)]
+    fn new(shape: &Convex<R::Scalar>, point: Vec3<R>) -> Option<Self> {
+        let (mut corners, mut offsets, mut edges, count) = match *shape {
+            Convex::Sphere { .. } => return None,
+            Convex::Polygon { corners, count } => {
+                let (corners, count) = (corners.map(Vec3::splat), count.clamp(3, 4));
+                let edges = core::array::from_fn(|i| corners[if i + 1 < count { i + 1 } else { 0 }] - corners[i]);
+                (corners.map(|corner| corner - point), corners.map(|corner| corner - corners[0]), edges, count)
+            }
+            Convex::Parallelogram { corner, edges } => {
+                let (a, [u, v]) = (Vec3::splat(corner) - point, edges.map(Vec3::splat));
+                ([a, a + u, a + u + v, a + v], [Vec3::default(), u, u + v, v], [u, v, -u, -v], 4)
+            }
+        };
+        let scale = corners[..count].iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs())).pow2_scale();
+        corners = corners.map(|corner| corner * scale);
+        offsets = offsets.map(|offset| offset * scale);
+        edges = edges.map(|edge| edge * scale);
+        let [d, e, f, _] = edges;
+        let area = if count > 3 { (d + e).cross(e + f) } else { d.cross(e) };
+        let normal = area.unit_and_length().0;
+        Some(Self { corners, offsets, edges, count, scale, normal, height: normal.dot(corners[0]) })
+    }
+    #[inline(always)]
+    fn corners(&self) -> &[Vec3<R>] {
+        &self.corners[..self.count]
+    }
 }
 
 /// A blocker as seen from the points.
@@ -230,32 +308,27 @@ impl<R: Real> Occlusion<R> {
         }
         self.normal = normal;
         self.terms = 0;
-        let all = match *light {
-            Convex::Polygon { corners, count } => {
-                let corners = corners.map(|corner| Vec3::splat(corner) - point);
-                let corners = &corners[..count.clamp(3, 4)];
-                let (scaled, scale) = scaled(corners);
-                let corners = &scaled[..corners.len()];
-                let across = area(corners).unit_and_length().0;
-                let height = across.dot(corners[0]);
-                let towards = R::lit(-1.0).copysign(-height);
-                self.front = (across * towards, height * towards * R::lit(1.0 - SPARED) / scale);
+        let all = match (*light, Flat::new(light, point)) {
+            (_, Some(flat)) => {
+                let towards = R::lit(-1.0).copysign(-flat.height);
+                self.front = (flat.normal * towards, flat.height * towards * R::lit(1.0 - SPARED) / flat.scale);
                 self.light = None;
-                self.stack[0].start(corners, height.abs().gt(R::lit(0.0)));
+                self.stack[0].start(flat.corners[0], &flat.offsets[..flat.count], flat.height.abs().gt(R::lit(0.0)));
                 if self.stack[0].clip(normal, R::lit(0.0)).is_err() || self.stack[0].is_empty() {
                     return Some(R::lit(0.0));
                 }
                 self.stack[0].projected_solid_angle(normal)
             }
-            Convex::Sphere { center, radius } => {
+            (Convex::Sphere { center, radius }, None) => {
                 let (center, radius) = (Vec3::splat(center) - point, R::splat(radius));
                 let cap = Cap::new(center, radius);
                 self.front = (-cap.axis, -cap.tangents);
                 self.light = Some(cap);
                 let all = unoccluded(&cap, center, radius, normal);
-                self.stack[0].start(&[], R::Mask::splat(true));
+                self.stack[0].start(Vec3::default(), &[], R::Mask::splat(true));
                 all
             }
+            (_, None) => return None,
         };
         self.beside(all.clamped(R::lit(0.0), R::lit(core::f64::consts::PI)), point, blockers, polyhedra).ok()
     }
@@ -282,14 +355,11 @@ impl<R: Real> Occlusion<R> {
             if left.covered.all() {
                 break;
             }
-            match *blocker {
-                Convex::Polygon { corners, count } => {
-                    let corners = corners.map(|corner| Vec3::splat(corner) - point);
-                    self.see_polygon(left.kept, &corners[..count.clamp(3, 4)])?;
-                }
-                Convex::Sphere { center, radius } => {
+            match (*blocker, Flat::new(blocker, point)) {
+                (Convex::Sphere { center, radius }, _) => {
                     self.see_sphere(left.kept, Vec3::splat(center) - point, R::splat(radius))?;
                 }
+                (_, flat) => self.see_flat(left.kept, &flat.ok_or(TooMany)?)?,
             }
             self.hide(&mut left)?;
         }
@@ -309,22 +379,19 @@ impl<R: Real> Occlusion<R> {
         Ok(())
     }
 
-    /// Prepares a polygon as blocker `k`.
+    /// Prepares a flat shape as blocker `k`.
     #[inline]
-    fn see_polygon(&mut self, k: usize, corners: &[Vec3<R>]) -> Result<(), TooMany> {
+    fn see_flat(&mut self, k: usize, flat: &Flat<R>) -> Result<(), TooMany> {
         let seen = &mut self.seen[k];
-        let (scaled, scale) = scaled(corners);
-        let corners = &scaled[..corners.len()];
-        let across = area(corners).unit_and_length().0;
-        let height = across.dot(corners[0]);
+        let Flat { ref edges, scale, normal: across, height, .. } = *flat;
+        let corners = flat.corners();
         let sign = R::lit(1.0).copysign(height);
         let (zero, (front, least)) = (R::lit(0.0), (self.front.0, self.front.1 * scale));
         seen.cap = None;
         seen.count = corners.len();
         let (mut before, mut behind) = (R::Mask::splat(false), R::Mask::splat(false));
-        for (i, &from) in corners.iter().enumerate() {
-            let to = corners[if i + 1 == corners.len() { 0 } else { i + 1 }];
-            seen.planes[i] = from.cross(to) * sign;
+        for (i, (&from, &edge)) in corners.iter().zip(edges).enumerate() {
+            seen.planes[i] = from.cross(edge) * sign;
             let is_before = front.dot(from).ge(least);
             (before, behind) = (before | is_before, behind | !is_before);
         }
@@ -336,7 +403,7 @@ impl<R: Real> Occlusion<R> {
             seen.planes[seen.count] = (front * height.abs() + across * (-least * sign)).keep(crosses);
             seen.count += 1;
         }
-        seen.outline.start(corners, seen.lanes);
+        seen.outline.start(Vec3::default(), corners, seen.lanes);
         if self.light.is_some() {
             seen.outline.clip(front, least)?;
         }
@@ -355,15 +422,18 @@ impl<R: Real> Occlusion<R> {
         let (normal, least) = self.front;
         let scale = center.max_abs().pow2_scale();
         (seen.cap, seen.count, seen.lanes) = (None, 0, R::Mask::splat(true));
-        seen.outline.start(&[], seen.lanes);
+        seen.outline.start(Vec3::default(), &[], seen.lanes);
         let mut before = seen.lanes;
         for Edge { ends, faces: [i, j] } in body.edges {
-            let [from, to] = ends.map(|end| Vec3::splat(end) - point);
+            let [from, to] = ends.map(Vec3::splat);
+            let edge = to - from;
+            let (from, to) = (from - point, to - point);
             before = before & normal.dot(from).ge(least) & normal.dot(to).ge(least);
             let (Some(&i), Some(&j)) = (away.get(*i), away.get(*j)) else { return Err(TooMany) };
             let outer = i ^ j;
             if outer.any() {
-                let plane = (from * scale).cross(to * scale);
+                // not by both ends, whose rounding can exceed the length of the edge
+                let plane = (from * scale).cross(edge * edge.max_abs().pow2_scale());
                 let towards = R::lit(1.0).copysign(plane.dot(center));
                 *seen.planes.get_mut(seen.count).ok_or(TooMany)? = (plane * towards).keep(outer);
                 seen.count += 1;
@@ -401,7 +471,7 @@ impl<R: Real> Occlusion<R> {
                 Some(cap) if cap.is_apart_from(own, lanes) => Ok(None),
                 Some(_) => Err(TooMany),
                 None => {
-                    to.start(from.corners(), lanes);
+                    to.start(from.base(), from.corners(), lanes);
                     let part = own.projected_solid_angle_within(to, normal)?;
                     to.keep(part.gt(R::lit(0.0)));
                     self.terms += 1;
@@ -419,12 +489,12 @@ impl<R: Real> Occlusion<R> {
             return Ok(None);
         }
         if whole && !seen.outline.corners().is_empty() {
-            to.start(seen.outline.corners(), lanes);
+            to.start(Vec3::default(), seen.outline.corners(), lanes);
             to.clip(normal, R::lit(0.0))?;
         } else {
             let mut square = Outline::<R, MOST>::default();
             let from = if whole {
-                square.start(&cap.ok_or(TooMany)?.square()?, lanes);
+                square.start(Vec3::default(), &cap.ok_or(TooMany)?.square()?, lanes);
                 square.clip(normal, R::lit(0.0))?;
                 lanes = square.some();
                 &square
@@ -441,7 +511,7 @@ impl<R: Real> Occlusion<R> {
                     return Ok(None);
                 }
             }
-            to.start(from.corners(), lanes);
+            to.start(from.base(), from.corners(), lanes);
             for (&cut, &plane) in cut.iter().zip(planes) {
                 if (cut & to.some()).any() {
                     to.clip_in(cut, plane, R::lit(0.0))?;
@@ -472,21 +542,6 @@ impl<R: Real> Occlusion<R> {
         }
         Ok(left)
     }
-}
-
-/// Twice the area of a triangle or quadrilateral, along its normal. Corners may coincide.
-#[inline(always)]
-fn area<R: Real>(corners: &[Vec3<R>]) -> Vec3<R> {
-    (corners[2] - corners[0]).cross(corners[if corners.len() > 3 { 3 } else { 0 }] - corners[1])
-}
-
-/// Up to four corners in units of a power of two, and its reciprocal. Only directions matter, so that each shape can have its own unit.
-#[inline(always)]
-fn scaled<R: Real>(corners: &[Vec3<R>]) -> ([Vec3<R>; 4], R) {
-    let scale = corners.iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs())).pow2_scale();
-    let mut scaled = [Vec3::default(); 4];
-    scaled.iter_mut().zip(corners).for_each(|(scaled, &corner)| *scaled = corner * scale);
-    (scaled, scale)
 }
 
 /// Ω⊥ of a sphere without blockers.

@@ -91,7 +91,7 @@ fn a_hit_is_the_point_that_was_sampled() {
             continue;
         }
         let mut random = Random::new(300 + kind as u64);
-        let mut seen = 0;
+        let (mut seen, mut hidden) = (0, 0);
         for round in 0..500 {
             let light = AreaLight::any(kind, round * 20, &mut random);
             let sampler = AreaLight::prepare::<f64>(&[light]);
@@ -103,7 +103,11 @@ fn a_hit_is_the_point_that_was_sampled() {
             seen += 1;
             let hit = sampler.hit(s.direction);
             if shape == LightShape::Patch && hit.distance < 0.999 * s.distance {
-                // another sheet of the patch hides it
+                // another sheet of the patch hides it, if there is one
+                let sheet = light.on_patch([hit.uv.x, hit.uv.y]);
+                let ray: [f64; 3] = hit.direction.at(0).map(|x| x * hit.distance);
+                assert!(length(sub(sheet, ray)) < 1e-9 * s.distance / cos, "{light:?}: {hit:?} for {s:?}");
+                hidden += 1;
                 continue;
             }
             let off = (hit.distance / s.distance - 1.0).abs();
@@ -123,7 +127,7 @@ fn a_hit_is_the_point_that_was_sampled() {
             let expected = again.pdf * cos / (again.distance * again.distance);
             assert!((area.pdf / expected - 1.0).abs() < 1e-6, "{shape:?} {by:?}: {area:?} for {expected}");
         }
-        assert!(seen > 50, "{shape:?} {by:?}: {seen}");
+        assert!(seen > 50 && hidden < seen / 10, "{shape:?} {by:?}: {seen}, and {hidden} hidden");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Bilinear patches.
 
 use super::sampler::ByArea;
-use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint, quotient};
+use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint, quotient, quotient_if_any};
 use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::spherical::to_unit;
@@ -77,20 +77,26 @@ impl<R: Real> PlacedPatch<R> {
         let root = (b * b - R::lit(4.0) * a * c).greater(zero).sqrt();
         let sum = b + root.copysign(b);
         let size = p.max_abs() + one;
-        let candidate = |s: R| {
+        let candidate = |(s, root): (R, R::Mask)| {
             let (start, line) = (u.mul_add(s, p), twist.mul_add(s, v));
             let across = ray.cross(line);
-            let t = quotient(-ray.cross(start).dot(across), across.length_squared());
-            let distance = ray.dot(line.mul_add(t, start));
+            let (t, meets) = quotient_if_any(-ray.cross(start).dot(across), across.length_squared());
+            let point = line.mul_add(t, start);
+            let distance = ray.dot(point);
             // by as much as a direction is rounded, over the lengths of both lines
             let slack = |length: R| R::lit(SLACK) * quotient(size, length).lesser(R::lit(1e3));
             let beyond = |x: R| (x - x.clamped(zero, one)).abs();
             let other = twist.mul_add(t.clamped(zero, one), u);
             let inside = beyond(s).le(slack(ray.cross(other).length())) & beyond(t).le(slack(across.length()));
-            (Vec2::new(s.clamped(zero, one), t.clamped(zero, one)), distance, inside & distance.gt(zero))
+            // the ray passes the point of the line that is nearest to it: so do neither a line that is only a point nor a root that is not
+            // real; the plane through ray and line is known to one over the sine of their angle
+            let aside = (ray.cross(point).length() * across.length()).le(R::lit(SLACK) * size * line.length());
+            let found = root & meets & inside & aside & distance.gt(zero);
+            (Vec2::new(s.clamped(zero, one), t.clamped(zero, one)), distance, found)
         };
-        let first = candidate(quotient(R::lit(-2.0) * c, sum));
-        let second = candidate(quotient(-half * sum, a));
+        // where the coefficient of s² is 0 there is one root, and where that of s is 0 too there is none
+        let first = candidate(quotient_if_any(R::lit(-2.0) * c, sum));
+        let second = candidate(quotient_if_any(-half * sum, a));
         let take = second.2 & (!first.2 | second.1.lt(first.1));
         let st = Vec2::blend(take, second.0, first.0);
         (st, R::blend(take, second.1, first.1) / self.scale, first.2 | second.2)

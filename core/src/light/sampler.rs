@@ -19,6 +19,19 @@ use crate::warp::Warp;
 ///
 /// Degenerate input (a light without extent, a shading point in the plane of a flat light) gives pdf 0, never NaN, infinity or a panic.
 ///
+/// # What a host gets wrong at first
+/// - The normal `n` of a shading point must have length 1: by projected solid angle the pdf is multiplied by its length, so that it no
+///   longer integrates to 1. The cosine warp takes any length.
+/// - `n` must be on the side from which light is gathered. With the opposite one, samples by projected solid angle are below the surface,
+///   or there are none.
+/// - The normal of a light, whose direction its corners' order or its edges' cross product gives, is on the side that emits. From behind,
+///   `pdf` is positive, but `emits` is false and `weight()` is 0; [`LightSample::two_sided`] is for lights that emit from both sides.
+/// - From a point on a flat light the pdf is 0. From a point on a curved one, rounding decides whether it is inside or outside: all results
+///   are finite, but the whole sphere or half of it may be sampled. A host that leaves a surface moves the point off first.
+/// - Directions must have length 1, and should be those that were sampled. A direction that is computed anew from the point of a sample has
+///   other last bits: its pdf is that of a direction some 10⁻⁷ away, and is 0 where that one misses the light beside an edge. For the
+///   weights of a sample, use its own `direction` and `pdf`.
+///
 /// ```
 /// use etendue::{Frame, LightSampler, Real, Vec2, Vec3, Warp, estimate::Heuristic, warp::CosineHemisphere};
 /// /// Radiance that a white diffuse surface with normal `n` reflects of a light with radiance 1, by one sample of either technique.

@@ -77,10 +77,11 @@ impl<R: Real> Cap<R> {
         let turn = |a: Vec2<R>, b: Vec2<R>| (a.x * b.y - a.y * b.x).atan2(a.dot(b));
         let inverse_length = |tan: R| rsqrt(tan.mul_add(tan, one));
         let (mut sum, mut turned) = (zero, zero);
-        let corners = outline.corners();
-        let mut from = corners[corners.len() - 1];
+        let (base, corners) = (outline.base(), outline.corners());
+        let mut from = base + corners[corners.len() - 1];
         let mut azimuth_from = azimuth(from);
         for &to in corners {
+            let to = base + to;
             let azimuth_to = azimuth(to);
             let across = from.cross(to);
             let square = across.length_squared();

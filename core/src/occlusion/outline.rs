@@ -1,13 +1,16 @@
 //! Convex polygons as seen from a point, and what planes leave of them.
 
-use super::TooMany;
+use super::{SMALL, TooMany};
 use crate::math::{double, polynomial, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::Vec3;
 
-/// A convex polygon with up to `MOST` corners, relative to the point of each lane. Corners may coincide.
+/// A convex polygon with up to `MOST` corners. Corners may coincide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outline<R: Real, const MOST: usize> {
+    /// The point from which corners are measured, relative to the point of each lane: a corner of the light, so that the rounding of a corner
+    /// is relative to the size of the light, not to its distance.
+    base: Vec3<R>,
     corners: [Vec3<R>; MOST],
     count: usize,
     /// Lanes in which something is left.
@@ -16,9 +19,20 @@ pub(super) struct Outline<R: Real, const MOST: usize> {
 
 impl<R: Real, const MOST: usize> Default for Outline<R, MOST> {
     fn default() -> Self {
-        Self { corners: [Vec3::default(); MOST], count: 0, some: R::Mask::splat(false) }
+        Self { base: Vec3::default(), corners: [Vec3::default(); MOST], count: 0, some: R::Mask::splat(false) }
     }
 }
+
+/// (θ/sinθ − 1)/sin²θ in powers of sin²θ: the series of the arc sine. The terms left out are less than 1e−15 up to 0.01.
+const ANGLE_OVER_SINE: [f64; 7] = [
+    1.0 / 6.0,
+    3.0 / 40.0,
+    15.0 / 336.0,
+    105.0 / 3456.0,
+    945.0 / 42_240.0,
+    10_395.0 / 599_040.0,
+    135_135.0 / 9_676_800.0,
+];
 
 /// θ/sinθ from cosθ and sin²θ.
 #[inline(always)]
@@ -44,12 +58,17 @@ fn angle_over_sine<R: Real>(cos: R, sin_squared: R) -> R {
 }
 
 impl<R: Real, const MOST: usize> Outline<R, MOST> {
+    /// The corners, measured from the base.
     pub(super) fn corners(&self) -> &[Vec3<R>] {
         &self.corners[..self.count]
     }
-    /// Starts over with these corners, at most `MOST`, in some of the lanes.
+    pub(super) fn base(&self) -> Vec3<R> {
+        self.base
+    }
+    /// Starts over with these corners from a base, at most `MOST`, in some of the lanes.
     #[inline(always)]
-    pub(super) fn start(&mut self, corners: &[Vec3<R>], some: R::Mask) {
+    pub(super) fn start(&mut self, base: Vec3<R>, corners: &[Vec3<R>], some: R::Mask) {
+        self.base = base;
         self.count = corners.len();
         self.corners[..corners.len()].copy_from_slice(corners);
         self.some = some;
@@ -95,8 +114,9 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     /// Lanes in which any corner has normal · x ≥ 0, and in which all have.
     #[inline(always)]
     pub(super) fn inside(&self, normal: Vec3<R>) -> (R::Mask, R::Mask) {
+        let least = -self.base.dot(normal);
         self.corners().iter().fold((R::Mask::splat(false), R::Mask::splat(true)), |(any, all), corner| {
-            let inside = corner.dot(normal).ge(R::lit(0.0));
+            let inside = corner.dot(normal).ge(least);
             (any | inside, all & inside)
         })
     }
@@ -104,6 +124,7 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     #[inline]
     fn clip_corners<const N: usize>(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
         let no = R::Mask::splat(false);
+        let least = least - self.base.dot(normal);
         let Some(corners) = self.corners.first_chunk_mut::<N>() else { return Err(TooMany) };
         let height = corners.map(|corner| corner.dot(normal) - least);
         let mut inside = height.map(|height| height.ge(R::lit(0.0)) | !lanes);
@@ -130,32 +151,23 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
             let share = height[i] / R::blend(inside[i] ^ inside[next(i)], fall, R::lit(1.0));
             (corners[next(i)] - corners[i]).mul_add(share, corners[i])
         });
-        let mut left = Vec3::default();
+        let (mut left, mut back) = (Vec3::default(), Vec3::default());
         for i in 0..N {
             left = Vec3::blend(inside[i] & !inside[next(i)], crossing[i], left);
+            back = Vec3::blend(!inside[i] & inside[next(i)], crossing[i], back);
         }
-        // corners outside at both ends of the list: those at its beginning become the point where the outline returns. So a corner that other
-        // lanes make a lane repeat does not change with which corner the list begins, nor the order of any sum.
-        let mut head = !inside[N - 1] & !inside[0];
-        let (around, mut back) = ((head & !inside[1]).any(), Vec3::default());
-        if around {
-            for i in 0..N {
-                back = Vec3::blend(!inside[i] & inside[next(i)], crossing[i], back);
-            }
-        }
-        let (mut moved, mut carried) = (no, Vec3::default());
+        // Of the corners outside, those before the place where the outline leaves, and the one where it returns, become the point of return.
+        // So a corner that other lanes make a lane repeat changes neither with which corner the list begins, nor the order of any sum.
+        let (mut gone, mut moved, mut carried) = (no, no, Vec3::default());
         for i in 0..N {
             let outside = !inside[i];
             let (leaves, returns) = (outside & inside[before(i)], outside & inside[next(i)]);
             let splits = leaves & returns;
-            let corner = Vec3::blend(returns & !leaves, crossing[i], left);
-            let mut corner = Vec3::blend(inside[i], corners[i], corner);
-            if around {
-                head = head & outside;
-                corner = Vec3::blend(head, back, corner);
-            }
+            gone = gone | leaves;
+            let corner = Vec3::blend((returns | !gone) & !leaves, back, left);
+            let corner = Vec3::blend(inside[i], corners[i], corner);
             corners[i] = Vec3::blend(moved, carried, corner);
-            carried = Vec3::blend(splits, crossing[i], corner);
+            carried = Vec3::blend(splits, back, corner);
             moved = moved | splits;
         }
         if (moved & self.some).any() {
@@ -169,6 +181,64 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     /// ½ n·Σ θᵢ Γᵢ, which is Ω⊥ if no part lies below the horizon; 0 in lanes in which nothing is left.
     #[inline]
     pub(super) fn projected_solid_angle(&self, normal: Vec3<R>) -> R {
+        let some = self.some;
+        let most = self.corners().iter().fold(R::lit(0.0), |most, corner| most.greater(corner.length_squared()));
+        let square = self.base.length_squared();
+        let small = most.lt(square * R::lit(SMALL)) & square.gt(R::lit(1e-30));
+        let part = if (small | !some).all() {
+            self.small_projected_solid_angle(normal)
+        } else if (small & some).any() {
+            R::blend(small, self.small_projected_solid_angle(normal), self.wide_projected_solid_angle(normal))
+        } else {
+            self.wide_projected_solid_angle(normal)
+        };
+        part.keep(some)
+    }
+
+    /// Ω⊥ of an outline that is small for its distance.
+    ///
+    /// With xᵢ = x₀ + zᵢ, eᵢ = zᵢ₊₁ − zᵢ and kᵢ = θᵢ/(sinθᵢ |xᵢ| |xᵢ₊₁|) the sum is Σ kᵢ xᵢ × eᵢ. All its terms are of first order in the size
+    /// of the outline, while the sum is of second order. Since Σ eᵢ = 0, any constant k̄ can be subtracted from the kᵢ of x₀ × Σ kᵢ eᵢ: with
+    /// k̄ = |x₀|⁻² and kᵢ = k̄ (1 + κᵢ), the sum is k̄ (x₀ × Σ κᵢ eᵢ + Σ (1 + κᵢ) zᵢ × eᵢ), whose terms all are of second order. The small
+    /// numbers κᵢ come from small numbers: 1 − |x₀|/|xᵢ| from |xᵢ|²/|x₀|² − 1 = (2 x₀ + zᵢ) · zᵢ / |x₀|², and θ/sinθ − 1 from sin²θ.
+    #[inline(always)]
+    fn small_projected_solid_angle(&self, normal: Vec3<R>) -> R {
+        let (one, base) = (R::lit(1.0), self.base);
+        let square = base.length_squared();
+        let scale = one / R::blend(square.gt(R::lit(1e-30)), square, one);
+        let plain_cross = |a: Vec3<R>, b: Vec3<R>| {
+            let of = |a: R, b: R, c: R, d: R| a.mul_add(b, -(c * d));
+            Vec3::new(of(a.y, b.z, a.z, b.y), of(a.z, b.x, a.x, b.z), of(a.x, b.y, a.y, b.x))
+        };
+        // |x₀|/|x| and 1 − |x₀|/|x|, from |x|²/|x₀|² − 1
+        let lengths = |z: Vec3<R>| {
+            let longer = (base + base + z).dot(z) * scale;
+            let ratio = (one + longer).greater(R::lit(0.5));
+            let root = ratio.sqrt();
+            let over = one / (root * (one + root));
+            (over * (one + root), longer * over)
+        };
+        let corners = self.corners();
+        let mut from = corners[corners.len() - 1];
+        let (mut near_from, mut less_from) = lengths(from);
+        let (mut sum, mut area) = (Vec3::default(), Vec3::default());
+        for &to in corners {
+            let (near_to, less_to) = lengths(to);
+            let edge = to - from;
+            let near = near_from * near_to;
+            let sine_squared = plain_cross(base + from, edge).length_squared() * (near * scale) * (near * scale);
+            // θ/sinθ − 1
+            let more = sine_squared * polynomial(sine_squared, ANGLE_OVER_SINE);
+            let kappa = more * near - (less_from + less_to - less_from * less_to);
+            sum += edge * kappa;
+            area += plain_cross(from, edge) * (one + kappa);
+            (from, near_from, less_from) = (to, near_to, less_to);
+        }
+        (normal.dot(plain_cross(base, sum) + area) * (R::lit(0.5) * scale)).abs()
+    }
+
+    /// Ω⊥ of any outline.
+    fn wide_projected_solid_angle(&self, normal: Vec3<R>) -> R {
         let zero = R::lit(0.0);
         let inverse = |v: Vec3<R>| {
             let square = v.length_squared();
@@ -177,16 +247,17 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         };
         let mut sum = zero;
         let corners = self.corners();
-        let mut from = corners[corners.len() - 1];
+        let mut from = self.base + corners[corners.len() - 1];
         let mut inverse_from = inverse(from);
         for &to in corners {
+            let to = self.base + to;
             let inverse_to = inverse(to);
             let scale = inverse_from * inverse_to;
             let across = from.cross(to) * scale;
             sum += across.dot(normal) * angle_over_sine(from.dot(to) * scale, across.length_squared());
             (from, inverse_from) = (to, inverse_to);
         }
-        (sum * R::lit(0.5)).abs().keep(self.some)
+        (sum * R::lit(0.5)).abs()
     }
 }
 

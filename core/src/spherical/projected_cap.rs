@@ -1,8 +1,8 @@
 mod lune;
 mod segment;
 
-use super::DirectionSample;
 use super::double_word::dot_dw;
+use super::{DirectionSample, above_horizon};
 use crate::lanewise::lanewise;
 use crate::math::{difference_of_products, double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
@@ -47,8 +47,8 @@ lanewise! {
     ///   of its distance has 1.6e−6, and 8e−14 over that fraction. Direction 4e−7, besides 4 steps of 2⁻²⁴ in u; where the
     ///   horizon touches the cap, the direction has the slope of a square root there and may be off by 1e−3 of the size. The
     ///   inverse leads back to the direction, except where the axis is within 4e−7 of the horizon: u may be off by 3e−3 there.
-    ///   A cap that rises less than 1e−6 above the horizon has cosines below the rounding of its directions, and some samples
-    ///   are lost; all others have an estimate without bias, to 1e−5.
+    ///   Directions have a cosine of at least 4 ulp, so that none is lost below the horizon: a cap that rises less than 1e−6 above
+    ///   it is sampled there by rounding, with an estimate without bias, to 1e−5.
     /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two
     ///   maps of the cut cap and the forms without cancellation are derived here.
     pub struct ProjectedCap {
@@ -349,7 +349,7 @@ impl<R: Real> ProjectedCap<R> {
         let far = R::blend(along.lt(zero), ratio(-self.power, root - along), root + along);
         let most = R::lit(if double::<R>() { f64::MAX } else { f64::from(f32::MAX) });
         let distance = (R::blend(self.inside(), far, near) * self.unit).lesser(most);
-        DirectionSample { direction: self.frame.to_world(w), distance }
+        DirectionSample { direction: above_horizon(self.frame.to_world(w), self.frame.n), distance }
     }
 }
 
@@ -357,7 +357,7 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.frame.to_world(self.local(u).0)
+        above_horizon(self.frame.to_world(self.local(u).0), self.frame.n)
     }
     /// The pdf per steradian; 0 for a direction that misses the sphere or lies below the horizon.
     #[inline(always)]

@@ -91,10 +91,7 @@ fn parts<S: From<f32>>(solid: &Solid) -> Parts<S> {
     (vector(solid.center), faces, solid.edges.iter().map(edge).collect())
 }
 fn converted<S: From<f32>>(shape: &Convex<f32>) -> Convex<S> {
-    match *shape {
-        Convex::Polygon { corners, count } => Convex::Polygon { corners: corners.map(vector), count },
-        Convex::Sphere { center, radius } => Convex::Sphere { center: vector(center), radius: radius.into() },
-    }
+    shape.map(S::from)
 }
 
 impl Scene {
@@ -153,10 +150,7 @@ impl Scene {
     /// If it does.
     pub fn scale(&self, exponent: i32) {
         let factor = 2.0_f32.powi(exponent);
-        let times = |shape: &Convex<f32>| match *shape {
-            Convex::Polygon { corners, count } => Convex::Polygon { corners: corners.map(|c| c * factor), count },
-            Convex::Sphere { center, radius } => Convex::Sphere { center: center * factor, radius: radius * factor },
-        };
+        let times = |shape: &Convex<f32>| shape.map(|x| x * factor);
         let scaled = Self {
             light: times(&self.light),
             blockers: self.blockers.iter().map(times).collect(),

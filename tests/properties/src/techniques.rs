@@ -28,6 +28,10 @@ pub trait Technique: Copy + Debug {
     fn truth(&self, _w: V3, _distance: f64) -> Option<(f64, f64)> {
         None
     }
+    /// Truth: whether the surface coordinates of a hit are those of a point at its distance in its direction.
+    fn has(&self, _hit: &LightSample<f32>) -> bool {
+        true
+    }
     /// All lengths times a power of two.
     #[must_use]
     fn scaled(&self, _factor: f32) -> Self {
@@ -123,7 +127,8 @@ pub fn one_pdf<T: Technique>(light: &T, u: [f32; 2]) {
         let evaluated = sampler.pdf(s.direction);
         let hit = sampler.hit(s.direction);
         if allowed > 0.0 && hit.distance < 0.999 * s.distance {
-            // another sheet of a twisted patch hides the sample
+            // another sheet of a twisted patch hides the sample, if there is one
+            assert!(light.has(&hit), "no such point: {hit:?} for {s:?}: {light:?} at {u:?}");
             return;
         }
         let off = (f64::from(evaluated) / f64::from(s.pdf) - 1.0).abs();
@@ -284,6 +289,12 @@ impl AreaLight {
         ];
         (vectors, lanes_of(|i| f64::from(of(i).radius)))
     }
+    /// The point of a patch at surface coordinates, relative to the shading point.
+    #[must_use]
+    pub fn on_patch(&self, [s, t]: [f64; 2]) -> V3 {
+        let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
+        along(along(along(self.offset(), u, s), v, t), sub(sub(w, u), v), s * t)
+    }
     /// True for a patch that folds back on itself, or nearly: seen along its middle normal, no convex quadrilateral.
     fn folded(&self) -> bool {
         let (u, v, w) = (wide(self.b), wide(self.c), wide(self.n));
@@ -361,6 +372,12 @@ impl Technique for AreaLight {
         };
         let allowed = 32.0 * ULP * (1.0 + reach / size) / (cos * cos);
         (s.emits && allowed < 0.05).then_some(allowed)
+    }
+    fn has(&self, hit: &LightSample<f32>) -> bool {
+        let reach: V3 = hit.direction.at(0).map(|x| x * f64::from(hit.distance));
+        let size = [self.b, self.c, self.n].iter().fold(length(self.offset()), |sum, v| sum + length(wide(*v)));
+        let point = || self.on_patch([f64::from(hit.uv.x), f64::from(hit.uv.y)]);
+        self.shape != LightShape::Patch || length(sub(point(), reach)) < 1e-3 * size
     }
     fn truth(&self, w: V3, distance: f64) -> Option<(f64, f64)> {
         // of a patch no density is known, and the corners of a polygon are rounded

@@ -72,6 +72,10 @@ fn any_numbers() {
                 let radius = if word & 8 == 0 { random.unit() } else { random.any_f32() };
                 return Convex::Sphere { center: vector(random).into(), radius };
             }
+            if word & 16 == 0 {
+                let edges = [(); 2].map(|()| vector(random).into());
+                return Convex::Parallelogram { corner: vector(random).into(), edges };
+            }
             Convex::Polygon { corners: [(); 4].map(|()| vector(random).into()), count: 3 + (word >> 10) as usize % 2 }
         };
         let light = shape(&mut random);

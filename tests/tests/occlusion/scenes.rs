@@ -112,6 +112,7 @@ impl Placement {
         for shape in core::iter::once(&mut scene.light).chain(&mut scene.blockers) {
             match shape {
                 Convex::Polygon { corners, .. } => *corners = corners.map(point),
+                Convex::Parallelogram { .. } => unreachable!("the regimes have polygons and spheres"),
                 Convex::Sphere { center, radius } => {
                     *center = point(*center);
                     *radius *= self.unit_length as f32;

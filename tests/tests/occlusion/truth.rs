@@ -24,6 +24,10 @@ pub(crate) fn from_point(shape: &Convex<f32>, point: [f32; 3]) -> Shape {
         Convex::Polygon { corners, count } => {
             Shape::Polygon(corners[..count].iter().map(|&c| sub(wide(c.into()), wide(point))).collect())
         }
+        Convex::Parallelogram { corner, edges: [u, v] } => {
+            let (a, u, v) = (sub(wide(corner.into()), wide(point)), wide(u.into()), wide(v.into()));
+            Shape::Polygon(vec![a, along(a, u, 1.0), along(along(a, u, 1.0), v, 1.0), along(a, v, 1.0)])
+        }
         Convex::Sphere { center, radius } => Shape::Sphere(sub(wide(center.into()), wide(point)), f64::from(radius)),
     }
 }

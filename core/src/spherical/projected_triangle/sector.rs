@@ -1,6 +1,7 @@
 //! The part of a polygon between two half-planes of constant azimuth and two great circles that meet in a vertex.
 #![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
+use super::super::above_horizon;
 use crate::lanewise::lanewise;
 use crate::math::{double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
@@ -304,7 +305,7 @@ impl<R: Real> Sector<R> {
         let w = arc + moved;
         // a unit vector up to rounding; from the triangle's own plane or corner its planes are pure rounding
         let squared = w.length_squared();
-        w * rsqrt(R::blend(squared.gt(R::lit(1e-30)), squared, one))
+        above_horizon(w * rsqrt(R::blend(squared.gt(R::lit(1e-30)), squared, one)), normal)
     }
 
     /// Numbers proportional to the sine and the cosine of the angle θ on the outer arc at the azimuth of a direction, in a sector about

@@ -18,6 +18,9 @@ fn shape(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Convex<f32> {
     if input.below(4) == 0 {
         // flat for certain: a corner and two edges
         let [p, u, v] = [(); 3].map(|()| vector(input));
+        if input.below(2) == 0 {
+            return Convex::Parallelogram { corner: p, edges: [u, v] };
+        }
         return Convex::Polygon { corners: [p, p + u, p + u + v, p + v].map(finite), count };
     }
     Convex::Polygon { corners: [(); 4].map(|()| vector(input)), count }
@@ -47,6 +50,9 @@ pub(super) fn occlusion(input: &mut Input<'_>) {
     for shape in scene.blockers.iter().chain([&scene.light]) {
         match shape {
             Convex::Polygon { corners, .. } => lengths.extend(corners.iter().flat_map(|c| [c.x, c.y, c.z])),
+            Convex::Parallelogram { corner, edges: [u, v] } => {
+                lengths.extend([corner, u, v].iter().flat_map(|c| [c.x, c.y, c.z]));
+            }
             Convex::Sphere { center, radius } => lengths.extend([center.x, center.y, center.z, *radius]),
         }
     }
