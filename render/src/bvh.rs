@@ -5,7 +5,7 @@
 //! length. A hit is strictly nearer than its limit, and of two hits at equal distance the triangle of lower index wins. What a ray
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
-//! Files import one way, from the last of this list to the first: `rays`, `node`, `build`, `parallel_build`, `tree`, then the
+//! Files import one way, from the last of this list to the first: `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
 //! traversals `frustum`, `single_ray`, `stream`, `region`, then the primitives `triangles`, `shapes`. Each traversal is one body for closest and
 //! any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are the shapes that do not occlude.
 //!
@@ -14,6 +14,7 @@
 //! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
 
 mod build;
+mod double_precision;
 mod frustum;
 mod node;
 mod parallel_build;

@@ -10,7 +10,10 @@
 mod blockers;
 mod bodies;
 mod hull;
+#[cfg(test)]
+mod margins;
 mod patch;
+mod precision;
 mod shaft;
 
 use crate::bvh::{Region, SHAPE};
@@ -18,7 +21,10 @@ use crate::surfaces::Surfaces;
 pub use blockers::Blocker;
 use blockers::Candidate;
 pub use bodies::Bodies;
+use etendue::occlusion::Occlusion;
 pub use patch::{Patch, Pyramid, Viewer};
+use precision::Behind;
+pub use precision::{ALLOWED, Precision};
 use shaft::{Facing, Form, Lamp, Shaft};
 
 /// Greatest number of blockers in a certificate.
@@ -31,13 +37,13 @@ const NODES: usize = 160;
 /// What geometry alone tells about a light as seen from a patch.
 #[derive(Clone, Copy, Debug)]
 pub enum Certificate<'a> {
-    /// Nothing lies between any point of the patch and any point of the light above its horizon.
-    Lit,
+    /// Nothing lies between any point of the patch and any point of the light above its horizon. A closed form of this precision is accurate.
+    Lit(Precision),
     /// No point of the light is visible from any point of the patch: something convex covers it, or it lies below the horizon, or its back
     /// faces the patch.
     Dark,
-    /// Only these can occlude the light, at most [`MOST`].
-    Blockers(&'a [Blocker]),
+    /// Only these can occlude the light, at most [`MOST`]. A closed form of this precision is accurate.
+    Blockers(&'a [Blocker], Precision),
     /// There are too many blockers, or nothing is proved.
     Unknown,
 }
@@ -55,6 +61,8 @@ pub struct Certifier<'a> {
     /// Bodies that may meet the shaft, and whether they can stand for their triangles.
     met: Vec<(u32, bool)>,
     blockers: Vec<Blocker>,
+    /// For lights without blockers.
+    occlusion: Box<Occlusion<f64>>,
 }
 
 impl<'a> Certifier<'a> {
@@ -71,6 +79,7 @@ impl<'a> Certifier<'a> {
             candidates: Vec::with_capacity(CANDIDATES),
             met: Vec::with_capacity(MOST),
             blockers: Vec::with_capacity(MOST),
+            occlusion: Box::default(),
         }
     }
     /// What is known about a light, by its index in the list, as seen from a patch.
@@ -80,7 +89,7 @@ impl<'a> Certifier<'a> {
             // a convex light is below the horizon of each of its own points
             return Certificate::Dark;
         }
-        let Self { surfaces, bodies, region, shaft, stack, candidates, met, blockers, .. } = self;
+        let Self { surfaces, bodies, region, shaft, stack, candidates, met, blockers, occlusion, .. } = self;
         match shaft.set(patch, lamp, surfaces.bvh.reach(), region) {
             Facing::Towards => {}
             Facing::Away => return Certificate::Dark,
@@ -110,8 +119,12 @@ impl<'a> Certifier<'a> {
             candidates.len() < CANDIDATES
         });
         met.retain(|met| met.1);
+        let mut precision = |behind: &Behind| {
+            let form = surfaces.shapes()[lamp.shape as usize].geometry.convex();
+            Precision::of(patch, lamp, &form, behind, occlusion)
+        };
         if complete && candidates.is_empty() && met.is_empty() {
-            return Certificate::Lit;
+            return Certificate::Lit(precision(&Behind::default()));
         }
         let is_ball = matches!(lamp.form, Form::Ball);
         if is_ball && candidates.iter().any(|candidate| candidate.touches(&shaft.light, shaft.epsilon)) {
@@ -127,13 +140,19 @@ impl<'a> Certifier<'a> {
         if candidates.iter().any(|candidate| candidate.covers(shaft)) {
             return Certificate::Dark;
         }
-        if candidates.len() + met.len() > MOST {
+        if candidates.len() + met.len() > MOST || !candidates.iter().all(|candidate| candidate.is_outside(shaft)) {
             return Certificate::Unknown;
         }
         blockers.clear();
         blockers.extend(met.iter().map(|met| Blocker::Body(met.0)));
         blockers.extend(candidates.iter().map(|candidate| candidate.blocker(shaft)));
-        Certificate::Blockers(blockers)
+        let behind = Behind {
+            blockers: blockers.len(),
+            spheres: candidates.iter().filter(|candidate| matches!(candidate, Candidate::Ball(..))).count(),
+            displacement: met.iter().map(|met| bodies.displacement(met.0, &patch.hull)).sum::<f64>()
+                + candidates.iter().map(|candidate| candidate.displacement(&patch.hull)).sum::<f64>(),
+        };
+        Certificate::Blockers(blockers, precision(&behind))
     }
 }
 

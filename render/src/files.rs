@@ -109,6 +109,17 @@ pub fn check_replaceable(path: &Path) -> Result<(), FileError> {
     fs::remove_file(part).map_err(|error| refused(&error))
 }
 
+/// Makes a folder, and those that it is in, unless they are there.
+///
+/// # Errors
+/// Fails if the folder cannot be made, with the reason.
+pub fn make_folder(path: &Path) -> Result<(), FileError> {
+    if path.exists() && !path.is_dir() {
+        return Err(failed(path, "cannot make this folder: a file has this name"));
+    }
+    fs::create_dir_all(path).map_err(|error| failed(path, format!("cannot make this folder: {error}")))
+}
+
 /// The folder that holds a file.
 fn folder(path: &Path) -> &Path {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))

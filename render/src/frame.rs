@@ -1,6 +1,8 @@
 //! What an image depends on, so that its parts can be recognised.
 
+use crate::files::{FileError, failed, read_file};
 use crate::integrator::Settings;
+use crate::limits::{MOST_SAMPLES, MOST_SIDE, is_size};
 use crate::options::name;
 use crate::sampler::Sampler;
 use crate::scene::Scene;
@@ -8,7 +10,6 @@ use crate::sensor::{Exposure, Sensor};
 use crate::technique::Technique;
 use clap::ValueEnum;
 use serde_json::{Value, json};
-use std::io;
 use xxhash_rust::xxh3::Xxh3;
 
 /// Everything that an image depends on. Equal frames have equal images, bit for bit.
@@ -38,11 +39,11 @@ impl Frame {
     ///
     /// # Errors
     /// Fails if a file of the scene cannot be read again.
-    pub fn new(scene: &Scene, settings: Settings, sensor: Sensor) -> io::Result<Self> {
+    pub fn new(scene: &Scene, settings: Settings, sensor: Sensor) -> Result<Self, FileError> {
         let mut hash = Xxh3::new();
         hash.update(scene.name.as_bytes());
         for file in &scene.inputs {
-            let bytes = crate::files::read_file(file)?;
+            let bytes = read_file(file).map_err(|error| failed(file, format!("cannot read it again: {error}")))?;
             hash.update(&(bytes.len() as u64).to_le_bytes());
             hash.update(&bytes);
         }
@@ -103,9 +104,9 @@ impl Frame {
             T::from_str(text, false).map_err(|_| wrong)
         }
         let settings = Settings {
-            width: small("width", 65_536)?,
-            height: small("height", 65_536)?,
-            spp: small("spp", 1 << 22)?,
+            width: small("width", MOST_SIDE)?,
+            height: small("height", MOST_SIDE)?,
+            spp: small("spp", MOST_SAMPLES)?,
             technique: choice::<Technique>(&text("technique")?, wrong("technique"))?,
             depth: small("depth", u32::MAX)?,
             sampler: choice::<Sampler>(&text("sampler")?, wrong("sampler"))?,
@@ -122,7 +123,7 @@ impl Frame {
             build: text("build")?,
         };
         let Settings { width, height, spp, sets, sampler, .. } = settings;
-        if width == 0 || height == 0 || u64::from(width) * u64::from(height) > 1 << 28 || spp == 0 || sets == 3 {
+        if !is_size(width.into(), height.into()) || spp == 0 || sets == 3 {
             return Err(format!("no image has {width} × {height} pixels of {spp} samples in {sets} sets"));
         }
         sampler.check(spp, sets, frame.lens)?;

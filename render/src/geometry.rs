@@ -1,6 +1,7 @@
 //! The forms of shapes that rays meet as such, and of lights.
 
 use etendue::Vec3;
+use etendue::occlusion::Convex;
 
 /// The form of a shape.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +36,14 @@ impl Geometry {
             Self::Parallelogram { u, v, .. } => Some([wide(u), wide(v)]),
         }
     }
+    /// The shape as the core's closed forms take it. A parallelogram keeps its edges, as samplers and rays have them.
+    pub fn convex(&self) -> Convex<f32> {
+        match *self {
+            Self::Sphere { center, radius } => Convex::Sphere { center: center.into(), radius },
+            Self::Triangle([a, b, c]) => Convex::Polygon { corners: [a, b, c, c].map(Vec3::from), count: 3 },
+            Self::Parallelogram { p, u, v } => Convex::Parallelogram { corner: p.into(), edges: [u.into(), v.into()] },
+        }
+    }
     /// Area of the surface, in squared scene units.
     pub fn area(&self) -> f64 {
         match (self, self.edges()) {
@@ -44,12 +53,18 @@ impl Geometry {
             (_, None) => unreachable!("only spheres lack edges"),
         }
     }
+    /// A corner of a flat shape and its unit normal, in double precision; `None` for a sphere.
+    pub fn plane(&self) -> Option<[Vec3<f64>; 2]> {
+        let corner = match *self {
+            Self::Sphere { center, .. } => center,
+            Self::Triangle([a, ..]) => a,
+            Self::Parallelogram { p, .. } => p,
+        };
+        self.edges().map(|[u, v]| [corner.map(f64::from).into(), u.cross(v).normalize()])
+    }
     /// The unit normal of a flat shape; 0 for a sphere.
     pub fn normal(&self) -> [f32; 3] {
-        self.edges().map_or([0.0; 3], |[u, v]| {
-            let normal = u.cross(v).normalize();
-            [normal.x as f32, normal.y as f32, normal.z as f32]
-        })
+        self.plane().map_or([0.0; 3], |[_, normal]| [normal.x as f32, normal.y as f32, normal.z as f32])
     }
     /// Least and greatest corner of the bounding box.
     pub fn bounds(&self) -> [[f32; 3]; 2] {

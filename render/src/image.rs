@@ -170,7 +170,7 @@ impl From<&Film> for Picture {
 /// # Errors
 /// Fails if the file is missing or damaged, has no R, G, B, or has more than 2²⁸ pixels.
 pub fn read_exr(path: &Path) -> Result<Picture, FileError> {
-    let bytes = std::fs::read(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
+    let bytes = crate::files::read_file(path).map_err(|error| failed(path, format!("cannot read: {error}")))?;
     decode_exr(&bytes, path)
 }
 
@@ -179,7 +179,7 @@ pub fn read_exr(path: &Path) -> Result<Picture, FileError> {
 /// # Errors
 /// Fails if the file is damaged, has no R, G, B, or has more than 2²⁸ pixels.
 pub fn decode_exr(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
-    let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {error}"));
+    let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {}", layers::why(&error)));
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(not_one)?;
     for header in &meta.headers {
         let samples = header.channels.list.iter().map(|c| c.sample_type.bytes_per_sample() as u128);

@@ -2,14 +2,15 @@
 //!
 //! Modules import one way, from the last line of this list to the first:
 //!
-//! - [`packet`], [`area`], [`geometry`], [`options`]: packets of eight numbers, rectangles of pixels, the forms of shapes, and what command
-//!   lines share.
+//! - [`packet`], [`area`], [`geometry`], [`limits`], [`options`]: packets of eight numbers, rectangles of pixels, the forms of shapes, how
+//!   large images can be, and what command lines share.
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
 //! - [`camera`], [`sensor`], [`sampler`], [`sky`], [`lights`]: the numbers and directions of a sample.
 //! - [`certificates`]: what geometry alone tells about the light that reaches a surface.
-//! - [`integrator`], [`progressive`]: images of a given number of samples, or of a given error or time.
+//! - [`integrator`], [`claim`], [`progressive`]: images of a given number of samples, or of a given error or time, and what they
+//!   claim of it.
 //! - [`frame`], [`split`], [`parts`], [`merge`]: images whose parts are rendered apart.
 
 pub mod area;
@@ -17,6 +18,7 @@ pub mod bsdf;
 pub mod bvh;
 pub mod camera;
 pub mod certificates;
+pub mod claim;
 pub mod compare;
 pub mod files;
 pub mod film;
@@ -26,6 +28,7 @@ pub mod image;
 pub mod integrator;
 pub mod light_tree;
 pub mod lights;
+pub mod limits;
 pub mod merge;
 pub mod options;
 pub mod packet;
@@ -40,6 +43,7 @@ pub mod sums;
 pub mod surfaces;
 pub mod technique;
 
+pub use claim::Claim;
 pub use frame::Frame;
 pub use integrator::{RayCount, Settings, World};
 pub use sampler::Sampler;

@@ -476,7 +476,12 @@ impl Chosen {
     fn sphere(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let light = Sphere { center: self.place, radius: self.first.x };
         match measure {
-            Measure::Area => light.by_area(p).sample(u).into(),
+            Measure::Area => {
+                // From outside, the far side is behind the near one, even if it emits inwards. The light does not occlude itself.
+                let drawn = Drawn::from(light.by_area(p).sample(u));
+                let inside = (light.center - p).length_squared().lt(light.radius * light.radius);
+                Drawn { pdf: drawn.pdf.keep(drawn.emits | inside), ..drawn }
+            }
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
             Measure::Projected => light.by_projected_solid_angle(p, normal).sample(u).into(),
         }

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use std::mem::take;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Most problems that a message lists.
 const LISTED: usize = 10;
@@ -178,7 +178,12 @@ pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Re
     if !pilots {
         let of_pilot = |kind: &Kind| matches!(kind, Kind::Pilot(_) | Kind::Allotment(_));
         let odd = headers.iter().filter(|file| file.pieces.iter().any(|((_, kind), _)| of_pilot(kind)));
-        let line = |file: &Headers| format!("{}: belongs to the pilot, others do not", file.path.display());
+        let line = |file: &Headers| {
+            let is_whole = file.pieces.iter().any(|((_, kind), _)| matches!(kind, Kind::Allotment(_)));
+            let what =
+                if is_whole { "is a whole pilot already, for --after" } else { "belongs to the pilot, others do not" };
+            format!("{}: {what}", file.path.display())
+        };
         let odd: Vec<_> = odd.map(line).collect();
         if !odd.is_empty() {
             return Err(list(odd));
@@ -204,6 +209,42 @@ pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Re
     };
     let (used, duplicates) = (used.len(), duplicates.into_iter().map(|file| file.path.clone()).collect());
     Ok(Outcome { frame, merged, used, duplicates, gaps })
+}
+
+/// How many samples follow the pilot in this file, for the pixels of an area. The file is the merge of a pilot, or a part that holds all
+/// of one.
+///
+/// # Errors
+/// Fails if the file is damaged, holds no whole pilot, or that of another image than `frame`.
+pub fn allotment(path: &Path, frame: &Frame, area: [u32; 4]) -> Result<Allotment, String> {
+    let wrong = |what: &str| format!("{}: {what}", path.display());
+    let mut file = PartFile::open(path).map_err(|error| error.to_string())?;
+    if let Some(difference) = frame.difference(&file.frame) {
+        return Err(wrong(&format!("the pilot of another image: {difference}")));
+    }
+    let whole = frame.settings.whole();
+    let merged = matches!(&file.pieces[..], [piece] if piece.area == whole && matches!(piece.kind, Kind::Allotment(_)));
+    let piece = if merged {
+        file.read_rows(&(area[1]..area[3])).map_err(|error| error.to_string())?.remove(0)
+    } else {
+        if !file.pieces.iter().all(|piece| matches!(piece.kind, Kind::Pilot(_))) {
+            return Err(wrong("this is no pilot"));
+        }
+        let headers = read_headers(&[path.to_owned()])?;
+        let used: Vec<&Headers> = headers.iter().collect();
+        let cells = Cells::new(file.pieces.iter().map(|piece| piece.area).chain([whole]));
+        let gaps = gaps(&used, &cells, frame)?;
+        if !gaps.is_empty() {
+            let lines = gaps.iter().map(|(area, _)| format!("--pilot --tile {}", text_of(*area))).collect();
+            return Err(wrong(&format!(
+                "not the whole pilot; merge it with the parts that it lacks:\n{}",
+                list(lines)
+            )));
+        }
+        allot(frame, read_pieces(&used, &|_| ())?)?
+    };
+    let Content::Allotment(allotment) = piece.content else { return Err(wrong("not what its header says")) };
+    Ok(allotment.crop(area))
 }
 
 fn text_of([x0, y0, x1, y1]: [u32; 4]) -> String {

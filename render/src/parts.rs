@@ -4,7 +4,7 @@
 //! each pixel. With the adaptive sampler, it holds what the pilot found, or how many samples the pixels receive after it.
 
 use crate::area;
-use crate::files::{FileError, failed, replace};
+use crate::files::{FileError, failed, make_folder, replace};
 use crate::film::Pixel;
 use crate::frame::Frame;
 use crate::image::layers::{self, Contents, Layer, LayerFile, LayerHeader, Numbers};
@@ -316,7 +316,7 @@ pub fn encode(frame: &Frame, pieces: Vec<Piece>) -> Result<Vec<u8>, String> {
 pub fn write(path: &Path, frame: &Frame, pieces: Vec<Piece>) -> Result<(), FileError> {
     let bytes = encode(frame, pieces).map_err(|what| failed(path, what))?;
     if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| failed(folder, format!("cannot make this folder: {error}")))?;
+        make_folder(folder)?;
     }
     replace(path, &bytes)
 }

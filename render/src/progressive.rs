@@ -5,8 +5,10 @@
 //! never on the samples. The number of samples of a pass, and the decision to stop, depend on the time, or on the error of the whole
 //! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
 
+use crate::claim::{Claim, why_unknown};
 use crate::film::Film;
 use crate::integrator::{RayCount, Settings, World};
+use crate::limits::MOST_SAMPLES;
 use crate::sampler::Sampler;
 use std::time::Instant;
 
@@ -29,22 +31,12 @@ pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bo
     }
 }
 
-/// The estimated relative RMS error of an image: √(mean variance) / mean, over pixels and channels. `None` if a variance is not
-/// known, or if the image is black.
-#[must_use]
-pub fn relative_error(film: &Film) -> Option<f64> {
-    let count = 3.0 * film.pixels.len() as f64;
-    let variance = film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>() / count;
-    let mean = film.mean().iter().sum::<f64>() / 3.0;
-    (variance.is_finite() && mean > 0.0).then(|| variance.sqrt() / mean)
-}
-
 /// When an image is finished: as soon as one of these is reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Goal {
     /// Seconds since the start of the first pass.
     pub seconds: Option<f64>,
-    /// The relative RMS error, see [`relative_error`].
+    /// The relative RMS error, see [`Claim::total`].
     pub error: Option<f64>,
 }
 
@@ -66,8 +58,8 @@ pub struct Pass {
 pub struct Progress {
     /// The image.
     pub film: Film,
-    /// Its estimated error, see [`relative_error`].
-    pub error: Option<f64>,
+    /// Its estimated error; `None` if it is not known.
+    pub error: Option<Claim>,
     /// Samples per pixel of the image.
     pub spp: u64,
     /// The passes of the image, in order.
@@ -78,8 +70,6 @@ pub struct Progress {
     pub rays: RayCount,
 }
 
-/// Most samples per pixel of a pass.
-const MOST: u32 = 1 << 22;
 /// Samples per pixel of the first pass.
 const FIRST: u32 = 64;
 /// A pass has at most this many times the samples of the largest so far, so that its time and error can be predicted.
@@ -127,13 +117,13 @@ impl Plan {
     fn counts(&self) -> Result<Vec<u32>, String> {
         let (sets, lens) = (self.settings.sets, self.lens);
         let all: Vec<u32> = if self.sampler == Some(Sampler::Stratified4d) {
-            let cells = |n: u32| n.checked_pow(if lens { 6 } else { 4 }).filter(|&cells| cells <= MOST);
+            let cells = |n: u32| n.checked_pow(if lens { 6 } else { 4 }).filter(|&cells| cells <= MOST_SAMPLES);
             let replicates = || [1, 2, 4].into_iter().filter(|&r| sets == 0 || r == sets);
             let mut all: Vec<u32> = (1..).map_while(cells).flat_map(|n| replicates().map(move |r| r * n)).collect();
             all.sort_unstable();
             all
         } else {
-            (0..=MOST.ilog2()).map(|bits| 1 << bits).collect()
+            (0..=MOST_SAMPLES.ilog2()).map(|bits| 1 << bits).collect()
         };
         let is_valid = |&n: &u32| self.sampler_of(n).check(n, sets, lens).is_ok();
         let has_variance = |&n: &u32| reports_variance(self.sampler_of(n), n, sets, lens);
@@ -164,8 +154,8 @@ impl Plan {
 /// for their weight.
 ///
 /// # Errors
-/// Fails if no number of samples has a variance, but the goal is an error; if `finish` fails; or if the error of the image is
-/// unknown because it is black.
+/// Fails if no number of samples has a variance, but the goal is an error; if `finish` fails; if the error of the image is
+/// unknown because it is black, or too bright for single precision; or if no number of samples reaches it, and no time ends the rendering.
 pub fn render(
     world: &World,
     plan: &Plan,
@@ -177,7 +167,9 @@ pub fn render(
     let counts = plan.counts()?;
     let pixels = f64::from(settings.width) * f64::from(settings.height);
     // smaller passes have another sampler
-    let full = counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST)).unwrap_or(counts[0]);
+    let full =
+        counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
+    let systematic = world.systematic(&settings);
     let began = Instant::now();
     // a preview only measures the time
     let mut next = at_most(&counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
@@ -196,7 +188,7 @@ pub fn render(
             Some(mut mean) if mean.passes.iter().all(|p| p.sampler == pass.sampler) => {
                 weight += own;
                 add(&mut mean.film, &film, own / weight);
-                mean.error = relative_error(&mean.film);
+                mean.error = Claim::new(&mean.film, systematic);
                 mean.spp += u64::from(next);
                 mean.passes.push(pass);
                 Progress { seconds, rays: sum(mean.rays, rays), ..mean }
@@ -205,16 +197,19 @@ pub fn render(
             earlier => {
                 weight = own;
                 let rays = earlier.map_or(rays, |mean| sum(mean.rays, rays));
-                let error = relative_error(&film);
+                let error = Claim::new(&film, systematic);
                 Progress { film, error, spp: next.into(), passes: vec![pass], seconds, rays }
             }
         };
+        if let (Goal { error: Some(target), seconds: None }, Some(claim)) = (goal, mean.error) {
+            claim.check(target)?;
+        }
         finish(&mean)?;
         let counts = if next < full { &counts[..] } else { &counts[counts.partition_point(|&n| n < full)..] };
         match decide(&mean, goal, weight, power, counts, full, began.elapsed().as_secs_f64()) {
             Some(spp) => next = spp,
             None if goal.error.is_some() && mean.error.is_none() => {
-                return Err("the relative error is not known, because the image is black".into());
+                return Err(format!("the relative error is not known, because {}", why_unknown(&mean.film, true)));
             }
             None => return Ok(mean),
         }
@@ -252,12 +247,12 @@ fn decide(
     let last = mean.passes.last()?;
     let mut next = f64::from(largest.saturating_mul(GROWTH).max(full));
     if let Some(target) = goal.error {
-        let error = mean.error?;
-        if error <= target {
+        let excess = mean.error?.excess(target);
+        if excess <= 1.0 {
             return None;
         }
-        // the squared error is c / Σ n^power
-        let missing = weight * ((error / target).powi(2) - 1.0);
+        // the squared random error is c / Σ n^power
+        let missing = weight * (excess - 1.0);
         let needed = at_least(counts, missing.powf(power.recip()).max(f64::from(last.spp)));
         next = next.min(needed.map_or(f64::INFINITY, f64::from));
     }
@@ -323,22 +318,6 @@ mod tests {
     }
 
     #[test]
-    fn the_error_is_that_of_the_variances() {
-        let film = |mean: [f32; 3], variance: [f32; 3]| Film {
-            width: 2,
-            height: 1,
-            pixels: vec![
-                Pixel { mean, variance, samples: 4 },
-                Pixel { mean: [2.0; 3], variance: [0.0; 3], samples: 4 },
-            ],
-        };
-        let error = relative_error(&film([1.0, 2.0, 3.0], [0.06, 0.12, 0.06])).unwrap();
-        assert!((error - (0.24_f64 / 6.0).sqrt() / 2.0).abs() < 1e-7, "{error}");
-        assert_eq!(relative_error(&film([1.0; 3], [f32::INFINITY; 3])), None);
-        assert_eq!(relative_error(&film([-2.0; 3], [0.0; 3])), None);
-    }
-
-    #[test]
     fn passes_are_averaged_by_their_weights() {
         let film = |mean: f32, variance: f32, samples| Film {
             width: 1,
@@ -379,8 +358,8 @@ mod tests {
         let counts: Vec<u32> = (1..=22).map(|bits| 1 << bits).collect();
         let film = Film { width: 0, height: 0, pixels: Vec::new() };
         let pass = Pass { spp: 64, sampler: Sampler::Sobol, seed: 0, seconds: 1.0 };
-        let mean =
-            Progress { film, error: Some(0.02), spp: 64, passes: vec![pass], seconds: 1.0, rays: RayCount::default() };
+        let error = Some(Claim { random: 0.02, systematic: 0.0, pixels: 100.0 });
+        let mean = Progress { film, error, spp: 64, passes: vec![pass], seconds: 1.0, rays: RayCount::default() };
         let weight = 64_f64.powf(1.5);
         let next = |seconds, error| decide(&mean, Goal { seconds, error }, weight, 1.5, &counts, 2, 1.0);
         // after a preview, the least number for the sampler of larger passes
@@ -401,5 +380,12 @@ mod tests {
         assert_eq!(next(Some(1.05), None), None);
         assert_eq!(next(Some(10.0), Some(0.019)), Some(64));
         assert_eq!(next(Some(1.6), Some(1e-5)), Some(32));
+        // of the error, samples lower the random part alone: by half, as above, and never to the other
+        let error = Some(Claim { random: 0.02, systematic: 0.01, pixels: 100.0 });
+        let mean = Progress { error, ..mean.clone() };
+        let next = |seconds, error| decide(&mean, Goal { seconds, error }, weight, 1.5, &counts, 2, 1.0);
+        assert_eq!(next(None, Some(f64::sqrt(2e-4))), Some(256));
+        assert_eq!(next(None, Some(0.0224)), None);
+        assert_eq!(next(Some(9.0), Some(0.01)), Some(256));
     }
 }

@@ -6,6 +6,7 @@
 mod builtin;
 mod description;
 mod generated;
+mod includes;
 mod lexer;
 mod lights;
 mod materials;
@@ -26,6 +27,7 @@ pub use lights::{DeltaLight, Environment, SkyRadiance};
 pub use materials::Material;
 pub use message::Message;
 use message::utf8;
+use reader::Origin;
 use std::path::Path;
 use std::sync::Arc;
 use std::{fmt, io};
@@ -37,7 +39,7 @@ pub enum SceneError {
     At(Message),
     /// The scene file itself could not be read.
     Io {
-        /// The path as given by the user.
+        /// The path as given by the user, as text.
         path: String,
         /// The system's error.
         error: io::Error,
@@ -90,15 +92,16 @@ pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
 }
 
 /// Reads the built-in scene of this name, or else the file at this path.
-pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
-    if let Some((name, text)) = BUILTIN.iter().find(|(name, _)| *name == name_or_path) {
-        return Ok(reader::read(text, &format!("{name}.pbrt"), Path::new("."), true)?);
+pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
+    let path = name_or_path.as_ref();
+    if let Some((name, text)) = BUILTIN.iter().find(|(name, _)| path.as_os_str() == *name) {
+        return Ok(reader::read(text, &format!("{name}.pbrt"), Path::new("."), Origin::Builtin)?);
     }
-    let path = Path::new(name_or_path);
-    let failed = |error| SceneError::Io { path: name_or_path.to_string(), error };
+    let shown = path.display().to_string();
+    let failed = |error| SceneError::Io { path: shown.clone(), error };
     let bytes = read_file(path).map_err(failed)?;
-    let text = utf8(&bytes, &Arc::from(name_or_path))?;
-    let mut scene = parse(text, name_or_path, path.parent().unwrap_or(Path::new("")))?;
+    let text = utf8(&bytes, &Arc::from(&*shown))?;
+    let mut scene = reader::read(text, &shown, path.parent().unwrap_or(Path::new("")), Origin::File(path))?;
     scene.inputs.push(path.to_owned());
     Ok(scene)
 }
@@ -132,5 +135,5 @@ fn edits(a: &str, b: &str) -> usize {
 ///
 /// Any text gives a scene or an error, with bounded recursion.
 pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
-    Ok(reader::read(text, file, dir, false)?)
+    Ok(reader::read(text, file, dir, Origin::Text)?)
 }

@@ -1,16 +1,20 @@
 //! The surfaces of a scene: what rays hit, with its material.
 
+mod points;
+
 use crate::bsdf::{Finish, Metal, PLAIN, finish};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::packet::{M8, V8, X8, equal};
 use crate::scene::{Geometry, Material, Scene, Shape};
-use etendue::{Mask, Real, u32x8};
+use etendue::{Mask, Real, Vec3, u32x8};
+pub(crate) use points::{LEAST, LIFT};
+use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
 use std::sync::Arc;
 
 /// The hit points of eight rays.
 #[derive(Clone, Copy)]
 pub struct Surface {
-    /// Positions, moved off the surface towards the ray by more than their error.
+    /// Positions, moved off the surface towards the ray by more than their rounding.
     pub point: V8,
     /// Unit normals on the side of the ray.
     pub normal: V8,
@@ -113,7 +117,7 @@ impl Surfaces {
         let meshes = hits.any() & !shapes;
         let mut surface = Surface::default();
         if meshes.any() {
-            self.mesh(hits, meshes, rays.direction, &mut surface);
+            self.mesh(hits, meshes, rays, &mut surface);
         }
         if shapes.any() {
             self.solid(hits, shapes, rays, &mut surface);
@@ -122,22 +126,24 @@ impl Surfaces {
     }
 
     #[inline(always)]
-    fn mesh(&self, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) {
+    fn mesh(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
         let places = hits.place.as_array();
         let first = places[lanes.bits().trailing_zeros() as usize & 7];
         let uniform = (equal(hits.place, u32x8::splat(first)) | !lanes).all();
-        let (v0, v1, v2, albedo);
+        let reach = self.bvh.reach();
+        let (points, albedo);
         if uniform {
-            let c = self.bvh.corners(first);
-            let corner = |k: usize| V8::from([c[k], c[k + 1], c[k + 2]]);
-            (v0, v1, v2) = (corner(0), corner(3), corner(6));
+            let c = self.bvh.corners(first).map(f64::from);
+            let corners = [[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]];
+            points = on_triangle(corners.map(Vec3::from), rays, reach);
             albedo = V8::from(self.albedo(first));
         } else {
             let rows: [[f32; 9]; 8] =
                 std::array::from_fn(|i| if lanes.lane(i) { self.bvh.corners(places[i]) } else { [0.0; 9] });
             let c = X8::transpose(rows.map(|r| X8::from(&r[..8])));
             let last = X8::from(rows.map(|r| r[8]));
-            (v0, v1, v2) = (V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last));
+            let corners = [V8::new(c[0], c[1], c[2]), V8::new(c[3], c[4], c[5]), V8::new(c[6], c[7], last)];
+            points = on_triangles(corners, rays, reach);
             albedo = if self.place_materials.is_empty() {
                 V8::from(self.albedo(0))
             } else {
@@ -147,12 +153,8 @@ impl Surfaces {
                 V8::new(channel(0), channel(1), channel(2))
             };
         }
-        let (e1, e2) = (v1 - v0, v2 - v0);
-        let normal = e1.cross(e2).normalize();
-        let normal = facing(normal, direction);
-        let point = e1.mul_add(hits.b1, e2.mul_add(hits.b2, v0));
-        let reach = v0.max_abs().max(v1.max_abs()).max(v2.max_abs());
-        surface.point = lift(point, normal, reach);
+        let Points { point, normal } = points;
+        surface.point = point;
         surface.normal = normal;
         surface.albedo = albedo;
         surface.reflects = lanes;
@@ -197,13 +199,14 @@ impl Surfaces {
             }
             let albedo = self.albedos[shape.material as usize];
             if albedo != [0.0; 3] {
-                let normal = facing(outward, rays.direction);
-                let point = match shape.geometry {
-                    // on the sphere, however far away the camera is
-                    Geometry::Sphere { center, radius } => outward.mul_add(X8::splat(radius), center.into()),
-                    _ => rays.direction.mul_add(hits.distance, rays.origin),
+                let reach = self.bvh.reach();
+                let Points { point, normal } = match (&shape.geometry, shape.geometry.plane()) {
+                    (_, Some([corner, normal])) => on_plane(corner, normal, rays, reach),
+                    (Geometry::Sphere { center, radius }, None) => {
+                        on_sphere(*center, *radius, hits.distance, rays, reach)
+                    }
+                    (_, None) => unreachable!("only spheres lack a plane"),
                 };
-                let point = lift(point, normal, X8::splat(self.bvh.shapes.reach()));
                 surface.point = V8::blend(here, point, surface.point);
                 surface.normal = V8::blend(here, normal, surface.normal);
                 surface.albedo = V8::blend(here, albedo.into(), surface.albedo);
@@ -238,18 +241,4 @@ pub fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(
     let emission = shape.emission?;
     let front = outward.dot(direction).lt(X8::lit(0.0));
     Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
-}
-
-/// The normal on the side of the incoming ray.
-#[inline]
-fn facing(normal: V8, direction: V8) -> V8 {
-    let away = normal.dot(direction).gt(X8::lit(0.0));
-    V8::new(normal.x.negate_where(away), normal.y.negate_where(away), normal.z.negate_where(away))
-}
-
-/// Moves a point off its surface by 8 ulp of the largest coordinate of the primitive, which exceeds the error of the point and of
-/// the triangle test for every unit of length.
-#[inline]
-fn lift(point: V8, normal: V8, reach: X8) -> V8 {
-    normal.mul_add(reach * X8::lit(1.0 / 1_048_576.0), point)
 }

@@ -60,8 +60,8 @@ fn group(kind: usize, mesh: &[Triangle], random: &mut Random) -> Vec<Ray> {
 /// The hits of a group, and which rays are unoccluded up to half of the hit distance, up to it, and slightly beyond.
 #[derive(Debug, PartialEq)]
 struct Found {
-    /// Bits of the distance, the place and both barycentric coordinates.
-    hits: Vec<[u32; 4]>,
+    /// Bits of the distance, and the place.
+    hits: Vec<[u32; 2]>,
     free: Vec<u32>,
 }
 
@@ -76,7 +76,7 @@ fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> Found {
     let bits = |x: f32x8, i: usize| x.to_array()[i].to_bits();
     let each = (0..8 * GROUP).map(|i| {
         let (h, i) = (&hits[i / 8], i % 8);
-        [bits(h.distance, i), h.place.to_array()[i], bits(h.b1, i), bits(h.b2, i)]
+        [bits(h.distance, i), h.place.to_array()[i]]
     });
     let each: Vec<_> = each.collect();
     // limits before, at and behind the hits

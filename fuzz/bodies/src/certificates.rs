@@ -1,5 +1,6 @@
 //! Small scenes on a lattice, so that their parts touch, coincide and are parallel, whose certificates must agree with single segments.
 
+use etendue::occlusion::Convex;
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::bvh::SHAPE;
 use etendue_render::camera::Pinhole;
@@ -89,8 +90,16 @@ fn meets(p: V3, y: V3, geometry: &Geometry) -> [bool; 2] {
 /// May a blocker hide y from p? `body` tells the triangles of a body.
 fn is_listed<I: Iterator<Item = [[f32; 3]; 3]>>(p: V3, y: V3, blockers: &[Blocker], body: impl Fn(u32) -> I) -> bool {
     blockers.iter().any(|blocker| match *blocker {
-        Blocker::Polygon { corners, count, .. } => !meets_polygon(p, y, &corners.map(wide)[..count])[1],
-        Blocker::Sphere { center, radius, .. } => !meets_sphere(p, y, wide(center), f64::from(radius))[1],
+        Blocker::Convex { form: Convex::Sphere { center, radius }, .. } => {
+            !meets_sphere(p, y, wide([center.x, center.y, center.z]), f64::from(radius))[1]
+        }
+        Blocker::Convex { form: Convex::Parallelogram { corner, edges }, .. } => {
+            let [corner, u, v] = [corner, edges[0], edges[1]].map(|v| [v.x, v.y, v.z]);
+            !meets_polygon(p, y, &parallelogram(corner, u, v))[1]
+        }
+        Blocker::Convex { form: Convex::Polygon { corners, count }, .. } => {
+            !meets_polygon(p, y, &corners.map(|v| wide([v.x, v.y, v.z]))[..count])[1]
+        }
         Blocker::Body(index) => body(index).any(|t| !meets_triangle(p, y, t.map(wide))[1]),
     })
 }
@@ -188,7 +197,7 @@ pub fn certificates(bytes: &[u8]) {
     };
     let mut certifier = Certifier::new(&surfaces, &bodies, [0]);
     let certificate = certifier.certify(&patch, 0);
-    if let Certificate::Blockers(blockers) = certificate {
+    if let Certificate::Blockers(blockers, _) = certificate {
         assert!((1..=MOST).contains(&blockers.len()));
     }
     let corners: Vec<V3> = patch.corners().collect();
@@ -246,9 +255,9 @@ pub fn certificates(bytes: &[u8]) {
             others.map(|(_, t)| meets_triangle(p, y, t.map(wide))).chain(shapes.map(|(_, s)| meets(p, y, &s.geometry)));
         let [met, missed] = all.fold([false, true], |all, one| [all[0] | one[0], all[1] & one[1]]);
         match certificate {
-            Certificate::Lit => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
+            Certificate::Lit(_) => assert!(!met, "{p:?} → {y:?} is occluded, but lit"),
             Certificate::Dark => assert!(!missed, "{p:?} → {y:?} is visible, but dark"),
-            Certificate::Blockers(blockers) => {
+            Certificate::Blockers(blockers, _) => {
                 assert!(
                     !met || is_listed(p, y, blockers, of_body),
                     "{p:?} → {y:?} is occluded by none of {blockers:?}"

@@ -26,6 +26,8 @@ pub struct Rays {
     pub(super) common_sign: Option<[bool; 3]>,
     /// Greatest distance by which boxes are widened.
     pub(super) pad: f32,
+    /// The primitives on which the rays begin, as in hits, or [`NOTHING`].
+    pub(super) from: u32x8,
 }
 
 impl Default for Rays {
@@ -39,6 +41,7 @@ impl Default for Rays {
             offset: [zero; 2],
             common_sign: None,
             pad: 0.0,
+            from: u32x8::splat(NOTHING),
         }
     }
 }
@@ -67,7 +70,15 @@ impl Rays {
             offset: [plane(origin, pad), plane(origin, -pad)],
             common_sign: common.then(|| negative.map(|bits| bits != 0)),
             pad: pad.to_array().into_iter().fold(0.0, f32::max),
+            from: u32x8::splat(NOTHING),
         }
+    }
+    /// The same rays, which begin on these primitives, as in hits. A flat primitive never occludes its own points, and a sphere only those
+    /// on its inside.
+    #[inline(always)]
+    #[must_use]
+    pub fn leaving(self, from: u32x8) -> Self {
+        Self { from, ..self }
     }
 }
 
@@ -78,17 +89,13 @@ pub struct Hits {
     pub distance: X8,
     /// Index of a triangle in leaf order, index of a shape with the bit [`SHAPE`] set, or [`NOTHING`].
     pub place: u32x8,
-    /// Barycentric coordinates of the triangles' second vertices.
-    pub b1: X8,
-    /// Barycentric coordinates of the triangles' third vertices.
-    pub b2: X8,
 }
 
 impl Hits {
     /// Misses, with hits to be searched nearer than `limit`.
     #[inline]
     pub fn none(limit: X8) -> Self {
-        Self { distance: limit, place: u32x8::splat(NOTHING), b1: X8::lit(0.0), b2: X8::lit(0.0) }
+        Self { distance: limit, place: u32x8::splat(NOTHING) }
     }
     /// Lanes that hit something.
     #[inline]
@@ -97,19 +104,12 @@ impl Hits {
     }
     #[inline]
     pub(super) fn nearest(&self, lane: usize) -> Nearest {
-        Nearest {
-            distance: self.distance.as_array()[lane],
-            place: self.place.as_array()[lane],
-            b1: self.b1.as_array()[lane],
-            b2: self.b2.as_array()[lane],
-        }
+        Nearest { distance: self.distance.as_array()[lane], place: self.place.as_array()[lane] }
     }
     #[inline]
     pub(super) fn put(&mut self, lane: usize, nearest: &Nearest) {
         self.distance.as_mut_array()[lane] = nearest.distance;
         self.place.as_mut_array()[lane] = nearest.place;
-        self.b1.as_mut_array()[lane] = nearest.b1;
-        self.b2.as_mut_array()[lane] = nearest.b2;
     }
     /// Lanes that hit a shape.
     #[inline]
@@ -123,8 +123,6 @@ impl Hits {
 pub(super) struct Nearest {
     pub(super) distance: f32,
     pub(super) place: u32,
-    pub(super) b1: f32,
-    pub(super) b2: f32,
 }
 
 /// The signs of direction that all rays of a group share, if they do.

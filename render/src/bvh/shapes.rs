@@ -1,8 +1,9 @@
 //! Intersection with spheres and emitters.
 
 use super::build::Costs;
+use super::double_precision::{NEAR, to_sphere, wide as exact};
 use super::node::BuildError;
-use super::rays::{Hits, Rays, SHAPE};
+use super::rays::{Hits, Rays, SHAPE, each_bit};
 use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
 use crate::geometry::Geometry;
@@ -24,8 +25,12 @@ enum Solid {
     Flat {
         p: [f32; 3],
         normal: [f32; 3],
+        /// The unit normal in double precision.
+        exact: V64,
         dual: [[f32; 3]; 2],
         triangle: bool,
+        /// Hits that are nearer to the origin of a ray are computed in double precision.
+        near: f32,
     },
 }
 
@@ -63,7 +68,9 @@ fn flat(p: [f32; 3], u: V64, v: V64, triangle: bool) -> Solid {
     let normal = u.cross(v);
     let inverse = 1.0 / normal.length_squared();
     let dual = [v.cross(normal) * inverse, normal.cross(u) * inverse].map(narrow);
-    Solid::Flat { p, normal: narrow(normal.normalize()), dual, triangle }
+    let exact = normal.normalize();
+    let near = (u.length().max(v.length()).max((u - v).length()) * NEAR) as f32;
+    Solid::Flat { p, normal: narrow(exact), exact, dual, triangle, near }
 }
 
 fn solid(geometry: &Geometry) -> Solid {
@@ -100,10 +107,16 @@ impl ShapeSet {
     }
 }
 
-/// Distances at which the rays hit the solid, and the lanes where these are positive and less than the limit.
+/// Distances at which the rays hit the solid, and the lanes where these are positive and less than the limit. The solid is at `place`. With
+/// `ANY`, hits near the limit are decided in double precision, too.
 #[inline]
-fn intersect(solid: &Solid, rays: &Rays, limit: X8) -> (X8, M8) {
+fn intersect<const ANY: bool>(solid: &Solid, rays: &Rays, limit: X8, place: u32x8) -> (X8, M8) {
     let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+    let own = equal(rays.from, place);
+    let near_limit = |distance: X8, near: f32| {
+        let unclear = (distance - limit).abs().lt(X8::splat(near / 4096.0));
+        if ANY { unclear } else { M8::splat(false) }
+    };
     match solid {
         Solid::Sphere { center, radius } => {
             // uses the foot of the perpendicular instead of |c − o|², which keeps the edges of distant spheres accurate
@@ -114,20 +127,40 @@ fn intersect(solid: &Solid, rays: &Rays, limit: X8) -> (X8, M8) {
             let square = r.mul_add(r, -foot.length_squared());
             let half = max(square, zero).sqrt();
             let near = along - half;
-            let distance = select(near.gt(zero), near, along + half);
-            (distance, square.ge(zero) & distance.gt(zero) & distance.lt(limit))
+            let mut distance = select(near.gt(zero), near, along + half);
+            let mut met = square.ge(zero) & distance.gt(zero);
+            let size = *radius * NEAR as f32;
+            let close = |distance: X8| distance.abs().lt(X8::splat(size));
+            let unclear = square.ge(zero) & (own | close(near) | close(along + half) | near_limit(distance, size));
+            if unclear.any() {
+                each_bit(unclear.bits(), |lane| {
+                    let (o, d) = (exact(rays.origin.lane(lane)), exact(rays.direction.lane(lane)));
+                    let found = to_sphere(wide(*center), f64::from(*radius), o, d, own.lane(lane));
+                    distance.as_mut_array()[lane] = found.map_or(-1.0, |distance| distance as f32);
+                });
+                met = met & !unclear | unclear & distance.gt(zero);
+            }
+            (distance, met & distance.lt(limit))
         }
-        Solid::Flat { p, normal, dual, triangle } => {
+        Solid::Flat { p, normal, exact: plane, dual, triangle, near } => {
             let to_corner = V8::from(*p) - rays.origin;
             let normal = V8::from(*normal);
             let slope = rays.direction.dot(normal);
             let some = slope.abs().gt(zero);
-            let distance = to_corner.dot(normal) / select(some, slope, one);
+            let mut distance = to_corner.dot(normal) / select(some, slope, one);
             let point = rays.direction.mul_add(distance, -to_corner);
             let (s, t) = (point.dot(dual[0].into()), point.dot(dual[1].into()));
             let far_side = if *triangle { (s + t).le(one) } else { s.le(one) & t.le(one) };
-            let inside = s.ge(zero) & t.ge(zero) & far_side;
-            (distance, some & inside & distance.gt(zero) & distance.lt(limit))
+            let inside = some & s.ge(zero) & t.ge(zero) & far_side & !own;
+            let unclear = inside & (distance.abs().lt(X8::splat(*near)) | near_limit(distance, *near));
+            if unclear.any() {
+                each_bit(unclear.bits(), |lane| {
+                    let (o, d) = (exact(rays.origin.lane(lane)), exact(rays.direction.lane(lane)));
+                    let found = plane.dot(wide(*p) - o) / plane.dot(d);
+                    distance.as_mut_array()[lane] = if found.is_finite() { found as f32 } else { -1.0 };
+                });
+            }
+            (distance, inside & distance.gt(zero) & distance.lt(limit))
         }
     }
 }
@@ -148,11 +181,11 @@ impl Primitives for Solids {
             if ANY {
                 let others = active & !equal(hits.place, place);
                 if others.any() {
-                    hidden = hidden | intersect(solid, rays, hits.distance).1 & others;
+                    hidden = hidden | intersect::<true>(solid, rays, hits.distance, place).1 & others;
                 }
                 continue;
             }
-            let (distance, hit) = intersect(solid, rays, hits.distance);
+            let (distance, hit) = intersect::<false>(solid, rays, hits.distance, place);
             let hit = hit & active;
             hits.distance = select(hit, distance, hits.distance);
             hits.place = pick(hit, place, hits.place);

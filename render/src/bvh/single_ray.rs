@@ -17,6 +17,8 @@ pub(super) struct SingleRay {
     offset: [V8; 2],
     /// Bit k is set if the ray runs towards − along axis k.
     octant: usize,
+    /// The primitive on which the ray begins, or [`NOTHING`](super::rays::NOTHING).
+    pub(super) from: u32,
 }
 
 impl SingleRay {
@@ -35,6 +37,7 @@ impl SingleRay {
             inverse: spread(&rays.inverse),
             offset: [spread(&rays.offset[0]), spread(&rays.offset[1])],
             octant: (0..3).fold(0, |octant, k| octant | usize::from(negative[k]) << k),
+            from: rays.from.as_array()[lane & 7],
         }
     }
 

@@ -1,12 +1,13 @@
 //! Intersection of one triangle with eight rays, and of one ray with all triangles of a leaf.
 
 use super::build::Costs;
+use super::double_precision::{NEAR, to_triangle, wide};
 use super::node::{Bounded, Bounds, BuildError, greater, lesser};
 use super::rays::{Hits, NOTHING, Nearest, Rays, each_bit};
 use super::region::{Placed, Region};
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
-use crate::packet::{M8, V8, X8, max, min, pick, select};
+use crate::packet::{M8, V8, X8, equal, max, min, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
 
@@ -39,6 +40,27 @@ pub(super) struct TriangleLeaves {
     leaves: Vec<u8>,
     /// For each triangle, the caller's index.
     ids: Vec<u32>,
+    /// For each triangle, the biased exponent of a distance: hits that are nearer to the origin of a ray are computed in double precision.
+    near: Vec<u8>,
+}
+
+/// The biased exponent of the distance up to which single precision does not suffice. Rounding moves hits by a fraction of the longest edge,
+/// and further in slivers.
+fn near_exponent([a, b, c]: &Corners) -> u8 {
+    let [a, b, c] = [a, b, c].map(|v| wide((*v).into()));
+    let (e1, e2, e3) = (b - a, c - a, c - b);
+    let square = e1.length_squared().max(e2.length_squared()).max(e3.length_squared());
+    let area = e1.cross(e2).length();
+    let sliver = (square / (area * 256.0)).clamp(1.0, 1e30);
+    let distance = square.sqrt() * NEAR * sliver;
+    // one more, since the fraction is cut off
+    (((distance as f32).to_bits() >> 23) + 1).min(254) as u8
+}
+
+/// The distance of an exponent.
+#[inline(always)]
+fn from_exponent(exponent: u8) -> f32 {
+    f32::from_bits(u32::from(exponent) << 23)
 }
 
 impl TriangleLeaves {
@@ -60,10 +82,21 @@ impl TriangleLeaves {
                     leaves[leaf].iter_mut().zip(0..).for_each(|(l, before)| *l = before << 4 | all);
                 }
             }
+            let mut near = vec![0; ids.len() + COSTS.most];
+            for node in nodes {
+                for leaf in (0..node.children as usize).map(|slot| node.leaf(slot)) {
+                    // leaves are stored by coordinate
+                    let (all, columns) = (leaf.len(), triangles[leaf.clone()].as_flattened().as_flattened());
+                    for (index, near) in near[leaf].iter_mut().enumerate() {
+                        let corner = |k: usize| std::array::from_fn(|axis| columns[(k + axis) * all + index]);
+                        *near = near_exponent(&[corner(0), corner(3), corner(6)]);
+                    }
+                }
+            }
             let mut coordinates = triangles.into_flattened().into_flattened();
             // room for eight-lane loads beyond the last leaf
             coordinates.extend([0.0; 8]);
-            Self { coordinates, leaves, ids }
+            Self { coordinates, leaves, ids, near }
         })
     }
     #[inline]
@@ -113,9 +146,14 @@ impl TriangleLeaves {
     }
 }
 
+/// What an edge function may be beyond 0, relative to the greatest, so that rounding may have put a ray outside.
+const BAND: f64 = 1.0 / 4096.0;
+
 /// Edge functions of a triangle seen along a ray, and their sum.
 struct Projected {
     inside: M8,
+    /// Lanes that see the triangle not edge-on.
+    some: M8,
     weights: [X8; 3],
     sum: X8,
     relative: [V8; 3],
@@ -139,24 +177,58 @@ fn project(corners: [V8; 3], origin: V8, [s, t]: [V8; 2]) -> Projected {
     let least = min(min(u, v), w);
     let most = max(max(u, v), w);
     let sum = u + v + w;
-    Projected { inside: (least.ge(zero) | most.le(zero)) & sum.abs().gt(zero), weights, sum, relative }
+    let some = sum.abs().gt(zero);
+    Projected { inside: (least.ge(zero) | most.le(zero)) & some, some, weights, sum, relative }
 }
 
 impl Projected {
-    /// Distances along the rays, and the reciprocal of the sum of weights.
-    ///
-    /// The weights of slivers, and thus their distances, may be nothing but rounding error. Distances are at least `near`, where the
-    /// ray enters the box of the leaf. No traversal cuts a ray shorter than that, so the hit does not depend on the traversal.
+    /// Lanes that are inside, or outside by rounding.
+    #[inline]
+    fn nearly(&self) -> M8 {
+        let [u, v, w] = self.weights;
+        let (least, most, band) = (min(min(u, v), w), max(max(u, v), w), X8::lit(-BAND));
+        (least.ge(most * band) | most.le(least * band)) & self.some
+    }
+    /// Distances along the rays. The weights of slivers, and thus their distances, may be nothing but rounding error.
     #[inline(always)]
-    fn distance(&self, direction: V8, near: X8) -> (X8, X8) {
+    fn distance(&self, direction: V8) -> X8 {
         let [a, b, c] = self.relative;
         let (z0, z1, z2) = (a.dot(direction), b.dot(direction), c.dot(direction));
-        let inverse = X8::lit(1.0) / select(self.inside, self.sum, X8::lit(1.0));
         let [u, v, w] = self.weights;
-        (max(u.mul_add(z0, v.mul_add(z1, w * z2)) * inverse, near), inverse)
+        u.mul_add(z0, v.mul_add(z1, w * z2)) / select(self.some, self.sum, X8::lit(1.0))
     }
 }
 
+/// Lanes whose distance is decided in double precision: it is near 0, or near the limit if `ANY` hit before that occludes. The latter is a
+/// question of touching surfaces alone, so the band is narrow.
+#[inline(always)]
+fn undecided<const ANY: bool>(distance: X8, near: X8, limit: X8) -> M8 {
+    let undecided = distance.abs().lt(near);
+    if ANY { undecided | (distance - limit).abs().lt(near * X8::lit(1.0 / 4096.0)) } else { undecided }
+}
+
+impl TriangleLeaves {
+    /// Computes the distances in these lanes in double precision, to the triangles of `places` there. Returns the lanes that hit something
+    /// ahead.
+    #[cold]
+    #[inline(never)]
+    fn decide(&self, lanes: u32, places: [u32; 8], origin: V8, direction: V8, distance: &mut X8) -> u32 {
+        let mut ahead = 0;
+        each_bit(lanes, |lane| {
+            let c = self.corners(places[lane]);
+            let corners = [0, 3, 6].map(|k| wide(Vec3::new(c[k], c[k + 1], c[k + 2])));
+            let exact = to_triangle(corners, wide(origin.lane(lane)), wide(direction.lane(lane)));
+            if let Some(exact) = exact.filter(|&exact| exact > 0.0) {
+                distance.as_mut_array()[lane] = exact as f32;
+                ahead |= 1 << lane;
+            }
+        });
+        ahead
+    }
+}
+
+// Distances are at least `near`, where the ray enters the box of the leaf. No traversal cuts a ray shorter than that, so the hit does not
+// depend on the traversal, not even that of a sliver.
 impl Primitives for TriangleLeaves {
     #[inline]
     fn test_packet<const ANY: bool>(
@@ -172,29 +244,40 @@ impl Primitives for TriangleLeaves {
         let data = &self.coordinates[9 * leaf.start..9 * leaf.end];
         let columns: [&[f32]; 9] = std::array::from_fn(|k| &data[k * count..(k + 1) * count]);
         for index in 0..count {
+            let place = (leaf.start + index) as u32;
             let projected = project(Self::one(&columns, index), rays.origin, rays.frame);
             // without a branch on whether any ray hits: it would often be mispredicted, which costs more than the division
-            let (distance, inverse) = projected.distance(rays.direction, near);
-            let ahead = projected.inside & active & distance.gt(X8::lit(0.0));
+            let mut distance = projected.distance(rays.direction);
+            let others = active & !equal(rays.from, u32x8::splat(place));
+            let mut met = projected.inside & others;
+            let size = X8::splat(from_exponent(self.near[place as usize]));
+            let mut unclear = others & undecided::<ANY>(distance, size, hits.distance);
+            if unclear.any() {
+                unclear = unclear & projected.nearly();
+                let ahead = self.decide(unclear.bits(), [place; 8], rays.origin, rays.direction, &mut distance);
+                met = met & !unclear | M8::from_bits(ahead);
+            }
+            let distance = max(distance, near);
+            let ahead = met & distance.gt(X8::lit(0.0));
             let mut nearer = ahead & distance.lt(hits.distance);
             if ANY {
                 hidden = hidden | nearer;
                 continue;
             }
-            let place = (leaf.start + index) as u32;
             let tie = ahead & distance.le(hits.distance) & !nearer;
             if tie.any() {
                 nearer = nearer | self.goes_first(tie, place, hits);
             }
             hits.distance = select(nearer, distance, hits.distance);
             hits.place = pick(nearer, u32x8::splat(place), hits.place);
-            hits.b1 = select(nearer, projected.weights[1] * inverse, hits.b1);
-            hits.b2 = select(nearer, projected.weights[2] * inverse, hits.b2);
         }
         hidden
     }
     fn bytes(&self) -> usize {
-        size_of_val(&self.coordinates[..]) + size_of_val(&self.leaves[..]) + size_of_val(&self.ids[..])
+        size_of_val(&self.coordinates[..])
+            + size_of_val(&self.leaves[..])
+            + size_of_val(&self.ids[..])
+            + size_of_val(&self.near[..])
     }
 }
 
@@ -202,16 +285,27 @@ impl Leaves for TriangleLeaves {
     #[inline(always)]
     fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
         let projected = project(self.all(&leaf), ray.origin, ray.frame);
-        let inside = projected.inside.bits() & ((1 << leaf.len()) - 1);
-        if inside == 0 {
+        let own = 1_u32.checked_shl(ray.from.wrapping_sub(leaf.start as u32)).unwrap_or(0);
+        let others = ((1 << leaf.len()) - 1) & !own;
+        let (mut inside, nearly) = (projected.inside.bits() & others, projected.nearly().bits() & others);
+        if nearly == 0 {
             return false;
         }
-        let (distance, inverse) = projected.distance(ray.direction, near);
-        let (ahead, limit) = (distance.gt(X8::lit(0.0)), X8::splat(nearest.distance));
+        let mut distance = projected.distance(ray.direction);
+        let limit = X8::splat(nearest.distance);
+        let exponents: [u8; 8] = self.near[leaf.start..leaf.start + 8].try_into().expect("8 exponents");
+        let size = X8::from(exponents.map(from_exponent));
+        let unclear = nearly & undecided::<ANY>(distance, size, limit).bits();
+        if unclear != 0 {
+            let places = std::array::from_fn(|lane| (leaf.start + lane) as u32);
+            let ahead = self.decide(unclear, places, ray.origin, ray.direction, &mut distance);
+            inside = inside & !unclear | ahead;
+        }
+        let distance = max(distance, near);
+        let ahead = distance.gt(X8::lit(0.0));
         if ANY {
             return inside & (ahead & distance.lt(limit)).bits() != 0;
         }
-        let (b1, b2) = (projected.weights[1] * inverse, projected.weights[2] * inverse);
         each_bit(inside & (ahead & distance.le(limit)).bits(), |lane| {
             let lane = lane & 7;
             let distance = distance.as_array()[lane];
@@ -219,7 +313,7 @@ impl Leaves for TriangleLeaves {
             if distance < nearest.distance
                 || distance == nearest.distance && self.rank(place) < self.rank(nearest.place)
             {
-                *nearest = Nearest { distance, place, b1: b1.as_array()[lane], b2: b2.as_array()[lane] };
+                *nearest = Nearest { distance, place };
             }
         });
         false

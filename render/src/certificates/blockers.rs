@@ -5,28 +5,18 @@ use super::shaft::Shaft;
 use crate::bvh::SHAPE;
 use crate::scene::Geometry;
 use crate::surfaces::Surfaces;
-use etendue::occlusion::SPARED;
+use etendue::Vec3;
+use etendue::occlusion::{Convex, SPARED};
 
 /// Something that may occlude a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blocker {
-    /// A convex polygon.
-    Polygon {
-        /// Its corners in order; the last one is repeated for a triangle.
-        corners: [[f32; 3]; 4],
-        /// Number of corners, 3 or 4.
-        count: usize,
+    /// A convex shape: a triangle, two triangles that form a quadrilateral, a parallelogram or a sphere.
+    Convex {
+        /// The shape.
+        form: Convex<f32>,
         /// Whether part of it may lie behind the light as seen from some point of the patch: beyond the plane of a flat light, or the
         /// polar plane of a sphere.
-        crosses_light: bool,
-    },
-    /// A sphere.
-    Sphere {
-        /// Its centre.
-        center: [f32; 3],
-        /// Its radius.
-        radius: f32,
-        /// As for a polygon.
         crosses_light: bool,
     },
     /// A closed convex part of a mesh, by its index among the bodies. All of it lies before the light.
@@ -36,35 +26,58 @@ pub enum Blocker {
 /// A primitive, or two triangles that share an edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Candidate {
-    /// Corners in order. Of four corners, 0–2 is the edge that two triangles share, or a diagonal.
-    Polygon([[f32; 3]; 4], usize, [V64; 4]),
+    /// The shape, its corners in order and their number, and how far it is from flat, in scene units. Of four corners, 0–2 is the edge that
+    /// two triangles share, or a diagonal.
+    Flat(Convex<f32>, [V64; 4], usize, f64),
     Ball([f32; 3], f32),
 }
 
 impl Candidate {
     /// The primitive at a place.
     pub(super) fn new(surfaces: &Surfaces, place: u32) -> Self {
-        let polygon = |corners: [[f32; 3]; 4], count| Self::Polygon(corners, count, corners.map(wide));
-        let triangle = |[a, b, c]: [[f32; 3]; 3]| polygon([a, b, c, c], 3);
         if place & SHAPE == 0 {
             let c = surfaces.bvh.corners(place);
-            return triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]);
+            return Self::of(&Geometry::Triangle([[c[0], c[1], c[2]], [c[3], c[4], c[5]], [c[6], c[7], c[8]]]));
         }
-        match surfaces.shapes()[(place & !SHAPE) as usize].geometry {
+        Self::of(&surfaces.shapes()[(place & !SHAPE) as usize].geometry)
+    }
+    pub(super) fn of(geometry: &Geometry) -> Self {
+        match *geometry {
             Geometry::Sphere { center, radius } => Self::Ball(center, radius),
-            Geometry::Triangle(corners) => triangle(corners),
+            Geometry::Triangle([a, b, c]) => Self::Flat(geometry.convex(), [a, b, c, c].map(wide), 3, 0.0),
             Geometry::Parallelogram { p, u, v } => {
                 let (a, u, v) = (wide(p), wide(u), wide(v));
-                let corners = [a, a + u, a + u + v, a + v];
-                Self::Polygon(corners.map(|v| [v.x as f32, v.y as f32, v.z as f32]), 4, corners)
+                Self::Flat(geometry.convex(), [a, a + u, a + u + v, a + v], 4, 0.0)
             }
         }
+    }
+    /// Whether all points of the patch are outside of the primitive, if that is a ball. What touches it counts as outside: a floor on which a
+    /// ball rests, or another ball.
+    pub(super) fn is_outside(&self, shaft: &Shaft) -> bool {
+        let Self::Ball(center, radius) = *self else { return true };
+        let (center, radius) = (wide(center), f64::from(radius));
+        let slack = 1e-6 * radius;
+        let above = |&(normal, offset): &(V64, f64)| (normal.dot(center) - offset).abs() >= radius - slack;
+        let apart = |&(other, size): &(V64, f64)| (other - center).length() >= radius + size - slack;
+        (shaft.patch.center - center).length() > radius + shaft.patch.extent
+            || shaft.on_plane.as_ref().is_some_and(above)
+            || shaft.on_ball.as_ref().is_some_and(apart)
+    }
+    /// Whether all points of a hull are inside of the ball, by more than rounding.
+    fn contains(center: V64, radius: f64, hull: &Hull, epsilon: f64) -> bool {
+        let farthest = hull.corners().iter().map(|&p| (p - center).length()).fold(0.0, f64::max);
+        farthest + hull.radius < radius * (1.0 - 1e-9) - epsilon
     }
     /// Is the primitive known not to meet any segment of the shaft?
     pub(super) fn misses(&self, shaft: &Shaft) -> bool {
         match self {
-            Self::Ball(center, radius) => shaft.misses(&[wide(*center)], f64::from(*radius)),
-            Self::Polygon(_, count, corners) => {
+            Self::Ball(center, radius) => {
+                let (center, radius) = (wide(*center), f64::from(*radius));
+                // no segment that begins and ends inside leaves
+                let inside = |hull: &Hull| Self::contains(center, radius, hull, shaft.epsilon);
+                shaft.misses(&[center], radius) || inside(&shaft.patch) && inside(&shaft.light)
+            }
+            Self::Flat(_, corners, count, _) => {
                 let corners = &corners[..*count];
                 shaft.misses(corners, 0.0) || is_on_one_side(corners, shaft)
             }
@@ -72,7 +85,11 @@ impl Candidate {
     }
     /// The convex quadrilateral of two triangles that share an edge and a plane.
     pub(super) fn merged(&self, other: &Self) -> Option<Self> {
-        let (Self::Polygon(one, 3, _), Self::Polygon(two, 3, _)) = (self, other) else { return None };
+        let corners = |of: &Self| match of {
+            Self::Flat(Convex::Polygon { corners, .. }, _, 3, _) => Some(corners.map(|v| [v.x, v.y, v.z])),
+            _ => None,
+        };
+        let (one, two) = (&corners(self)?, &corners(other)?);
         let bits = |p: [f32; 3]| p.map(f32::to_bits);
         let is_shared = |p: [f32; 3], of: &[[f32; 3]; 4]| of[..3].iter().any(|&q| bits(q) == bits(p));
         let i = (0..3).find(|&i| !is_shared(one[i], two))?;
@@ -85,16 +102,31 @@ impl Candidate {
         let exact = corners.map(wide);
         let [a, b, c, d] = exact;
         let normal = unit((c - d).cross(a - d));
-        let flat = normal.dot(b - a).abs() <= 4.0 * magnitude(&exact) * f64::from(f32::EPSILON);
+        // A triangle as narrow as the rounding of its corners is next to any plane: the normals must agree, too, as far as the corners extend.
+        let fold = normal.cross(unit((b - a).cross(c - a))).length();
+        let extent = (c - a).length() + (b - d).length();
+        let deviation = normal.dot(b - a).abs() + fold * extent;
+        let flat = deviation <= 8.0 * magnitude(&exact) * f64::from(f32::EPSILON);
         let turns = |p: V64, q: V64, r: V64| normal.dot((q - p).cross(r - q));
         let turns = [turns(a, b, c), turns(b, c, d), turns(c, d, a), turns(d, a, b)];
         let convex = turns.iter().all(|&x| x > 0.0) || turns.iter().all(|&x| x < 0.0);
-        (flat && convex).then_some(Self::Polygon(corners, 4, exact))
+        let form = Convex::Polygon { corners: corners.map(Vec3::from), count: 4 };
+        (flat && convex).then_some(Self::Flat(form, exact, 4, deviation))
+    }
+    /// The angle in radians by which the outline may be displaced as seen from a patch: next to the primitive, from most of the patch.
+    pub(super) fn displacement(&self, patch: &Hull) -> f64 {
+        match self {
+            Self::Flat(_, corners, count, deviation) if *deviation > 0.0 => {
+                let hull = Hull::new(&corners[..*count], 0.0);
+                deviation / ((hull.center - patch.center).length() - hull.extent - patch.extent).max(patch.extent)
+            }
+            _ => 0.0,
+        }
     }
     /// Is the primitive between the centres of patch and light?
     pub(super) fn is_central(&self, shaft: &Shaft) -> bool {
         match self {
-            Self::Polygon(_, count, corners) => {
+            Self::Flat(_, corners, count, _) => {
                 let (p, y) = (shaft.patch.center, shaft.light.center);
                 let volume = |i: usize| (corners[i] - p).cross(corners[(i + 1) % count] - p).dot(y - p);
                 let is_right = (0..*count).all(|i| volume(i) >= 0.0);
@@ -108,13 +140,20 @@ impl Candidate {
         match self {
             // A line that passes inside of the outer edges of two triangles meets one of them, and a segment from one side of the slab to
             // the other meets whatever its line meets inside the slab. The triangles need not have the same plane.
-            Self::Polygon(_, count, corners) => {
+            Self::Flat(_, corners, count, _) => {
                 is_between(&corners[..*count], shaft) && is_inside(&corners[..*count], shaft)
             }
             Self::Ball(center, radius) => {
                 let (center, radius) = (wide(*center), f64::from(*radius));
                 // A segment that ends in the ball might not meet its surface.
                 let apart = |hull: &Hull| (hull.center - center).length() > hull.extent + radius + shaft.epsilon;
+                if Self::contains(center, radius, &shaft.patch, shaft.epsilon) {
+                    // A segment from inside leaves the ball before its spared part, since the whole part ends outside.
+                    let spared = 2.0 * SPARED * (shaft.light.center - shaft.patch.center).length();
+                    let spared = spared + 2.0 * SPARED * (shaft.patch.extent + shaft.light.extent);
+                    return (shaft.light.center - center).length()
+                        > shaft.light.extent + radius + spared + shaft.epsilon;
+                }
                 let axis = unit(shaft.light.center - shaft.patch.center);
                 let helper = if axis.x.abs() < 0.6 { V64::new(1.0, 0.0, 0.0) } else { V64::new(0.0, 1.0, 0.0) };
                 let s = unit(axis.cross(helper)) * (radius * (1.0 - 1e-9));
@@ -133,7 +172,7 @@ impl Candidate {
                 let apart = (wide(*center) - ball.center).length() > f64::from(*radius) + ball.extent + epsilon;
                 !apart
             }
-            Self::Polygon(_, count, corners) => {
+            Self::Flat(_, corners, count, _) => {
                 let [a, b, c, d] = *corners;
                 let is_far = |a, b, c| (nearest([a, b, c], ball.center) - ball.center).length() > ball.extent + epsilon;
                 !(is_far(a, b, c) && (*count == 3 || is_far(a, c, d)))
@@ -142,13 +181,12 @@ impl Candidate {
     }
     pub(super) fn blocker(&self, shaft: &Shaft) -> Blocker {
         match *self {
-            Self::Polygon(corners, count, exact) => {
-                let crosses_light = crosses(&exact[..count], 0.0, shaft);
-                Blocker::Polygon { corners, count, crosses_light }
+            Self::Flat(form, corners, count, _) => {
+                Blocker::Convex { form, crosses_light: crosses(&corners[..count], 0.0, shaft) }
             }
             Self::Ball(center, radius) => {
-                let crosses_light = crosses(&[wide(center)], f64::from(radius), shaft);
-                Blocker::Sphere { center, radius, crosses_light }
+                let form = Convex::Sphere { center: center.into(), radius };
+                Blocker::Convex { form, crosses_light: crosses(&[wide(center)], f64::from(radius), shaft) }
             }
         }
     }
@@ -255,9 +293,7 @@ mod tests {
     use super::*;
 
     fn triangle(corners: [[f32; 3]; 3]) -> Candidate {
-        let [a, b, c] = corners;
-        let corners = [a, b, c, c];
-        Candidate::Polygon(corners, 3, corners.map(wide))
+        Candidate::of(&Geometry::Triangle(corners))
     }
 
     /// Two triangles of a convex quadrilateral are merged in any order of their corners; nothing else is.
@@ -272,9 +308,11 @@ mod tests {
                 if flip {
                     other.swap(0, 1);
                 }
-                let Some(Candidate::Polygon(corners, 4, _)) = triangle([a, b, c]).merged(&triangle(other)) else {
+                let merged = triangle([a, b, c]).merged(&triangle(other));
+                let Some(Candidate::Flat(Convex::Polygon { corners, count: 4 }, ..)) = merged else {
                     panic!("{turn}, {flip}: not merged");
                 };
+                let corners = corners.map(|v| [v.x, v.y, v.z]);
                 let start = corners.iter().position(|&v| v == a).unwrap();
                 let around = [1, 2, 3].map(|k| corners[(start + k) % 4]);
                 assert!(around == [b, c, d] || around == [d, c, b], "{corners:?}");
@@ -288,6 +326,8 @@ mod tests {
             ("on the same side of the edge", [a, c, place(1.0, 0.1)]),
             ("a reflex corner", [a, c, place(-4.0, -0.2)]),
             ("a degenerate triangle", [a, a, c]),
+            // within the rounding of the plane, as any triangle that is as narrow
+            ("a sliver with another normal", [a, c, [0.75 - 1e-6, 3.437_5 + 1e-6, 0.5 + 1e-6]]),
         ];
         for (what, corners) in not {
             assert!(one.merged(&triangle(corners)).is_none(), "{what}");

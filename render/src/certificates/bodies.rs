@@ -1,9 +1,10 @@
 //! Closed convex parts of meshes, such as boxes: each is one blocker instead of many triangles.
 
 use super::blockers::crosses;
-use super::hull::{V64, unit, wide};
+use super::hull::{Hull, V64, unit, wide};
 use super::shaft::Shaft;
 use crate::bvh::{Bvh, NOTHING};
+use etendue::Vec3;
 use etendue::occlusion::{Edge, Polyhedron, SPARED};
 use std::collections::HashMap;
 
@@ -14,15 +15,35 @@ const SEARCHED: usize = 65_536;
 const TRIANGLES: usize = 28;
 const FACES: usize = 16;
 
+/// The parts of a polyhedron, as the core takes them.
+#[derive(Debug)]
+struct Parts<S> {
+    center: Vec3<S>,
+    faces: Vec<[Vec3<S>; 2]>,
+    edges: Vec<Edge<S>>,
+}
+
+impl<S> Parts<S> {
+    fn polyhedron(&self) -> Polyhedron<'_, S>
+    where
+        S: Copy,
+    {
+        Polyhedron { center: self.center, faces: &self.faces, edges: &self.edges }
+    }
+}
+
 /// A closed convex polyhedron.
 #[derive(Debug)]
 struct Body {
-    center: [f32; 3],
-    faces: Vec<[etendue::Vec3<f32>; 2]>,
-    edges: Vec<Edge<f32>>,
+    single: Parts<f32>,
+    double: Parts<f64>,
     corners: Vec<V64>,
     /// Unit normal and n·x of the plane of each face; the body has n·x below it.
     planes: Vec<(V64, f64)>,
+    /// Greatest distance of a corner from the center.
+    extent: f64,
+    /// How far the triangles are from those of a convex polyhedron, in scene units: its outline is displaced by no more.
+    deviation: f64,
 }
 
 /// The bodies of a scene.
@@ -121,10 +142,19 @@ impl Bodies {
         };
         shaft.patch.corners().iter().all(|&p| shaft.light.corners().iter().all(|&y| meets(p, y)))
     }
+    /// The angle in radians by which the outline of the body may be displaced as seen from a patch: next to the body, from most of the patch.
+    pub(super) fn displacement(&self, body: u32, patch: &Hull) -> f64 {
+        let Body { double, extent, deviation, .. } = &self.bodies[body as usize];
+        let gap = (double.center - patch.center).length() - extent - patch.extent;
+        if *deviation > 0.0 { deviation / gap.max(patch.extent) } else { 0.0 }
+    }
     /// The body as a blocker.
     pub fn polyhedron(&self, body: u32) -> Polyhedron<'_, f32> {
-        let Body { center, faces, edges, .. } = &self.bodies[body as usize];
-        Polyhedron { center: (*center).into(), faces, edges }
+        self.bodies[body as usize].single.polyhedron()
+    }
+    /// The same body in double precision.
+    pub fn exact_polyhedron(&self, body: u32) -> Polyhedron<'_, f64> {
+        self.bodies[body as usize].double.polyhedron()
     }
     /// Number of bodies.
     pub fn len(&self) -> usize {
@@ -148,14 +178,25 @@ fn bits(corner: [f32; 3]) -> [u32; 3] {
 
 impl Body {
     /// `None` if the triangles do not form a closed convex surface, or if it has too many faces.
+    ///
+    /// Triangles form one face if the rounding of their corners allows it, unless that displaces the outline by more than the rounding: a face
+    /// that is as narrow can have any normal. Then only triangles with the same plane do.
     fn new(triangles: &[[[f32; 3]; 3]]) -> Option<Self> {
+        let reach = triangles.iter().flatten().flatten().fold(0.0_f32, |most, x| most.max(x.abs()));
+        let tolerance = 4.0 * f64::from(reach) * f64::from(f32::EPSILON);
+        let merged = Self::with(triangles, tolerance, tolerance);
+        if merged.as_ref().is_some_and(|body| body.deviation <= tolerance) {
+            return merged;
+        }
+        let split = Self::with(triangles, tolerance, 1e-12 * f64::from(reach));
+        [merged, split].into_iter().flatten().min_by(|a, b| a.deviation.total_cmp(&b.deviation))
+    }
+    /// The body whose corners may be beyond a face by `tolerance`, and whose faces consist of triangles with corners within `flat` of a plane.
+    fn with(triangles: &[[[f32; 3]; 3]], tolerance: f64, flat: f64) -> Option<Self> {
         let corners: Vec<V64> = triangles.iter().flatten().map(|&corner| wide(corner)).collect();
         let center = corners.iter().fold(V64::default(), |sum, &p| sum + p) * (1.0 / corners.len() as f64);
-        let reach = corners.iter().fold(0.0_f64, |most, p| most.max(p.x.abs()).max(p.y.abs()).max(p.z.abs()));
-        let tolerance = 4.0 * reach * f64::from(f32::EPSILON);
         let mut planes: Vec<(V64, f64)> = Vec::new();
         let mut faces = Vec::new();
-        let mut face_of = Vec::new();
         let mut sides: HashMap<[[u32; 3]; 2], Vec<(usize, bool)>> = HashMap::new();
         for triangle in triangles {
             let [a, b, c] = triangle.map(wide);
@@ -167,16 +208,13 @@ impl Body {
             if !(is_outermost && normal.dot(center) < offset - 4.0 * tolerance) {
                 return None;
             }
-            let known = planes
-                .iter()
-                .position(|&(n, offset)| [a, b, c].iter().all(|&p| (n.dot(p) - offset).abs() <= tolerance));
+            let known =
+                planes.iter().position(|&(n, offset)| [a, b, c].iter().all(|&p| (n.dot(p) - offset).abs() <= flat));
             let face = known.unwrap_or_else(|| {
                 planes.push((normal, offset));
-                let narrow = |v: V64| etendue::Vec3::new(v.x as f32, v.y as f32, v.z as f32);
-                faces.push([narrow(normal), triangle[0].into()]);
+                faces.push([normal, a]);
                 planes.len() - 1
             });
-            face_of.push(face);
             for (k, &from) in triangle.iter().enumerate() {
                 let ends = [bits(from), bits(triangle[(k + 1) % 3])];
                 let forwards = ends[0] < ends[1];
@@ -193,20 +231,51 @@ impl Body {
                 return None;
             }
             if i != j {
-                edges.push((ends, Edge { ends: ends.map(|end| end.map(f32::from_bits).into()), faces: [i, j] }));
+                edges.push((ends, Edge { ends: ends.map(|end| wide(end.map(f32::from_bits))), faces: [i, j] }));
             }
         }
         edges.sort_unstable_by_key(|(ends, _)| *ends);
         let edges = edges.into_iter().map(|(_, edge)| edge).collect();
-        let center = [center.x as f32, center.y as f32, center.z as f32];
-        (planes.len() <= FACES).then_some(Self { center, faces, edges, corners, planes })
+        let double = Parts { center, faces, edges };
+        let deviation = deviation(&corners, &planes, &double.edges);
+        let extent = corners.iter().map(|&p| (p - center).length()).fold(0.0, f64::max);
+        let narrow = |v: V64| v.map(|x| x as f32);
+        let single = Parts {
+            center: narrow(center),
+            faces: double.faces.iter().map(|face| face.map(narrow)).collect(),
+            edges: double.edges.iter().map(|edge| Edge { ends: edge.ends.map(narrow), faces: edge.faces }).collect(),
+        };
+        (planes.len() <= FACES).then_some(Self { single, double, corners, planes, extent, deviation })
     }
+}
+
+/// How far the outline of a body may be displaced.
+///
+/// The plane through a point and an edge of the outline has all corners on one side if the planes of the two faces there have, and if they
+/// contain the edge. A corner may be beyond them by rounding, and a plane that does not contain the edge is off by the distance of the
+/// corners from the edge, times the sine of the angle between edge and plane.
+fn deviation(corners: &[V64], planes: &[(V64, f64)], edges: &[Edge<f64>]) -> f64 {
+    let beyond = |&(normal, offset): &(V64, f64)| corners.iter().map(|&p| normal.dot(p) - offset).fold(0.0, f64::max);
+    let faces = planes.iter().map(beyond).fold(0.0, f64::max);
+    let turned = |edge: &Edge<f64>| {
+        let [a, b] = edge.ends;
+        let along = unit(b - a);
+        let farthest = corners.iter().map(|&p| along.cross(p - a).length()).fold(0.0, f64::max);
+        let most = |face: usize| {
+            let (normal, offset) = planes[face];
+            normal.dot(along).abs() * farthest + (normal.dot(a) - offset).abs()
+        };
+        edge.faces.map(most).into_iter().fold(0.0, f64::max)
+    };
+    edges.iter().map(turned).fold(faces, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::bvh::ShapeSet;
+    use crate::geometry::Geometry;
+    use etendue::occlusion::{Convex, Occlusion};
 
     type Triangle = [[f32; 3]; 3];
 
@@ -275,6 +344,62 @@ mod tests {
             }
         }
         assert_found(&block([-1.0; 3], [-0.0, 1.0, 1e-4], true), 6, 12);
+    }
+
+    /// A box whose corner at the origin is cut off.
+    fn chamfered(cut: f32, side: f32, shift: [f32; 3]) -> Vec<Triangle> {
+        let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 0 { 0.0 } else { side });
+        let mut corners: Vec<_> = (0..8).map(corner).collect();
+        corners.extend([[cut, 0.0, 0.0], [0.0, cut, 0.0], [0.0, 0.0, cut]]);
+        let corners: Vec<_> = corners.iter().map(|p| [0, 1, 2].map(|k| p[k] + shift[k])).collect();
+        let sides: [&[usize]; 7] = [
+            &[8, 1, 3, 2, 9],
+            &[9, 2, 6, 4, 10],
+            &[10, 4, 5, 1, 8],
+            &[4, 5, 7, 6],
+            &[2, 6, 7, 3],
+            &[1, 3, 7, 5],
+            &[8, 9, 10],
+        ];
+        faces(&corners, &sides)
+    }
+
+    /// However little of a corner is cut off, or however thin a box is, a body hides as much as its triangles do.
+    #[test]
+    fn narrow_faces_do_not_displace_outlines() {
+        let square = [[-0.5, 9.0, -0.5], [0.5, 9.0, -0.5], [0.5, 9.0, 0.5], [-0.5, 9.0, 0.5]];
+        let light = Convex::Polygon { corners: square.map(Vec3::<f32>::from), count: 4 };
+        let up = Vec3::<f32>::new(0.0, 1.0, 0.0);
+        let lift = |t: &Triangle| t.map(|[x, y, z]| [x, y + 5.0, z]);
+        let cuts = [3e-7, 1e-6, 1e-5, 1e-3].map(|cut| (cut, chamfered(cut, 1.8, [-0.9, 5.1, -0.9])));
+        let sheets = [1e-5, 1e-4, 1e-2].map(|thick| {
+            let sheet = block([-0.9, 0.0, -0.9], [0.9, thick, 0.9], true);
+            (thick, sheet.iter().map(lift).collect())
+        });
+        let (mut compared, mut greatest) = (0, 0.0_f64);
+        for (size, triangles) in cuts.into_iter().chain(sheets) {
+            let found = bodies(&triangles);
+            for body in 0..found.len() as u32 {
+                let exact: Vec<_> = triangles.iter().map(|&t| Geometry::Triangle(t).convex().map(f64::from)).collect();
+                for k in 0..400 {
+                    let point = Vec3::<f32>::new((k % 20) as f32 * 0.4 - 3.9, 0.0, (k / 20) as f32 * 0.4 - 4.1);
+                    let middle = Hull::new(&[point.map(f64::from)], 0.0);
+                    let single =
+                        Occlusion::<f32>::new().visible_past(point, up, &light, &[], &[found.polyhedron(body)]);
+                    let wide = (point.map(f64::from), up.map(f64::from), light.map(f64::from));
+                    let all = Occlusion::<f64>::new().visible(wide.0, wide.1, &wide.2, &[]).unwrap();
+                    let truth = Occlusion::<f64>::new().visible(wide.0, wide.1, &wide.2, &exact);
+                    let (Some(single), Some(truth)) = (single, truth) else { continue };
+                    // 4/9 radian around the light
+                    let allowed = 4.0 / 9.0 * (2e-7 + found.displacement(body, &middle));
+                    let error = (f64::from(single) - truth).abs();
+                    assert!(error < allowed, "{size}, {point:?}: {single} instead of {truth} of {all}");
+                    greatest = greatest.max(found.displacement(body, &middle));
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 2000 && greatest < 1e-6, "{compared}, {greatest:e}");
     }
 
     #[test]

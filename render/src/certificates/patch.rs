@@ -4,15 +4,20 @@ use super::hull::{CORNERS, Hull, V64, magnitude, unit, wide};
 use crate::bvh::SHAPE;
 use crate::camera::Pinhole;
 use crate::scene::Geometry;
-use crate::surfaces::Surfaces;
+use crate::surfaces::{LEAST, LIFT, Surfaces};
 
-/// Shading points are within this of the ideal patch, relative to the greatest coordinate of their primitive: they are lifted by 2⁻²⁰,
-/// and rounded by less than 0.55 · 2⁻²⁰.
-const OFF: f64 = 1.0 / 262_144.0;
-/// Shading points are at least this high above their plane, relative to the greatest coordinate of their primitive.
-const HEIGHT: f64 = 1.0 / 4_194_304.0;
-/// Greatest error of a normal in single precision for which the heights are known.
-const TILT: f64 = 1.0 / 16.0;
+/// How far shading points can be from the ideal patch, relative to their greatest coordinate: a lift of less than 1.8 · 2⁻²³, and a rounding of
+/// less than 1.8 · 2⁻²⁴.
+const OFF: f64 = 3.0 * LIFT;
+/// Greatest difference between the cosine of a direction, computed in single precision, and the exact one: a normal is rounded by less than
+/// 2⁻²⁴, and so is each of three products and sums.
+pub(super) const TILT: f64 = 1.0 / 2_097_152.0;
+/// Rounding of corners as seen along a ray, relative to their distance: 2⁻²⁰. The edge functions and their sum then place the hit within
+/// 12 times that, times the greatest aspect ratio of the projected triangle.
+const SEEN: f64 = 12.0 / 1_048_576.0;
+
+/// Rounding of the direction of a camera ray.
+const RAY: f64 = 1.0 / 2_097_152.0;
 
 /// Four planes through the pinhole of a camera that bound a rectangle of pixels.
 #[derive(Clone, Copy, Debug)]
@@ -38,9 +43,6 @@ impl Pyramid {
     }
 }
 
-/// Twice the areas of triangles whose squares have full precision in single precision, so that there is a unit normal.
-const AREAS: std::ops::Range<f64> = 1e-15..1e18;
-
 /// From where a patch is seen.
 #[derive(Clone, Copy, Debug)]
 pub enum Viewer<'a> {
@@ -61,8 +63,6 @@ pub(super) struct Ground {
     pub(super) offset: f64,
     /// Shading points are at least this high above the plane.
     pub(super) height: f64,
-    /// Greatest difference between the cosine of a direction, computed in single precision, and the exact one.
-    pub(super) tilt: f64,
 }
 
 /// A bound of the shading points on a part of a triangle or sphere.
@@ -73,6 +73,8 @@ pub struct Patch {
     pub(super) hull: Hull,
     /// The plane of a triangle.
     pub(super) ground: Option<Ground>,
+    /// Centre and radius of a sphere.
+    pub(super) ball: Option<(V64, f64)>,
 }
 
 /// A convex polygon that is being clipped.
@@ -127,32 +129,27 @@ impl Clipped {
 
 impl Patch {
     /// The part of a primitive that a viewer sees, regardless of occlusion. `place` is as in the hits of rays. `None` if there is no such
-    /// part, and for what is not supported: lights, spheres from inside, triangles seen edge-on, slivers whose normal is
-    /// inaccurate, and triangles so small or large that they have none in single precision.
+    /// part, and for what is not supported: lights, spheres from inside, triangles without area, and triangles seen edge-on.
     pub fn of(surfaces: &Surfaces, place: u32, viewer: Viewer<'_>) -> Option<Self> {
         if place & SHAPE == 0 {
-            return Self::of_triangle(surfaces.bvh.corners(place), place, viewer);
+            return Self::of_triangle(surfaces.bvh.corners(place), f64::from(surfaces.bvh.reach()), place, viewer);
         }
         let shape = &surfaces.shapes()[(place & !SHAPE) as usize];
         match shape.geometry {
             Geometry::Sphere { center, radius } => {
-                let reach = f64::from(surfaces.bvh.shapes.reach());
+                let reach = f64::from(surfaces.bvh.reach());
                 Self::of_sphere(wide(center), f64::from(radius), reach, place, viewer)
             }
             Geometry::Triangle(_) | Geometry::Parallelogram { .. } => None,
         }
     }
-    fn of_triangle(c: [f32; 9], place: u32, viewer: Viewer<'_>) -> Option<Self> {
+    fn of_triangle(c: [f32; 9], reach: f64, place: u32, viewer: Viewer<'_>) -> Option<Self> {
         let corners = [wide([c[0], c[1], c[2]]), wide([c[3], c[4], c[5]]), wide([c[6], c[7], c[8]])];
         let [a, b, c] = corners;
-        let reach = magnitude(&corners);
         let normal = (b - a).cross(c - a);
         let area = normal.length();
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-        // The edges are rounded by 2⁻²³ of the coordinates, and thus the normal by less than 2⁻²⁰ · reach · longest / area. Its own rounding
-        // and that of the directions are less than 2⁻²¹.
-        let tilt = (1.0 + reach * longest / area) / 524_288.0;
-        if !(AREAS.contains(&area) && tilt < TILT) {
+        if !(area > 0.0 && area.is_finite()) {
             return None;
         }
         let mut normal = normal * (1.0 / area);
@@ -162,32 +159,40 @@ impl Patch {
             Viewer::Back => normal = -normal,
             Viewer::Pixels(pyramid) => {
                 let height = normal.dot(pyramid.origin - a);
-                let distance = corners.iter().map(|&p| (p - pyramid.origin).length()).fold(0.0, f64::max);
+                let farthest =
+                    |points: &[V64]| points.iter().map(|&p| (p - pyramid.origin).length()).fold(0.0, f64::max);
+                let distance = farthest(&corners);
                 let steepness = height.abs() / distance;
-                let side_known = steepness > tilt;
+                let side_known = steepness > TILT;
                 if !side_known {
                     return None;
                 }
                 if height < 0.0 {
                     normal = -normal;
                 }
-                // Corners as seen along the ray are rounded by e = 2⁻²⁰ of the distances involved. The edge functions and their sum then
-                // place the hit within 12 e times the greatest aspect ratio of the projected triangle.
-                let error = (distance + reach + magnitude(&[pyramid.origin])) / 1_048_576.0;
-                let aspect = longest * longest / (area * steepness);
-                polygon = polygon.within(pyramid, 12.0 * error * (1.0 + aspect))?;
+                let aspect = 1.0 + longest * longest / (area * steepness);
+                polygon = polygon.within(pyramid, SEEN * distance * aspect)?;
+                // Only a hit beyond an edge is not where the ray meets the plane, but at that edge.
+                let edges = [(a, b), (b, c), (c, a)];
+                let side = |p: V64, (a, b): (V64, V64)| normal.dot((b - a).cross(p - a)) * height.signum();
+                let least = 1e-9 * longest * longest;
+                if polygon.points().iter().all(|&p| edges.iter().all(|&edge| side(p, edge) > least)) {
+                    polygon = polygon.within(pyramid, RAY * farthest(polygon.points()))?;
+                }
             }
         }
         if polygon.count == 0 {
             return None;
         }
         let offset = corners.iter().map(|&p| normal.dot(p)).fold(f64::NEG_INFINITY, f64::max);
-        let ground = Ground { normal, offset, height: HEIGHT * reach, tilt };
-        Some(Self { place, hull: Hull::new(polygon.points(), OFF * reach), ground: Some(ground) })
+        // half of the least lift: the rounding of the point takes no more
+        let height = 0.49 * (LIFT * offset.abs() + LEAST * reach);
+        let off = OFF * magnitude(polygon.points()) + 2.0 * LEAST * reach;
+        let ground = Ground { normal, offset, height };
+        Some(Self { place, hull: Hull::new(polygon.points(), off), ground: Some(ground), ball: None })
     }
     fn of_sphere(center: V64, radius: f64, reach: f64, place: u32, viewer: Viewer<'_>) -> Option<Self> {
-        // squares have full precision, so that there is a unit normal
-        if !AREAS.contains(&radius) {
+        if !(radius > 0.0 && radius.is_finite()) {
             return None;
         }
         let corner = |k: usize| {
@@ -200,7 +205,7 @@ impl Patch {
             Viewer::Back => return None,
             Viewer::Pixels(pyramid) => {
                 let distance = (pyramid.origin - center).length();
-                let error = (distance + radius + reach + magnitude(&[pyramid.origin])) / 1_048_576.0;
+                let error = SEEN / 12.0 * (distance + radius);
                 let outside = distance > radius + 16.0 * error;
                 if !outside {
                     return None;
@@ -233,7 +238,8 @@ impl Patch {
                     std::array::from_fn(|k| V64::new(bounds[k & 1][0], bounds[k >> 1 & 1][1], bounds[k >> 2 & 1][2]));
             }
         }
-        Some(Self { place, hull: Hull::new(&corners, 2.0 * OFF * reach), ground: None })
+        let off = OFF * magnitude(&corners) + 2.0 * LEAST * reach;
+        Some(Self { place, hull: Hull::new(&corners, off), ground: None, ball: Some((center, radius)) })
     }
     /// Corners of the patch on its surface, or of a box around it.
     pub fn corners(&self) -> impl Iterator<Item = [f64; 3]> {
@@ -242,6 +248,10 @@ impl Patch {
     /// How far shading points can be from the convex hull of the corners.
     pub fn margin(&self) -> f64 {
         self.hull.radius
+    }
+    /// How high shading points are above the plane of a flat patch, at least; 0 for a part of a sphere.
+    pub fn least_height(&self) -> f64 {
+        self.ground.map_or(0.0, |ground| ground.height)
     }
     /// Unit normal of a flat patch on the side of the viewer.
     pub fn normal(&self) -> Option<[f64; 3]> {

@@ -1,7 +1,7 @@
 //! Half-spaces around all segments from a patch to a light.
 
 use super::hull::{Hull, V64, magnitude, unit, wide};
-use super::patch::Patch;
+use super::patch::{Patch, TILT};
 use crate::bvh::Region;
 use crate::scene::{Geometry, Shape};
 use etendue::occlusion::SPARED;
@@ -75,6 +75,10 @@ pub(super) struct Shaft {
     pub(super) epsilon: f64,
     /// Half-spaces n·x ≤ c that contain the shaft.
     planes: Vec<(V64, f64)>,
+    /// The plane of the patch, by its unit normal and n·x, if it is flat.
+    pub(super) on_plane: Option<(V64, f64)>,
+    /// The centre and radius of the sphere of the patch, if it lies on one.
+    pub(super) on_ball: Option<(V64, f64)>,
     /// For a flat light, the unit normal on the side of the patch, n·x of the light and the least height over it that a segment reaches.
     pub(super) end: Option<(V64, f64, f64)>,
 }
@@ -93,6 +97,8 @@ impl Shaft {
         (self.patch, self.light) = (patch.hull, lamp.hull);
         self.light.inflate(rounded);
         self.epsilon = EPSILON * scale;
+        self.on_plane = patch.ground.map(|ground| (ground.normal, ground.offset));
+        self.on_ball = patch.ball;
         self.planes.clear();
         self.end = None;
         region.clear();
@@ -129,7 +135,7 @@ impl Shaft {
         if let Some(ground) = patch.ground {
             let [least, most] = light.range(ground.normal).map(|x| x - ground.offset);
             // A direction that counts as above the horizon leads at most `slack` below the height of its origin.
-            let slack = ground.tilt * length;
+            let slack = TILT * length;
             if most + light.radius < ground.height - slack - rounded - self.epsilon {
                 return Facing::Away;
             }
@@ -227,6 +233,14 @@ impl Shaft {
 impl Default for Shaft {
     fn default() -> Self {
         let nothing = Hull::default();
-        Self { patch: nothing, light: nothing, epsilon: 0.0, planes: Vec::with_capacity(40), end: None }
+        Self {
+            patch: nothing,
+            light: nothing,
+            epsilon: 0.0,
+            planes: Vec::with_capacity(40),
+            on_plane: None,
+            on_ball: None,
+            end: None,
+        }
     }
 }

@@ -16,7 +16,7 @@ use exr::prelude::{
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::fs::File;
-use std::io::{BufReader, Cursor, Read, Seek};
+use std::io::{self, BufReader, Cursor, Read, Seek};
 use std::ops::Range;
 use std::path::Path;
 use xxhash_rust::xxh3::Xxh3;
@@ -75,6 +75,19 @@ pub struct Contents {
     /// Its layers.
     pub layers: Vec<LayerHeader>,
 }
+
+/// What is wrong with a file that cannot be read, for a message.
+pub(super) fn why(error: &exr::error::Error) -> String {
+    use exr::error::Error;
+    match error {
+        // systems refuse to go to a place that no file has
+        Error::Io(error) if error.kind() == io::ErrorKind::InvalidInput => OUTSIDE.to_owned(),
+        Error::Invalid(what) if what == "reference to missing bytes" => OUTSIDE.to_owned(),
+        other => other.to_string(),
+    }
+}
+
+const OUTSIDE: &str = "it is cut off, or its table leads to a place outside of it";
 
 /// One checksum for every sixteen rows.
 fn checksums([x0, y0, x1, y1]: [u32; 4], planes: &[(String, Numbers)]) -> Vec<String> {
@@ -178,7 +191,8 @@ impl<R: Read + Seek> LayerFile<R> {
     /// Fails if the source is not a file that [`encode`] made.
     pub fn new(path: &Path, mut source: R, length: u64) -> Result<Self, FileError> {
         let not_one = |what: &dyn std::fmt::Display| failed(path, format!("not a part of an image: {what}"));
-        let meta = exr::meta::MetaData::read_from_buffered(&mut source, false).map_err(|error| not_one(&error))?;
+        let meta =
+            exr::meta::MetaData::read_from_buffered(&mut source, false).map_err(|error| not_one(&why(&error)))?;
         let headers = meta.headers.to_vec();
         let text = |value: Option<&AttributeValue>, name: &str| -> Result<Value, FileError> {
             let Some(AttributeValue::Text(text)) = value else {
@@ -243,7 +257,7 @@ impl<R: Read + Seek> LayerFile<R> {
             bands.push(first..last);
         }
         self.source.rewind().map_err(|error| damaged(&error))?;
-        let reader = exr::block::read(&mut self.source, false).map_err(|error| damaged(&error))?;
+        let reader = exr::block::read(&mut self.source, false).map_err(|error| damaged(&why(&error)))?;
         let meta = exr::meta::MetaData {
             requirements: reader.meta_data().requirements,
             headers: reader.headers().iter().cloned().collect(),
@@ -258,12 +272,12 @@ impl<R: Read + Seek> LayerFile<R> {
         let chunks = reader
             .filter_chunks(false, |_, _, block| wanted(&block))
             .and_then(Iterator::collect::<exr::error::Result<Vec<_>>>)
-            .map_err(|error| damaged(&error))?;
+            .map_err(|error| damaged(&why(&error)))?;
         let blocks: Vec<_> = chunks
             .into_par_iter()
             .map(|chunk| UncompressedBlock::decompress_chunk(chunk, &meta, false))
             .collect::<exr::error::Result<_>>()
-            .map_err(|error| damaged(&error))?;
+            .map_err(|error| damaged(&why(&error)))?;
         let empty = |(header, band): (&LayerHeader, &Range<u32>)| {
             let [x0, y0, x1, _] = header.area;
             let area = [x0, y0 + band.start, x1, y0 + band.end];

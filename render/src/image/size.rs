@@ -1,10 +1,9 @@
 //! How large an image in a file can be.
 
 use crate::files::{FileError, failed};
+use crate::limits::MOST_PIXELS;
 use std::path::Path;
 
-/// Greatest number of pixels of an image, the same as for films.
-const MOST_PIXELS: u128 = 1 << 28;
 /// Greatest plausible ratio of decoded to encoded bytes: deflate, the densest compression in use, reaches 1,032.
 const MOST_EXPANSION: u128 = 2048;
 
@@ -20,7 +19,7 @@ pub(super) fn believe(
     if pixels == 0 {
         return Err(failed(path, format!("the image is empty: {width} × {height} pixels")));
     }
-    if pixels > MOST_PIXELS {
+    if pixels > u128::from(MOST_PIXELS) {
         return Err(failed(path, format!("{width} × {height} pixels: at most {MOST_PIXELS} are supported")));
     }
     let bytes = pixels.saturating_mul(bits_per_pixel) / 8;

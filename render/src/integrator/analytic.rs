@@ -7,13 +7,12 @@
 use super::settings::TILE;
 use crate::bvh::{GROUP, SHAPE};
 use crate::camera::{Camera, Pinhole};
-use crate::certificates::{Blocker, Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};
+use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
-use crate::packet::{M8, V8, X8, equal};
+use crate::packet::{M8, V8, X8, equal, widen_points};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
-use etendue::select::FEW;
-use etendue::{Mask, Real, Vec3, u32x8};
+use etendue::{Mask, Real, Vec3, f64x4, u32x8};
 use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;
 
@@ -30,13 +29,13 @@ struct AreaLight {
     radiance: [f32; 3],
 }
 
-/// What is known of a light, as seen from a part of a surface.
+/// What is known of a light, as seen from a part of a surface. What it contributes is computed in a precision that suffices there.
 #[derive(Clone, Debug, PartialEq)]
 enum Known {
-    Lit,
+    Lit(Precision),
     Dark,
     /// Only these forms and bodies can occlude it.
-    Behind(Range<usize>, Range<usize>),
+    Behind(Range<usize>, Range<usize>, Precision),
     /// It is sampled, although its blockers are known.
     Crowded,
     /// It must be sampled.
@@ -56,7 +55,8 @@ pub struct Survey {
     pub few: u32,
     /// Lights with 5 to 8 possible blockers.
     pub many: u32,
-    /// Lights with at most 16 possible blockers that are sampled, because that takes less time, or because spheres overlap.
+    /// Lights with at most 16 possible blockers that are sampled, because that takes less time, because spheres overlap, or because closed
+    /// forms are not accurate enough.
     pub crowded: u32,
     /// Lights of which nothing is proved.
     pub unknown: u32,
@@ -102,6 +102,38 @@ impl Default for Places {
     }
 }
 
+/// What closed forms in double precision need.
+#[derive(Default)]
+struct Exact<'a> {
+    /// Made when it is first needed.
+    occlusion: Option<Box<Occlusion<f64x4>>>,
+    polyhedra: Vec<Polyhedron<'a, f64>>,
+    forms: Vec<Convex<f64>>,
+}
+
+impl Exact<'_> {
+    /// As of [`Occlusion::visible_past`], for four lanes at a time.
+    fn visible_past(
+        &mut self,
+        point: V8,
+        normal: V8,
+        light: &Convex<f32>,
+        forms: &[Convex<f32>],
+        bodies: Range<usize>,
+    ) -> Option<X8> {
+        let (light, bodies) = (light.map(f64::from), &self.polyhedra[bodies]);
+        self.forms.clear();
+        self.forms.extend(forms.iter().map(|form| form.map(f64::from)));
+        let occlusion = self.occlusion.get_or_insert_default();
+        let mut visible = [0.0; 8];
+        for (half, (point, normal)) in widen_points(point).into_iter().zip(widen_points(normal)).enumerate() {
+            let part = occlusion.visible_past(point, normal, &light, &self.forms, bodies)?.to_array();
+            (0..4).for_each(|lane| visible[4 * half + lane] = part[lane] as f32);
+        }
+        Some(X8::from(visible))
+    }
+}
+
 /// The lights of a scene, and certificates for the surfaces in a tile.
 pub(super) struct Analytic<'a> {
     surfaces: &'a Surfaces,
@@ -119,23 +151,10 @@ pub(super) struct Analytic<'a> {
     known: Vec<Known>,
     forms: Vec<Convex<f32>>,
     polyhedra: Vec<Polyhedron<'a, f32>>,
+    /// The same in double precision.
+    exact: Exact<'a>,
     /// Whether certificates are not worth asking for in this tile.
     hopeless: bool,
-}
-
-fn corner(v: [f32; 3]) -> Vec3<f32> {
-    v.into()
-}
-
-fn light_form(geometry: &Geometry) -> Convex<f32> {
-    match *geometry {
-        Geometry::Sphere { center, radius } => Convex::Sphere { center: corner(center), radius },
-        Geometry::Triangle([a, b, c]) => Convex::Polygon { corners: [a, b, c, c].map(corner), count: 3 },
-        Geometry::Parallelogram { p, u, v } => {
-            let (p, u, v) = (corner(p), corner(u), corner(v));
-            Convex::Polygon { corners: [p, p + u, p + u + v, p + v], count: 4 }
-        }
-    }
 }
 
 /// Whether the visible part of a light is worth computing. More blockers take longer than the samples that they save: with 16, `defocus`
@@ -143,14 +162,15 @@ fn light_form(geometry: &Geometry) -> Convex<f32> {
 /// have no closed form.
 fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
     let is_ball = matches!(light, Convex::Sphere { .. });
-    blockers.len() <= CLIPPED && !(is_ball && blockers.iter().any(|blocker| matches!(blocker, Blocker::Sphere { .. })))
+    let spheres = |blocker: &Blocker| matches!(blocker, Blocker::Convex { form: Convex::Sphere { .. }, .. });
+    blockers.len() <= CLIPPED && !(is_ball && blockers.iter().any(spheres))
 }
 
 impl<'a> Analytic<'a> {
     /// For a scene as a camera sees it. [`begin`](Self::begin) prepares for a tile.
     pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera) -> Self {
         let light = |shape: &crate::scene::Shape| {
-            Some(AreaLight { form: light_form(&shape.geometry), radiance: shape.emission?.radiance })
+            Some(AreaLight { form: shape.geometry.convex(), radiance: shape.emission?.radiance })
         };
         Self {
             surfaces,
@@ -165,6 +185,7 @@ impl<'a> Analytic<'a> {
             known: Vec::new(),
             forms: Vec::new(),
             polyhedra: Vec::new(),
+            exact: Exact::default(),
             hopeless: false,
         }
     }
@@ -176,6 +197,7 @@ impl<'a> Analytic<'a> {
         self.known.clear();
         self.forms.clear();
         self.polyhedra.clear();
+        self.exact.polyhedra.clear();
         self.origin = origin;
         self.hopeless = false;
     }
@@ -201,36 +223,35 @@ impl<'a> Analytic<'a> {
     /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
     /// certificates from `larger`, stays.
     fn certify(&mut self, patch: Option<&Patch>, larger: Option<usize>) -> usize {
-        let Self { bodies, lights, certifier, known, forms, polyhedra, .. } = self;
+        let Self { bodies, lights, certifier, known, forms, polyhedra, exact, .. } = self;
         let first = known.len();
         for light in 0..lights.len() {
             let before = larger.map_or(Known::Nothing, |larger| known[larger + light].clone());
             let certificate = match patch {
-                Some(patch) if !matches!(before, Known::Lit | Known::Dark) => certifier.certify(patch, light),
+                Some(patch) if !matches!(before, Known::Lit(_) | Known::Dark) => certifier.certify(patch, light),
                 _ => {
                     known.push(before);
                     continue;
                 }
             };
             known.push(match certificate {
-                Certificate::Lit => Known::Lit,
+                Certificate::Lit(Precision::Neither) | Certificate::Blockers(_, Precision::Neither) => Known::Crowded,
+                Certificate::Lit(precision) => Known::Lit(precision),
                 Certificate::Dark => Known::Dark,
                 Certificate::Unknown => before,
-                Certificate::Blockers(found) if !is_clipped(&lights[light].form, found) => Known::Crowded,
-                Certificate::Blockers(found) => {
+                Certificate::Blockers(found, _) if !is_clipped(&lights[light].form, found) => Known::Crowded,
+                Certificate::Blockers(found, precision) => {
                     let (first_form, first_body) = (forms.len(), polyhedra.len());
                     for blocker in found {
                         match *blocker {
-                            Blocker::Polygon { corners, count, .. } => {
-                                forms.push(Convex::Polygon { corners: corners.map(corner), count });
+                            Blocker::Convex { form, .. } => forms.push(form),
+                            Blocker::Body(body) => {
+                                polyhedra.push(bodies.polyhedron(body));
+                                exact.polyhedra.push(bodies.exact_polyhedron(body));
                             }
-                            Blocker::Sphere { center, radius, .. } => {
-                                forms.push(Convex::Sphere { center: corner(center), radius });
-                            }
-                            Blocker::Body(body) => polyhedra.push(bodies.polyhedron(body)),
                         }
                     }
-                    Known::Behind(first_form..forms.len(), first_body..polyhedra.len())
+                    Known::Behind(first_form..forms.len(), first_body..polyhedra.len(), precision)
                 }
             });
         }
@@ -247,7 +268,7 @@ impl<'a> Analytic<'a> {
         }
         let larger = (level > 0).then(|| self.seen(pinhole, place, pixel, level - 1));
         let count = self.lights.len();
-        let decided = |known: &Known| matches!(known, Known::Lit | Known::Dark);
+        let decided = |known: &Known| matches!(known, Known::Lit(_) | Known::Dark);
         let open = larger.is_none_or(|larger| !self.known[larger..larger + count].iter().all(decided));
         let first = if open && !self.hopeless {
             let [x, y] = [column, row].map(|k| k * side);
@@ -289,15 +310,33 @@ impl<'a> Analytic<'a> {
         let (first, _) = self.find(surface, places, M8::from_bits(1 << lane));
         for known in &self.known[first..first + self.lights.len()] {
             *match known {
-                Known::Lit => &mut survey.lit,
+                Known::Lit(_) => &mut survey.lit,
                 Known::Dark => &mut survey.dark,
-                Known::Behind(forms, bodies) if forms.len() + bodies.len() <= 4 => &mut survey.few,
+                Known::Behind(forms, bodies, _) if forms.len() + bodies.len() <= 4 => &mut survey.few,
                 Known::Behind(..) => &mut survey.many,
                 Known::Crowded => &mut survey.crowded,
                 Known::Nothing => &mut survey.unknown,
             } += 1;
         }
         survey
+    }
+
+    /// A bound of the error of what [`Self::gather`] adds at the surface in the first lane: a fraction of what the lights that it
+    /// computes would contribute if nothing hid them.
+    pub(super) fn doubt(&mut self, surface: &Surface, places: &Places) -> V8 {
+        if !(surface.reflects & !places.glossy).lane(0) {
+            return V8::default();
+        }
+        let (first, _) = self.find(surface, places, M8::from_bits(1));
+        let mut sum = V8::default();
+        for (light, known) in self.lights.iter().zip(&self.known[first..]) {
+            if matches!(known, Known::Lit(_) | Known::Behind(..)) {
+                let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
+                sum += V8::from(light.radiance) * all.unwrap_or_default();
+            }
+        }
+        let V8 { x, y, z } = surface.albedo * X8::lit(FRAC_1_PI * ALLOWED);
+        V8::new(x * sum.x, y * sum.y, z * sum.z)
     }
 
     /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them.
@@ -332,7 +371,7 @@ impl<'a> Analytic<'a> {
         surfaces: &[Surface],
         places: &[Places; GROUP],
         reflected: &mut [V8; GROUP],
-        unknown: &mut [[M8; GROUP]; FEW],
+        unknown: &mut [[M8; GROUP]],
     ) -> bool {
         let mut any = false;
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
@@ -346,21 +385,28 @@ impl<'a> Analytic<'a> {
             }
             let mut sum = V8::default();
             for (k, light) in self.lights.iter().enumerate() {
-                let mut lit = M8::splat(false);
+                let (mut lit, mut lit_exactly) = (M8::splat(false), M8::splat(false));
                 let mut open = surface.reflects & places[p].glossy;
                 let mut part = X8::lit(0.0);
                 for (first, lanes) in &parts[..count] {
                     match &self.known[first + k] {
-                        Known::Lit => lit = lit | *lanes,
+                        Known::Lit(Precision::Double) => lit_exactly = lit_exactly | *lanes,
+                        Known::Lit(_) => lit = lit | *lanes,
                         Known::Dark => {}
                         Known::Crowded | Known::Nothing => open = open | *lanes,
-                        Known::Behind(forms, bodies) => {
+                        Known::Behind(forms, bodies, precision) => {
                             // the other lanes repeat one of these: what is not seen from here does not matter
                             let lane = lanes.bits().trailing_zeros() as usize & 7;
                             let of = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                             let (point, normal) = (of(surface.point), of(surface.normal));
-                            let (forms, bodies) = (&self.forms[forms.clone()], &self.polyhedra[bodies.clone()]);
-                            match self.occlusion.visible_past(point, normal, &light.form, forms, bodies) {
+                            let (form, forms) = (&light.form, &self.forms[forms.clone()]);
+                            let visible = if *precision == Precision::Double {
+                                self.exact.visible_past(point, normal, form, forms, bodies.clone())
+                            } else {
+                                let bodies = &self.polyhedra[bodies.clone()];
+                                self.occlusion.visible_past(point, normal, form, forms, bodies)
+                            };
+                            match visible {
                                 Some(visible) => part += visible.keep(*lanes),
                                 None => open = open | *lanes,
                             }
@@ -370,6 +416,10 @@ impl<'a> Analytic<'a> {
                 if lit.any() {
                     let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
                     part += all.unwrap_or_default().keep(lit);
+                }
+                if lit_exactly.any() {
+                    let all = self.exact.visible_past(surface.point, surface.normal, &light.form, &[], 0..0);
+                    part += all.unwrap_or_default().keep(lit_exactly);
                 }
                 sum += V8::from(light.radiance) * part;
                 unknown[k][p] = open;

@@ -29,7 +29,7 @@ enum Which<'a> {
     /// The one to which the sample is allocated, or one chosen at random if that is empty.
     Chosen(&'a [Allocated<'a, X8>]),
     /// One of those whose lanes are set, for each light and packet.
-    Among(&'a [[M8; GROUP]; FEW]),
+    Among(&'a [[M8; GROUP]]),
 }
 
 /// Radiance along camera rays.
@@ -102,6 +102,8 @@ pub(super) struct Paths<'a> {
     /// Where the paths end. The pixels are set from outside.
     pub(super) places: Box<[Places; GROUP]>,
     pub(super) analytic: Option<Analytic<'a>>,
+    /// Lanes in which a light must be sampled, for each light and packet.
+    unknown: Vec<[M8; GROUP]>,
     radiance: Box<[Radiance; GROUP]>,
 }
 
@@ -123,6 +125,7 @@ impl<'a> Paths<'a> {
                 .is_analytic(scene.lights.only_few_areas())
                 .then(|| Analytic::new(&scene.surfaces, &scene.bodies, camera)),
             radiance: Box::default(),
+            unknown: vec![[M8::splat(false); GROUP]; FEW],
         }
     }
 
@@ -164,6 +167,16 @@ impl<'a> Paths<'a> {
         let Self { analytic, surfaces, places, .. } = self;
         analytic.as_mut().map_or(Survey::default(), |analytic| analytic.survey(&surfaces[0], &places[0], 0))
     }
+
+    /// A bound of the error that closed forms have at the end of the first ray that has been started, as the camera sees it.
+    pub(super) fn doubt(&mut self) -> V8 {
+        self.surfaces(&[M8::from_bits(1)]);
+        self.note_glossy(1);
+        let Self { scene, analytic, surfaces, places, ends, .. } = self;
+        let doubt = analytic.as_mut().map_or(V8::default(), |analytic| analytic.doubt(&surfaces[0], &places[0]));
+        if scene.surfaces.only_diffuse { doubt } else { product(ends[0].throughput, doubt) }
+    }
+
     fn note_glossy(&mut self, count: usize) {
         if !self.scene.surfaces.only_diffuse {
             for (place, end) in self.places[..count].iter_mut().zip(&*self.ends) {
@@ -202,10 +215,11 @@ impl<'a> Paths<'a> {
         let lights = self.sampled();
         self.note_glossy(count);
         if let Some(analytic) = &mut self.analytic {
-            let mut unknown = [[M8::splat(false); GROUP]; FEW];
+            let mut unknown = std::mem::take(&mut self.unknown);
             if analytic.gather(&self.surfaces[..count], &self.places, &mut reflected, &mut unknown) {
                 self.by_light::<METAL>(lights, &Which::Among(&unknown), count, numbers, &mut reflected);
             }
+            self.unknown = unknown;
         } else if let Some(each) = lights.each() {
             for light in 0..each {
                 self.by_light::<METAL>(lights, &Which::Given(light), count, numbers, &mut reflected);
@@ -276,7 +290,7 @@ impl<'a> Paths<'a> {
                     going[p] = mirrors;
                     on = true;
                     let (origin, direction) = end.reflect(&surface, &metal, mirrors, incoming);
-                    rays[0][p] = world.bvh.rays(origin, direction);
+                    rays[0][p] = world.bvh.rays(origin, direction).leaving(hits[p].place);
                     self.count.mirror += u64::from(mirrors.bits().count_ones());
                 }
             }
@@ -303,7 +317,7 @@ impl<'a> Paths<'a> {
         let mut limit = [zero; GROUP];
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut found = [V8::default(); GROUP];
-        let Self { scene, surfaces, ends, rays, .. } = self;
+        let Self { scene, surfaces, ends, rays, places, .. } = self;
         for (p, surface) in surfaces[..count].iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let bsdf = bsdf::<METAL>(surface, &ends[p]);
             let mut u = numbers.light[p];
@@ -338,7 +352,7 @@ impl<'a> Paths<'a> {
                 Some(by) => factor * by.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0],
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction);
+            rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction).leaving(places[p].primitives);
             limit[p] = sample.distance * X8::lit(COVERED);
             target[p] = chosen.shape;
             found[p] = product(color, chosen.radiance) * (factor / pdf);
@@ -362,7 +376,7 @@ impl<'a> Paths<'a> {
         let mut found = [V8::default(); GROUP];
         let mut factors = [zero; GROUP];
         let mut own = [one; GROUP];
-        let Self { surfaces, ends, rays, .. } = self;
+        let Self { surfaces, ends, rays, places, .. } = self;
         for (p, surface) in surfaces[..count].iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let bsdf = bsdf::<METAL>(surface, &ends[p]);
             let Scattered { direction, color, factor, pdf } = bsdf.sample(self.technique, pairs[p]);
@@ -371,7 +385,7 @@ impl<'a> Paths<'a> {
             (found[p], factors[p]) = (color, factor);
             lit[p] = surface.reflects & some;
             self.count.shadow += u64::from(lit[p].bits().count_ones());
-            rays[1][p] = world.bvh.rays(surface.point, direction);
+            rays[1][p] = world.bvh.rays(surface.point, direction).leaving(places[p].primitives);
         }
         // finding the hit light is cheap; only rays that hit one need an occlusion test
         world.bvh.closest_shape(&self.rays[1][..count], &lit[..count], &mut hits[..count], &mut self.scratch);

@@ -141,18 +141,31 @@ impl<'a> TileRenderer<'a> {
         self.paths.count.corner += 8;
     }
 
+    /// Starts the ray through the middle of a pixel and of the lens.
+    fn look(&mut self, [x, y]: [u32; 2]) -> CameraSample {
+        let middle = |at: u32| X8::splat(at as f32 + 0.5);
+        let sample = CameraSample { film: Vec2::new(middle(x), middle(y)), lens: Vec2::default() };
+        self.paths.start(0, self.camera.rays(&sample));
+        self.paths.places[0].pixel = Some([x, y]);
+        sample
+    }
+
     /// What is known of the lights in the middle of pixels of a tile, seen through the middle of the lens.
     pub(super) fn survey(&mut self, pixels: &[[u32; 2]]) -> Vec<Survey> {
         let mut surveys = Vec::with_capacity(pixels.len());
-        for &[x, y] in pixels {
-            let middle = |at: u32| X8::splat(at as f32 + 0.5);
-            let sample = CameraSample { film: Vec2::new(middle(x), middle(y)), lens: Vec2::default() };
-            self.paths.start(0, self.camera.rays(&sample));
-            self.paths.places[0].pixel = Some([x, y]);
+        for &pixel in pixels {
+            self.look(pixel);
             surveys.push(self.paths.survey());
         }
         self.paths.count.corner += pixels.len() as u64;
         surveys
+    }
+
+    /// A bound of the error of closed forms in the middle of a pixel of a tile, seen through the middle of the lens.
+    pub(super) fn doubt(&mut self, pixel: [u32; 2]) -> [f32; 3] {
+        let sample = self.look(pixel);
+        let doubt = self.paths.doubt();
+        self.exposure.map_or(doubt, |exposure| doubt * exposure.weight(&sample)).lane(0).into()
     }
 
     /// Renders a range of the samples of each set of the pixels of an area, row by row. Samples are allocated to the lights by `weights`,

@@ -28,10 +28,13 @@ impl Token<'_> {
     }
 }
 
-/// At most 60 characters of `s`, so that a message stays on one line; control characters are escaped.
+/// At most 60 characters of `s`, so that a message stays on one line; characters that cannot be seen are escaped.
 pub(super) fn shortened(s: &str) -> String {
     let escape = |c: char| {
-        if c.is_control() { c.escape_default().to_string() } else { c.to_string() }
+        let escaped = c.escape_debug();
+        // not those of quotes, backslashes and accents
+        let is_visible = !c.is_control() && (escaped.len() <= 2 || c.is_alphanumeric());
+        if is_visible { c.to_string() } else { escaped.to_string() }
     };
     let mut shown: String = s.chars().take(60).map(escape).collect();
     if s.chars().nth(60).is_some() {
@@ -53,6 +56,8 @@ pub(super) struct Lexer<'a> {
 impl<'a> Lexer<'a> {
     /// Starts at line 1 of `text`; messages name `file`.
     pub(super) fn new(text: &'a str, file: Arc<str>) -> Self {
+        // some editors begin UTF-8 with a byte order mark
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         Lexer { text, at: 0, line: 1, file, peeked: None }
     }
 

@@ -2,7 +2,7 @@
 
 use super::lexer::shortened;
 use super::message::Message;
-use super::params::{Params, rounded};
+use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
 use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
@@ -90,7 +90,7 @@ pub(super) fn read(
     params.reject(&["power", "illuminance", "portal"])?;
     let scale = params.float("scale")?.unwrap_or(1.0);
     if scale < 0.0 {
-        return Err(params.error(format!("\"scale\": must be at least 0, not {scale}")));
+        return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(scale))));
     }
     let file = if kind == "infinite" { params.text("filename")? } else { None };
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
@@ -106,8 +106,11 @@ pub(super) fn read(
         }
         None => {
             let colour = colour.unwrap_or([1.0; 3]).map(|x| x * scale);
-            let too_large = || params.error(format!("{name:?} times \"scale\" is {colour:?}: too large for f32"));
-            let colour = rounded(colour).ok_or_else(too_large)?;
+            let most = if kind == "infinite" { MOST_RADIANCE } else { f32::MAX };
+            let too_large =
+                || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
+            let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
+            warnings.extend(brightness(colour).map(|text| params.error(text)));
             let source = constant(kind, params, ctm, colour)?;
             if colour == [0.0; 3] { Source::Dark } else { source }
         }
@@ -152,10 +155,13 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
     let outer = params.float("coneangle")?.unwrap_or(30.0);
     let delta = params.float("conedeltaangle")?.unwrap_or(5.0);
     if !(outer > 0.0 && outer <= 180.0) {
-        return Err(params.error(format!("\"coneangle\": must be greater than 0 and at most 180 degrees, not {outer}")));
+        return Err(params
+            .error(format!("\"coneangle\": must be greater than 0 and at most 180 degrees, not {}", shown(outer))));
     }
     if !(0.0..=outer).contains(&delta) {
-        return Err(params.error(format!("\"conedeltaangle\": must be from 0 to the cone angle {outer}, not {delta}")));
+        return Err(
+            params.error(format!("\"conedeltaangle\": must be from 0 to the cone angle {outer}, not {}", shown(delta)))
+        );
     }
     let cosine = |degrees: f64| libm::cos(degrees.to_radians()) as f32;
     let [cos_inner, cos_outer] = [outer - delta, outer].map(cosine);
@@ -199,9 +205,9 @@ fn picture(
     for (i, texel) in image.radiance.iter().enumerate() {
         let rgb = texel.map(|x| (f64::from(x) * scale) as f32);
         // texels are sampled in proportion to the sum of their channels
-        if !rgb.iter().sum::<f32>().is_finite() {
+        if !(rgb.iter().sum::<f32>().is_finite() && rgb.iter().all(|&x| x <= MOST_RADIANCE)) {
             return Err(wrong(format!(
-                "texel ({}, {}) is {texel:?}, times {scale}: not finite in f32",
+                "texel ({}, {}) is {texel:?}, times {scale}: must be finite, and at most {MOST_RADIANCE:e}",
                 i % width,
                 i / width
             )));

@@ -2,7 +2,7 @@
 
 use super::lexer::shortened;
 use super::message::Message;
-use super::params::{Params, rounded};
+use super::params::{Params, rounded, shown};
 
 /// How a surface reflects. All materials are opaque and the same on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,7 @@ fn conductor(params: &mut Params) -> Result<Material, Message> {
         // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
         (Some(r), None, None) => {
             if let Some(x) = r.iter().find(|&&x| x > 1.0) {
-                return Err(params.error(format!("\"reflectance\": must be at most 1, not {x}")));
+                return Err(params.error(format!("\"reflectance\": must be at most 1, not {}", shown(*x))));
             }
             let r = r.map(|r| r.min(MOST_REFLECTANCE));
             ([1.0; 3], r.map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
@@ -110,7 +110,7 @@ fn conductor(params: &mut Params) -> Result<Material, Message> {
         return Err(params.error(format!("roughness {u} × {v}: only isotropic roughness is supported")));
     }
     if !(0.0..=1.0).contains(&u) {
-        return Err(params.error(format!("\"roughness\": must be from 0 to 1, not {u}")));
+        return Err(params.error(format!("\"roughness\": must be from 0 to 1, not {}", shown(u))));
     }
     let alpha = if params.flag("remaproughness")?.unwrap_or(true) { u.sqrt() } else { u };
     Ok(Material::Conductor { eta, k, alpha: alpha as f32 })

@@ -35,6 +35,13 @@ impl Place {
 
 /// The text of a file, or where it is not UTF-8.
 pub(super) fn utf8<'a>(bytes: &'a [u8], file: &Arc<str>) -> Result<&'a str, Message> {
+    let is_wide = [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| bytes.starts_with(mark));
+    if let Some(at) = if is_wide { Some(0) } else { bytes.iter().position(|&b| b == 0) } {
+        let line = 1 + bytes[..at].iter().filter(|&&b| b == b'\n').count() as u32;
+        let what =
+            if is_wide { "begins with the byte order mark of UTF-16" } else { "has a zero byte, as UTF-16 does" };
+        return Err(Place { file: file.clone(), line }.message(format!("the file {what}: save it as UTF-8")));
+    }
     std::str::from_utf8(bytes).map_err(|error| {
         let valid = &bytes[..error.valid_up_to()];
         let line = 1 + valid.iter().filter(|&&b| b == b'\n').count() as u32;

@@ -230,7 +230,7 @@ impl Params {
             return Err(self.at(&param, format!("expected three numbers, found {}", numbers.len())));
         };
         match rgb.iter().find(|&&x| x < 0.0) {
-            Some(x) => Err(self.at(&param, format!("must be at least 0, not {x}"))),
+            Some(x) => Err(self.at(&param, format!("must be at least 0, not {}", shown(*x)))),
             None => Ok(Some(rgb.map(|x| x + 0.0))), // no −0
         }
     }
@@ -254,6 +254,23 @@ impl Params {
     pub(super) fn finish(self) -> Vec<Message> {
         self.list.iter().map(|param| self.at(param, "ignored")).collect()
     }
+}
+
+/// Greatest radiance: eight samples are added in single precision, which ends at 3.4e38.
+pub(super) const MOST_RADIANCE: f32 = 4e37;
+/// Above this, the variance of a pixel may be more than single precision holds.
+const BRIGHT: f32 = 1e18;
+
+/// What to say of a light that may be too bright for the error of the image to be known.
+pub(super) fn brightness(rgb: [f32; 3]) -> Option<String> {
+    let is_bright = rgb.iter().any(|&x| x > BRIGHT);
+    is_bright
+        .then(|| format!("{rgb:?} is so bright that variances may overflow: the error of the image may not be known"))
+}
+
+/// A number as a message shows it: with an exponent if it would take many digits otherwise.
+pub(super) fn shown(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e16).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
 /// A colour rounded to f32; `None` if a channel overflows.

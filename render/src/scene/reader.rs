@@ -2,27 +2,24 @@
 
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, Emission, FilmSettings, Lens, Scene};
+use super::includes::Includes;
+pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
 use super::lights::{self, DeltaLight, Environment};
 use super::materials::{self, Material};
 use super::message::{Message, Place, utf8};
-use super::params::{Params, rounded};
+use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
 use super::shapes::{self, Output, Surface};
 use super::transform::{Transform, length, scaled};
-use crate::files::read_file;
 use crate::image;
+use crate::limits::{MOST_SAMPLES, is_size};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Greatest depth of nested `Include`s, and greatest number of included files.
-const DEEPEST_INCLUDE: usize = 32;
-const MOST_INCLUDES: usize = 4096;
 /// Greatest depth of nested `AttributeBegin`s.
 const DEEPEST_ATTRIBUTES: usize = 1024;
-const MOST_PIXELS: i64 = 1 << 28;
-const MOST_SAMPLES: i64 = 1 << 24;
 
 /// The graphics state that `AttributeBegin` saves and `AttributeEnd` restores.
 #[derive(Clone, Debug)]
@@ -47,18 +44,17 @@ struct Reader<'a> {
     systems: HashMap<String, Transform>,
     named: HashMap<String, Material>,
     in_world: bool,
-    open_files: Vec<PathBuf>,
-    included: usize,
+    includes: Includes,
     inputs: RefCell<Vec<PathBuf>>,
 }
 
 /// Reads a whole scene; only a built-in scene may name `builtin:` meshes.
-pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Result<Scene, Message> {
+pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Result<Scene, Message> {
     let material = Material::Diffuse([0.5; 3]);
     let state = State { ctm: Transform::IDENTITY, reverse: false, material, emission: None };
     let mut reader = Reader {
         main_dir: dir,
-        is_builtin,
+        is_builtin: matches!(origin, Origin::Builtin),
         camera: None,
         film: None,
         pixel_samples: None,
@@ -70,8 +66,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, is_builtin: bool) -> Resu
         systems: HashMap::new(),
         named: HashMap::new(),
         in_world: false,
-        open_files: Vec::new(),
-        included: 0,
+        includes: Includes::new(origin),
         inputs: RefCell::default(),
     };
     let file: Arc<str> = Arc::from(file);
@@ -260,24 +255,11 @@ impl Reader<'_> {
     fn include(&mut self, place: &Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
         let name = lexer.text("a file name")?;
         let path = self.resolve(&name, dir);
-        let shown = path.display().to_string();
-        self.included += 1;
-        if self.open_files.len() == DEEPEST_INCLUDE || self.included > MOST_INCLUDES {
-            return Err(place.message(format!(
-                "Include {shown:?}: more than {DEEPEST_INCLUDE} files deep, or more than {MOST_INCLUDES} files in all"
-            )));
-        }
-        let failed = |error| place.message(format!("Include: cannot read {shown:?}: {error}"));
-        let real = path.canonicalize().map_err(failed)?;
-        if self.open_files.contains(&real) {
-            return Err(place.message(format!("Include: {shown:?} includes itself")));
-        }
-        let bytes = read_file(&path).map_err(failed)?;
-        let file: Arc<str> = Arc::from(shown);
+        let bytes = self.includes.open(place, &path)?;
+        let file: Arc<str> = Arc::from(path.display().to_string());
         let text = utf8(&bytes, &file)?;
-        self.open_files.push(real);
         self.file(text, file, path.parent().unwrap_or(Path::new("")))?;
-        self.open_files.pop();
+        self.includes.close();
         Ok(())
     }
 
@@ -343,15 +325,17 @@ impl Reader<'_> {
         params.reject(&["screenwindow", "frameaspectratio"])?;
         let radius = params.float("lensradius")?.unwrap_or(0.0);
         if radius < 0.0 {
-            return Err(params.error(format!("\"lensradius\": must be at least 0, not {radius}")));
+            return Err(params.error(format!("\"lensradius\": must be at least 0, not {}", shown(radius))));
         }
         let focus = params.float("focaldistance")?.unwrap_or(1e6);
         if focus <= 0.0 {
-            return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {focus}")));
+            return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
         }
         let fov = params.float("fov")?.unwrap_or(90.0);
         if !(fov > 0.0 && fov < 180.0) {
-            return Err(params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {fov}")));
+            return Err(
+                params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {}", shown(fov)))
+            );
         }
         let singular = || params.error("its transform is singular");
         let world = self.state.ctm.inverse().ok_or_else(singular)?;
@@ -390,8 +374,8 @@ impl Reader<'_> {
         }
         let width = params.integer("xresolution")?.unwrap_or(1280);
         let height = params.integer("yresolution")?.unwrap_or(720);
-        let side = 1..=65_536;
-        if !(side.contains(&width) && side.contains(&height) && width * height <= MOST_PIXELS) {
+        // a negative number is a very large one here
+        if !is_size(width as u64, height as u64) {
             return Err(params
                 .error(format!("{width} × {height} pixels: each side must be 1 to 65536, and the area at most 2^28")));
         }
@@ -410,16 +394,17 @@ impl Reader<'_> {
         } else {
             params.integer("pixelsamples")?.unwrap_or(16)
         };
-        if !(1..=MOST_SAMPLES).contains(&samples) {
-            return Err(params.error(format!("{samples} samples per pixel: must be from 1 to 2^24")));
-        }
+        let samples = u32::try_from(samples)
+            .ok()
+            .filter(|n| (1..=MOST_SAMPLES).contains(n))
+            .ok_or_else(|| params.error(format!("{samples} samples per pixel: must be from 1 to {MOST_SAMPLES}")))?;
         if kind != "independent" && kind != "stratified" {
             self.warn(
                 &params.place,
                 params.error("only the number of samples is used; --sampler chooses the sampler").text,
             );
         }
-        self.pixel_samples = Some(samples as u32);
+        self.pixel_samples = Some(samples);
         Ok(())
     }
 
@@ -450,12 +435,15 @@ impl Reader<'_> {
         let radiance = params.rgb("L")?.unwrap_or([1.0; 3]);
         let scale = params.float("scale")?.unwrap_or(1.0);
         if scale < 0.0 {
-            return Err(params.error(format!("\"scale\": must be at least 0, not {scale}")));
+            return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(scale))));
         }
         let radiance = radiance.map(|x| x * scale);
         let two_sided = params.flag("twosided")?.unwrap_or(false);
-        let too_large = || params.error(format!("the radiance {radiance:?} is too large for f32"));
-        let radiance = rounded(radiance).ok_or_else(too_large)?;
+        let too_large = || params.error(format!("the radiance {radiance:?}: at most {MOST_RADIANCE:e} is supported"));
+        let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
+        if let Some(text) = brightness(radiance) {
+            self.warn(&params.place, params.error(text).text);
+        }
         let dark = radiance == [0.0; 3];
         if dark {
             self.warn(&params.place, params.error("emits nothing").text);

@@ -4,7 +4,7 @@ use super::description::{Emission, Shape};
 use super::generated;
 use super::materials::Material;
 use super::message::Message;
-use super::params::Params;
+use super::params::{Params, shown};
 use super::ply;
 use super::transform::{Transform, add, cross, dot, length, sub};
 use crate::files::read_file;
@@ -158,7 +158,8 @@ pub(super) fn sphere(out: &mut Output, surface: &Surface, params: &mut Params) -
     let world_radius = (radius * factor) as f32;
     if !(world_radius > 0.0 && world_radius.is_finite()) {
         return Err(params.error(format!(
-            "\"radius\": must be greater than 0 and finite, not {radius} ({world_radius:e} in world space)"
+            "\"radius\": must be greater than 0 and finite, not {} ({world_radius:e} in world space)",
+            shown(radius)
         )));
     }
     out.push(surface.material, surface.emission, Geometry::Sphere { center: round(center[0]), radius: world_radius });

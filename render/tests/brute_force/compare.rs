@@ -2,7 +2,7 @@
 
 use super::counts::Counts;
 use super::scenes::{emits, light_point};
-use super::segments::{EXACT, Meets, depths, may_occlude, meets_solid, meets_triangle};
+use super::segments::{EXACT, Meets, corners, depths, exact, may_occlude, meets_solid, meets_triangle};
 use super::views::{Point, View, World};
 use crate::meshes::{Random, Triangle};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
@@ -11,32 +11,19 @@ use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier};
 use etendue_render::scene::{Geometry, Shape};
 
-fn corner(v: [f32; 3]) -> Vec3<f32> {
-    v.into()
-}
-
 /// A light as the library takes it, and the angle around it as seen from p.
 fn convex(geometry: &Geometry, p: V3) -> (Convex<f32>, f64) {
-    let around = |corners: &[Vec3<f32>]| {
-        let directions: Vec<V3> = corners.iter().map(|v| unit(sub(wide([v.x, v.y, v.z]), p))).collect();
+    let around = |corners: &[V3]| {
+        let directions: Vec<V3> = corners.iter().map(|&v| unit(sub(v, p))).collect();
         let next = directions.iter().cycle().skip(1);
         directions.iter().zip(next).map(|(&a, &b)| length(cross(a, b)).atan2(dot(a, b))).sum()
     };
-    match *geometry {
-        Geometry::Sphere { center, radius } => {
-            let sin = f64::from(radius) / length(sub(wide(center), p));
-            (Convex::Sphere { center: corner(center), radius }, std::f64::consts::TAU * sin)
-        }
-        Geometry::Triangle([a, b, c]) => {
-            let corners = [a, b, c, c].map(corner);
-            (Convex::Polygon { corners, count: 3 }, around(&corners[..3]))
-        }
-        Geometry::Parallelogram { p: a, u, v } => {
-            let (a, u, v) = (corner(a), corner(u), corner(v));
-            let corners = [a, a + u, a + u + v, a + v];
-            (Convex::Polygon { corners, count: 4 }, around(&corners))
-        }
-    }
+    let form = geometry.convex();
+    let angle = match form {
+        Convex::Sphere { center, radius } => std::f64::consts::TAU * f64::from(radius) / length(sub(exact(center), p)),
+        _ => around(&corners(&form)),
+    };
+    (form, angle)
 }
 
 impl World {
@@ -51,7 +38,7 @@ impl World {
             for (index, light) in all.filter(|(_, light)| view.light.is_none_or(|only| only == *light)) {
                 let certificate = certifier.certify(&view.patch, index);
                 self.compare(certificate, bodies, view, light, random, c);
-                if let Certificate::Blockers(blockers) = certificate {
+                if let Certificate::Blockers(blockers, _) = certificate {
                     self.compare_bodies(blockers, bodies, &view.points, light, random, c);
                 }
             }
@@ -117,18 +104,14 @@ impl World {
             c.bodies_fail += 1;
             return;
         };
-        let exact = |v: Vec3<f32>| Vec3::from(wide([v.x, v.y, v.z]));
         let flat = |&[a, b, d]: &Triangle| Convex::Polygon { corners: [a, b, d, d].map(|v| wide(v).into()), count: 3 };
         let triangles: Vec<Convex<f64>> = triangles.iter().map(flat).collect();
-        let form = match form {
-            Convex::Polygon { corners, count } => Convex::Polygon { corners: corners.map(exact), count },
-            Convex::Sphere { center, radius } => Convex::Sphere { center: exact(center), radius: f64::from(radius) },
-        };
+        let form = form.map(f64::from);
         let mut occlusion = Occlusion::<f64>::new();
         for (lane, point) in points.iter().enumerate().take(8) {
             let (all, by_body) = (f64::from(all.lane(lane)), f64::from(by_body.lane(lane)));
             assert!((0.0..=all).contains(&by_body), "{by_body} of {all}");
-            let (p, normal) = (exact(p.lane(lane)), exact(normal.lane(lane)));
+            let (p, normal) = (p.lane(lane).map(f64::from), normal.lane(lane).map(f64::from));
             let Some(by_triangles) = occlusion.visible(p, normal, &form, &triangles) else {
                 c.triangles_fail += 1;
                 continue;
@@ -162,16 +145,16 @@ impl World {
         c.corridors += 1;
         let shape = &self.scene.shapes[light as usize];
         *match certificate {
-            Certificate::Lit => &mut c.lit,
+            Certificate::Lit(_) => &mut c.lit,
             Certificate::Dark => &mut c.dark,
-            Certificate::Blockers(_) => &mut c.blockers,
+            Certificate::Blockers(..) => &mut c.blockers,
             Certificate::Unknown => &mut c.unknown,
         } += 1;
         if matches!(certificate, Certificate::Unknown) {
             return;
         }
         for &Point { p, normal, traced, to } in &view.points {
-            if let Certificate::Blockers(blockers) = certificate {
+            if let Certificate::Blockers(blockers, _) = certificate {
                 for blocker in blockers {
                     assert_front(blocker, bodies, &shape.geometry, p, &self.name);
                 }
@@ -191,9 +174,9 @@ impl World {
                     format!("{}: {certificate:?}, {p:?} → {y:?}, light {light}, receiver {}", self.name, view.receiver)
                 };
                 match certificate {
-                    Certificate::Lit => assert!(met != Meets::Yes, "occluded: {}", what()),
+                    Certificate::Lit(_) => assert!(met != Meets::Yes, "occluded: {}", what()),
                     Certificate::Dark => assert!(met != Meets::No, "visible: {}", what()),
-                    Certificate::Blockers(blockers) if met == Meets::Yes => {
+                    Certificate::Blockers(blockers, _) if met == Meets::Yes => {
                         assert!(
                             blockers.iter().any(|b| may_occlude(segment, b, bodies)),
                             "a blocker is missing: {}",
@@ -202,10 +185,10 @@ impl World {
                     }
                     _ => {}
                 }
-                if traced && !matches!(certificate, Certificate::Blockers(_)) {
+                if traced && !matches!(certificate, Certificate::Blockers(..)) {
                     let open = self.sees(p, y, light);
                     c.rays += 1;
-                    c.ray_differs += u64::from(open != matches!(certificate, Certificate::Lit));
+                    c.ray_differs += u64::from(open != matches!(certificate, Certificate::Lit(_)));
                 }
             }
         }
@@ -215,9 +198,9 @@ impl World {
 /// A blocker that does not cross the light is in front of it, as seen from p.
 fn assert_front(blocker: &Blocker, bodies: &Bodies, light: &Geometry, p: V3, name: &str) {
     let (points, radius) = match *blocker {
-        Blocker::Polygon { crosses_light: true, .. } | Blocker::Sphere { crosses_light: true, .. } => return,
-        Blocker::Polygon { corners, count, .. } => (corners.map(wide)[..count].to_vec(), 0.0),
-        Blocker::Sphere { center, radius, .. } => (vec![wide(center)], f64::from(radius)),
+        Blocker::Convex { crosses_light: true, .. } => return,
+        Blocker::Convex { form: Convex::Sphere { center, radius }, .. } => (vec![exact(center)], f64::from(radius)),
+        Blocker::Convex { form, .. } => (corners(&form), 0.0),
         Blocker::Body(body) => {
             let ends = bodies.polyhedron(body).edges.iter().flat_map(|edge| edge.ends);
             (ends.map(|v| wide([v.x, v.y, v.z])).collect(), 0.0)

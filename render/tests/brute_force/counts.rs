@@ -33,6 +33,6 @@ pub(crate) struct Counts {
     pub(crate) triangles_fail: u64,
     /// Greatest difference between the two, relative to its bound.
     pub(crate) worst: f64,
-    /// Least height of a shading point over its plane, in units of a sixteenth of the margin.
+    /// Least height of a shading point over its plane, in units of the least height that the patch allows.
     pub(crate) height: f64,
 }

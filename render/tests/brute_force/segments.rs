@@ -1,7 +1,7 @@
 //! Whether a segment meets a shape, in double precision.
 
 use etendue::Vec3;
-use etendue::occlusion::Polyhedron;
+use etendue::occlusion::{Convex, Polyhedron};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::certificates::{Blocker, Bodies};
 use etendue_render::scene::Geometry;
@@ -87,15 +87,33 @@ fn meets_polygon(segment: [V3; 2], corners: &[V3], tolerance: f64) -> Meets {
 pub(crate) fn may_occlude(segment: [V3; 2], blocker: &Blocker, bodies: &Bodies) -> bool {
     Meets::No
         != match *blocker {
-            Blocker::Polygon { corners, count, .. } => meets_polygon(segment, &corners.map(wide)[..count], 1e-7),
-            Blocker::Sphere { center, radius, .. } => meets_sphere(segment, wide(center), f64::from(radius), 1e-7),
+            Blocker::Convex { form: Convex::Sphere { center, radius }, .. } => {
+                meets_sphere(segment, exact(center), f64::from(radius), 1e-7)
+            }
+            Blocker::Convex { form, .. } => meets_polygon(segment, &corners(&form), 1e-7),
             Blocker::Body(body) => meets_solid(segment, &bodies.polyhedron(body)),
         }
 }
 
+/// The exact value of a point in single precision.
+pub(crate) fn exact(v: Vec3<f32>) -> V3 {
+    wide([v.x, v.y, v.z])
+}
+
+/// The corners of a flat shape.
+pub(crate) fn corners(form: &Convex<f32>) -> Vec<V3> {
+    match *form {
+        Convex::Polygon { corners, count } => corners[..count].iter().map(|&v| exact(v)).collect(),
+        Convex::Parallelogram { corner, edges: [u, v] } => {
+            let (a, u, v) = (exact(corner), exact(u), exact(v));
+            vec![a, along(a, u, 1.0), along(along(a, u, 1.0), v, 1.0), along(a, v, 1.0)]
+        }
+        Convex::Sphere { .. } => Vec::new(),
+    }
+}
+
 /// Depths of p below the faces of a body, and their rounding.
 pub(crate) fn depths(p: V3, solid: &Polyhedron<'_, f32>) -> (f64, Vec<f64>) {
-    let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
     let corners = solid.edges.iter().flat_map(|edge| edge.ends).map(exact);
     let rounding = 3e-7 * corners.chain([p]).flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
     let depth = |[normal, on]: &[Vec3<f32>; 2]| dot(unit(exact(*normal)), sub(exact(*on), p));
@@ -109,7 +127,6 @@ pub(crate) fn meets_solid([p, q]: [V3; 2], solid: &Polyhedron<'_, f32>) -> Meets
     if least > -rounding {
         return if least > rounding { Meets::Yes } else { Meets::Unclear };
     }
-    let exact = |v: Vec3<f32>| wide([v.x, v.y, v.z]);
     let (inwards, ahead) = (sub(exact(solid.center), p), unit(sub(q, p)));
     let mut all = Meets::Yes;
     for edge in solid.edges.iter().filter(|edge| (depths[edge.faces[0]] >= 0.0) != (depths[edge.faces[1]] >= 0.0)) {

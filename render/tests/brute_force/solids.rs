@@ -6,7 +6,7 @@ use etendue_oracle::{V3, along, cross, unit, wide};
 use etendue_render::scene::{Geometry, Shape};
 
 /// A convex polyhedron within [−1, 1]³: corners, and the corners of each face in order around.
-type Solid = (Vec<V3>, Vec<Vec<usize>>);
+pub(crate) type Solid = (Vec<V3>, Vec<Vec<usize>>);
 
 /// A prism over a regular polygon.
 fn prism(n: usize) -> Solid {

@@ -88,6 +88,10 @@ impl World {
             let (u, v) = (f64::from(random.unit()), f64::from(random.unit()));
             along(along(t[0], sub(t[1], t[0]), u * (1.0 - v)), sub(t[2], t[0]), v)
         };
+        self.look_at(origin, target, random, c)
+    }
+    /// Looks from a place at a target through random pixels.
+    pub(crate) fn look_at(&self, origin: V3, target: V3, random: &mut Random, c: &mut Counts) -> Option<View> {
         let forward = unit(sub(target, origin));
         let right = unit(cross(forward, wide(random.point())));
         let up = cross(right, forward);
@@ -204,7 +208,7 @@ impl World {
             return;
         };
         let height = dot(normal, sub(p, corners[0]));
-        c.height = c.height.min(height / patch.margin() * 16.0);
+        c.height = c.height.min(height / patch.least_height());
         c.off = c.off.max(height / patch.margin());
         let center = corners.iter().fold([0.0; 3], |s, &q| along(s, q, 1.0 / corners.len() as f64));
         for (i, &a) in corners.iter().enumerate() {

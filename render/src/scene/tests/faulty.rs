@@ -73,7 +73,7 @@ fn errors_name_line_and_value() {
         ("Material \"diffuse\" \"rgb reflectance\" [.1 .2]", 2, "expected three numbers, found 2"),
         ("Material \"diffuse\" \"rgb reflectance\" [.1 .2 -.5]", 2, "\"reflectance\": must be at least 0, not -0.5"),
         ("AreaLightSource \"diffuse\" \"rgb L\" [1 -2 3]", 2, "\"L\": must be at least 0, not -2"),
-        ("AreaLightSource \"diffuse\" \"rgb L\" [1e39 1 1]", 2, "too large for f32"),
+        ("AreaLightSource \"diffuse\" \"rgb L\" [1e39 1 1]", 2, "at most 4e37 is supported"),
         ("AreaLightSource \"diffuse\" \"float scale\" -1", 2, "\"scale\": must be at least 0, not -1"),
         // spheres
         ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0 "),

@@ -1,0 +1,139 @@
+//! In which precision the closed form of a light is accurate enough, as seen from a patch.
+
+use super::hull::{V64, unit};
+use super::patch::Patch;
+use super::shaft::{Form, Lamp};
+use etendue::occlusion::{Convex, Occlusion, SMALL};
+use std::f64::consts::{PI, TAU};
+
+/// Greatest error that a closed form may have, relative to the light without blockers.
+pub const ALLOWED: f64 = 1e-5;
+/// The light of a point that receives less than this fraction of what another point of the patch does counts as this much.
+const FAINT: f64 = 1e-2;
+/// Errors of a closed form.
+struct Errors {
+    /// Relative to the angle around the light, for the light without blockers and for each blocker: of a flat light, and of a sphere.
+    flat: f64,
+    ball: f64,
+    /// Of a flat light that looks small, relative to the square of half of the angle around it, and for each blocker relative to that angle
+    /// times the cosine with the normal.
+    small: f64,
+    outline: f64,
+    /// For each sphere that blocks, in steradians: what is outside of it moves to its rim, so that terms of the size of the sphere cancel,
+    /// however small the light is.
+    sphere: f64,
+    /// Relative to the solid angle of a whole sphere that is a light, without blockers.
+    whole: f64,
+}
+/// More than the greatest errors that `cargo test -p etendue-render --test certificates -- values --nocapture` prints.
+const SINGLE: Errors = Errors { flat: 2e-7, ball: 6e-7, small: 3e-6, outline: 2e-7, sphere: 4e-7, whole: 1e-7 };
+/// Twice the greatest errors or more.
+const DOUBLE: Errors = Errors { flat: 1e-15, ball: 1e-15, small: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };
+
+/// How a light that is known is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// In single precision.
+    #[default]
+    Single,
+    /// In double precision: the light is small, or nearly below the horizon.
+    Double,
+    /// Not in closed form: the light is sampled.
+    Neither,
+}
+
+/// What may hide a light.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Behind {
+    /// Number of blockers.
+    pub(super) blockers: usize,
+    /// Number of spheres among them.
+    pub(super) spheres: usize,
+    /// Sum of the angles in radians by which their outlines may be displaced.
+    pub(super) displacement: f64,
+}
+
+/// A light as a point of a patch sees it, without blockers.
+struct Seen {
+    /// Its projected solid angle.
+    all: f64,
+    /// The angle around it.
+    around: f64,
+    /// The greatest cosine of a direction to it with the normal.
+    cosine: f64,
+    /// Whether it is flat and looks small.
+    small: bool,
+}
+
+impl Seen {
+    fn new(p: V64, normal: V64, all: f64, lamp: &Lamp) -> Self {
+        let (hull, corners) = (&lamp.hull, lamp.hull.corners());
+        let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
+        let is_ball = matches!(lamp.form, Form::Ball);
+        let length = if is_ball { TAU * hull.radius } else { edges().map(|(&a, &b)| (b - a).length()).sum() };
+        let around = (length / ((hull.center - p).length() - hull.extent).max(0.0)).min(TAU);
+        let cosine = |&x: &V64| (unit(x - p).dot(normal) + hull.radius / (x - p).length()).min(1.0);
+        // as the core decides, with a reserve for rounding
+        let square = (corners[0] - p).length_squared();
+        // what the horizon cuts is displaced
+        let is_above = |&x: &V64| unit(x - p).dot(normal) > 1e-2;
+        let is_near = |&x: &V64| (x - corners[0]).length_squared() < 0.99 * SMALL * square;
+        Self {
+            all,
+            around,
+            cosine: corners.iter().map(cosine).fold(0.0, f64::max),
+            small: !is_ball && corners.iter().all(|x| is_near(x) && is_above(x)),
+        }
+    }
+    /// The error of a closed form.
+    fn error(&self, errors: &Errors, is_ball: bool, behind: &Behind) -> f64 {
+        let (around, count) = (self.around, behind.blockers as f64);
+        let rounding = if is_ball && behind.blockers == 0 {
+            // a whole sphere has no cancellation, but the rounding of the normal counts where it is seen at a small angle
+            errors.whole * around * around / (4.0 * PI)
+        } else if self.small {
+            errors.small * around * around / 4.0 + errors.outline * around * self.cosine * count
+        } else {
+            (if is_ball { errors.ball } else { errors.flat }) * around * count.max(1.0)
+        };
+        rounding + behind.displacement * around * self.cosine + errors.sphere * behind.spheres as f64
+    }
+}
+
+impl Precision {
+    /// The least precision whose error is at most 1e−5 of the light without blockers, at the corners and the centre of a patch.
+    pub(super) fn of(
+        patch: &Patch,
+        lamp: &Lamp,
+        light: &Convex<f32>,
+        behind: &Behind,
+        occlusion: &mut Occlusion<f64>,
+    ) -> Self {
+        let is_ball = matches!(lamp.form, Form::Ball);
+        let normal = |p: V64| match (patch.ground, patch.ball) {
+            (Some(ground), _) => ground.normal,
+            (None, Some((middle, _))) if (p - middle).length() > 0.0 => unit(p - middle),
+            (None, _) => unit(lamp.hull.center - p),
+        };
+        // the centre, and seven corners or fewer
+        let corners = patch.hull.corners();
+        let point = |lane: usize| if lane == 0 { patch.hull.center } else { corners[(lane - 1) % corners.len()] };
+        let points: [V64; 8] = std::array::from_fn(point);
+        let normals = points.map(normal);
+        let light = light.map(f64::from);
+        let all = |lane: usize| occlusion.visible(points[lane], normals[lane], &light, &[]).unwrap_or(0.0);
+        let all: [f64; 8] = std::array::from_fn(all);
+        let seen: [Seen; 8] = std::array::from_fn(|lane| Seen::new(points[lane], normals[lane], all[lane], lamp));
+        let most = seen.iter().fold(0.0, |most: f64, seen| most.max(seen.all));
+        let suffices = |errors: &Errors| {
+            seen.iter().all(|seen| seen.error(errors, is_ball, behind) <= ALLOWED * seen.all.max(FAINT * most))
+        };
+        if suffices(&SINGLE) {
+            Self::Single
+        } else if suffices(&DOUBLE) {
+            Self::Double
+        } else {
+            Self::Neither
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Shading points: where rays meet primitives, off the surface by no more than the rounding of the point itself.
+//!
+//! The point where a ray meets a primitive is computed in double precision, moved along the normal, and rounded to single precision. The
+//! rounding moves it by at most ½ ulp of each coordinate, that is by δ = 2⁻²⁴ Σ|nₖ pₖ| along the normal n. So a lift of 2δ leaves the point
+//! between δ and 3δ above its surface, whatever the size of the primitive, of the scene or of a light. To that comes 2⁻⁴⁴ of the greatest
+//! coordinate of the scene, which is more than the error of tests in double precision.
+
+use crate::bvh::Rays;
+use crate::packet::{V8, X8, narrow_points, widen, widen_points};
+use etendue::{Mask, Real, Vec3, f64x4};
+
+type V4 = Vec3<f64x4>;
+
+/// The lift of a point, relative to Σ|nₖ pₖ|: 2δ.
+pub(crate) const LIFT: f64 = 1.0 / 8_388_608.0;
+/// The lift of points near the origin, relative to the greatest coordinate of the scene.
+pub(crate) const LEAST: f64 = 1.0 / (1_u64 << 44) as f64;
+
+/// Lifted shading points, and unit normals on the side of the ray.
+pub(super) struct Points {
+    pub(super) point: V8,
+    pub(super) normal: V8,
+}
+
+fn zero() -> f64x4 {
+    Real::lit(0.0)
+}
+
+/// A number that is not 0: 1 instead of what is not greater than 0 in magnitude.
+#[inline(always)]
+fn divisor(x: f64x4) -> f64x4 {
+    Real::blend(x.abs().gt(zero()), x, Real::lit(1.0))
+}
+
+/// The unit vector; 0 for the zero vector.
+#[inline(always)]
+fn unit(v: V4) -> V4 {
+    v * (f64x4::lit(1.0) / divisor(v.length()))
+}
+
+/// The normal on the side of the incoming ray.
+#[inline(always)]
+fn facing(normal: V4, direction: V4) -> V4 {
+    let away = normal.dot(direction).gt(zero());
+    normal.map(|x| x.negate_where(away))
+}
+
+/// The point, lifted along the normal.
+#[inline(always)]
+fn lifted(p: V4, n: V4, reach: f32) -> V4 {
+    let along = (p.x * n.x).abs() + (p.y * n.y).abs() + (p.z * n.z).abs();
+    n.mul_add(along.mul_add(f64x4::lit(LIFT), f64x4::lit(f64::from(reach) * LEAST)), p)
+}
+
+#[inline(always)]
+fn both(rays: &Rays, mut of: impl FnMut(usize, V4, V4) -> [V4; 2]) -> Points {
+    let (origins, directions) = (widen_points(rays.origin), widen_points(rays.direction));
+    let (first, second) = (of(0, origins[0], directions[0]), of(1, origins[1], directions[1]));
+    Points { point: narrow_points([first[0], second[0]]), normal: narrow_points([first[1], second[1]]) }
+}
+
+/// A triangle, prepared in double precision.
+#[derive(Clone, Copy)]
+struct Prepared<R> {
+    corner: Vec3<R>,
+    edges: [Vec3<R>; 2],
+    normal: Vec3<R>,
+    /// Barycentric coordinates are dot products with these.
+    duals: [Vec3<R>; 2],
+}
+
+impl<R: Real> Prepared<R> {
+    #[inline(always)]
+    fn new([a, b, c]: [Vec3<R>; 3]) -> Self {
+        // rounded as it comes: double precision has digits to spare
+        let cross = |a: Vec3<R>, b: Vec3<R>| {
+            let of = |a: R, b: R, c: R, d: R| a.mul_add(b, -(c * d));
+            Vec3::new(of(a.y, b.z, a.z, b.y), of(a.z, b.x, a.x, b.z), of(a.x, b.y, a.y, b.x))
+        };
+        let (u, v, zero) = (b - a, c - a, R::lit(0.0));
+        let across = cross(u, v);
+        let square = across.length_squared();
+        let inverse = R::lit(1.0) / R::blend(square.gt(zero), square, R::lit(1.0));
+        let duals = [cross(v, across) * inverse, cross(across, u) * inverse];
+        Self { corner: a, edges: [u, v], normal: across * (square.sqrt() * inverse), duals }
+    }
+    /// The same in every lane.
+    #[inline(always)]
+    fn splat<S: Real<Scalar = R>>(self) -> Prepared<S> {
+        Prepared {
+            corner: Vec3::splat(self.corner),
+            edges: [Vec3::splat(self.edges[0]), Vec3::splat(self.edges[1])],
+            normal: Vec3::splat(self.normal),
+            duals: [Vec3::splat(self.duals[0]), Vec3::splat(self.duals[1])],
+        }
+    }
+}
+
+impl Prepared<f64x4> {
+    /// Where rays meet the triangles. What the rounding of a ray puts outside of a triangle is moved to its edge.
+    #[inline(always)]
+    fn meet(&self, origin: V4, direction: V4, reach: f32) -> [V4; 2] {
+        let Self { corner, edges: [u, v], normal, duals } = *self;
+        let (one, to_corner) = (f64x4::lit(1.0), corner - origin);
+        let distance = normal.dot(to_corner) / divisor(normal.dot(direction));
+        let relative = direction.mul_add(distance, -to_corner);
+        let (mut s, mut t) = (relative.dot(duals[0]).greater(zero()), relative.dot(duals[1]).greater(zero()));
+        let sum = s + t;
+        if sum.gt(one).any() {
+            let shrink = one / sum.greater(one);
+            (s, t) = (s * shrink, t * shrink);
+        }
+        let p = u.mul_add(s, v.mul_add(t, corner));
+        let normal = facing(normal, direction);
+        [lifted(p, normal, reach), normal]
+    }
+}
+
+/// Where rays meet triangles, one per lane.
+#[inline(always)]
+pub(super) fn on_triangles([a, b, c]: [V8; 3], rays: &Rays, reach: f32) -> Points {
+    let (a, b, c) = (widen_points(a), widen_points(b), widen_points(c));
+    both(rays, |half, origin, direction| Prepared::new([a[half], b[half], c[half]]).meet(origin, direction, reach))
+}
+
+/// Where rays meet the same triangle.
+#[inline(always)]
+pub(super) fn on_triangle(corners: [Vec3<f64>; 3], rays: &Rays, reach: f32) -> Points {
+    let triangle = Prepared::new(corners).splat();
+    both(rays, |_, origin, direction| triangle.meet(origin, direction, reach))
+}
+
+/// Where rays meet the plane of a flat shape, given by a point and the unit normal.
+pub(super) fn on_plane(point: Vec3<f64>, normal: Vec3<f64>, rays: &Rays, reach: f32) -> Points {
+    both(rays, |_, origin, direction| {
+        let (a, n) = (V4::splat(point), V4::splat(normal));
+        let distance = n.dot(a - origin) / divisor(n.dot(direction));
+        let normal = facing(n, direction);
+        [lifted(direction.mul_add(distance, origin), normal, reach), normal]
+    })
+}
+
+/// Where rays meet a sphere, at the one of both intersections that is nearer to these distances.
+pub(super) fn on_sphere(center: [f32; 3], radius: f32, distances: X8, rays: &Rays, reach: f32) -> Points {
+    let distances = widen(distances);
+    both(rays, |half, origin, direction| {
+        let (c, r) = (V4::lit(center.map(f64::from)), f64x4::lit(f64::from(radius)));
+        let to_center = c - origin;
+        let square = direction.length_squared();
+        let along = to_center.dot(direction) / square;
+        // the point of the ray that is nearest to the centre, relative to it
+        let foot = direction.mul_add(along, -to_center);
+        let half_chord = ((r * r - foot.length_squared()).greater(zero()) / square).sqrt();
+        let is_far = distances[half].gt(along);
+        let outward = unit(direction.mul_add(half_chord.negate_where(!is_far), foot));
+        let normal = facing(outward, direction);
+        [lifted(outward.mul_add(r, c), normal, reach), normal]
+    })
+}

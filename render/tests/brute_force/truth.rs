@@ -1,0 +1,163 @@
+//! How much of a light reaches a point, in double precision: every primitive is subtracted, and no certificate is asked.
+
+use super::views::World;
+use etendue_oracle::visible::{Shape as Form, visible};
+use etendue_oracle::{V3, along, cross, dot, sub, unit, wide};
+use etendue_render::bvh::{NOTHING, SHAPE};
+use etendue_render::scene::{Geometry, Shape};
+use std::f64::consts::TAU;
+
+/// The end of a way to a light, as a fraction of it, in which nothing occludes: part of the definition of what a light contributes.
+const SPARED: f64 = 1.0 / 131_072.0;
+
+/// Projected solid angles of a light at a point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Truth {
+    /// If nothing occluded the light.
+    pub(crate) all: f64,
+    /// `None` where spheres overlap, where something is cut by the spared end, and where a point is next to another primitive, no farther than
+    /// the rounding of points: then no closed form is known, or rounding decides on which side it is.
+    pub(crate) left: Option<f64>,
+}
+
+/// Directions within an angle of an axis, as seen from a point.
+#[derive(Clone, Copy)]
+struct Cone {
+    axis: V3,
+    angle: f64,
+}
+
+fn size(v: V3) -> f64 {
+    dot(v, v).sqrt()
+}
+
+impl Cone {
+    fn around(form: &Form) -> Self {
+        let (center, radius) = match form {
+            Form::Sphere(center, radius) => (*center, *radius),
+            Form::Polygon(corners) => {
+                let center = corners.iter().fold([0.0; 3], |sum, &v| along(sum, v, 1.0 / corners.len() as f64));
+                (center, corners.iter().map(|&v| size(sub(v, center))).fold(0.0, f64::max) * (1.0 + 1e-9))
+            }
+        };
+        let sine = radius / size(center);
+        Self { axis: unit(center), angle: if sine < 1.0 { sine.asin() } else { 4.0 } }
+    }
+    fn is_apart_from(&self, other: &Self) -> bool {
+        // the angle from the chord, which keeps its digits
+        let between = 2.0 * (0.5 * size(sub(self.axis, other.axis))).min(1.0).asin();
+        between > (self.angle + other.angle) * (1.0 + 1e-9) + 1e-14
+    }
+}
+
+/// A shape relative to a point.
+fn relative(geometry: &Geometry, p: V3) -> Form {
+    match *geometry {
+        Geometry::Sphere { center, radius } => Form::Sphere(sub(wide(center), p), f64::from(radius)),
+        Geometry::Triangle(corners) => Form::Polygon(corners.map(|v| sub(wide(v), p)).into()),
+        Geometry::Parallelogram { p: corner, u, v } => {
+            let (a, u, v) = (sub(wide(corner), p), wide(u), wide(v));
+            Form::Polygon(vec![a, along(a, u, 1.0), along(along(a, u, 1.0), v, 1.0), along(a, v, 1.0)])
+        }
+    }
+}
+
+/// Does a light emit towards the origin?
+fn emits(light: &Shape, form: &Form) -> bool {
+    let two_sided = light.emission.as_ref().is_some_and(|emission| emission.two_sided);
+    match form {
+        Form::Sphere(center, radius) => size(*center) > *radius,
+        Form::Polygon(corners) => {
+            let normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]));
+            let height = dot(normal, corners[0]);
+            height < 0.0 || two_sided && height > 0.0
+        }
+    }
+}
+
+/// Is the origin on a triangle, up to the rounding of points?
+fn touches(corners: &[V3], rounding: f64) -> bool {
+    let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
+    let is_beside = |k: usize| {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        dot(unit(cross(normal, sub(b, a))), a) > rounding
+    };
+    dot(normal, corners[0]).abs() <= rounding && !(0..3).any(is_beside)
+}
+
+impl World {
+    /// The angle around a light as seen from a point.
+    pub(crate) fn around(&self, light: u32, p: V3) -> f64 {
+        match relative(&self.scene.shapes[light as usize].geometry, p) {
+            Form::Sphere(center, radius) => TAU * radius / size(center),
+            Form::Polygon(corners) => {
+                let directions: Vec<V3> = corners.into_iter().map(unit).collect();
+                let next = directions.iter().cycle().skip(1);
+                directions.iter().zip(next).map(|(&a, &b)| size(sub(b, a))).sum()
+            }
+        }
+    }
+    /// What reaches a point with a normal on the primitive `receiver`, from a light.
+    pub(crate) fn truth(&self, p: V3, normal: V3, receiver: u32, light: u32) -> Truth {
+        let shape = &self.scene.shapes[light as usize];
+        let form = relative(&shape.geometry, p);
+        if !emits(shape, &form) {
+            return Truth { all: 0.0, left: Some(0.0) };
+        }
+        let Some(lit) = visible(&form, &[], normal, SPARED) else { return Truth::default() };
+        // below the horizon, rounding is left
+        if lit.all <= 1e-14 * lit.around {
+            return Truth { all: 0.0, left: Some(0.0) };
+        }
+        let cone = Cone::around(&form);
+        let mut blockers = Vec::new();
+        let rounding = 3e-7 * p.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let own = if receiver & SHAPE == 0 { self.surfaces.bvh.order()[receiver as usize] } else { NOTHING };
+        for (_, triangle) in (0..).zip(&self.scene.triangles).filter(|(id, _)| *id != own) {
+            if touches(&triangle.map(|v| sub(wide(v), p)), rounding) {
+                return Truth { all: lit.all, left: None };
+            }
+            let triangle = relative(&Geometry::Triangle(*triangle), p);
+            if !Cone::around(&triangle).is_apart_from(&cone) {
+                blockers.push(triangle);
+            }
+        }
+        let shapes = (0_u32..).zip(self.scene.shapes.iter());
+        for (_, shape) in shapes.filter(|(id, _)| id | SHAPE != receiver && *id != light) {
+            let other = relative(&shape.geometry, p);
+            if let Form::Sphere(center, radius) = other {
+                let distance = size(center);
+                if (distance - radius).abs() < 1e-6 * radius {
+                    return Truth { all: lit.all, left: None };
+                }
+                if distance < radius {
+                    let [nearest, farthest] = match &form {
+                        Form::Sphere(to, size_of) => {
+                            let between = size(sub(*to, center));
+                            [between - size_of, between + size_of]
+                        }
+                        Form::Polygon(corners) => {
+                            let far = corners.iter().map(|&v| size(sub(v, center))).fold(0.0, f64::max);
+                            let middle =
+                                corners.iter().fold([0.0; 3], |sum, &v| along(sum, v, 1.0 / corners.len() as f64));
+                            let extent = corners.iter().map(|&v| size(sub(v, middle))).fold(0.0, f64::max);
+                            [size(sub(middle, center)) - extent, far]
+                        }
+                    };
+                    match () {
+                        () if farthest < radius => continue,
+                        () if nearest > radius * (1.0 + 4.0 * SPARED) => {
+                            return Truth { all: lit.all, left: Some(0.0) };
+                        }
+                        () => return Truth { all: lit.all, left: None },
+                    }
+                }
+            }
+            if !Cone::around(&other).is_apart_from(&cone) {
+                blockers.push(other);
+            }
+        }
+        let left = visible(&form, &blockers, normal, SPARED).map(|seen| seen.left.clamp(0.0, seen.all));
+        Truth { all: lit.all, left }
+    }
+}

@@ -1,0 +1,290 @@
+//! What a renderer computes where a certificate allows it, against the truth.
+//!
+//! The error of a light at a point is allowed to be 10⁻⁵ of what the light contributes there if nothing occludes it. A point that receives
+//! less than a hundredth of what another one of the patch does counts as a point that receives that hundredth.
+
+use super::counts::Counts;
+use super::regimes::Setting;
+use super::scenes::{placed, scene};
+use super::segments::depths;
+use super::truth::Truth;
+use super::views::{View, World};
+use crate::meshes::{Random, Triangle};
+use etendue::occlusion::{Convex, Occlusion, Polyhedron};
+use etendue::{Real, Vec3, f32x8, f64x4};
+use etendue_oracle::{V3, dot, narrow, sub, wide};
+use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, Precision};
+use etendue_render::surfaces::Surfaces;
+use std::fmt;
+
+/// Greatest error, relative to the light without blockers, and the share of the brightest point that each point counts as.
+const ALLOWED: f64 = 1e-5;
+const FAINT: f64 = 1e-2;
+/// Greatest number of blockers that the renderer computes with.
+const CLIPPED: usize = 8;
+/// Points of a patch that are compared.
+const POINTS: usize = 4;
+/// Bins of the histogram of errors, each a power of ten, from 1e−17.
+const BINS: usize = 17;
+
+/// Greatest errors by what a certificate says.
+#[derive(Clone, Copy, Debug, Default)]
+struct Row {
+    shafts: u64,
+    compared: u64,
+    worst: f64,
+}
+
+impl Row {
+    fn add(&mut self, other: &Self) {
+        self.shafts += other.shafts;
+        self.compared += other.compared;
+        self.worst = self.worst.max(other.worst);
+    }
+}
+
+/// What the shafts of one regime have shown.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Values {
+    pub(crate) shafts: u64,
+    /// Lit in single and in double precision, dark, and blockers in single and in double precision.
+    known: [Row; 5],
+    /// Closed forms that are not accurate enough, crowded or overlapping blockers, and what is unknown.
+    imprecise: u64,
+    crowded: u64,
+    unknown: u64,
+    /// Points without a known truth or on the surface of a body, and points of which the light is visible in part.
+    untold: u64,
+    partial: u64,
+    /// Greatest error, relative to the allowed one, and where it is.
+    pub(crate) worst: f64,
+    pub(crate) place: String,
+    /// Numbers of points by their error relative to the angle around the light and the number of blockers, in powers of ten from 1e−17, for
+    /// polygons and with spheres, in single and double precision: whatever the certificate says.
+    errors: [[[u64; BINS]; 2]; 2],
+    most: [[f64; 2]; 2],
+}
+
+const NAMES: [&str; 5] = ["lit", "lit in double", "dark", "blockers", "blockers in double"];
+
+impl Values {
+    /// Includes the figures of another part of the same regime.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.shafts += other.shafts;
+        self.known.iter_mut().zip(&other.known).for_each(|(row, other)| row.add(other));
+        self.imprecise += other.imprecise;
+        self.crowded += other.crowded;
+        self.unknown += other.unknown;
+        self.untold += other.untold;
+        self.partial += other.partial;
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            self.most[i][j] = self.most[i][j].max(other.most[i][j]);
+            self.errors[i][j].iter_mut().zip(other.errors[i][j]).for_each(|(count, other)| *count += other);
+        }
+        if other.worst > self.worst || other.worst.is_nan() {
+            (self.worst, self.place) = (other.worst, other.place);
+        }
+    }
+}
+
+impl fmt::Display for Values {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:9} shafts", self.shafts)?;
+        for (name, row) in NAMES.iter().zip(&self.known) {
+            write!(f, " | {name} {} ({:.3})", row.shafts, row.worst)?;
+        }
+        write!(f, " | imprecise {}, crowded {}, unknown {}", self.imprecise, self.crowded, self.unknown)?;
+        writeln!(f, " | points: {} in part, {} untold", self.partial, self.untold)?;
+        for (name, (errors, most)) in ["polygons", "spheres"].iter().zip(self.errors.iter().zip(self.most)) {
+            for (precision, (errors, most)) in ["single", "double"].iter().zip(errors.iter().zip(most)) {
+                writeln!(f, "    {name}, {precision}: at most {most:.1e} of the angle; {errors:?}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Closed forms in both precisions, as the renderer computes them.
+#[derive(Default)]
+struct Forms {
+    single: Box<Occlusion<f32x8>>,
+    double: Box<Occlusion<f64x4>>,
+}
+
+impl Forms {
+    /// What closed forms in single precision and in double precision give at the points.
+    fn visible(
+        &mut self,
+        points: &[(V3, V3)],
+        light: &Convex<f32>,
+        forms: &[Convex<f32>],
+        bodies: (&[Polyhedron<'_, f32>], &[Polyhedron<'_, f64>]),
+    ) -> [Option<[f64; POINTS]>; 2] {
+        let at = |lane: usize, of: fn(&(V3, V3)) -> V3, k: usize| of(&points[lane % points.len()])[k];
+        let single = |of: fn(&(V3, V3)) -> V3| {
+            let axis = |k: usize| f32x8::from_fn(|lane| at(lane, of, k) as f32);
+            Vec3::new(axis(0), axis(1), axis(2))
+        };
+        let double = |of: fn(&(V3, V3)) -> V3| {
+            let axis = |k: usize| f64x4::from(std::array::from_fn(|lane| at(lane, of, k)));
+            Vec3::new(axis(0), axis(1), axis(2))
+        };
+        let (p, n) = (single(|point| point.0), single(|point| point.1));
+        let narrow = self.single.visible_past(p, n, light, forms, bodies.0);
+        let (p, n) = (double(|point| point.0), double(|point| point.1));
+        let forms: Vec<Convex<f64>> = forms.iter().map(|form| form.map(f64::from)).collect();
+        let wide = self.double.visible_past(p, n, &light.map(f64::from), &forms, bodies.1);
+        // the renderer goes on in single precision
+        let narrow = narrow.map(|x| std::array::from_fn(|lane| f64::from(x.as_array()[lane])));
+        [narrow, wide.map(|x| x.to_array())]
+    }
+}
+
+impl World {
+    /// Compares the certificates of all lights for a view.
+    fn values(&self, view: &View, bodies: &Bodies, forms: &mut Forms, values: &mut Values) {
+        let rounded = |v: V3| wide(narrow(v));
+        let corner = view.patch.corners().next().unwrap_or_default();
+        // where a point off a flat patch is rounded, it stays above the plane
+        let is_above = |p: V3| view.patch.normal().is_none_or(|n| dot(n, sub(p, corner)) >= view.patch.least_height());
+        let points = view.points.iter().map(|point| (rounded(point.p), rounded(point.normal)));
+        let points: Vec<(V3, V3)> = points.filter(|(p, _)| is_above(*p)).collect();
+        let step = points.len().div_ceil(POINTS).max(1);
+        let points: Vec<(V3, V3)> = points.into_iter().step_by(step).take(POINTS).collect();
+        if points.is_empty() {
+            return;
+        }
+        let mut certifier = Certifier::new(&self.surfaces, bodies, self.surfaces.light_shapes());
+        for (index, light) in self.surfaces.light_shapes().enumerate() {
+            let certificate = certifier.certify(&view.patch, index);
+            values.shafts += 1;
+            self.compare_values(&certificate, bodies, view, &points, light, forms, values);
+        }
+    }
+    #[expect(clippy::too_many_arguments, reason = "what a certificate is about")]
+    fn compare_values(
+        &self,
+        certificate: &Certificate<'_>,
+        bodies: &Bodies,
+        view: &View,
+        points: &[(V3, V3)],
+        light: u32,
+        forms: &mut Forms,
+        values: &mut Values,
+    ) {
+        let form = self.scene.shapes[light as usize].geometry.convex();
+        let is_ball = |form: &Convex<f32>| matches!(form, Convex::Sphere { .. });
+        let (mut listed, mut single, mut double) = (Vec::new(), Vec::new(), Vec::new());
+        let (row, precision) = match certificate {
+            Certificate::Unknown => {
+                values.unknown += 1;
+                return;
+            }
+            Certificate::Dark => (2, Precision::Single),
+            Certificate::Lit(precision) => (usize::from(*precision == Precision::Double), *precision),
+            Certificate::Blockers(blockers, precision) => {
+                for blocker in *blockers {
+                    match *blocker {
+                        Blocker::Convex { form, .. } => listed.push(form),
+                        Blocker::Body(body) => {
+                            single.push(bodies.polyhedron(body));
+                            double.push(bodies.exact_polyhedron(body));
+                        }
+                    }
+                }
+                if blockers.len() > CLIPPED || is_ball(&form) && listed.iter().any(is_ball) {
+                    values.crowded += 1;
+                    return;
+                }
+                (3 + usize::from(*precision == Precision::Double), *precision)
+            }
+        };
+        let both =
+            if row == 2 { [Some([0.0; POINTS]); 2] } else { forms.visible(points, &form, &listed, (&single, &double)) };
+        let chosen = both[usize::from(precision == Precision::Double)];
+        let Some(chosen) = chosen else {
+            values.crowded += 1;
+            return;
+        };
+        let truth = points.iter().map(|&(p, n)| self.truth(p, n, view.receiver, light));
+        let truth: Vec<Truth> = truth.collect();
+        let most = truth.iter().fold(0.0_f64, |most, truth| most.max(truth.all));
+        let count = (listed.len() + single.len()).max(1) as f64;
+        let spheres = usize::from(is_ball(&form) || listed.iter().any(is_ball));
+        if precision == Precision::Neither {
+            values.imprecise += 1;
+        } else {
+            values.known[row].shafts += 1;
+        }
+        for (lane, (truth, &(p, _))) in truth.iter().zip(points).enumerate() {
+            // on the surface of a body, points are inside or outside by the rounding of its corners
+            let on_surface = single.iter().any(|body| {
+                let (rounding, depths) = depths(p, body);
+                depths.iter().fold(f64::INFINITY, |least, x| least.min(*x)).abs() < rounding
+            });
+            let Some(left) = truth.left.filter(|_| !on_surface) else {
+                values.untold += 1;
+                continue;
+            };
+            values.partial += u64::from(left > 0.01 * truth.all && left < 0.99 * truth.all);
+            if row >= 3 {
+                let around = self.around(light, p);
+                for (precision, value) in both.iter().enumerate() {
+                    let Some(value) = value else { continue };
+                    let error = (value[lane] - left).abs() / (around * count);
+                    let bin = (error.max(1e-30).log10() + 17.0).floor().clamp(0.0, BINS as f64 - 1.0) as usize;
+                    values.errors[spheres][precision][bin] += 1;
+                    let most = &mut values.most[spheres][precision];
+                    *most = most.max(error);
+                }
+            }
+            if precision == Precision::Neither {
+                continue;
+            }
+            let value = if precision == Precision::Double { f64::from(chosen[lane] as f32) } else { chosen[lane] };
+            let allowed = ALLOWED * truth.all.max(FAINT * most);
+            let error = (value - left).abs();
+            let ratio = if error > 0.0 { error / allowed } else { 0.0 };
+            let worst = &mut values.known[row];
+            worst.compared += 1;
+            worst.worst = worst.worst.max(ratio);
+            if ratio > values.worst || ratio.is_nan() {
+                values.worst = ratio;
+                values.place = format!(
+                    "{}: {value:e} instead of {left:e} of {:e} at {:?}: {certificate:?}, light {light}, receiver {}, both {:?}, {:?}",
+                    self.name,
+                    truth.all,
+                    points[lane],
+                    view.receiver,
+                    both.map(|v| v.map(|v| v[lane])),
+                    self.scene.shapes[light as usize].geometry,
+                );
+            }
+        }
+    }
+}
+
+/// Tests about `shafts` shafts of a regime, from a number of the generator onwards.
+pub(crate) fn campaign(name: &str, made: fn(&mut Random) -> Setting, shafts: u64, first: u32) -> Values {
+    let (mut values, mut c, mut forms) = (Values::default(), Counts::default(), Forms::default());
+    let mut random = Random { index: first };
+    while values.shafts < shafts {
+        let begun = random.index;
+        let Setting { triangles, shapes, floors } = made(&mut random);
+        let scale = [1.0_f32, 1.0, 1e-3, 1e3][random.below(4)];
+        let place = |v: [f32; 3]| v.map(|x| x * scale);
+        let triangles: Vec<Triangle> = triangles.iter().map(|t| t.map(place)).collect();
+        let shapes = shapes.iter().map(|s| placed(s, scale, 0.0)).collect();
+        let scene = scene(triangles, shapes);
+        let name = format!("{name} from {begun} × {scale}");
+        let world = World { name, surfaces: Surfaces::new(&scene).unwrap(), scene };
+        let found = Bodies::new(&world.surfaces.bvh);
+        let none = Bodies::default();
+        for _ in 0..16 {
+            let Some(view) = world.look_past_edges(floors, &mut random, &mut c) else { continue };
+            let bodies = if random.below(4) == 0 { &none } else { &found };
+            world.values(&view, bodies, &mut forms, &mut values);
+        }
+    }
+    values
+}
