@@ -13,6 +13,8 @@ pub mod textbook;
 pub mod truth;
 
 use clap::Args;
+use etendue_render::files::make_folder;
+use etendue_render::options::{out, threads};
 use indicatif::{ProgressBar, ProgressStyle};
 use pose::Kind;
 use std::error::Error;
@@ -33,7 +35,7 @@ pub struct Options {
     #[arg(long)]
     pub quick: bool,
     /// Number of threads; 0 means one per core
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = threads)]
     pub threads: usize,
 }
 
@@ -50,7 +52,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     let folder = &options.output;
     // fail before the measurements, not after them
-    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    make_folder(folder)?;
     let pool = etendue_render::options::pool(options.threads)?;
     let detail = Detail::new(options.quick);
     let style = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {elapsed}, {eta} left")?;
@@ -58,7 +60,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let charts = pool.install(|| survey(&kinds, detail, || bar.inc(1)));
     bar.finish_and_clear();
     page::write(&charts, folder, options.quick)?;
-    let mut out = std::io::stdout().lock();
+    let mut out = out();
     write!(out, "{}", page::table(&charts))?;
     writeln!(out, "wrote {}", folder.join("atlas.html").display())?;
     Ok(())

@@ -18,13 +18,15 @@ use crate::selftest;
 use charts::Show;
 use clap::{Args, ValueEnum};
 use etendue_render::files;
-use etendue_render::options::{name, size};
+use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::options::{name, out, size, threads, whole};
 use etendue_render::{Sampler, Settings, Technique, World, scene};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{ChartedScene, Key, Plan, Table, inapplicable};
 pub use outcome::Outcome;
 use reference::Reference;
 use std::error::Error;
+use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -36,8 +38,8 @@ use summary::{Summary, Way};
 #[derive(Args, Clone, Debug)]
 pub struct Options {
     /// Names of built-in scenes, or paths of pbrt-v4 files
-    #[arg(default_values_t = ["quads", "sphere-light", "triangle-light"].map(String::from))]
-    pub scenes: Vec<String>,
+    #[arg(default_values_os_t = ["quads", "sphere-light", "triangle-light"].map(OsString::from))]
+    pub scenes: Vec<OsString>,
     /// Folder for the report; measurements it already holds are not repeated
     #[arg(short, long, default_value = "chart")]
     pub output: PathBuf,
@@ -48,10 +50,10 @@ pub struct Options {
     #[arg(long, value_enum, value_delimiter = ',')]
     pub samplers: Vec<Sampler>,
     /// Samples per pixel [default: 1,2,4,…,1024; with --quick 1,4,16,64]
-    #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
+    #[arg(long, value_delimiter = ',', value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
     pub spp: Vec<u32>,
     /// Number of images per measurement, with different seeds [default: 5]
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_parser = whole::<u32>(1..=10_000))]
     pub replicates: Option<u32>,
     /// Reference image [default: the built-in one of the scene, or else one rendered now]
     #[arg(long, value_name = "EXR")]
@@ -60,16 +62,16 @@ pub struct Options {
     #[arg(long, value_name = "MSE", default_value_t = 0.0)]
     pub reference_error: f64,
     /// Render the reference with this many samples per pixel [default without a built-in one: 4096; with --quick 1024]
-    #[arg(long, value_name = "SPP", conflicts_with = "reference", value_parser = clap::value_parser!(u32).range(32..=1 << 22))]
+    #[arg(long, value_name = "SPP", conflicts_with = "reference", value_parser = whole::<u32>(32..=MOST_SAMPLES.into()))]
     pub reference_spp: Option<u32>,
     /// Image size in pixels [default: from the scene; with --quick half of that]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
     /// Seed of the random numbers; different seeds give independent measurements
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX))]
     pub seed: u64,
     /// Number of threads; 0 means one per core
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = threads)]
     pub threads: usize,
     /// The technique that all others are compared with
     #[arg(long, value_enum, default_value = "area")]
@@ -78,7 +80,7 @@ pub struct Options {
     #[arg(long, value_name = "MSE")]
     pub target: Option<f64>,
     /// Stop measuring after this many seconds and report what has been measured [default with --quick: 150]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = whole::<u64>(0..=u64::MAX))]
     pub time_limit: Option<u64>,
     /// Also measure the time and greatest error of each warp of the library
     #[arg(long)]
@@ -143,8 +145,9 @@ struct Prepared {
 }
 
 /// Loads a scene and its reference.
-fn prepare(options: &Options, name: &str, circumstances: &str) -> Result<Prepared, Box<dyn Error>> {
-    let scene = scene::load(name)?;
+fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepared, Box<dyn Error>> {
+    let scene = scene::load(path)?;
+    let name = &*path.to_string_lossy();
     let mut notes: Vec<String> = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
     let (width, height) = options.size.unwrap_or_else(|| {
         let shrink = |side: u32| if options.quick { (side / 2).max(1) } else { side };
@@ -224,8 +227,8 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let mut notes = Vec::new();
     let mut scenes: Vec<ChartedScene> = Vec::new();
     let mut techniques = Vec::new();
-    for scene in &options.scenes {
-        if scenes.iter().any(|s| s.name == *scene) {
+    for (i, scene) in options.scenes.iter().enumerate() {
+        if options.scenes[..i].contains(scene) {
             continue;
         }
         let prepared = pool.install(|| prepare(options, scene, &circumstances).map_err(|e| e.to_string()))?;
@@ -258,7 +261,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let replicates = options.replicates.unwrap_or(5);
     let plan = Plan { scenes, keys, replicates, seed: options.seed };
 
-    std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
+    files::make_folder(&options.output)?;
     let file = options.output.join("measurements.csv");
     let (mut table, mut rows, others) = Table::open(&file, &plan)?;
     if others > 0 {
@@ -343,7 +346,7 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     let page = options.output.join("report.html");
     files::replace(&page, report::page(&outcome, &figures, &pictures, warps.as_ref(), command).as_bytes())?;
 
-    let mut out = std::io::stdout().lock();
+    let mut out = out();
     for summary in &outcome.summaries {
         writeln!(out, "{}", summary.headline())?;
         for &index in &summary.ranking {

@@ -13,6 +13,7 @@ mod vignetting;
 use crate::interrupt::interrupt;
 use clap::{Args, ValueEnum};
 use etendue_render::files;
+use etendue_render::options::{out, threads, whole};
 use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
@@ -29,13 +30,13 @@ pub struct Options {
     #[arg(short, long, default_value = "figures")]
     pub output: PathBuf,
     /// Number of threads; 0 means one per core
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = threads)]
     pub threads: usize,
     /// Seed of the random numbers; different seeds give independent figures
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX))]
     pub seed: u64,
     /// Greatest number of lights in light-tree-scaling; 10000000 takes a minute and 1 GB of memory
-    #[arg(long, default_value_t = 1_000_000)]
+    #[arg(long, default_value_t = 1_000_000, value_parser = whole::<usize>(0..=u32::MAX.into()))]
     pub most_lights: usize,
 }
 
@@ -111,7 +112,7 @@ impl Studio<'_> {
 /// Fails if a file cannot be written, or if Ctrl-C stops it.
 pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let stop = interrupt()?;
-    std::fs::create_dir_all(&options.output).map_err(|e| format!("{}: {e}", options.output.display()))?;
+    files::make_folder(&options.output)?;
     let pool = etendue_render::options::pool(options.threads)?;
     let names: Vec<Name> = match options.name {
         Name::All => Name::value_variants().iter().copied().filter(|n| *n != Name::All).collect(),
@@ -132,7 +133,7 @@ pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         }
         let path = options.output.join(format!("{title}.svg"));
         files::replace(&path, finding.svg.file().as_bytes())?;
-        let mut out = std::io::stdout().lock();
+        let mut out = out();
         writeln!(out, "{title}: wrote {}", path.display())?;
         for line in &finding.headline {
             writeln!(out, "  {line}")?;

@@ -1,18 +1,63 @@
-//! Ctrl-C.
+//! Ctrl-C, and the other signals that ask the program to end.
 
+use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Calls `handler` for each signal that asks the program to end, with the exit code that shells use for it: 130 for Ctrl-C, 143 for
+/// SIGTERM and 129 for a terminal that is closed. A signal that was ignored when the program began stays so, as `nohup` wants it.
+///
+/// It must be called before the program starts other threads.
+///
+/// # Errors
+/// Fails if the system does not allow it.
+#[cfg(unix)]
+pub fn on_end(mut handler: impl FnMut(i32) + Send + 'static) -> io::Result<()> {
+    use nix::sys::signal::{SigSet, Signal};
+    let ignored = ignored();
+    let mut signals = SigSet::empty();
+    for signal in [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP] {
+        if ignored >> (signal as u32 - 1) & 1 == 0 {
+            signals.add(signal);
+        }
+    }
+    // all threads that are started from now on leave them to the one below
+    signals.thread_block()?;
+    std::thread::Builder::new().name("signals".into()).spawn(move || {
+        while let Ok(signal) = signals.wait() {
+            handler(128 + signal as i32);
+        }
+    })?;
+    Ok(())
+}
+
+/// The signals that are ignored, each a bit, where Linux tells.
+#[cfg(unix)]
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let digits = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    digits.and_then(|digits| u64::from_str_radix(digits.trim(), 16).ok()).unwrap_or(0)
+}
+
+/// Calls `handler` with 130 for each Ctrl-C.
+///
+/// # Errors
+/// Fails if the system does not allow it.
+#[cfg(not(unix))]
+pub fn on_end(mut handler: impl FnMut(i32) + Send + 'static) -> io::Result<()> {
+    ctrlc::set_handler(move || handler(130)).map_err(io::Error::other)
+}
 
 /// A flag that Ctrl-C sets: measuring stops after the current image. A second Ctrl-C ends the program.
 ///
 /// # Errors
 /// Fails if the signal handler cannot be installed.
-pub(crate) fn interrupt() -> Result<Arc<AtomicBool>, ctrlc::Error> {
+pub(crate) fn interrupt() -> io::Result<Arc<AtomicBool>> {
     let flag = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&flag);
-    ctrlc::set_handler(move || {
+    on_end(move |code| {
         if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
+            std::process::exit(code);
         }
     })?;
     Ok(flag)

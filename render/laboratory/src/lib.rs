@@ -1,17 +1,20 @@
 //! Measures the renderer and the library: the error of every technique against its time, and where the library loses accuracy.
 //!
 //! - [`chart`]: error against time on scenes, as a report with charts.
+//! - [`attack`]: random scenes by all techniques, which must agree with the oracle's images.
 //! - [`atlas`]: greatest errors of every shape over size, elevation, distance and aspect ratio, beside textbook formulas.
 //! - [`cost`]: time per sample, for these and for the benchmarks.
 //! - [`figure`]: figures about light sampling, with the numbers behind them.
+//! - [`interrupt`]: what ends the program from outside.
 //! - [`many_lights`]: choices among many lights, for the figures about them.
 //! - [`selftest`]: images of one scene by all techniques and samplers, which must agree.
 
 pub mod atlas;
+pub mod attack;
 pub mod chart;
 pub mod cost;
 pub mod figure;
 mod hash;
-mod interrupt;
+pub mod interrupt;
 pub mod many_lights;
 pub mod selftest;

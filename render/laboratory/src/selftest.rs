@@ -4,6 +4,7 @@ mod touching;
 
 use clap::ValueEnum;
 use etendue_render::film::Film;
+use etendue_render::progressive::reports_variance;
 use etendue_render::scene::{Material, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
 
@@ -69,10 +70,9 @@ pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
             let seed = seed.wrapping_mul(0x1_0000).wrapping_add(images);
             let settings = Settings { width: side, height: side, spp, technique, depth, sampler, sets: 0, seed };
             let (film, _) = world.render(&settings, |_| ());
-            let error = error(&film);
             // a single replicate has no variance estimate
-            if error.iter().all(|e| e.is_finite()) {
-                rows.push(Row { technique, sampler, mean: film.mean(), error, z: [0.0; 3] });
+            if reports_variance(sampler, spp, 0, lens) {
+                rows.push(Row { technique, sampler, mean: film.mean(), error: error(&film), z: [0.0; 3] });
             }
         }
     }
@@ -85,14 +85,18 @@ fn error(film: &Film) -> [f64; 3] {
     std::array::from_fn(|k| total(k).sqrt() / film.pixels.len() as f64)
 }
 
-/// Sets `z` of each row by comparing its mean with the precision-weighted mean of all others.
+/// Sets `z` of each row by comparing its mean with the precision-weighted mean of all others. It is NaN if its mean or error is not finite.
 pub fn judge(rows: &mut [Row]) {
     for k in 0..3 {
         // the rounding of sums in f32
         let variance = |row: &Row| (row.error[k].powi(2) + (row.mean[k] / 4_194_304.0).powi(2)).max(f64::MIN_POSITIVE);
         let z: Vec<f64> = (0..rows.len())
             .map(|i| {
-                let others = rows.iter().enumerate().filter(|(j, _)| *j != i);
+                let is_finite = |row: &Row| row.mean[k].is_finite() && row.error[k].is_finite();
+                if !is_finite(&rows[i]) {
+                    return f64::NAN;
+                }
+                let others = rows.iter().enumerate().filter(|(j, row)| *j != i && is_finite(row));
                 let (mut weight, mut sum) = (0.0, 0.0);
                 for (_, row) in others {
                     weight += 1.0 / variance(row);

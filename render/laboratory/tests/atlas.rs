@@ -102,10 +102,18 @@ fn cells_within_the_contract() {
                 caps += 1;
                 cap_within_domain(sweep, [x, y], cell);
             }
+            if kind == Kind::ProjectedSegment {
+                let low = if sweep.name == "size-horizon" { x <= 1e-2 } else { y.abs() <= 1e-3 };
+                assert!(
+                    cell.bias.is_nan() || cell.bias <= LIMIT || low,
+                    "ProjectedSegment {}: {x:e} {y:e} {cell:?}",
+                    sweep.name
+                );
+            }
             if flat(kind) && within_domain(kind, sweep.name, x, y.abs()) {
                 inside += 1;
                 // cosines of specks on the horizon are below the rounding of directions
-                let unbiased = cell.bias.is_nan() || cell.bias <= LIMIT || (sweep.name == "size-horizon" && x <= 1e-4);
+                let unbiased = cell.bias.is_nan() || cell.bias <= LIMIT || (sweep.name == "size-horizon" && x <= 1e-5);
                 assert!(cell.meets() && unbiased, "{} {}: {x:e} {y:e} {cell:?}", kind.name(), sweep.name);
             }
         }

@@ -4,14 +4,18 @@
 //! - [`flat`]: solid angles of triangles and rectangles, and their maps by definition.
 //! - [`curves`]: disks and line segments, and their maps by definition.
 //! - [`visible`]: what convex blockers leave of a light.
+//! - [`direct`]: images by direct lighting, exhaustive and without offsets of rays.
 //! - At the root: vectors in f64; closed forms for caps, polygons and disks ([`cap`], [`projected_cap`], [`lambert`], …); quadrature
 //!   ([`gauss_legendre`], [`integrate`]); and [`Greatest`], the measure of a greatest error.
 
+mod cap;
 mod closed_forms;
 pub mod curves;
+pub mod direct;
 pub mod double_double;
 pub mod flat;
 mod greatest;
+mod outline;
 mod quadrature;
 mod vectors;
 pub mod visible;

@@ -1,6 +1,8 @@
 //! The projected solid angle of what convex blockers leave of a light. Blockers are subtracted one after another, which leaves convex
 //! pieces, and the pieces are added up: by Lambert's sum, or within a sphere by sectors and triangles about its axis.
 
+use crate::cap::Cap;
+use crate::outline::{clipped, lambert_vector, perimeter};
 use crate::vectors::{V3, along, basis, cross, dot, length, sub, unit};
 
 /// A convex light or blocker, relative to the point that it is seen from.
@@ -140,100 +142,4 @@ impl Measure {
 fn area_vector(corners: &[V3]) -> V3 {
     (1..corners.len().saturating_sub(1))
         .fold([0.0; 3], |sum, i| along(sum, cross(sub(corners[i], corners[0]), sub(corners[i + 1], corners[0])), 1.0))
-}
-
-/// The part of a polygon with normal · x ≥ `least`.
-fn clipped(corners: &[V3], normal: V3, least: f64) -> Vec<V3> {
-    let mut part = Vec::with_capacity(corners.len() + 1);
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let (ha, hb) = (dot(a, normal) - least, dot(b, normal) - least);
-        if ha >= 0.0 {
-            part.push(a);
-        }
-        if (ha < 0.0 && hb > 0.0) || (ha > 0.0 && hb < 0.0) {
-            part.push(along(a, sub(b, a), ha / (ha - hb)));
-        }
-    }
-    if part.len() < 3 { Vec::new() } else { part }
-}
-
-/// The angle between two vectors.
-fn angle(a: V3, b: V3) -> f64 {
-    length(cross(a, sub(b, a))).atan2(dot(a, b))
-}
-
-/// The angle around a polygon.
-fn perimeter(corners: &[V3]) -> f64 {
-    (0..corners.len()).map(|i| angle(corners[i], corners[(i + 1) % corners.len()])).sum()
-}
-
-/// ∫ r dω over a polygon, up to its sign: half the sum of the edges' angles along their normals.
-fn lambert_vector(corners: &[V3]) -> V3 {
-    let mut sum = [0.0; 3];
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        sum = along(sum, unit(cross(a, sub(b, a))), 0.5 * angle(a, b));
-    }
-    sum
-}
-
-/// The directions to a sphere.
-#[derive(Clone, Copy)]
-struct Cap {
-    axis: V3,
-    sin: f64,
-    cos: f64,
-}
-impl Cap {
-    fn new(center: V3, radius: f64) -> Self {
-        let distance = length(center);
-        let sin = (radius / distance).min(1.0);
-        let cos = (((distance - radius) * (distance + radius)).max(0.0)).sqrt() / distance;
-        Self { axis: unit(center), sin, cos }
-    }
-    fn overlaps(&self, other: &Self) -> bool {
-        angle(self.axis, other.axis) < self.sin.atan2(self.cos) + other.sin.atan2(other.cos)
-    }
-    /// Ω⊥ of the part of the cap in a polygon above the horizon of `n`: the sum of signed parts between the axis and each edge. Where an
-    /// edge is within the cap, that is a triangle, and elsewhere a sector.
-    fn within(&self, corners: &[V3], n: V3) -> f64 {
-        let corners = clipped(corners, self.axis, 0.0);
-        let (s, t) = basis(self.axis);
-        let alpha = self.sin.atan2(self.cos);
-        let share = 0.5 * (alpha - self.sin * self.cos);
-        let tan_squared = (self.sin / self.cos).powi(2);
-        let mut sum = [0.0; 3];
-        for (i, &p) in corners.iter().enumerate() {
-            let edge = sub(corners[(i + 1) % corners.len()], p);
-            // within the cone: |u + xv|² < tan²α (f + xg)²
-            let (u, v) = (cross(self.axis, p), cross(self.axis, edge));
-            let (f, g) = (dot(self.axis, p), dot(self.axis, edge));
-            let a = dot(v, v) - tan_squared * g * g;
-            let b = dot(u, v) - tan_squared * f * g;
-            let c = dot(u, u) - tan_squared * f * f;
-            let root = (b * b - a * c).max(0.0).sqrt();
-            let q = -(b + root.copysign(b));
-            let mut cuts = vec![0.0, 1.0];
-            cuts.extend([q / a, c / q].into_iter().filter(|x| (0.0..1.0).contains(x)));
-            cuts.sort_by(f64::total_cmp);
-            for pair in cuts.windows(2) {
-                let middle = 0.5 * (pair[0] + pair[1]);
-                let (from, to) = (along(p, edge, pair[0]), along(p, edge, pair[1]));
-                if a * middle * middle + 2.0 * b * middle + c < 0.0 {
-                    sum = along(sum, lambert_vector(&[self.axis, from, to]), 1.0);
-                } else {
-                    let [y0, y1] = [from, to].map(|x| dot(x, t).atan2(dot(x, s)));
-                    let mut turn = y1 - y0;
-                    if turn.abs() > core::f64::consts::PI {
-                        turn -= core::f64::consts::TAU.copysign(turn);
-                    }
-                    sum = along(sum, self.axis, 0.5 * self.sin * self.sin * turn);
-                    sum = along(sum, s, share * (y1.sin() - y0.sin()));
-                    sum = along(sum, t, share * (y0.cos() - y1.cos()));
-                }
-            }
-        }
-        dot(sum, n).abs()
-    }
 }

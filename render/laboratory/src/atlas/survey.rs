@@ -108,7 +108,7 @@ pub struct Detail {
     pub quick: bool,
 }
 impl Detail {
-    /// Details for a coarse map (`quick`), or for a fine one, which takes some ten times as long.
+    /// Details for a coarse map (`quick`) or for a fine one.
     #[must_use]
     pub fn new(quick: bool) -> Self {
         if quick {

@@ -30,7 +30,7 @@ impl Studio<'_> {
         reference_spp: Option<u32>,
     ) -> Result<Outcome, Box<dyn Error>> {
         let options = chart::Options {
-            scenes: scenes.iter().map(|s| (*s).to_owned()).collect(),
+            scenes: scenes.iter().map(|s| (*s).into()).collect(),
             output: self.output.join(folder),
             techniques,
             samplers,

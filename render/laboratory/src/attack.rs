@@ -1,0 +1,15 @@
+//! Attacks the renderer with random scenes: renders each by several techniques and by the oracle, and shrinks those on which they differ.
+//!
+//! [`regimes`] has the scenes, [`draft`] their parts and their text, [`bridge`] what the oracle gets of them, [`judge`] the comparison,
+//! [`shrink`] the fewest parts that still differ, [`report`] what is printed, [`claims`] whether images tell their error, and [`defects`] the scenes on which the renderer was wrong once.
+
+pub mod bridge;
+mod build;
+pub mod claims;
+pub mod defects;
+pub mod draft;
+pub mod judge;
+pub mod random;
+pub mod regimes;
+pub mod report;
+pub mod shrink;

@@ -1,0 +1,290 @@
+//! How honest the estimated error of images is: the true one over the claimed one, for random scenes.
+
+use super::judge::read;
+use super::regimes::Regime;
+use etendue_render::film::Film;
+use etendue_render::options::name;
+use etendue_render::progressive::{Goal, Plan, Progress, default_sampler, render};
+use etendue_render::scene::Scene;
+use etendue_render::{Claim, Settings, Technique, World};
+use rayon::prelude::*;
+use std::cell::LazyCell;
+use std::fmt::{self, Display, Formatter};
+use std::ops::{Range, RangeInclusive};
+
+/// The true error should be this many times the claimed one, …
+pub const HONEST: RangeInclusive<f64> = 0.7..=1.4;
+/// … in this part of all images.
+pub const SHARE: f64 = 0.95;
+/// A reference has this many times the samples.
+const FINER: u32 = 16;
+/// A reference is precise enough if its squared error is at most this part of that of the image.
+const PRECISE: f64 = 0.5;
+/// Images of a scene with each number of samples.
+const SEEDS: u64 = 2;
+
+/// How an image was rendered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// With so many samples per pixel.
+    Samples(u32),
+    /// Until the claimed error was half of what 64 samples claim.
+    Error,
+    /// For a twentieth of a second.
+    Time,
+}
+
+/// An image whose true error is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// How it was rendered.
+    pub way: Way,
+    /// Seed of the scene in its regime.
+    pub scene: u64,
+    /// The technique that it was rendered by.
+    pub technique: Technique,
+    /// The claimed error, relative to the mean of the image.
+    pub claimed: f64,
+    /// In about how many pixels it is, see [`Claim::pixels`].
+    pub pixels: f64,
+    /// The true error over the claimed one.
+    pub ratio: f64,
+    /// Whether the claim is mostly the bound of closed forms' error, of which the error may be much less.
+    pub bounded: bool,
+    /// Whether the reference is by another technique.
+    pub other: bool,
+}
+
+/// The images of a regime.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// The images whose error is known.
+    pub runs: Vec<Run>,
+    /// How many others are black, or have no error that the references show.
+    pub without: usize,
+}
+
+/// Renders scenes of a regime with these seeds, several times with `spp` and with fewer samples, and until an error or a time, and measures
+/// their errors.
+///
+/// # Errors
+/// Fails if a scene cannot be read or rendered.
+pub fn run(regime: &Regime, seeds: Range<u64>, quality: [u32; 2]) -> Result<Tally, String> {
+    let tallies = seeds.into_par_iter().map(|seed| {
+        let scene = read(&regime.draft(seed)).map_err(|error| format!("{} {seed}: {error}", regime.name))?;
+        measure(&scene, seed, quality).map_err(|error| format!("{} {seed}: {error}", regime.name))
+    });
+    Ok(tallies.collect::<Result<Vec<_>, String>>()?.into_iter().fold(Tally::default(), Tally::and))
+}
+
+/// The technique by which a reference is rendered.
+const fn other(technique: Technique) -> Technique {
+    match technique {
+        Technique::SolidAngle => Technique::ProjectedSolidAngle,
+        Technique::MisPower => Technique::MisBalance,
+        _ => Technique::SolidAngle,
+    }
+}
+
+/// Two images of a scene by a technique, of which each has an error of its own.
+struct Reference([Film; 2]);
+
+impl Reference {
+    fn new(world: &World, settings: &Settings, technique: Technique, lens: bool) -> Self {
+        let spp = FINER * settings.spp;
+        let sampler = default_sampler(spp, 0, lens);
+        let of = |seed| world.render(&Settings { technique, spp, sampler, seed, ..*settings }, |_| ()).0;
+        Self([of(settings.seed ^ 0x7072_6563), of(settings.seed ^ 0x6973_6521)])
+    }
+    /// Mean of the product of the differences of an image from both. Where they have no error in common, that is the squared error of the
+    /// image; `None` if the references are not precise enough.
+    fn squared_error(&self, film: &Film) -> Option<f64> {
+        let [a, b] = &self.0;
+        let (mut product, mut own, mut count) = (0.0, 0.0, 0.0);
+        for ((x, a), b) in film.pixels.iter().zip(&a.pixels).zip(&b.pixels) {
+            for k in 0..3 {
+                let [x, a, b] = [x.mean[k], a.mean[k], b.mean[k]].map(f64::from);
+                product += (x - a) * (x - b);
+                own += 0.5 * (a - b).powi(2);
+                count += 1.0;
+            }
+        }
+        (own <= PRECISE * product).then_some(product / count)
+    }
+}
+
+/// Renders a scene, and measures the errors of the images.
+///
+/// # Errors
+/// Fails if the scene cannot be rendered.
+pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally, String> {
+    let world = World::new(scene).map_err(|error| error.to_string())?;
+    let lens = scene.camera.lens.is_some();
+    let settings = |spp: u32, run: u64| Settings {
+        width: side,
+        height: side,
+        spp,
+        technique: Technique::Auto,
+        depth: Settings::DEPTH,
+        sampler: default_sampler(spp, 0, lens),
+        sets: 0,
+        seed: seed.wrapping_mul(0x9e37_79b9) ^ run << 40,
+    };
+    let base = settings(spp, 0);
+    let technique = world.chosen(&base);
+    let systematic = world.systematic(&base);
+    let mut images: Vec<(Way, Film, Option<Claim>)> = Vec::new();
+    for spp in [2, 16, spp] {
+        for run in 1..=SEEDS {
+            let (film, _) = world.render(&settings(spp, run), |_| ());
+            let claim = Claim::new(&film, systematic);
+            images.push((Way::Samples(spp), film, claim));
+        }
+    }
+    let mut refine = |way, goal| {
+        let plan = Plan { settings: settings(spp, SEEDS + 1), sampler: None, lens, goal };
+        let Progress { film, error, .. } = render(&world, &plan, |_| (), |_, _| (), |_| Ok(()))?;
+        images.push((way, film, error));
+        Ok::<(), String>(())
+    };
+    refine(Way::Time, Goal { seconds: Some(0.05), error: None })?;
+    let (film, _) = world.render(&settings(spp, 0), |_| ());
+    if let Some(claim) = Claim::new(&film, systematic).filter(|claim| 0.5 * claim.random > claim.systematic) {
+        refine(Way::Error, Goal { seconds: None, error: Some(0.5 * claim.total()) })?;
+    }
+    // by the technique itself only where the other is not precise enough
+    let (world, base) = (&world, &base);
+    let references = [other(technique), technique]
+        .map(|technique| LazyCell::new(move || Reference::new(world, base, technique, lens)));
+    let mut tally = Tally::default();
+    for (way, film, claim) in images {
+        let found = (0..2).find_map(|i| Some((i, references[i].squared_error(&film)?)));
+        let (Some(claim), Some((index, square))) = (claim, found) else {
+            tally.without += 1;
+            continue;
+        };
+        let claimed = claim.total();
+        let mean = film.mean().iter().sum::<f64>() / 3.0;
+        let ratio = square.sqrt() / mean / claimed;
+        let bounded = claim.systematic > 0.5 * claim.random;
+        tally.runs.push(Run {
+            bounded,
+            way,
+            scene: seed,
+            technique,
+            claimed,
+            pixels: claim.pixels,
+            ratio,
+            other: index == 0,
+        });
+    }
+    Ok(tally)
+}
+
+/// The part of images whose ratio of errors is [`HONEST`]. Where the claim is mostly a bound, the error may be less.
+#[must_use]
+pub fn honest<'a>(runs: impl IntoIterator<Item = &'a Run>) -> f64 {
+    let (mut within, mut all) = (0.0, 0.0);
+    for run in runs {
+        all += 1.0;
+        let least = if run.bounded { 0.0 } else { *HONEST.start() };
+        within += if (least..=*HONEST.end()).contains(&run.ratio) { 1.0 } else { 0.0 };
+    }
+    within / all
+}
+
+impl Tally {
+    /// All images of both.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.runs.extend(other.runs);
+        Self { without: self.without + other.without, ..self }
+    }
+    /// The images that were rendered in this way.
+    #[must_use]
+    pub fn by(&self, way: Way) -> Self {
+        Self { runs: self.runs.iter().filter(|run| run.way == way).copied().collect(), without: 0 }
+    }
+    /// The images whose error is in so many pixels.
+    #[must_use]
+    pub fn spread(&self, pixels: Range<f64>) -> Self {
+        Self { runs: self.runs.iter().filter(|run| pixels.contains(&run.pixels)).copied().collect(), without: 0 }
+    }
+    /// The ways in which images were rendered.
+    #[must_use]
+    pub fn ways(&self) -> Vec<Way> {
+        let mut ways = Vec::new();
+        for run in &self.runs {
+            if !ways.contains(&run.way) {
+                ways.push(run.way);
+            }
+        }
+        ways
+    }
+    /// The ratio that this part of the images does not exceed.
+    #[must_use]
+    pub fn quantile(&self, part: f64) -> f64 {
+        let mut ratios: Vec<f64> = self.runs.iter().map(|run| run.ratio).collect();
+        ratios.sort_by(f64::total_cmp);
+        let last = ratios.len().saturating_sub(1) as f64;
+        ratios.get((part * last).round() as usize).copied().unwrap_or(f64::NAN)
+    }
+    /// Root of the mean square of the true errors over that of the claimed ones, each relative to what its scene claims on average: 1 if
+    /// the estimator is right on average.
+    #[must_use]
+    pub fn on_average(&self) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        let mut rest = &self.runs[..];
+        while let Some(first) = rest.first() {
+            let same = |run: &Run| run.scene == first.scene && run.way == first.way;
+            let (scene, others) = rest.split_at(rest.iter().position(|run| !same(run)).unwrap_or(rest.len()));
+            let claimed: f64 = scene.iter().map(|run| run.claimed.powi(2)).sum();
+            let measured: f64 = scene.iter().map(|run| (run.claimed * run.ratio).powi(2)).sum();
+            sum += measured / claimed * scene.len() as f64;
+            count += scene.len() as f64;
+            rest = others;
+        }
+        f64::sqrt(sum / count)
+    }
+    /// The images of greatest and least ratio.
+    #[must_use]
+    pub fn extremes(&self) -> Option<[Run; 2]> {
+        let by = |a: &&Run, b: &&Run| a.ratio.total_cmp(&b.ratio);
+        Some([*self.runs.iter().min_by(by)?, *self.runs.iter().max_by(by)?])
+    }
+}
+
+impl Display for Way {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Samples(spp) => write!(f, "--spp {spp}"),
+            Self::Error => f.write_str("--error"),
+            Self::Time => f.write_str("--time"),
+        }
+    }
+}
+
+impl Display for Tally {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [least, median, greatest] = [0.025, 0.5, 0.975].map(|part| self.quantile(part));
+        let count = |of: fn(&Run) -> bool| self.runs.iter().filter(|run| of(run)).count();
+        let (others, bounded) = (count(|run| run.other), count(|run| run.bounded));
+        write!(
+            f,
+            "{:5} images, true/claimed {least:5.2} {median:5.2} {greatest:5.2}, {:5.2} on average, {:5.1} % within {} to {}; {others:4} \
+             against another technique, {bounded:3} mostly a bound, {} left out",
+            self.runs.len(),
+            self.on_average(),
+            100.0 * honest(&self.runs),
+            HONEST.start(),
+            HONEST.end(),
+            self.without
+        )?;
+        if let Some(extremes) = self.extremes() {
+            for Run { way, scene, technique, claimed, ratio, .. } in extremes {
+                write!(f, "; {ratio:.2} of {claimed:.1e}: {scene} {way} {}", name(technique))?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,237 @@
+//! Compares images of a scene with the oracle's, block by block.
+
+use super::bridge::{CHANNEL, bodies, view};
+use super::draft::Draft;
+use etendue_oracle::direct::{self, Block};
+use etendue_render::film::Film;
+use etendue_render::scene::{self, Scene};
+use etendue_render::{Sampler, Settings, Technique, World};
+use std::path::Path;
+
+/// How precisely a scene is judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Width and height of the images in pixels.
+    pub side: u32,
+    /// Width and height of the blocks that are compared, in pixels.
+    pub block: u32,
+    /// Samples per pixel of each technique.
+    pub spp: u32,
+    /// Points per pixel of the oracle: four times the square of this.
+    pub points: usize,
+    /// Seed of all random numbers.
+    pub seed: u64,
+}
+
+impl Effort {
+    /// Images of this size with so many samples per pixel.
+    #[must_use]
+    pub fn new(side: u32, spp: u32, seed: u64) -> Self {
+        let points = (f64::from(spp).sqrt() / 4.0).max(1.0) as usize;
+        Self { side, block: side.div_ceil(3), spp, points, seed: seed.wrapping_mul(0x9e37_79b9) }
+    }
+    /// The same scene again, with other random numbers and more of them.
+    #[must_use]
+    pub const fn again(self) -> Self {
+        Self { spp: 4 * self.spp, points: 2 * self.points, seed: self.seed ^ 0x5bd1_e995, ..self }
+    }
+}
+
+/// A block differs if the difference is more than this many standard errors, …
+pub const LIMIT: f64 = 5.0;
+/// … and this fraction of the light that would arrive if nothing hid it, …
+pub const TOLERANCE: f64 = 2e-5;
+/// … and what comes of points that are off their surface by this fraction of their coordinates: two units in the last place.
+pub const ROUNDING: f64 = 1.0 / 4_194_304.0;
+/// Of fewer samples than this that see a light, or do not, an image cannot tell its own error.
+const FEW: f64 = 10.0;
+
+/// One technique against the oracle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// How lights were sampled.
+    pub technique: Technique,
+    /// The technique that `auto` chose, or the same.
+    pub chosen: Technique,
+    /// Difference of each block in standard errors, beyond the tolerance.
+    pub z: Vec<f64>,
+    /// The part of the difference of each block that is more than three standard errors, relative to its light if nothing hid it.
+    pub relative: Vec<f64>,
+    /// Mean of the image relative to the oracle's, less 1.
+    pub mean: f64,
+}
+
+/// The judgement of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// What the oracle has computed.
+    pub truth: Vec<Block>,
+    /// One row per technique.
+    pub rows: Vec<Row>,
+}
+
+impl Row {
+    /// The blocks that differ.
+    pub fn failing(&self) -> impl Iterator<Item = usize> {
+        (0..self.z.len()).filter(|&i| self.z[i].is_nan() || self.z[i].abs() >= LIMIT)
+    }
+    /// The greatest |z|.
+    #[must_use]
+    pub fn greatest_z(&self) -> f64 {
+        self.z.iter().fold(0.0, |m: f64, z| if z.is_nan() { f64::INFINITY } else { m.max(z.abs()) })
+    }
+    /// The difference of greatest magnitude, relative to the light of its block if nothing hid it.
+    #[must_use]
+    pub fn greatest_difference(&self) -> f64 {
+        self.relative.iter().fold(0.0, |m: f64, x| if x.abs() > m.abs() { *x } else { m })
+    }
+}
+
+impl Verdict {
+    /// Techniques with a block that differs.
+    pub fn failing(&self) -> impl Iterator<Item = Technique> {
+        self.rows.iter().filter(|row| row.failing().next().is_some()).map(|row| row.technique)
+    }
+}
+
+/// Reads the text of a draft, exactly as a scene file.
+///
+/// # Errors
+/// Fails if a triangle has no area in f32, or the like.
+pub fn read(draft: &Draft) -> Result<Scene, String> {
+    parse(&draft.to_string())
+}
+
+/// Reads the text of a scene file.
+///
+/// # Errors
+/// Fails if it is none.
+pub fn parse(text: &str) -> Result<Scene, String> {
+    scene::parse(text, "attack.pbrt", Path::new("")).map_err(|error| error.to_string())
+}
+
+/// The techniques that are compared: what images use by default, and two that share little with it.
+pub const TECHNIQUES: [Technique; 4] = [Technique::Auto, Technique::Analytic, Technique::SolidAngle, Technique::Area];
+
+/// Judges a scene by these techniques.
+///
+/// # Errors
+/// Fails if the renderer cannot build the scene.
+pub fn judge(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
+    let &Effort { side, block, spp, seed, .. } = effort;
+    let truth = exact(scene, effort, 0.0);
+    let mut slack = vec![0.0; truth.len()];
+    let world = World::new(scene).map_err(|error| error.to_string())?;
+    let mut rows: Vec<Row> = Vec::new();
+    let mut images = Vec::new();
+    for (i, &technique) in (0..).zip(techniques) {
+        let seed = seed.wrapping_mul(16).wrapping_add(i);
+        let settings = Settings {
+            width: side,
+            height: side,
+            spp,
+            technique,
+            depth: Settings::DEPTH,
+            sampler: Sampler::Sobol,
+            sets: 4,
+            seed,
+        };
+        let chosen = world.chosen(&settings);
+        if technique != Technique::Auto && rows.iter().any(|row| row.chosen == technique) {
+            continue;
+        }
+        let (film, _) = world.render(&settings, |_| ());
+        let image = blocks(&film, block);
+        rows.push(compare([technique, chosen], &image, &truth, &slack, effort));
+        images.push(image);
+    }
+    if rows.iter().any(|row| row.failing().next().is_some()) {
+        // the same random numbers, so that the difference has hardly any noise
+        let lifted = exact(scene, effort, ROUNDING);
+        slack = truth.iter().zip(&lifted).map(|(a, b)| (a.mean - b.mean).abs()).collect();
+        let again = rows.iter().zip(&images);
+        rows = again.map(|(row, image)| compare([row.technique, row.chosen], image, &truth, &slack, effort)).collect();
+    }
+    Ok(Verdict { truth, rows })
+}
+
+/// Mean and squared standard error of the blocks of an image.
+fn blocks(film: &Film, side: u32) -> Vec<[f64; 2]> {
+    let columns = film.width.div_ceil(side);
+    let mut sums = vec![[0.0; 3]; (columns * film.height.div_ceil(side)) as usize];
+    for (i, pixel) in (0..).zip(&film.pixels) {
+        let (x, y) = (i % film.width, i / film.width);
+        let sum = &mut sums[(y / side * columns + x / side) as usize];
+        let values = [f64::from(pixel.mean[CHANNEL]), f64::from(pixel.variance[CHANNEL]), 1.0];
+        *sum = std::array::from_fn(|k| sum[k] + values[k]);
+    }
+    sums.into_iter().map(|[mean, variance, count]| [mean / count, variance / (count * count)]).collect()
+}
+
+/// The oracle's blocks, with its points off their surface by a fraction of their coordinates.
+fn exact(scene: &Scene, effort: &Effort, lift: f64) -> Vec<Block> {
+    let &Effort { side, block, points, seed, .. } = effort;
+    let effort =
+        direct::Effort { replicates: 4, side: points, points: 16, depth: Settings::DEPTH as usize, seed, lift };
+    direct::render(&bodies(scene), &view(&scene.camera, side, side), block as usize, &effort)
+}
+
+fn compare(
+    [technique, chosen]: [Technique; 2],
+    image: &[[f64; 2]],
+    truth: &[Block],
+    slack: &[f64],
+    effort: &Effort,
+) -> Row {
+    let (mut z, mut relative) = (Vec::new(), Vec::new());
+    let samples = f64::from(effort.block).powi(2) * f64::from(effort.spp);
+    let total: f64 = truth.iter().map(|block| block.unoccluded).sum();
+    for (([mean, variance], block), slack) in image.iter().zip(truth).zip(slack) {
+        let difference = mean - block.mean;
+        // a block that hardly receives light is judged by the light of the image
+        let scale = block.unoccluded.max(1e-3 * total / truth.len() as f64).max(f64::MIN_POSITIVE);
+        let beyond = (difference.abs() - TOLERANCE * scale - slack).max(0.0);
+        let rare = samples * (block.mean / scale).min(1.0 - block.mean / scale).max(0.0);
+        // closed forms have no such error; where they are not used, nothing is seen of a light that is rarely seen
+        let is_sampled = chosen != Technique::Analytic || *variance == 0.0;
+        let unseen = if rare < FEW && is_sampled { rare * (scale / samples).powi(2) } else { 0.0 };
+        let error = (variance.max(unseen) + block.error * block.error).sqrt();
+        z.push(if beyond > 0.0 { beyond / error.max(1e-9 * scale) * difference.signum() } else { 0.0 });
+        relative.push((difference.abs() - 3.0 * error).max(0.0).copysign(difference) / scale);
+        if difference.is_nan() {
+            *z.last_mut().unwrap_or(&mut 0.0) = f64::NAN;
+        }
+    }
+    let sum: f64 = image.iter().map(|block| block[0]).sum();
+    let expected: f64 = truth.iter().map(|block| block.mean).sum();
+    let mean = if expected > 0.0 {
+        sum / expected - 1.0
+    } else if sum > 0.0 {
+        f64::INFINITY
+    } else {
+        0.0
+    };
+    Row { technique, chosen, z, relative, mean }
+}
+
+/// Judges a scene, and again by those techniques that differ: what is left differs in the same block both times.
+///
+/// # Errors
+/// Fails if the scene cannot be read.
+pub fn confirmed(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
+    let mut first = judge(scene, techniques, effort)?;
+    let suspects: Vec<Technique> = first.failing().collect();
+    if suspects.is_empty() {
+        return Ok(first);
+    }
+    let second = judge(scene, &suspects, &effort.again())?;
+    for row in &mut first.rows {
+        let Some(other) = second.rows.iter().find(|other| other.technique == row.technique) else { continue };
+        let refuted: Vec<usize> =
+            row.failing().filter(|&i| other.z[i].abs() < LIMIT || other.z[i].signum() != row.z[i].signum()).collect();
+        for i in refuted {
+            (row.z[i], row.relative[i]) = (other.z[i].clamp(-LIMIT, LIMIT) * 0.999, other.relative[i]);
+        }
+    }
+    Ok(first)
+}

@@ -1,0 +1,236 @@
+//! Direct lighting in double precision: exhaustive over all bodies, without any offset of points from their surfaces.
+//!
+//! A point of a flat body is never hidden by that body, nor by one in the same plane; a sphere hides nothing from its outside, and from
+//! its inside what is outside. Flat lights emit on the side of their normal, unless they are two-sided. Lights occlude. All surfaces
+//! reflect on both of their sides. The rest is exact, up to the rounding of f64: closed forms over what blockers leave of a light, at
+//! points that sample the pixel and the lens.
+
+mod light;
+mod metal;
+mod random;
+mod scene;
+
+pub use scene::{Body, Emission, Finish, Form, Lens, View};
+
+use crate::vectors::{V3, along, dot, sub, unit};
+use light::{Receiver, Seen};
+use metal::{brdf, fresnel};
+use random::Random;
+use scene::{Prepared, closest};
+
+/// How much to compute.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Independent estimates per pixel, at least 2, from whose differences errors are known.
+    pub replicates: usize,
+    /// Points per pixel and estimate: the square of this.
+    pub side: usize,
+    /// Points per light where no closed form is known.
+    pub points: usize,
+    /// Greatest number of perfect mirrors along a ray.
+    pub depth: usize,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Moves points that reflect off their surface, by this fraction of the greatest coordinate of the point and of the ray's origin: 0, or
+    /// the error of the points of another renderer, to find what comes of it.
+    pub lift: f64,
+}
+
+/// The mean over a block of pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Block {
+    /// Radiance.
+    pub mean: f64,
+    /// Standard error of the mean.
+    pub error: f64,
+    /// Radiance if nothing hid the lights from the surfaces.
+    pub unoccluded: f64,
+}
+
+/// Renders the blocks of `side` × `side` pixels of an image, row by row from the top left; the last ones of a row or column may be smaller.
+#[must_use]
+pub fn render(bodies: &[Body], view: &View, side: usize, effort: &Effort) -> Vec<Block> {
+    let bodies: Vec<Prepared> = bodies.iter().map(|body| Prepared::new(*body)).collect();
+    let lights = (0..bodies.len()).filter(|&i| bodies[i].body.emission.is_some()).collect();
+    let tracer = Tracer { bodies, lights, effort };
+    let [columns, rows] = view.size.map(|size| size.div_ceil(side));
+    let mut blocks = vec![Block::default(); columns * rows];
+    let mut counts = vec![0.0; blocks.len()];
+    for y in 0..view.size[1] {
+        for x in 0..view.size[0] {
+            let mut random = Random(effort.seed ^ ((y * view.size[0] + x) as u64).wrapping_mul(0xd134_2543_de82_ef95));
+            let (mut sum, mut squares, mut unoccluded) = (0.0, 0.0, 0.0);
+            for _ in 0..effort.replicates {
+                let [seen, all] = tracer.pixel(view, [x, y], &mut random);
+                sum += seen;
+                squares += seen * seen;
+                unoccluded += all;
+            }
+            let n = effort.replicates as f64;
+            let block = &mut blocks[y / side * columns + x / side];
+            block.mean += sum / n;
+            block.error += (squares / n - (sum / n).powi(2)).max(0.0) / (n - 1.0);
+            block.unoccluded += unoccluded / n;
+            counts[y / side * columns + x / side] += 1.0;
+        }
+    }
+    for (block, count) in blocks.iter_mut().zip(counts) {
+        block.mean /= count;
+        block.error = block.error.sqrt() / count;
+        block.unoccluded /= count;
+    }
+    blocks
+}
+
+struct Tracer<'a> {
+    bodies: Vec<Prepared>,
+    lights: Vec<usize>,
+    effort: &'a Effort,
+}
+
+impl Tracer<'_> {
+    /// One estimate of a pixel's radiance, and of what it would be if nothing hid the lights.
+    fn pixel(&self, view: &View, [x, y]: [usize; 2], random: &mut Random) -> [f64; 2] {
+        let side = self.effort.side;
+        let mut sum = [0.0; 2];
+        for i in 0..side * side {
+            let at = |k: usize, stratum: usize, random: &mut Random| {
+                [x, y][k] as f64 + (stratum as f64 + random.unit()) / side as f64
+            };
+            let film = [at(0, i % side, random), at(1, i / side, random)];
+            let lens = if view.lens.is_some() { random.disk() } else { [0.0; 2] };
+            let (origin, direction) = view.ray(film, lens);
+            let [seen, all] = self.radiance(origin, unit(direction), random);
+            sum = [sum[0] + seen, sum[1] + all];
+        }
+        sum.map(|x| x / (side * side) as f64)
+    }
+    fn radiance(&self, mut origin: V3, mut direction: V3, random: &mut Random) -> [f64; 2] {
+        let (mut sum, mut throughput, mut own) = (0.0, 1.0, None);
+        for depth in 0..=self.effort.depth {
+            let Some(hit) = closest(&self.bodies, origin, direction, own) else { break };
+            let Prepared { body, normal, .. } = self.bodies[hit.index];
+            let mut point = along(origin, direction, hit.t);
+            let outward = match body.form {
+                Form::Sphere { center, radius } => {
+                    let outward = unit(sub(point, center));
+                    point = along(center, outward, radius);
+                    outward
+                }
+                Form::Flat { .. } => normal,
+            };
+            let front = dot(outward, direction) < 0.0;
+            if let Some(emission) = body.emission.filter(|emission| front || emission.two_sided) {
+                sum += throughput * emission.radiance;
+            }
+            let normal = if front { outward } else { outward.map(|x| -x) };
+            let cos = -dot(normal, direction);
+            let greatest = point.iter().chain(&origin).fold(0.0, |m: f64, x| m.max(x.abs()));
+            point = along(point, normal, self.effort.lift * greatest);
+            let reflectance = match body.finish {
+                Finish::Mirror(reflectance) => reflectance,
+                Finish::Metal { eta, k, alpha: 0.0 } => fresnel(cos, eta, k),
+                _ => {
+                    let receiver = Receiver { point, normal, own: hit.index };
+                    let [seen, all] = self.reflected(body.finish, receiver, direction, random);
+                    return [sum + throughput * seen, sum + throughput * all];
+                }
+            };
+            if depth == self.effort.depth || reflectance == 0.0 {
+                break;
+            }
+            throughput *= reflectance;
+            direction = unit(along(direction, normal, 2.0 * cos));
+            (origin, own) = (point, Some(hit.index));
+        }
+        [sum; 2]
+    }
+    /// The light that a surface reflects, with and without what hides the lights.
+    fn reflected(&self, finish: Finish, at: Receiver, direction: V3, random: &mut Random) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        if finish == Finish::Diffuse(0.0) {
+            return sum;
+        }
+        let toward = direction.map(|x| -x);
+        for &light in &self.lights {
+            let Some(seen) = Seen::new(&self.bodies, at, light) else { continue };
+            let radiance = self.bodies[light].body.emission.map_or(0.0, |emission| emission.radiance);
+            let count = self.effort.points;
+            let [left, all] = match finish {
+                Finish::Metal { eta, k, alpha } => {
+                    let mut parts = [0.0; 2];
+                    for point in seen.points(4 * count, random) {
+                        let part = point.weight * brdf(toward, unit(point.to), at.normal, [eta, k, alpha]);
+                        parts[1] += part;
+                        parts[0] += if seen.is_visible(point.to) { part } else { 0.0 };
+                    }
+                    parts
+                }
+                Finish::Diffuse(albedo) | Finish::Mirror(albedo) => {
+                    let factor = albedo * core::f64::consts::FRAC_1_PI;
+                    [seen.visible(count, random), seen.all].map(|x| x * factor)
+                }
+            };
+            sum = [sum[0] + radiance * left, sum[1] + radiance * all];
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Closed forms against segments, in random scenes of triangles and spheres.
+    #[test]
+    fn closed_forms_agree_with_segments() {
+        let mut random = Random(1);
+        let mut worst = 0.0_f64;
+        for scene in 0..4000 {
+            let point = |random: &mut Random| [0; 3].map(|_| 2.0 * random.unit() - 1.0);
+            let flat = |random: &mut Random| {
+                let corner = point(random);
+                Form::Flat { corner, edges: [point(random), point(random)], is_triangle: random.unit() < 0.5 }
+            };
+            let ball = |random: &mut Random| Form::Sphere { center: point(random), radius: 0.5 * random.unit() };
+            let mut forms = vec![if scene % 2 == 0 { flat(&mut random) } else { ball(&mut random) }];
+            for _ in 0..3 {
+                forms.push(if random.unit() < 0.5 { flat(&mut random) } else { ball(&mut random) });
+            }
+            let bodies: Vec<Prepared> = forms
+                .into_iter()
+                .map(|form| {
+                    let emission = Some(Emission { radiance: 1.0, two_sided: true });
+                    Prepared::new(Body { form, finish: Finish::Diffuse(0.5), emission })
+                })
+                .collect();
+            // on one of the bodies, or nowhere
+            let own = (random.unit() * 5.0) as usize;
+            let mut at = point(&mut random);
+            let mut normal = unit(point(&mut random));
+            if let Some(body) = bodies.get(own).filter(|_| own > 0) {
+                match body.body.form {
+                    Form::Sphere { center, radius } => {
+                        at = along(center, normal, radius);
+                        if random.unit() < 0.5 {
+                            normal = normal.map(|x| -x);
+                        }
+                    }
+                    Form::Flat { corner, edges, .. } => {
+                        at = along(along(corner, edges[0], 0.4), edges[1], 0.3);
+                        normal = body.normal;
+                    }
+                }
+            }
+            let receiver = Receiver { point: at, normal, own };
+            let Some(seen) = Seen::new(&bodies, receiver, 0) else { continue };
+            let exact = seen.visible(10_000, &mut random);
+            let mean = seen.sampled(10_000, &mut random);
+            // a light at the horizon is small, and its points few
+            let difference = (exact - mean).abs() / seen.all.max(1e-3);
+            assert!(difference < 0.02, "{exact} and {mean} of {}: {receiver:?}, {bodies:?}", seen.all);
+            worst = worst.max(difference);
+        }
+        println!("greatest difference {worst:.4}");
+    }
+}

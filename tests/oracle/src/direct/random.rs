@@ -1,0 +1,21 @@
+//! Random numbers of the oracle's own.
+
+/// SplitMix64.
+#[derive(Clone, Debug)]
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    /// A number in \[0, 1).
+    pub(super) fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+    /// A point of the unit disk.
+    pub(super) fn disk(&mut self) -> [f64; 2] {
+        let (r, turn) = (self.unit().sqrt(), self.unit() * core::f64::consts::TAU);
+        [r * turn.cos(), r * turn.sin()]
+    }
+}

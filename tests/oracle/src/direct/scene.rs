@@ -1,0 +1,204 @@
+//! What is rendered: shapes with their reflection and emission, and the rays of a camera. All of it is plain data.
+
+use crate::vectors::{V3, along, cross, dot, length, sub, unit};
+
+/// The form of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// A whole sphere; its normal points outwards.
+    Sphere {
+        /// Centre.
+        center: V3,
+        /// Radius, greater than 0.
+        radius: f64,
+    },
+    /// The triangle or parallelogram at one corner; the normal is the cross product of the edges.
+    Flat {
+        /// One corner.
+        corner: V3,
+        /// The edges from that corner.
+        edges: [V3; 2],
+        /// Whether it is the triangle between the edges, or else the parallelogram that they span.
+        is_triangle: bool,
+    },
+}
+
+/// How a surface reflects, on both of its sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Finish {
+    /// Lambertian, with this albedo.
+    Diffuse(f64),
+    /// A perfect mirror, with this reflectance at every angle.
+    Mirror(f64),
+    /// A metal with Fresnel reflectance and microfacets by GGX, whose shadowing and masking is that of Smith, correlated by height.
+    Metal {
+        /// Real part of the index of refraction.
+        eta: f64,
+        /// Imaginary part of the index of refraction.
+        k: f64,
+        /// Roughness α; 0 is a perfect mirror.
+        alpha: f64,
+    },
+}
+
+/// Constant emission of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Emitted radiance.
+    pub radiance: f64,
+    /// Whether both sides emit, or only the side of the normal.
+    pub two_sided: bool,
+}
+
+/// A shape with its surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body {
+    /// Form and position.
+    pub form: Form,
+    /// How it reflects.
+    pub finish: Finish,
+    /// What it emits, if it is a light.
+    pub emission: Option<Emission>,
+}
+
+/// A camera: the ray through position (x, y) in pixels, from the top left, has direction `corner + across·x + down·y`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Pixels across and down.
+    pub size: [usize; 2],
+    /// The pinhole, or the centre of the lens.
+    pub origin: V3,
+    /// Direction at the top left corner, and its change per pixel to the right and downwards.
+    pub corner: V3,
+    /// Change of the direction for a pixel to the right.
+    pub across: V3,
+    /// Change of the direction for a pixel downwards.
+    pub down: V3,
+    /// The lens, if there is one.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens: through its point (a, b) of the unit disk, a ray starts `a·radii[0] + b·radii[1]` from the centre, and its direction is
+/// `a·bends[0] + b·bends[1]` less.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Radii to the right and upwards.
+    pub radii: [V3; 2],
+    /// The radii over the distance of the plane of focus.
+    pub bends: [V3; 2],
+}
+
+impl View {
+    /// Origin and direction, of any length, of the ray through a position in pixels and a point of the unit disk.
+    #[must_use]
+    pub fn ray(&self, [x, y]: [f64; 2], [a, b]: [f64; 2]) -> (V3, V3) {
+        let direction = along(along(self.corner, self.across, x), self.down, y);
+        let Some(Lens { radii, bends }) = &self.lens else { return (self.origin, direction) };
+        let origin = along(along(self.origin, radii[0], a), radii[1], b);
+        (origin, along(along(direction, bends[0], -a), bends[1], -b))
+    }
+}
+
+impl Form {
+    /// The corners of a flat form in order around, relative to `from`, and how many there are; none of a sphere.
+    #[must_use]
+    pub fn corners(&self, from: V3) -> ([V3; 4], usize) {
+        let Self::Flat { corner, edges: [u, v], is_triangle } = self else { return ([[0.0; 3]; 4], 0) };
+        let p = sub(*corner, from);
+        let (a, b) = (along(p, *u, 1.0), along(p, *v, 1.0));
+        if *is_triangle { ([p, a, b, b], 3) } else { ([p, a, along(a, *v, 1.0), b], 4) }
+    }
+}
+
+/// A body with what the tests of rays need.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Prepared {
+    pub(super) body: Body,
+    /// Unit normal of a flat form.
+    pub(super) normal: V3,
+    /// The vectors whose dot products with a place in the plane, from the corner, are its coordinates along the edges.
+    dual: [V3; 2],
+    /// Greatest magnitude of its coordinates.
+    reach: f64,
+}
+
+/// What a ray hits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    pub(super) index: usize,
+    /// Length of the ray in units of its direction.
+    pub(super) t: f64,
+}
+
+/// Distances from a plane below this fraction of the coordinates are rounding.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+
+impl Prepared {
+    pub(super) fn new(body: Body) -> Self {
+        let greatest = |v: V3| v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        match body.form {
+            Form::Sphere { center, radius } => {
+                Self { body, normal: [0.0; 3], dual: [[0.0; 3]; 2], reach: greatest(center) + radius }
+            }
+            Form::Flat { corner, edges: [u, v], .. } => {
+                let area = cross(u, v);
+                let squared = dot(area, area);
+                let dual = [cross(v, area), cross(area, u)].map(|w| w.map(|x| x / squared));
+                Self { body, normal: unit(area), dual, reach: greatest(corner) + greatest(u) + greatest(v) }
+            }
+        }
+    }
+    /// Whether a point is in the plane of a flat form, up to rounding.
+    pub(super) fn is_level(&self, x: V3) -> bool {
+        let Form::Flat { corner, .. } = self.body.form else { return false };
+        let reach = x.iter().fold(self.reach, |m, x| m.max(x.abs()));
+        dot(self.normal, sub(x, corner)).abs() <= ROUNDING * reach
+    }
+    /// Where the ray from `o` along `d` enters the body, beyond its origin. `own` says that the origin is on this body.
+    pub(super) fn meets(&self, o: V3, d: V3, own: bool) -> Option<f64> {
+        match self.body.form {
+            Form::Sphere { center, radius } => {
+                let to = sub(o, center);
+                let squared = dot(d, d);
+                let b = -dot(to, d) / squared;
+                if own {
+                    // one root is the origin itself
+                    return (b > 0.0).then_some(2.0 * b);
+                }
+                let across = along(to, d, b);
+                let rest = radius * radius - dot(across, across);
+                if rest <= 0.0 {
+                    return None;
+                }
+                let half = (rest / squared).sqrt();
+                let least = ROUNDING * (self.reach + length(o)) / squared.sqrt();
+                [b - half, b + half].into_iter().find(|t| *t > least)
+            }
+            Form::Flat { corner, is_triangle, .. } => {
+                if own || self.is_level(o) {
+                    return None;
+                }
+                let to = sub(corner, o);
+                let t = dot(to, self.normal) / dot(d, self.normal);
+                if !(t > 0.0 && t < f64::INFINITY) {
+                    return None;
+                }
+                let place = sub(d.map(|x| x * t), to);
+                let [s, r] = self.dual.map(|w| dot(w, place));
+                let inside = s >= 0.0 && r >= 0.0 && if is_triangle { s + r <= 1.0 } else { s <= 1.0 && r <= 1.0 };
+                inside.then_some(t)
+            }
+        }
+    }
+}
+
+/// The first body along a ray that starts on the body `own`, if on any.
+pub(super) fn closest(bodies: &[Prepared], o: V3, d: V3, own: Option<usize>) -> Option<Hit> {
+    let mut first: Option<Hit> = None;
+    for (index, body) in bodies.iter().enumerate() {
+        if let Some(t) = body.meets(o, d, own == Some(index)).filter(|&t| first.is_none_or(|hit| t < hit.t)) {
+            first = Some(Hit { index, t });
+        }
+    }
+    first
+}
