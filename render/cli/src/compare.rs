@@ -3,8 +3,9 @@
 use clap::Args;
 use etendue_render::compare::Comparison;
 use etendue_render::image;
+use etendue_render::options::{out, say};
 use std::error::Error;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -32,17 +33,17 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let comparison =
         Comparison::new(&reference, &other, error).map_err(|what| format!("{}: {what}", options.image.display()))?;
     if comparison.shares_noise() {
-        eprintln!(
+        say(format_args!(
             "warning: {} and {} differ by much less than their variances predict: they seem to share their random numbers (same \
              seed?), so their difference says little about their errors",
             options.reference.display(),
             options.image.display()
-        );
+        ));
     }
     if options.json {
-        writeln!(io::stdout(), "{}", comparison.to_json())?;
+        writeln!(out(), "{}", comparison.to_json())?;
     } else {
-        writeln!(io::stdout(), "{comparison}")?;
+        writeln!(out(), "{comparison}")?;
     }
     Ok(())
 }

@@ -1,24 +1,27 @@
 //! The options that say which image is rendered.
 
 use clap::Args;
-use etendue_render::options::{name, size};
+use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::options::{name, say, size, threads, whole};
 use etendue_render::progressive::default_sampler;
 use etendue_render::scene::{self, Scene};
 use etendue_render::{Sampler, Sensor, Settings, Technique};
 use std::error::Error;
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
 
 #[derive(Args)]
 pub(crate) struct ImageOptions {
     /// Name of a built-in scene, or path of a pbrt-v4 file
-    pub(crate) scene: String,
+    pub(crate) scene: OsString,
     /// Take this many samples per pixel [default: from the scene]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 22))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
     spp: Option<u32>,
     /// Sample the lights by this technique
     #[arg(long, value_enum, default_value = "auto")]
     technique: Technique,
     /// Follow a camera ray through at most this many perfect mirrors
-    #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = clap::value_parser!(u32).range(0..=1024))]
+    #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = whole::<u32>(0..=1024))]
     depth: u32,
     /// Generate the random numbers by this sampler [default: adaptive from 32 samples on, else sobol, or independent for odd numbers]
     #[arg(long, value_enum)]
@@ -33,10 +36,10 @@ pub(crate) struct ImageOptions {
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
     /// Seed the random numbers with this; different seeds give independent images
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>(0..=u64::MAX))]
     seed: u64,
     /// Use this many threads; 0 means one per core
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads)]
     pub(crate) threads: usize,
 }
 
@@ -50,14 +53,14 @@ impl ImageOptions {
     pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
         let scene = scene::load(&self.scene)?;
         for warning in &scene.warnings {
-            eprintln!("warning: {warning}");
+            say(format_args!("warning: {warning}"));
         }
         let (width, height) = self.size.unwrap_or((scene.film.width, scene.film.height));
         let lens = scene.camera.lens.is_some();
         let sets = self.sets.unwrap_or(0);
         let spp = self.spp.unwrap_or(scene.pixel_samples);
         if self.sensor != Sensor::Radiance && !lens {
-            let (sensor, scene) = (name(self.sensor), &self.scene);
+            let (sensor, scene) = (name(self.sensor), self.scene.display());
             return Err(format!(
                 "--sensor {sensor}: the camera of {scene} is a pinhole: it needs a \"lensradius\" greater than 0"
             )
@@ -82,11 +85,16 @@ impl ImageOptions {
         checked.map_err(|what| format!("--sampler: {what}"))
     }
 
+    /// The name of the scene, or of its file without its extension, for files that are named after it.
+    pub(crate) fn stem(&self) -> &OsStr {
+        Path::new(&self.scene).file_stem().unwrap_or(&self.scene)
+    }
+
     /// The arguments that give these options.
-    pub(crate) fn arguments(&self) -> Vec<String> {
+    pub(crate) fn arguments(&self) -> Vec<OsString> {
         let mut all = vec![self.scene.clone()];
         let mut add =
-            |option: &str, value: Option<String>| all.extend(value.map(|value| format!("--{option}={value}")));
+            |option: &str, value: Option<String>| all.extend(value.map(|value| format!("--{option}={value}").into()));
         add("spp", self.spp.map(|spp| spp.to_string()));
         add("technique", (self.technique != Technique::Auto).then(|| name(self.technique)));
         add("depth", (self.depth != Settings::DEPTH).then(|| self.depth.to_string()));

@@ -1,6 +1,9 @@
-//! What Ctrl-C does to a rendering: it clears the progress bar, says which image is in the file, and exits with code 130.
+//! What Ctrl-C and SIGTERM do to a rendering: they clear the progress bar, say which image is in the file, and exit with code 130 or 143.
 
+use etendue_laboratory::interrupt::on_end;
+use etendue_render::options::say;
 use indicatif::ProgressBar;
+use std::io;
 use std::path::Path;
 use std::process;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -14,21 +17,21 @@ pub(crate) struct Status {
     pub(crate) text: String,
 }
 
-/// The status, shared with the handler of Ctrl-C.
+/// The status, shared with the handler of signals.
 #[derive(Clone, Debug)]
 pub(crate) struct Interrupt(Arc<Mutex<Status>>);
 
 impl Interrupt {
-    /// Installs the handler.
-    pub(crate) fn new() -> Result<Self, ctrlc::Error> {
+    /// Installs the handler, before other threads are started.
+    pub(crate) fn new() -> io::Result<Self> {
         let status = Status { bar: ProgressBar::hidden(), text: "nothing was written".into() };
         let interrupt = Self(Arc::new(Mutex::new(status)));
         let handler = interrupt.clone();
-        ctrlc::set_handler(move || {
+        on_end(move |code| {
             let status = handler.lock();
             status.bar.finish_and_clear();
-            eprintln!("interrupted: {}", status.text);
-            process::exit(130);
+            say(format_args!("interrupted: {}", status.text));
+            process::exit(code);
         })?;
         Ok(interrupt)
     }

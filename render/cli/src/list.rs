@@ -1,12 +1,13 @@
 //! `etendue list`: prints the names that other commands take.
 
 use clap::ValueEnum;
+use etendue_render::options::out;
 use etendue_render::{Sampler, Sensor, Technique, scene};
 use std::io::{self, Write};
 
 /// Prints the built-in scenes, techniques, samplers and sensors, each with a description.
 pub(crate) fn run() -> io::Result<()> {
-    let mut out = io::stdout().lock();
+    let mut out = out();
     writeln!(out, "scenes")?;
     for (name, about) in scene::builtin() {
         writeln!(out, "  {name:20} {about}")?;

@@ -1,5 +1,6 @@
 //! The renderer's command line: reads the arguments, runs a command and sets the exit code.
 
+mod attack;
 mod compare;
 mod image;
 mod interrupt;
@@ -13,10 +14,13 @@ mod progress;
 mod render;
 mod selftest;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use etendue_laboratory::{atlas, chart, figure};
+use etendue_render::options::say;
+use std::any::TypeId;
 use std::error::Error;
 use std::io;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// A direct-lighting renderer that measures how well lights are sampled
@@ -52,24 +56,37 @@ enum Command {
 fn main() -> ExitCode {
     let missing = processor::missing_features();
     if !missing.is_empty() {
-        eprintln!(
+        say(format_args!(
             "etendue: this program was built for a processor with {}, which this machine lacks.\n\
              Rebuild it without that requirement: CARGO_ENCODED_RUSTFLAGS= cargo build --release",
             missing.join(", ")
-        );
+        ));
         return ExitCode::from(3);
     }
-    match run(Cli::parse().command) {
+    match run(arguments().command) {
         Ok(code) => code,
-        // the reader has closed the pipe, as `head` does
+        // the reader has closed the pipe, as `head` does: this ends the program as SIGPIPE ends others, without a message
         Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
-            ExitCode::SUCCESS
+            ExitCode::from(141)
         }
         Err(error) => {
-            eprintln!("etendue: {error}");
+            say(format_args!("etendue: {error}"));
             ExitCode::from(2)
         }
     }
+}
+
+/// The arguments. What follows an option other than that for a file is its value even if it begins with a hyphen, so that a message about
+/// a negative number can name both.
+fn arguments() -> Cli {
+    let is_file = |argument: &clap::Arg| argument.get_value_parser().type_id() == TypeId::of::<PathBuf>();
+    let command = Cli::command().mut_subcommands(|command| {
+        command.mut_args(|argument| {
+            let takes_hyphen = argument.get_action().takes_values() && !argument.is_positional() && !is_file(&argument);
+            if takes_hyphen { argument.allow_hyphen_values(true) } else { argument }
+        })
+    });
+    Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
 }
 
 fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
@@ -90,6 +107,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
 
 /// The command line, for the report.
 fn command_line() -> String {
-    let arguments = std::env::args().skip(1).map(|a| if a.contains(' ') { format!("{a:?}") } else { a });
+    let arguments = std::env::args_os().skip(1).map(|a| a.to_string_lossy().into_owned());
+    let arguments = arguments.map(|a| if a.contains(' ') { format!("{a:?}") } else { a });
     std::iter::once("etendue".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }

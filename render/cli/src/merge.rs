@@ -5,7 +5,8 @@ use crate::output::Output;
 use crate::progress::bar;
 use clap::Args;
 use etendue_render::merge::{self, Goal, Merged, Outcome};
-use etendue_render::options::pool;
+use etendue_render::options::{out, pool, threads};
+use etendue_render::parts::{Kind, PartFile};
 use etendue_render::{files, parts};
 use std::error::Error;
 use std::fs;
@@ -27,17 +28,26 @@ pub(crate) struct Options {
     #[arg(long)]
     as_part: bool,
     /// Use this many threads; 0 means one per core
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads)]
     threads: usize,
 }
 
-/// The files, and those in the folders whose names end in `.exr`, in the order of their names; without `output`.
-fn files_of(paths: &[PathBuf], output: &Path) -> Result<Vec<PathBuf>, String> {
+/// Whether a merge would lose what is in this file of its folder by writing to it: another part than a merged pilot, which can be made
+/// again from the others.
+fn is_needed(path: &Path) -> bool {
+    PartFile::open(path).is_ok_and(|part| part.pieces.iter().any(|piece| !matches!(piece.kind, Kind::Allotment(_))))
+}
+
+/// The files, and those in the folders whose names end in `.exr`, in the order of their names; without the output, which may be an image in
+/// one of the folders.
+fn files_of(paths: &[PathBuf], output: &Output) -> Result<Vec<PathBuf>, String> {
+    let is_output = |path: &Path| files::is_same(path, &output.exr) || files::is_same(path, &output.png);
+    let input = |path: &Path| format!("{}: this file is an input: choose another name with -o", path.display());
     let mut all = Vec::new();
     for path in paths {
         if !path.is_dir() {
-            if files::is_same(path, output) {
-                return Err(format!("{}: this file is an input: choose another name with -o", output.display()));
+            if is_output(path) {
+                return Err(input(path));
             }
             all.push(path.clone());
             continue;
@@ -50,8 +60,12 @@ fn files_of(paths: &[PathBuf], output: &Path) -> Result<Vec<PathBuf>, String> {
         found.retain(|file| {
             let is_hidden = file.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
             let is_exr = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
-            is_exr && !is_hidden && file.is_file() && !files::is_same(file, output)
+            is_exr && !is_hidden && file.is_file()
         });
+        if let Some(part) = found.iter().find(|file| is_output(file) && is_needed(file)) {
+            return Err(input(part));
+        }
+        found.retain(|file| !is_output(file));
         if found.is_empty() {
             return Err(format!("{}: there are no parts in this folder", path.display()));
         }
@@ -65,7 +79,7 @@ fn files_of(paths: &[PathBuf], output: &Path) -> Result<Vec<PathBuf>, String> {
 pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let interrupt = Interrupt::new()?;
     let output = Output::of(options.output.clone(), &[])?;
-    let files = files_of(&options.parts, &output.exr)?;
+    let files = files_of(&options.parts, &output)?;
     let goal = match options {
         Options { partial: true, .. } => Goal::Partial,
         Options { as_part: true, .. } => Goal::Part,
@@ -76,7 +90,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let merged = pool(options.threads)?.install(|| merge::merge(&files, goal, |done| bar.inc(done)));
     bar.finish_and_clear();
     let Outcome { frame, merged, used, duplicates, gaps } = merged?;
-    let mut out = io::stdout().lock();
+    let mut out = out();
     for file in &duplicates {
         writeln!(out, "ignored {}, which holds what another part holds", file.display())?;
     }

@@ -3,7 +3,16 @@
 use etendue_render::film::Film;
 use etendue_render::scene::Scene;
 use etendue_render::{files, image};
+use std::ffi::OsStr;
+use std::io;
 use std::path::{Path, PathBuf};
+
+/// The name of a file that is called after the scene.
+pub(crate) fn named(stem: &OsStr, end: &str) -> PathBuf {
+    let mut name = stem.to_owned();
+    name.push(end);
+    name.into()
+}
 
 /// The files of an image.
 #[derive(Debug)]
@@ -15,18 +24,18 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// The files to write: those that the user asked for, or those that the scene's film or name asks for.
+    /// The files to write: those that the user asked for, or those that the scene's film asks for, or else one called `stem`.
     ///
     /// # Errors
     /// Fails if the name does not end in `.exr`, if a file cannot be written, or if the scene has been read from it.
-    pub(crate) fn new(asked: Option<&Path>, scene: &Scene) -> Result<Self, String> {
-        let exr = match (asked, &scene.film.filename) {
-            (Some(path), _) => path.to_owned(),
+    pub(crate) fn new(asked: Option<&Path>, scene: &Scene, stem: &OsStr) -> Result<Self, String> {
+        match (asked, &scene.film.filename) {
+            (Some(path), _) => Self::of(path.to_owned(), &scene.inputs),
             // scenes for other renderers often ask for other formats
-            (None, Some(file)) if !file.is_empty() => Path::new(file).with_extension("exr"),
-            (None, _) => PathBuf::from(format!("{}.exr", scene.name)),
-        };
-        Self::of(exr, &scene.inputs)
+            (None, Some(file)) if !file.is_empty() => Self::of(Path::new(file).with_extension("exr"), &scene.inputs)
+                .map_err(|error| format!("{error}\nThe scene's film asks for {file:?}; -o chooses another file")),
+            (None, _) => Self::of(named(stem, ".exr"), &scene.inputs),
+        }
     }
 
     /// The files to write for an image at this path, which is made from files that must stay as they are.
@@ -55,6 +64,12 @@ impl Output {
             }
         }
         Ok(Self { exr, png })
+    }
+
+    /// An error after both files have been written.
+    pub(crate) fn were_written(&self, error: &io::Error) -> io::Error {
+        let (exr, png) = (self.exr.display(), self.png.display());
+        io::Error::new(error.kind(), format!("{error}; {exr} and {png} were written"))
     }
 
     /// Writes both files. The PNG is exposed so that its middle looks the same with every sensor: `exposure` is the value of unit radiance

@@ -2,17 +2,19 @@
 
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
+use crate::output::named;
 use crate::progress::bar;
 use clap::Args;
 use etendue_render::area;
 use etendue_render::files;
-use etendue_render::options::pool;
+use etendue_render::merge;
+use etendue_render::options::{out, pool, say};
 use etendue_render::parts::{self, Content, Kind, PartFile, Piece};
 use etendue_render::scene::Scene;
 use etendue_render::{Frame, Sampler, Settings, World};
 use serde_json::json;
 use std::error::Error;
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -139,13 +141,19 @@ pub(crate) fn run(
     let frame = Frame::new(&scene, settings, image.sensor)?;
     let PartContent { area, what } = part;
     let range = if let What::Samples(range) = what { Some(range) } else { None };
-    let name = || PathBuf::from(format!("{}-{}", scene.name, file_name(*area, range)));
+    let name = || named(image.stem(), &format!("-{}", file_name(*area, range)));
     let path = output.map_or_else(name, Path::to_owned);
     if !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
         return Err(format!("--output {}: the name must end in .exr", path.display()).into());
     }
     if scene.inputs.iter().any(|input| files::is_same(input, &path)) {
         return Err(format!("{}: the scene has been read from this file", path.display()).into());
+    }
+    if let What::After(pilot) = what
+        && files::is_same(pilot, &path)
+    {
+        let what = "the pilot is read from this file, so the part cannot be written to it: choose another name with -o";
+        return Err(format!("{}: {what}", path.display()).into());
     }
     let is_kind = |kind: &Kind| match (kind, what) {
         (Kind::Pixels, What::Samples(range)) => *range == (0..settings.spp),
@@ -160,7 +168,7 @@ pub(crate) fn run(
             What::After(_) => "the samples after the pilot".to_owned(),
         };
         let seconds = start.elapsed().as_secs_f64();
-        let mut out = io::stdout().lock();
+        let mut out = out();
         if as_json {
             let object =
                 json!({ "output": path.to_string_lossy(), "area": area, "rendered": rendered, "seconds": seconds });
@@ -174,30 +182,14 @@ pub(crate) fn run(
     if path.exists() {
         match flaw(&path, &frame, *area, is_kind) {
             None => return Ok(report(false)?),
-            Some(flaw) => eprintln!("warning: {flaw}; it is rendered again"),
+            Some(flaw) => say(format_args!("warning: {flaw}; it is rendered again")),
         }
     }
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("{}: cannot make this folder: {error}", folder.display()))?;
+        files::make_folder(folder)?;
     }
     files::check_replaceable(&path)?;
-    let allotment = if let What::After(file) = what {
-        let mut pilot = PartFile::open(file)?;
-        if let Some(difference) = frame.difference(&pilot.frame) {
-            return Err(format!("{}: the pilot of another image: {difference}", file.display()).into());
-        }
-        if !matches!(pilot.pieces[0].kind, Kind::Allotment(_)) {
-            return Err(format!("{}: not the whole pilot; merge its parts", file.display()).into());
-        }
-        let pieces = pilot.read_rows(&(area[1]..area[3]))?;
-        match &pieces[0].content {
-            Content::Allotment(allotment) => Some(allotment.crop(*area)),
-            _ => None,
-        }
-    } else {
-        None
-    };
+    let allotment = if let What::After(file) = what { Some(merge::allotment(file, &frame, *area)?) } else { None };
 
     let pool = pool(image.threads)?;
     let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);

@@ -4,9 +4,13 @@ use crate::image::ImageOptions;
 use crate::output::Output;
 use crate::part::file_name;
 use clap::Args;
+use etendue_render::limits::MOST_SAMPLES;
+use etendue_render::options::{out, whole};
 use etendue_render::{Sampler, split};
 use std::error::Error;
-use std::io::{self, Write};
+use std::ffi::{OsStr, OsString};
+use std::io::Write;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
@@ -17,23 +21,35 @@ pub(crate) struct Options {
     #[arg(short, long, value_name = "OUT.exr")]
     output: Option<PathBuf>,
     /// Split the image into about this many parts
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole::<u32>(1..=1_000_000))]
     tasks: u32,
     /// Split the samples of each tile into this many of the parts; the sampler adaptive cannot
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
     ranges: u32,
     /// Write the parts into this folder [default: OUT.parts]
     #[arg(long, value_name = "DIR")]
     parts: Option<PathBuf>,
 }
 
-/// A word of a command, for a POSIX shell.
-fn quote(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-+=/.,:@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
+/// A word of a command, for a POSIX shell, with whatever bytes names of files have.
+fn quote(word: &OsStr) -> Vec<u8> {
+    let bytes = word.as_encoded_bytes();
+    let is_plain = |c: &u8| c.is_ascii_alphanumeric() || b"_-+=/.,:@%".contains(c);
+    if !bytes.is_empty() && bytes.iter().all(is_plain) {
+        return bytes.to_owned();
     }
-    format!("'{}'", word.replace('\'', r"'\''"))
+    let quoted: Vec<&[u8]> = bytes.split(|c| *c == b'\'').collect();
+    [b"'", &quoted.join(&br"'\''"[..])[..], b"'"].concat()
+}
+
+/// A command as a line without its end.
+fn line(words: &[OsString]) -> Vec<u8> {
+    words.iter().map(|word| quote(word)).collect::<Vec<_>>().join(&b' ')
+}
+
+/// The words of a list.
+fn words<const N: usize>(words: [&dyn AsRef<OsStr>; N]) -> Vec<OsString> {
+    words.map(|word| word.as_ref().to_owned()).into()
 }
 
 /// Prints one command a line, and an empty line between the stages. The commands of a stage can run in any order.
@@ -52,51 +68,45 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         return Err(format!("--ranges {ranges}: there are only {least} {what}").into());
     }
     // what can be wrong with it should not be found after hours
-    let output = Output::new(output.as_deref(), &scene)?.exr;
+    let output = Output::new(output.as_deref(), &scene, image.stem())?.exr;
     let folder = parts.clone().unwrap_or_else(|| output.with_extension("parts"));
+    if folder.exists() && !folder.is_dir() {
+        return Err(format!("--parts {}: this is a file, not a folder", folder.display()).into());
+    }
     let areas = split::areas(&settings, tasks / ranges);
     let spp = settings.spp;
-    let mut out = io::stdout().lock();
-    let program = std::env::args().next().unwrap_or_else(|| "etendue".to_owned());
-    let mut print = |words: Vec<String>| {
-        let words: Vec<String> = std::iter::once(&program).chain(&words).map(|word| quote(word)).collect();
-        writeln!(out, "{}", words.join(" "))
-    };
-    let render = |area: [u32; 4], more: &[String], to: PathBuf| -> Vec<String> {
+    let program = std::env::args_os().next().unwrap_or_else(|| "etendue".into());
+    let render = |area: [u32; 4], more: &OsStr, to: &Path| {
         let [x0, y0, x1, y1] = area;
-        let mut words = vec!["render".to_owned()];
-        words.extend(image.arguments());
-        words.push(format!("--tile={x0},{y0},{x1},{y1}"));
-        words.extend(more.iter().cloned());
-        words.extend(["-o".to_owned(), to.to_string_lossy().into_owned()]);
-        words
+        let tile = format!("--tile={x0},{y0},{x1},{y1}");
+        [words([&program, &"render"]), image.arguments(), words([&tile, &more, &"-o", &to])].concat()
     };
-    let merge = |to: &Path, from: &Path| -> Vec<String> {
-        ["merge", "-o", &to.to_string_lossy(), &from.to_string_lossy()].map(str::to_owned).into()
-    };
-    let mut last = folder.clone();
-    if adaptive {
-        let (pilots, pilot) = (folder.join("pilot"), folder.join("pilot.exr"));
-        for &area in &areas {
-            print(render(area, &["--pilot".to_owned()], pilots.join(file_name(area, None))))?;
-        }
-        writeln!(io::stdout())?;
-        print(merge(&pilot, &pilots))?;
-        writeln!(io::stdout())?;
-        last = folder.join("image");
-        for &area in &areas {
-            let after = format!("--after={}", pilot.display());
-            print(render(area, &[after], last.join(file_name(area, None))))?;
-        }
+    let merge = |to: &Path, from: &Path| vec![words([&program, &"merge", &"-o", &to, &from])];
+    let stages = if adaptive {
+        let [pilots, pilot, last] = ["pilot", "pilot.exr", "image"].map(|name| folder.join(name));
+        let mut after = OsString::from("--after=");
+        after.push(&pilot);
+        let parts = |more: &OsStr, to: &Path| -> Vec<_> {
+            areas.iter().map(|&area| render(area, more, &to.join(file_name(area, None)))).collect()
+        };
+        vec![parts("--pilot".as_ref(), &pilots), merge(&pilot, &pilots), parts(&after, &last), merge(&output, &last)]
     } else {
-        for &area in &areas {
-            for range in split::ranges(spp, *ranges) {
-                let words = [format!("--range={}:{}", range.start, range.end)];
-                print(render(area, &words, folder.join(file_name(area, Some(&range)))))?;
-            }
+        let parts =
+            areas.iter().flat_map(|&area| split::ranges(spp, *ranges).into_iter().map(move |range| (area, range)));
+        let part = |(area, range): ([u32; 4], Range<u32>)| {
+            let more = format!("--range={}:{}", range.start, range.end);
+            render(area, more.as_ref(), &folder.join(file_name(area, Some(&range))))
+        };
+        vec![parts.map(part).collect(), merge(&output, &folder)]
+    };
+    let mut plan: Vec<Vec<u8>> = Vec::new();
+    for stage in stages {
+        let commands: Vec<Vec<u8>> = stage.iter().map(|words| line(words)).collect();
+        if commands.iter().any(|command| command.contains(&b'\n')) {
+            return Err("a plan has one command on each line, so no name in it may have a line break".into());
         }
+        plan.push([commands.join(&b'\n'), b"\n".into()].concat());
     }
-    writeln!(io::stdout())?;
-    print(merge(&output, &last))?;
+    out().write_all(&plan.join(&b'\n'))?;
     Ok(())
 }

@@ -6,9 +6,10 @@ use crate::output::Output;
 use crate::part::{self, PartOptions};
 use crate::progress::bar;
 use clap::Args;
+use etendue_render::claim::{Claim, why_unknown};
 use etendue_render::film::Film;
-use etendue_render::options::{name, pool};
-use etendue_render::progressive::{self, Goal, Pass, Plan, Progress, relative_error};
+use etendue_render::options::{name, out, pool, whole};
+use etendue_render::progressive::{self, Goal, Pass, Plan, Progress, reports_variance};
 use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
@@ -32,7 +33,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat", "parts"])]
     error: Option<f64>,
     /// Render the same image this many times, for timing
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "parts")]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1..=1_000_000), conflicts_with = "parts")]
     repeat: u32,
     /// Print the result as one JSON object
     #[arg(long)]
@@ -57,6 +58,8 @@ fn fraction(text: &str) -> Result<f64, String> {
 /// A finished image and what it took.
 struct Image {
     film: Film,
+    /// Its estimated error, if that is known.
+    error: Option<Claim>,
     rays: RayCount,
     /// Samples per pixel.
     spp: u64,
@@ -64,6 +67,8 @@ struct Image {
     sampler: Sampler,
     /// Sets per pixel of each pass.
     sets: u32,
+    /// Whether there are several, so that there is a variance.
+    has_sets: bool,
     /// Seconds of each repetition.
     seconds: Vec<f64>,
     /// Empty unless there was a goal.
@@ -87,7 +92,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     if let Some(content) = options.part.content(&settings)? {
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
-    let output = Output::new(options.output.as_deref(), &scene)?;
+    let output = Output::new(options.output.as_deref(), &scene, image.stem())?;
 
     let pool = pool(image.threads)?;
     let start = Instant::now();
@@ -100,23 +105,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         Some(plan) => studio.refine(plan),
     })?;
 
-    if options.json {
-        writeln!(
-            io::stdout(),
-            "{}",
-            to_json(
-                options,
-                &settings,
-                world.chosen(&settings),
-                &done,
-                &output,
-                [load, build],
-                pool.current_num_threads()
-            )
-        )?;
+    let chosen = world.chosen(&settings);
+    let times = [load, build];
+    let said = if options.json {
+        let object = to_json(options, &settings, chosen, &done, &output, times, pool.current_num_threads());
+        writeln!(out(), "{object}")
     } else {
-        print(options, &settings, world.chosen(&settings), &scene.name, &done, &output, [load, build])?;
-    }
+        print(options, &settings, chosen, &scene.name, &done, &output, times)
+    };
+    said.map_err(|error| output.were_written(&error))?;
     Ok(())
 }
 
@@ -144,9 +141,11 @@ impl Studio<'_> {
         }
         let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
         bar.finish_and_clear();
-        self.write(&film, spp.into(), relative_error(&film))?;
+        let error = Claim::new(&film, self.world.systematic(&self.settings));
+        self.write(&film, spp.into(), error)?;
+        let has_sets = reports_variance(sampler, spp, sets, lens);
         let sets = sampler.sets(spp, sets, lens);
-        Ok(Image { film, rays, spp: spp.into(), sampler, sets, seconds, passes: Vec::new() })
+        Ok(Image { film, error, rays, spp: spp.into(), sampler, sets, has_sets, seconds, passes: Vec::new() })
     }
 
     /// Renders passes and writes the image after each.
@@ -165,7 +164,8 @@ impl Studio<'_> {
         };
         let aim = plan.goal.error.map_or_else(String::new, |target| format!(", {} wanted", percent(target)));
         let start = |known: Option<&Progress>, spp: u32| {
-            let error = known.and_then(|p| p.error).map_or_else(|| "not known yet".to_owned(), percent);
+            let error =
+                known.and_then(|p| p.error).map_or_else(|| "not known yet".to_owned(), |claim| percent(claim.total()));
             bar.set_message(format!("error {error}{aim}; next {spp} spp"));
             if plan.goal.seconds.is_none() {
                 bar.set_position(0);
@@ -174,17 +174,19 @@ impl Studio<'_> {
         let finish = |known: &Progress| self.write(&known.film, known.spp, known.error);
         let done = progressive::render(self.world, plan, advance, start, finish);
         bar.finish_and_clear();
-        let Progress { film, spp, passes, seconds, rays, .. } = done?;
+        let Progress { film, error, spp, passes, seconds, rays } = done?;
         let largest = passes.iter().max_by_key(|p| p.spp).unwrap_or_else(|| unreachable!("there is a first pass"));
         let (sampler, sets) = (largest.sampler, largest.sampler.sets(largest.spp, plan.settings.sets, plan.lens));
-        Ok(Image { film, rays, spp, sampler, sets, seconds: vec![seconds], passes })
+        let (own, lens) = (plan.settings.sets, plan.lens);
+        let has_sets = passes.iter().all(|p| reports_variance(p.sampler, p.spp, own, lens));
+        Ok(Image { film, error, rays, spp, sampler, sets, has_sets, seconds: vec![seconds], passes })
     }
 
-    fn write(&self, film: &Film, spp: u64, error: Option<f64>) -> Result<(), String> {
+    fn write(&self, film: &Film, spp: u64, error: Option<Claim>) -> Result<(), String> {
         let mut status = self.interrupt.lock();
         let exposure = self.world.exposure(film.width, film.height);
         self.output.write(film, exposure.map_or(1.0, |exposure| exposure.on_axis()))?;
-        let error = error.map_or_else(|| "not known".to_owned(), percent);
+        let error = error.map_or_else(|| "not known".to_owned(), |claim| percent(claim.total()));
         status.text =
             format!("{} holds an image of {spp} samples per pixel, estimated error {error}", self.output.exr.display());
         Ok(())
@@ -219,7 +221,7 @@ fn to_json(
         .map(|p| json!({ "spp": p.spp, "sampler": name(p.sampler), "seed": p.seed, "seconds": p.seconds }))
         .collect();
     json!({
-        "scene": options.image.scene,
+        "scene": options.image.scene.to_string_lossy(),
         "width": settings.width,
         "height": settings.height,
         "spp": image.spp,
@@ -233,7 +235,8 @@ fn to_json(
         "seconds": { "load": time[0], "build": time[1], "render": image.seconds },
         "rays": { "camera": rays.camera, "mirror": rays.mirror, "shadow": rays.shadow, "corner": rays.corner },
         "mean": image.film.mean(),
-        "error": relative_error(&image.film),
+        "error": image.error.map(|claim| claim.total()),
+        "systematic": image.error.map(|claim| claim.systematic),
         "passes": if passes.is_empty() { Value::Null } else { passes.into() },
         "output": output.exr.to_string_lossy(),
     })
@@ -248,7 +251,7 @@ fn print(
     output: &Output,
     [load, build]: [f64; 2],
 ) -> io::Result<()> {
-    let mut out = io::stdout().lock();
+    let mut out = out();
     let Settings { width, height, technique, .. } = settings;
     let sampler = name(image.sampler);
     let technique =
@@ -270,15 +273,23 @@ fn print(
             writeln!(out, "mean {} {r:.6e} {g:.6e} {b:.6e}", name(options.image.sensor))?;
         }
     }
-    match relative_error(&image.film) {
-        Some(error) => writeln!(out, "estimated error {} (relative RMS)", percent(error))?,
-        None if [r, g, b].iter().sum::<f64>() > 0.0 => {
-            writeln!(out, "estimated error not known, because a pixel is a single set of samples")?;
+    match image.error {
+        Some(claim) => {
+            write!(out, "estimated error {} (relative RMS)", percent(claim.total()))?;
+            if claim.systematic > 0.0 {
+                write!(out, ", of which {} bounds that of closed forms", percent(claim.systematic))?;
+            }
+            if claim.is_vague() {
+                write!(out, "; it is uncertain, since it is in about {:.0} pixels", claim.pixels)?;
+            }
+            writeln!(out)?;
         }
-        None => writeln!(out, "estimated error not known, because the image is black")?,
+        None => writeln!(out, "estimated error not known, because {}", why_unknown(&image.film, image.has_sets))?,
     }
-    if let Some(target) = options.error.filter(|target| relative_error(&image.film).is_none_or(|e| e > *target)) {
-        writeln!(out, "the time did not suffice for an error of {}", percent(target))?;
+    if let Some(target) = options.error.filter(|target| image.error.is_none_or(|claim| claim.total() > *target)) {
+        let never = image.error.is_some_and(|claim| claim.check(target).is_err());
+        let what = if never { "no time suffices" } else { "the time did not suffice" };
+        writeln!(out, "{what} for an error of {}", percent(target))?;
     }
     writeln!(out, "wrote {} and {}", output.exr.display(), output.png.display())
 }

@@ -198,7 +198,7 @@ fn an_interrupted_run_leaves_a_report() {
 
 fn options(output: &Path, scene: &str) -> Options {
     Options {
-        scenes: vec![scene.to_owned()],
+        scenes: vec![scene.into()],
         output: output.to_owned(),
         techniques: vec![Technique::Area, Technique::SolidAngle],
         samplers: vec![Sampler::Independent, Sampler::Stratified],

@@ -188,16 +188,22 @@ fn messages_are_plain() {
 /// Interrupts a rendering after a second, or later if it is not `ready`; returns its message.
 #[cfg(unix)]
 fn interrupted(folder: &Folder, more: &[&str], ready: impl Fn() -> bool) -> String {
+    ended(folder, "-INT", 130, more, ready)
+}
+
+/// The same with another signal, and the exit code that it should give.
+#[cfg(unix)]
+fn ended(folder: &Folder, signal: &str, code: i32, more: &[&str], ready: impl Fn() -> bool) -> String {
     let child = folder.spawn(&[&["render", "quads", "--size", "256x256", "-o", "a.exr"], more].concat());
     thread::sleep(Duration::from_secs(1));
     let start = Instant::now();
     while !ready() && start.elapsed() < Duration::from_secs(60) {
         thread::sleep(Duration::from_millis(20));
     }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     let error = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{error}");
+    assert_eq!(output.status.code(), Some(code), "{error}");
     assert!(output.stdout.is_empty() && error.starts_with("interrupted: "), "{error}");
     error
 }
@@ -221,5 +227,36 @@ fn an_interruption_says_what_is_on_disk() {
     );
     let image = etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
     assert!(image.variance.unwrap().iter().flatten().all(|v| v.is_finite()));
+    assert_eq!(folder.names(), ["a.exr", "a.png"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn the_exit_code_tells_the_signal() {
+    let folder = Folder::new();
+    for (signal, code) in [("-INT", 130), ("-TERM", 143), ("-HUP", 129)] {
+        let error = ended(&folder, signal, code, &["--spp", "65536"], || true);
+        assert_eq!(error, "interrupted: nothing was written; a.exr does not exist\n");
+    }
+    let first = || folder.names().contains(&"a.png".to_owned());
+    let error = ended(&folder, "-TERM", 143, &["--time", "120"], first);
+    assert!(error.starts_with("interrupted: a.exr holds an image of "), "{error}");
+    etendue_render::image::read_exr(&folder.path("a.exr")).unwrap();
+    assert_eq!(folder.names(), ["a.exr", "a.png"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_that_is_ignored_stays_so() {
+    let folder = Folder::new();
+    // as `nohup` begins a program
+    let command =
+        format!("trap '' HUP; exec '{}' render quads --size 64x64 --time 3 -o a.exr", env!("CARGO_BIN_EXE_etendue"));
+    let mut shell = Command::new("sh");
+    let child = shell.current_dir(&folder.0).args(["-c", &command]).stdout(Stdio::null()).spawn().unwrap();
+    thread::sleep(Duration::from_secs(1));
+    assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{:?}", output.status);
     assert_eq!(folder.names(), ["a.exr", "a.png"]);
 }

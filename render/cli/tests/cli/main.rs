@@ -1,7 +1,9 @@
 //! Runs the program as a user would, and checks output, messages and exit codes.
 
 mod chart;
+mod damaged;
 mod lost;
+mod misuse;
 mod parts;
 mod refined;
 
@@ -128,6 +130,7 @@ fn json_has_the_fields_that_it_should() {
         "sensor",
         "sets",
         "spp",
+        "systematic",
         "technique",
         "threads",
         "width",

@@ -157,7 +157,7 @@ fn options_that_make_no_part_are_refused() {
             "the sampler adaptive can only be split into tiles",
         ),
         (&["plan", "quads", "--spp", "4", "--tasks", "8", "--ranges", "5", "-o", "a.exr"], "there are only 4 samples"),
-        (&["plan", "quads", "--spp", "16", "--tasks", "0", "-o", "a.exr"], "0 is not in"),
+        (&["plan", "quads", "--spp", "16", "--tasks", "0", "-o", "a.exr"], "from 1 to 1000000"),
         (&["plan", "quads", "--spp", "16", "-o", "a.png"], "must end in .exr"),
         (&["plan", "quads", "--spp", "16", "-o", "nowhere/a.exr"], "the folder nowhere does not exist"),
         (&["merge", "-o", "a.exr", "nothing"], "nothing: cannot read"),
@@ -176,8 +176,89 @@ fn options_that_make_no_part_are_refused() {
     // an image is no part, and a part is not the pilot
     folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "2", "-o", "image.exr"]);
     assert!(folder.fail(&["merge", "-o", "a.exr", "image.exr"]).contains("image.exr: not a part of an image"));
-    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "64", "--pilot", "-o", "pilot.exr"]);
-    let after = ["render", "quads", "--size", "16x16", "--spp", "64", "--after", "pilot.exr", "-o", "a.exr"];
-    assert!(folder.fail(&after).contains("pilot.exr: not the whole pilot; merge its parts"));
+    let render = ["render", "quads", "--size", "32x16", "--spp", "64"];
+    folder.succeed(&[&render[..], &["--pilot", "--tile", "0,0,16,16", "-o", "pilot.exr"]].concat());
+    let error = folder.fail(&[&render[..], &["--after", "pilot.exr", "-o", "a.exr"]].concat());
+    let lacks = "pilot.exr: not the whole pilot; merge it with the parts that it lacks:\n--pilot --tile 16,0,32,16";
+    assert!(error.contains(lacks), "{error}");
+    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "16", "--range", "0:8", "-o", "range.exr"]);
+    assert!(
+        folder.fail(&[&render[..], &["--after", "range.exr", "-o", "a.exr"]].concat()).contains("of another image")
+    );
     assert!(folder.fail(&["merge", "-o", "pilot.exr", "pilot.exr"]).contains("this file is an input"));
+}
+
+/// The whole pilot may be one part, or merged with or without `--as-part`, at once or in groups.
+#[test]
+fn a_whole_pilot_is_taken_in_any_form() {
+    let folder = Folder::new();
+    let image = ["quads", "--size", "48x32", "--spp", "64"];
+    let render = |more: &[&str]| folder.succeed(&[&["render"], &image[..], more].concat());
+    render(&["-o", "single.exr"]);
+    let tiles = ["0,0,16,32", "16,0,32,32", "32,0,48,32"];
+    for (i, tile) in tiles.iter().enumerate() {
+        render(&["--pilot", "--tile", tile, "-o", &format!("pilots/{i}.exr")]);
+    }
+    render(&["--pilot", "-o", "one.exr"]);
+    folder.succeed(&["merge", "-o", "merged.exr", "pilots"]);
+    folder.succeed(&["merge", "--as-part", "-o", "as-part.exr", "pilots"]);
+    folder.succeed(&["merge", "--as-part", "-o", "group.exr", "pilots/0.exr", "pilots/1.exr"]);
+    folder.succeed(&["merge", "-o", "groups.exr", "group.exr", "pilots/2.exr"]);
+    folder.succeed(&["merge", "-o", "again.exr", "as-part.exr"]);
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    for pilot in ["one.exr", "merged.exr", "as-part.exr", "groups.exr", "again.exr"] {
+        for (i, tile) in tiles.iter().enumerate() {
+            render(&["--after", pilot, "--tile", tile, "-o", &format!("{pilot}.parts/{i}.exr")]);
+        }
+        folder.succeed(&["merge", "-o", "whole.exr", &format!("{pilot}.parts")]);
+        assert!(read("whole.exr") == read("single.exr") && read("whole.png") == read("single.png"), "{pilot}");
+    }
+    let error = folder.fail(&["merge", "-o", "more.exr", "merged.exr"]);
+    assert!(error.contains("merged.exr: is a whole pilot already, for --after"), "{error}");
+}
+
+/// No input of a part or a merge is written to, by whatever name it is given.
+#[test]
+fn parts_that_are_read_are_not_overwritten() {
+    let folder = Folder::new();
+    let image = ["render", "quads", "--size", "32x16", "--spp", "64"];
+    folder.succeed(&[&image[..], &["--pilot", "-o", "parts/pilot.exr"]].concat());
+    fs::hard_link(folder.path("parts/pilot.exr"), folder.path("same.exr")).unwrap();
+    let absolute = folder.path("parts/pilot.exr");
+    let before = fs::read(&absolute).unwrap();
+    let mut names = vec!["parts/pilot.exr", "parts/../parts/pilot.exr", absolute.to_str().unwrap(), "same.exr"];
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("parts/pilot.exr", folder.path("link.exr")).unwrap();
+        names.push("link.exr");
+    }
+    let all = folder.names();
+    let kept = || fs::read(&absolute).unwrap() == before && folder.names() == all;
+    for name in &names {
+        for (pilot, output) in [("parts/pilot.exr", name), (*name, &"parts/pilot.exr")] {
+            let error = folder.fail(&[&image[..], &["--after", pilot, "-o", output]].concat());
+            assert!(error.contains(&format!("{output}: the pilot is read from this file")) && kept(), "{error}");
+        }
+        let error = folder.fail(&["merge", "-o", "parts/pilot.exr", name]);
+        assert!(error.contains("this file is an input: choose another name with -o") && kept(), "{error}");
+    }
+    // a part among those of a folder, and a part whose name is that of the PNG
+    let error = folder.fail(&["merge", "--as-part", "-o", "parts/pilot.exr", "parts"]);
+    assert!(error.contains("parts/pilot.exr: this file is an input") && kept(), "{error}");
+    fs::copy(&absolute, folder.path("a.png")).unwrap();
+    assert!(folder.fail(&["merge", "-o", "a.exr", "a.png"]).contains("a.png: this file is an input"));
+    assert!(fs::read(folder.path("a.png")).unwrap() == before);
+    // an image among its parts is no part of itself
+    fs::remove_file(folder.path("a.png")).unwrap();
+    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "4", "--range", "0:4", "-o", "own/part.exr"]);
+    folder.succeed(&["merge", "-o", "own/image.exr", "own"]);
+    folder.succeed(&["merge", "-o", "own/image.exr", "own"]);
+    // files of the scene
+    let text = super::scene("Include \"more.exr\"");
+    folder.write("scene.exr", text);
+    folder.write("more.exr", "");
+    for name in ["scene.exr", "more.exr"] {
+        let error = folder.fail(&["render", "scene.exr", "--tile", "0,0,8,8", "--spp", "4", "-o", name]);
+        assert!(error.contains(&format!("{name}: the scene has been read from this file")), "{error}");
+    }
 }

@@ -145,5 +145,32 @@ fn the_default_sampler_knows_its_error() {
     let picture = image::read_exr(&folder.path("a.exr")).unwrap();
     let mean = |values: &[[f32; 3]]| values.iter().flatten().map(|&x| f64::from(x)).sum::<f64>() / (3.0 * 64.0 * 64.0);
     let expected = mean(&picture.variance.unwrap()).sqrt() / mean(&picture.radiance);
-    assert!((report["error"].as_f64().unwrap() / expected - 1.0).abs() < 1e-9, "{report}");
+    let [error, systematic] = ["error", "systematic"].map(|key| report[key].as_f64().unwrap());
+    assert!((error / expected.hypot(systematic) - 1.0).abs() < 1e-9, "{report}");
+    // that of closed forms is 1e-5 of the light that would arrive if nothing hid it
+    assert_eq!(report["chosen"], "analytic");
+    assert!((1e-6..5e-5).contains(&systematic), "{report}");
+}
+
+/// The error of closed forms does not fall with samples, and images say what it is at most.
+#[test]
+fn closed_forms_have_an_error_of_their_own() {
+    let folder = Folder::new();
+    fn render<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        [&["render", "quads", "--size", "64x64", "-o", "a.exr"], more].concat()
+    }
+    let error = folder.fail(&render(&["--error", "1e-6"]));
+    assert!(error.contains("no number of samples reaches an error of 1e-6: closed forms may have one of"), "{error}");
+    assert!(folder.names().is_empty());
+    let text = folder.succeed(&render(&["--error", "1e-6", "--time", "0.2"]));
+    assert!(text.contains("bounds that of closed forms\nno time suffices for an error of"), "{text}");
+    // samples have none
+    let text = folder.succeed(&render(&["--spp", "64", "--technique", "solid-angle"]));
+    assert!(text.contains(" (relative RMS)\n"), "{text}");
+    let report = |more: &[&str]| json(&folder.succeed(&render(&[&["--json"], more].concat())));
+    assert_eq!(report(&["--spp", "64", "--technique", "solid-angle"])["systematic"], 0.0);
+    // nor does it depend on samples, but for the mean to which it is relative
+    let [few, passes] =
+        [&["--spp", "64"][..], &["--error", "0.05%"]].map(|more| report(more)["systematic"].as_f64().unwrap());
+    assert!((few / passes - 1.0).abs() < 0.01, "{few} {passes}");
 }

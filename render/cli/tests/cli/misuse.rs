@@ -1,0 +1,296 @@
+//! Misuse is answered by a message that names what is wrong, and where.
+
+use super::{Folder, faulty, scene};
+use std::fs;
+use std::process::{Command, Stdio};
+
+/// A negative number is a value, not an option.
+#[test]
+fn negative_numbers_are_named_with_their_option() {
+    let folder = Folder::new();
+    for (command, option, value, valid) in [
+        ("render", "--spp", "-1", "from 1 to 4194304"),
+        ("render", "--spp", "1.5", "from 1 to 4194304"),
+        ("render", "--depth", "-1", "from 0 to 1024"),
+        ("render", "--sets", "-1", "1, 2 or 4"),
+        ("render", "--size", "-8x8", "from 1 to 65536"),
+        ("render", "--seed", "-1", "from 0 to 18446744073709551615"),
+        ("render", "--threads", "-2", "0 for one thread per core"),
+        ("render", "--repeat", "-1", "from 1 to 1000000"),
+        ("render", "--time", "-1", "greater than 0"),
+        ("render", "--error", "-1%", "from 1e-6 to 1"),
+        ("render", "--tile", "-16,0,16,16", "four numbers"),
+        ("render", "--range", "-1:4", "such as 0:512"),
+        ("render", "--sampler", "-sobol", "[possible values: "),
+        ("plan", "--tasks", "-1", "from 1 to 1000000"),
+        ("plan", "--ranges", "-1", "from 1 to 4194304"),
+        ("selftest", "--side", "-1", "from 1 to 4096"),
+        ("chart", "--spp", "-1", "from 1 to 4194304"),
+        ("chart", "--replicates", "-1", "from 1 to 10000"),
+        ("chart", "--time-limit", "-1", "from 0 to"),
+        ("chart", "--reference-error", "-1", "at least 0"),
+        ("atlas", "--threads", "-1", "0 for one thread per core"),
+    ] {
+        let words: &[&str] = if command == "atlas" { &[command] } else { &[command, "quads"] };
+        let error = folder.fail(&[words, &[option, value]].concat());
+        let first = error.lines().next().unwrap();
+        assert!(first.contains(option) && first.contains(value), "{option} {value}: {error}");
+        assert!(error.contains(valid) && !error.contains("'-- "), "{option} {value}: {error}");
+    }
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+}
+
+#[test]
+fn there_is_one_limit_of_samples() {
+    let folder = Folder::new();
+    let sampler = |samples: &str| scene("").replace("WorldBegin", &format!("Sampler \"sobol\" {samples}\nWorldBegin"));
+    let limit = "must be from 1 to 4194304";
+    let more = [
+        ("\"integer pixelsamples\" 4194305", "4194305 samples per pixel: "),
+        ("\"integer pixelsamples\" 16777216", "16777216 samples per pixel: "),
+        ("\"integer pixelsamples\" 0", "0 samples per pixel: "),
+    ];
+    for (samples, what) in more {
+        faulty(&folder, "many.pbrt", sampler(samples), &["many.pbrt:2: ", what, limit]);
+    }
+    let grid = sampler("\"integer xsamples\" 4096 \"integer ysamples\" 4096").replace("sobol", "stratified");
+    faulty(&folder, "many.pbrt", grid, &["many.pbrt:2: ", "16777216 samples per pixel: ", limit]);
+    assert!(folder.fail(&["render", "quads", "--spp", "4194305"]).contains("must be a whole number from 1 to 4194304"));
+    folder.write("most.pbrt", sampler("\"integer pixelsamples\" 4194304"));
+    let plan = folder.run(&["plan", "most.pbrt", "--tasks", "1"]);
+    assert!(plan.status.success(), "{plan:?}");
+}
+
+#[test]
+fn a_byte_order_mark_is_no_directive() {
+    let folder = Folder::new();
+    let text = scene("Include \"more.pbrt\"");
+    folder.write("plain.pbrt", &text);
+    folder.write("marked.pbrt", format!("\u{feff}{text}"));
+    folder.write("more.pbrt", "\u{feff}# included\n");
+    for name in ["plain", "marked"] {
+        folder.succeed(&["render", &format!("{name}.pbrt")]);
+    }
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert!(read("plain.exr") == read("marked.exr"));
+    // the line is right nevertheless
+    faulty(&folder, "line.pbrt", format!("\u{feff}\n{}", scene("Sahpe")), &["line.pbrt:6: unknown directive Sahpe"]);
+    // in the middle, as in files that were joined
+    faulty(&folder, "joined.pbrt", scene("\u{feff}Shape"), &["joined.pbrt:5: unknown directive \\u{feff}Shape"]);
+    let wide = |mark: &[u16], big: bool| -> Vec<u8> {
+        let units = mark.iter().copied().chain(text.encode_utf16());
+        units.flat_map(|unit| if big { unit.to_be_bytes() } else { unit.to_le_bytes() }).collect()
+    };
+    for big in [false, true] {
+        let what = "the file begins with the byte order mark of UTF-16: save it as UTF-8";
+        faulty(&folder, "wide.pbrt", wide(&[0xfeff], big), &["wide.pbrt:1: ", what]);
+        faulty(&folder, "wide.pbrt", wide(&[], big), &["wide.pbrt:1: ", "as UTF-16 does: save it as UTF-8"]);
+    }
+}
+
+#[test]
+fn a_cycle_of_files_is_named() {
+    let folder = Folder::new();
+    let own = "own.pbrt:5: Include \"own.pbrt\": the file includes itself: own.pbrt:5 includes \"own.pbrt\"\n";
+    faulty(&folder, "own.pbrt", scene("Include \"own.pbrt\""), &[own]);
+    folder.write("b.pbrt", "\nInclude \"c.pbrt\"");
+    folder.write("c.pbrt", "Include \"./a.pbrt\"");
+    let all = "c.pbrt:1: Include \"./a.pbrt\": the file includes itself: a.pbrt:5 includes \"b.pbrt\", \
+               b.pbrt:2 includes \"c.pbrt\", c.pbrt:1 includes \"./a.pbrt\"\n";
+    faulty(&folder, "a.pbrt", scene("Include \"b.pbrt\""), &[all]);
+    // a cycle that does not lead back to the scene
+    folder.write("c.pbrt", "Include \"b.pbrt\"");
+    let inner = "c.pbrt:1: Include \"b.pbrt\": the file includes itself: b.pbrt:2 includes \"c.pbrt\", c.pbrt:1 includes \"b.pbrt\"\n";
+    faulty(&folder, "a.pbrt", scene("Include \"b.pbrt\""), &[inner]);
+    // the same file twice is no cycle
+    folder.write("c.pbrt", "");
+    folder.write("twice.pbrt", scene("Include \"c.pbrt\" Include \"b.pbrt\" Include \"c.pbrt\""));
+    folder.succeed(&["render", "twice.pbrt"]);
+}
+
+#[test]
+fn a_light_that_is_too_bright_is_named() {
+    let folder = Folder::new();
+    let bright = |radiance: &str| scene("").replace("[2 2 2]", &format!("[{radiance} 2 2]"));
+    let most = "at most 4e37 is supported";
+    faulty(&folder, "light.pbrt", bright("1e38"), &["light.pbrt:3: ", "the radiance [1e38, 2.0, 2.0]", most]);
+    let sky = scene("LightSource \"infinite\" \"rgb L\" [1 1e38 1]");
+    faulty(&folder, "sky.pbrt", sky, &["sky.pbrt:5: ", "[1.0, 1e38, 1.0]", most]);
+
+    let render = |more: &[&str]| {
+        let output = folder.run(&[&["render", "light.pbrt"], more].concat());
+        let [out, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        (output.status.code(), out, error)
+    };
+    // the image is right, but its variance is too large
+    folder.write("light.pbrt", bright("1e30"));
+    let (code, out, error) = render(&["--spp", "16"]);
+    assert_eq!(code, Some(0), "{error}");
+    assert!(
+        error.contains("warning: light.pbrt:3: ") && error.contains("so bright that variances may overflow"),
+        "{error}"
+    );
+    let said = "estimated error not known, because the variance of pixel (";
+    assert!(out.contains(said) && out.contains("a light is too bright or too near"), "{out}");
+    let (code, _, error) = render(&["--error", "1%"]);
+    assert!(code == Some(2) && error.contains("is not known, because the variance of pixel ("), "{error}");
+    // so near that a pixel is infinite
+    let near = scene("LightSource \"point\" \"rgb I\" [1e38 1 1] \"point3 from\" [0 0.1 0]");
+    folder.write("light.pbrt", near);
+    for more in [&["--spp", "64", "--size", "32x32"][..], &["--time", "0.3", "--size", "32x32"]] {
+        let (code, out, error) = render(more);
+        assert_eq!(code, Some(0), "{error}");
+        assert!(
+            out.contains("not known, because pixel (") && out.contains(") is not finite: a light is too bright"),
+            "{out}"
+        );
+    }
+    let (_, out, _) = render(&["--spp", "1"]);
+    assert!(out.contains("pixel (") || out.contains("single set"), "{out}");
+    // images that cannot be compared do not agree
+    let output = folder.run(&["selftest", "light.pbrt", "--side", "8", "--spp", "16"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.code() == Some(1) && text.contains("NOT all agree"), "{text}");
+    // what was right stays so
+    folder.write("light.pbrt", bright("1e17"));
+    assert!(folder.succeed(&["render", "light.pbrt", "--spp", "16"]).contains(" % (relative RMS)"));
+    assert!(
+        folder
+            .succeed(&["render", "quads", "--size", "8x8", "--spp", "1"])
+            .contains("a pixel is a single set of samples")
+    );
+}
+
+/// Scenes may have any name that the system allows, as images may.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_need_not_be_text() {
+    use std::ffi::{OsStr, OsString};
+    use std::os::unix::ffi::{OsStrExt, OsStringExt};
+    let folder = Folder::new();
+    let path = |name: &[u8]| folder.0.join(OsStr::from_bytes(name));
+    let run = |words: &[&[u8]]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+        command.current_dir(&folder.0).args(words.iter().map(|word| OsString::from_vec(word.to_vec())));
+        let output = command.output().unwrap();
+        (output.status.code(), output.stdout, String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    for name in [&b"a\xff.pbrt"[..], b"a\xfe.pbrt"] {
+        fs::write(path(name), scene("")).unwrap();
+        let (code, out, error) = run(&[b"render", name, b"--json"]);
+        assert_eq!(code, Some(0), "{error}");
+        super::json(&String::from_utf8(out).unwrap());
+    }
+    // each has an image of its own
+    assert!([&b"a\xff.exr"[..], b"a\xfe.exr", b"a\xff.png", b"a\xfe.png"].iter().all(|name| path(name).is_file()));
+    let single = fs::read(path(b"a\xff.exr")).unwrap();
+    // a plan that a shell runs
+    let (code, plan, error) = run(&[b"plan", b"a\xff.pbrt", b"--tasks", b"1", b"-o", b"it's \xfd.exr"]);
+    assert_eq!(code, Some(0), "{error}");
+    fs::write(path(b"plan"), plan).unwrap();
+    let shell = Command::new("sh").current_dir(&folder.0).args(["-e", "plan"]).output().unwrap();
+    assert!(shell.status.success(), "{shell:?}");
+    assert!(fs::read(path(b"it's \xfd.exr")).unwrap() == single);
+    let (code, _, error) = run(&[b"plan", b"a\xff.pbrt", b"-o", b"two\nlines.exr"]);
+    assert!(code == Some(2) && error.contains("line break"), "{error}");
+    // messages, and the other commands that take scenes
+    let (code, _, error) = run(&[b"render", b"b\xff.pbrt"]);
+    assert!(code == Some(2) && error.contains("cannot read \"b\u{fffd}.pbrt\""), "{error}");
+    let (code, _, error) = run(&[b"selftest", b"a\xff.pbrt", b"--side", b"16", b"--spp", b"64"]);
+    assert_eq!(code, Some(0), "{error}");
+    let (code, _, error) = run(&[b"chart", b"b\xff.pbrt", b"-o", b"c\xff"]);
+    assert!(code == Some(2) && error.contains("b\u{fffd}.pbrt"), "{error}");
+}
+
+/// What cannot be printed is reported as such; a reader that leaves ends the program quietly, but not successfully.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_named() {
+    let folder = Folder::new();
+    let image = ["render", "quads", "--size", "8x8", "--spp", "4", "-o", "a.exr"];
+    folder.succeed(&image);
+    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "4", "--range", "0:4", "-o", "part.exr"]);
+    let full = "standard output: cannot write: No space left on device";
+    for (arguments, more) in [
+        (&["list"][..], ""),
+        (&["plan", "quads", "--spp", "4"], ""),
+        (&image, "; a.exr and a.png were written"),
+        (&[&image[..], &["--json"]].concat(), "; a.exr and a.png were written"),
+        (&["compare", "a.exr", "a.exr"], ""),
+        (&["compare", "a.exr", "a.exr", "--json"], ""),
+        (&["merge", "-o", "b.exr", "part.exr"], ""),
+        (&["selftest", "sphere-light", "--side", "2", "--spp", "2"], ""),
+    ] {
+        let to = |out: Stdio| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+            command.current_dir(&folder.0).args(arguments).stdout(out).stderr(Stdio::piped()).spawn().unwrap()
+        };
+        let device = fs::File::options().write(true).open("/dev/full").unwrap();
+        let output = to(device.into()).wait_with_output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {error}");
+        assert!(error.contains(full) && error.trim_end().ends_with(more), "{arguments:?}: {error}");
+        // a pipe that nobody reads
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = to(writer.into()).wait_with_output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), &*error), (Some(141), ""), "{arguments:?}");
+    }
+}
+
+/// A log that is full loses its messages, but no image.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_error_loses_no_image() {
+    let folder = Folder::new();
+    folder.write("warned.pbrt", scene("").replace("WorldBegin", "Accelerator \"bvh\"\nWorldBegin"));
+    let run = |arguments: &[&str]| {
+        let device = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+        command.current_dir(&folder.0).args(arguments).stderr(device).stdout(Stdio::null()).status().unwrap().code()
+    };
+    assert_eq!(run(&["render", "warned.pbrt", "--threads", "100000"]), Some(0));
+    assert_eq!(folder.names(), ["warned.exr", "warned.pbrt", "warned.png"]);
+    assert_eq!(run(&["render", "none.pbrt"]), Some(2));
+    assert_eq!(run(&["render", "--spp", "-1"]), Some(2));
+}
+
+#[test]
+fn files_that_are_no_images_or_folders_are_named() {
+    let folder = Folder::new();
+    folder.write("file.exr", "");
+    let error = folder.fail(&["compare", "file.exr", "file.exr"]);
+    assert!(error.contains("file.exr: not a valid EXR image: it is cut off"), "{error}");
+    for command in [&["figure", "vignetting"][..], &["chart", "quads"], &["atlas", "--quick", "--shape", "segment"]] {
+        let error = folder.fail(&[command, &["-o", "file.exr"]].concat());
+        assert!(error.contains("file.exr: cannot make this folder: a file has this name"), "{error}");
+    }
+    let error = folder.fail(&["plan", "quads", "-o", "a.exr", "--parts", "file.exr"]);
+    assert!(error.contains("--parts file.exr: this is a file, not a folder"), "{error}");
+    let film = scene("").replace("Film \"rgb\"", "Film \"rgb\" \"string filename\" \"nowhere/a.png\"");
+    faulty(&folder, "film.pbrt", "", &["film.pbrt:1: the scene has no Camera"]);
+    folder.write("film.pbrt", film);
+    let error = folder.fail(&["render", "film.pbrt"]);
+    assert!(
+        error.contains("nowhere does not exist") && error.contains("film asks for \"nowhere/a.png\"; -o"),
+        "{error}"
+    );
+    // neither blocks nor reads for ever
+    #[cfg(unix)]
+    assert!(folder.fail(&["compare", "/dev/zero", "file.exr"]).contains("/dev/zero: cannot read: not a regular file"));
+}
+
+#[test]
+fn numbers_in_messages_are_short() {
+    let folder = Folder::new();
+    for (last, value) in [
+        ("Shape \"sphere\" \"float radius\" 1e-300", "not 1e-300 ("),
+        ("Shape \"sphere\" \"float radius\" -2.5", "not -2.5 ("),
+        ("AreaLightSource \"diffuse\" \"float scale\" -1e300", "not -1e300\n"),
+        ("LightSource \"spot\" \"float coneangle\" 1e300", "not 1e300\n"),
+        ("Material \"diffuse\" \"rgb reflectance\" [0 -1e-200 0]", "not -1e-200\n"),
+    ] {
+        faulty(&folder, "number.pbrt", scene(last), &["number.pbrt:5: ", value]);
+    }
+}
