@@ -333,7 +333,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 16] = [
     ("tests", &[], &["etendue", "etendue-bits", "etendue-oracle", "etendue-properties"]),
     ("benches/routines", &["etendue", "etendue-render"], &[]),
     ("benches", &[], &["etendue", "etendue-laboratory", "etendue-render", "etendue-routines"]),
-    ("fuzz/bodies", &["etendue-c", "etendue-oracle", "etendue-render"], &[]),
+    ("fuzz/bodies", &["etendue", "etendue-c", "etendue-oracle", "etendue-render"], &[]),
     ("fuzz", &["etendue-fuzz-bodies", "etendue-properties"], &[]),
 ];
 
@@ -436,7 +436,7 @@ fn old_names_are_gone() {
         "mod planted",
         "mod campaign",
         "uter product",
-        "is told",
+        "s told",
         "hat which",
         "where it is none",
         "Of each:",
