@@ -71,13 +71,13 @@ pub(crate) fn reciprocal_or_zero<R: Real>(solid_angle: R) -> R {
     (R::lit(1.0) / R::blend(some, solid_angle, R::lit(1.0))).keep(some)
 }
 
-/// Raises the unit vector `w` to a cosine of four units of its rounding to the unit vector `normal`, if rounding has taken it lower.
+/// Raises the unit vector `w` to a cosine of three units of its rounding to the unit vector `normal`, if rounding has taken it lower.
 ///
 /// The sample of a shape above the horizon may be so low that rounding takes its direction below, where the pdf is 0. The pdf is
 /// proportional to the cosine, so an estimate of irradiance does not change where the direction does.
 #[inline(always)]
 pub(crate) fn above_horizon<R: Real>(w: Vec3<R>, normal: Vec3<R>) -> Vec3<R> {
-    let least = R::lit(if double::<R>() { 4.0 / 9_007_199_254_740_992.0 } else { 4.0 / 16_777_216.0 });
+    let least = R::lit(if double::<R>() { 3.0 / 9_007_199_254_740_992.0 } else { 3.0 / 16_777_216.0 });
     let cos = w.dot(normal);
     // what a degenerate shape returns may be 0, or far below
     let low = cos.abs().lt(least) & w.max_abs().gt(R::lit(0.5));

@@ -47,7 +47,7 @@ lanewise! {
     ///   of its distance has 1.6e−6, and 8e−14 over that fraction. Direction 4e−7, besides 4 steps of 2⁻²⁴ in u; where the
     ///   horizon touches the cap, the direction has the slope of a square root there and may be off by 1e−3 of the size. The
     ///   inverse leads back to the direction, except where the axis is within 4e−7 of the horizon: u may be off by 3e−3 there.
-    ///   Directions have a cosine of at least 4 ulp, so that none is lost below the horizon: a cap that rises less than 1e−6 above
+    ///   Directions have a cosine of at least 3 × 2⁻²⁴, so that none is lost below the horizon: a cap that rises less than 1e−6 above
     ///   it is sampled there by rounding, with an estimate without bias, to 1e−5.
     /// - Source: Ureña and Georgiev, "Stratified Sampling of Projected Spherical Caps", EGSR 2018, for the geometry; the two
     ///   maps of the cut cap and the forms without cancellation are derived here.
