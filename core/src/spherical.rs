@@ -40,7 +40,7 @@ mod triangle;
 pub use cap::SphericalCap;
 pub use cosine_warped::CosineWarped;
 pub use disk::SphericalDisk;
-pub(crate) use double_word::{compensated_dot, compensated_height, cross_dw};
+pub(crate) use double_word::{compensated_dot, compensated_height, cross_dw, height_dw, sum_dw};
 pub use line::{ProjectedSegment, SphericalSegment};
 pub use parallelogram::SphericalParallelogram;
 pub use polygon::SphericalPolygon;

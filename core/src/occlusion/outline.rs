@@ -1,6 +1,6 @@
 //! Convex polygons as seen from a point, and what planes leave of them.
 
-use super::{SMALL, TooMany};
+use super::{COMPACT, TooMany};
 use crate::math::{double, polynomial, rsqrt};
 use crate::real::{Mask, Real};
 use crate::vector::Vec3;
@@ -8,7 +8,7 @@ use crate::vector::Vec3;
 /// A convex polygon with up to `MOST` corners. Corners may coincide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outline<R: Real, const MOST: usize> {
-    /// The point from which corners are measured, relative to the point of each lane: a corner of the light, so that the rounding of a corner
+    /// The point from which corners are measured, relative to the point of each lane: the middle of the light, so that the rounding of a corner
     /// is relative to the size of the light, not to its distance.
     base: Vec3<R>,
     corners: [Vec3<R>; MOST],
@@ -23,38 +23,60 @@ impl<R: Real, const MOST: usize> Default for Outline<R, MOST> {
     }
 }
 
-/// (θ/sinθ − 1)/sin²θ in powers of sin²θ: the series of the arc sine. The terms left out are less than 1e−15 up to 0.01.
-const ANGLE_OVER_SINE: [f64; 7] = [
-    1.0 / 6.0,
-    3.0 / 40.0,
-    15.0 / 336.0,
-    105.0 / 3456.0,
-    945.0 / 42_240.0,
-    10_395.0 / 599_040.0,
-    135_135.0 / 9_676_800.0,
+/// (θ/sinθ − 1)/z in powers of z = 1 − cosθ: 2ⁿ(n!)²/(2n+1)! for n = 1 to 10.
+const EXCESS: [f64; 10] = [
+    1.0 / 3.0,
+    2.0 / 15.0,
+    2.0 / 35.0,
+    8.0 / 315.0,
+    8.0 / 693.0,
+    16.0 / 3003.0,
+    16.0 / 6435.0,
+    128.0 / 109_395.0,
+    128.0 / 230_945.0,
+    256.0 / 969_969.0,
 ];
+
+/// θ/sinθ − 1 from z = 1 − cosθ, up to a right angle. The error is relative to z.
+#[inline(always)]
+fn excess<R: Real>(z: R) -> R {
+    let (half, one) = (R::lit(0.5), R::lit(1.0));
+    // the terms left out are less than 1e−8 z up to this limit, and 1e−16 z in double precision
+    let limit = R::lit(if double::<R>() { 0.06 } else { 0.2 });
+    let near = |z: R| {
+        z * if double::<R>() { polynomial(z, EXCESS) } else { polynomial(z, [0, 1, 2, 3, 4, 5, 6].map(|i| EXCESS[i])) }
+    };
+    let is_near = z.lt(limit);
+    if is_near.all() {
+        return near(z);
+    }
+    // with the half θ′ of the angle, θ/sinθ is θ′/sinθ′ over cosθ′
+    let halved = |z: R| {
+        let cos = z.mul_add(-half, one).greater(half).sqrt();
+        (half * z / (one + cos), one / cos)
+    };
+    let (first, over_first) = halved(z);
+    let far = if double::<R>() {
+        let (second, over_second) = halved(first);
+        (near(second) + second) * over_second
+    } else {
+        near(first)
+    };
+    R::blend(is_near, near(z), (far + first) * over_first)
+}
 
 /// θ/sinθ from cosθ and sin²θ.
 #[inline(always)]
 fn angle_over_sine<R: Real>(cos: R, sin_squared: R) -> R {
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
-    let cos = cos.clamped(-one, one);
-    // Σ 2ⁿ(n!)²/(2n+1)! zⁿ with z = 1 − cosθ; the terms left out are less than 1e−8 here, and 1e−15 in double precision
-    let least = if double::<R>() { 0.995 } else { 0.8 };
-    let terms = [1.0, 1.0 / 3.0, 2.0 / 15.0, 2.0 / 35.0, 8.0 / 315.0, 8.0 / 693.0, 16.0 / 3003.0, 16.0 / 6435.0];
-    let near = polynomial(one - cos, terms);
-    let is_near = cos.gt(R::lit(least));
-    if is_near.all() {
-        return near;
+    let one = R::lit(1.0);
+    let ratio = one + excess(one - cos.abs().lesser(one));
+    let obtuse = cos.lt(R::lit(0.0));
+    if !obtuse.any() {
+        return ratio;
     }
-    // the ratio is a smooth function of the cosine up to a right angle; beyond, only the sine keeps the digits of an edge across the point
-    let square = R::blend(cos.lt(zero), sin_squared, (one - cos) * (one + cos)).greater(R::lit(1e-30));
-    let mut angle = cos.acos();
-    let across = cos.lt(R::lit(-0.9));
-    if across.any() {
-        angle = R::blend(across, sin_squared.sqrt().atan2(cos), angle);
-    }
-    R::blend(is_near, near, angle * rsqrt(square))
+    // only the sine keeps the digits of an edge across the point
+    let rest = R::lit(core::f64::consts::PI) * rsqrt(sin_squared.greater(R::lit(1e-30))) - ratio;
+    R::blend(obtuse, rest, ratio)
 }
 
 impl<R: Real, const MOST: usize> Outline<R, MOST> {
@@ -91,9 +113,9 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     /// lie on the plane, as those of neighbours in a mesh do: only those in the place that is farthest outside are clipped.
     #[inline]
     pub(super) fn clip(&mut self, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
-        self.clip_in(R::Mask::splat(true), normal, least)
+        self.clip_in(R::Mask::splat(true), normal, least - self.base.dot(normal))
     }
-    /// Clips in these lanes only.
+    /// Clips in these lanes only, and keeps the part where normal · (x − base) ≥ `least`.
     #[inline]
     pub(super) fn clip_in(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
         // unrolled for each number of corners
@@ -111,20 +133,28 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
             _ => Err(TooMany),
         }
     }
-    /// Lanes in which any corner has normal · x ≥ 0, and in which all have.
+    /// Lanes in which any corner is inside of a plane that the base is above by `height`, and in which all are.
     #[inline(always)]
-    pub(super) fn inside(&self, normal: Vec3<R>) -> (R::Mask, R::Mask) {
-        let least = -self.base.dot(normal);
+    pub(super) fn inside(&self, normal: Vec3<R>, height: R) -> (R::Mask, R::Mask) {
         self.corners().iter().fold((R::Mask::splat(false), R::Mask::splat(true)), |(any, all), corner| {
-            let inside = corner.dot(normal).ge(least);
+            let inside = corner.dot(normal).ge(-height);
             (any | inside, all & inside)
         })
+    }
+    /// Lanes in which the plane cuts what is left, or nearly does: corners are less than `reserve` above it and below it.
+    #[inline(always)]
+    pub(super) fn crosses(&self, normal: Vec3<R>, height: R, reserve: R) -> R::Mask {
+        let (mut low, mut high) = (R::Mask::splat(false), R::Mask::splat(false));
+        for corner in self.corners() {
+            let above = corner.dot(normal) + height;
+            (low, high) = (low | above.lt(reserve), high | above.gt(-reserve));
+        }
+        self.some & low & high
     }
     /// Clips an outline of `N` corners.
     #[inline]
     fn clip_corners<const N: usize>(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
         let no = R::Mask::splat(false);
-        let least = least - self.base.dot(normal);
         let Some(corners) = self.corners.first_chunk_mut::<N>() else { return Err(TooMany) };
         let height = corners.map(|corner| corner.dot(normal) - least);
         let mut inside = height.map(|height| height.ge(R::lit(0.0)) | !lanes);
@@ -184,25 +214,26 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         let some = self.some;
         let most = self.corners().iter().fold(R::lit(0.0), |most, corner| most.greater(corner.length_squared()));
         let square = self.base.length_squared();
-        let small = most.lt(square * R::lit(SMALL)) & square.gt(R::lit(1e-30));
-        let part = if (small | !some).all() {
-            self.small_projected_solid_angle(normal)
-        } else if (small & some).any() {
-            R::blend(small, self.small_projected_solid_angle(normal), self.wide_projected_solid_angle(normal))
+        let compact = most.lt(square * R::lit(COMPACT)) & square.gt(R::lit(1e-30));
+        let part = if (compact | !some).all() {
+            self.compact_projected_solid_angle(normal)
+        } else if (compact & some).any() {
+            R::blend(compact, self.compact_projected_solid_angle(normal), self.wide_projected_solid_angle(normal))
         } else {
             self.wide_projected_solid_angle(normal)
         };
         part.keep(some)
     }
 
-    /// Ω⊥ of an outline that is small for its distance.
+    /// Ω⊥ of an outline whose corners are all nearer to the base than half of its distance.
     ///
     /// With xᵢ = x₀ + zᵢ, eᵢ = zᵢ₊₁ − zᵢ and kᵢ = θᵢ/(sinθᵢ |xᵢ| |xᵢ₊₁|) the sum is Σ kᵢ xᵢ × eᵢ. All its terms are of first order in the size
     /// of the outline, while the sum is of second order. Since Σ eᵢ = 0, any constant k̄ can be subtracted from the kᵢ of x₀ × Σ kᵢ eᵢ: with
     /// k̄ = |x₀|⁻² and kᵢ = k̄ (1 + κᵢ), the sum is k̄ (x₀ × Σ κᵢ eᵢ + Σ (1 + κᵢ) zᵢ × eᵢ), whose terms all are of second order. The small
-    /// numbers κᵢ come from small numbers: 1 − |x₀|/|xᵢ| from |xᵢ|²/|x₀|² − 1 = (2 x₀ + zᵢ) · zᵢ / |x₀|², and θ/sinθ − 1 from sin²θ.
+    /// numbers κᵢ come from small numbers: 1 − |x₀|/|xᵢ| from |xᵢ|²/|x₀|² − 1 = (2 x₀ + zᵢ) · zᵢ / |x₀|², and θ/sinθ − 1 from
+    /// 1 − cosθ = (|eᵢ|² − (|xᵢ₊₁| − |xᵢ|)²) / (2 |xᵢ| |xᵢ₊₁|).
     #[inline(always)]
-    fn small_projected_solid_angle(&self, normal: Vec3<R>) -> R {
+    fn compact_projected_solid_angle(&self, normal: Vec3<R>) -> R {
         let (one, base) = (R::lit(1.0), self.base);
         let square = base.length_squared();
         let scale = one / R::blend(square.gt(R::lit(1e-30)), square, one);
@@ -210,29 +241,27 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
             let of = |a: R, b: R, c: R, d: R| a.mul_add(b, -(c * d));
             Vec3::new(of(a.y, b.z, a.z, b.y), of(a.z, b.x, a.x, b.z), of(a.x, b.y, a.y, b.x))
         };
-        // |x₀|/|x| and 1 − |x₀|/|x|, from |x|²/|x₀|² − 1
+        // |x|/|x₀|, |x₀|/|x| and 1 − |x₀|/|x|, from |x|²/|x₀|² − 1
         let lengths = |z: Vec3<R>| {
             let longer = (base + base + z).dot(z) * scale;
-            let ratio = (one + longer).greater(R::lit(0.5));
-            let root = ratio.sqrt();
+            let root = (one + longer).greater(R::lit(0.2)).sqrt();
             let over = one / (root * (one + root));
-            (over * (one + root), longer * over)
+            (root, over * (one + root), longer * over)
         };
         let corners = self.corners();
         let mut from = corners[corners.len() - 1];
-        let (mut near_from, mut less_from) = lengths(from);
+        let (mut far_from, mut near_from, mut less_from) = lengths(from);
         let (mut sum, mut area) = (Vec3::default(), Vec3::default());
         for &to in corners {
-            let (near_to, less_to) = lengths(to);
+            let (far_to, near_to, less_to) = lengths(to);
             let edge = to - from;
             let near = near_from * near_to;
-            let sine_squared = plain_cross(base + from, edge).length_squared() * (near * scale) * (near * scale);
-            // θ/sinθ − 1
-            let more = sine_squared * polynomial(sine_squared, ANGLE_OVER_SINE);
-            let kappa = more * near - (less_from + less_to - less_from * less_to);
+            let farther = far_to - far_from;
+            let versine = edge.length_squared().mul_add(scale, -(farther * farther)) * near * R::lit(0.5);
+            let kappa = excess(versine) * near - (less_from + less_to - less_from * less_to);
             sum += edge * kappa;
             area += plain_cross(from, edge) * (one + kappa);
-            (from, near_from, less_from) = (to, near_to, less_to);
+            (from, far_from, near_from, less_from) = (to, far_to, near_to, less_to);
         }
         (normal.dot(plain_cross(base, sum) + area) * (R::lit(0.5) * scale)).abs()
     }
