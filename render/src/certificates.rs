@@ -21,6 +21,7 @@ use crate::surfaces::Surfaces;
 pub use blockers::Blocker;
 use blockers::Candidate;
 pub use bodies::Bodies;
+use etendue::f64x4;
 use etendue::occlusion::Occlusion;
 pub use patch::{Patch, Pyramid, Viewer};
 use precision::Behind;
@@ -62,7 +63,7 @@ pub struct Certifier<'a> {
     met: Vec<(u32, bool)>,
     blockers: Vec<Blocker>,
     /// For lights without blockers.
-    occlusion: Box<Occlusion<f64>>,
+    occlusion: Box<Occlusion<f64x4>>,
 }
 
 impl<'a> Certifier<'a> {

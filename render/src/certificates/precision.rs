@@ -3,7 +3,8 @@
 use super::hull::{V64, unit};
 use super::patch::Patch;
 use super::shaft::{Form, Lamp};
-use etendue::occlusion::{Convex, Occlusion, SMALL};
+use etendue::occlusion::{COMPACT, Convex, Occlusion};
+use etendue::{Real, Vec3, f64x4};
 use std::f64::consts::{PI, TAU};
 
 /// Greatest error that a closed form may have, relative to the light without blockers.
@@ -15,9 +16,9 @@ struct Errors {
     /// Relative to the angle around the light, for the light without blockers and for each blocker: of a flat light, and of a sphere.
     flat: f64,
     ball: f64,
-    /// Of a flat light that looks small, relative to the square of half of the angle around it, and for each blocker relative to that angle
+    /// Of a flat light that looks compact, relative to the square of half of the angle around it, and for each blocker relative to that angle
     /// times the cosine with the normal.
-    small: f64,
+    compact: f64,
     outline: f64,
     /// For each sphere that blocks, in steradians: what is outside of it moves to its rim, so that terms of the size of the sphere cancel,
     /// however small the light is.
@@ -26,9 +27,9 @@ struct Errors {
     whole: f64,
 }
 /// More than the greatest errors that `cargo test -p etendue-render --test certificates -- values --nocapture` prints.
-const SINGLE: Errors = Errors { flat: 2e-7, ball: 6e-7, small: 3e-6, outline: 2e-7, sphere: 4e-7, whole: 1e-7 };
+const SINGLE: Errors = Errors { flat: 1.2e-7, ball: 1.2e-7, compact: 1e-7, outline: 2e-9, sphere: 4e-7, whole: 1e-7 };
 /// Twice the greatest errors or more.
-const DOUBLE: Errors = Errors { flat: 1e-15, ball: 1e-15, small: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };
+const DOUBLE: Errors = Errors { flat: 1e-15, ball: 1e-15, compact: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };
 
 /// How a light that is known is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,29 +62,29 @@ struct Seen {
     around: f64,
     /// The greatest cosine of a direction to it with the normal.
     cosine: f64,
-    /// Whether it is flat and looks small.
-    small: bool,
+    /// Whether it is flat and looks compact.
+    compact: bool,
 }
 
 impl Seen {
     fn new(p: V64, normal: V64, all: f64, lamp: &Lamp) -> Self {
         let (hull, corners) = (&lamp.hull, lamp.hull.corners());
+        let middle = corners.iter().fold(V64::default(), |sum, &x| sum + x) * (1.0 / corners.len() as f64);
+        let distance = (middle - p).length();
         let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
-        let is_ball = matches!(lamp.form, Form::Ball);
-        let length = if is_ball { TAU * hull.radius } else { edges().map(|(&a, &b)| (b - a).length()).sum() };
-        let around = (length / ((hull.center - p).length() - hull.extent).max(0.0)).min(TAU);
-        let cosine = |&x: &V64| (unit(x - p).dot(normal) + hull.radius / (x - p).length()).min(1.0);
         // as the core decides, with a reserve for rounding
-        let square = (corners[0] - p).length_squared();
-        // what the horizon cuts is displaced
-        let is_above = |&x: &V64| unit(x - p).dot(normal) > 1e-2;
-        let is_near = |&x: &V64| (x - corners[0]).length_squared() < 0.99 * SMALL * square;
-        Self {
-            all,
-            around,
-            cosine: corners.iter().map(cosine).fold(0.0, f64::max),
-            small: !is_ball && corners.iter().all(|x| is_near(x) && is_above(x)),
-        }
+        let is_near = |&x: &V64| (x - middle).length_squared() < 0.99 * COMPACT * distance * distance;
+        let is_ball = matches!(lamp.form, Form::Ball);
+        let compact = !is_ball && corners.iter().all(is_near);
+        let around = if is_ball {
+            TAU * hull.radius / (distance - hull.extent).max(0.0)
+        } else if compact {
+            edges().map(|(&a, &b)| (b - a).length()).sum::<f64>() / distance
+        } else {
+            edges().map(|(&a, &b)| 2.0 * (0.5 * (unit(b - p) - unit(a - p)).length()).min(1.0).asin()).sum()
+        };
+        let cosine = |&x: &V64| (unit(x - p).dot(normal) + hull.radius / (x - p).length()).min(1.0);
+        Self { all, around: around.min(TAU), cosine: corners.iter().map(cosine).fold(0.0, f64::max), compact }
     }
     /// The error of a closed form.
     fn error(&self, errors: &Errors, is_ball: bool, behind: &Behind) -> f64 {
@@ -91,8 +92,8 @@ impl Seen {
         let rounding = if is_ball && behind.blockers == 0 {
             // a whole sphere has no cancellation, but the rounding of the normal counts where it is seen at a small angle
             errors.whole * around * around / (4.0 * PI)
-        } else if self.small {
-            errors.small * around * around / 4.0 + errors.outline * around * self.cosine * count
+        } else if self.compact {
+            errors.compact * around * around / 4.0 * (1.0 + count) + errors.outline * around * self.cosine * count
         } else {
             (if is_ball { errors.ball } else { errors.flat }) * around * count.max(1.0)
         };
@@ -107,7 +108,7 @@ impl Precision {
         lamp: &Lamp,
         light: &Convex<f32>,
         behind: &Behind,
-        occlusion: &mut Occlusion<f64>,
+        occlusion: &mut Occlusion<f64x4>,
     ) -> Self {
         let is_ball = matches!(lamp.form, Form::Ball);
         let normal = |p: V64| match (patch.ground, patch.ball) {
@@ -121,8 +122,16 @@ impl Precision {
         let points: [V64; 8] = std::array::from_fn(point);
         let normals = points.map(normal);
         let light = light.map(f64::from);
-        let all = |lane: usize| occlusion.visible(points[lane], normals[lane], &light, &[]).unwrap_or(0.0);
-        let all: [f64; 8] = std::array::from_fn(all);
+        let mut all = [0.0; 8];
+        for (half, all) in all.chunks_exact_mut(4).enumerate() {
+            let four = |of: &[V64; 8]| {
+                let axis = |k: fn(V64) -> f64| f64x4::from_fn(|lane| k(of[4 * half + lane]));
+                Vec3::new(axis(|v| v.x), axis(|v| v.y), axis(|v| v.z))
+            };
+            if let Some(visible) = occlusion.visible(four(&points), four(&normals), &light, &[]) {
+                all.copy_from_slice(&visible.to_array());
+            }
+        }
         let seen: [Seen; 8] = std::array::from_fn(|lane| Seen::new(points[lane], normals[lane], all[lane], lamp));
         let most = seen.iter().fold(0.0, |most: f64, seen| most.max(seen.all));
         let suffices = |errors: &Errors| {

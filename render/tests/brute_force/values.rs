@@ -60,9 +60,9 @@ pub(crate) struct Values {
     pub(crate) worst: f64,
     pub(crate) place: String,
     /// Numbers of points by their error relative to the angle around the light and the number of blockers, in powers of ten from 1e−17, for
-    /// polygons and with spheres, in single and double precision: whatever the certificate says.
-    errors: [[[u64; BINS]; 2]; 2],
-    most: [[f64; 2]; 2],
+    /// polygons, before a sphere, and behind spheres, in single and double precision: whatever the certificate says.
+    errors: [[[u64; BINS]; 2]; 3],
+    most: [[f64; 2]; 3],
 }
 
 const NAMES: [&str; 5] = ["lit", "lit in double", "dark", "blockers", "blockers in double"];
@@ -77,7 +77,7 @@ impl Values {
         self.unknown += other.unknown;
         self.untold += other.untold;
         self.partial += other.partial;
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        for (i, j) in (0..3).flat_map(|i| [(i, 0), (i, 1)]) {
             self.most[i][j] = self.most[i][j].max(other.most[i][j]);
             self.errors[i][j].iter_mut().zip(other.errors[i][j]).for_each(|(count, other)| *count += other);
         }
@@ -95,7 +95,9 @@ impl fmt::Display for Values {
         }
         write!(f, " | imprecise {}, crowded {}, unknown {}", self.imprecise, self.crowded, self.unknown)?;
         writeln!(f, " | points: {} in part, {} untold", self.partial, self.untold)?;
-        for (name, (errors, most)) in ["polygons", "spheres"].iter().zip(self.errors.iter().zip(self.most)) {
+        for (name, (errors, most)) in
+            ["polygons", "before a sphere", "behind spheres"].iter().zip(self.errors.iter().zip(self.most))
+        {
             for (precision, (errors, most)) in ["single", "double"].iter().zip(errors.iter().zip(most)) {
                 writeln!(f, "    {name}, {precision}: at most {most:.1e} of the angle; {errors:?}")?;
             }
@@ -208,9 +210,12 @@ impl World {
         };
         let truth = points.iter().map(|&(p, n)| self.truth(p, n, view.receiver, light));
         let truth: Vec<Truth> = truth.collect();
-        let most = truth.iter().fold(0.0_f64, |most, truth| most.max(truth.all));
+        // of what is compared, and of the corners of the patch
+        let corners = view.patch.normal().map(|n| view.patch.corners().map(move |p| (p, n)));
+        let corners = corners.into_iter().flatten().map(|(p, n)| self.truth(p, n, view.receiver, light).all);
+        let most = truth.iter().map(|truth| truth.all).chain(corners).fold(0.0_f64, f64::max);
         let count = (listed.len() + single.len()).max(1) as f64;
-        let spheres = usize::from(is_ball(&form) || listed.iter().any(is_ball));
+        let spheres = if listed.iter().any(is_ball) { 2 } else { usize::from(is_ball(&form)) };
         if precision == Precision::Neither {
             values.imprecise += 1;
         } else {
