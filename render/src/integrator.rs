@@ -32,6 +32,8 @@ use tile::TileRenderer;
 
 /// Greatest number of pixels that are looked at to choose a technique.
 const PROBES: usize = 256;
+/// Greatest number of tiles that are looked at to bound what closed forms leave.
+const BOUNDED: usize = 16;
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
@@ -136,24 +138,27 @@ impl World {
     }
 
     /// A bound of the error that closed forms leave in an image, whatever its samples: the RMS over pixels and channels. It is
-    /// 1e−5 of what the lights that are computed would contribute if nothing hid them, seen from four pixels of each tile, or, in large
-    /// images, of every second, third, … tile.
+    /// 1e−5 of what the lights that are computed would contribute if nothing hid them, seen from four pixels of some of the tiles.
     pub fn systematic(&self, settings: &Settings) -> f64 {
         let (camera, settings) = self.resolve(settings);
         if !settings.technique.is_analytic(self.scene.lights.only_few_areas()) {
             return 0.0;
         }
-        let apart = areas(settings.whole()).len().div_ceil(PROBES).max(1);
-        let tiles = areas(settings.whole()).step_by(apart).map(|area| {
-            let mut renderer = self.renderer(&camera, &settings);
-            renderer.begin(area);
-            renderer.try_out(area);
-            let [x0, y0, x1, y1] = area;
-            let quarters = |a: u32, b: u32| [(3 * a + b) / 4, (a + 3 * b) / 4];
-            let pixels = quarters(y0, y1).into_iter().flat_map(|y| quarters(x0, x1).map(|x| [x, y]));
-            let squares = pixels.flat_map(|pixel| renderer.doubt(pixel)).map(|x| f64::from(x).powi(2));
-            squares.sum::<f64>() / 12.0
-        });
+        // an odd number, so that not all are in the same columns
+        let apart = areas(settings.whole()).len().div_ceil(BOUNDED) | 1;
+        let tiles = areas(settings.whole()).step_by(apart);
+        let tiles = tiles.map_init(
+            || self.renderer(&camera, &settings),
+            |renderer, area| {
+                renderer.begin(area);
+                renderer.try_out(area);
+                let [x0, y0, x1, y1] = area;
+                let quarters = |a: u32, b: u32| [(3 * a + b) / 4, (a + 3 * b) / 4];
+                let pixels = quarters(y0, y1).into_iter().flat_map(|y| quarters(x0, x1).map(|x| [x, y]));
+                let squares = pixels.flat_map(|pixel| renderer.doubt(pixel)).map(|x| f64::from(x).powi(2));
+                squares.sum::<f64>() / 12.0
+            },
+        );
         // in order, whatever the threads
         let squares: Vec<f64> = tiles.collect();
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
@@ -175,11 +180,14 @@ impl World {
     fn probe(&self, camera: &Camera, settings: &Settings) -> Vec<Survey> {
         let settings = &Settings { technique: Technique::Analytic, ..*settings };
         let apart = areas(settings.whole()).len().div_ceil(PROBES).max(1);
-        let probed = areas(settings.whole()).step_by(apart).map(|[x0, y0, x1, y1]| {
-            let mut renderer = self.renderer(camera, settings);
-            renderer.begin([x0, y0, x1, y1]);
-            renderer.survey(&[[x0.midpoint(x1), y0.midpoint(y1)]])[0]
-        });
+        let probed = areas(settings.whole()).step_by(apart);
+        let probed = probed.map_init(
+            || self.renderer(camera, settings),
+            |renderer, [x0, y0, x1, y1]| {
+                renderer.begin([x0, y0, x1, y1]);
+                renderer.survey(&[[x0.midpoint(x1), y0.midpoint(y1)]])[0]
+            },
+        );
         probed.collect()
     }
 
@@ -364,11 +372,13 @@ impl World {
         of: impl Fn(&mut TileRenderer, [u32; 4]) -> Vec<T> + Sync,
     ) -> (Vec<T>, RayCount) {
         let rendered: Vec<_> = areas(area)
-            .map(|area| {
-                let mut renderer = self.renderer(camera, settings);
-                let pixels = of(&mut renderer, area);
-                (area, pixels, renderer.count())
-            })
+            .map_init(
+                || self.renderer(camera, settings),
+                |renderer, area| {
+                    let pixels = of(renderer, area);
+                    (area, pixels, renderer.take_count())
+                },
+            )
             .collect();
         let mut pixels = vec![T::default(); area::count(area)];
         let mut rays = RayCount::default();

@@ -118,16 +118,14 @@ impl Exact<'_> {
         point: V8,
         normal: V8,
         light: &Convex<f32>,
-        forms: &[Convex<f32>],
+        forms: Range<usize>,
         bodies: Range<usize>,
     ) -> Option<X8> {
-        let (light, bodies) = (light.map(f64::from), &self.polyhedra[bodies]);
-        self.forms.clear();
-        self.forms.extend(forms.iter().map(|form| form.map(f64::from)));
+        let (light, forms, bodies) = (light.map(f64::from), &self.forms[forms], &self.polyhedra[bodies]);
         let occlusion = self.occlusion.get_or_insert_default();
         let mut visible = [0.0; 8];
         for (half, (point, normal)) in widen_points(point).into_iter().zip(widen_points(normal)).enumerate() {
-            let part = occlusion.visible_past(point, normal, &light, &self.forms, bodies)?.to_array();
+            let part = occlusion.visible_past(point, normal, &light, forms, bodies)?.to_array();
             (0..4).for_each(|lane| visible[4 * half + lane] = part[lane] as f32);
         }
         Some(X8::from(visible))
@@ -198,6 +196,7 @@ impl<'a> Analytic<'a> {
         self.forms.clear();
         self.polyhedra.clear();
         self.exact.polyhedra.clear();
+        self.exact.forms.clear();
         self.origin = origin;
         self.hopeless = false;
     }
@@ -244,7 +243,10 @@ impl<'a> Analytic<'a> {
                     let (first_form, first_body) = (forms.len(), polyhedra.len());
                     for blocker in found {
                         match *blocker {
-                            Blocker::Convex { form, .. } => forms.push(form),
+                            Blocker::Convex { form, .. } => {
+                                forms.push(form);
+                                exact.forms.push(form.map(f64::from));
+                            }
                             Blocker::Body(body) => {
                                 polyhedra.push(bodies.polyhedron(body));
                                 exact.polyhedra.push(bodies.exact_polyhedron(body));
@@ -399,11 +401,11 @@ impl<'a> Analytic<'a> {
                             let lane = lanes.bits().trailing_zeros() as usize & 7;
                             let of = |v: V8| V8::blend(*lanes, v, V8::splat(v.lane(lane)));
                             let (point, normal) = (of(surface.point), of(surface.normal));
-                            let (form, forms) = (&light.form, &self.forms[forms.clone()]);
+                            let form = &light.form;
                             let visible = if *precision == Precision::Double {
-                                self.exact.visible_past(point, normal, form, forms, bodies.clone())
+                                self.exact.visible_past(point, normal, form, forms.clone(), bodies.clone())
                             } else {
-                                let bodies = &self.polyhedra[bodies.clone()];
+                                let (forms, bodies) = (&self.forms[forms.clone()], &self.polyhedra[bodies.clone()]);
                                 self.occlusion.visible_past(point, normal, form, forms, bodies)
                             };
                             match visible {
@@ -418,7 +420,7 @@ impl<'a> Analytic<'a> {
                     part += all.unwrap_or_default().keep(lit);
                 }
                 if lit_exactly.any() {
-                    let all = self.exact.visible_past(surface.point, surface.normal, &light.form, &[], 0..0);
+                    let all = self.exact.visible_past(surface.point, surface.normal, &light.form, 0..0, 0..0);
                     part += all.unwrap_or_default().keep(lit_exactly);
                 }
                 sum += V8::from(light.radiance) * part;

@@ -88,9 +88,9 @@ impl<'a> TileRenderer<'a> {
         }
     }
 
-    /// Rays traced so far.
-    pub(super) const fn count(&self) -> RayCount {
-        self.paths.count
+    /// Rays traced since the last call.
+    pub(super) fn take_count(&mut self) -> RayCount {
+        std::mem::take(&mut self.paths.count)
     }
 
     /// Renders a range of the samples of the pixels of an area [x0, y0, x1, y1), row by row.
