@@ -11,19 +11,21 @@ use std::f64::consts::{PI, TAU};
 pub const ALLOWED: f64 = 1e-5;
 /// The light of a point that receives less than this fraction of what another point of the patch does counts as this much.
 const FAINT: f64 = 1e-2;
-/// Errors of a closed form.
+/// Greatest errors of closed forms in one precision, in steradians where they are not fractions.
 struct Errors {
-    /// Relative to the angle around the light, for the light without blockers and for each blocker: of a flat light, and of a sphere.
+    /// For a flat light, once or for each blocker: a fraction of the angle around the light, in radians.
     flat: f64,
+    /// The same for a sphere behind flat blockers.
     ball: f64,
-    /// Of a flat light that looks compact, relative to the square of half of the angle around it, and for each blocker relative to that angle
-    /// times the cosine with the normal.
+    /// For a compact flat light, once and for each blocker: a fraction of the square of half of its perimeter over its distance.
     compact: f64,
+    /// What each blocker adds to that: a fraction of its perimeter over its distance, times the cosine of its highest direction with the
+    /// normal.
     outline: f64,
-    /// For each sphere that blocks, in steradians: what is outside of it moves to its rim, so that terms of the size of the sphere cancel,
-    /// however small the light is.
+    /// For each sphere that blocks: what is outside of it moves to its rim, so that terms of the size of the sphere cancel, however small the
+    /// light is.
     sphere: f64,
-    /// Relative to the solid angle of a whole sphere that is a light, without blockers.
+    /// For a sphere without blockers: a fraction of its solid angle.
     whole: f64,
 }
 /// More than the greatest errors that `cargo test -p etendue-render --test certificates -- values --nocapture` prints.
@@ -56,13 +58,13 @@ pub(super) struct Behind {
 
 /// A light as a point of a patch sees it, without blockers.
 struct Seen {
-    /// Its projected solid angle.
+    /// Its projected solid angle in steradians.
     all: f64,
-    /// The angle around it.
+    /// The angle around it, in radians; of a compact light, its perimeter over its distance.
     around: f64,
     /// The greatest cosine of a direction to it with the normal.
     cosine: f64,
-    /// Whether it is flat and looks compact.
+    /// Whether it is flat, and compact as [`COMPACT`] says.
     compact: bool,
 }
 
