@@ -144,9 +144,10 @@ pub struct Edge<S> {
 #[derive(Clone, Copy, Debug)]
 struct Flat<R> {
     corners: [Vec3<R>; 4],
-    /// A point in the middle, and the corners from there.
-    middle: Vec3<R>,
+    /// The corners from a point in the middle.
     offsets: [Vec3<R>; 4],
+    /// From the first corner to that point, in units of the shape.
+    middle: Vec3<R>,
     /// From each corner to the next.
     edges: [Vec3<R>; 4],
     count: usize,
@@ -173,12 +174,14 @@ impl<R: Real> Flat<R> {
                 ([a, a + u, a + u + v, a + v], [Vec3::default(), u, u + v, v], [u, v, -u, -v], 4)
             }
         };
+        // in units of the shape, so that it is the same in all lanes
+        let share = R::lit(1.0 / count as f64);
+        let middle = offsets[..count].iter().fold(Vec3::default(), |sum, &v| sum + v * share);
+        offsets = offsets.map(|offset| offset - middle);
         let scale = corners[..count].iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs())).pow2_scale();
         corners = corners.map(|corner| corner * scale);
         offsets = offsets.map(|offset| offset * scale);
         edges = edges.map(|edge| edge * scale);
-        let middle = offsets[..count].iter().fold(Vec3::default(), |sum, &v| sum + v) * R::lit(1.0 / count as f64);
-        offsets = offsets.map(|offset| offset - middle);
         let [d, e, f, _] = edges;
         let area = if count > 3 { (d + e).cross(e + f) } else { d.cross(e) };
         let normal = area.unit_and_length().0;
@@ -191,7 +194,7 @@ impl<R: Real> Flat<R> {
     }
 }
 
-/// A corner of a flat shape, and the edge to the next one, without rounding.
+/// A corner of a flat shape, or the centre of a sphere, without rounding.
 fn corner<S: Real>(shape: &Convex<S>, i: usize) -> Vec3<f64> {
     match *shape {
         Convex::Polygon { corners, .. } => exactly(corners[i & 3]),
@@ -246,8 +249,9 @@ impl<R: Real> Default for Seen<R> {
 struct Line<R> {
     from: Vec3<f64>,
     edge: Vec3<f64>,
-    /// The factors of p₀ − x and of e in the normal.
+    /// The factors of p₀ − x and of e in the normal, and the product of their greatest coordinates times these.
     scales: [R; 2],
+    reach: R,
 }
 
 impl<R: Real> Line<R> {
@@ -259,17 +263,24 @@ impl<R: Real> Line<R> {
     #[inline]
     fn height(&self, plane: Vec3<R>, light: &Outline<R, MOST>, (base, unit): (Vec3<f64>, R), point: Vec3<R>) -> R {
         let height = plane.dot(light.base());
-        let reserve = plane.max_abs() * R::lit(1e-5);
-        if double::<R>() || !light.crosses(plane, height, reserve).any() {
+        // more than the rounding of the normal, which is small for a point near the line
+        let reserve = self.reach * R::lit(1e-5);
+        let crosses = light.crosses(plane, height, reserve);
+        if double::<R>() || !crosses.any() {
             return height;
         }
         let ahead = base - self.from;
-        let [long, far] = [self.edge, ahead].map(|v| v.max_abs().pow2_scale());
+        // their reciprocals fit single precision
+        let most = f64::from(1.0 / f32::MIN_POSITIVE);
+        let [long, far] = [self.edge, ahead].map(|v| v.max_abs().pow2_scale().clamp(1.0 / most, most));
         let [across, across_rest] = two_words::<R>((self.edge * long).cross(ahead * far));
         let [from, rest] = two_words::<R>(self.from);
         let [from, rest] = sum_dw([from, rest], [-point, Vec3::default()]).map(|v| v * self.scales[0]);
-        let [height, more] = height_dw(from, [across, across_rest]);
-        (height + (more + rest.dot(across))) * (self.scales[1] * R::lit(1.0 / long)) * (unit * R::lit(1.0 / far))
+        let [sum, more] = height_dw(from, [across, across_rest]);
+        // the factors together are near 1 where either is extreme
+        let exact =
+            (sum + (more + rest.dot(across))) * ((self.scales[1] * R::lit(1.0 / long)) * (unit * R::lit(1.0 / far)));
+        R::blend(crosses, exact, height)
     }
 }
 
@@ -381,10 +392,9 @@ impl<R: Real> Occlusion<R> {
                 let towards = R::lit(-1.0).copysign(-flat.height);
                 self.front = (flat.normal * towards, flat.height * towards * R::lit(1.0 - SPARED) / flat.scale);
                 self.light = None;
-                let middle = exactly(flat.middle) * (1.0 / flat.scale.lane_f64(0));
-                self.base = (corner(light, 0) + middle, flat.scale);
+                self.base = (corner(light, 0) + exactly(flat.middle), flat.scale);
                 self.stack[0].start(
-                    flat.corners[0] + flat.middle,
+                    flat.middle.mul_add(flat.scale, flat.corners[0]),
                     &flat.offsets[..flat.count],
                     flat.height.abs().gt(R::lit(0.0)),
                 );
@@ -477,6 +487,7 @@ impl<R: Real> Occlusion<R> {
                 from,
                 edge: corner(shape, if i + 1 < seen.count { i + 1 } else { 0 }) - from,
                 scales: [scale, scale * sign],
+                reach: corners[i].max_abs() * edges[i].max_abs(),
             };
             seen.heights[i] = if light.is_some() { zero } else { line.height(seen.planes[i], &stack[0], *base, point) };
         }
@@ -521,11 +532,12 @@ impl<R: Real> Occlusion<R> {
                 // not by both ends, whose rounding can exceed the length of the edge
                 let unit = edge.max_abs().pow2_scale();
                 let plane = (from * scale).cross(edge * unit);
+                let reach = ((from * scale).max_abs() * (edge * unit).max_abs()).keep(outer);
                 let towards = R::lit(1.0).copysign(plane.dot(center));
                 let plane = (plane * towards).keep(outer);
                 *seen.planes.get_mut(seen.count).ok_or(TooMany)? = plane;
                 let [from, to] = ends.map(exactly);
-                let line = Line { from, edge: to - from, scales: [scale, unit * towards] };
+                let line = Line { from, edge: to - from, scales: [scale, unit * towards], reach };
                 let height = if light.is_some() { R::lit(0.0) } else { line.height(plane, &stack[0], *base, point) };
                 seen.heights[seen.count] = height.keep(outer);
                 seen.count += 1;
