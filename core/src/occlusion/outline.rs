@@ -37,11 +37,12 @@ const EXCESS: [f64; 10] = [
     256.0 / 969_969.0,
 ];
 
-/// θ/sinθ − 1 from z = 1 − cosθ, up to a right angle. The error is relative to z.
+/// θ/sinθ − 1 from z = 1 − cosθ for z in [0, 1], up to a right angle. What the series leaves out is at most 1.1e−7, and 1e−16 in
+/// double precision, at a right angle.
 #[inline(always)]
 fn excess<R: Real>(z: R) -> R {
     let (half, one) = (R::lit(0.5), R::lit(1.0));
-    // the terms left out are less than 1e−8 z up to this limit, and 1e−16 z in double precision
+    // the terms left out are less than 2e−8 z up to this limit, and 1e−16 z in double precision
     let limit = R::lit(if double::<R>() { 0.06 } else { 0.2 });
     let near = |z: R| {
         z * if double::<R>() { polynomial(z, EXCESS) } else { polynomial(z, [0, 1, 2, 3, 4, 5, 6].map(|i| EXCESS[i])) }
