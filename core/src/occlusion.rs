@@ -352,9 +352,9 @@ impl<R: Real> Occlusion<R> {
     /// Measured by `cargo test -p etendue-tests --test occlusion -- --nocapture --include-ignored`.
     ///
     /// A flat light whose corners are all nearer to their mean than half of its distance is computed from small differences: there the
-    /// error is 1e−7 times the square of half of its perimeter over its distance (8e−8 measured), and as much again for each flat blocker
-    /// that ends before the light, so it stays relative to the light however small that is. Measured by
-    /// `cargo test -p etendue-render --test certificates -- values --nocapture`.
+    /// error is 1e−7 times the square of half of its perimeter over its distance, alone and behind one flat blocker (7e−8 measured), and
+    /// as much again for each further one: it stays relative to the light however small that is. Measured by
+    /// `cargo test -p etendue-tests --test occlusion -- compact --nocapture`.
     #[inline]
     pub fn visible(
         &mut self,

@@ -1,6 +1,7 @@
 //! The visible part of lights past convex blockers, against an oracle that subtracts the blockers one after another.
 
 mod accuracy;
+mod compact;
 mod properties;
 mod scenes;
 mod solids;
