@@ -45,6 +45,9 @@ pub struct Block {
     pub error: f64,
     /// Radiance if nothing hid the lights from the surfaces.
     pub unoccluded: f64,
+    /// Greatest value, among the points that were sampled, of one sample of a light by solid angle or by area: far above the mean where few
+    /// points receive light, or where little of the light is above the horizon.
+    pub greatest: f64,
 }
 
 /// Renders the blocks of `side` × `side` pixels of an image, row by row from the top left; the last ones of a row or column may be smaller.
@@ -59,15 +62,16 @@ pub fn render(bodies: &[Body], view: &View, side: usize, effort: &Effort) -> Vec
     for y in 0..view.size[1] {
         for x in 0..view.size[0] {
             let mut random = Random(effort.seed ^ ((y * view.size[0] + x) as u64).wrapping_mul(0xd134_2543_de82_ef95));
+            let block = &mut blocks[y / side * columns + x / side];
             let (mut sum, mut squares, mut unoccluded) = (0.0, 0.0, 0.0);
             for _ in 0..effort.replicates {
-                let [seen, all] = tracer.pixel(view, [x, y], &mut random);
+                let [seen, all, greatest] = tracer.pixel(view, [x, y], &mut random);
                 sum += seen;
                 squares += seen * seen;
                 unoccluded += all;
+                block.greatest = block.greatest.max(greatest);
             }
             let n = effort.replicates as f64;
-            let block = &mut blocks[y / side * columns + x / side];
             block.mean += sum / n;
             block.error += (squares / n - (sum / n).powi(2)).max(0.0) / (n - 1.0);
             block.unoccluded += unoccluded / n;
@@ -89,10 +93,10 @@ struct Tracer<'a> {
 }
 
 impl Tracer<'_> {
-    /// One estimate of a pixel's radiance, and of what it would be if nothing hid the lights.
-    fn pixel(&self, view: &View, [x, y]: [usize; 2], random: &mut Random) -> [f64; 2] {
+    /// One estimate of a pixel's radiance, of what it would be if nothing hid the lights, and the greatest value of one sample of a light.
+    fn pixel(&self, view: &View, [x, y]: [usize; 2], random: &mut Random) -> [f64; 3] {
         let side = self.effort.side;
-        let mut sum = [0.0; 2];
+        let (mut sum, mut greatest) = ([0.0; 2], 0.0_f64);
         for i in 0..side * side {
             let at = |k: usize, stratum: usize, random: &mut Random| {
                 [x, y][k] as f64 + (stratum as f64 + random.unit()) / side as f64
@@ -100,12 +104,14 @@ impl Tracer<'_> {
             let film = [at(0, i % side, random), at(1, i / side, random)];
             let lens = if view.lens.is_some() { random.disk() } else { [0.0; 2] };
             let (origin, direction) = view.ray(film, lens);
-            let [seen, all] = self.radiance(origin, unit(direction), random);
+            let [seen, all, most] = self.radiance(origin, unit(direction), random);
             sum = [sum[0] + seen, sum[1] + all];
+            greatest = greatest.max(most);
         }
-        sum.map(|x| x / (side * side) as f64)
+        let [seen, all] = sum.map(|x| x / (side * side) as f64);
+        [seen, all, greatest]
     }
-    fn radiance(&self, mut origin: V3, mut direction: V3, random: &mut Random) -> [f64; 2] {
+    fn radiance(&self, mut origin: V3, mut direction: V3, random: &mut Random) -> [f64; 3] {
         let (mut sum, mut throughput, mut own) = (0.0, 1.0, None);
         for depth in 0..=self.effort.depth {
             let Some(hit) = closest(&self.bodies, origin, direction, own) else { break };
@@ -132,8 +138,7 @@ impl Tracer<'_> {
                 Finish::Metal { eta, k, alpha: 0.0 } => fresnel(cos, eta, k),
                 _ => {
                     let receiver = Receiver { point, normal, own: hit.index };
-                    let [seen, all] = self.reflected(body.finish, receiver, direction, random);
-                    return [sum + throughput * seen, sum + throughput * all];
+                    return self.reflected(body.finish, receiver, direction, random).map(|x| sum + throughput * x);
                 }
             };
             if depth == self.effort.depth || reflectance == 0.0 {
@@ -143,11 +148,11 @@ impl Tracer<'_> {
             direction = unit(along(direction, normal, 2.0 * cos));
             (origin, own) = (point, Some(hit.index));
         }
-        [sum; 2]
+        [sum; 3]
     }
-    /// The light that a surface reflects, with and without what hides the lights.
-    fn reflected(&self, finish: Finish, at: Receiver, direction: V3, random: &mut Random) -> [f64; 2] {
-        let mut sum = [0.0; 2];
+    /// The light that a surface reflects, with and without what hides the lights, and the greatest value of one sample of a light.
+    fn reflected(&self, finish: Finish, at: Receiver, direction: V3, random: &mut Random) -> [f64; 3] {
+        let mut sum = [0.0; 3];
         if finish == Finish::Diffuse(0.0) {
             return sum;
         }
@@ -156,22 +161,24 @@ impl Tracer<'_> {
             let Some(seen) = Seen::new(&self.bodies, at, light) else { continue };
             let radiance = self.bodies[light].body.emission.map_or(0.0, |emission| emission.radiance);
             let count = self.effort.points;
-            let [left, all] = match finish {
+            let [left, all, most] = match finish {
                 Finish::Metal { eta, k, alpha } => {
-                    let mut parts = [0.0; 2];
+                    let mut parts = [0.0; 3];
                     for point in seen.points(4 * count, random) {
-                        let part = point.weight * brdf(toward, unit(point.to), at.normal, [eta, k, alpha]);
+                        let reflected = brdf(toward, unit(point.to), at.normal, [eta, k, alpha]);
+                        let part = point.weight * reflected;
                         parts[1] += part;
                         parts[0] += if seen.is_visible(point.to) { part } else { 0.0 };
+                        parts[2] = parts[2].max(seen.most * reflected);
                     }
                     parts
                 }
                 Finish::Diffuse(albedo) | Finish::Mirror(albedo) => {
                     let factor = albedo * core::f64::consts::FRAC_1_PI;
-                    [seen.visible(count, random), seen.all].map(|x| x * factor)
+                    [seen.visible(count, random), seen.all, seen.most].map(|x| x * factor)
                 }
             };
-            sum = [sum[0] + radiance * left, sum[1] + radiance * all];
+            sum = [sum[0] + radiance * left, sum[1] + radiance * all, sum[2].max(radiance * most)];
         }
         sum
     }

@@ -27,6 +27,8 @@ pub(super) struct Seen<'a> {
     outline: Outline,
     /// Projected solid angle without blockers.
     pub(super) all: f64,
+    /// The greatest value of one sample of the whole light, also below the horizon, uniform by solid angle or by area: the cosine over the pdf.
+    pub(super) most: f64,
 }
 
 enum Outline {
@@ -97,7 +99,28 @@ impl<'a> Seen<'a> {
             Outline::Flat(above, ..) => lambert(above, at.normal),
             Outline::Sphere(c, radius, ..) => projected_cap(*c, *radius, at.normal),
         };
-        (all > 0.0).then_some(Self { bodies, at, light, outline, all })
+        let most = match (&outline, body.form) {
+            (Outline::Sphere(c, radius, axis, _), _) => {
+                let sin = radius / length(*c);
+                let height = dot(*axis, at.normal).clamp(-1.0, 1.0);
+                let nearest = (height.acos() - sin.asin()).max(0.0).cos();
+                // 1 − cosα = sin²α / (1 + cosα); by area, the near side is drawn from the whole surface
+                let solid_angle = TAU * sin * sin / (1.0 + (1.0 - sin * sin).sqrt());
+                let area = 4.0 * PI * (radius / (length(*c) - radius)).powi(2);
+                nearest * area.max(solid_angle)
+            }
+            (Outline::Flat(above, ..), form) => {
+                let (corners, count) = form.corners(at.point);
+                let whole = area_vector(&corners[..count]);
+                let angle = solid_angle(&corners[..count]).abs();
+                let value = |c: &V3| {
+                    let by_area = 0.5 * dot(whole, *c).abs() / length(*c).powi(3);
+                    dot(*c, at.normal) / length(*c) * angle.max(by_area)
+                };
+                above.iter().map(value).fold(0.0, f64::max)
+            }
+        };
+        (all > 0.0).then_some(Self { bodies, at, light, outline, all, most })
     }
     /// The part of [`all`](Self::all) that is visible; `count` points decide where closed forms do not.
     pub(super) fn visible(&self, count: usize, random: &mut Random) -> f64 {
@@ -337,6 +360,16 @@ impl<'a> Seen<'a> {
             }
         }
     }
+}
+
+/// Solid angle of a polygon, with the sign of its turn.
+fn solid_angle(corners: &[V3]) -> f64 {
+    let Some((&a, rest)) = corners.split_first() else { return 0.0 };
+    let triangle = |b: V3, c: V3| {
+        let [x, y, z] = [a, b, c].map(length);
+        2.0 * dot(a, cross(b, c)).atan2(x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y)
+    };
+    rest.windows(2).map(|pair| triangle(pair[0], pair[1])).sum()
 }
 
 /// Twice the area of a convex polygon, along its normal.
