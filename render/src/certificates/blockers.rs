@@ -8,6 +8,10 @@ use crate::surfaces::Surfaces;
 use etendue::Vec3;
 use etendue::occlusion::{Convex, SPARED};
 
+/// A patch that is nowhere higher over the plane of a blocker, as a fraction of the distance of its farthest point, is flush with it. The
+/// rounding of heights is some 1e−6 of that distance.
+const FLUSH: f64 = 1e-2;
+
 /// Something that may occlude a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blocker {
@@ -122,6 +126,23 @@ impl Candidate {
             }
             _ => 0.0,
         }
+    }
+    /// May a point of the patch be over or on a flat primitive, so near to its plane that single precision does not tell on which side? Where
+    /// that concerns only one point in 10⁴, by the rounding of a height, it does not count.
+    pub(super) fn is_flush(&self, patch: &Hull) -> bool {
+        let Self::Flat(_, corners, count, _) = self else { return false };
+        let corners = &corners[..*count];
+        let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
+        let [least, most] = patch.range(normal).map(|x| x - normal.dot(corners[0]));
+        let far = corners.iter().map(|&p| (p - patch.center).length()).fold(0.0, f64::max) + patch.extent;
+        let center = corners.iter().fold(V64::default(), |sum, &p| sum + p) * (1.0 / corners.len() as f64);
+        let is_beside = |(&a, &b): (&V64, &V64)| {
+            let side = unit((b - a).cross(normal));
+            let outwards = if side.dot(center - a) > 0.0 { -side } else { side };
+            patch.range(outwards)[0] - patch.radius > outwards.dot(a)
+        };
+        let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+        most.abs().max(least.abs()) <= FLUSH * far && !edges.into_iter().any(is_beside)
     }
     /// Is the primitive between the centres of patch and light?
     pub(super) fn is_central(&self, shaft: &Shaft) -> bool {

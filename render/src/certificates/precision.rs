@@ -40,7 +40,7 @@ pub enum Precision {
     /// In single precision.
     #[default]
     Single,
-    /// In double precision: the light is small, or nearly below the horizon.
+    /// In double precision: the light is small, or nearly below the horizon, or a blocker is flush with the patch.
     Double,
     /// Not in closed form: the light is sampled.
     Neither,
@@ -55,6 +55,8 @@ pub(super) struct Behind {
     pub(super) spheres: usize,
     /// Sum of the angles in radians by which their outlines may be displaced.
     pub(super) displacement: f64,
+    /// Whether one of them is flush with the patch, so that only double precision tells on which side of it points are.
+    pub(super) flush: bool,
 }
 
 /// A light as a point of a patch sees it, without blockers.
@@ -140,7 +142,7 @@ impl Precision {
         let suffices = |errors: &Errors| {
             seen.iter().all(|seen| seen.error(errors, is_ball, behind) <= ALLOWED * seen.all.max(FAINT * most))
         };
-        if suffices(&SINGLE) {
+        if !behind.flush && suffices(&SINGLE) {
             Self::Single
         } else if suffices(&DOUBLE) {
             Self::Double

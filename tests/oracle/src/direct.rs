@@ -34,7 +34,13 @@ pub struct Effort {
     /// Moves points that reflect off their surface, by this fraction of the greatest coordinate of the point and of the ray's origin: 0, or
     /// the error of the points of another renderer, to find what comes of it.
     pub lift: f64,
+    /// The end of the way from a point to a light, as a fraction of it, that is never occluded: surfaces flush with a light do not hide it.
+    /// [`SPARED`], or more, to find what comes of it.
+    pub spared: f64,
 }
+
+/// The least end of a way to a light that is never occluded, as a fraction of it.
+pub const SPARED: f64 = 1.0 / 1_048_576.0;
 
 /// The mean over a block of pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -158,7 +164,7 @@ impl Tracer<'_> {
         }
         let toward = direction.map(|x| -x);
         for &light in &self.lights {
-            let Some(seen) = Seen::new(&self.bodies, at, light) else { continue };
+            let Some(seen) = Seen::new(&self.bodies, at, light, self.effort.spared) else { continue };
             let radiance = self.bodies[light].body.emission.map_or(0.0, |emission| emission.radiance);
             let count = self.effort.points;
             let [left, all, most] = match finish {
@@ -230,7 +236,7 @@ mod tests {
                 }
             }
             let receiver = Receiver { point: at, normal, own };
-            let Some(seen) = Seen::new(&bodies, receiver, 0) else { continue };
+            let Some(seen) = Seen::new(&bodies, receiver, 0, SPARED) else { continue };
             let exact = seen.visible(10_000, &mut random);
             let mean = seen.sampled(10_000, &mut random);
             // a light at the horizon is small, and its points few

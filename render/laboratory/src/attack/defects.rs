@@ -146,6 +146,7 @@ pub fn all() -> Vec<Case> {
         case("triangle light with edges of 1e10", huge(1e10, 1.0, true)),
         case("floor with edges of 1e10", huge(5.0, 5e9, false)),
         case("sphere that emits on both sides", lantern()),
+        found('L', "a triangle twice, its plane cuts a light", include_str!("defects/twins.pbrt")),
     ]
 }
 

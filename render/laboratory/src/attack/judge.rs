@@ -2,6 +2,7 @@
 
 use super::bridge::{CHANNEL, bodies, view};
 use super::draft::Draft;
+use etendue::occlusion::SPARED;
 use etendue_oracle::direct::{self, Block};
 use etendue_render::film::Film;
 use etendue_render::scene::{self, Scene};
@@ -41,7 +42,8 @@ impl Effort {
 pub const LIMIT: f64 = 5.0;
 /// … and this fraction of the light that would arrive if nothing hid it, …
 pub const TOLERANCE: f64 = 2e-5;
-/// … and what comes of points that are off their surface by this fraction of their coordinates: two units in the last place.
+/// … and what comes of points that are off their surface by this fraction of their coordinates, two units in the last place, and of the ends
+/// of ways to lights that are spared: a surface that cuts a light hides a strip less of it.
 pub const ROUNDING: f64 = 1.0 / 4_194_304.0;
 /// Of fewer samples than this that see a light, or do not, an image cannot tell its own error.
 const FEW: f64 = 10.0;
@@ -119,7 +121,7 @@ pub const TECHNIQUES: [Technique; 4] = [Technique::Auto, Technique::Analytic, Te
 /// Fails if the renderer cannot build the scene.
 pub fn judge(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Result<Verdict, String> {
     let &Effort { side, block, spp, seed, .. } = effort;
-    let truth = exact(scene, effort, 0.0);
+    let truth = exact(scene, effort, [0.0, direct::SPARED]);
     let mut slack = vec![0.0; truth.len()];
     let world = World::new(scene).map_err(|error| error.to_string())?;
     let mut rows: Vec<Row> = Vec::new();
@@ -147,7 +149,7 @@ pub fn judge(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Result
     }
     if rows.iter().any(|row| row.failing().next().is_some()) {
         // the same random numbers, so that the difference has hardly any noise
-        let lifted = exact(scene, effort, ROUNDING);
+        let lifted = exact(scene, effort, [ROUNDING, SPARED]);
         slack = truth.iter().zip(&lifted).map(|(a, b)| (a.mean - b.mean).abs()).collect();
         let again = rows.iter().zip(&images);
         rows = again.map(|(row, image)| compare([row.technique, row.chosen], image, &truth, &slack, effort)).collect();
@@ -168,11 +170,11 @@ fn blocks(film: &Film, side: u32) -> Vec<[f64; 2]> {
     sums.into_iter().map(|[mean, variance, count]| [mean / count, variance / (count * count)]).collect()
 }
 
-/// The oracle's blocks, with its points off their surface by a fraction of their coordinates.
-fn exact(scene: &Scene, effort: &Effort, lift: f64) -> Vec<Block> {
+/// The oracle's blocks, with its points off their surface by a fraction of their coordinates, and this end of each way to a light spared.
+fn exact(scene: &Scene, effort: &Effort, [lift, spared]: [f64; 2]) -> Vec<Block> {
     let &Effort { side, block, points, seed, .. } = effort;
     let effort =
-        direct::Effort { replicates: 4, side: points, points: 16, depth: Settings::DEPTH as usize, seed, lift };
+        direct::Effort { replicates: 4, side: points, points: 16, depth: Settings::DEPTH as usize, seed, lift, spared };
     direct::render(&bodies(scene), &view(&scene.camera, side, side), block as usize, &effort)
 }
 

@@ -24,6 +24,8 @@ pub(super) struct Seen<'a> {
     bodies: &'a [Prepared],
     at: Receiver,
     light: usize,
+    /// The end of a way to the light, as a fraction of it, that is never occluded.
+    spared: f64,
     outline: Outline,
     /// Projected solid angle without blockers.
     pub(super) all: f64,
@@ -57,15 +59,12 @@ pub(super) struct Point {
     pub(super) weight: f64,
 }
 
-/// The end of a way to a light, as a fraction of it, that is never occluded: surfaces flush with a light do not hide it.
-pub(super) const SPARED: f64 = 1.0 / 1_048_576.0;
-
 /// Steps of the lattice of points: 1/g and 1/g² with g³ = g + 1.
 const LATTICE: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
 impl<'a> Seen<'a> {
     /// A light, if it emits towards the point, and is above its horizon.
-    pub(super) fn new(bodies: &'a [Prepared], at: Receiver, light: usize) -> Option<Self> {
+    pub(super) fn new(bodies: &'a [Prepared], at: Receiver, light: usize, spared: f64) -> Option<Self> {
         let Prepared { body, normal, .. } = bodies[light];
         let two_sided = body.emission?.two_sided;
         let outline = match body.form {
@@ -92,7 +91,7 @@ impl<'a> Seen<'a> {
                 }
                 // from the light's plane, the point is along this
                 let towards = normal.map(|x| x * height.signum());
-                Outline::Flat(above, towards, -height.abs() * (1.0 - SPARED))
+                Outline::Flat(above, towards, -height.abs() * (1.0 - spared))
             }
         };
         let all = match &outline {
@@ -120,7 +119,7 @@ impl<'a> Seen<'a> {
                 above.iter().map(value).fold(0.0, f64::max)
             }
         };
-        (all > 0.0).then_some(Self { bodies, at, light, outline, all, most })
+        (all > 0.0).then_some(Self { bodies, at, light, spared, outline, all, most })
     }
     /// The part of [`all`](Self::all) that is visible; `count` points decide where closed forms do not.
     pub(super) fn visible(&self, count: usize, random: &mut Random) -> f64 {
@@ -135,7 +134,7 @@ impl<'a> Seen<'a> {
                     Outline::Flat(above, ..) => Shape::Polygon(above.clone()),
                     Outline::Sphere(c, radius, ..) => Shape::Sphere(*c, *radius),
                 };
-                match visible(&shape, &blockers, self.at.normal, SPARED) {
+                match visible(&shape, &blockers, self.at.normal, self.spared) {
                     Some(seen) => seen.left.clamp(0.0, self.all),
                     None => self.sampled(count, random),
                 }
@@ -245,7 +244,8 @@ impl<'a> Seen<'a> {
     /// Whether nothing is on the way to a point of the light.
     pub(super) fn is_visible(&self, to: V3) -> bool {
         let blocks = |(index, body): (usize, &Prepared)| {
-            index != self.light && body.meets(self.at.point, to, index == self.at.own).is_some_and(|t| t < 1.0 - SPARED)
+            index != self.light
+                && body.meets(self.at.point, to, index == self.at.own).is_some_and(|t| t < 1.0 - self.spared)
         };
         !self.bodies.iter().enumerate().any(blocks)
     }
