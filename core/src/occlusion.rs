@@ -45,14 +45,19 @@
 //! <!-- end of table -->
 
 mod cap;
+mod flat;
+mod line;
 mod outline;
+mod shapes;
 
-use crate::math::double;
 use crate::real::{Mask, Real};
-use crate::spherical::{ProjectedCap, height_dw, sum_dw};
+use crate::spherical::ProjectedCap;
 use crate::vector::Vec3;
 use cap::Cap;
+use flat::{Flat, corner, exactly};
+use line::Line;
 use outline::Outline;
+pub use shapes::{Convex, Edge, Polyhedron};
 
 /// Greatest number of blockers that [`Occlusion::visible`] accepts.
 pub const BLOCKERS: usize = 16;
@@ -73,147 +78,6 @@ pub const SPARED: f64 = 1.0 / 131_072.0;
 /// A flat light looks compact if the squared distances of its corners from their mean are less than this fraction of that of the mean from
 /// the point. What is visible of it is then accurate relative to the square of its size over its distance, not just to the angle around it.
 pub const COMPACT: f64 = 0.25;
-
-/// A convex shape: a light or a blocker.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Convex<S> {
-    /// A flat convex polygon.
-    Polygon {
-        /// The corners in order around. A triangle has three of them; the fourth is ignored.
-        corners: [Vec3<S>; 4],
-        /// Number of corners: 3 or 4.
-        count: usize,
-    },
-    /// The parallelogram `corner + s edges[0] + t edges[1]` for s, t in \[0, 1\], as [`Parallelogram`](crate::Parallelogram) has it: however
-    /// small it is for its coordinates, its edges are not rounded.
-    Parallelogram {
-        /// One corner.
-        corner: Vec3<S>,
-        /// The two edges from that corner.
-        edges: [Vec3<S>; 2],
-    },
-    /// A sphere.
-    Sphere {
-        /// Centre.
-        center: Vec3<S>,
-        /// Radius.
-        radius: S,
-    },
-}
-
-impl<S: Copy> Convex<S> {
-    /// Replaces each number x by `f(x)`.
-    #[inline]
-    pub fn map<T>(self, mut f: impl FnMut(S) -> T) -> Convex<T> {
-        match self {
-            Self::Polygon { corners, count } => {
-                Convex::Polygon { corners: corners.map(|corner| corner.map(&mut f)), count }
-            }
-            Self::Parallelogram { corner, edges } => {
-                Convex::Parallelogram { corner: corner.map(&mut f), edges: edges.map(|edge| edge.map(&mut f)) }
-            }
-            Self::Sphere { center, radius } => Convex::Sphere { center: center.map(&mut f), radius: f(radius) },
-        }
-    }
-}
-
-/// A closed convex polyhedron, such as a box: one blocker instead of a dozen triangles. From inside it hides everything.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Polyhedron<'a, S> {
-    /// A point well inside.
-    pub center: Vec3<S>,
-    /// The planes of its faces, at most 16: a normal that points outwards, of any length, and a point.
-    pub faces: &'a [[Vec3<S>; 2]],
-    /// Its edges. At most 12 of them may lie on the outlines of the polyhedron from the points of a packet.
-    pub edges: &'a [Edge<S>],
-}
-
-/// An edge of a [`Polyhedron`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Edge<S> {
-    /// The two ends.
-    pub ends: [Vec3<S>; 2],
-    /// Indices of the two faces that meet there.
-    pub faces: [usize; 2],
-}
-
-/// A flat shape as seen from the points, in units of a power of two. Only directions matter, so that each shape can have its own unit.
-///
-/// The edges are those of the shape, not differences of rounded corners: the plane through a point and an edge is then as accurate as the
-/// direction to it, however short the edge is.
-#[derive(Clone, Copy, Debug)]
-struct Flat<R> {
-    corners: [Vec3<R>; 4],
-    /// The corners from a point in the middle.
-    offsets: [Vec3<R>; 4],
-    /// From the first corner to that point, in units of the shape.
-    middle: Vec3<R>,
-    /// From each corner to the next.
-    edges: [Vec3<R>; 4],
-    count: usize,
-    /// The reciprocal of the unit.
-    scale: R,
-    /// Unit normal of the plane, and n·x on it.
-    normal: Vec3<R>,
-    height: R,
-}
-
-impl<R: Real> Flat<R> {
-    /// The shape relative to the points; `None` for a sphere.
-    #[inline(always)]
-    fn new(shape: &Convex<R::Scalar>, point: Vec3<R>) -> Option<Self> {
-        let (mut corners, mut offsets, mut edges, count) = match *shape {
-            Convex::Sphere { .. } => return None,
-            Convex::Polygon { corners, count } => {
-                let (corners, count) = (corners.map(Vec3::splat), count.clamp(3, 4));
-                let edges = core::array::from_fn(|i| corners[if i + 1 < count { i + 1 } else { 0 }] - corners[i]);
-                (corners.map(|corner| corner - point), corners.map(|corner| corner - corners[0]), edges, count)
-            }
-            Convex::Parallelogram { corner, edges } => {
-                let (a, [u, v]) = (Vec3::splat(corner) - point, edges.map(Vec3::splat));
-                ([a, a + u, a + u + v, a + v], [Vec3::default(), u, u + v, v], [u, v, -u, -v], 4)
-            }
-        };
-        // in units of the shape, so that it is the same in all lanes
-        let share = R::lit(1.0 / count as f64);
-        let middle = offsets[..count].iter().fold(Vec3::default(), |sum, &v| sum + v * share);
-        offsets = offsets.map(|offset| offset - middle);
-        let scale = corners[..count].iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs())).pow2_scale();
-        corners = corners.map(|corner| corner * scale);
-        offsets = offsets.map(|offset| offset * scale);
-        edges = edges.map(|edge| edge * scale);
-        let [d, e, f, _] = edges;
-        let area = if count > 3 { (d + e).cross(e + f) } else { d.cross(e) };
-        let normal = area.unit_and_length().0;
-        let height = normal.dot(corners[0]);
-        Some(Self { corners, middle, offsets, edges, count, scale, normal, height })
-    }
-    #[inline(always)]
-    fn corners(&self) -> &[Vec3<R>] {
-        &self.corners[..self.count]
-    }
-}
-
-/// A corner of a flat shape, or the centre of a sphere, without rounding.
-fn corner<S: Real>(shape: &Convex<S>, i: usize) -> Vec3<f64> {
-    match *shape {
-        Convex::Polygon { corners, .. } => exactly(corners[i & 3]),
-        Convex::Parallelogram { corner, edges: [u, v] } => {
-            let (a, u, v) = (exactly(corner), exactly(u), exactly(v));
-            [a, a + u, a + u + v, a + v][i & 3]
-        }
-        Convex::Sphere { center, .. } => exactly(center),
-    }
-}
-/// A vector of one lane in double precision.
-fn exactly<S: Real>(v: Vec3<S>) -> Vec3<f64> {
-    v.map(|x| x.lane_f64(0))
-}
-/// A vector as the sum of two that are rounded.
-fn two_words<R: Real>(v: Vec3<f64>) -> [Vec3<R>; 2] {
-    let high = v.map(R::Scalar::lit);
-    [Vec3::splat(high), (v - exactly(high)).map(R::lit)]
-}
 
 /// A blocker as seen from the points.
 #[derive(Clone, Copy, Debug)]
@@ -242,45 +106,6 @@ impl<R: Real> Default for Seen<R> {
             cap: None,
             lanes: R::Mask::splat(false),
         }
-    }
-}
-
-/// The line of an edge of a blocker. The plane through it and the point has the normal (p₀ − x) × e, where p₀ is on the line and e along it.
-struct Line<R> {
-    from: Vec3<f64>,
-    edge: Vec3<f64>,
-    /// The factors of p₀ − x and of e in the normal, and the product of their greatest coordinates times these.
-    scales: [R; 2],
-    reach: R,
-}
-
-impl<R: Real> Line<R> {
-    /// The height of the base of a flat light over the plane.
-    ///
-    /// The light is clipped there to a fraction of its own size, however small that is for its distance: so this height needs twice the
-    /// precision, and all that is measured from the base does not. It is (p₀ − x) · (e × (b − p₀)), where the second factor is the same for
-    /// all points.
-    #[inline]
-    fn height(&self, plane: Vec3<R>, light: &Outline<R, MOST>, (base, unit): (Vec3<f64>, R), point: Vec3<R>) -> R {
-        let height = plane.dot(light.base());
-        // more than the rounding of the normal, which is small for a point near the line
-        let reserve = self.reach * R::lit(1e-5);
-        let crosses = light.crosses(plane, height, reserve);
-        if double::<R>() || !crosses.any() {
-            return height;
-        }
-        let ahead = base - self.from;
-        // their reciprocals fit single precision
-        let most = f64::from(1.0 / f32::MIN_POSITIVE);
-        let [long, far] = [self.edge, ahead].map(|v| v.max_abs().pow2_scale().clamp(1.0 / most, most));
-        let [across, across_rest] = two_words::<R>((self.edge * long).cross(ahead * far));
-        let [from, rest] = two_words::<R>(self.from);
-        let [from, rest] = sum_dw([from, rest], [-point, Vec3::default()]).map(|v| v * self.scales[0]);
-        let [sum, more] = height_dw(from, [across, across_rest]);
-        // the factors together are near 1 where either is extreme
-        let exact =
-            (sum + (more + rest.dot(across))) * ((self.scales[1] * R::lit(1.0 / long)) * (unit * R::lit(1.0 / far)));
-        R::blend(crosses, exact, height)
     }
 }
 

@@ -1,0 +1,83 @@
+//! Flat shapes as seen from points, and their numbers without rounding.
+
+use super::shapes::Convex;
+use crate::real::Real;
+use crate::vector::Vec3;
+
+/// A flat shape as seen from the points, in units of a power of two. Only directions matter, so that each shape can have its own unit.
+///
+/// The edges are those of the shape, not differences of rounded corners: the plane through a point and an edge is then as accurate as the
+/// direction to it, however short the edge is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flat<R> {
+    pub(super) corners: [Vec3<R>; 4],
+    /// The corners from a point in the middle.
+    pub(super) offsets: [Vec3<R>; 4],
+    /// From the first corner to that point, in units of the shape.
+    pub(super) middle: Vec3<R>,
+    /// From each corner to the next.
+    pub(super) edges: [Vec3<R>; 4],
+    pub(super) count: usize,
+    /// The reciprocal of the unit.
+    pub(super) scale: R,
+    /// Unit normal of the plane, and n·x on it.
+    pub(super) normal: Vec3<R>,
+    pub(super) height: R,
+}
+
+impl<R: Real> Flat<R> {
+    /// The shape relative to the points; `None` for a sphere.
+    #[inline(always)]
+    pub(super) fn new(shape: &Convex<R::Scalar>, point: Vec3<R>) -> Option<Self> {
+        let (mut corners, mut offsets, mut edges, count) = match *shape {
+            Convex::Sphere { .. } => return None,
+            Convex::Polygon { corners, count } => {
+                let (corners, count) = (corners.map(Vec3::splat), count.clamp(3, 4));
+                let edges = core::array::from_fn(|i| corners[if i + 1 < count { i + 1 } else { 0 }] - corners[i]);
+                (corners.map(|corner| corner - point), corners.map(|corner| corner - corners[0]), edges, count)
+            }
+            Convex::Parallelogram { corner, edges } => {
+                let (a, [u, v]) = (Vec3::splat(corner) - point, edges.map(Vec3::splat));
+                ([a, a + u, a + u + v, a + v], [Vec3::default(), u, u + v, v], [u, v, -u, -v], 4)
+            }
+        };
+        // in units of the shape, so that it is the same in all lanes
+        let share = R::lit(1.0 / count as f64);
+        let middle = offsets[..count].iter().fold(Vec3::default(), |sum, &v| sum + v * share);
+        offsets = offsets.map(|offset| offset - middle);
+        let scale = corners[..count].iter().fold(R::lit(0.0), |most, v| most.greater(v.max_abs())).pow2_scale();
+        corners = corners.map(|corner| corner * scale);
+        offsets = offsets.map(|offset| offset * scale);
+        edges = edges.map(|edge| edge * scale);
+        let [d, e, f, _] = edges;
+        let area = if count > 3 { (d + e).cross(e + f) } else { d.cross(e) };
+        let normal = area.unit_and_length().0;
+        let height = normal.dot(corners[0]);
+        Some(Self { corners, middle, offsets, edges, count, scale, normal, height })
+    }
+    #[inline(always)]
+    pub(super) fn corners(&self) -> &[Vec3<R>] {
+        &self.corners[..self.count]
+    }
+}
+
+/// A corner of a flat shape, or the centre of a sphere, without rounding.
+pub(super) fn corner<S: Real>(shape: &Convex<S>, i: usize) -> Vec3<f64> {
+    match *shape {
+        Convex::Polygon { corners, .. } => exactly(corners[i & 3]),
+        Convex::Parallelogram { corner, edges: [u, v] } => {
+            let (a, u, v) = (exactly(corner), exactly(u), exactly(v));
+            [a, a + u, a + u + v, a + v][i & 3]
+        }
+        Convex::Sphere { center, .. } => exactly(center),
+    }
+}
+/// A vector of one lane in double precision.
+pub(super) fn exactly<S: Real>(v: Vec3<S>) -> Vec3<f64> {
+    v.map(|x| x.lane_f64(0))
+}
+/// A vector as the sum of two that are rounded.
+pub(super) fn two_words<R: Real>(v: Vec3<f64>) -> [Vec3<R>; 2] {
+    let high = v.map(R::Scalar::lit);
+    [Vec3::splat(high), (v - exactly(high)).map(R::lit)]
+}
