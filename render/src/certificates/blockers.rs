@@ -135,14 +135,7 @@ impl Candidate {
         let normal = unit((corners[1] - corners[0]).cross(corners[2] - corners[0]));
         let [least, most] = patch.range(normal).map(|x| x - normal.dot(corners[0]));
         let far = corners.iter().map(|&p| (p - patch.center).length()).fold(0.0, f64::max) + patch.extent;
-        let center = corners.iter().fold(V64::default(), |sum, &p| sum + p) * (1.0 / corners.len() as f64);
-        let is_beside = |(&a, &b): (&V64, &V64)| {
-            let side = unit((b - a).cross(normal));
-            let outwards = if side.dot(center - a) > 0.0 { -side } else { side };
-            patch.range(outwards)[0] - patch.radius > outwards.dot(a)
-        };
-        let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-        most.abs().max(least.abs()) <= FLUSH * far && !edges.into_iter().any(is_beside)
+        most.max(-least) <= FLUSH * far && self.touches(patch, FLUSH * far)
     }
     /// Is the primitive between the centres of patch and light?
     pub(super) fn is_central(&self, shaft: &Shaft) -> bool {

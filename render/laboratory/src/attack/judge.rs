@@ -73,9 +73,13 @@ pub struct Verdict {
 }
 
 impl Row {
+    /// Whether a block differs.
+    fn differs(&self, i: usize) -> bool {
+        self.z[i].is_nan() || self.z[i].abs() >= LIMIT
+    }
     /// The blocks that differ.
     pub fn failing(&self) -> impl Iterator<Item = usize> {
-        (0..self.z.len()).filter(|&i| self.z[i].is_nan() || self.z[i].abs() >= LIMIT)
+        (0..self.z.len()).filter(|&i| self.differs(i))
     }
     /// The greatest |z|.
     #[must_use]
@@ -242,9 +246,8 @@ pub fn confirmed(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Re
         let other = judge(scene, &suspects, &effort)?;
         for row in &mut first.rows {
             let Some(other) = other.rows.iter().find(|other| other.technique == row.technique) else { continue };
-            let differs = |i: usize| other.z[i].is_nan() || other.z[i].abs() >= LIMIT;
             let refuted: Vec<usize> =
-                row.failing().filter(|&i| !differs(i) || other.z[i].signum() != row.z[i].signum()).collect();
+                row.failing().filter(|&i| !other.differs(i) || other.z[i].signum() != row.z[i].signum()).collect();
             for i in refuted {
                 (row.z[i], row.relative[i]) = (other.z[i].clamp(-LIMIT, LIMIT) * 0.999, other.relative[i]);
             }
