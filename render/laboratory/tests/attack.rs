@@ -22,11 +22,11 @@ fn techniques_agree_with_the_oracle() {
     attack(5);
 }
 
-/// Scenes of which a few samples show nothing of what they miss: a light of which 1 part in 10⁵ is above the horizon, a lit corner that the
+/// Scenes of which samples show nothing of what they miss: a light of which too little is above the horizon, a lit corner that the
 /// oracle does not meet at first, and lights that cut each other, within the end of shadow rays that is spared.
 #[test]
 fn judges_know_what_samples_miss() {
-    for (regime, seed) in [("chamfered", 432), ("chamfered", 589), ("open", 224), ("soup", 299)] {
+    for (regime, seed) in [("in-box", 598), ("open", 224), ("soup", 299)] {
         let tally = report::run(named(regime).unwrap(), seed..seed + 1, report::QUICK);
         assert!(tally.failures.is_empty(), "{:?}", tally.failures);
     }
