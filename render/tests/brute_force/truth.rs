@@ -9,14 +9,16 @@ use std::f64::consts::TAU;
 
 /// The end of a way to a light, as a fraction of it, in which nothing occludes: part of the definition of what a light contributes.
 const SPARED: f64 = 1.0 / 131_072.0;
+/// How far rounding in single precision moves that end, as a fraction of it: some 2⁻²¹ of the way.
+const MOVED: f64 = 1.0 / 16.0;
 
 /// Projected solid angles of a light at a point.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Truth {
     /// If nothing occluded the light.
     pub(crate) all: f64,
-    /// `None` where spheres overlap, where something is cut by the spared end, and where a point is next to another primitive, no farther than
-    /// the rounding of points: then no closed form is known, or rounding decides on which side it is.
+    /// `None` where spheres overlap, where the rounding of the spared end decides what hides the light, and where a point is next to another
+    /// primitive, no farther than the rounding of points: then no closed form is known, or rounding decides on which side it is.
     pub(crate) left: Option<f64>,
 }
 
@@ -157,7 +159,9 @@ impl World {
                 blockers.push(other);
             }
         }
-        let left = visible(&form, &blockers, normal, SPARED).map(|seen| seen.left.clamp(0.0, seen.all));
-        Truth { all: lit.all, left }
+        let at = |spared: f64| Some(visible(&form, &blockers, normal, spared)?.left.clamp(0.0, lit.all));
+        let [short, long] = [1.0 - MOVED, 1.0 + MOVED].map(|share| at(share * SPARED));
+        let left = short.zip(long).filter(|(short, long)| (short - long).abs() <= 1e-6 * lit.all);
+        Truth { all: lit.all, left: left.map(|(short, long)| 0.5 * (short + long)) }
     }
 }
