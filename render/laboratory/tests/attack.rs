@@ -33,7 +33,7 @@ fn judges_know_what_samples_miss() {
 }
 
 #[test]
-#[ignore = "20,000 scenes: an hour on two cores"]
+#[ignore = "20,000 scenes: half an hour on one core"]
 fn techniques_agree_with_the_oracle_on_20000_scenes() {
     attack(834);
 }
