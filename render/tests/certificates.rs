@@ -104,6 +104,7 @@ fn soundness(shafts: u64, chamfered: u64) {
         parts.into_iter().for_each(|part| all.add(part));
         println!("{name}: {all}");
         if all.worst > 1.0 || all.worst.is_nan() {
+            println!("{name}: {}", all.place);
             broken.push((name, all.worst, all.place));
         }
     }

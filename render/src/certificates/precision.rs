@@ -11,6 +11,9 @@ use std::f64::consts::{PI, TAU};
 pub const ALLOWED: f64 = 1e-5;
 /// The light of a point that receives less than this fraction of what another point of the patch does counts as this much.
 const FAINT: f64 = 1e-2;
+/// Points nearer to an edge than this fraction of its length count as this near: points on the edge itself see no more of the light than it
+/// has, whatever the edge adds.
+const TOUCHING: f64 = 1e-6;
 /// Greatest errors of closed forms in one precision, in steradians where they are not fractions.
 struct Errors {
     /// For a flat light, once or for each blocker: a fraction of the angle around the light, in radians.
@@ -71,6 +74,25 @@ struct Seen {
     compact: bool,
 }
 
+/// By how much the rounding of corners counts more where an edge of a flat light is seen under nearly 180°: 1/sine of that angle, at all
+/// points of a patch. An edge seen under less than 90° has angle/sine < π/2.
+fn stretch(patch: &Patch, lamp: &Lamp) -> f64 {
+    if matches!(lamp.form, Form::Ball) {
+        return 1.0;
+    }
+    let (p, corners) = (patch.hull.center, lamp.hull.corners());
+    let of_edge = |(&a, &b): (&V64, &V64)| {
+        let (edge, from) = (b - a, p - a);
+        let size = edge.length();
+        let along = (from.dot(edge) / (size * size)).clamp(0.0, 1.0);
+        let distance = (from - edge * along).length() - patch.hull.extent;
+        // inside of the sphere about an edge, the product of the distances to its ends is at most half of its square
+        let is_inside = (p - (a + b) * 0.5).length() - patch.hull.extent < 0.5 * size;
+        if is_inside { 0.5 * size / distance.max(TOUCHING * size) } else { 1.0 }
+    };
+    corners.iter().zip(corners.iter().cycle().skip(1)).map(of_edge).fold(1.0, f64::max)
+}
+
 impl Seen {
     fn new(p: V64, normal: V64, all: f64, lamp: &Lamp) -> Self {
         let (hull, corners) = (&lamp.hull, lamp.hull.corners());
@@ -92,7 +114,7 @@ impl Seen {
         Self { all, around: around.min(TAU), cosine: corners.iter().map(cosine).fold(0.0, f64::max), compact }
     }
     /// The error of a closed form.
-    fn error(&self, errors: &Errors, is_ball: bool, behind: &Behind) -> f64 {
+    fn error(&self, errors: &Errors, is_ball: bool, stretch: f64, behind: &Behind) -> f64 {
         let (around, count) = (self.around, behind.blockers as f64);
         let rounding = if is_ball && behind.blockers == 0 {
             // a whole sphere has no cancellation, but the rounding of the normal counts where it is seen at a small angle
@@ -100,7 +122,7 @@ impl Seen {
         } else if self.compact {
             errors.compact * around * around / 4.0 * (1.0 + count) + errors.outline * around * self.cosine * count
         } else {
-            (if is_ball { errors.ball } else { errors.flat }) * around * count.max(1.0)
+            (if is_ball { errors.ball } else { errors.flat * stretch }) * around * count.max(1.0)
         };
         rounding + behind.displacement * around * self.cosine + errors.sphere * behind.spheres as f64
     }
@@ -139,8 +161,13 @@ impl Precision {
         }
         let seen: [Seen; 8] = std::array::from_fn(|lane| Seen::new(points[lane], normals[lane], all[lane], lamp));
         let most = seen.iter().fold(0.0, |most: f64, seen| most.max(seen.all));
+        let least = seen.iter().fold(most, |least, seen| least.min(seen.all));
+        // where the horizon turns within a patch of a sphere, points between these see less of the light than they do
+        let turns = patch.ground.is_none() && least < 0.5 * most;
+        let stretch = stretch(patch, lamp);
         let suffices = |errors: &Errors| {
-            seen.iter().all(|seen| seen.error(errors, is_ball, behind) <= ALLOWED * seen.all.max(FAINT * most))
+            let allowed = |seen: &Seen| ALLOWED * if turns { FAINT * most } else { seen.all.max(FAINT * most) };
+            seen.iter().all(|seen| seen.error(errors, is_ball, stretch, behind) <= allowed(seen))
         };
         if !behind.flush && suffices(&SINGLE) {
             Self::Single
