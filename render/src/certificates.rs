@@ -152,6 +152,8 @@ impl<'a> Certifier<'a> {
             spheres: candidates.iter().filter(|candidate| matches!(candidate, Candidate::Ball(..))).count(),
             displacement: met.iter().map(|met| bodies.displacement(met.0, &patch.hull)).sum::<f64>()
                 + candidates.iter().map(|candidate| candidate.displacement(&patch.hull)).sum::<f64>(),
+            stretch: met.iter().map(|met| bodies.stretch(met.0, &patch.hull) - 1.0).sum::<f64>()
+                + candidates.iter().map(|candidate| candidate.stretch(&patch.hull) - 1.0).sum::<f64>(),
             flush: candidates.iter().any(|candidate| candidate.is_flush(&patch.hull)),
         };
         Certificate::Blockers(blockers, precision(&behind))

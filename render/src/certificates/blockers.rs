@@ -127,6 +127,13 @@ impl Candidate {
             _ => 0.0,
         }
     }
+    /// See [`Hull::stretch`].
+    pub(super) fn stretch(&self, patch: &Hull) -> f64 {
+        match self {
+            Self::Flat(_, corners, count, _) => patch.stretch(Hull::new(&corners[..*count], 0.0).edges()),
+            Self::Ball(..) => 1.0,
+        }
+    }
     /// May a point of the patch be over or on a flat primitive, so near to its plane that single precision does not tell on which side? Where
     /// that concerns only one point in 10⁴, by the rounding of a height, it does not count.
     pub(super) fn is_flush(&self, patch: &Hull) -> bool {

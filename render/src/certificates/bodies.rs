@@ -7,6 +7,7 @@ use crate::bvh::{Bvh, NOTHING};
 use etendue::Vec3;
 use etendue::occlusion::{Edge, Polyhedron, SPARED};
 use std::collections::HashMap;
+use std::f64::consts::SQRT_2;
 
 /// Greatest number of triangles of a mesh that is searched for bodies. To search so many takes 15 ms in a height field, and 76 ms if all of
 /// them are boxes, by `cargo test --release -p etendue-render --test certificates -- --ignored time_per_certificate --nocapture`.
@@ -147,6 +148,15 @@ impl Bodies {
         let Body { double, extent, deviation, .. } = &self.bodies[body as usize];
         let gap = (double.center - patch.center).length() - extent - patch.extent;
         if *deviation > 0.0 { deviation / gap.max(patch.extent) } else { 0.0 }
+    }
+    /// See [`Hull::stretch`].
+    pub(super) fn stretch(&self, body: u32, patch: &Hull) -> f64 {
+        let Body { double, extent, .. } = &self.bodies[body as usize];
+        // the spheres about edges, which are chords of a sphere, end at √2 of its radius
+        if (double.center - patch.center).length() - patch.extent > SQRT_2 * extent {
+            return 1.0;
+        }
+        patch.stretch(double.edges.iter().map(|edge| (edge.ends[0], edge.ends[1])))
     }
     /// The body as a blocker.
     pub fn polyhedron(&self, body: u32) -> Polyhedron<'_, f32> {

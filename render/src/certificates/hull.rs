@@ -36,6 +36,9 @@ pub(super) struct Hull {
     pub(super) extent: f64,
 }
 
+/// Points nearer to an edge than this fraction of its length count as this near.
+const TOUCHING: f64 = 1e-6;
+
 impl Hull {
     /// The hull of 1 to [`CORNERS`] points.
     pub(super) fn new(points: &[V64], radius: f64) -> Self {
@@ -52,6 +55,27 @@ impl Hull {
         self.radius += by;
         let ball = self.corners().iter().map(|&p| (p - self.center).length()).fold(0.0, f64::max);
         self.extent = ball * (1.0 + 1e-9) + self.radius;
+    }
+    /// Each corner and the next one.
+    pub(super) fn edges(&self) -> impl Iterator<Item = (V64, V64)> {
+        let corners = self.corners();
+        corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
+    }
+    /// By how much the rounding of corners counts more where a point of the hull sees an edge under nearly 180°: 1/sine of that angle at
+    /// most. Under less than 90°, angle/sine is less than π/2.
+    pub(super) fn stretch(&self, edges: impl Iterator<Item = (V64, V64)>) -> f64 {
+        let of_edge = |(a, b): (V64, V64)| {
+            let (edge, from) = (b - a, self.center - a);
+            let size = edge.length();
+            // inside of the sphere about an edge, the product of the distances to its ends is at most half of its square
+            if (self.center - (a + b) * 0.5).length() - self.extent >= 0.5 * size || size == 0.0 {
+                return 1.0;
+            }
+            let along = (from.dot(edge) / (size * size)).clamp(0.0, 1.0);
+            let distance = (from - edge * along).length() - self.extent;
+            (0.5 * size / distance.max(TOUCHING * size)).max(1.0)
+        };
+        edges.map(of_edge).fold(1.0, f64::max)
     }
     pub(super) fn corners(&self) -> &[V64] {
         &self.corners[..self.count]

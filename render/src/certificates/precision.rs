@@ -11,9 +11,6 @@ use std::f64::consts::{PI, TAU};
 pub const ALLOWED: f64 = 1e-5;
 /// The light of a point that receives less than this fraction of what another point of the patch does counts as this much.
 const FAINT: f64 = 1e-2;
-/// Points nearer to an edge than this fraction of its length count as this near: points on the edge itself see no more of the light than it
-/// has, whatever the edge adds.
-const TOUCHING: f64 = 1e-6;
 /// Greatest errors of closed forms in one precision, in steradians where they are not fractions.
 struct Errors {
     /// For a flat light, once or for each blocker: a fraction of the angle around the light, in radians.
@@ -58,6 +55,8 @@ pub(super) struct Behind {
     pub(super) spheres: usize,
     /// Sum of the angles in radians by which their outlines may be displaced.
     pub(super) displacement: f64,
+    /// Sum of their [`Hull::stretch`] less 1.
+    pub(super) stretch: f64,
     /// Whether one of them is flush with the patch, so that only double precision tells on which side of it points are.
     pub(super) flush: bool,
 }
@@ -74,31 +73,12 @@ struct Seen {
     compact: bool,
 }
 
-/// By how much the rounding of corners counts more where an edge of a flat light is seen under nearly 180°: 1/sine of that angle, at all
-/// points of a patch. An edge seen under less than 90° has angle/sine < π/2.
-fn stretch(patch: &Patch, lamp: &Lamp) -> f64 {
-    if matches!(lamp.form, Form::Ball) {
-        return 1.0;
-    }
-    let (p, corners) = (patch.hull.center, lamp.hull.corners());
-    let of_edge = |(&a, &b): (&V64, &V64)| {
-        let (edge, from) = (b - a, p - a);
-        let size = edge.length();
-        let along = (from.dot(edge) / (size * size)).clamp(0.0, 1.0);
-        let distance = (from - edge * along).length() - patch.hull.extent;
-        // inside of the sphere about an edge, the product of the distances to its ends is at most half of its square
-        let is_inside = (p - (a + b) * 0.5).length() - patch.hull.extent < 0.5 * size;
-        if is_inside { 0.5 * size / distance.max(TOUCHING * size) } else { 1.0 }
-    };
-    corners.iter().zip(corners.iter().cycle().skip(1)).map(of_edge).fold(1.0, f64::max)
-}
-
 impl Seen {
     fn new(p: V64, normal: V64, all: f64, lamp: &Lamp) -> Self {
         let (hull, corners) = (&lamp.hull, lamp.hull.corners());
         let middle = corners.iter().fold(V64::default(), |sum, &x| sum + x) * (1.0 / corners.len() as f64);
         let distance = (middle - p).length();
-        let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
+
         // as the core decides, with a reserve for rounding
         let is_near = |&x: &V64| (x - middle).length_squared() < 0.99 * COMPACT * distance * distance;
         let is_ball = matches!(lamp.form, Form::Ball);
@@ -106,9 +86,9 @@ impl Seen {
         let around = if is_ball {
             TAU * hull.radius / (distance - hull.extent).max(0.0)
         } else if compact {
-            edges().map(|(&a, &b)| (b - a).length()).sum::<f64>() / distance
+            hull.edges().map(|(a, b)| (b - a).length()).sum::<f64>() / distance
         } else {
-            edges().map(|(&a, &b)| 2.0 * (0.5 * (unit(b - p) - unit(a - p)).length()).min(1.0).asin()).sum()
+            hull.edges().map(|(a, b)| 2.0 * (0.5 * (unit(b - p) - unit(a - p)).length()).min(1.0).asin()).sum()
         };
         let cosine = |&x: &V64| (unit(x - p).dot(normal) + hull.radius / (x - p).length()).min(1.0);
         Self { all, around: around.min(TAU), cosine: corners.iter().map(cosine).fold(0.0, f64::max), compact }
@@ -120,9 +100,10 @@ impl Seen {
             // a whole sphere has no cancellation, but the rounding of the normal counts where it is seen at a small angle
             errors.whole * around * around / (4.0 * PI)
         } else if self.compact {
-            errors.compact * around * around / 4.0 * (1.0 + count) + errors.outline * around * self.cosine * count
+            let outlines = errors.outline * around * self.cosine * (count + behind.stretch);
+            errors.compact * around * around / 4.0 * (1.0 + count) + outlines
         } else {
-            (if is_ball { errors.ball } else { errors.flat * stretch }) * around * count.max(1.0)
+            (if is_ball { errors.ball } else { errors.flat }) * around * (count.max(1.0) * stretch + behind.stretch)
         };
         rounding + behind.displacement * around * self.cosine + errors.sphere * behind.spheres as f64
     }
@@ -164,7 +145,7 @@ impl Precision {
         let least = seen.iter().fold(most, |least, seen| least.min(seen.all));
         // where the horizon turns within a patch of a sphere, points between these see less of the light than they do
         let turns = patch.ground.is_none() && least < 0.5 * most;
-        let stretch = stretch(patch, lamp);
+        let stretch = if is_ball { 1.0 } else { patch.hull.stretch(lamp.hull.edges()) };
         let suffices = |errors: &Errors| {
             let allowed = |seen: &Seen| ALLOWED * if turns { FAINT * most } else { seen.all.max(FAINT * most) };
             seen.iter().all(|seen| seen.error(errors, is_ball, stretch, behind) <= allowed(seen))
