@@ -26,7 +26,12 @@ impl Folder {
         assert!(self.names() == names && contents() == before, "{more:?}: {names:?}, then {:?}", self.names());
     }
     fn spawn(&self, arguments: &[&str]) -> Child {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
+        let program = env!("CARGO_BIN_EXE_etendue");
+        // a test that runs in the background inherits ignored signals, which the program would go on ignoring
+        let mut command = if cfg!(target_os = "linux") { Command::new("env") } else { Command::new(program) };
+        if cfg!(target_os = "linux") {
+            command.args(["--default-signal=INT,TERM,HUP", program]);
+        }
         command.current_dir(&self.0).args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
         command.spawn().unwrap()
     }
