@@ -94,6 +94,9 @@ fn certificates_agree_with_brute_force_at_length() {
 fn soundness(shafts: u64, chamfered: u64) {
     let mut broken = Vec::new();
     for (k, (name, made)) in (0_u32..).zip(REGIMES) {
+        if std::env::var("REGIME").is_ok_and(|only| only != name) {
+            continue;
+        }
         let shafts = if name == "chamfered boxes" { chamfered * shafts } else { shafts };
         let halves = [0, 1].map(|half| k * 0x2000_0000 + half * 0x1000_0000 + 1);
         let parts = std::thread::scope(|scope| {

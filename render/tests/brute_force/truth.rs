@@ -12,7 +12,7 @@ const SPARED: f64 = 1.0 / 131_072.0;
 /// How far rounding in single precision moves that end, as a fraction of it: some 2⁻²¹ of the way.
 const MOVED: f64 = 1.0 / 16.0;
 
-/// Rounding of the truth as a fraction of the angle around a flat light, and the greatest fraction of the light that it may be.
+/// Rounding of the truth as a fraction of the angle around a light, and the greatest fraction of the light that it may be.
 const BLURRED: f64 = 1e-15;
 const KNOWN: f64 = 1e-7;
 
@@ -21,8 +21,8 @@ const KNOWN: f64 = 1e-7;
 pub(crate) struct Truth {
     /// If nothing occluded the light.
     pub(crate) all: f64,
-    /// `None` where spheres overlap, where the rounding of the spared end decides what hides the light, where the light is so small and far
-    /// that double precision does not know it, and where a point is next to another primitive, no farther than the rounding of points: then
+    /// `None` where spheres overlap, where the rounding of the spared end decides what hides the light, where so little of the
+    /// light is seen that double precision does not know it, and where a point is next to another primitive, no farther than the rounding of points: then
     /// no closed form is known, or rounding decides on which side it is.
     pub(crate) left: Option<f64>,
 }
@@ -112,8 +112,8 @@ impl World {
             return Truth { all: 0.0, left: Some(0.0) };
         }
         let Some(lit) = visible(&form, &[], normal, SPARED) else { return Truth::default() };
-        // the sum over the edges cancels in small and far lights, and corners are rounded relative to the point
-        let is_known = BLURRED * lit.around <= KNOWN * lit.all || matches!(form, Form::Sphere(..));
+        // sums cancel in small and far lights, and where the horizon leaves a sliver
+        let is_known = BLURRED * lit.around <= KNOWN * lit.all;
         // below the horizon, rounding is left
         if lit.all <= 1e-14 * lit.around {
             return Truth { all: 0.0, left: Some(0.0) };
