@@ -22,9 +22,6 @@ struct Errors {
     /// What each blocker adds to that: a fraction of its perimeter over its distance, times the cosine of its highest direction with the
     /// normal.
     outline: f64,
-    /// For a compact flat light, the rounding of its corners relative to the point: a fraction of its perimeter over its distance, times the
-    /// same cosine.
-    corners: f64,
     /// For each sphere that blocks: what is outside of it moves to its rim, so that terms of the size of the sphere cancel, however small the
     /// light is.
     sphere: f64,
@@ -33,11 +30,9 @@ struct Errors {
 }
 /// More than the greatest errors that `cargo test -p etendue-render --test certificates -- values --nocapture` prints, and for compact lights
 /// `cargo test -p etendue-tests --test occlusion -- compact --nocapture`.
-const SINGLE: Errors =
-    Errors { flat: 1.2e-7, ball: 1.2e-7, compact: 1e-7, outline: 2e-9, corners: 4e-8, sphere: 4e-7, whole: 1e-7 };
+const SINGLE: Errors = Errors { flat: 1.2e-7, ball: 1.2e-7, compact: 1e-7, outline: 2e-9, sphere: 4e-7, whole: 1e-7 };
 /// Twice the greatest errors or more.
-const DOUBLE: Errors =
-    Errors { flat: 1e-15, ball: 1e-15, compact: 1e-15, outline: 1e-15, corners: 1e-16, sphere: 1e-15, whole: 1e-15 };
+const DOUBLE: Errors = Errors { flat: 1e-15, ball: 1e-15, compact: 1e-15, outline: 1e-15, sphere: 1e-15, whole: 1e-15 };
 
 /// How a light that is known is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -105,8 +100,8 @@ impl Seen {
             // a whole sphere has no cancellation, but the rounding of the normal counts where it is seen at a small angle
             errors.whole * around * around / (4.0 * PI)
         } else if self.compact {
-            let displaced = errors.corners + errors.outline * (count + behind.stretch);
-            errors.compact * around * around / 4.0 * (1.0 + count) + displaced * around * self.cosine
+            let outlines = errors.outline * around * self.cosine * (count + behind.stretch);
+            errors.compact * around * around / 4.0 * (1.0 + count) + outlines
         } else {
             (if is_ball { errors.ball } else { errors.flat }) * around * (count.max(1.0) * stretch + behind.stretch)
         };

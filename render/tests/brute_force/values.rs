@@ -12,7 +12,7 @@ use super::views::{View, World};
 use crate::meshes::{Random, Triangle};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Real, Vec3, f32x8, f64x4};
-use etendue_oracle::{V3, dot, narrow, sub, wide};
+use etendue_oracle::{V3, along, dot, narrow, sub, wide};
 use etendue_render::certificates::{Blocker, Bodies, Certificate, Certifier, Precision};
 use etendue_render::surfaces::Surfaces;
 use std::fmt;
@@ -210,8 +210,10 @@ impl World {
         };
         let truth = points.iter().map(|&(p, n)| self.truth(p, n, view.receiver, light));
         let truth: Vec<Truth> = truth.collect();
-        // of what is compared, and of the corners of the patch
-        let corners = view.patch.normal().map(|n| view.patch.corners().map(move |p| (p, n)));
+        // of what is compared, and of the corners and the centre of the patch
+        let corners: Vec<V3> = view.patch.corners().collect();
+        let center = corners.iter().fold([0.0; 3], |sum, &p| along(sum, p, 1.0 / corners.len() as f64));
+        let corners = view.patch.normal().map(|n| corners.into_iter().chain([center]).map(move |p| (p, n)));
         let corners = corners.into_iter().flatten().map(|(p, n)| self.truth(p, n, view.receiver, light).all);
         let most = truth.iter().map(|truth| truth.all).chain(corners).fold(0.0_f64, f64::max);
         let count = (listed.len() + single.len()).max(1) as f64;
