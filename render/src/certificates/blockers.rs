@@ -1,6 +1,6 @@
 //! Primitives that may occlude a light.
 
-use super::hull::{Hull, V64, magnitude, unit, wide};
+use super::hull::{Hull, V64, edges, magnitude, unit, wide};
 use super::shaft::Shaft;
 use crate::bvh::SHAPE;
 use crate::scene::Geometry;
@@ -130,7 +130,7 @@ impl Candidate {
     /// See [`Hull::stretch`].
     pub(super) fn stretch(&self, patch: &Hull) -> f64 {
         match self {
-            Self::Flat(_, corners, count, _) => patch.stretch(Hull::new(&corners[..*count], 0.0).edges()),
+            Self::Flat(_, corners, count, _) => patch.stretch(edges(&corners[..*count])),
             Self::Ball(..) => 1.0,
         }
     }

@@ -36,8 +36,13 @@ pub(super) struct Hull {
     pub(super) extent: f64,
 }
 
-/// Points nearer to an edge than this fraction of its length count as this near.
+/// Points nearer to an edge than this fraction of its length count as this near: double precision is accurate enough even there.
 const TOUCHING: f64 = 1e-6;
+
+/// Each corner of a polygon with the next one.
+pub(super) fn edges(corners: &[V64]) -> impl Iterator<Item = (V64, V64)> {
+    corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
+}
 
 impl Hull {
     /// The hull of 1 to [`CORNERS`] points.
@@ -56,13 +61,9 @@ impl Hull {
         let ball = self.corners().iter().map(|&p| (p - self.center).length()).fold(0.0, f64::max);
         self.extent = ball * (1.0 + 1e-9) + self.radius;
     }
-    /// Each corner and the next one.
-    pub(super) fn edges(&self) -> impl Iterator<Item = (V64, V64)> {
-        let corners = self.corners();
-        corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
-    }
-    /// By how much the rounding of corners counts more where a point of the hull sees an edge under nearly 180°: 1/sine of that angle at
-    /// most. Under less than 90°, angle/sine is less than π/2.
+    /// By how much more the rounding of the ends of edges counts where a point of the hull sees an edge under nearly 180°: at least 1/sine
+    /// of that angle, from 1 to 5 · 10⁵. Under less than 90°, which is what other edges and those without length count as, it is 1:
+    /// angle/sine is at most π/2 there.
     pub(super) fn stretch(&self, edges: impl Iterator<Item = (V64, V64)>) -> f64 {
         let of_edge = |(a, b): (V64, V64)| {
             let (edge, from) = (b - a, self.center - a);

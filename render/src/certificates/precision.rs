@@ -1,6 +1,6 @@
 //! In which precision the closed form of a light is accurate enough, as seen from a patch.
 
-use super::hull::{V64, unit};
+use super::hull::{V64, edges, unit};
 use super::patch::Patch;
 use super::shaft::{Form, Lamp};
 use etendue::occlusion::{COMPACT, Convex, Occlusion};
@@ -40,7 +40,8 @@ pub enum Precision {
     /// In single precision.
     #[default]
     Single,
-    /// In double precision: the light is small, or nearly below the horizon, or a blocker is flush with the patch.
+    /// In double precision: the light is small, or nearly below the horizon, or a blocker is flush with the patch, or an edge is seen under
+    /// nearly 180°.
     Double,
     /// Not in closed form: the light is sampled.
     Neither,
@@ -55,7 +56,8 @@ pub(super) struct Behind {
     pub(super) spheres: usize,
     /// Sum of the angles in radians by which their outlines may be displaced.
     pub(super) displacement: f64,
-    /// Sum of their [`Hull::stretch`] less 1.
+    /// By how many blockers more they count where edges are seen under nearly 180°: the sum of [`Hull::stretch`](super::hull::Hull::stretch)
+    /// less 1.
     pub(super) stretch: f64,
     /// Whether one of them is flush with the patch, so that only double precision tells on which side of it points are.
     pub(super) flush: bool,
@@ -78,7 +80,6 @@ impl Seen {
         let (hull, corners) = (&lamp.hull, lamp.hull.corners());
         let middle = corners.iter().fold(V64::default(), |sum, &x| sum + x) * (1.0 / corners.len() as f64);
         let distance = (middle - p).length();
-
         // as the core decides, with a reserve for rounding
         let is_near = |&x: &V64| (x - middle).length_squared() < 0.99 * COMPACT * distance * distance;
         let is_ball = matches!(lamp.form, Form::Ball);
@@ -86,9 +87,9 @@ impl Seen {
         let around = if is_ball {
             TAU * hull.radius / (distance - hull.extent).max(0.0)
         } else if compact {
-            hull.edges().map(|(a, b)| (b - a).length()).sum::<f64>() / distance
+            edges(corners).map(|(a, b)| (b - a).length()).sum::<f64>() / distance
         } else {
-            hull.edges().map(|(a, b)| 2.0 * (0.5 * (unit(b - p) - unit(a - p)).length()).min(1.0).asin()).sum()
+            edges(corners).map(|(a, b)| 2.0 * (0.5 * (unit(b - p) - unit(a - p)).length()).min(1.0).asin()).sum()
         };
         let cosine = |&x: &V64| (unit(x - p).dot(normal) + hull.radius / (x - p).length()).min(1.0);
         Self { all, around: around.min(TAU), cosine: corners.iter().map(cosine).fold(0.0, f64::max), compact }
@@ -145,7 +146,7 @@ impl Precision {
         let least = seen.iter().fold(most, |least, seen| least.min(seen.all));
         // where the horizon turns within a patch of a sphere, points between these see less of the light than they do
         let turns = patch.ground.is_none() && least < 0.5 * most;
-        let stretch = if is_ball { 1.0 } else { patch.hull.stretch(lamp.hull.edges()) };
+        let stretch = patch.hull.stretch(edges(lamp.hull.corners()));
         let suffices = |errors: &Errors| {
             let allowed = |seen: &Seen| ALLOWED * if turns { FAINT * most } else { seen.all.max(FAINT * most) };
             seen.iter().all(|seen| seen.error(errors, is_ball, stretch, behind) <= allowed(seen))

@@ -12,7 +12,8 @@ const SPARED: f64 = 1.0 / 131_072.0;
 /// How far rounding in single precision moves that end, as a fraction of it: some 2⁻²¹ of the way.
 const MOVED: f64 = 1.0 / 16.0;
 
-/// Rounding of the truth as a fraction of the angle around a light, and the greatest fraction of the light that it may be.
+/// Rounding of the truth as a fraction of the angle around a light: some eight terms of 2⁻⁵³ each; and the greatest fraction of the light
+/// that it may be, a hundredth of the error that is looked for.
 const BLURRED: f64 = 1e-15;
 const KNOWN: f64 = 1e-7;
 
@@ -21,9 +22,8 @@ const KNOWN: f64 = 1e-7;
 pub(crate) struct Truth {
     /// If nothing occluded the light.
     pub(crate) all: f64,
-    /// `None` where spheres overlap, where the rounding of the spared end decides what hides the light, where so little of the
-    /// light is seen that double precision does not know it, and where a point is next to another primitive, no farther than the rounding of points: then
-    /// no closed form is known, or rounding decides on which side it is.
+    /// `None` where no closed form is known (spheres overlap), where double precision does not know so little of a light, and where rounding
+    /// decides: which primitives are before the spared end, or on which side of a primitive next to it the point is.
     pub(crate) left: Option<f64>,
 }
 
@@ -112,13 +112,12 @@ impl World {
             return Truth { all: 0.0, left: Some(0.0) };
         }
         let Some(lit) = visible(&form, &[], normal, SPARED) else { return Truth::default() };
-        // sums cancel in small and far lights, and where the horizon leaves a sliver
-        let is_known = BLURRED * lit.around <= KNOWN * lit.all;
         // below the horizon, rounding is left
         if lit.all <= 1e-14 * lit.around {
             return Truth { all: 0.0, left: Some(0.0) };
         }
-        if !is_known {
+        // sums cancel in small and far lights, and where the horizon leaves a sliver
+        if BLURRED * lit.around > KNOWN * lit.all {
             return Truth { all: lit.all, left: None };
         }
         let cone = Cone::around(&form);

@@ -28,10 +28,10 @@ impl Folder {
     fn spawn(&self, arguments: &[&str]) -> Child {
         let program = env!("CARGO_BIN_EXE_etendue");
         // a test that runs in the background inherits ignored signals, which the program would go on ignoring
-        let mut command = if cfg!(target_os = "linux") { Command::new("env") } else { Command::new(program) };
-        if cfg!(target_os = "linux") {
-            command.args(["--default-signal=INT,TERM,HUP", program]);
-        }
+        let first: &[&str] =
+            if cfg!(target_os = "linux") { &["env", "--default-signal=INT,TERM,HUP", program] } else { &[program] };
+        let mut command = Command::new(first[0]);
+        command.args(&first[1..]);
         command.current_dir(&self.0).args(arguments).stdout(Stdio::piped()).stderr(Stdio::piped());
         command.spawn().unwrap()
     }
