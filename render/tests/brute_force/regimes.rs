@@ -19,7 +19,7 @@ pub(crate) struct Setting {
 type Regime = (&'static str, fn(&mut Random) -> Setting);
 
 /// All regimes.
-pub(crate) const REGIMES: [Regime; 8] = [
+pub(crate) const REGIMES: [Regime; 9] = [
     ("thin sheets", sheets),
     ("chamfered boxes", chamfered),
     ("inside spheres", inside),
@@ -28,6 +28,7 @@ pub(crate) const REGIMES: [Regime; 8] = [
     ("small lights far out", far_out),
     ("difficult meshes", |random| drawn(scenes(random), random)),
     ("solids", |random| drawn(solids(random), random)),
+    ("long walls", walls),
 ];
 
 /// A number between two others, evenly by its logarithm.
@@ -265,6 +266,30 @@ fn far_out(random: &mut Random) -> Setting {
         };
         moved.iter_mut().for_each(|v| (0..3).for_each(|k| v[k] += shift[k]));
     }
+    Setting { triangles, shapes, floors: 2 }
+}
+
+/// Walls and fences up to 1000 times as long as high, lamps behind them: points next to a wall see its edges under nearly 180°.
+fn walls(random: &mut Random) -> Setting {
+    let (height, reach) = (between(random, 0.05, 2.0), between(random, 5.0, 50.0));
+    let half = [reach, 0.5 * height, 0.5 * height * between(random, 1e-3, 1.0)];
+    let mut triangles = floor(2.0 * reach);
+    let place = moved(half, [0.0, 0.5 * height, 0.0], random.below(2), random);
+    let side = unit(sub(place([0.0, 0.0, 1.0]), place([0.0; 3])));
+    if random.below(4) == 0 {
+        let [corner, end, top] = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [-1.0, 1.0, 0.0]].map(&place);
+        triangles.extend(quad(narrow(corner), narrow(sub(end, corner)), narrow(sub(top, corner))));
+    } else {
+        triangles.extend(cut(&block(), &place, random));
+    }
+    let each = |random: &mut Random| {
+        let along_it = place([f64::from(random.signed()), 1.0, 0.0]);
+        let from = along([along_it[0], 0.0, along_it[2]], side, height * between(random, 0.1, 5.0));
+        let center = along(from, sub(along_it, from), between(random, 1.3, 30.0));
+        let size = length(sub(center, from)) * between(random, 1e-3, 1.0);
+        lamp(random, center, size)
+    };
+    let shapes = [0; 2].map(|_| each(random)).into();
     Setting { triangles, shapes, floors: 2 }
 }
 
