@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod compact;
+mod double;
 mod properties;
 mod scenes;
 mod solids;
