@@ -4,7 +4,7 @@ use etendue::occlusion::{Convex, Occlusion};
 use etendue::{Vec3, f64x4};
 
 /// The greatest relative error allowed.
-const BOUND: f64 = 1e-14;
+const BOUND: f64 = 1e-13;
 
 /// The projected solid angle of a light without blockers.
 fn visible(p: [f64; 3], n: [f64; 3], light: &Convex<f32>) -> f64 {
