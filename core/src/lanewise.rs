@@ -1,5 +1,27 @@
 //! Structs whose fields are lanes.
 
+/// A struct over numbers `R`, which may be numbers, packets of numbers, or columns.
+pub trait Lanewise<R>: Sized {
+    /// The same struct over other numbers.
+    type With<S>: Lanewise<S>;
+    /// Replaces each number x by `f(x)`.
+    fn map<S>(self, f: impl FnMut(R) -> S) -> Self::With<S>;
+}
+
+/// Implements [`Lanewise`] by the method `map` of a struct over numbers alone, or over numbers and a constant.
+macro_rules! lanewise_by_map {
+    ($name:ident $(, $n:ident)?) => {
+        impl<R $(, const $n: usize)?> $crate::lanewise::Lanewise<R> for $name<R $(, $n)?> {
+            type With<S> = $name<S $(, $n)?>;
+            #[inline(always)]
+            fn map<S>(self, f: impl FnMut(R) -> S) -> $name<S $(, $n)?> {
+                self.map(f)
+            }
+        }
+    };
+}
+pub(crate) use lanewise_by_map;
+
 /// Defines a struct over lanes, with the operations that work field by field: `map`, `splat` and `blend`.
 macro_rules! lanewise {
     ($(#[$doc:meta])* $struct_vis:vis struct $name:ident {
@@ -20,6 +42,7 @@ macro_rules! lanewise {
                 $name { $($field: $crate::lanewise::mapped!(self.$field, f, $kind)),+ }
             }
         }
+        $crate::lanewise::lanewise_by_map!($name);
         // of a private struct they are not reachable, nor are all of them used
         #[allow(unreachable_pub, dead_code)]
         impl<R: $crate::real::Real> $name<R> {

@@ -60,6 +60,7 @@ pub mod spherical;
 pub mod vector;
 pub mod warp;
 
+pub use lanewise::Lanewise;
 pub use light::{
     BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line,
     Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,

@@ -82,6 +82,7 @@ mod round;
 mod sample;
 mod sampler;
 mod surface;
+mod techniques;
 
 pub use cylinder::PlacedCylinder;
 pub use delta::{DeltaSampler, DirectionalLight, PointLight, SpotLight};

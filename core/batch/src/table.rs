@@ -98,6 +98,14 @@ pub unsafe trait InTable: 'static {
 }
 
 macro_rules! table {
+    // adds the functions of all techniques
+    ($({ $($row:tt)+ })+ $(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident: $by:ident $place:tt $($measure:ident)?;)+
+        }
+    )+) => {
+        table! { $($($name: LightFunctions<$sampler<f32 $(, $n)?>>,)+)+ $($($row)+,)+ }
+    };
     ($($field:ident: $functions:ident<$type:ty>,)+) => {
         /// The functions of one level of instructions, over packets of one width.
         #[repr(C)]
@@ -121,56 +129,33 @@ macro_rules! table {
         })+
     };
 }
-table! {
-    sphere_by_area: LightFunctions<SphereByArea<f32>>,
-    sphere_by_solid_angle: LightFunctions<SphereBySolidAngle<f32>>,
-    sphere_by_projected_solid_angle: LightFunctions<SphereByProjectedSolidAngle<f32>>,
-    triangle_by_area: LightFunctions<TriangleByArea<f32>>,
-    triangle_by_solid_angle: LightFunctions<TriangleBySolidAngle<f32>>,
-    triangle_by_projected_solid_angle: LightFunctions<TriangleByProjectedSolidAngle<f32>>,
-    triangle_by_cosine_warp: LightFunctions<TriangleByCosineWarp<f32>>,
-    parallelogram_by_area: LightFunctions<ParallelogramByArea<f32>>,
-    parallelogram_by_solid_angle: LightFunctions<ParallelogramBySolidAngle<f32>>,
-    parallelogram_by_projected_solid_angle: LightFunctions<ParallelogramByProjectedSolidAngle<f32>>,
-    rectangle_by_solid_angle: LightFunctions<RectangleBySolidAngle<f32>>,
-    rectangle_by_cosine_warp: LightFunctions<RectangleByCosineWarp<f32>>,
-    disk_by_area: LightFunctions<DiskByArea<f32>>,
-    disk_by_solid_angle: LightFunctions<DiskBySolidAngle<f32>>,
-    cylinder_by_area: LightFunctions<CylinderByArea<f32>>,
-    patch_by_area: LightFunctions<PatchByArea<f32>>,
-    polygon_by_area: LightFunctions<PolygonByArea<f32, 8>>,
-    polygon_by_solid_angle: LightFunctions<PolygonBySolidAngle<f32, 8>>,
-    polygon_by_projected_solid_angle: LightFunctions<PolygonByProjectedSolidAngle<f32, 8>>,
-    line_by_length: LightFunctions<LineByLength<f32>>,
-    line_by_angle: LightFunctions<LineByAngle<f32>>,
-    line_by_projected_solid_angle: LightFunctions<LineByProjectedSolidAngle<f32>>,
-    sun_by_solid_angle: LightFunctions<SunBySolidAngle<f32>>,
-    concentric_disk: WarpFunctions<ConcentricDisk>,
-    polar_disk: WarpFunctions<PolarDisk>,
-    uniform_hemisphere: WarpFunctions<UniformHemisphere>,
-    uniform_sphere: WarpFunctions<UniformSphere>,
-    cosine_hemisphere: WarpFunctions<CosineHemisphere>,
-    octahedral: WarpFunctions<Octahedral>,
-    area_triangle: WarpFunctions<AreaTriangle>,
-    low_distortion_triangle: WarpFunctions<LowDistortionTriangle>,
-    cone: WarpFunctions<Cone<f32>>,
-    bilinear: WarpFunctions<Bilinear<f32>>,
-    ggx_visible_normals: WarpFunctions<GgxVisibleNormals<f32>>,
-    disk_surface: WarpFunctions<DiskSurface<f32>>,
-    cylinder_side: WarpFunctions<CylinderSide<f32>>,
-    sphere_surface: WarpFunctions<SphereSurface<f32>>,
-    patch_surface: WarpFunctions<PatchSurface<f32>>,
-    linear: WarpFunctions<Linear<f32>>,
-    tent: WarpFunctions<Tent<f32>>,
-    exponential: WarpFunctions<Exponential<f32>>,
-    normal: WarpFunctions<Normal<f32>>,
-    independent: SequenceFunctions<Independent>,
-    owen_sobol: SequenceFunctions<OwenSobol>,
-    joint_sobol: SequenceFunctions<JointSobol>,
-    stratified: SequenceFunctions<Stratified>,
-    latin_hypercube: SequenceFunctions<LatinHypercube>,
-    lattice: SequenceFunctions<Lattice>,
-}
+etendue::techniques!(table! {
+    { concentric_disk: WarpFunctions<ConcentricDisk> }
+    { polar_disk: WarpFunctions<PolarDisk> }
+    { uniform_hemisphere: WarpFunctions<UniformHemisphere> }
+    { uniform_sphere: WarpFunctions<UniformSphere> }
+    { cosine_hemisphere: WarpFunctions<CosineHemisphere> }
+    { octahedral: WarpFunctions<Octahedral> }
+    { area_triangle: WarpFunctions<AreaTriangle> }
+    { low_distortion_triangle: WarpFunctions<LowDistortionTriangle> }
+    { cone: WarpFunctions<Cone<f32>> }
+    { bilinear: WarpFunctions<Bilinear<f32>> }
+    { ggx_visible_normals: WarpFunctions<GgxVisibleNormals<f32>> }
+    { disk_surface: WarpFunctions<DiskSurface<f32>> }
+    { cylinder_side: WarpFunctions<CylinderSide<f32>> }
+    { sphere_surface: WarpFunctions<SphereSurface<f32>> }
+    { patch_surface: WarpFunctions<PatchSurface<f32>> }
+    { linear: WarpFunctions<Linear<f32>> }
+    { tent: WarpFunctions<Tent<f32>> }
+    { exponential: WarpFunctions<Exponential<f32>> }
+    { normal: WarpFunctions<Normal<f32>> }
+    { independent: SequenceFunctions<Independent> }
+    { owen_sobol: SequenceFunctions<OwenSobol> }
+    { joint_sobol: SequenceFunctions<JointSobol> }
+    { stratified: SequenceFunctions<Stratified> }
+    { latin_hypercube: SequenceFunctions<LatinHypercube> }
+    { lattice: SequenceFunctions<Lattice> }
+});
 
 /// The functions of this compilation.
 #[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3"))]

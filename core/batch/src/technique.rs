@@ -21,15 +21,39 @@ pub trait Technique: LightSampler<f32> + Copy + 'static {
     fn of(sampler: Self::Of<f32>) -> Self;
 }
 
-macro_rules! techniques {
-    ($($sampler:ident $(<$n:literal>)?: $light:ident $on_surface:literal |$l:ident, $p:tt, $normal:tt| $prepare:expr;)+) => {$(
+/// A light prepared at a point, with the normal there if the technique needs one, and whether it does.
+macro_rules! prepared {
+    ($light:expr, $by:ident, $p:expr, $n:expr, ()) => {
+        $light.$by()
+    };
+    ($light:expr, $by:ident, $p:expr, $n:expr, (p)) => {
+        $light.$by($p)
+    };
+    ($light:expr, $by:ident, $p:expr, $n:expr, (p, n)) => {
+        $light.$by($p, $n)
+    };
+    (on_surface (p, n)) => {
+        true
+    };
+    (on_surface $other:tt) => {
+        false
+    };
+}
+
+macro_rules! implement {
+    ($(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident: $by:ident $place:tt $($measure:ident)?;)+
+        }
+    )+) => {$($(
         impl Technique for $sampler<f32 $(, $n)?> {
             type Light<X: Copy> = $light<X $(, $n)?>;
             type Of<R: Real> = $sampler<R $(, $n)?>;
-            const ON_SURFACE: bool = $on_surface;
+            const ON_SURFACE: bool = prepared!(on_surface $place);
             #[inline(always)]
-            fn prepare<R: Real>($l: Self::Light<R>, $p: Vec3<R>, $normal: Vec3<R>) -> Self::Of<R> {
-                $prepare
+            fn prepare<R: Real>(light: Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Of<R> {
+                let _ = (p, n);
+                prepared!(light, $by, p, n, $place)
             }
             #[inline(always)]
             fn map<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y> {
@@ -44,30 +68,6 @@ macro_rules! techniques {
                 sampler
             }
         }
-    )+};
+    )+)+};
 }
-techniques! {
-    SphereByArea: Sphere false |light, p, _| light.by_area(p);
-    SphereBySolidAngle: Sphere false |light, p, _| light.by_solid_angle(p);
-    SphereByProjectedSolidAngle: Sphere true |light, p, n| light.by_projected_solid_angle(p, n);
-    TriangleByArea: Triangle false |light, p, _| light.by_area(p);
-    TriangleBySolidAngle: Triangle false |light, p, _| light.by_solid_angle(p);
-    TriangleByProjectedSolidAngle: Triangle true |light, p, n| light.by_projected_solid_angle(p, n);
-    TriangleByCosineWarp: Triangle true |light, p, n| light.by_cosine_warp(p, n);
-    ParallelogramByArea: Parallelogram false |light, p, _| light.by_area(p);
-    ParallelogramBySolidAngle: Parallelogram false |light, p, _| light.by_solid_angle(p);
-    ParallelogramByProjectedSolidAngle: Parallelogram true |light, p, n| light.by_projected_solid_angle(p, n);
-    RectangleBySolidAngle: Rectangle false |light, p, _| light.by_solid_angle(p);
-    RectangleByCosineWarp: Rectangle true |light, p, n| light.by_cosine_warp(p, n);
-    DiskByArea: Disk false |light, p, _| light.by_area(p);
-    DiskBySolidAngle: Disk false |light, p, _| light.by_solid_angle(p);
-    CylinderByArea: Cylinder false |light, p, _| light.by_area(p);
-    PatchByArea: BilinearPatch false |light, p, _| light.by_area(p);
-    PolygonByArea<8>: Polygon false |light, p, _| light.by_area(p);
-    PolygonBySolidAngle<8>: Polygon false |light, p, _| light.by_solid_angle(p);
-    PolygonByProjectedSolidAngle<8>: Polygon true |light, p, n| light.by_projected_solid_angle(p, n);
-    LineByLength: Line false |light, p, _| light.by_length(p);
-    LineByAngle: Line false |light, p, _| light.by_angle(p);
-    LineByProjectedSolidAngle: Line true |light, p, n| light.by_projected_solid_angle(p, n);
-    SunBySolidAngle: Sun false |light, _, _| light.by_solid_angle();
-}
+etendue::techniques!(implement! {});

@@ -1,5 +1,6 @@
 use super::sampler::{ByArea, ByProjectedSolidAngle, BySolidAngle};
 use super::surface::PlacedPolygon;
+use crate::lanewise::lanewise_by_map;
 use crate::real::Real;
 use crate::spherical::{ProjectedPolygon, SphericalPolygon};
 use crate::vector::Vec3;
@@ -30,6 +31,8 @@ impl<R, const N: usize> Polygon<R, N> {
         Polygon { corners: self.corners.map(|corner| corner.map(&mut f)) }
     }
 }
+
+lanewise_by_map!(Polygon, N);
 
 impl<R: Real, const N: usize> Polygon<R, N> {
     /// The polygon with these corners, which must be in order and in one plane.

@@ -2,6 +2,7 @@
 
 use super::sample::{AreaSample, LightSample, direction_to, solid_angle_pdf};
 use super::surface::{AreaSurface, Surface};
+use crate::lanewise::Lanewise;
 use crate::real::{Mask, Real};
 use crate::spherical::{CosineWarped, DirectionSample, ProjectedShape, SphericalShape};
 use crate::vector::{Vec2, Vec3};
@@ -305,43 +306,35 @@ impl<R: Real, S: Surface<R>, W: SphericalShape<R>> LightSampler<R> for ByCosineW
     }
 }
 
-/// `map` and `splat` for each kind of sampler: prepared in scalars, it draws packets of samples for one point.
+/// `map` and `splat`: prepared in scalars, a sampler draws packets of samples for one point.
 macro_rules! splats {
-    ($($alias:ident $(, $n:ident)?: $struct:ident { $($field:ident),+ })+) => {$(
-        impl<R $(, const $n: usize)?> super::$alias<R $(, $n)?> {
+    ($($name:ident<R, S $(, $shape:ident)?> { $($field:ident),+ })+) => {$(
+        impl<R, S: Lanewise<R> $(, $shape: Lanewise<R>)?> $name<R, S $(, $shape)?> {
             /// Replaces each number x by `f(x)`.
             #[inline(always)]
-            pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> super::$alias<S $(, $n)?> {
-                $struct { origin: self.origin.map(&mut f), $($field: self.$field.map(&mut f)),+ }
+            pub fn map<T>(self, mut f: impl FnMut(R) -> T) -> $name<T, S::With<T> $(, $shape::With<T>)?> {
+                $name { $($field: self.$field.map(&mut f)),+ }
             }
         }
-        impl<R: Real $(, const $n: usize)?> super::$alias<R $(, $n)?> {
+        impl<R, S: Lanewise<R> $(, $shape: Lanewise<R>)?> Lanewise<R> for $name<R, S $(, $shape)?> {
+            type With<T> = $name<T, S::With<T> $(, $shape::With<T>)?>;
+            #[inline(always)]
+            fn map<T>(self, f: impl FnMut(R) -> T) -> Self::With<T> {
+                self.map(f)
+            }
+        }
+        impl<R: Real, S: Lanewise<R> $(, $shape: Lanewise<R>)?> $name<R, S $(, $shape)?> {
             /// Repeats one sampler in every lane: prepared for one point, it draws packets of samples.
             #[inline(always)]
-            pub fn splat(s: super::$alias<R::Scalar $(, $n)?>) -> Self {
+            pub fn splat<T: Lanewise<R::Scalar, With<R> = Self>>(s: T) -> Self {
                 s.map(R::splat)
             }
         }
     )+};
 }
 splats! {
-    TriangleByArea: ByArea { surface }
-    ParallelogramByArea: ByArea { surface }
-    SphereByArea: ByArea { surface }
-    DiskByArea: ByArea { surface }
-    CylinderByArea: ByArea { surface }
-    PatchByArea: ByArea { surface }
-    PolygonByArea, N: ByArea { surface }
-    TriangleBySolidAngle: BySolidAngle { surface, shape }
-    ParallelogramBySolidAngle: BySolidAngle { surface, shape }
-    RectangleBySolidAngle: BySolidAngle { surface, shape }
-    SphereBySolidAngle: BySolidAngle { surface, shape }
-    DiskBySolidAngle: BySolidAngle { surface, shape }
-    PolygonBySolidAngle, N: BySolidAngle { surface, shape }
-    TriangleByProjectedSolidAngle: ByProjectedSolidAngle { normal, surface, shape }
-    ParallelogramByProjectedSolidAngle: ByProjectedSolidAngle { normal, surface, shape }
-    SphereByProjectedSolidAngle: ByProjectedSolidAngle { normal, surface, shape }
-    PolygonByProjectedSolidAngle, N: ByProjectedSolidAngle { normal, surface, shape }
-    TriangleByCosineWarp: ByCosineWarp { surface, warped }
-    RectangleByCosineWarp: ByCosineWarp { surface, warped }
+    ByArea<R, S> { origin, surface }
+    BySolidAngle<R, S, W> { origin, surface, shape }
+    ByProjectedSolidAngle<R, S, W> { origin, normal, surface, shape }
+    ByCosineWarp<R, S, W> { origin, surface, warped }
 }

@@ -1,6 +1,6 @@
 //! The surfaces of lights relative to the shading point, which is the origin of all coordinates here.
 
-use crate::lanewise::lanewise;
+use crate::lanewise::{lanewise, lanewise_by_map};
 use crate::real::{Real, unit_interval};
 use crate::spherical::{compensated_dot, compensated_height, cross_dw, to_unit};
 use crate::vector::{Frame, Vec2, Vec3};
@@ -270,6 +270,8 @@ impl<R, const N: usize> PlacedPolygon<R, N> {
         }
     }
 }
+
+lanewise_by_map!(PlacedPolygon, N);
 
 impl<R: Real, const N: usize> PlacedPolygon<R, N> {
     #[inline(always)]

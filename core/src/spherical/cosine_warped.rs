@@ -1,3 +1,4 @@
+use crate::lanewise::Lanewise;
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Bilinear, Warp};
@@ -67,22 +68,10 @@ impl<R: Real, S: Warp<R, Point = Vec3<R>>> Warp<R> for CosineWarped<S, R> {
     }
 }
 
-macro_rules! splats {
-    ($($shape:ident),+) => {$(
-        impl<R> CosineWarped<super::$shape<R>, R> {
-            /// Replaces each number x by `f(x)`.
-            #[inline(always)]
-            pub fn map<S>(self, mut f: impl FnMut(R) -> S) -> CosineWarped<super::$shape<S>, S> {
-                CosineWarped { shape: self.shape.map(&mut f), weights: self.weights.map(&mut f) }
-            }
-        }
-        impl<R: Real> CosineWarped<super::$shape<R>, R> {
-            /// Repeats one warp in every lane.
-            #[inline(always)]
-            pub fn splat(s: CosineWarped<super::$shape<R::Scalar>, R::Scalar>) -> Self {
-                s.map(R::splat)
-            }
-        }
-    )+};
+impl<R, S: Lanewise<R>> CosineWarped<S, R> {
+    /// Replaces each number x by `f(x)`.
+    #[inline(always)]
+    pub fn map<T>(self, mut f: impl FnMut(R) -> T) -> CosineWarped<S::With<T>, T> {
+        CosineWarped { shape: self.shape.map(&mut f), weights: self.weights.map(&mut f) }
+    }
 }
-splats!(SphericalTriangle, SphericalRectangle);

@@ -1,6 +1,7 @@
 use super::double_word::{compensated_height, cross_dw, sum_dw};
 use super::triangle::Planes;
 use super::{DirectionSample, SphericalTriangle, to_unit};
+use crate::lanewise::lanewise_by_map;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -37,6 +38,8 @@ impl<R> SphericalParallelogram<R> {
         SphericalParallelogram { first: self.first.map(&mut f), second: self.second.map(&mut f) }
     }
 }
+
+lanewise_by_map!(SphericalParallelogram);
 
 impl<R: Real> SphericalParallelogram<R> {
     /// Prepares for the corners p, p+u, p+u+v, p+v, with p relative to the point; all in one unit of length.

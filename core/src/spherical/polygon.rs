@@ -1,4 +1,5 @@
 use super::{DirectionSample, SphericalTriangle};
+use crate::lanewise::lanewise_by_map;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -46,6 +47,8 @@ impl<R, const N: usize> SphericalPolygon<R, N> {
         SphericalPolygon { fan: self.fan.map(|triangle| triangle.map(&mut f)), solid_angle: f(self.solid_angle) }
     }
 }
+
+lanewise_by_map!(SphericalPolygon, N);
 
 impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     const TRIANGLES: usize = {

@@ -7,6 +7,7 @@ use super::projected_triangle::{
 };
 use super::{DirectionSample, to_unit};
 use crate::math::ratio;
+use crate::lanewise::lanewise_by_map;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -64,6 +65,8 @@ impl<R, const N: usize> ProjectedPolygon<R, N> {
         }
     }
 }
+
+lanewise_by_map!(ProjectedPolygon, N);
 
 impl<R: Real> ProjectedPolygon<R, 4> {
     /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of

@@ -1,4 +1,5 @@
 use super::{Linear, Warp, Warp1};
+use crate::lanewise::lanewise_by_map;
 use crate::real::Real;
 use crate::vector::Vec2;
 
@@ -28,6 +29,8 @@ impl<R> Bilinear<R> {
         Bilinear { corners: self.corners.map(f) }
     }
 }
+
+lanewise_by_map!(Bilinear);
 
 impl<R: Real> Bilinear<R> {
     /// Repeats one distribution in every lane.
