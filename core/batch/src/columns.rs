@@ -46,6 +46,11 @@ impl SampleColumns {
     pub(crate) fn needs_surface(&self) -> bool {
         !self.normal.iter().chain(&self.uv).all(|column| column.is_null())
     }
+    /// True if any column is wanted.
+    pub(crate) fn any(&self) -> bool {
+        let mut others = self.direction.iter().chain([&self.distance, &self.pdf, &self.weight]);
+        self.needs_surface() || !self.emits.is_null() || !others.all(|column| column.is_null())
+    }
     /// The columns from element `i` on.
     pub(crate) fn from(&self, i: usize) -> Self {
         fn from<T>(column: *mut T, i: usize) -> *mut T {
@@ -75,6 +80,37 @@ impl Samples<'_> {
             uv: self.uv.map(|column| pointer(column, n)),
             emits: pointer(self.emits, n),
         }
+    }
+}
+
+/// Where what is known of directions goes: slices of the length of the batch, or empty slices for what is not wanted.
+#[derive(Debug, Default)]
+pub struct Evaluations<'a> {
+    /// The pdf of each direction, per steradian (lines: see [`etendue::Line`]); 0 where it misses the light.
+    pub pdf: &'a mut [f32],
+    /// The numbers in [0, 1)² that are mapped to each direction; any where it misses the light.
+    pub u: [&'a mut [f32]; 2],
+    /// The nearest point of the light in each direction, with its pdf; 0 where it misses the light.
+    pub hit: Samples<'a>,
+}
+
+/// [`Evaluations`] by pointers, each null or to as many elements as the batch has.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct EvaluationColumns {
+    /// The pdf of each direction, per steradian; 0 where it misses the light.
+    pub pdf: *mut f32,
+    /// The numbers in [0, 1)² that are mapped to each direction.
+    pub u: [*mut f32; 2],
+    /// The nearest point of the light in each direction, with its pdf.
+    pub hit: SampleColumns,
+}
+
+impl Evaluations<'_> {
+    #[track_caller]
+    pub(crate) fn columns(self, n: usize) -> EvaluationColumns {
+        let u = self.u.map(|column| pointer(column, n));
+        EvaluationColumns { pdf: pointer(self.pdf, n), u, hit: self.hit.columns(n) }
     }
 }
 

@@ -5,7 +5,7 @@
 
 use crate::technique::Technique;
 use crate::warp::BatchWarp;
-use crate::{ChoiceColumns, Counters, SampleColumns};
+use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns};
 use core::mem::MaybeUninit;
 use core::ptr::copy_nonoverlapping;
 use etendue::select::{LightChoice, LightTree};
@@ -178,49 +178,107 @@ pub(crate) unsafe extern "C" fn sample<T: Technique, R: Packet>(
     });
 }
 
+/// Lights of their own for each element, as seen from points of surfaces with normals of their own.
+#[repr(C)]
+pub struct Views<T: Technique> {
+    /// The lights.
+    pub lights: T::Light<*const f32>,
+    /// The shading points.
+    pub points: Vec3<*const f32>,
+    /// The unit normals there; techniques that need none do not read them.
+    pub normals: Vec3<*const f32>,
+}
+
+impl<T: Technique> Views<T> {
+    /// The lights of a packet, prepared.
+    #[inline(always)]
+    unsafe fn prepare<R: Packet>(&self, place: Place) -> T::Of<R> {
+        // SAFETY: the caller's columns have an element for every lane
+        unsafe {
+            let load = |column| place.load::<R>(column);
+            let normal = if T::ON_SURFACE { self.normals.map(load) } else { Vec3::splat(Vec3::default()) };
+            T::prepare(T::map(self.lights, load), self.points.map(load), normal)
+        }
+    }
+    /// The light of one element, prepared by the function of one light, whose code is there already.
+    unsafe fn one(&self, i: usize) -> T {
+        let mut sampler = MaybeUninit::<T>::uninit();
+        // SAFETY: the caller's columns have this element
+        unsafe {
+            let number = |column: *const f32| column.add(i).read_unaligned();
+            let normal = if T::ON_SURFACE { self.normals.map(number) } else { Vec3::default() };
+            prepare::<T>(&T::map(self.lights, number), self.points.map(number), normal, sampler.as_mut_ptr());
+            sampler.assume_init()
+        }
+    }
+}
+
 /// Samples of a light of its own for each element, prepared for a point of its own.
 pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Packet>(
-    lights: &T::Light<*const f32>,
+    views: &Views<T>,
     n: usize,
-    points: Vec3<*const f32>,
-    normals: Vec3<*const f32>,
     u: Vec2<*const f32>,
     out: &SampleColumns,
 ) {
     if R::LANES == 1 {
-        // SAFETY: the caller's
-        return unsafe { one_by_one::<T>(lights, n, points, normals, u, out) };
+        for i in 0..n {
+            // SAFETY: the caller's columns have `n` elements
+            unsafe { sample::<T, f32>(&views.one(i), 1, u.map(|column| column.add(i)), &out.from(i)) };
+        }
+        return;
     }
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
-        let light = T::map(*lights, |column| place.load::<R>(column));
-        let p = points.map(|column| place.load::<R>(column));
-        let normal =
-            if T::ON_SURFACE { normals.map(|column| place.load::<R>(column)) } else { Vec3::splat(Vec3::default()) };
-        let u = u.map(|column| place.load(column));
-        place.store_sample(out, &T::prepare(light, p, normal).sample(u));
+        place.store_sample(out, &views.prepare::<R>(place).sample(u.map(|column| place.load(column))));
     });
 }
 
-/// [`sample_each`] by the functions of one light, whose code is there already.
-unsafe fn one_by_one<T: Technique>(
-    lights: &T::Light<*const f32>,
+/// The pdf, the random numbers and the hit of a direction of its own for each element; null columns are not wanted.
+pub(crate) unsafe extern "C" fn evaluate_each<T: Technique, R: Packet>(
+    views: &Views<T>,
     n: usize,
-    points: Vec3<*const f32>,
-    normals: Vec3<*const f32>,
-    u: Vec2<*const f32>,
-    out: &SampleColumns,
+    directions: Vec3<*const f32>,
+    out: &EvaluationColumns,
 ) {
-    for i in 0..n {
-        // SAFETY: the caller's columns have `n` elements
-        unsafe {
-            let number = |column: *const f32| column.add(i).read_unaligned();
-            let normal = if T::ON_SURFACE { normals.map(number) } else { Vec3::default() };
-            let mut sampler = MaybeUninit::<T>::uninit();
-            prepare::<T>(&T::map(*lights, number), points.map(number), normal, sampler.as_mut_ptr());
-            sample::<T, f32>(sampler.assume_init_ref(), 1, u.map(|column| column.add(i)), &out.from(i));
+    let EvaluationColumns { pdf: pdfs, u, hit: hits } = out;
+    let (wants_u, wants_hit) = (!u.iter().all(|column| column.is_null()), hits.any());
+    if R::LANES == 1 {
+        for i in 0..n {
+            // SAFETY: the caller's columns have `n` elements
+            unsafe {
+                let sampler = views.one(i);
+                let w = directions.map(|column| column.add(i));
+                let from = |column: *mut f32| if column.is_null() { column } else { column.add(i) };
+                if !pdfs.is_null() {
+                    pdf::<T, f32>(&sampler, 1, w, from(*pdfs));
+                }
+                if wants_u {
+                    invert::<T, f32>(&sampler, 1, w, Vec2::new(from(u[0]), from(u[1])));
+                }
+                if wants_hit {
+                    hit::<T, f32>(&sampler, 1, w, &hits.from(i));
+                }
+            }
         }
+        return;
     }
+    // SAFETY: the caller's columns have `n` elements
+    packets(n, R::LANES, |place| unsafe {
+        let sampler = views.prepare::<R>(place);
+        let w = directions.map(|column| place.load(column));
+        // what is not wanted is not computed
+        if !pdfs.is_null() {
+            place.store(*pdfs, sampler.pdf(w));
+        }
+        if wants_u {
+            let found = sampler.invert(w);
+            place.store(u[0], found.x);
+            place.store(u[1], found.y);
+        }
+        if wants_hit {
+            place.store_sample(hits, &sampler.hit(w));
+        }
+    });
 }
 
 /// The pdf of directions.

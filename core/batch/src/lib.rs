@@ -35,7 +35,8 @@ mod table;
 mod technique;
 mod warp;
 
-pub use columns::{ChoiceColumns, Choices, Counters, SampleColumns, Samples};
+pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
+pub use kernel::Views;
 pub use table::{InTable, LightFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions};
 pub use technique::Technique;
 pub use warp::BatchWarp;
@@ -173,21 +174,28 @@ impl Batch {
         T: Technique + InTable<Functions = LightFunctions<T>>,
     {
         let count = u.x.len();
-        check(count, [u.y.len(), p.x.len(), p.y.len(), p.z.len()]);
-        if T::ON_SURFACE {
-            check(count, [n.x.len(), n.y.len(), n.z.len()]);
-        }
-        let lights = T::map(lights, |column: &[f32]| {
-            check(count, [column.len()]);
-            column.as_ptr()
-        });
-        let out = out.columns(count);
-        let pointers = |v: Vec3<&[f32]>| v.map(<[f32]>::as_ptr);
+        check(count, [u.y.len()]);
+        let (views, out) = (views::<T>(count, lights, p, n), out.columns(count));
         // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
-        unsafe {
-            let each = self.functions::<T>().sample_each;
-            each(&lights, count, pointers(p), pointers(n), u.map(<[f32]>::as_ptr), &out);
-        }
+        unsafe { (self.functions::<T>().sample_each)(&views, count, u.map(<[f32]>::as_ptr), &out) };
+    }
+    /// Prepares a light of its own for each element, as [`sample_each`](Self::sample_each) does, and evaluates it in the unit direction `w`.
+    /// What is not wanted is not computed.
+    pub fn evaluate_each<T>(
+        &self,
+        lights: T::Light<&[f32]>,
+        p: Vec3<&[f32]>,
+        n: Vec3<&[f32]>,
+        w: Vec3<&[f32]>,
+        out: Evaluations<'_>,
+    ) where
+        T: Technique + InTable<Functions = LightFunctions<T>>,
+    {
+        let count = w.x.len();
+        check(count, [w.y.len(), w.z.len()]);
+        let (views, out) = (views::<T>(count, lights, p, n), out.columns(count));
+        // SAFETY: all columns have `count` elements, and the outputs are borrowed mutably
+        unsafe { (self.functions::<T>().evaluate_each)(&views, count, w.map(<[f32]>::as_ptr), &out) };
     }
     /// The pdf of unit directions, per steradian (lines: see [`etendue::Line`]).
     pub fn pdf<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: &mut [f32])
@@ -295,6 +303,20 @@ impl Batch {
     pub const fn tree(&self) -> &'static TreeFunctions {
         &self.table.tree
     }
+}
+
+/// Lights, points and normals by pointers.
+#[track_caller]
+fn views<T: Technique>(count: usize, lights: T::Light<&[f32]>, p: Vec3<&[f32]>, n: Vec3<&[f32]>) -> Views<T> {
+    check(count, [p.x.len(), p.y.len(), p.z.len()]);
+    if T::ON_SURFACE {
+        check(count, [n.x.len(), n.y.len(), n.z.len()]);
+    }
+    let lights = T::map(lights, |column: &[f32]| {
+        check(count, [column.len()]);
+        column.as_ptr()
+    });
+    Views { lights, points: p.map(<[f32]>::as_ptr), normals: n.map(<[f32]>::as_ptr) }
 }
 
 /// Panics unless all columns are as long as the batch.

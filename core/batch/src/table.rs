@@ -1,9 +1,9 @@
 //! The functions of every level, in tables of the same form.
 
-use crate::kernel::Packet;
+use crate::kernel::{Packet, Views};
 use crate::technique::Technique;
 use crate::warp::BatchWarp;
-use crate::{ChoiceColumns, Counters, SampleColumns, kernel};
+use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns, kernel};
 use etendue::light::*;
 use etendue::select::LightTree;
 use etendue::sequence::*;
@@ -20,8 +20,9 @@ pub struct LightFunctions<T: Technique> {
     /// See [`Batch::sample`](crate::Batch::sample).
     pub sample: unsafe extern "C" fn(&T, usize, Vec2<Column>, &SampleColumns),
     /// See [`Batch::sample_each`](crate::Batch::sample_each).
-    pub sample_each:
-        unsafe extern "C" fn(&T::Light<Column>, usize, Vec3<Column>, Vec3<Column>, Vec2<Column>, &SampleColumns),
+    pub sample_each: unsafe extern "C" fn(&Views<T>, usize, Vec2<Column>, &SampleColumns),
+    /// See [`Batch::evaluate_each`](crate::Batch::evaluate_each).
+    pub evaluate_each: unsafe extern "C" fn(&Views<T>, usize, Vec3<Column>, &EvaluationColumns),
     /// See [`Batch::pdf`](crate::Batch::pdf).
     pub pdf: unsafe extern "C" fn(&T, usize, Vec3<Column>, *mut f32),
     /// See [`Batch::invert`](crate::Batch::invert).
@@ -36,6 +37,7 @@ impl<T: Technique> LightFunctions<T> {
             prepare: if cfg!(feature = "level-v4") { kernel::no_prepare::<T> } else { kernel::prepare::<T> },
             sample: kernel::sample::<T, R>,
             sample_each: kernel::sample_each::<T, R>,
+            evaluate_each: kernel::evaluate_each::<T, R>,
             pdf: kernel::pdf::<T, R>,
             invert: kernel::invert::<T, R>,
             hit: kernel::hit::<T, R>,
@@ -101,7 +103,7 @@ macro_rules! table {
     // adds the functions of all techniques
     ($({ $($row:tt)+ })+ $(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident: $by:ident $place:tt $($measure:ident)?;)+
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
         table! { $($($name: LightFunctions<$sampler<f32 $(, $n)?>>,)+)+ $($($row)+,)+ }

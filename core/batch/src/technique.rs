@@ -43,7 +43,7 @@ macro_rules! prepared {
 macro_rules! implement {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident: $by:ident $place:tt $($measure:ident)?;)+
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {$($(
         impl Technique for $sampler<f32 $(, $n)?> {

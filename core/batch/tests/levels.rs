@@ -157,6 +157,21 @@ impl Visitor for Equal {
                     let sampler = T::prepare::<f32>(light, at(input.three(30, n), i), at(input.three(33, n), i));
                     assert_eq!(written.figures(i), figures(&sampler.sample(one(i))), "sample each: {}", say(i));
                 }
+                let (mut pdf, mut x, mut y) = (vec![-7.0; n], vec![-7.0; n], vec![-7.0; n]);
+                let mut written = Written::new(n);
+                let out = Evaluations { pdf: &mut pdf, u: [&mut x, &mut y], hit: written.samples() };
+                batch.evaluate_each::<T>(lights, input.three(30, n), input.three(33, n), w, out);
+                let mut only = vec![-7.0; n];
+                let out = Evaluations { pdf: &mut only, ..Evaluations::default() };
+                batch.evaluate_each::<T>(lights, input.three(30, n), input.three(33, n), w, out);
+                for i in 0..n {
+                    let light = T::map(lights, |column| column[i]);
+                    let sampler = T::prepare::<f32>(light, at(input.three(30, n), i), at(input.three(33, n), i));
+                    let (expected, u) = (sampler.pdf(at(w, i)), sampler.invert(at(w, i)));
+                    assert_eq!([pdf[i], only[i]].map(bits), [expected; 2].map(bits), "pdf each: {}", say(i));
+                    assert_eq!([x[i], y[i]].map(bits), [u.x, u.y].map(bits), "invert each: {}", say(i));
+                    assert_eq!(written.figures(i), figures(&sampler.hit(at(w, i))), "hit each: {}", say(i));
+                }
                 self.compared += n;
             }
         }

@@ -141,6 +141,12 @@ impl Visitor for Bench {
             |b, n, out| b.sample_each::<T>(lights(n), input.vector(2, n), input.vector(5, n), u(n), out.samples(n)),
             None,
         );
+        let pdf_each = |b: Batch, n: usize, out: &mut Results| {
+            let w = input.vector(5, n);
+            let out = Evaluations { pdf: &mut out.columns[0][..n], ..Evaluations::default() };
+            b.evaluate_each::<T>(lights(n), input.vector(2, n), w, w, out);
+        };
+        self.row(&format!("{name}, pdf each"), pdf_each, None);
         let mut drawn = Results { columns: core::array::from_fn(|_| vec![0.0; N]) };
         Batch::new().sample(&sampler, u(N), drawn.samples(N));
         let directions = |n: usize| Vec3::new(&drawn.columns[0][..n], &drawn.columns[1][..n], &drawn.columns[2][..n]);

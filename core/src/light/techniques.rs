@@ -4,8 +4,8 @@
 ///
 /// A light is `Light [corners] { field as argument: kind, … } by default { technique; … }`. A field is a `point`, an `edge` (from one point to
 /// another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one), a `direction`, a `number` or
-/// `corners`. A technique is `Sampler [corners] = name_in_c: method(arguments) measure;`: the measure is the sampler's method that returns
-/// what it is uniform over, if it has one. The first lines of documentation are those that hosts without Rust read.
+/// `corners`. A technique is `Sampler [corners] = name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
+/// numbers, and the measure is its method that returns what it is uniform over, if it has one. The first lines of documentation are those that hosts without Rust read.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! techniques {
@@ -20,12 +20,12 @@ macro_rules! techniques {
             } by solid_angle {
                 /// Uniform over the surface: pdf distance²/(|cosθ'| 4πR²) per steradian, θ' at the light. More than half of the samples
                 /// face away.
-                SphereByArea = sphere_by_area: by_area(p) area;
+                SphereByArea = sphere_by_area[7]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian. From inside, every direction.
-                SphereBySolidAngle = sphere_by_solid_angle: by_solid_angle(p) solid_angle;
+                SphereBySolidAngle = sphere_by_solid_angle[20]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                SphereByProjectedSolidAngle = sphere_by_projected_solid_angle: by_projected_solid_angle(p, n) projected_solid_angle;
+                SphereByProjectedSolidAngle = sphere_by_projected_solid_angle[39]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
             /// the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
@@ -39,14 +39,14 @@ macro_rules! techniques {
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. For small, far and facing
                 /// triangles.
-                TriangleByArea = triangle_by_area: by_area(p) area;
+                TriangleByArea = triangle_by_area[36]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                TriangleBySolidAngle = triangle_by_solid_angle: by_solid_angle(p) solid_angle;
+                TriangleBySolidAngle = triangle_by_solid_angle[84]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
-                TriangleByProjectedSolidAngle = triangle_by_projected_solid_angle: by_projected_solid_angle(p, n) projected_solid_angle;
+                TriangleByProjectedSolidAngle = triangle_by_projected_solid_angle[165]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                TriangleByCosineWarp = triangle_by_cosine_warp: by_cosine_warp(p, n) solid_angle;
+                TriangleByCosineWarp = triangle_by_cosine_warp[88]: by_cosine_warp(p, n) solid_angle;
             }
             /// A parallelogram corner + s·edge_s + t·edge_t, s and t in [0, 1], that emits from the side of edge_s × edge_t. Without area,
             /// and from a point in its plane, the pdf is 0. uv: (s, t).
@@ -59,12 +59,12 @@ macro_rules! techniques {
                 v as edge_t: edge,
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                ParallelogramByArea = parallelogram_by_area: by_area(p) area;
+                ParallelogramByArea = parallelogram_by_area[36]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                ParallelogramBySolidAngle = parallelogram_by_solid_angle: by_solid_angle(p) solid_angle;
+                ParallelogramBySolidAngle = parallelogram_by_solid_angle[132]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle = parallelogram_by_projected_solid_angle: by_projected_solid_angle(p, n) projected_solid_angle;
+                ParallelogramByProjectedSolidAngle = parallelogram_by_projected_solid_angle[549]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A rectangle corner + s·edge_s + t·edge_t with perpendicular edges, s and t in [0, 1], that emits from the side of
             /// edge_s × edge_t. Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t).
@@ -77,9 +77,9 @@ macro_rules! techniques {
                 v as edge_t: edge,
             } by solid_angle {
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                RectangleBySolidAngle = rectangle_by_solid_angle: by_solid_angle(p) solid_angle;
+                RectangleBySolidAngle = rectangle_by_solid_angle[88]: by_solid_angle(p) solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                RectangleByCosineWarp = rectangle_by_cosine_warp: by_cosine_warp(p, n) solid_angle;
+                RectangleByCosineWarp = rectangle_by_cosine_warp[92]: by_cosine_warp(p, n) solid_angle;
             }
             /// A disk that emits from the side of its normal. A radius ≤ 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
             /// position q on the unit disk.
@@ -92,9 +92,9 @@ macro_rules! techniques {
                 radius as radius: number,
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                DiskByArea = disk_by_area: by_area(p) area;
+                DiskByArea = disk_by_area[17]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                DiskBySolidAngle = disk_by_solid_angle: by_solid_angle(p) solid_angle;
+                DiskBySolidAngle = disk_by_solid_angle[42]: by_solid_angle(p) solid_angle;
             }
             /// The side of a cylinder, that emits outwards. A radius ≤ 0 or an axis of length 0 gives pdf 0. uv: height along the axis, and
             /// azimuth in turns.
@@ -108,7 +108,7 @@ macro_rules! techniques {
             } by area {
                 /// Uniform over the side of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. More than half of the
                 /// samples face away.
-                CylinderByArea = cylinder_by_area: by_area(p) area;
+                CylinderByArea = cylinder_by_area[20]: by_area(p) area;
             }
             /// A bilinear patch corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
             /// ∂s × ∂t. Without area the pdf is 0. uv: (s, t).
@@ -123,7 +123,7 @@ macro_rules! techniques {
                 w as diagonal: edge,
             } by area {
                 /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
-                PatchByArea = patch_by_area: by_area(p) area;
+                PatchByArea = patch_by_area[28]: by_area(p) area;
             }
             /// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
             /// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
@@ -134,12 +134,12 @@ macro_rules! techniques {
                 corners as corners: corners,
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                PolygonByArea [8] = polygon_by_area: by_area(p) area;
+                PolygonByArea [8] = polygon_by_area[67]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                PolygonBySolidAngle [8] = polygon_by_solid_angle: by_solid_angle(p) solid_angle;
+                PolygonBySolidAngle [8] = polygon_by_solid_angle[452]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                PolygonByProjectedSolidAngle [8] = polygon_by_projected_solid_angle: by_projected_solid_angle(p, n) projected_solid_angle;
+                PolygonByProjectedSolidAngle [8] = polygon_by_projected_solid_angle[1084]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
             /// first random number alone. The pdf is in the measure sinγ ds/r² (γ from the line, s along it), so that the estimator is
@@ -152,12 +152,12 @@ macro_rules! techniques {
                 edge as edge: edge,
             } by angle {
                 /// Uniform over the length: pdf r²/(length · sinγ).
-                LineByLength = line_by_length: by_length(p);
+                LineByLength = line_by_length[14]: by_length(p);
                 /// Uniform over the angle α that the line subtends at the point p: pdf r/α, with r its least distance.
-                LineByAngle = line_by_angle: by_angle(p) angle;
+                LineByAngle = line_by_angle[31]: by_angle(p) angle;
                 /// By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
                 /// it.
-                LineByProjectedSolidAngle = line_by_projected_solid_angle: by_projected_solid_angle(p, n);
+                LineByProjectedSolidAngle = line_by_projected_solid_angle[46]: by_projected_solid_angle(p, n);
             }
             /// A sun: the same radiance from all directions within an angle σ of one direction, at every point. The distance is the
             /// largest number of single precision.
@@ -168,7 +168,7 @@ macro_rules! techniques {
                 one_minus_cos as one_minus_cos: number,
             } by solid_angle {
                 /// Uniform over the cone: pdf 1/(2π(1 − cosσ)) per steradian, 0 where the cone is empty.
-                SunBySolidAngle = sun_by_solid_angle: by_solid_angle() solid_angle;
+                SunBySolidAngle = sun_by_solid_angle[10]: by_solid_angle() solid_angle;
             }
         }
     };

@@ -22,41 +22,53 @@ pub(crate) trait Visitor {
         S: Sequence + InTable<Functions = SequenceFunctions<S>>;
 }
 
+fn v(x: f32, y: f32, z: f32) -> Vec3<f32> {
+    Vec3::new(x, y, z)
+}
+
+/// A light above the origin.
+trait Overhead {
+    fn overhead() -> Self;
+}
+/// Implements it by a constructor, and passes all techniques to a visitor.
+macro_rules! overhead {
+    ($($light:ident $(<$n:literal>)?: $value:expr;)+) => {$(
+        impl Overhead for $light<f32 $(, $n)?> {
+            fn overhead() -> Self {
+                $value
+            }
+        }
+    )+};
+}
+overhead! {
+    Sphere: Self::new(v(0.0, 1.0, 0.0), 0.4);
+    Triangle: Self::new(v(0.0, 1.0, 0.0), v(1.0, 1.2, 0.0), v(0.0, 1.0, 1.0));
+    Parallelogram: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.2, 0.0), v(0.0, 0.0, 1.0));
+    Rectangle: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0));
+    Disk: Self::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5);
+    Cylinder: Self::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0), 0.1);
+    BilinearPatch: Self::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.0, 0.3, 0.0));
+    Polygon<8>: {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [1.0, 2.0], [0.0, 2.0]];
+        Self::new(core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1])))
+    };
+    Line: Self::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0));
+    Sun: Self::new(v(0.0, 1.0, 0.0), 1e-5);
+}
+macro_rules! visit_techniques {
+    ({ $visitor:ident } $(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
+        }
+    )+) => {
+        $($($visitor.technique::<$sampler<f32 $(, $n)?>>(&stringify!($name).replace('_', " "), Overhead::overhead());)+)+
+    };
+}
+
 /// Visits all of them.
 pub(crate) fn visit(visitor: &mut impl Visitor) {
-    let v = Vec3::new;
-    let triangle = Triangle::new(v(0.0, 1.0, 0.0), v(1.0, 1.2, 0.0), v(0.0, 1.0, 1.0));
-    let panel = Parallelogram::new(v(0.0, 1.0, 0.0), v(1.0, 0.2, 0.0), v(0.0, 0.0, 1.0));
-    let rectangle = Rectangle::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0));
-    let sphere = Sphere::new(v(0.0, 1.0, 0.0), 0.4);
-    let disk = Disk::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5);
-    let line = Line::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0));
-    let corners = [[0.0, 0.0], [1.0, 0.0], [1.5, 1.0], [1.0, 2.0], [0.0, 2.0]];
-    let polygon = Polygon::<f32, 8>::new(core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1])));
-    visitor.technique::<SphereByArea<f32>>("sphere by area", sphere);
-    visitor.technique::<SphereBySolidAngle<f32>>("sphere by solid angle", sphere);
-    visitor.technique::<SphereByProjectedSolidAngle<f32>>("sphere by projected solid angle", sphere);
-    visitor.technique::<TriangleByArea<f32>>("triangle by area", triangle);
-    visitor.technique::<TriangleBySolidAngle<f32>>("triangle by solid angle", triangle);
-    visitor.technique::<TriangleByProjectedSolidAngle<f32>>("triangle by projected solid angle", triangle);
-    visitor.technique::<TriangleByCosineWarp<f32>>("triangle by cosine warp", triangle);
-    visitor.technique::<ParallelogramByArea<f32>>("parallelogram by area", panel);
-    visitor.technique::<ParallelogramBySolidAngle<f32>>("parallelogram by solid angle", panel);
-    visitor.technique::<ParallelogramByProjectedSolidAngle<f32>>("parallelogram by projected solid angle", panel);
-    visitor.technique::<RectangleBySolidAngle<f32>>("rectangle by solid angle", rectangle);
-    visitor.technique::<RectangleByCosineWarp<f32>>("rectangle by cosine warp", rectangle);
-    visitor.technique::<DiskByArea<f32>>("disk by area", disk);
-    visitor.technique::<DiskBySolidAngle<f32>>("disk by solid angle", disk);
-    visitor.technique::<CylinderByArea<f32>>("cylinder by area", Cylinder::new(line.p, line.edge, 0.1));
-    let patch = BilinearPatch::new(v(0.0, 1.0, 0.0), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0), v(0.0, 0.3, 0.0));
-    visitor.technique::<PatchByArea<f32>>("bilinear patch by area", patch);
-    visitor.technique::<PolygonByArea<f32, 8>>("polygon by area", polygon);
-    visitor.technique::<PolygonBySolidAngle<f32, 8>>("polygon by solid angle", polygon);
-    visitor.technique::<PolygonByProjectedSolidAngle<f32, 8>>("polygon by projected solid angle", polygon);
-    visitor.technique::<LineByLength<f32>>("line by length", line);
-    visitor.technique::<LineByAngle<f32>>("line by angle", line);
-    visitor.technique::<LineByProjectedSolidAngle<f32>>("line by projected solid angle", line);
-    visitor.technique::<SunBySolidAngle<f32>>("sun by solid angle", Sun::new(v(0.0, 1.0, 0.0), 1e-5));
+    etendue::techniques!(visit_techniques! { { visitor } });
+    let center = v(0.0, 1.0, 0.0);
     visitor.warp("concentric disk", ConcentricDisk);
     visitor.warp("polar disk", PolarDisk);
     visitor.warp("uniform hemisphere", UniformHemisphere);
@@ -68,10 +80,10 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     visitor.warp("cone", Cone { one_minus_cos: 0.3 });
     visitor.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 3.0] });
     visitor.warp("GGX visible normals", GgxVisibleNormals::new(0.3, 0.5, v(0.6, 0.0, 0.8)));
-    visitor.warp("disk surface", DiskSurface { center: sphere.center, normal: v(0.0, 0.0, 1.0), radius: 0.5 });
-    visitor.warp("cylinder side", CylinderSide { p: line.p, axis: line.edge, radius: 0.1 });
-    visitor.warp("sphere surface", SphereSurface { center: sphere.center, radius: 0.4 });
-    let patch = PatchSurface { p: patch.p, u: v(1.0, 0.0, 0.0), v: v(0.0, 0.0, 1.0), w: v(0.0, 0.3, 0.0) };
+    visitor.warp("disk surface", DiskSurface { center: center, normal: v(0.0, 0.0, 1.0), radius: 0.5 });
+    visitor.warp("cylinder side", CylinderSide { p: v(0.0, 1.5, 0.2), axis: v(1.0, 0.2, 0.0), radius: 0.1 });
+    visitor.warp("sphere surface", SphereSurface { center: center, radius: 0.4 });
+    let patch = PatchSurface { p: center, u: v(1.0, 0.0, 0.0), v: v(0.0, 0.0, 1.0), w: v(0.0, 0.3, 0.0) };
     visitor.warp("patch surface", patch);
     visitor.warp("linear", Linear { a: 3.0, b: 1.0 });
     visitor.warp("tent", Tent { radius: 1.5 });
