@@ -102,8 +102,8 @@ pub unsafe trait InTable: 'static {
 macro_rules! table {
     // adds the functions of all techniques
     ($({ $($row:tt)+ })+ $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:ident {
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $sampler_c:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
         table! { $($($name: LightFunctions<$sampler<f32 $(, $n)?>>,)+)+ $($($row)+,)+ }

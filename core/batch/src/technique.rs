@@ -42,8 +42,8 @@ macro_rules! prepared {
 
 macro_rules! implement {
     ($(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:ident {
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $sampler_c:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {$($(
         impl Technique for $sampler<f32 $(, $n)?> {

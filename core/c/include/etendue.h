@@ -42,7 +42,7 @@ typedef enum {
   ETENDUE_STATUS_VALUE = 3,
 } EtendueStatus;
 
-// A sphere that emits outwards.
+// A sphere that emits outwards. A radius <= 0 gives pdf 0; from inside, every direction hits it and it does not emit.
 typedef struct {
   // Centre, in the coordinates of the scene.
   float center[3];
@@ -50,7 +50,8 @@ typedef struct {
   float radius;
 } EtendueSphere;
 
-// An EtendueSphere prepared for a shading point, uniform over its surface: pdf distance^2/(|cos'| A). Wastes the samples of the far side.
+// Uniform over the surface: pdf distance^2/(|cos(theta')| 4pi R^2) per steradian, theta' at the light. More than half of the samples
+// face away.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -104,21 +105,23 @@ typedef struct {
   const float *radius;
 } EtendueSphereColumns;
 
-// An EtendueSphere prepared for a shading point, uniform over the solid angle at the point: pdf 1/Omega. From inside, every direction.
+// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian. From inside, every direction.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[20];
 } EtendueSphereBySolidAngle;
 
-// An EtendueSphere prepared for a shading point, uniform over the projected solid angle above the horizon of n: pdf cos(theta)/Omega'.
+// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+// steradian, 0 where nothing of the light is above the horizon.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[39];
 } EtendueSphereByProjectedSolidAngle;
 
-// A triangle that emits from the side of e1 x e2.
+// A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
+// the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
 typedef struct {
   // First vertex, in the coordinates of the scene.
   float v0[3];
@@ -128,7 +131,8 @@ typedef struct {
   float e2[3];
 } EtendueTriangle;
 
-// An EtendueTriangle prepared for a shading point, uniform over its surface: pdf distance^2/(|cos'| A). For small, far and facing triangles.
+// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light. For small, far and facing
+// triangles.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -145,28 +149,30 @@ typedef struct {
   const float *e2[3];
 } EtendueTriangleColumns;
 
-// An EtendueTriangle prepared for a shading point, uniform over the solid angle at the point: pdf 1/Omega.
+// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[84];
 } EtendueTriangleBySolidAngle;
 
-// An EtendueTriangle prepared for a shading point, uniform over the projected solid angle above the horizon of n: pdf cos(theta)/Omega'. No variance on an unoccluded diffuse surface.
+// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[165];
 } EtendueTriangleByProjectedSolidAngle;
 
-// An EtendueTriangle prepared for a shading point, by solid angle times a bilinear approximation of the cosine to n.
+// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[88];
 } EtendueTriangleByCosineWarp;
 
-// A parallelogram p + s u + t v, s and t in [0, 1], that emits from the side of u x v.
+// A parallelogram corner + s*edge_s + t*edge_t, s and t in [0, 1], that emits from the side of edge_s x edge_t. Without area,
+// and from a point in its plane, the pdf is 0. uv: (s, t).
 typedef struct {
   // Corner, in the coordinates of the scene.
   float p[3];
@@ -176,7 +182,7 @@ typedef struct {
   float v[3];
 } EtendueParallelogram;
 
-// An EtendueParallelogram prepared for a shading point, uniform over its surface: pdf distance^2/(|cos'| A).
+// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -193,32 +199,33 @@ typedef struct {
   const float *v[3];
 } EtendueParallelogramColumns;
 
-// An EtendueParallelogram prepared for a shading point, uniform over the solid angle at the point: pdf 1/Omega.
+// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[132];
 } EtendueParallelogramBySolidAngle;
 
-// An EtendueParallelogram prepared for a shading point, uniform over the projected solid angle above the horizon of n: pdf cos(theta)/Omega'.
+// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+// steradian, 0 where nothing of the light is above the horizon.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[549];
 } EtendueParallelogramByProjectedSolidAngle;
 
-// A rectangle p + s u + t v, s and t in [0, 1], u perpendicular to v, that emits from the side of u x v. By area, it is an
-// EtendueParallelogram.
+// A rectangle corner + s*edge_s + t*edge_t with perpendicular edges, s and t in [0, 1], that emits from the side of
+// edge_s x edge_t. Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t).
 typedef struct {
   // Corner, in the coordinates of the scene.
   float p[3];
   // Edge along s.
   float u[3];
-  // Edge along t, perpendicular to `u`.
+  // Edge along t, perpendicular to the other one.
   float v[3];
 } EtendueRectangle;
 
-// An EtendueRectangle prepared for a shading point, uniform over the solid angle at the point, in strata that follow its edges: pdf 1/Omega.
+// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -231,18 +238,19 @@ typedef struct {
   const float *p[3];
   // Edge along s.
   const float *u[3];
-  // Edge along t, perpendicular to `u`.
+  // Edge along t, perpendicular to the other one.
   const float *v[3];
 } EtendueRectangleColumns;
 
-// An EtendueRectangle prepared for a shading point, by solid angle times a bilinear approximation of the cosine to n.
+// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[92];
 } EtendueRectangleByCosineWarp;
 
-// A disk that emits from the side of its normal.
+// A disk that emits from the side of its normal. A radius <= 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
+// position q on the unit disk.
 typedef struct {
   // Centre, in the coordinates of the scene.
   float center[3];
@@ -252,7 +260,7 @@ typedef struct {
   float radius;
 } EtendueDisk;
 
-// An EtendueDisk prepared for a shading point, uniform over its surface: pdf distance^2/(|cos'| A).
+// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -269,14 +277,15 @@ typedef struct {
   const float *radius;
 } EtendueDiskColumns;
 
-// An EtendueDisk prepared for a shading point, uniform over the solid angle at the point: pdf 1/Omega.
+// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[42];
 } EtendueDiskBySolidAngle;
 
-// The side of a cylinder, which emits outwards.
+// The side of a cylinder, that emits outwards. A radius <= 0 or an axis of length 0 gives pdf 0. uv: height along the axis, and
+// azimuth in turns.
 typedef struct {
   // Centre of one end, in the coordinates of the scene.
   float p[3];
@@ -286,7 +295,8 @@ typedef struct {
   float radius;
 } EtendueCylinder;
 
-// An EtendueCylinder prepared for a shading point, uniform over its side: pdf distance^2/(|cos'| A).
+// Uniform over the side of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light. More than half of the
+// samples face away.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -303,7 +313,8 @@ typedef struct {
   const float *radius;
 } EtendueCylinderColumns;
 
-// A bilinear patch with the corners p, p + u, p + v and p + w, the last opposite to the first.
+// A bilinear patch corner + s*edge_s + t*edge_t + st(diagonal - edge_s - edge_t), s and t in [0, 1], that emits from the side of
+// ds x dt. Without area the pdf is 0. uv: (s, t).
 typedef struct {
   // Corner, in the coordinates of the scene.
   float p[3];
@@ -315,7 +326,7 @@ typedef struct {
   float w[3];
 } EtendueBilinearPatch;
 
-// An EtendueBilinearPatch prepared for a shading point, nearly uniform over its surface.
+// Nearly uniform over the surface: the pdf per unit area, times distance^2/|cos(theta')|, is exact for the map.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -334,41 +345,48 @@ typedef struct {
   const float *w[3];
 } EtendueBilinearPatchColumns;
 
-// A convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise.
+// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
+// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
+// [0, 1].
 typedef struct {
-  // Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last one.
+  // Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
+  // one.
   float corners[8][3];
 } EtenduePolygon;
 
-// An EtenduePolygon prepared for a shading point, uniform over its surface: pdf distance^2/(|cos'| A).
+// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[67];
 } EtenduePolygonByArea;
 
-// Columns of polygons: a column for each coordinate of each corner.
+// Columns of lights: the fields are those of the light.
 typedef struct {
-  // Corners in order. Polygons with fewer than 8 corners repeat the columns of the last one.
+  // Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
+  // one.
   const float *corners[8][3];
 } EtenduePolygonColumns;
 
-// An EtenduePolygon prepared for a shading point, uniform over the solid angle at the point: pdf 1/Omega.
+// Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[452];
 } EtenduePolygonBySolidAngle;
 
-// An EtenduePolygon prepared for a shading point, uniform over the projected solid angle above the horizon of n: pdf cos(theta)/Omega'.
+// Uniform over the projected solid angle Omega' above the horizon of the unit normal n at the point p: pdf cos(theta)/Omega' per
+// steradian, 0 where nothing of the light is above the horizon.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[1084];
 } EtenduePolygonByProjectedSolidAngle;
 
-// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Its samplers use the
-// first random number alone; their pdf is per unit of sin(gamma) ds/r^2 (gamma from the line, s along it). No ray hits a line.
+// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
+// first random number alone. The pdf is in the measure sin(gamma) ds/r^2 (gamma from the line, s along it), so that the estimator is
+// f * L * width * cos(theta) * weight. No direction hits a line. A length of 0, and a point on the line, give pdf 0. uv: the part of
+// the length, and 0.
 typedef struct {
   // One end, in the coordinates of the scene.
   float p[3];
@@ -376,7 +394,7 @@ typedef struct {
   float edge[3];
 } EtendueLine;
 
-// An EtendueLine prepared for a shading point, uniform over its length.
+// Uniform over the length: pdf r^2/(length * sin(gamma)).
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -391,29 +409,31 @@ typedef struct {
   const float *edge[3];
 } EtendueLineColumns;
 
-// An EtendueLine prepared for a shading point, uniform over the angle that it subtends at the point.
+// Uniform over the angle alpha that the line subtends at the point p: pdf r/alpha, with r its least distance.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[31];
 } EtendueLineByAngle;
 
-// An EtendueLine prepared for a shading point, by projected solid angle above the horizon of n.
+// By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
+// it.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
   float data[46];
 } EtendueLineByProjectedSolidAngle;
 
-// A sun: all directions within an angle of one direction.
+// A sun: the same radiance from all directions within an angle sigma of one direction, at every point. The distance is the
+// largest number of single precision.
 typedef struct {
   // Unit vector towards the centre of the sun.
   float direction[3];
-  // 1 - cos of the angle between the centre and the rim, in [0, 2]: 1.09e-5 for the sun from the earth.
+  // 1 - cos(sigma), in [0, 2]: 1.09e-5 for the sun from the earth.
   float one_minus_cos;
 } EtendueSun;
 
-// An EtendueSun prepared for a shading point, uniform over its solid angle: pdf 1/Omega, the same at every point.
+// Uniform over the cone: pdf 1/(2pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -424,7 +444,7 @@ typedef struct {
 typedef struct {
   // Unit vector towards the centre of the sun.
   const float *direction[3];
-  // 1 - cos of the angle between the centre and the rim, in [0, 2]: 1.09e-5 for the sun from the earth.
+  // 1 - cos(sigma), in [0, 2]: 1.09e-5 for the sun from the earth.
   const float *one_minus_cos;
 } EtendueSunColumns;
 
@@ -636,6 +656,27 @@ EtendueStatus etendue_sphere_by_area_sample_each(const EtendueSphereColumns *lig
                                                  const float *const *u,
                                                  const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_area_pdf_each(const EtendueSphereColumns *lights,
+                                              size_t n,
+                                              const float *const *p,
+                                              const float *const *w,
+                                              float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_area_invert_each(const EtendueSphereColumns *lights,
+                                                 size_t n,
+                                                 const float *const *p,
+                                                 const float *const *w,
+                                                 float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_sphere_by_area_hit_each(const EtendueSphereColumns *lights,
+                                              size_t n,
+                                              const float *const *p,
+                                              const float *const *w,
+                                              const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_sphere_by_solid_angle_prepare(const EtendueSphere *light,
                                                     const float *p,
@@ -693,6 +734,27 @@ EtendueStatus etendue_sphere_by_solid_angle_sample_each(const EtendueSphereColum
                                                         const float *const *p,
                                                         const float *const *u,
                                                         const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_solid_angle_pdf_each(const EtendueSphereColumns *lights,
+                                                     size_t n,
+                                                     const float *const *p,
+                                                     const float *const *w,
+                                                     float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_solid_angle_invert_each(const EtendueSphereColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const float *const *w,
+                                                        float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_sphere_by_solid_angle_hit_each(const EtendueSphereColumns *lights,
+                                                     size_t n,
+                                                     const float *const *p,
+                                                     const float *const *w,
+                                                     const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_sphere_by_projected_solid_angle_prepare(const EtendueSphere *light,
@@ -757,6 +819,30 @@ EtendueStatus etendue_sphere_by_projected_solid_angle_sample_each(const EtendueS
                                                                   const float *const *u,
                                                                   const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_projected_solid_angle_pdf_each(const EtendueSphereColumns *lights,
+                                                               size_t n,
+                                                               const float *const *p,
+                                                               const float *const *normals,
+                                                               const float *const *w,
+                                                               float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sphere_by_projected_solid_angle_invert_each(const EtendueSphereColumns *lights,
+                                                                  size_t n,
+                                                                  const float *const *p,
+                                                                  const float *const *normals,
+                                                                  const float *const *w,
+                                                                  float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_sphere_by_projected_solid_angle_hit_each(const EtendueSphereColumns *lights,
+                                                               size_t n,
+                                                               const float *const *p,
+                                                               const float *const *normals,
+                                                               const float *const *w,
+                                                               const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_triangle_by_area_prepare(const EtendueTriangle *light,
                                                const float *p,
@@ -814,6 +900,27 @@ EtendueStatus etendue_triangle_by_area_sample_each(const EtendueTriangleColumns 
                                                    const float *const *p,
                                                    const float *const *u,
                                                    const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_area_pdf_each(const EtendueTriangleColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *w,
+                                                float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_area_invert_each(const EtendueTriangleColumns *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_triangle_by_area_hit_each(const EtendueTriangleColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *w,
+                                                const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_triangle_by_solid_angle_prepare(const EtendueTriangle *light,
@@ -874,6 +981,27 @@ EtendueStatus etendue_triangle_by_solid_angle_sample_each(const EtendueTriangleC
                                                           const float *const *p,
                                                           const float *const *u,
                                                           const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_solid_angle_pdf_each(const EtendueTriangleColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const float *const *w,
+                                                       float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_solid_angle_invert_each(const EtendueTriangleColumns *lights,
+                                                          size_t n,
+                                                          const float *const *p,
+                                                          const float *const *w,
+                                                          float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_triangle_by_solid_angle_hit_each(const EtendueTriangleColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const float *const *w,
+                                                       const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_triangle_by_projected_solid_angle_prepare(const EtendueTriangle *light,
@@ -939,6 +1067,30 @@ EtendueStatus etendue_triangle_by_projected_solid_angle_sample_each(const Etendu
                                                                     const float *const *u,
                                                                     const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_projected_solid_angle_pdf_each(const EtendueTriangleColumns *lights,
+                                                                 size_t n,
+                                                                 const float *const *p,
+                                                                 const float *const *normals,
+                                                                 const float *const *w,
+                                                                 float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_projected_solid_angle_invert_each(const EtendueTriangleColumns *lights,
+                                                                    size_t n,
+                                                                    const float *const *p,
+                                                                    const float *const *normals,
+                                                                    const float *const *w,
+                                                                    float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_triangle_by_projected_solid_angle_hit_each(const EtendueTriangleColumns *lights,
+                                                                 size_t n,
+                                                                 const float *const *p,
+                                                                 const float *const *normals,
+                                                                 const float *const *w,
+                                                                 const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_triangle_by_cosine_warp_prepare(const EtendueTriangle *light,
                                                       const float *p,
@@ -1002,6 +1154,30 @@ EtendueStatus etendue_triangle_by_cosine_warp_sample_each(const EtendueTriangleC
                                                           const float *const *u,
                                                           const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_cosine_warp_pdf_each(const EtendueTriangleColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const float *const *normals,
+                                                       const float *const *w,
+                                                       float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_triangle_by_cosine_warp_invert_each(const EtendueTriangleColumns *lights,
+                                                          size_t n,
+                                                          const float *const *p,
+                                                          const float *const *normals,
+                                                          const float *const *w,
+                                                          float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_triangle_by_cosine_warp_hit_each(const EtendueTriangleColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const float *const *normals,
+                                                       const float *const *w,
+                                                       const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_parallelogram_by_area_prepare(const EtendueParallelogram *light,
                                                     const float *p,
@@ -1059,6 +1235,27 @@ EtendueStatus etendue_parallelogram_by_area_sample_each(const EtendueParallelogr
                                                         const float *const *p,
                                                         const float *const *u,
                                                         const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_area_pdf_each(const EtendueParallelogramColumns *lights,
+                                                     size_t n,
+                                                     const float *const *p,
+                                                     const float *const *w,
+                                                     float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_area_invert_each(const EtendueParallelogramColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const float *const *w,
+                                                        float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_parallelogram_by_area_hit_each(const EtendueParallelogramColumns *lights,
+                                                     size_t n,
+                                                     const float *const *p,
+                                                     const float *const *w,
+                                                     const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_parallelogram_by_solid_angle_prepare(const EtendueParallelogram *light,
@@ -1119,6 +1316,27 @@ EtendueStatus etendue_parallelogram_by_solid_angle_sample_each(const EtenduePara
                                                                const float *const *p,
                                                                const float *const *u,
                                                                const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_solid_angle_pdf_each(const EtendueParallelogramColumns *lights,
+                                                            size_t n,
+                                                            const float *const *p,
+                                                            const float *const *w,
+                                                            float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_solid_angle_invert_each(const EtendueParallelogramColumns *lights,
+                                                               size_t n,
+                                                               const float *const *p,
+                                                               const float *const *w,
+                                                               float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_parallelogram_by_solid_angle_hit_each(const EtendueParallelogramColumns *lights,
+                                                            size_t n,
+                                                            const float *const *p,
+                                                            const float *const *w,
+                                                            const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_parallelogram_by_projected_solid_angle_prepare(const EtendueParallelogram *light,
@@ -1184,6 +1402,30 @@ EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_each(const E
                                                                          const float *const *u,
                                                                          const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_projected_solid_angle_pdf_each(const EtendueParallelogramColumns *lights,
+                                                                      size_t n,
+                                                                      const float *const *p,
+                                                                      const float *const *normals,
+                                                                      const float *const *w,
+                                                                      float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_parallelogram_by_projected_solid_angle_invert_each(const EtendueParallelogramColumns *lights,
+                                                                         size_t n,
+                                                                         const float *const *p,
+                                                                         const float *const *normals,
+                                                                         const float *const *w,
+                                                                         float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_parallelogram_by_projected_solid_angle_hit_each(const EtendueParallelogramColumns *lights,
+                                                                      size_t n,
+                                                                      const float *const *p,
+                                                                      const float *const *normals,
+                                                                      const float *const *w,
+                                                                      const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_rectangle_by_solid_angle_prepare(const EtendueRectangle *light,
                                                        const float *p,
@@ -1243,6 +1485,27 @@ EtendueStatus etendue_rectangle_by_solid_angle_sample_each(const EtendueRectangl
                                                            const float *const *p,
                                                            const float *const *u,
                                                            const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_rectangle_by_solid_angle_pdf_each(const EtendueRectangleColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const float *const *w,
+                                                        float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_rectangle_by_solid_angle_invert_each(const EtendueRectangleColumns *lights,
+                                                           size_t n,
+                                                           const float *const *p,
+                                                           const float *const *w,
+                                                           float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_rectangle_by_solid_angle_hit_each(const EtendueRectangleColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const float *const *w,
+                                                        const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_rectangle_by_cosine_warp_prepare(const EtendueRectangle *light,
@@ -1307,6 +1570,30 @@ EtendueStatus etendue_rectangle_by_cosine_warp_sample_each(const EtendueRectangl
                                                            const float *const *u,
                                                            const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_rectangle_by_cosine_warp_pdf_each(const EtendueRectangleColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const float *const *normals,
+                                                        const float *const *w,
+                                                        float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_rectangle_by_cosine_warp_invert_each(const EtendueRectangleColumns *lights,
+                                                           size_t n,
+                                                           const float *const *p,
+                                                           const float *const *normals,
+                                                           const float *const *w,
+                                                           float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_rectangle_by_cosine_warp_hit_each(const EtendueRectangleColumns *lights,
+                                                        size_t n,
+                                                        const float *const *p,
+                                                        const float *const *normals,
+                                                        const float *const *w,
+                                                        const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_disk_by_area_prepare(const EtendueDisk *light, const float *p, EtendueDiskByArea *out);
 
@@ -1360,6 +1647,27 @@ EtendueStatus etendue_disk_by_area_sample_each(const EtendueDiskColumns *lights,
                                                const float *const *p,
                                                const float *const *u,
                                                const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_disk_by_area_pdf_each(const EtendueDiskColumns *lights,
+                                            size_t n,
+                                            const float *const *p,
+                                            const float *const *w,
+                                            float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_disk_by_area_invert_each(const EtendueDiskColumns *lights,
+                                               size_t n,
+                                               const float *const *p,
+                                               const float *const *w,
+                                               float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_disk_by_area_hit_each(const EtendueDiskColumns *lights,
+                                            size_t n,
+                                            const float *const *p,
+                                            const float *const *w,
+                                            const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_disk_by_solid_angle_prepare(const EtendueDisk *light,
@@ -1419,6 +1727,27 @@ EtendueStatus etendue_disk_by_solid_angle_sample_each(const EtendueDiskColumns *
                                                       const float *const *u,
                                                       const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_disk_by_solid_angle_pdf_each(const EtendueDiskColumns *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_disk_by_solid_angle_invert_each(const EtendueDiskColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *w,
+                                                      float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_disk_by_solid_angle_hit_each(const EtendueDiskColumns *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_cylinder_by_area_prepare(const EtendueCylinder *light,
                                                const float *p,
@@ -1477,6 +1806,27 @@ EtendueStatus etendue_cylinder_by_area_sample_each(const EtendueCylinderColumns 
                                                    const float *const *u,
                                                    const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_cylinder_by_area_pdf_each(const EtendueCylinderColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *w,
+                                                float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_cylinder_by_area_invert_each(const EtendueCylinderColumns *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_cylinder_by_area_hit_each(const EtendueCylinderColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *w,
+                                                const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_patch_by_area_prepare(const EtendueBilinearPatch *light, const float *p, EtenduePatchByArea *out);
 
@@ -1530,6 +1880,27 @@ EtendueStatus etendue_patch_by_area_sample_each(const EtendueBilinearPatchColumn
                                                 const float *const *p,
                                                 const float *const *u,
                                                 const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_patch_by_area_pdf_each(const EtendueBilinearPatchColumns *lights,
+                                             size_t n,
+                                             const float *const *p,
+                                             const float *const *w,
+                                             float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_patch_by_area_invert_each(const EtendueBilinearPatchColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *w,
+                                                float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_patch_by_area_hit_each(const EtendueBilinearPatchColumns *lights,
+                                             size_t n,
+                                             const float *const *p,
+                                             const float *const *w,
+                                             const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_polygon_by_area_prepare(const EtenduePolygon *light, const float *p, EtenduePolygonByArea *out);
@@ -1586,6 +1957,27 @@ EtendueStatus etendue_polygon_by_area_sample_each(const EtenduePolygonColumns *l
                                                   const float *const *p,
                                                   const float *const *u,
                                                   const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_area_pdf_each(const EtenduePolygonColumns *lights,
+                                               size_t n,
+                                               const float *const *p,
+                                               const float *const *w,
+                                               float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_area_invert_each(const EtenduePolygonColumns *lights,
+                                                  size_t n,
+                                                  const float *const *p,
+                                                  const float *const *w,
+                                                  float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_polygon_by_area_hit_each(const EtenduePolygonColumns *lights,
+                                               size_t n,
+                                               const float *const *p,
+                                               const float *const *w,
+                                               const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_polygon_by_solid_angle_prepare(const EtenduePolygon *light,
@@ -1646,6 +2038,27 @@ EtendueStatus etendue_polygon_by_solid_angle_sample_each(const EtenduePolygonCol
                                                          const float *const *p,
                                                          const float *const *u,
                                                          const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_solid_angle_pdf_each(const EtenduePolygonColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *w,
+                                                      float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_solid_angle_invert_each(const EtenduePolygonColumns *lights,
+                                                         size_t n,
+                                                         const float *const *p,
+                                                         const float *const *w,
+                                                         float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_polygon_by_solid_angle_hit_each(const EtenduePolygonColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *w,
+                                                      const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_polygon_by_projected_solid_angle_prepare(const EtenduePolygon *light,
@@ -1710,6 +2123,30 @@ EtendueStatus etendue_polygon_by_projected_solid_angle_sample_each(const Etendue
                                                                    const float *const *u,
                                                                    const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_projected_solid_angle_pdf_each(const EtenduePolygonColumns *lights,
+                                                                size_t n,
+                                                                const float *const *p,
+                                                                const float *const *normals,
+                                                                const float *const *w,
+                                                                float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_polygon_by_projected_solid_angle_invert_each(const EtenduePolygonColumns *lights,
+                                                                   size_t n,
+                                                                   const float *const *p,
+                                                                   const float *const *normals,
+                                                                   const float *const *w,
+                                                                   float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_polygon_by_projected_solid_angle_hit_each(const EtenduePolygonColumns *lights,
+                                                                size_t n,
+                                                                const float *const *p,
+                                                                const float *const *normals,
+                                                                const float *const *w,
+                                                                const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_line_by_length_prepare(const EtendueLine *light, const float *p, EtendueLineByLength *out);
 
@@ -1766,6 +2203,27 @@ EtendueStatus etendue_line_by_length_sample_each(const EtendueLineColumns *light
                                                  const float *const *u,
                                                  const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_line_by_length_pdf_each(const EtendueLineColumns *lights,
+                                              size_t n,
+                                              const float *const *p,
+                                              const float *const *w,
+                                              float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_line_by_length_invert_each(const EtendueLineColumns *lights,
+                                                 size_t n,
+                                                 const float *const *p,
+                                                 const float *const *w,
+                                                 float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_line_by_length_hit_each(const EtendueLineColumns *lights,
+                                              size_t n,
+                                              const float *const *p,
+                                              const float *const *w,
+                                              const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_line_by_angle_prepare(const EtendueLine *light, const float *p, EtendueLineByAngle *out);
 
@@ -1819,6 +2277,27 @@ EtendueStatus etendue_line_by_angle_sample_each(const EtendueLineColumns *lights
                                                 const float *const *p,
                                                 const float *const *u,
                                                 const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_line_by_angle_pdf_each(const EtendueLineColumns *lights,
+                                             size_t n,
+                                             const float *const *p,
+                                             const float *const *w,
+                                             float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_line_by_angle_invert_each(const EtendueLineColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *w,
+                                                float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_line_by_angle_hit_each(const EtendueLineColumns *lights,
+                                             size_t n,
+                                             const float *const *p,
+                                             const float *const *w,
+                                             const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_line_by_projected_solid_angle_prepare(const EtendueLine *light,
@@ -1883,6 +2362,30 @@ EtendueStatus etendue_line_by_projected_solid_angle_sample_each(const EtendueLin
                                                                 const float *const *u,
                                                                 const EtendueSampleColumns *out);
 
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_line_by_projected_solid_angle_pdf_each(const EtendueLineColumns *lights,
+                                                             size_t n,
+                                                             const float *const *p,
+                                                             const float *const *normals,
+                                                             const float *const *w,
+                                                             float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_line_by_projected_solid_angle_invert_each(const EtendueLineColumns *lights,
+                                                                size_t n,
+                                                                const float *const *p,
+                                                                const float *const *normals,
+                                                                const float *const *w,
+                                                                float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_line_by_projected_solid_angle_hit_each(const EtendueLineColumns *lights,
+                                                             size_t n,
+                                                             const float *const *p,
+                                                             const float *const *normals,
+                                                             const float *const *w,
+                                                             const EtendueSampleColumns *out);
+
 // Prepares the light for a shading point.
 EtendueStatus etendue_sun_by_solid_angle_prepare(const EtendueSun *light, const float *p, EtendueSunBySolidAngle *out);
 
@@ -1938,6 +2441,27 @@ EtendueStatus etendue_sun_by_solid_angle_sample_each(const EtendueSunColumns *li
                                                      const float *const *p,
                                                      const float *const *u,
                                                      const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sun_by_solid_angle_pdf_each(const EtendueSunColumns *lights,
+                                                  size_t n,
+                                                  const float *const *p,
+                                                  const float *const *w,
+                                                  float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_sun_by_solid_angle_invert_each(const EtendueSunColumns *lights,
+                                                     size_t n,
+                                                     const float *const *p,
+                                                     const float *const *w,
+                                                     float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_sun_by_solid_angle_hit_each(const EtendueSunColumns *lights,
+                                                  size_t n,
+                                                  const float *const *p,
+                                                  const float *const *w,
+                                                  const EtendueSampleColumns *out);
 
 // Independent random numbers: a counter, hashed.
 //

@@ -2,9 +2,9 @@
 
 /// Expands `callback! { before… list }` for the list of all lights, each with its fields and the techniques that sample it.
 ///
-/// A light is `Light [corners] { field as argument: kind, … } by default { technique; … }`. A field is a `point`, an `edge` (from one point to
+/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by default { technique; … }`. A field is a `point`, an `edge` (from one point to
 /// another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one), a `direction`, a `number` or
-/// `corners`. A technique is `Sampler [corners] = name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
+/// `corners`. A technique is `Sampler [corners] = NameInC, name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
 /// numbers, and the measure is its method that returns what it is uniform over, if it has one. The first lines of documentation are those that hosts without Rust read.
 #[doc(hidden)]
 #[macro_export]
@@ -12,7 +12,7 @@ macro_rules! techniques {
     ($callback:ident! { $($before:tt)* }) => {
         $callback! { $($before)*
             /// A sphere that emits outwards. A radius ≤ 0 gives pdf 0; from inside, every direction hits it and it does not emit.
-            Sphere {
+            Sphere = EtendueSphere, EtendueSphereColumns {
                 /// Centre, in the coordinates of the scene.
                 center as center: point,
                 /// Radius, in the unit of the coordinates.
@@ -20,16 +20,16 @@ macro_rules! techniques {
             } by solid_angle {
                 /// Uniform over the surface: pdf distance²/(|cosθ'| 4πR²) per steradian, θ' at the light. More than half of the samples
                 /// face away.
-                SphereByArea = sphere_by_area[7]: by_area(p) area;
+                SphereByArea = EtendueSphereByArea, sphere_by_area[7]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian. From inside, every direction.
-                SphereBySolidAngle = sphere_by_solid_angle[20]: by_solid_angle(p) solid_angle;
+                SphereBySolidAngle = EtendueSphereBySolidAngle, sphere_by_solid_angle[20]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                SphereByProjectedSolidAngle = sphere_by_projected_solid_angle[39]: by_projected_solid_angle(p, n) projected_solid_angle;
+                SphereByProjectedSolidAngle = EtendueSphereByProjectedSolidAngle, sphere_by_projected_solid_angle[39]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
             /// the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
-            Triangle {
+            Triangle = EtendueTriangle, EtendueTriangleColumns {
                 /// First vertex, in the coordinates of the scene.
                 v0 as v0: point,
                 /// Edge from the first to the second vertex.
@@ -39,18 +39,18 @@ macro_rules! techniques {
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. For small, far and facing
                 /// triangles.
-                TriangleByArea = triangle_by_area[36]: by_area(p) area;
+                TriangleByArea = EtendueTriangleByArea, triangle_by_area[36]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                TriangleBySolidAngle = triangle_by_solid_angle[84]: by_solid_angle(p) solid_angle;
+                TriangleBySolidAngle = EtendueTriangleBySolidAngle, triangle_by_solid_angle[84]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon. It has no variance on an unoccluded diffuse surface.
-                TriangleByProjectedSolidAngle = triangle_by_projected_solid_angle[165]: by_projected_solid_angle(p, n) projected_solid_angle;
+                TriangleByProjectedSolidAngle = EtendueTriangleByProjectedSolidAngle, triangle_by_projected_solid_angle[165]: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                TriangleByCosineWarp = triangle_by_cosine_warp[88]: by_cosine_warp(p, n) solid_angle;
+                TriangleByCosineWarp = EtendueTriangleByCosineWarp, triangle_by_cosine_warp[88]: by_cosine_warp(p, n) solid_angle;
             }
             /// A parallelogram corner + s·edge_s + t·edge_t, s and t in [0, 1], that emits from the side of edge_s × edge_t. Without area,
             /// and from a point in its plane, the pdf is 0. uv: (s, t).
-            Parallelogram {
+            Parallelogram = EtendueParallelogram, EtendueParallelogramColumns {
                 /// Corner, in the coordinates of the scene.
                 p as corner: point,
                 /// Edge along s.
@@ -59,16 +59,16 @@ macro_rules! techniques {
                 v as edge_t: edge,
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                ParallelogramByArea = parallelogram_by_area[36]: by_area(p) area;
+                ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[36]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                ParallelogramBySolidAngle = parallelogram_by_solid_angle[132]: by_solid_angle(p) solid_angle;
+                ParallelogramBySolidAngle = EtendueParallelogramBySolidAngle, parallelogram_by_solid_angle[132]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                ParallelogramByProjectedSolidAngle = parallelogram_by_projected_solid_angle[549]: by_projected_solid_angle(p, n) projected_solid_angle;
+                ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle[549]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A rectangle corner + s·edge_s + t·edge_t with perpendicular edges, s and t in [0, 1], that emits from the side of
             /// edge_s × edge_t. Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t).
-            Rectangle {
+            Rectangle = EtendueRectangle, EtendueRectangleColumns {
                 /// Corner, in the coordinates of the scene.
                 p as corner: point,
                 /// Edge along s.
@@ -77,13 +77,13 @@ macro_rules! techniques {
                 v as edge_t: edge,
             } by solid_angle {
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                RectangleBySolidAngle = rectangle_by_solid_angle[88]: by_solid_angle(p) solid_angle;
+                RectangleBySolidAngle = EtendueRectangleBySolidAngle, rectangle_by_solid_angle[88]: by_solid_angle(p) solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-                RectangleByCosineWarp = rectangle_by_cosine_warp[92]: by_cosine_warp(p, n) solid_angle;
+                RectangleByCosineWarp = EtendueRectangleByCosineWarp, rectangle_by_cosine_warp[92]: by_cosine_warp(p, n) solid_angle;
             }
             /// A disk that emits from the side of its normal. A radius ≤ 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
             /// position q on the unit disk.
-            Disk {
+            Disk = EtendueDisk, EtendueDiskColumns {
                 /// Centre, in the coordinates of the scene.
                 center as center: point,
                 /// Unit normal.
@@ -92,13 +92,13 @@ macro_rules! techniques {
                 radius as radius: number,
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                DiskByArea = disk_by_area[17]: by_area(p) area;
+                DiskByArea = EtendueDiskByArea, disk_by_area[17]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                DiskBySolidAngle = disk_by_solid_angle[42]: by_solid_angle(p) solid_angle;
+                DiskBySolidAngle = EtendueDiskBySolidAngle, disk_by_solid_angle[42]: by_solid_angle(p) solid_angle;
             }
             /// The side of a cylinder, that emits outwards. A radius ≤ 0 or an axis of length 0 gives pdf 0. uv: height along the axis, and
             /// azimuth in turns.
-            Cylinder {
+            Cylinder = EtendueCylinder, EtendueCylinderColumns {
                 /// Centre of one end, in the coordinates of the scene.
                 p as start: point,
                 /// From there to the centre of the other end.
@@ -108,11 +108,11 @@ macro_rules! techniques {
             } by area {
                 /// Uniform over the side of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. More than half of the
                 /// samples face away.
-                CylinderByArea = cylinder_by_area[20]: by_area(p) area;
+                CylinderByArea = EtendueCylinderByArea, cylinder_by_area[20]: by_area(p) area;
             }
             /// A bilinear patch corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
             /// ∂s × ∂t. Without area the pdf is 0. uv: (s, t).
-            BilinearPatch {
+            BilinearPatch = EtendueBilinearPatch, EtendueBilinearPatchColumns {
                 /// Corner, in the coordinates of the scene.
                 p as corner: point,
                 /// From there to the next corner, s = 1.
@@ -123,52 +123,52 @@ macro_rules! techniques {
                 w as diagonal: edge,
             } by area {
                 /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
-                PatchByArea = patch_by_area[28]: by_area(p) area;
+                PatchByArea = EtenduePatchByArea, patch_by_area[28]: by_area(p) area;
             }
             /// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
             /// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
             /// [0, 1].
-            Polygon [8] {
+            Polygon [8] = EtenduePolygon, EtenduePolygonColumns {
                 /// Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
                 /// one.
                 corners as corners: corners,
             } by solid_angle {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-                PolygonByArea [8] = polygon_by_area[67]: by_area(p) area;
+                PolygonByArea [8] = EtenduePolygonByArea, polygon_by_area[67]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-                PolygonBySolidAngle [8] = polygon_by_solid_angle[452]: by_solid_angle(p) solid_angle;
+                PolygonBySolidAngle [8] = EtenduePolygonBySolidAngle, polygon_by_solid_angle[452]: by_solid_angle(p) solid_angle;
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
-                PolygonByProjectedSolidAngle [8] = polygon_by_projected_solid_angle[1084]: by_projected_solid_angle(p, n) projected_solid_angle;
+                PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle, polygon_by_projected_solid_angle[1084]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
             /// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
             /// first random number alone. The pdf is in the measure sinγ ds/r² (γ from the line, s along it), so that the estimator is
             /// f · L · width · cosθ · weight. No direction hits a line. A length of 0, and a point on the line, give pdf 0. uv: the part of
             /// the length, and 0.
-            Line {
+            Line = EtendueLine, EtendueLineColumns {
                 /// One end, in the coordinates of the scene.
                 p as start: point,
                 /// From there to the other end.
                 edge as edge: edge,
             } by angle {
                 /// Uniform over the length: pdf r²/(length · sinγ).
-                LineByLength = line_by_length[14]: by_length(p);
+                LineByLength = EtendueLineByLength, line_by_length[14]: by_length(p);
                 /// Uniform over the angle α that the line subtends at the point p: pdf r/α, with r its least distance.
-                LineByAngle = line_by_angle[31]: by_angle(p) angle;
+                LineByAngle = EtendueLineByAngle, line_by_angle[31]: by_angle(p) angle;
                 /// By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above
                 /// it.
-                LineByProjectedSolidAngle = line_by_projected_solid_angle[46]: by_projected_solid_angle(p, n);
+                LineByProjectedSolidAngle = EtendueLineByProjectedSolidAngle, line_by_projected_solid_angle[46]: by_projected_solid_angle(p, n);
             }
             /// A sun: the same radiance from all directions within an angle σ of one direction, at every point. The distance is the
             /// largest number of single precision.
-            Sun {
+            Sun = EtendueSun, EtendueSunColumns {
                 /// Unit vector towards the centre of the sun.
                 direction as direction: direction,
                 /// 1 − cosσ, in [0, 2]: 1.09e-5 for the sun from the earth.
                 one_minus_cos as one_minus_cos: number,
             } by solid_angle {
                 /// Uniform over the cone: pdf 1/(2π(1 − cosσ)) per steradian, 0 where the cone is empty.
-                SunBySolidAngle = sun_by_solid_angle[10]: by_solid_angle() solid_angle;
+                SunBySolidAngle = EtendueSunBySolidAngle, sun_by_solid_angle[10]: by_solid_angle() solid_angle;
             }
         }
     };

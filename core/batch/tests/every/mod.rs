@@ -57,8 +57,8 @@ overhead! {
 }
 macro_rules! visit_techniques {
     ({ $visitor:ident } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? { $($fields:tt)* } by $default:ident {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:ident {
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $sampler_c:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
         $($($visitor.technique::<$sampler<f32 $(, $n)?>>(&stringify!($name).replace('_', " "), Overhead::overhead());)+)+
