@@ -102,7 +102,7 @@ pub unsafe trait InTable: 'static {
 macro_rules! table {
     // adds the functions of all techniques
     ($({ $($row:tt)+ })+ $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:ident {
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
             $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $sampler_c:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {

@@ -358,7 +358,7 @@ macro_rules! lights {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $name:ident, $columns:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:ident {
+        } by $default:literal {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])?
                     = $sampler_name:ident, $technique:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;

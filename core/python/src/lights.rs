@@ -1,9 +1,8 @@
 //! Lights, and lights prepared for a shading point.
 
 use crate::arrays::{Argument, Kind, array, broadcast, rows, run, zero_columns, zeros};
-use etendue::light::*;
-use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, InTable, LightFunctions, Technique};
+use etendue::{Vec2, Vec3, light};
+use etendue_batch::{Batch, Evaluations, InTable, LightFunctions, Technique};
 use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -174,27 +173,28 @@ impl Sampler {
     }
 }
 
-type Field<'a, 'py> = (&'static str, Kind, &'a Bound<'py, PyAny>);
+/// An argument of a light's constructor: its name, its kind, whether it is a vertex of which the core keeps the edge from the first one, and
+/// its value.
+type Field<'a, 'py> = (&'static str, Kind, bool, &'a Bound<'py, PyAny>);
 
 /// The numbers of a light in columns, in the order of the core.
-fn numbers(light: &str, arguments: &[Argument<'_>], shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {
-    let mut columns = Vec::new();
-    for argument in arguments {
-        columns.append(&mut argument.columns(shape)?);
-    }
-    if light == "Triangle" {
-        // the core keeps edges, not vertices
-        let (first, others) = columns.split_at_mut(3);
-        for (k, column) in others.iter_mut().enumerate() {
-            column.iter_mut().zip(&first[k % 3]).for_each(|(x, from)| *x -= from);
+fn numbers(fields: &[Field<'_, '_>], arguments: &[Argument<'_>], shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {
+    let mut columns: Vec<Vec<f32>> = Vec::new();
+    for (&(_, _, is_vertex, _), argument) in fields.iter().zip(arguments) {
+        let mut own = argument.columns(shape)?;
+        if is_vertex {
+            for (column, first) in own.iter_mut().zip(&columns) {
+                column.iter_mut().zip(first).for_each(|(x, from)| *x -= from);
+            }
         }
+        columns.append(&mut own);
     }
     Ok(columns)
 }
 /// The numbers of one light.
-fn one(light: &str, fields: &[Field<'_, '_>]) -> PyResult<Vec<f32>> {
-    let arguments = fields.iter().map(|&(name, kind, object)| Argument::single(name, kind, object));
-    let columns = numbers(light, &arguments.collect::<PyResult<Vec<_>>>()?, &[])?;
+fn one(fields: &[Field<'_, '_>]) -> PyResult<Vec<f32>> {
+    let arguments = fields.iter().map(|&(name, kind, _, object)| Argument::single(name, kind, object));
+    let columns = numbers(fields, &arguments.collect::<PyResult<Vec<_>>>()?, &[])?;
     Ok(columns.iter().flatten().copied().collect())
 }
 
@@ -212,89 +212,181 @@ where
     Ok(Batch::new().prepare::<T>(light, vectors[0], vectors[1]))
 }
 
-/// Lights, shading points and numbers for `sample_each`.
+/// Lights and shading points of their own for each row, and the numbers u or the directions w there.
 struct Each {
     shape: Vec<usize>,
     light: Vec<Vec<f32>>,
     p: Vec<Vec<f32>>,
     n: Option<Vec<Vec<f32>>>,
-    u: Vec<Vec<f32>>,
+    at: Vec<Vec<f32>>,
+}
+
+/// What is done with each row.
+#[derive(Clone, Copy)]
+enum Call {
+    Sample,
+    Hit,
+    Pdf,
+    Invert,
 }
 
 impl Each {
     fn new(
         py: Python<'_>,
-        light: &str,
         fields: &[Field<'_, '_>],
-        [p, u]: [&Bound<'_, PyAny>; 2],
+        p: &Bound<'_, PyAny>,
         n: Option<&Bound<'_, PyAny>>,
+        (name, kind, at): (&'static str, Kind, &Bound<'_, PyAny>),
     ) -> PyResult<Self> {
-        let fields = fields.iter().map(|&(name, kind, object)| Argument::new(name, kind, object));
-        let fields = fields.collect::<PyResult<Vec<_>>>()?;
-        let (p, u) = (Argument::new("p", Kind::Row(3), p)?, Argument::new("u", Kind::Units, u)?);
+        let arguments = fields.iter().map(|&(name, kind, _, object)| Argument::new(name, kind, object));
+        let arguments = arguments.collect::<PyResult<Vec<_>>>()?;
+        let (p, at) = (Argument::new("p", Kind::Row(3), p)?, Argument::new(name, kind, at)?);
         let n = n.map(|n| Argument::new("n", Kind::Direction, n)).transpose()?;
-        let shape = broadcast(py, &fields.iter().chain([&p, &u]).chain(&n).collect::<Vec<_>>())?;
-        let light = numbers(light, &fields, &shape)?;
+        let shape = broadcast(py, &arguments.iter().chain([&p, &at]).chain(&n).collect::<Vec<_>>())?;
+        let light = numbers(fields, &arguments, &shape)?;
         let n = n.map(|n| n.columns(&shape)).transpose()?;
-        Ok(Self { light, p: p.columns(&shape)?, n, u: u.columns(&shape)?, shape })
+        Ok(Self { light, p: p.columns(&shape)?, n, at: at.columns(&shape)?, shape })
     }
-    fn sample<T>(
+    /// Calls a function of the technique `T` for all rows.
+    fn call<T>(
         self,
         py: Python<'_>,
+        call: Call,
         build: impl for<'a> Fn(&[&'a [f32]]) -> T::Light<&'a [f32]> + Send + Sync,
-    ) -> PyResult<Samples>
+    ) -> PyResult<Py<PyAny>>
     where
         T: Technique + InTable<Functions = LightFunctions<T>>,
     {
-        let Self { shape, light, p, n, u } = self;
+        let Self { shape, light, p, n, at } = self;
         if T::ON_SURFACE && n.is_none() {
             return Err(PyTypeError::new_err("this technique needs n, the normals at the shading points"));
         }
-        Samples::of(py, shape, |out| {
-            let light: Vec<_> = light.iter().map(Vec::as_slice).collect();
-            let normals = n.as_deref().map_or(Vec3::new(&[][..], &[][..], &[][..]), vector);
-            Batch::new().sample_each::<T>(build(&light), vector(&p), normals, Vec2::new(&u[0], &u[1]), out);
+        let light: Vec<_> = light.iter().map(Vec::as_slice).collect();
+        let normals = n.as_deref().map_or(Vec3::new(&[][..], &[][..], &[][..]), vector);
+        let evaluate = |out: Evaluations<'_>| {
+            Batch::new().evaluate_each::<T>(build(&light), vector(&p), normals, vector(&at), out);
+        };
+        let count = at[0].len();
+        Ok(match call {
+            Call::Sample => {
+                let u = Vec2::new(&at[0][..], &at[1][..]);
+                let sample = |out: etendue_batch::Samples<'_>| {
+                    Batch::new().sample_each::<T>(build(&light), vector(&p), normals, u, out);
+                };
+                Py::new(py, Samples::of(py, shape, sample)?)?.into_any()
+            }
+            Call::Hit => {
+                let hit = |hit: etendue_batch::Samples<'_>| evaluate(Evaluations { hit, ..Evaluations::default() });
+                Py::new(py, Samples::of(py, shape, hit)?)?.into_any()
+            }
+            Call::Pdf => {
+                let mut out = zeros(count)?;
+                run(py, count, || evaluate(Evaluations { pdf: &mut out, ..Evaluations::default() }));
+                array(py, &shape, out)?.unbind()
+            }
+            Call::Invert => {
+                let mut out = zero_columns::<2>(count)?;
+                run(py, count, || {
+                    let [x, y] = &mut out;
+                    evaluate(Evaluations { u: [x, y], ..Evaluations::default() });
+                });
+                rows(py, &shape, &out)?.unbind()
+            }
         })
     }
 }
 
-/// The lights of the core; polygons have eight corners.
-mod shapes {
-    pub(super) use etendue::{BilinearPatch, Cylinder, Disk, Line, Parallelogram, Rectangle, Sphere, Sun, Triangle};
-    pub(super) type Polygon<X> = etendue::Polygon<X, 8>;
+/// The kind of an argument.
+macro_rules! kind {
+    (number) => {
+        Kind::Number
+    };
+    (direction) => {
+        Kind::Direction
+    };
+    (corners) => {
+        Kind::Corners
+    };
+    ($vector:ident) => {
+        Kind::Row(3)
+    };
 }
-
-fn v<X: Copy>(numbers: &[X], at: usize) -> Vec3<X> {
-    Vec3::new(numbers[at], numbers[at + 1], numbers[at + 2])
+/// A field of a light from the next numbers.
+macro_rules! next {
+    (number $numbers:ident) => {
+        $numbers.next().expect("a light has so many numbers")
+    };
+    (corners $numbers:ident) => {
+        core::array::from_fn(|_| next!(point $numbers))
+    };
+    ($vector:ident $numbers:ident) => {{
+        let [x, y, z] = core::array::from_fn(|_| next!(number $numbers));
+        Vec3::new(x, y, z)
+    }};
 }
 
 macro_rules! lights {
-    ($($(#[$doc:meta])* $name:ident($($field:ident: $kind:expr),+) by $default:tt |$x:ident| $build:expr => {
-        $($(#[$technique_doc:meta])* $by:ident($($place:ident),*) $technique:ty $(, $measure:ident)?;)+
-    })+) => {
-        $($(#[$doc])*
+    ($(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
+            $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
+        } by $default:literal {
+            $(
+                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
+                    = $sampler_c:ident, $technique:ident[$size:literal]: $by:ident($($place:ident),*) $($measure:ident)?;
+            )+
+        }
+    )+) => {
+        $(
+        $(#[$light_doc])*
+        ///
+        /// Arguments:
+        $(
+        #[doc = concat!("\n`", stringify!($argument), "`:")]
+        $(#[$field_doc])*
+        )+
         #[pyclass(module = "etendue", frozen)]
-        pub(crate) struct $name {
+        pub(crate) struct $light {
             numbers: Vec<f32>,
         }
-        impl $name {
-            fn build<X: Copy>($x: &[X]) -> shapes::$name<X> {
-                $build
+        impl $light {
+            fn build<X: Copy>(numbers: &[X]) -> light::$light<X $(, $corners)?> {
+                let mut numbers = numbers.iter().copied();
+                light::$light { $($field: next!($kind numbers)),+ }
+            }
+            fn each(
+                py: Python<'_>,
+                fields: &[Field<'_, '_>],
+                p: &Bound<'_, PyAny>,
+                n: Option<&Bound<'_, PyAny>>,
+                by: &str,
+                call: Call,
+                at: &Bound<'_, PyAny>,
+            ) -> PyResult<Py<PyAny>> {
+                let names = [$(&stringify!($by)[3..]),+];
+                if !names.contains(&by) {
+                    return Err(PyValueError::new_err(format!("by must be one of {names:?}, not {by:?}")));
+                }
+                let at = if let Call::Sample = call { ("u", Kind::Units, at) } else { ("w", Kind::Direction, at) };
+                let each = Each::new(py, fields, p, n, at)?;
+                $(if by == &stringify!($by)[3..] {
+                    return each.call::<light::$sampler<f32 $(, $n)?>>(py, call, |x| Self::build(x));
+                })+
+                unreachable!("by is one of the names")
             }
         }
         #[pymethods]
-        impl $name {
+        impl $light {
             #[new]
-            fn new($($field: &Bound<'_, PyAny>),+) -> PyResult<Self> {
-                let fields = [$((stringify!($field), $kind, $field)),+];
-                Ok(Self { numbers: one(stringify!($name), &fields)? })
+            fn new($($argument: &Bound<'_, PyAny>),+) -> PyResult<Self> {
+                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                Ok(Self { numbers: one(&fields)? })
             }
-            $($(#[$technique_doc])*
+            $($(#[$doc])*
             fn $by(&self $(, $place: &Bound<'_, PyAny>)*) -> PyResult<Sampler> {
                 let place = [$((stringify!($place), $place)),*];
-                let sampler = prepare::<$technique>(&Self::build(&self.numbers), &place)?;
+                let sampler = prepare::<light::$sampler<f32 $(, $n)?>>(&Self::build(&self.numbers), &place)?;
                 let measure = None $(.or(Some((stringify!($measure), sampler.$measure()))))?;
-                let technique = concat!(stringify!($name), " ", stringify!($by));
+                let technique = concat!(stringify!($light), " ", stringify!($by));
                 Ok(Sampler { prepared: Box::new(sampler), technique, measure })
             })+
             /// Samples of a light of its own for each row, from a shading point of its own. All arrays are broadcast to one shape (...)
@@ -302,143 +394,75 @@ macro_rules! lights {
             /// (..., 2), and the unit normals n (..., 3) at the shading points, for techniques that need them. `by` names the
             /// technique: "area" for `by_area`, and so on.
             #[staticmethod]
-            #[pyo3(signature = ($($field),+, *, p, u, n=None, by=$default))]
+            #[pyo3(signature = ($($argument),+, *, p, u, n=None, by=$default))]
             #[allow(clippy::too_many_arguments)]
             fn sample_each(
                 py: Python<'_>,
-                $($field: &Bound<'_, PyAny>,)+
+                $($argument: &Bound<'_, PyAny>,)+
                 p: &Bound<'_, PyAny>,
                 u: &Bound<'_, PyAny>,
                 n: Option<&Bound<'_, PyAny>>,
                 by: &str,
-            ) -> PyResult<Samples> {
-                let names = [$(&stringify!($by)[3..]),+];
-                if !names.contains(&by) {
-                    return Err(PyValueError::new_err(format!("by must be one of {names:?}, not {by:?}")));
-                }
-                let fields = [$((stringify!($field), $kind, $field)),+];
-                let each = Each::new(py, stringify!($name), &fields, [p, u], n)?;
-                $(if by == &stringify!($by)[3..] {
-                    return each.sample::<$technique>(py, |x| Self::build(x));
-                })+
-                unreachable!("by is one of the names")
+            ) -> PyResult<Py<PyAny>> {
+                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                Self::each(py, &fields, p, n, by, Call::Sample, u)
+            }
+            /// The points of a light of its own for each row that unit directions w (..., 3) hit, as `sample_each` takes lights and points.
+            #[staticmethod]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None, by=$default))]
+            #[allow(clippy::too_many_arguments)]
+            fn hit_each(
+                py: Python<'_>,
+                $($argument: &Bound<'_, PyAny>,)+
+                p: &Bound<'_, PyAny>,
+                w: &Bound<'_, PyAny>,
+                n: Option<&Bound<'_, PyAny>>,
+                by: &str,
+            ) -> PyResult<Py<PyAny>> {
+                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                Self::each(py, &fields, p, n, by, Call::Hit, w)
+            }
+            /// The probability densities of unit directions w (..., 3), as `sample_each` takes lights and points.
+            #[staticmethod]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None, by=$default))]
+            #[allow(clippy::too_many_arguments)]
+            fn pdf_each(
+                py: Python<'_>,
+                $($argument: &Bound<'_, PyAny>,)+
+                p: &Bound<'_, PyAny>,
+                w: &Bound<'_, PyAny>,
+                n: Option<&Bound<'_, PyAny>>,
+                by: &str,
+            ) -> PyResult<Py<PyAny>> {
+                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                Self::each(py, &fields, p, n, by, Call::Pdf, w)
+            }
+            /// The numbers u in [0, 1)² that are mapped to unit directions w (..., 3), as `sample_each` takes lights and points.
+            #[staticmethod]
+            #[pyo3(signature = ($($argument),+, *, p, w, n=None, by=$default))]
+            #[allow(clippy::too_many_arguments)]
+            fn invert_each(
+                py: Python<'_>,
+                $($argument: &Bound<'_, PyAny>,)+
+                p: &Bound<'_, PyAny>,
+                w: &Bound<'_, PyAny>,
+                n: Option<&Bound<'_, PyAny>>,
+                by: &str,
+            ) -> PyResult<Py<PyAny>> {
+                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                Self::each(py, &fields, p, n, by, Call::Invert, w)
             }
             fn __repr__(&self) -> String {
-                format!("<etendue.{} {:?}>", stringify!($name), self.numbers)
+                format!("<etendue.{} {:?}>", stringify!($light), self.numbers)
             }
         })+
         /// Adds the lights to the module.
         pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
             module.add_class::<Samples>()?;
             module.add_class::<Sampler>()?;
-            $(module.add_class::<$name>()?;)+
+            $(module.add_class::<$light>()?;)+
             Ok(())
         }
     };
 }
-use Kind::{Corners, Direction, Number};
-const POINT: Kind = Kind::Row(3);
-lights! {
-    /// A sphere light about `center` (3) that emits outwards. A radius ≤ 0 gives pdf 0; from inside, every direction hits it and it does
-    /// not emit.
-    Sphere(center: POINT, radius: Number) by "solid_angle" |x| shapes::Sphere { center: v(x, 0), radius: x[3] } => {
-        /// Uniform over the surface: pdf distance²/(|cosθ'| 4πR²) per steradian, θ' at the light. More than half of the samples face away.
-        by_area(p) SphereByArea<f32>, area;
-        /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-        by_solid_angle(p) SphereBySolidAngle<f32>, solid_angle;
-        /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per steradian, 0
-        /// where nothing of the light is above the horizon.
-        by_projected_solid_angle(p, n) SphereByProjectedSolidAngle<f32>, projected_solid_angle;
-    }
-    /// A triangle light with the vertices v0, v1 and v2 (3), that emits from the side of (v1 − v0) × (v2 − v0). A triangle without area,
-    /// and a point in its plane, give pdf 0. uv: the barycentric coordinates of v1 and v2.
-    Triangle(v0: POINT, v1: POINT, v2: POINT) by "solid_angle"
-    |x| shapes::Triangle { v0: v(x, 0), e1: v(x, 3), e2: v(x, 6) } => {
-        /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-        by_area(p) TriangleByArea<f32>, area;
-        /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-        by_solid_angle(p) TriangleBySolidAngle<f32>, solid_angle;
-        /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per steradian, 0
-        /// where nothing of the light is above the horizon.
-        by_projected_solid_angle(p, n) TriangleByProjectedSolidAngle<f32>, projected_solid_angle;
-        /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-        by_cosine_warp(p, n) TriangleByCosineWarp<f32>, solid_angle;
-    }
-    /// A parallelogram light corner + s·edge_s + t·edge_t, s and t in [0, 1], that emits from the side of edge_s × edge_t; all arguments
-    /// have 3 coordinates. Without area, and from a point in its plane, the pdf is 0. uv: (s, t).
-    Parallelogram(corner: POINT, edge_s: POINT, edge_t: POINT) by "solid_angle"
-    |x| shapes::Parallelogram { p: v(x, 0), u: v(x, 3), v: v(x, 6) } => {
-        /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-        by_area(p) ParallelogramByArea<f32>, area;
-        /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-        by_solid_angle(p) ParallelogramBySolidAngle<f32>, solid_angle;
-        /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per steradian, 0
-        /// where nothing of the light is above the horizon.
-        by_projected_solid_angle(p, n) ParallelogramByProjectedSolidAngle<f32>, projected_solid_angle;
-    }
-    /// A rectangle light corner + s·edge_s + t·edge_t with perpendicular edges, s and t in [0, 1], that emits from the side of
-    /// edge_s × edge_t; all arguments have 3 coordinates. Its strata follow the edges. Without area, and from a point in its plane, the
-    /// pdf is 0. uv: (s, t).
-    Rectangle(corner: POINT, edge_s: POINT, edge_t: POINT) by "solid_angle"
-    |x| shapes::Rectangle { p: v(x, 0), u: v(x, 3), v: v(x, 6) } => {
-        /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-        by_solid_angle(p) RectangleBySolidAngle<f32>, solid_angle;
-        /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
-        by_cosine_warp(p, n) RectangleByCosineWarp<f32>, solid_angle;
-    }
-    /// A disk light about `center` (3) with the unit vector `normal` (3), from whose side it emits. A radius ≤ 0, and a point in its plane,
-    /// give pdf 0. uv: (1 + q)/2 for the position q on the unit disk.
-    Disk(center: POINT, normal: Direction, radius: Number) by "solid_angle"
-    |x| shapes::Disk { center: v(x, 0), normal: v(x, 3), radius: x[6] } => {
-        /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-        by_area(p) DiskByArea<f32>, area;
-        /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-        by_solid_angle(p) DiskBySolidAngle<f32>, solid_angle;
-    }
-    /// The side of a cylinder from the centre `start` (3) of one end along `axis` (3) to the other, that emits outwards. More than half of
-    /// the samples face away. A radius ≤ 0 or an axis of length 0 gives pdf 0. uv: height along the axis, and azimuth in turns.
-    Cylinder(start: POINT, axis: POINT, radius: Number) by "area"
-    |x| shapes::Cylinder { p: v(x, 0), axis: v(x, 3), radius: x[6] } => {
-        /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-        by_area(p) CylinderByArea<f32>, area;
-    }
-    /// A bilinear patch light corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
-    /// ∂s × ∂t; `diagonal` leads from the corner to the opposite one, and all arguments have 3 coordinates. Without area the pdf is 0.
-    /// uv: (s, t).
-    BilinearPatch(corner: POINT, edge_s: POINT, edge_t: POINT, diagonal: POINT) by "area"
-    |x| shapes::BilinearPatch { p: v(x, 0), u: v(x, 3), v: v(x, 6), w: v(x, 9) } => {
-        /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
-        by_area(p) PatchByArea<f32>, area;
-    }
-    /// A flat convex polygon light with 3 to 8 corners in order, (3 to 8, 3), that emits from the side on which they run
-    /// counterclockwise. Without area, and from a point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to
-    /// the second and to the last, clamped to [0, 1].
-    Polygon(corners: Corners) by "solid_angle" |x| shapes::Polygon { corners: core::array::from_fn(|i| v(x, 3 * i)) } => {
-        /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
-        by_area(p) PolygonByArea<f32, 8>, area;
-        /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
-        by_solid_angle(p) PolygonBySolidAngle<f32, 8>, solid_angle;
-        /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per steradian, 0
-        /// where nothing of the light is above the horizon.
-        by_projected_solid_angle(p, n) PolygonByProjectedSolidAngle<f32, 8>, projected_solid_angle;
-    }
-    /// A line light from `start` along `edge` (3 each): a cylinder so thin that only its width times its radiance counts, which emits in all
-    /// directions. Samplers use the first random number alone. The pdf is in the measure sinγ ds/r² (γ from the line, s along it), so the
-    /// estimator is f · L · width · cosθ · weight. No direction hits a line. A length of 0, and a point on the line, give pdf 0. uv: the
-    /// part of the length, and 0.
-    Line(start: POINT, edge: POINT) by "angle" |x| shapes::Line { p: v(x, 0), edge: v(x, 3) } => {
-        /// Uniform over the length: pdf r²/(length · sinγ).
-        by_length(p) LineByLength<f32>;
-        /// Uniform over the angle α that the line subtends at the point p: pdf r/α, with r its least distance.
-        by_angle(p) LineByAngle<f32>, angle;
-        /// By projected solid angle above the horizon of the unit normal n at the point p; pdf 0 where nothing of the line is above it.
-        by_projected_solid_angle(p, n) LineByProjectedSolidAngle<f32>;
-    }
-    /// A sun: the same radiance from all directions within an angle σ of the unit vector `direction` (3), for all points, with
-    /// `one_minus_cos` = 1 − cosσ in [0, 2]: 1.09e-5 for the sun from the earth. The distance is the largest float32.
-    Sun(direction: Direction, one_minus_cos: Number) by "solid_angle"
-    |x| shapes::Sun { direction: v(x, 0), one_minus_cos: x[3] } => {
-        /// Uniform over the cone: pdf 1/(2π(1 − cosσ)) per steradian, 0 where the cone is empty.
-        by_solid_angle() SunBySolidAngle<f32>, solid_angle;
-    }
-}
+etendue::techniques!(lights! {});

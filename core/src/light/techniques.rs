@@ -2,7 +2,7 @@
 
 /// Expands `callback! { before… list }` for the list of all lights, each with its fields and the techniques that sample it.
 ///
-/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by default { technique; … }`. A field is a `point`, an `edge` (from one point to
+/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by "default" { technique; … }`. A field is a `point`, an `edge` (from one point to
 /// another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one), a `direction`, a `number` or
 /// `corners`. A technique is `Sampler [corners] = NameInC, name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
 /// numbers, and the measure is its method that returns what it is uniform over, if it has one. The first lines of documentation are those that hosts without Rust read.
@@ -17,7 +17,7 @@ macro_rules! techniques {
                 center as center: point,
                 /// Radius, in the unit of the coordinates.
                 radius as radius: number,
-            } by solid_angle {
+            } by "solid_angle" {
                 /// Uniform over the surface: pdf distance²/(|cosθ'| 4πR²) per steradian, θ' at the light. More than half of the samples
                 /// face away.
                 SphereByArea = EtendueSphereByArea, sphere_by_area[7]: by_area(p) area;
@@ -32,11 +32,11 @@ macro_rules! techniques {
             Triangle = EtendueTriangle, EtendueTriangleColumns {
                 /// First vertex, in the coordinates of the scene.
                 v0 as v0: point,
-                /// Edge from the first to the second vertex.
+                /// Second vertex, as the edge from the first one.
                 e1 as v1: vertex,
-                /// Edge from the first to the third vertex.
+                /// Third vertex, as the edge from the first one.
                 e2 as v2: vertex,
-            } by solid_angle {
+            } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. For small, far and facing
                 /// triangles.
                 TriangleByArea = EtendueTriangleByArea, triangle_by_area[36]: by_area(p) area;
@@ -57,7 +57,7 @@ macro_rules! techniques {
                 u as edge_s: edge,
                 /// Edge along t.
                 v as edge_t: edge,
-            } by solid_angle {
+            } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[36]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
@@ -75,7 +75,7 @@ macro_rules! techniques {
                 u as edge_s: edge,
                 /// Edge along t, perpendicular to the other one.
                 v as edge_t: edge,
-            } by solid_angle {
+            } by "solid_angle" {
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
                 RectangleBySolidAngle = EtendueRectangleBySolidAngle, rectangle_by_solid_angle[88]: by_solid_angle(p) solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
@@ -90,7 +90,7 @@ macro_rules! techniques {
                 normal as normal: direction,
                 /// Radius, in the unit of the coordinates.
                 radius as radius: number,
-            } by solid_angle {
+            } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 DiskByArea = EtendueDiskByArea, disk_by_area[17]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
@@ -105,7 +105,7 @@ macro_rules! techniques {
                 axis as axis: edge,
                 /// Radius, in the unit of the coordinates.
                 radius as radius: number,
-            } by area {
+            } by "area" {
                 /// Uniform over the side of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light. More than half of the
                 /// samples face away.
                 CylinderByArea = EtendueCylinderByArea, cylinder_by_area[20]: by_area(p) area;
@@ -121,7 +121,7 @@ macro_rules! techniques {
                 v as edge_t: edge,
                 /// From there to the opposite corner.
                 w as diagonal: edge,
-            } by area {
+            } by "area" {
                 /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
                 PatchByArea = EtenduePatchByArea, patch_by_area[28]: by_area(p) area;
             }
@@ -132,7 +132,7 @@ macro_rules! techniques {
                 /// Corners in order, in one plane, in the coordinates of the scene. A polygon with fewer than 8 corners repeats its last
                 /// one.
                 corners as corners: corners,
-            } by solid_angle {
+            } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 PolygonByArea [8] = EtenduePolygonByArea, polygon_by_area[67]: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
@@ -150,7 +150,7 @@ macro_rules! techniques {
                 p as start: point,
                 /// From there to the other end.
                 edge as edge: edge,
-            } by angle {
+            } by "angle" {
                 /// Uniform over the length: pdf r²/(length · sinγ).
                 LineByLength = EtendueLineByLength, line_by_length[14]: by_length(p);
                 /// Uniform over the angle α that the line subtends at the point p: pdf r/α, with r its least distance.
@@ -166,7 +166,7 @@ macro_rules! techniques {
                 direction as direction: direction,
                 /// 1 − cosσ, in [0, 2]: 1.09e-5 for the sun from the earth.
                 one_minus_cos as one_minus_cos: number,
-            } by solid_angle {
+            } by "solid_angle" {
                 /// Uniform over the cone: pdf 1/(2π(1 − cosσ)) per steradian, 0 where the cone is empty.
                 SunBySolidAngle = EtendueSunBySolidAngle, sun_by_solid_angle[10]: by_solid_angle() solid_angle;
             }

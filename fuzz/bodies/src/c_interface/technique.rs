@@ -11,6 +11,8 @@ use std::ptr::{null, null_mut};
 
 /// The functions of a technique, with every struct as numbers or pointers in a row.
 pub(super) struct Technique {
+    /// The light's struct.
+    name: &'static str,
     light: usize,
     sampler: usize,
     on_surface: bool,
@@ -24,80 +26,82 @@ pub(super) struct Technique {
     pdf_batch: unsafe fn(Column, usize, *const Column, Output) -> EtendueStatus,
     invert_batch: unsafe fn(Column, usize, *const Column, *const Output) -> EtendueStatus,
     hit_batch: unsafe fn(Column, usize, *const Column, *const EtendueSampleColumns) -> EtendueStatus,
-    each: unsafe fn(
-        *const Column,
-        usize,
-        *const Column,
-        *const Column,
-        *const Column,
-        *const EtendueSampleColumns,
-    ) -> EtendueStatus,
+    sample_each: unsafe fn(&Views, usize, *const Column, *const EtendueSampleColumns) -> EtendueStatus,
+    hit_each: unsafe fn(&Views, usize, *const Column, *const EtendueSampleColumns) -> EtendueStatus,
+    pdf_each: unsafe fn(&Views, usize, *const Column, Output) -> EtendueStatus,
+    invert_each: unsafe fn(&Views, usize, *const Column, *const Output) -> EtendueStatus,
 }
 
+/// Columns of lights, shading points and normals.
+struct Views {
+    lights: *const Column,
+    p: *const Column,
+    n: *const Column,
+}
+
+/// Calls a function with a normal, if the technique needs one.
+macro_rules! call {
+    (needs_normal (p, n)) => {
+        true
+    };
+    (needs_normal $place:tt) => {
+        false
+    };
+    ((p, n) $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {
+        $module::$function($($before,)* $normal, $($after),*)
+    };
+    ($place:tt $module:ident::$function:ident($($before:expr),*; $normal:expr; $($after:expr),*)) => {{
+        let _ = $normal;
+        $module::$function($($before,)* $($after),*)
+    }};
+}
 macro_rules! techniques {
-    ($($sampler:ident $light:ident $place:ident $prepare:ident $sample:ident $pdf:ident $invert:ident $hit:ident $once:ident
-       $sample_batch:ident $pdf_batch:ident $invert_batch:ident $hit_batch:ident $each:ident;)+) => {
-        pub(super) const TECHNIQUES: &[Technique] = &[$(
+    ($(
+        $(#[$light_doc:meta])* $core:ident $([$corners:literal])? = $light:ident, $columns:ident {
+            $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
+        } by $default:literal {
+            $(
+                $(#[$doc:meta])* $core_sampler:ident $([$n:literal])?
+                    = $sampler:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;
+            )+
+        }
+    )+) => {
+        pub(super) const TECHNIQUES: &[Technique] = &[$($(
             // SAFETY of all: the caller's pointers are those that the functions demand
             Technique {
+                name: stringify!($light),
                 light: size_of::<$light>() / 4,
-                sampler: size_of::<$sampler>() / 4,
-                on_surface: techniques!(@ $place, false, true),
-                prepare: |light, p, n, out| unsafe {
-                    let _ = n;
-                    techniques!(@ $place, $prepare(light.cast(), p, out.cast()), $prepare(light.cast(), p, n, out.cast()))
-                },
-                sample: |s, u, out| unsafe { $sample(s.cast(), u, out) },
-                pdf: |s, w| unsafe { $pdf(s.cast(), w) },
-                invert: |s, w, u| unsafe { $invert(s.cast(), w, u) },
-                hit: |s, w, out| unsafe { $hit(s.cast(), w, out) },
-                once: |light, p, n, u, out| unsafe {
-                    let _ = n;
-                    techniques!(@ $place, $once(light.cast(), p, u, out), $once(light.cast(), p, n, u, out))
-                },
-                sample_batch: |s, n, u, out| unsafe { $sample_batch(s.cast(), n, u, out) },
-                pdf_batch: |s, n, w, out| unsafe { $pdf_batch(s.cast(), n, w, out) },
-                invert_batch: |s, n, w, u| unsafe { $invert_batch(s.cast(), n, w, u) },
-                hit_batch: |s, n, w, out| unsafe { $hit_batch(s.cast(), n, w, out) },
-                each: |lights, n, p, normals, u, out| unsafe {
-                    let _ = normals;
-                    techniques!(@ $place, $each(lights.cast(), n, p, u, out), $each(lights.cast(), n, p, normals, u, out))
-                },
+                sampler: $size,
+                on_surface: call!(needs_normal $place),
+                prepare: |light, p, n, out| unsafe { call!($place $name::prepare(light.cast(), p; n; out.cast())) },
+                sample: |s, u, out| unsafe { $name::sample(s.cast(), u, out) },
+                pdf: |s, w| unsafe { $name::pdf(s.cast(), w) },
+                invert: |s, w, u| unsafe { $name::invert(s.cast(), w, u) },
+                hit: |s, w, out| unsafe { $name::hit(s.cast(), w, out) },
+                once: |light, p, n, u, out| unsafe { call!($place $name::sample_once(light.cast(), p; n; u, out)) },
+                sample_batch: |s, n, u, out| unsafe { $name::sample_batch(s.cast(), n, u, out) },
+                pdf_batch: |s, n, w, out| unsafe { $name::pdf_batch(s.cast(), n, w, out) },
+                invert_batch: |s, n, w, u| unsafe { $name::invert_batch(s.cast(), n, w, u) },
+                hit_batch: |s, n, w, out| unsafe { $name::hit_batch(s.cast(), n, w, out) },
+                sample_each: |v, n, u, out| unsafe { call!($place $name::sample_each(v.lights.cast(), n, v.p; v.n; u, out)) },
+                hit_each: |v, n, w, out| unsafe { call!($place $name::hit_each(v.lights.cast(), n, v.p; v.n; w, out)) },
+                pdf_each: |v, n, w, out| unsafe { call!($place $name::pdf_each(v.lights.cast(), n, v.p; v.n; w, out)) },
+                invert_each: |v, n, w, u| unsafe { call!($place $name::invert_each(v.lights.cast(), n, v.p; v.n; w, u)) },
             },
-        )+];
+        )+)+];
+        /// The kinds of the fields of each light.
+        const KINDS: &[(&str, &[&str])] = &[$((stringify!($light), &[$(stringify!($kind)),+]),)+];
     };
-    (@ anywhere, $anywhere:expr, $on_surface:expr) => { $anywhere };
-    (@ on_surface, $anywhere:expr, $on_surface:expr) => { $on_surface };
 }
-#[rustfmt::skip]
-techniques! {
-    EtendueSphereByArea EtendueSphere anywhere etendue_sphere_by_area_prepare etendue_sphere_by_area_sample etendue_sphere_by_area_pdf etendue_sphere_by_area_invert etendue_sphere_by_area_hit etendue_sphere_by_area_sample_once etendue_sphere_by_area_sample_batch etendue_sphere_by_area_pdf_batch etendue_sphere_by_area_invert_batch etendue_sphere_by_area_hit_batch etendue_sphere_by_area_sample_each;
-    EtendueSphereBySolidAngle EtendueSphere anywhere etendue_sphere_by_solid_angle_prepare etendue_sphere_by_solid_angle_sample etendue_sphere_by_solid_angle_pdf etendue_sphere_by_solid_angle_invert etendue_sphere_by_solid_angle_hit etendue_sphere_by_solid_angle_sample_once etendue_sphere_by_solid_angle_sample_batch etendue_sphere_by_solid_angle_pdf_batch etendue_sphere_by_solid_angle_invert_batch etendue_sphere_by_solid_angle_hit_batch etendue_sphere_by_solid_angle_sample_each;
-    EtendueSphereByProjectedSolidAngle EtendueSphere on_surface etendue_sphere_by_projected_solid_angle_prepare etendue_sphere_by_projected_solid_angle_sample etendue_sphere_by_projected_solid_angle_pdf etendue_sphere_by_projected_solid_angle_invert etendue_sphere_by_projected_solid_angle_hit etendue_sphere_by_projected_solid_angle_sample_once etendue_sphere_by_projected_solid_angle_sample_batch etendue_sphere_by_projected_solid_angle_pdf_batch etendue_sphere_by_projected_solid_angle_invert_batch etendue_sphere_by_projected_solid_angle_hit_batch etendue_sphere_by_projected_solid_angle_sample_each;
-    EtendueTriangleByArea EtendueTriangle anywhere etendue_triangle_by_area_prepare etendue_triangle_by_area_sample etendue_triangle_by_area_pdf etendue_triangle_by_area_invert etendue_triangle_by_area_hit etendue_triangle_by_area_sample_once etendue_triangle_by_area_sample_batch etendue_triangle_by_area_pdf_batch etendue_triangle_by_area_invert_batch etendue_triangle_by_area_hit_batch etendue_triangle_by_area_sample_each;
-    EtendueTriangleBySolidAngle EtendueTriangle anywhere etendue_triangle_by_solid_angle_prepare etendue_triangle_by_solid_angle_sample etendue_triangle_by_solid_angle_pdf etendue_triangle_by_solid_angle_invert etendue_triangle_by_solid_angle_hit etendue_triangle_by_solid_angle_sample_once etendue_triangle_by_solid_angle_sample_batch etendue_triangle_by_solid_angle_pdf_batch etendue_triangle_by_solid_angle_invert_batch etendue_triangle_by_solid_angle_hit_batch etendue_triangle_by_solid_angle_sample_each;
-    EtendueTriangleByProjectedSolidAngle EtendueTriangle on_surface etendue_triangle_by_projected_solid_angle_prepare etendue_triangle_by_projected_solid_angle_sample etendue_triangle_by_projected_solid_angle_pdf etendue_triangle_by_projected_solid_angle_invert etendue_triangle_by_projected_solid_angle_hit etendue_triangle_by_projected_solid_angle_sample_once etendue_triangle_by_projected_solid_angle_sample_batch etendue_triangle_by_projected_solid_angle_pdf_batch etendue_triangle_by_projected_solid_angle_invert_batch etendue_triangle_by_projected_solid_angle_hit_batch etendue_triangle_by_projected_solid_angle_sample_each;
-    EtendueTriangleByCosineWarp EtendueTriangle on_surface etendue_triangle_by_cosine_warp_prepare etendue_triangle_by_cosine_warp_sample etendue_triangle_by_cosine_warp_pdf etendue_triangle_by_cosine_warp_invert etendue_triangle_by_cosine_warp_hit etendue_triangle_by_cosine_warp_sample_once etendue_triangle_by_cosine_warp_sample_batch etendue_triangle_by_cosine_warp_pdf_batch etendue_triangle_by_cosine_warp_invert_batch etendue_triangle_by_cosine_warp_hit_batch etendue_triangle_by_cosine_warp_sample_each;
-    EtendueParallelogramByArea EtendueParallelogram anywhere etendue_parallelogram_by_area_prepare etendue_parallelogram_by_area_sample etendue_parallelogram_by_area_pdf etendue_parallelogram_by_area_invert etendue_parallelogram_by_area_hit etendue_parallelogram_by_area_sample_once etendue_parallelogram_by_area_sample_batch etendue_parallelogram_by_area_pdf_batch etendue_parallelogram_by_area_invert_batch etendue_parallelogram_by_area_hit_batch etendue_parallelogram_by_area_sample_each;
-    EtendueParallelogramBySolidAngle EtendueParallelogram anywhere etendue_parallelogram_by_solid_angle_prepare etendue_parallelogram_by_solid_angle_sample etendue_parallelogram_by_solid_angle_pdf etendue_parallelogram_by_solid_angle_invert etendue_parallelogram_by_solid_angle_hit etendue_parallelogram_by_solid_angle_sample_once etendue_parallelogram_by_solid_angle_sample_batch etendue_parallelogram_by_solid_angle_pdf_batch etendue_parallelogram_by_solid_angle_invert_batch etendue_parallelogram_by_solid_angle_hit_batch etendue_parallelogram_by_solid_angle_sample_each;
-    EtendueParallelogramByProjectedSolidAngle EtendueParallelogram on_surface etendue_parallelogram_by_projected_solid_angle_prepare etendue_parallelogram_by_projected_solid_angle_sample etendue_parallelogram_by_projected_solid_angle_pdf etendue_parallelogram_by_projected_solid_angle_invert etendue_parallelogram_by_projected_solid_angle_hit etendue_parallelogram_by_projected_solid_angle_sample_once etendue_parallelogram_by_projected_solid_angle_sample_batch etendue_parallelogram_by_projected_solid_angle_pdf_batch etendue_parallelogram_by_projected_solid_angle_invert_batch etendue_parallelogram_by_projected_solid_angle_hit_batch etendue_parallelogram_by_projected_solid_angle_sample_each;
-    EtendueRectangleBySolidAngle EtendueRectangle anywhere etendue_rectangle_by_solid_angle_prepare etendue_rectangle_by_solid_angle_sample etendue_rectangle_by_solid_angle_pdf etendue_rectangle_by_solid_angle_invert etendue_rectangle_by_solid_angle_hit etendue_rectangle_by_solid_angle_sample_once etendue_rectangle_by_solid_angle_sample_batch etendue_rectangle_by_solid_angle_pdf_batch etendue_rectangle_by_solid_angle_invert_batch etendue_rectangle_by_solid_angle_hit_batch etendue_rectangle_by_solid_angle_sample_each;
-    EtendueRectangleByCosineWarp EtendueRectangle on_surface etendue_rectangle_by_cosine_warp_prepare etendue_rectangle_by_cosine_warp_sample etendue_rectangle_by_cosine_warp_pdf etendue_rectangle_by_cosine_warp_invert etendue_rectangle_by_cosine_warp_hit etendue_rectangle_by_cosine_warp_sample_once etendue_rectangle_by_cosine_warp_sample_batch etendue_rectangle_by_cosine_warp_pdf_batch etendue_rectangle_by_cosine_warp_invert_batch etendue_rectangle_by_cosine_warp_hit_batch etendue_rectangle_by_cosine_warp_sample_each;
-    EtendueDiskByArea EtendueDisk anywhere etendue_disk_by_area_prepare etendue_disk_by_area_sample etendue_disk_by_area_pdf etendue_disk_by_area_invert etendue_disk_by_area_hit etendue_disk_by_area_sample_once etendue_disk_by_area_sample_batch etendue_disk_by_area_pdf_batch etendue_disk_by_area_invert_batch etendue_disk_by_area_hit_batch etendue_disk_by_area_sample_each;
-    EtendueDiskBySolidAngle EtendueDisk anywhere etendue_disk_by_solid_angle_prepare etendue_disk_by_solid_angle_sample etendue_disk_by_solid_angle_pdf etendue_disk_by_solid_angle_invert etendue_disk_by_solid_angle_hit etendue_disk_by_solid_angle_sample_once etendue_disk_by_solid_angle_sample_batch etendue_disk_by_solid_angle_pdf_batch etendue_disk_by_solid_angle_invert_batch etendue_disk_by_solid_angle_hit_batch etendue_disk_by_solid_angle_sample_each;
-    EtendueCylinderByArea EtendueCylinder anywhere etendue_cylinder_by_area_prepare etendue_cylinder_by_area_sample etendue_cylinder_by_area_pdf etendue_cylinder_by_area_invert etendue_cylinder_by_area_hit etendue_cylinder_by_area_sample_once etendue_cylinder_by_area_sample_batch etendue_cylinder_by_area_pdf_batch etendue_cylinder_by_area_invert_batch etendue_cylinder_by_area_hit_batch etendue_cylinder_by_area_sample_each;
-    EtenduePatchByArea EtendueBilinearPatch anywhere etendue_patch_by_area_prepare etendue_patch_by_area_sample etendue_patch_by_area_pdf etendue_patch_by_area_invert etendue_patch_by_area_hit etendue_patch_by_area_sample_once etendue_patch_by_area_sample_batch etendue_patch_by_area_pdf_batch etendue_patch_by_area_invert_batch etendue_patch_by_area_hit_batch etendue_patch_by_area_sample_each;
-    EtenduePolygonByArea EtenduePolygon anywhere etendue_polygon_by_area_prepare etendue_polygon_by_area_sample etendue_polygon_by_area_pdf etendue_polygon_by_area_invert etendue_polygon_by_area_hit etendue_polygon_by_area_sample_once etendue_polygon_by_area_sample_batch etendue_polygon_by_area_pdf_batch etendue_polygon_by_area_invert_batch etendue_polygon_by_area_hit_batch etendue_polygon_by_area_sample_each;
-    EtenduePolygonBySolidAngle EtenduePolygon anywhere etendue_polygon_by_solid_angle_prepare etendue_polygon_by_solid_angle_sample etendue_polygon_by_solid_angle_pdf etendue_polygon_by_solid_angle_invert etendue_polygon_by_solid_angle_hit etendue_polygon_by_solid_angle_sample_once etendue_polygon_by_solid_angle_sample_batch etendue_polygon_by_solid_angle_pdf_batch etendue_polygon_by_solid_angle_invert_batch etendue_polygon_by_solid_angle_hit_batch etendue_polygon_by_solid_angle_sample_each;
-    EtenduePolygonByProjectedSolidAngle EtenduePolygon on_surface etendue_polygon_by_projected_solid_angle_prepare etendue_polygon_by_projected_solid_angle_sample etendue_polygon_by_projected_solid_angle_pdf etendue_polygon_by_projected_solid_angle_invert etendue_polygon_by_projected_solid_angle_hit etendue_polygon_by_projected_solid_angle_sample_once etendue_polygon_by_projected_solid_angle_sample_batch etendue_polygon_by_projected_solid_angle_pdf_batch etendue_polygon_by_projected_solid_angle_invert_batch etendue_polygon_by_projected_solid_angle_hit_batch etendue_polygon_by_projected_solid_angle_sample_each;
-    EtendueLineByLength EtendueLine anywhere etendue_line_by_length_prepare etendue_line_by_length_sample etendue_line_by_length_pdf etendue_line_by_length_invert etendue_line_by_length_hit etendue_line_by_length_sample_once etendue_line_by_length_sample_batch etendue_line_by_length_pdf_batch etendue_line_by_length_invert_batch etendue_line_by_length_hit_batch etendue_line_by_length_sample_each;
-    EtendueLineByAngle EtendueLine anywhere etendue_line_by_angle_prepare etendue_line_by_angle_sample etendue_line_by_angle_pdf etendue_line_by_angle_invert etendue_line_by_angle_hit etendue_line_by_angle_sample_once etendue_line_by_angle_sample_batch etendue_line_by_angle_pdf_batch etendue_line_by_angle_invert_batch etendue_line_by_angle_hit_batch etendue_line_by_angle_sample_each;
-    EtendueLineByProjectedSolidAngle EtendueLine on_surface etendue_line_by_projected_solid_angle_prepare etendue_line_by_projected_solid_angle_sample etendue_line_by_projected_solid_angle_pdf etendue_line_by_projected_solid_angle_invert etendue_line_by_projected_solid_angle_hit etendue_line_by_projected_solid_angle_sample_once etendue_line_by_projected_solid_angle_sample_batch etendue_line_by_projected_solid_angle_pdf_batch etendue_line_by_projected_solid_angle_invert_batch etendue_line_by_projected_solid_angle_hit_batch etendue_line_by_projected_solid_angle_sample_each;
-    EtendueSunBySolidAngle EtendueSun anywhere etendue_sun_by_solid_angle_prepare etendue_sun_by_solid_angle_sample etendue_sun_by_solid_angle_pdf etendue_sun_by_solid_angle_invert etendue_sun_by_solid_angle_hit etendue_sun_by_solid_angle_sample_once etendue_sun_by_solid_angle_sample_batch etendue_sun_by_solid_angle_pdf_batch etendue_sun_by_solid_angle_invert_batch etendue_sun_by_solid_angle_hit_batch etendue_sun_by_solid_angle_sample_each;
+etendue::techniques!(techniques! {});
+
+/// Where the numbers of a light have a unit vector, if they do.
+fn unit_at(light: &str) -> Option<usize> {
+    let (_, kinds) = KINDS.iter().find(|(name, _)| *name == light)?;
+    let at = kinds.iter().position(|kind| *kind == "direction")?;
+    Some(kinds[..at].iter().map(|kind| if *kind == "number" { 1 } else { 3 }).sum())
 }
 
-/// Techniques whose lights have a unit vector, and where in their numbers it is: disks and suns.
-const UNITS: [(usize, usize); 3] = [(12, 3), (13, 3), (22, 0)];
 /// Calls the functions of a technique.
 pub(super) fn check(input: &mut Input<'_>, index: usize) {
     let t = &TECHNIQUES[index];
@@ -107,7 +111,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
     let null_at = input.below(64);
     let absent = u16::from(input.byte()) << 8 | u16::from(input.byte());
     let mut light: Vec<f32> = (0..t.light).map(|_| input.number()).collect();
-    let unit_at = UNITS.iter().find(|(of, _)| *of == index).map(|(_, at)| *at);
+    let unit_at = unit_at(t.name);
     if let Some(at) = unit_at {
         let vector = unit([light[at], light[at + 1], light[at + 2]]);
         light[at..at + 3].copy_from_slice(&vector);
@@ -255,23 +259,49 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                     .map(|columns| Memory::of(input, &columns.iter().map(|c| &c[..]).collect::<Vec<_>>()));
                 let mut light_in: [Column; LIGHT] = light_memory.inputs();
                 let (mut p_in, mut n_in): ([Column; 3], [Column; 3]) = (p_memory.inputs(), n_memory.inputs());
-                let mut is_null = (1..3).contains(&null_at);
+                let mut is_null = false;
                 match null_at {
                     3..6 => (p_in[null_at - 3], is_null) = (null(), true),
                     6..9 => (n_in[null_at - 6], is_null) = (null(), t.on_surface),
                     9..33 => (light_in[null_at - 9], is_null) = (null(), null_at - 9 < t.light),
                     _ => (),
                 }
-                let status = (t.each)(light_in.as_ptr(), n, p_in.as_ptr(), n_in.as_ptr(), u_in.as_ptr(), &columns);
+                let views = Views { lights: light_in.as_ptr(), p: p_in.as_ptr(), n: n_in.as_ptr() };
+                let [u_null, w_null] = [1..3, 1..4].map(|own| is_null || own.contains(&null_at));
+                let function = input.below(4);
+                let (is_null, status, written) = match function {
+                    0 => (u_null, (t.sample_each)(&views, n, u_in.as_ptr(), &columns), FIELDS),
+                    1 => (w_null, (t.hit_each)(&views, n, w_in.as_ptr(), &columns), FIELDS),
+                    2 => (w_null, (t.invert_each)(&views, n, w_in.as_ptr(), outputs.as_ptr()), 2),
+                    _ => (w_null || widths[0] == 0, (t.pdf_each)(&views, n, w_in.as_ptr(), outputs[0]), 1),
+                };
                 assert_eq!(status, expected(n, is_null));
-                memory.only(if status == EtendueStatus::Ok { &widths } else { &[] });
+                memory.only(if status == EtendueStatus::Ok { &widths[..written] } else { &[] });
                 for i in 0..if is_null { 0 } else { n } {
                     let light: [f32; LIGHT] = std::array::from_fn(|k| lights[k][i]);
                     let [p, normal] = [&points, &normals].map(|c| [c[0][i], c[1][i], c[2][i]]);
-                    let u = [u[0][i], u[1][i]];
-                    (t.once)(light.as_ptr(), p.as_ptr(), normal.as_ptr(), u.as_ptr(), &mut one);
-                    check(&memory, i, &one);
-                    total(is_finite, fields(&one));
+                    let (u, w) = ([u[0][i], u[1][i]], [w[0][i], w[1][i], w[2][i]]);
+                    let mut sampler = [0.0; SAMPLER];
+                    (t.prepare)(light.as_ptr(), p.as_ptr(), normal.as_ptr(), sampler.as_mut_ptr());
+                    let mut few = [0.0; 2];
+                    match function {
+                        0 => (t.once)(light.as_ptr(), p.as_ptr(), normal.as_ptr(), u.as_ptr(), &mut one),
+                        1 => (t.hit)(sampler.as_ptr(), w.as_ptr(), &mut one),
+                        2 => (t.invert)(sampler.as_ptr(), w.as_ptr(), few.as_mut_ptr()),
+                        _ => {
+                            few[0] = (t.pdf)(sampler.as_ptr(), w.as_ptr());
+                            EtendueStatus::Ok
+                        }
+                    };
+                    if function < 2 {
+                        check(&memory, i, &one);
+                        total(is_finite, fields(&one));
+                    } else {
+                        for (k, x) in few.into_iter().enumerate().take(written) {
+                            assert!(widths[k] == 0 || same(memory.get(k, i), x));
+                        }
+                        total(is_finite, few);
+                    }
                 }
             }
         }
