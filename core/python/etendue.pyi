@@ -6,10 +6,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _F32 = NDArray[np.float32]
-_ByArea = Literal["area"]
-_BySolidAngle = Literal["solid_angle"]
-_ByProjectedSolidAngle = Literal["projected_solid_angle"]
-_ByCosineWarp = Literal["cosine_warp"]
 
 __all__ = [
     "AreaTriangle",
@@ -94,6 +90,7 @@ class Sampler:
     @property
     def angle(self) -> float: ...
 
+# from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
 @final
 class Sphere:
     def __new__(cls, center: ArrayLike, radius: ArrayLike) -> Sphere: ...
@@ -108,8 +105,38 @@ class Sphere:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        center: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        center: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        center: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
 
 @final
 class Triangle:
@@ -127,8 +154,41 @@ class Triangle:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle | _ByCosineWarp = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        v0: ArrayLike,
+        v1: ArrayLike,
+        v2: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        v0: ArrayLike,
+        v1: ArrayLike,
+        v2: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        v0: ArrayLike,
+        v1: ArrayLike,
+        v2: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
+    ) -> _F32: ...
 
 @final
 class Parallelogram:
@@ -145,8 +205,41 @@ class Parallelogram:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
 
 @final
 class Rectangle:
@@ -162,8 +255,41 @@ class Rectangle:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _BySolidAngle | _ByCosineWarp = "solid_angle",
+        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
+    ) -> _F32: ...
 
 @final
 class Disk:
@@ -179,8 +305,41 @@ class Disk:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _ByArea | _BySolidAngle = "solid_angle",
+        by: Literal["area", "solid_angle"] = "solid_angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle"] = "solid_angle",
+    ) -> _F32: ...
 
 @final
 class Cylinder:
@@ -195,8 +354,41 @@ class Cylinder:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _ByArea = "area",
+        by: Literal["area"] = "area",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        start: ArrayLike,
+        axis: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        start: ArrayLike,
+        axis: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        start: ArrayLike,
+        axis: ArrayLike,
+        radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> _F32: ...
 
 @final
 class BilinearPatch:
@@ -212,8 +404,44 @@ class BilinearPatch:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _ByArea = "area",
+        by: Literal["area"] = "area",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        diagonal: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        diagonal: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        corner: ArrayLike,
+        edge_s: ArrayLike,
+        edge_t: ArrayLike,
+        diagonal: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> _F32: ...
 
 @final
 class Polygon:
@@ -228,8 +456,35 @@ class Polygon:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _ByArea | _BySolidAngle | _ByProjectedSolidAngle = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
 
 @final
 class Line:
@@ -245,8 +500,38 @@ class Line:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["length"] | Literal["angle"] | _ByProjectedSolidAngle = "angle",
+        by: Literal["length", "angle", "projected_solid_angle"] = "angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        start: ArrayLike,
+        edge: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["length", "angle", "projected_solid_angle"] = "angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        start: ArrayLike,
+        edge: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["length", "angle", "projected_solid_angle"] = "angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        start: ArrayLike,
+        edge: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["length", "angle", "projected_solid_angle"] = "angle",
+    ) -> _F32: ...
 
 @final
 class Sun:
@@ -260,8 +545,40 @@ class Sun:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: _BySolidAngle = "solid_angle",
+        by: Literal["solid_angle"] = "solid_angle",
     ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        direction: ArrayLike,
+        one_minus_cos: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["solid_angle"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        direction: ArrayLike,
+        one_minus_cos: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        direction: ArrayLike,
+        one_minus_cos: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+
+# end of what is from the list
 
 class Warp:
     def sample(self, u: ArrayLike) -> _F32: ...

@@ -352,6 +352,37 @@ class LightColumns {
             return PREFIX##_sample_each(&c_lights, n, detail::Pointers<const float, 3>(p).p COLUMNS_POINTER,                           \
                                         detail::Pointers<const float, 2>(u).p, &c_out);                                                \
         }                                                                                                                              \
+        /* The nearest point of a light of its own for each shading point in the unit direction w. */                                  \
+        static Status hit_each(const LightColumns<Etendue##LIGHT##Columns>& lights, In<3> p COLUMNS, In<3> w,                          \
+                             const SampleColumns& out) {                                                                               \
+            const size_t n = w.size();                                                                                                 \
+            if (!lights.fits(n) || !detail::fits(p, n) COLUMNS_FIT || !detail::fits(w, n) || !out.fits(n))                             \
+                return ETENDUE_STATUS_COUNT;                                                                                           \
+            const Etendue##LIGHT##Columns c_lights = lights.c();                                                                       \
+            const EtendueSampleColumns c_out = out.c();                                                                                \
+            return PREFIX##_hit_each(&c_lights, n, detail::Pointers<const float, 3>(p).p COLUMNS_POINTER,                              \
+                detail::Pointers<const float, 3>(w).p, &c_out);                                                                        \
+        }                                                                                                                              \
+        /* The pdf of the unit direction w for each shading point and a light of its own. */                                           \
+        static Status pdf_each(const LightColumns<Etendue##LIGHT##Columns>& lights, In<3> p COLUMNS, In<3> w,                          \
+                             Span<float> out) {                                                                                        \
+            const size_t n = w.size();                                                                                                 \
+            if (!lights.fits(n) || !detail::fits(p, n) COLUMNS_FIT || !detail::fits(w, n) || !detail::fits(out, n))                    \
+                return ETENDUE_STATUS_COUNT;                                                                                           \
+            const Etendue##LIGHT##Columns c_lights = lights.c();                                                                       \
+            return PREFIX##_pdf_each(&c_lights, n, detail::Pointers<const float, 3>(p).p COLUMNS_POINTER,                              \
+                detail::Pointers<const float, 3>(w).p, out.data());                                                                    \
+        }                                                                                                                              \
+        /* The random numbers that are mapped to the unit direction w for each shading point and a light of its own. */                \
+        static Status invert_each(const LightColumns<Etendue##LIGHT##Columns>& lights, In<3> p COLUMNS, In<3> w,                       \
+                             Out<2> u) {                                                                                               \
+            const size_t n = w.size();                                                                                                 \
+            if (!lights.fits(n) || !detail::fits(p, n) COLUMNS_FIT || !detail::fits(w, n) || !detail::fits_or_absent(u, n))            \
+                return ETENDUE_STATUS_COUNT;                                                                                           \
+            const Etendue##LIGHT##Columns c_lights = lights.c();                                                                       \
+            return PREFIX##_invert_each(&c_lights, n, detail::Pointers<const float, 3>(p).p COLUMNS_POINTER,                           \
+                detail::Pointers<const float, 3>(w).p, detail::Pointers<float, 2>(u).p);                                               \
+        }                                                                                                                              \
     };
 #define ETENDUE_COMMA ,
 #define ETENDUE_ANYWHERE(NAME, LIGHT, PREFIX) ETENDUE_TECHNIQUE(NAME, LIGHT, PREFIX, , , , , )
@@ -360,6 +391,7 @@ class LightColumns {
                       ETENDUE_COMMA In<3> normals, || !detail::fits(normals, n),                                                       \
                       ETENDUE_COMMA detail::Pointers<const float ETENDUE_COMMA 3>(normals).p)
 
+// from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings
 ETENDUE_ANYWHERE(SphereByArea, Sphere, etendue_sphere_by_area)
 ETENDUE_ANYWHERE(SphereBySolidAngle, Sphere, etendue_sphere_by_solid_angle)
 ETENDUE_ON_SURFACE(SphereByProjectedSolidAngle, Sphere, etendue_sphere_by_projected_solid_angle)
@@ -395,62 +427,54 @@ using PolygonColumns = LightColumns<EtenduePolygonColumns>;
 using LineColumns = LightColumns<EtendueLineColumns>;
 using SunColumns = LightColumns<EtendueSunColumns>;
 
-// The lights are the C structs with constructors. `p` is a shading point, `n` the unit normal of the surface there.
-
-// A sphere that emits outwards.
+// EtendueSphere with its constructors and techniques.
 struct Sphere : EtendueSphere {
     Sphere(Vec3 center_, float radius_) : EtendueSphere{{center_.x, center_.y, center_.z}, radius_} {}
-    SphereByArea by_area(Vec3 p) const { return {*this, p}; }
-    SphereBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
-    SphereByProjectedSolidAngle by_projected_solid_angle(Vec3 p, Vec3 n) const { return {*this, p, n}; }
+    SphereByArea by_area(Vec3 at) const { return {*this, at}; }
+    SphereBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    SphereByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
-// A triangle that emits from the side of e1 x e2: a vertex, and the edges from there to the other two.
+// EtendueTriangle with its constructors and techniques.
 struct Triangle : EtendueTriangle {
-    Triangle(Vec3 a, Vec3 ab, Vec3 ac) : EtendueTriangle{{a.x, a.y, a.z}, {ab.x, ab.y, ab.z}, {ac.x, ac.y, ac.z}} {}
-    static Triangle from_vertices(Vec3 a, Vec3 b, Vec3 c) {
-        return {a, {b.x - a.x, b.y - a.y, b.z - a.z}, {c.x - a.x, c.y - a.y, c.z - a.z}};
-    }
-    TriangleByArea by_area(Vec3 p) const { return {*this, p}; }
-    TriangleBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
-    TriangleByProjectedSolidAngle by_projected_solid_angle(Vec3 p, Vec3 n) const { return {*this, p, n}; }
-    TriangleByCosineWarp by_cosine_warp(Vec3 p, Vec3 n) const { return {*this, p, n}; }
+    Triangle(Vec3 v0_, Vec3 e1_, Vec3 e2_) : EtendueTriangle{{v0_.x, v0_.y, v0_.z}, {e1_.x, e1_.y, e1_.z}, {e2_.x, e2_.y, e2_.z}} {}
+    static Triangle from_vertices(Vec3 v0_, Vec3 v1_, Vec3 v2_) { return {v0_, {v1_.x - v0_.x, v1_.y - v0_.y, v1_.z - v0_.z}, {v2_.x - v0_.x, v2_.y - v0_.y, v2_.z - v0_.z}}; }
+    TriangleByArea by_area(Vec3 at) const { return {*this, at}; }
+    TriangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    TriangleByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+    TriangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
-// A parallelogram that emits from the side of u x v: a corner and the edges from there.
+// EtendueParallelogram with its constructors and techniques.
 struct Parallelogram : EtendueParallelogram {
-    Parallelogram(Vec3 corner, Vec3 s, Vec3 t)
-        : EtendueParallelogram{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}} {}
+    Parallelogram(Vec3 p_, Vec3 u_, Vec3 v_) : EtendueParallelogram{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}} {}
     ParallelogramByArea by_area(Vec3 at) const { return {*this, at}; }
     ParallelogramBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
-// A rectangle that emits from the side of u x v: a corner and the edges from there, which are perpendicular.
+// EtendueRectangle with its constructors and techniques.
 struct Rectangle : EtendueRectangle {
-    Rectangle(Vec3 corner, Vec3 s, Vec3 t) : EtendueRectangle{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}} {}
+    Rectangle(Vec3 p_, Vec3 u_, Vec3 v_) : EtendueRectangle{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}} {}
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
-// A disk that emits from the side of its unit normal.
+// EtendueDisk with its constructors and techniques.
 struct Disk : EtendueDisk {
-    Disk(Vec3 center_, Vec3 axis, float radius_)
-        : EtendueDisk{{center_.x, center_.y, center_.z}, {axis.x, axis.y, axis.z}, radius_} {}
-    DiskByArea by_area(Vec3 p) const { return {*this, p}; }
-    DiskBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
+    Disk(Vec3 center_, Vec3 normal_, float radius_) : EtendueDisk{{center_.x, center_.y, center_.z}, {normal_.x, normal_.y, normal_.z}, radius_} {}
+    DiskByArea by_area(Vec3 at) const { return {*this, at}; }
+    DiskBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
 };
-// The side of a cylinder, which emits outwards: the centre of one end, from there to that of the other, and the radius.
+// EtendueCylinder with its constructors and techniques.
 struct Cylinder : EtendueCylinder {
-    Cylinder(Vec3 end, Vec3 to_other, float radius_)
-        : EtendueCylinder{{end.x, end.y, end.z}, {to_other.x, to_other.y, to_other.z}, radius_} {}
+    Cylinder(Vec3 p_, Vec3 axis_, float radius_) : EtendueCylinder{{p_.x, p_.y, p_.z}, {axis_.x, axis_.y, axis_.z}, radius_} {}
     CylinderByArea by_area(Vec3 at) const { return {*this, at}; }
 };
-// A bilinear patch: a corner, and from there to the next, to the other next, and to the opposite one.
+// EtendueBilinearPatch with its constructors and techniques.
 struct BilinearPatch : EtendueBilinearPatch {
-    BilinearPatch(Vec3 corner, Vec3 s, Vec3 t, Vec3 opposite)
-        : EtendueBilinearPatch{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}, {opposite.x, opposite.y, opposite.z}} {}
+    BilinearPatch(Vec3 p_, Vec3 u_, Vec3 v_, Vec3 w_) : EtendueBilinearPatch{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}, {w_.x, w_.y, w_.z}} {}
     PatchByArea by_area(Vec3 at) const { return {*this, at}; }
 };
-// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Corners beyond the eighth are
-// left out; without corners it is a point, whose pdf is 0.
+// EtenduePolygon with its constructors and techniques.
 struct Polygon : EtenduePolygon {
+    // Corners beyond the eighth are left out; without corners it is a point, whose pdf is 0.
     Polygon(const Vec3* given, size_t count) : EtenduePolygon{} {
         for (size_t i = 0; i < 8 && count > 0; i++) {
             const Vec3 corner = given[i < count ? i : count - 1];
@@ -461,23 +485,24 @@ struct Polygon : EtenduePolygon {
     Polygon(const Vec3 (&given)[N]) : Polygon(given, N) {
         static_assert(N >= 3 && N <= 8, "a polygon has 3 to 8 corners");
     }
-    PolygonByArea by_area(Vec3 p) const { return {*this, p}; }
-    PolygonBySolidAngle by_solid_angle(Vec3 p) const { return {*this, p}; }
-    PolygonByProjectedSolidAngle by_projected_solid_angle(Vec3 p, Vec3 n) const { return {*this, p, n}; }
+    PolygonByArea by_area(Vec3 at) const { return {*this, at}; }
+    PolygonBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    PolygonByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
-// A line: one end, and from there to the other.
+// EtendueLine with its constructors and techniques.
 struct Line : EtendueLine {
-    Line(Vec3 end, Vec3 to_other) : EtendueLine{{end.x, end.y, end.z}, {to_other.x, to_other.y, to_other.z}} {}
+    Line(Vec3 p_, Vec3 edge_) : EtendueLine{{p_.x, p_.y, p_.z}, {edge_.x, edge_.y, edge_.z}} {}
     LineByLength by_length(Vec3 at) const { return {*this, at}; }
     LineByAngle by_angle(Vec3 at) const { return {*this, at}; }
     LineByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
-// A sun: the unit vector to its centre, and 1 - cos of the angle between its centre and its rim.
+// EtendueSun with its constructors and techniques.
 struct Sun : EtendueSun {
-    Sun(Vec3 to, float one_minus_cos_) : EtendueSun{{to.x, to.y, to.z}, one_minus_cos_} {}
+    Sun(Vec3 direction_, float one_minus_cos_) : EtendueSun{{direction_.x, direction_.y, direction_.z}, one_minus_cos_} {}
     // The same at every point.
     SunBySolidAngle by_solid_angle() const { return {*this, Vec3()}; }
 };
+// end of what is from the list
 
 // ---- warps ----
 

@@ -1,0 +1,176 @@
+//! The parts of the bindings that no macro can expand are what the core's list of techniques gives. `WRITE=1 cargo test -p etendue-tests
+//! --test bindings` writes them anew.
+
+use std::fmt::Write;
+use std::path::Path;
+
+/// A light: its name, its fields by name, argument and kind, the default technique of hosts, and its techniques.
+struct Light {
+    name: &'static str,
+    fields: &'static [[&'static str; 3]],
+    default: &'static str,
+    techniques: &'static [Technique],
+}
+
+/// A technique: its sampler, its name in C, its method, and the arguments of that.
+struct Technique {
+    sampler: &'static str,
+    name: &'static str,
+    by: &'static str,
+    place: &'static [&'static str],
+}
+
+impl Technique {
+    fn on_surface(&self) -> bool {
+        self.place.contains(&"n")
+    }
+}
+
+macro_rules! lights {
+    ($(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
+            $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
+        } by $default:literal {
+            $(
+                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
+                    = $sampler_c:ident, $technique:ident[$size:literal]: $by:ident($($place:ident),*) $($measure:ident)?;
+            )+
+        }
+    )+) => {
+        const LIGHTS: &[Light] = &[$(Light {
+            name: stringify!($light),
+            fields: &[$([stringify!($field), stringify!($argument), stringify!($kind)]),+],
+            default: $default,
+            techniques: &[$(Technique {
+                sampler: stringify!($sampler),
+                name: stringify!($technique),
+                by: stringify!($by),
+                place: &[$(stringify!($place)),*],
+            }),+],
+        }),+];
+    };
+}
+etendue::techniques!(lights! {});
+
+/// The constructors and the methods of a light in C++.
+fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
+    let Light { name, fields, .. } = light;
+    writeln!(out, "// {}{name} with its constructors and techniques.", "Etendue")?;
+    writeln!(out, "struct {name} : Etendue{name} {{")?;
+    if fields[0][2] == "corners" {
+        out.push_str(
+            "    // Corners beyond the eighth are left out; without corners it is a point, whose pdf is 0.
+    Polygon(const Vec3* given, size_t count) : EtenduePolygon{} {
+        for (size_t i = 0; i < 8 && count > 0; i++) {
+            const Vec3 corner = given[i < count ? i : count - 1];
+            for (int k = 0; k < 3; k++) corners[i][k] = corner[k];
+        }
+    }
+    template <size_t N>
+    Polygon(const Vec3 (&given)[N]) : Polygon(given, N) {
+        static_assert(N >= 3 && N <= 8, \"a polygon has 3 to 8 corners\");
+    }
+",
+        );
+    } else {
+        let list = |f: &dyn Fn(&[&str; 3]) -> String| fields.iter().map(f).collect::<Vec<_>>().join(", ");
+        let arguments = list(&|[field, _, kind]| match *kind {
+            "number" => format!("float {field}_"),
+            _ => format!("Vec3 {field}_"),
+        });
+        let values = list(&|[field, _, kind]| match *kind {
+            "number" => format!("{field}_"),
+            _ => format!("{{{field}_.x, {field}_.y, {field}_.z}}"),
+        });
+        writeln!(out, "    {name}({arguments}) : Etendue{name}{{{values}}} {{}}")?;
+        if fields.iter().any(|[_, _, kind]| *kind == "vertex") {
+            let arguments = list(&|[_, argument, _]| format!("Vec3 {argument}_"));
+            let first = fields[0][1];
+            let values = list(&|[_, argument, kind]| match *kind {
+                "vertex" => format!("{{{0}_.x - {first}_.x, {0}_.y - {first}_.y, {0}_.z - {first}_.z}}", argument),
+                _ => format!("{argument}_"),
+            });
+            writeln!(out, "    static {name} from_vertices({arguments}) {{ return {{{values}}}; }}")?;
+        }
+    }
+    for technique in light.techniques {
+        let Technique { sampler, by, .. } = technique;
+        match technique.place {
+            [] => writeln!(out, "    // The same at every point.\n    {sampler} {by}() const {{ return {{*this, Vec3()}}; }}")?,
+            [_] => writeln!(out, "    {sampler} {by}(Vec3 at) const {{ return {{*this, at}}; }}")?,
+            _ => writeln!(out, "    {sampler} {by}(Vec3 at, Vec3 n) const {{ return {{*this, at, n}}; }}")?,
+        }
+    }
+    out.push_str("};\n");
+    Ok(())
+}
+
+fn cpp() -> String {
+    let mut out = String::new();
+    for light in LIGHTS {
+        for technique in light.techniques {
+            let kind = if technique.on_surface() { "ON_SURFACE" } else { "ANYWHERE" };
+            writeln!(out, "ETENDUE_{kind}({}, {}, etendue_{})", technique.sampler, light.name, technique.name).unwrap();
+        }
+    }
+    out.push('\n');
+    for Light { name, .. } in LIGHTS {
+        writeln!(out, "using {name}Columns = LightColumns<Etendue{name}Columns>;").unwrap();
+    }
+    out.push('\n');
+    LIGHTS.iter().for_each(|light| cpp_light(light, &mut out).unwrap());
+    out
+}
+
+/// The type of a light in Python.
+fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
+    let Light { name, fields, .. } = light;
+    let arguments: Vec<_> = fields.iter().map(|[_, argument, _]| format!("{argument}: ArrayLike")).collect();
+    writeln!(out, "@final\nclass {name}:")?;
+    writeln!(out, "    def __new__(cls, {}) -> {name}: ...", arguments.join(", "))?;
+    for Technique { by, place, .. } in light.techniques {
+        let place: String = place.iter().map(|name| format!(", {name}: ArrayLike")).collect();
+        writeln!(out, "    def {by}(self{place}) -> Sampler: ...")?;
+    }
+    let by: Vec<_> = light.techniques.iter().map(|technique| format!("\"{}\"", &technique.by[3..])).collect();
+    let functions = [("sample", "u", "Samples"), ("hit", "w", "Samples"), ("pdf", "w", "_F32"), ("invert", "w", "_F32")];
+    for (function, at, result) in functions {
+        writeln!(out, "    @staticmethod\n    def {function}_each(")?;
+        arguments.iter().try_for_each(|argument| writeln!(out, "        {argument},"))?;
+        writeln!(out, "        *,\n        p: ArrayLike,\n        {at}: ArrayLike,\n        n: ArrayLike | None = None,")?;
+        writeln!(out, "        by: Literal[{}] = \"{}\",\n    ) -> {result}: ...", by.join(", "), light.default)?;
+    }
+    out.push('\n');
+    Ok(())
+}
+
+fn python() -> String {
+    let mut out = String::new();
+    LIGHTS.iter().for_each(|light| python_light(light, &mut out).unwrap());
+    out
+}
+
+/// Compares the part of a file between two marks, or writes it.
+fn check(file: &str, mark: &str, part: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let begin = format!("{mark} from the list of techniques: WRITE=1 cargo test -p etendue-tests --test bindings\n");
+    let end = format!("{mark} end of what is from the list\n");
+    let (before, rest) = text.split_once(&begin).unwrap_or_else(|| panic!("{file} has no line {begin:?}"));
+    let (old, after) = rest.split_once(&end).unwrap_or_else(|| panic!("{file} has no line {end:?}"));
+    if std::env::var("WRITE").is_ok() {
+        std::fs::write(&path, [before, &begin, part, &end, after].concat()).unwrap();
+        return;
+    }
+    let line = old.lines().zip(part.lines()).find(|(a, b)| a != b);
+    assert!(old == part, "{file} is not what the list of techniques gives, beginning with {line:?}: {begin}");
+}
+
+#[test]
+fn cpp_is_what_the_list_gives() {
+    check("core/c/include/etendue.hpp", "//", &cpp());
+}
+#[test]
+fn python_types_are_what_the_list_gives() {
+    check("core/python/etendue.pyi", "#", &python());
+}
