@@ -122,6 +122,18 @@ fn cpp() -> String {
     out
 }
 
+/// All techniques as a macro of the C test.
+fn c() -> String {
+    let mut rows = String::from("#define TECHNIQUES(T)");
+    for light in LIGHTS {
+        for technique in light.techniques {
+            let on_surface = u8::from(technique.on_surface());
+            write!(rows, " \\\n    T({}, {}, {}, {on_surface})", technique.sampler, light.name, technique.name).unwrap();
+        }
+    }
+    rows + "\n"
+}
+
 /// The type of a light in Python.
 fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     let Light { name, fields, .. } = light;
@@ -166,6 +178,10 @@ fn check(file: &str, mark: &str, part: &str) {
     assert!(old == part, "{file} is not what the list of techniques gives, beginning with {line:?}: {begin}");
 }
 
+#[test]
+fn the_test_in_c_is_what_the_list_gives() {
+    check("core/c/tests/test.c", "//", &c());
+}
 #[test]
 fn cpp_is_what_the_list_gives() {
     check("core/c/include/etendue.hpp", "//", &cpp());

@@ -117,6 +117,15 @@ static void test_lights() {
     CHECK(TriangleBySolidAngle::sample_each(lights, {p0, zeros, p2}, {x, y}, out) == ETENDUE_STATUS_OK);
     const auto own = Triangle({0, 2, 0}, {1, 0, 0}, {0, 0, 1}).by_solid_angle(p);
     for (size_t i = 0; i < 5; i++) CHECK(pdf[i] == own.sample({x[i], y[i]}).pdf);
+    CHECK(TriangleBySolidAngle::pdf_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, pdf) == ETENDUE_STATUS_OK);
+    for (size_t i = 0; i < 5; i++) CHECK(pdf[i] == own.pdf({0, 1, 0}));
+    std::vector<float> back_x(5), back_y(5);
+    CHECK(TriangleBySolidAngle::invert_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, {back_x, back_y}) == ETENDUE_STATUS_OK);
+    CHECK(back_x[3] == own.invert({0, 1, 0}).x && back_y[3] == own.invert({0, 1, 0}).y);
+    CHECK(TriangleBySolidAngle::hit_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, out) == ETENDUE_STATUS_OK);
+    CHECK(pdf[2] == own.hit({0, 1, 0}).pdf);
+    CHECK(TriangleBySolidAngle::pdf_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, shorter) == ETENDUE_STATUS_COUNT);
+    CHECK(TriangleByCosineWarp::pdf_each(lights, {p0, zeros, p2}, {zeros, shorter, zeros}, {zeros, ones, zeros}, pdf) == ETENDUE_STATUS_COUNT);
     CHECK(TriangleByCosineWarp::sample_each(lights, {p0, zeros, p2}, {zeros, ones, zeros}, {x, y}, out) == ETENDUE_STATUS_OK);
     CHECK(pdf[4] == Triangle({0, 2, 0}, {1, 0, 0}, {0, 0, 1}).by_cosine_warp(p, n).sample({x[4], y[4]}).pdf);
     CHECK(TriangleByCosineWarp::sample_each(lights, {p0, zeros, p2}, {zeros, shorter, zeros}, {x, y}, out) == ETENDUE_STATUS_COUNT);

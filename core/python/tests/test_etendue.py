@@ -253,6 +253,14 @@ def test_each_is_the_same_as_one_by_one(light, by):
         one = prepare(light, by, p=p[i]).sample(u[i])
         for field in FIELDS:
             assert np.array_equal(getattr(s, field)[i], getattr(one, field)), field
+    w = s.direction
+    hit, pdf, back = (f(*fields, p=p, w=w, by=by, **n) for f in (light.hit_each, light.pdf_each, light.invert_each))
+    for i in range(count):
+        sampler = prepare(light, by, p=p[i])
+        one = sampler.hit(w[i])
+        for field in FIELDS:
+            assert np.array_equal(getattr(hit, field)[i], getattr(one, field)), field
+        assert pdf[i] == sampler.pdf(w[i]) and np.array_equal(back[i], sampler.invert(w[i]))
     # the light and the point alike are broadcast
     s = light.sample_each(*LIGHTS[light], p=p[:, None], u=u, by=by, **n)
     assert s.direction.shape == (count, count, 3) and s.pdf.shape == (count, count)
