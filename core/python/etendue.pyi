@@ -244,6 +244,7 @@ class Parallelogram:
 @final
 class Rectangle:
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike) -> Rectangle: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
     def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     @staticmethod
@@ -255,7 +256,7 @@ class Rectangle:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -266,7 +267,7 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -277,7 +278,7 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -288,7 +289,7 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
     ) -> _F32: ...
 
 @final
@@ -391,6 +392,49 @@ class Cylinder:
     ) -> _F32: ...
 
 @final
+class Polygon:
+    def __new__(cls, corners: ArrayLike) -> Polygon: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        corners: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+
+@final
 class BilinearPatch:
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike, diagonal: ArrayLike) -> BilinearPatch: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
@@ -441,49 +485,6 @@ class BilinearPatch:
         w: ArrayLike,
         n: ArrayLike | None = None,
         by: Literal["area"] = "area",
-    ) -> _F32: ...
-
-@final
-class Polygon:
-    def __new__(cls, corners: ArrayLike) -> Polygon: ...
-    def by_area(self, p: ArrayLike) -> Sampler: ...
-    def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
-    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
-    @staticmethod
-    def sample_each(
-        corners: ArrayLike,
-        *,
-        p: ArrayLike,
-        u: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
-    ) -> Samples: ...
-    @staticmethod
-    def hit_each(
-        corners: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
-    ) -> Samples: ...
-    @staticmethod
-    def pdf_each(
-        corners: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
-    ) -> _F32: ...
-    @staticmethod
-    def invert_each(
-        corners: ArrayLike,
-        *,
-        p: ArrayLike,
-        w: ArrayLike,
-        n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "projected_solid_angle"] = "solid_angle",
     ) -> _F32: ...
 
 @final

@@ -12,7 +12,7 @@ struct Light {
     techniques: &'static [Technique],
 }
 
-/// A technique: its sampler, its name in C, its method, and the arguments of that.
+/// A technique: its sampler, its name in C, which is empty if another light has that sampler, its method, and the arguments of that.
 struct Technique {
     sampler: &'static str,
     name: &'static str,
@@ -21,8 +21,19 @@ struct Technique {
 }
 
 impl Technique {
+    /// The light whose sampler it is.
+    fn light(&self) -> &'static str {
+        self.sampler.split("By").next().unwrap()
+    }
     fn on_surface(&self) -> bool {
         self.place.contains(&"n")
+    }
+}
+
+impl Light {
+    /// Techniques whose samplers no other light has.
+    fn own(&self) -> impl Iterator<Item = &'static Technique> {
+        self.techniques.iter().filter(|technique| !technique.name.is_empty())
     }
 }
 
@@ -33,7 +44,7 @@ macro_rules! lights {
         } by $default:literal {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    = $sampler_c:ident, $technique:ident[$size:literal]: $by:ident($($place:ident),*) $($measure:ident)?;
+                    $(= $sampler_c:ident, $technique:ident[$size:literal])?: $by:ident($($place:ident),*) $($measure:ident)?;
             )+
         }
     )+) => {
@@ -43,7 +54,7 @@ macro_rules! lights {
             default: $default,
             techniques: &[$(Technique {
                 sampler: stringify!($sampler),
-                name: stringify!($technique),
+                name: concat!($(stringify!($technique))?),
                 by: stringify!($by),
                 place: &[$(stringify!($place)),*],
             }),+],
@@ -95,10 +106,17 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
     }
     for technique in light.techniques {
         let Technique { sampler, by, .. } = technique;
+        // the fields of a light whose sampler is another one's are that one's
+        let this = if technique.name.is_empty() {
+            let fields: Vec<_> = fields.iter().map(|[field, ..]| format!("{{{field}[0], {field}[1], {field}[2]}}")).collect();
+            format!("Etendue{}{{{}}}", technique.light(), fields.join(", "))
+        } else {
+            "*this".to_owned()
+        };
         match technique.place {
-            [] => writeln!(out, "    // The same at every point.\n    {sampler} {by}() const {{ return {{*this, Vec3()}}; }}")?,
-            [_] => writeln!(out, "    {sampler} {by}(Vec3 at) const {{ return {{*this, at}}; }}")?,
-            _ => writeln!(out, "    {sampler} {by}(Vec3 at, Vec3 n) const {{ return {{*this, at, n}}; }}")?,
+            [] => writeln!(out, "    // The same at every point.\n    {sampler} {by}() const {{ return {{{this}, Vec3()}}; }}")?,
+            [_] => writeln!(out, "    {sampler} {by}(Vec3 at) const {{ return {{{this}, at}}; }}")?,
+            _ => writeln!(out, "    {sampler} {by}(Vec3 at, Vec3 n) const {{ return {{{this}, at, n}}; }}")?,
         }
     }
     out.push_str("};\n");
@@ -108,7 +126,7 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
 fn cpp() -> String {
     let mut out = String::new();
     for light in LIGHTS {
-        for technique in light.techniques {
+        for technique in light.own() {
             let kind = if technique.on_surface() { "ON_SURFACE" } else { "ANYWHERE" };
             writeln!(out, "ETENDUE_{kind}({}, {}, etendue_{})", technique.sampler, light.name, technique.name).unwrap();
         }
@@ -126,7 +144,7 @@ fn cpp() -> String {
 fn c() -> String {
     let mut rows = String::from("#define TECHNIQUES(T)");
     for light in LIGHTS {
-        for technique in light.techniques {
+        for technique in light.own() {
             let on_surface = u8::from(technique.on_surface());
             write!(rows, " \\\n    T({}, {}, {}, {on_surface})", technique.sampler, light.name, technique.name).unwrap();
         }

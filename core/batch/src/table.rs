@@ -103,10 +103,13 @@ macro_rules! table {
     // adds the functions of all techniques
     ($({ $($row:tt)+ })+ $(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $sampler_c:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
-        table! { $($($name: LightFunctions<$sampler<f32 $(, $n)?>>,)+)+ $($($row)+,)+ }
+        table! { @ $($([$sampler<f32 $(, $n)?> $(, $name)?])+)+ $({ $($row)+ })+ }
+    };
+    (@ $([$sampler:ty $(, $name:ident)?])+ $({ $($row:tt)+ })+) => {
+        table! { $($($name: LightFunctions<$sampler>,)?)+ $($($row)+,)+ }
     };
     ($($field:ident: $functions:ident<$type:ty>,)+) => {
         /// The functions of one level of instructions, over packets of one width.

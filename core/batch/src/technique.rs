@@ -43,9 +43,17 @@ macro_rules! prepared {
 macro_rules! implement {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $sampler_c:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
+            $(
+                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
+                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+            )+
         }
-    )+) => {$($(
+    )+) => {
+        $($(implement!(@ $light, $sampler $([$n])?, $by $place $(, $name)?);)+)+
+    };
+    // the sampler of another light
+    (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt) => {};
+    (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt, $name:ident) => {
         impl Technique for $sampler<f32 $(, $n)?> {
             type Light<X: Copy> = $light<X $(, $n)?>;
             type Of<R: Real> = $sampler<R $(, $n)?>;
@@ -68,6 +76,6 @@ macro_rules! implement {
                 sampler
             }
         }
-    )+)+};
+    };
 }
 etendue::techniques!(implement! {});

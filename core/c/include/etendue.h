@@ -125,9 +125,9 @@ typedef struct {
 typedef struct {
   // First vertex, in the coordinates of the scene.
   float v0[3];
-  // Edge from the first to the second vertex.
+  // Second vertex, as the edge from the first one.
   float e1[3];
-  // Edge from the first to the third vertex.
+  // Third vertex, as the edge from the first one.
   float e2[3];
 } EtendueTriangle;
 
@@ -143,9 +143,9 @@ typedef struct {
 typedef struct {
   // First vertex, in the coordinates of the scene.
   const float *v0[3];
-  // Edge from the first to the second vertex.
+  // Second vertex, as the edge from the first one.
   const float *e1[3];
-  // Edge from the first to the third vertex.
+  // Third vertex, as the edge from the first one.
   const float *e2[3];
 } EtendueTriangleColumns;
 
@@ -313,38 +313,6 @@ typedef struct {
   const float *radius;
 } EtendueCylinderColumns;
 
-// A bilinear patch corner + s*edge_s + t*edge_t + st(diagonal - edge_s - edge_t), s and t in [0, 1], that emits from the side of
-// ds x dt. Without area the pdf is 0. uv: (s, t).
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  float p[3];
-  // From there to the next corner, s = 1.
-  float u[3];
-  // From there to the other next corner, t = 1.
-  float v[3];
-  // From there to the opposite corner.
-  float w[3];
-} EtendueBilinearPatch;
-
-// Nearly uniform over the surface: the pdf per unit area, times distance^2/|cos(theta')|, is exact for the map.
-//
-// What is inside does not concern callers: it may be copied, and used by any thread.
-typedef struct {
-  float data[28];
-} EtenduePatchByArea;
-
-// Columns of lights: the fields are those of the light.
-typedef struct {
-  // Corner, in the coordinates of the scene.
-  const float *p[3];
-  // From there to the next corner, s = 1.
-  const float *u[3];
-  // From there to the other next corner, t = 1.
-  const float *v[3];
-  // From there to the opposite corner.
-  const float *w[3];
-} EtendueBilinearPatchColumns;
-
 // A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
 // point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
 // [0, 1].
@@ -382,6 +350,38 @@ typedef struct {
 typedef struct {
   float data[1084];
 } EtenduePolygonByProjectedSolidAngle;
+
+// A bilinear patch corner + s*edge_s + t*edge_t + st(diagonal - edge_s - edge_t), s and t in [0, 1], that emits from the side of
+// ds x dt. Without area the pdf is 0. uv: (s, t).
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  float p[3];
+  // From there to the next corner, s = 1.
+  float u[3];
+  // From there to the other next corner, t = 1.
+  float v[3];
+  // From there to the opposite corner.
+  float w[3];
+} EtendueBilinearPatch;
+
+// Nearly uniform over the surface: the pdf per unit area, times distance^2/|cos(theta')|, is exact for the map.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[28];
+} EtenduePatchByArea;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  // Corner, in the coordinates of the scene.
+  const float *p[3];
+  // From there to the next corner, s = 1.
+  const float *u[3];
+  // From there to the other next corner, t = 1.
+  const float *v[3];
+  // From there to the opposite corner.
+  const float *w[3];
+} EtendueBilinearPatchColumns;
 
 // A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
 // first random number alone. The pdf is in the measure sin(gamma) ds/r^2 (gamma from the line, s along it), so that the estimator is
@@ -1828,81 +1828,6 @@ EtendueStatus etendue_cylinder_by_area_hit_each(const EtendueCylinderColumns *li
                                                 const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
-EtendueStatus etendue_patch_by_area_prepare(const EtendueBilinearPatch *light, const float *p, EtenduePatchByArea *out);
-
-// Draws a direction for u.
-EtendueStatus etendue_patch_by_area_sample(const EtenduePatchByArea *sampler, const float *u, EtendueLightSample *out);
-
-// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-float etendue_patch_by_area_pdf(const EtenduePatchByArea *sampler, const float *w);
-
-// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-EtendueStatus etendue_patch_by_area_invert(const EtenduePatchByArea *sampler, const float *w, float *u);
-
-// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-EtendueStatus etendue_patch_by_area_hit(const EtenduePatchByArea *sampler,
-                                        const float *w,
-                                        EtendueLightSample *out);
-
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_patch_by_area_sample_once(const EtendueBilinearPatch *light,
-                                                const float *p,
-                                                const float *u,
-                                                EtendueLightSample *out);
-
-// Draws a direction for each u: two columns.
-EtendueStatus etendue_patch_by_area_sample_batch(const EtenduePatchByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *u,
-                                                 const EtendueSampleColumns *out);
-
-// The pdf of each unit direction: three columns.
-EtendueStatus etendue_patch_by_area_pdf_batch(const EtenduePatchByArea *sampler,
-                                              size_t n,
-                                              const float *const *w,
-                                              float *out);
-
-// The random numbers of each unit direction: three columns in, two out.
-EtendueStatus etendue_patch_by_area_invert_batch(const EtenduePatchByArea *sampler,
-                                                 size_t n,
-                                                 const float *const *w,
-                                                 float *const *u);
-
-// The nearest point of the light in each unit direction: three columns.
-EtendueStatus etendue_patch_by_area_hit_batch(const EtenduePatchByArea *sampler,
-                                              size_t n,
-                                              const float *const *w,
-                                              const EtendueSampleColumns *out);
-
-// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
-EtendueStatus etendue_patch_by_area_sample_each(const EtendueBilinearPatchColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *u,
-                                                const EtendueSampleColumns *out);
-
-// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_patch_by_area_pdf_each(const EtendueBilinearPatchColumns *lights,
-                                             size_t n,
-                                             const float *const *p,
-                                             const float *const *w,
-                                             float *out);
-
-// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
-EtendueStatus etendue_patch_by_area_invert_each(const EtendueBilinearPatchColumns *lights,
-                                                size_t n,
-                                                const float *const *p,
-                                                const float *const *w,
-                                                float *const *u);
-
-// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
-EtendueStatus etendue_patch_by_area_hit_each(const EtendueBilinearPatchColumns *lights,
-                                             size_t n,
-                                             const float *const *p,
-                                             const float *const *w,
-                                             const EtendueSampleColumns *out);
-
-// Prepares the light for a shading point.
 EtendueStatus etendue_polygon_by_area_prepare(const EtenduePolygon *light, const float *p, EtenduePolygonByArea *out);
 
 // Draws a direction for u.
@@ -2146,6 +2071,81 @@ EtendueStatus etendue_polygon_by_projected_solid_angle_hit_each(const EtenduePol
                                                                 const float *const *normals,
                                                                 const float *const *w,
                                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_patch_by_area_prepare(const EtendueBilinearPatch *light, const float *p, EtenduePatchByArea *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_patch_by_area_sample(const EtenduePatchByArea *sampler, const float *u, EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_patch_by_area_pdf(const EtenduePatchByArea *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_patch_by_area_invert(const EtenduePatchByArea *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_patch_by_area_hit(const EtenduePatchByArea *sampler,
+                                        const float *w,
+                                        EtendueLightSample *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_patch_by_area_sample_once(const EtendueBilinearPatch *light,
+                                                const float *p,
+                                                const float *u,
+                                                EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_patch_by_area_sample_batch(const EtenduePatchByArea *sampler,
+                                                 size_t n,
+                                                 const float *const *u,
+                                                 const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_patch_by_area_pdf_batch(const EtenduePatchByArea *sampler,
+                                              size_t n,
+                                              const float *const *w,
+                                              float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_patch_by_area_invert_batch(const EtenduePatchByArea *sampler,
+                                                 size_t n,
+                                                 const float *const *w,
+                                                 float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_patch_by_area_hit_batch(const EtenduePatchByArea *sampler,
+                                              size_t n,
+                                              const float *const *w,
+                                              const EtendueSampleColumns *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_patch_by_area_sample_each(const EtendueBilinearPatchColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *u,
+                                                const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_patch_by_area_pdf_each(const EtendueBilinearPatchColumns *lights,
+                                             size_t n,
+                                             const float *const *p,
+                                             const float *const *w,
+                                             float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_patch_by_area_invert_each(const EtendueBilinearPatchColumns *lights,
+                                                size_t n,
+                                                const float *const *p,
+                                                const float *const *w,
+                                                float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_patch_by_area_hit_each(const EtendueBilinearPatchColumns *lights,
+                                             size_t n,
+                                             const float *const *p,
+                                             const float *const *w,
+                                             const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_line_by_length_prepare(const EtendueLine *light, const float *p, EtendueLineByLength *out);

@@ -407,10 +407,10 @@ ETENDUE_ON_SURFACE(RectangleByCosineWarp, Rectangle, etendue_rectangle_by_cosine
 ETENDUE_ANYWHERE(DiskByArea, Disk, etendue_disk_by_area)
 ETENDUE_ANYWHERE(DiskBySolidAngle, Disk, etendue_disk_by_solid_angle)
 ETENDUE_ANYWHERE(CylinderByArea, Cylinder, etendue_cylinder_by_area)
-ETENDUE_ANYWHERE(PatchByArea, BilinearPatch, etendue_patch_by_area)
 ETENDUE_ANYWHERE(PolygonByArea, Polygon, etendue_polygon_by_area)
 ETENDUE_ANYWHERE(PolygonBySolidAngle, Polygon, etendue_polygon_by_solid_angle)
 ETENDUE_ON_SURFACE(PolygonByProjectedSolidAngle, Polygon, etendue_polygon_by_projected_solid_angle)
+ETENDUE_ANYWHERE(PatchByArea, BilinearPatch, etendue_patch_by_area)
 ETENDUE_ANYWHERE(LineByLength, Line, etendue_line_by_length)
 ETENDUE_ANYWHERE(LineByAngle, Line, etendue_line_by_angle)
 ETENDUE_ON_SURFACE(LineByProjectedSolidAngle, Line, etendue_line_by_projected_solid_angle)
@@ -422,8 +422,8 @@ using ParallelogramColumns = LightColumns<EtendueParallelogramColumns>;
 using RectangleColumns = LightColumns<EtendueRectangleColumns>;
 using DiskColumns = LightColumns<EtendueDiskColumns>;
 using CylinderColumns = LightColumns<EtendueCylinderColumns>;
-using BilinearPatchColumns = LightColumns<EtendueBilinearPatchColumns>;
 using PolygonColumns = LightColumns<EtenduePolygonColumns>;
+using BilinearPatchColumns = LightColumns<EtendueBilinearPatchColumns>;
 using LineColumns = LightColumns<EtendueLineColumns>;
 using SunColumns = LightColumns<EtendueSunColumns>;
 
@@ -453,6 +453,7 @@ struct Parallelogram : EtendueParallelogram {
 // EtendueRectangle with its constructors and techniques.
 struct Rectangle : EtendueRectangle {
     Rectangle(Vec3 p_, Vec3 u_, Vec3 v_) : EtendueRectangle{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}} {}
+    ParallelogramByArea by_area(Vec3 at) const { return {EtendueParallelogram{{p[0], p[1], p[2]}, {u[0], u[1], u[2]}, {v[0], v[1], v[2]}}, at}; }
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
@@ -466,11 +467,6 @@ struct Disk : EtendueDisk {
 struct Cylinder : EtendueCylinder {
     Cylinder(Vec3 p_, Vec3 axis_, float radius_) : EtendueCylinder{{p_.x, p_.y, p_.z}, {axis_.x, axis_.y, axis_.z}, radius_} {}
     CylinderByArea by_area(Vec3 at) const { return {*this, at}; }
-};
-// EtendueBilinearPatch with its constructors and techniques.
-struct BilinearPatch : EtendueBilinearPatch {
-    BilinearPatch(Vec3 p_, Vec3 u_, Vec3 v_, Vec3 w_) : EtendueBilinearPatch{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}, {w_.x, w_.y, w_.z}} {}
-    PatchByArea by_area(Vec3 at) const { return {*this, at}; }
 };
 // EtenduePolygon with its constructors and techniques.
 struct Polygon : EtenduePolygon {
@@ -488,6 +484,11 @@ struct Polygon : EtenduePolygon {
     PolygonByArea by_area(Vec3 at) const { return {*this, at}; }
     PolygonBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     PolygonByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+};
+// EtendueBilinearPatch with its constructors and techniques.
+struct BilinearPatch : EtendueBilinearPatch {
+    BilinearPatch(Vec3 p_, Vec3 u_, Vec3 v_, Vec3 w_) : EtendueBilinearPatch{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}, {w_.x, w_.y, w_.z}} {}
+    PatchByArea by_area(Vec3 at) const { return {*this, at}; }
 };
 // EtendueLine with its constructors and techniques.
 struct Line : EtendueLine {

@@ -96,10 +96,12 @@ const NO_SAMPLES: SampleColumns = SampleColumns {
 
 /// The struct of a technique's sampler, and its functions, in a module of their own.
 macro_rules! technique {
-    ($(#[$doc:meta])* $sampler:ident[$size:literal] = $type:ty, $light:ident, $columns:ident, (p, n), $module:ident) => {
+    // the sampler of another light
+    ($(#[$doc:meta])* $type:ty, $light:ident, $columns:ident, $place:tt) => {};
+    ($(#[$doc:meta])* $type:ty, $light:ident, $columns:ident, (p, n), $sampler:ident[$size:literal], $module:ident) => {
         technique!(@ $(#[$doc])* $sampler[$size] = $type, $light, $columns, (n: normals), $module);
     };
-    ($(#[$doc:meta])* $sampler:ident[$size:literal] = $type:ty, $light:ident, $columns:ident, $place:tt, $module:ident) => {
+    ($(#[$doc:meta])* $type:ty, $light:ident, $columns:ident, $place:tt, $sampler:ident[$size:literal], $module:ident) => {
         technique!(@ $(#[$doc])* $sampler[$size] = $type, $light, $columns, (), $module);
     };
     (@ $(#[$doc:meta])* $sampler:ident[$size:literal] = $type:ty, $light:ident, $columns:ident,
@@ -361,7 +363,7 @@ macro_rules! lights {
         } by $default:literal {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    = $sampler_name:ident, $technique:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;
+                    $(= $sampler_name:ident, $technique:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {$(
@@ -389,7 +391,7 @@ macro_rules! lights {
         const _: () = assert!(size_of::<$name>() == size_of::<light::$light<f32 $(, $corners)?>>());
         const _: () = assert!(size_of::<$columns>() == size_of::<light::$light<*const f32 $(, $corners)?>>());
         $(technique!(
-            $(#[$doc])* $sampler_name[$size] = light::$sampler<f32 $(, $n)?>, $name, $columns, $place, $technique
+            $(#[$doc])* light::$sampler<f32 $(, $n)?>, $name, $columns, $place $(, $sampler_name[$size], $technique)?
         );)+
     )+};
 }

@@ -210,10 +210,10 @@ typedef struct {
     T(DiskByArea, Disk, disk_by_area, 0) \
     T(DiskBySolidAngle, Disk, disk_by_solid_angle, 0) \
     T(CylinderByArea, Cylinder, cylinder_by_area, 0) \
-    T(PatchByArea, BilinearPatch, patch_by_area, 0) \
     T(PolygonByArea, Polygon, polygon_by_area, 0) \
     T(PolygonBySolidAngle, Polygon, polygon_by_solid_angle, 0) \
     T(PolygonByProjectedSolidAngle, Polygon, polygon_by_projected_solid_angle, 1) \
+    T(PatchByArea, BilinearPatch, patch_by_area, 0) \
     T(LineByLength, Line, line_by_length, 0) \
     T(LineByAngle, Line, line_by_angle, 0) \
     T(LineByProjectedSolidAngle, Line, line_by_projected_solid_angle, 1) \

@@ -329,10 +329,10 @@ macro_rules! lights {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
             $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
+        } by $default:tt {
             $(
                 $(#[$doc:meta])* $sampler:ident $([$n:literal])?
-                    = $sampler_c:ident, $technique:ident[$size:literal]: $by:ident($($place:ident),*) $($measure:ident)?;
+                    $(= $sampler_c:ident, $technique:ident[$size:literal])?: $by:ident($($place:ident),*) $($measure:ident)?;
             )+
         }
     )+) => {
@@ -369,7 +369,7 @@ macro_rules! lights {
                 let at = if let Call::Sample = call { ("u", Kind::Units, at) } else { ("w", Kind::Direction, at) };
                 let each = Each::new(py, fields, p, n, at)?;
                 $(if by == &stringify!($by)[3..] {
-                    return each.call::<light::$sampler<f32 $(, $n)?>>(py, call, |x| Self::build(x));
+                    return each.call::<light::$sampler<f32 $(, $n)?>>(py, call, |x| Self::build(x).into());
                 })+
                 unreachable!("by is one of the names")
             }
@@ -384,7 +384,7 @@ macro_rules! lights {
             $($(#[$doc])*
             fn $by(&self $(, $place: &Bound<'_, PyAny>)*) -> PyResult<Sampler> {
                 let place = [$((stringify!($place), $place)),*];
-                let sampler = prepare::<light::$sampler<f32 $(, $n)?>>(&Self::build(&self.numbers), &place)?;
+                let sampler = prepare::<light::$sampler<f32 $(, $n)?>>(&Self::build(&self.numbers).into(), &place)?;
                 let measure = None $(.or(Some((stringify!($measure), sampler.$measure()))))?;
                 let technique = concat!(stringify!($light), " ", stringify!($by));
                 Ok(Sampler { prepared: Box::new(sampler), technique, measure })

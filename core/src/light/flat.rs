@@ -209,6 +209,12 @@ impl<R: Real> Rectangle<R> {
     }
 }
 
+impl<R> From<Rectangle<R>> for Parallelogram<R> {
+    fn from(Rectangle { p, u, v }: Rectangle<R>) -> Self {
+        Self { p, u, v }
+    }
+}
+
 /// A [`Rectangle`] sampled by solid angle from a point.
 pub type RectangleBySolidAngle<R> = BySolidAngle<R, PlacedParallelogram<R>, SphericalRectangle<R>>;
 /// A [`Rectangle`] sampled by the cosine warp from a point on a surface.

@@ -5,7 +5,8 @@
 /// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by "default" { technique; … }`. A field is a `point`, an `edge` (from one point to
 /// another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one), a `direction`, a `number` or
 /// `corners`. A technique is `Sampler [corners] = NameInC, name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
-/// numbers, and the measure is its method that returns what it is uniform over, if it has one. The first lines of documentation are those that hosts without Rust read.
+/// numbers, and the measure is its method that returns what it is uniform over, if it has one. A sampler that another light has already has
+/// no name and no numbers here; the light converts into that one. The first lines of documentation are those that hosts without Rust read.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! techniques {
@@ -76,6 +77,8 @@ macro_rules! techniques {
                 /// Edge along t, perpendicular to the other one.
                 v as edge_t: edge,
             } by "solid_angle" {
+                /// Uniform over the surface of area A, as a parallelogram: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
+                ParallelogramByArea: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
                 RectangleBySolidAngle = EtendueRectangleBySolidAngle, rectangle_by_solid_angle[88]: by_solid_angle(p) solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
@@ -110,21 +113,6 @@ macro_rules! techniques {
                 /// samples face away.
                 CylinderByArea = EtendueCylinderByArea, cylinder_by_area[20]: by_area(p) area;
             }
-            /// A bilinear patch corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
-            /// ∂s × ∂t. Without area the pdf is 0. uv: (s, t).
-            BilinearPatch = EtendueBilinearPatch, EtendueBilinearPatchColumns {
-                /// Corner, in the coordinates of the scene.
-                p as corner: point,
-                /// From there to the next corner, s = 1.
-                u as edge_s: edge,
-                /// From there to the other next corner, t = 1.
-                v as edge_t: edge,
-                /// From there to the opposite corner.
-                w as diagonal: edge,
-            } by "area" {
-                /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
-                PatchByArea = EtenduePatchByArea, patch_by_area[28]: by_area(p) area;
-            }
             /// A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
             /// point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
             /// [0, 1].
@@ -140,6 +128,21 @@ macro_rules! techniques {
                 /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p: pdf cosθ/Ω⊥ per
                 /// steradian, 0 where nothing of the light is above the horizon.
                 PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle, polygon_by_projected_solid_angle[1084]: by_projected_solid_angle(p, n) projected_solid_angle;
+            }
+            /// A bilinear patch corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
+            /// ∂s × ∂t. Without area the pdf is 0. uv: (s, t).
+            BilinearPatch = EtendueBilinearPatch, EtendueBilinearPatchColumns {
+                /// Corner, in the coordinates of the scene.
+                p as corner: point,
+                /// From there to the next corner, s = 1.
+                u as edge_s: edge,
+                /// From there to the other next corner, t = 1.
+                v as edge_t: edge,
+                /// From there to the opposite corner.
+                w as diagonal: edge,
+            } by "area" {
+                /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
+                PatchByArea = EtenduePatchByArea, patch_by_area[28]: by_area(p) area;
             }
             /// A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
             /// first random number alone. The pdf is in the measure sinγ ds/r² (γ from the line, s along it), so that the estimator is

@@ -182,7 +182,7 @@ fn shape<R: Real>(random: &mut Random, center: [f64; 3], size: f64, round: bool)
 }
 
 pub(crate) fn add(list: &mut List<'_>) {
-    for (kind, (shape, by)) in AreaLight::KINDS.into_iter().enumerate() {
+    for (kind, (shape, by)) in AreaLight::KINDS.iter().enumerate() {
         list.add(format!("light/{shape:?}/{by:?}"), &Area::new(kind));
     }
     let distant = ["Point", "Spot", "Directional", "Sun", "Constant/SolidAngle", "Constant/ProjectedSolidAngle"];

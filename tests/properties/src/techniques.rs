@@ -7,7 +7,7 @@ use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
     BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle,
-    Sphere, Triangle, Vec2, Vec3, f32x8, f32x16,
+    Sphere, Sun, Triangle, Vec2, Vec3, f32x8, f32x16,
 };
 use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
 
@@ -190,6 +190,8 @@ pub enum LightShape {
     Patch,
     /// From `a` along `b`.
     Line,
+    /// Towards `b`, with the radius as 1 − cos of its angle.
+    Sun,
 }
 /// How.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -225,33 +227,99 @@ pub struct AreaLight {
     pub radius: f32,
 }
 
+/// The shape of a light of the core's list.
+macro_rules! shape {
+    (BilinearPatch) => {
+        LightShape::Patch
+    };
+    ($light:ident) => {
+        LightShape::$light
+    };
+}
+/// The measure of a method of the core's list.
+macro_rules! measure {
+    (by_area) => {
+        Measure::Area
+    };
+    (by_length) => {
+        Measure::Area
+    };
+    (by_solid_angle) => {
+        Measure::SolidAngle
+    };
+    (by_angle) => {
+        Measure::SolidAngle
+    };
+    (by_projected_solid_angle) => {
+        Measure::ProjectedSolidAngle
+    };
+    (by_cosine_warp) => {
+        Measure::CosineWarp
+    };
+}
+/// A light prepared for a point, with the normal there if the technique needs one.
+macro_rules! prepared {
+    ($light:expr, $by:ident, $p:expr, $n:expr, ()) => {
+        $light.$by()
+    };
+    ($light:expr, $by:ident, $p:expr, $n:expr, (p)) => {
+        $light.$by($p)
+    };
+    ($light:expr, $by:ident, $p:expr, $n:expr, (p, n)) => {
+        $light.$by($p, $n)
+    };
+}
+macro_rules! techniques {
+    ($(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+            $(
+                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
+                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+            )+
+        }
+    )+) => {
+        /// All shapes by all techniques, in the order of the core's list.
+        const KINDS: &[(LightShape, Measure)] = &[$($((shape!($light), measure!($by)),)+)+];
+        /// The light of a shape, by a technique.
+        fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 5], R)) -> Box<dyn LightSampler<R>> {
+            $($(if (shape, by) == (shape!($light), measure!($by)) {
+                return boxed(|| prepared!($light::placed(v, *radius), $by, v[0], v[4], $place));
+            })+)+
+            panic!("the core's list has no {shape:?} by {by:?}");
+        }
+    };
+}
+etendue::techniques!(techniques! {});
+
+/// A light from the shading point, the vectors a, b, c and n of an [`AreaLight`], and its radius.
+trait Placed<R> {
+    fn placed(vectors: &[Vec3<R>; 5], radius: R) -> Self;
+}
+macro_rules! placed {
+    ($($light:ident $(<$n:literal>)?: |$v:ident, $radius:pat_param| $value:expr;)+) => {$(
+        impl<R: Real> Placed<R> for $light<R $(, $n)?> {
+            fn placed($v: &[Vec3<R>; 5], $radius: R) -> Self {
+                $value
+            }
+        }
+    )+};
+}
+placed! {
+    Sphere: |v, radius| Self::new(v[1], radius);
+    Triangle: |v, _| Self { v0: v[1], e1: v[2], e2: v[3] };
+    Parallelogram: |v, _| Self::new(v[1], v[2], v[3]);
+    Rectangle: |v, _| Self::new(v[1], v[2], v[3]);
+    Disk: |v, radius| Self::new(v[1], v[2], radius);
+    Cylinder: |v, radius| Self::new(v[1], v[2], radius);
+    Polygon<4>: |v, _| Self::new([v[1], v[1] + v[2], v[1] + v[2] + v[3], v[1] + v[3]]);
+    BilinearPatch: |v, _| Self::new(v[1], v[2], v[3], v[4]);
+    Line: |v, _| Self::new(v[1], v[2]);
+    Sun: |v, radius| Self::new(v[2], radius);
+}
+
 impl AreaLight {
-    /// All shapes by all techniques.
-    pub const KINDS: [(LightShape, Measure); 23] = [
-        (LightShape::Sphere, Measure::Area),
-        (LightShape::Sphere, Measure::SolidAngle),
-        (LightShape::Sphere, Measure::ProjectedSolidAngle),
-        (LightShape::Triangle, Measure::Area),
-        (LightShape::Triangle, Measure::SolidAngle),
-        (LightShape::Triangle, Measure::ProjectedSolidAngle),
-        (LightShape::Triangle, Measure::CosineWarp),
-        (LightShape::Parallelogram, Measure::Area),
-        (LightShape::Parallelogram, Measure::SolidAngle),
-        (LightShape::Parallelogram, Measure::ProjectedSolidAngle),
-        (LightShape::Rectangle, Measure::Area),
-        (LightShape::Rectangle, Measure::SolidAngle),
-        (LightShape::Rectangle, Measure::CosineWarp),
-        (LightShape::Disk, Measure::Area),
-        (LightShape::Disk, Measure::SolidAngle),
-        (LightShape::Cylinder, Measure::Area),
-        (LightShape::Polygon, Measure::Area),
-        (LightShape::Polygon, Measure::SolidAngle),
-        (LightShape::Polygon, Measure::ProjectedSolidAngle),
-        (LightShape::Patch, Measure::Area),
-        (LightShape::Line, Measure::Area),
-        (LightShape::Line, Measure::SolidAngle),
-        (LightShape::Line, Measure::ProjectedSolidAngle),
-    ];
+    /// All shapes with a surface by all techniques: all of the core's list but the sun, which is last.
+    pub const KINDS: &[(LightShape, Measure)] = KINDS.split_last().unwrap().1;
     /// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
     #[must_use]
     pub fn any(kind: usize, round: u32, random: &mut Random) -> Self {
@@ -312,41 +380,7 @@ impl AreaLight {
 
 impl Technique for AreaLight {
     fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
-        let ([p, a, b, c, n], radius) = Self::vectors::<R>(lanes);
-        let sphere = Sphere::new(a, radius);
-        let triangle = Triangle { v0: a, e1: b, e2: c };
-        let parallelogram = Parallelogram::new(a, b, c);
-        let rectangle = Rectangle::new(a, b, c);
-        let disk = Disk::new(a, b, radius);
-        let polygon = Polygon::new([a, a + b, a + b + c, a + c]);
-        let line = Line::new(a, b);
-        match (lanes[0].shape, lanes[0].by) {
-            (LightShape::Sphere, Measure::SolidAngle) => boxed(|| sphere.by_solid_angle(p)),
-            (LightShape::Sphere, Measure::ProjectedSolidAngle) => boxed(|| sphere.by_projected_solid_angle(p, n)),
-            (LightShape::Sphere, _) => boxed(|| sphere.by_area(p)),
-            (LightShape::Triangle, Measure::SolidAngle) => boxed(|| triangle.by_solid_angle(p)),
-            (LightShape::Triangle, Measure::ProjectedSolidAngle) => boxed(|| triangle.by_projected_solid_angle(p, n)),
-            (LightShape::Triangle, Measure::CosineWarp) => boxed(|| triangle.by_cosine_warp(p, n)),
-            (LightShape::Triangle, Measure::Area) => boxed(|| triangle.by_area(p)),
-            (LightShape::Parallelogram, Measure::SolidAngle) => boxed(|| parallelogram.by_solid_angle(p)),
-            (LightShape::Parallelogram, Measure::ProjectedSolidAngle) => {
-                boxed(|| parallelogram.by_projected_solid_angle(p, n))
-            }
-            (LightShape::Parallelogram, _) => boxed(|| parallelogram.by_area(p)),
-            (LightShape::Rectangle, Measure::SolidAngle) => boxed(|| rectangle.by_solid_angle(p)),
-            (LightShape::Rectangle, Measure::CosineWarp) => boxed(|| rectangle.by_cosine_warp(p, n)),
-            (LightShape::Rectangle, _) => boxed(|| rectangle.by_area(p)),
-            (LightShape::Disk, Measure::SolidAngle) => boxed(|| disk.by_solid_angle(p)),
-            (LightShape::Disk, _) => boxed(|| disk.by_area(p)),
-            (LightShape::Cylinder, _) => boxed(|| Cylinder::new(a, b, radius).by_area(p)),
-            (LightShape::Polygon, Measure::SolidAngle) => boxed(|| polygon.by_solid_angle(p)),
-            (LightShape::Polygon, Measure::ProjectedSolidAngle) => boxed(|| polygon.by_projected_solid_angle(p, n)),
-            (LightShape::Polygon, _) => boxed(|| polygon.by_area(p)),
-            (LightShape::Patch, _) => boxed(|| BilinearPatch::new(a, b, c, n).by_area(p)),
-            (LightShape::Line, Measure::SolidAngle) => boxed(|| line.by_angle(p)),
-            (LightShape::Line, Measure::ProjectedSolidAngle) => boxed(|| line.by_projected_solid_angle(p, n)),
-            (LightShape::Line, _) => boxed(|| line.by_length(p)),
-        }
+        prepare(lanes[0].shape, lanes[0].by, &Self::vectors::<R>(lanes))
     }
     /// Lines: to the rounding of the direction, over the sine of its angle to the line. Curved lights by area: a rounded direction moves the
     /// point by 16 ulp of the distance, and the cosine there by that over the radius and the cosine. Samples that the light itself hides
@@ -399,7 +433,7 @@ impl Technique for AreaLight {
             }
             // what is across the direction
             LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
-            LightShape::Polygon | LightShape::Patch => return None,
+            LightShape::Polygon | LightShape::Patch | LightShape::Sun => return None,
         };
         // what is subnormal has few digits: so has an edge in units of another that is so much longer
         let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);

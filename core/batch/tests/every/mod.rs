@@ -58,10 +58,15 @@ overhead! {
 macro_rules! visit_techniques {
     ({ $visitor:ident } $(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
-            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? = $sampler_c:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;)+
+            $($(#[$doc:meta])* $sampler:ident $([$n:literal])? $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;)+
         }
     )+) => {
-        $($($visitor.technique::<$sampler<f32 $(, $n)?>>(&stringify!($name).replace('_', " "), Overhead::overhead());)+)+
+        $($(visit_techniques!(@ $visitor, $sampler<f32 $(, $n)?> $(, $name)?);)+)+
+    };
+    // the sampler of another light
+    (@ $visitor:ident, $sampler:ty) => {};
+    (@ $visitor:ident, $sampler:ty, $name:ident) => {
+        $visitor.technique::<$sampler>(&stringify!($name).replace('_', " "), Overhead::overhead());
     };
 }
 

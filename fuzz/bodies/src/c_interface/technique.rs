@@ -62,11 +62,11 @@ macro_rules! techniques {
         } by $default:literal {
             $(
                 $(#[$doc:meta])* $core_sampler:ident $([$n:literal])?
-                    = $sampler:ident, $name:ident[$size:literal]: $by:ident $place:tt $($measure:ident)?;
+                    $(= $sampler:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
             )+
         }
     )+) => {
-        pub(super) const TECHNIQUES: &[Technique] = &[$($(
+        pub(super) const TECHNIQUES: &[Technique] = &[$($($(
             // SAFETY of all: the caller's pointers are those that the functions demand
             Technique {
                 name: stringify!($light),
@@ -88,7 +88,7 @@ macro_rules! techniques {
                 pdf_each: |v, n, w, out| unsafe { call!($place $name::pdf_each(v.lights.cast(), n, v.p; v.n; w, out)) },
                 invert_each: |v, n, w, u| unsafe { call!($place $name::invert_each(v.lights.cast(), n, v.p; v.n; w, u)) },
             },
-        )+)+];
+        )?)+)+];
         /// The kinds of the fields of each light.
         const KINDS: &[(&str, &[&str])] = &[$((stringify!($light), &[$(stringify!($kind)),+]),)+];
     };
