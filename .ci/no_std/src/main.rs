@@ -264,55 +264,75 @@ fn tables(count: &mut Count) {
     }
 }
 
-fn lights(count: &mut Count) {
-    let o = ORIGIN.into();
+/// A light above the origin, and its irradiance there on a receiver that faces up, from radiance 1.
+trait Known {
+    const IRRADIANCE: f32;
+    fn known() -> Self;
+}
+macro_rules! known {
+    ($($light:ident $(<$n:literal>)?: $irradiance:expr, $value:expr;)+) => {$(
+        impl Known for $light<X $(, $n)?> {
+            const IRRADIANCE: f32 = $irradiance;
+            fn known() -> Self {
+                $value
+            }
+        }
+    )+};
+}
+// Lambert's formula for a square of side 1 at distance 1
+const SQUARE: f32 = 0.752_274_7;
+fn sides() -> [Vec3<X>; 3] {
+    [[-0.5, 1.0, -0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from)
+}
+known! {
     // E = π R²/d²
-    let sphere = Sphere { center: [0.0, 2.0, 0.0].into(), radius: lit(1.0) };
-    count.light(0.25 * PI, |u| sphere.by_area(o).sample(u));
-    count.light(0.25 * PI, |u| sphere.by_solid_angle(o).sample(u));
-    count.light(0.25 * PI, |u| sphere.by_projected_solid_angle(o, UP.into()).sample(u));
+    Sphere: 0.25 * PI, Self { center: [0.0, 2.0, 0.0].into(), radius: lit(1.0) };
+    Triangle: 0.5 * SQUARE, { let [p, u, v] = sides(); Self { v0: p, e1: u, e2: v } };
+    Parallelogram: SQUARE, { let [p, u, v] = sides(); Self { p, u, v } };
+    Rectangle: SQUARE, { let [p, u, v] = sides(); Self { p, u, v } };
     // E = π r²/(h² + r²); the normal points down because the disk is one-sided
-    let disk = Disk { center: [0.0, 1.0, 0.0].into(), normal: [0.0, -1.0, 0.0].into(), radius: lit(1.0) };
-    count.light(0.5 * PI, |u| disk.by_area(o).sample(u));
-    count.light(0.5 * PI, |u| disk.by_solid_angle(o).sample(u));
-    // Lambert's formula for a square of side 1 at distance 1, and half of it
-    let (p, u, v) = ([-0.5, 1.0, -0.5].into(), [1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
-    let square = 0.752_274_7;
-    let panel = Parallelogram { p, u, v };
-    count.light(square, |u| panel.by_area(o).sample(u));
-    count.light(square, |u| panel.by_solid_angle(o).sample(u));
-    let rectangle = Rectangle { p, u, v };
-    count.light(square, |u| rectangle.by_area(o).sample(u));
-    count.light(square, |u| rectangle.by_solid_angle(o).sample(u));
-    count.light(square, |u| panel.by_projected_solid_angle(o, UP.into()).sample(u));
-    count.light(square, |u| rectangle.by_cosine_warp(o, UP.into()).sample(u));
-    let corners = [p, p + u, p + u + v, p + v];
-    let polygon = Polygon { corners };
-    count.light(square, |u| polygon.by_area(o).sample(u));
-    count.light(square, |u| polygon.by_solid_angle(o).sample(u));
-    count.light(square, |u| polygon.by_projected_solid_angle(o, UP.into()).sample(u));
-    let patch = BilinearPatch { p, u, v, w: u + v };
-    count.light(square, |u| patch.by_area(o).sample(u));
-    // irradiance per unit of width
-    let line = Line { p: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
-    count.light(0.431_823_8, |u| line.by_length(o).sample(u));
-    count.light(0.431_823_8, |u| line.by_angle(o).sample(u));
-    count.light(0.431_823_8, |u| line.by_projected_solid_angle(o, UP.into()).sample(u));
-    let half = Triangle { v0: p, e1: u, e2: v };
-    count.light(0.5 * square, |u| half.by_projected_solid_angle(o, UP.into()).sample(u));
-    count.light(0.5 * square, |u| half.by_cosine_warp(o, UP.into()).sample(u));
-    count.light(0.5 * square, |u| half.by_area(o).sample(u));
-    count.light(0.5 * square, |u| half.by_solid_angle(o).sample(u));
-    let cylinder = Cylinder { p: [-1.0, 2.0, 0.0].into(), axis: [2.0, 0.0, 0.0].into(), radius: lit(0.5) };
-    count.light(0.507_279, |u| cylinder.by_area(o).sample(u));
+    Disk: 0.5 * PI, Self { center: [0.0, 1.0, 0.0].into(), normal: [0.0, -1.0, 0.0].into(), radius: lit(1.0) };
+    Cylinder: 0.507_279, Self { p: [-1.0, 2.0, 0.0].into(), axis: [2.0, 0.0, 0.0].into(), radius: lit(0.5) };
+    Polygon<4>: SQUARE, { let [p, u, v] = sides(); Self { corners: [p, p + u, p + u + v, p + v] } };
+    BilinearPatch: SQUARE, { let [p, u, v] = sides(); Self { p, u, v, w: u + v } };
+    // per unit of width
+    Line: 0.431_823_8, Self { p: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
+    Sun: 0.25 * PI, Self { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
+}
+fn irradiance<L: Known>(_: &L) -> f32 {
+    L::IRRADIANCE
+}
+macro_rules! all_lights {
+    ({ $count:ident } $(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+            $(
+                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
+                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+            )+
+        }
+    )+) => {$(
+        let light = $light::known();
+        $($count.light(irradiance(&light), |u| all_lights!(@ light, $by, $place).sample(u));)+
+    )+};
+    (@ $light:ident, $by:ident, ()) => {
+        $light.$by()
+    };
+    (@ $light:ident, $by:ident, (p)) => {
+        $light.$by(ORIGIN.into())
+    };
+    (@ $light:ident, $by:ident, (p, n)) => {
+        $light.$by(ORIGIN.into(), UP.into())
+    };
+}
+
+fn lights(count: &mut Count) {
+    etendue::techniques!(all_lights! { { count } });
+    let (o, position) = (ORIGIN.into(), [0.0, 2.0, 0.0].into());
     // lights without a pdf, of radiant intensity 1 or irradiance 1
-    let position = [0.0, 2.0, 0.0].into();
     count.light(0.25, |u| PointLight { position }.prepare(o).sample(u));
     let spot = SpotLight { position, axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
     count.light(0.25, |u| spot.prepare(o).sample(u));
     count.light(1.0, |u| DirectionalLight { direction: UP.into() }.prepare(o).sample(u));
-    let sun = Sun { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
-    count.light(0.25 * PI, |u| sun.by_solid_angle().sample(u));
     count.light(PI, |u| ConstantEnvironment.by_solid_angle().sample(u));
     count.light(PI, |u| ConstantEnvironment.by_projected_solid_angle(UP.into()).sample(u));
     let mut buffer = [0.0; ImageEnvironment::buffer(4, 2)];

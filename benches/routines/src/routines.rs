@@ -17,7 +17,7 @@ use etendue::warp::{
     UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{
-    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere,
+    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere, Sun,
     Triangle, Uint, Vec2, Vec3,
 };
 use std::hint::black_box;
@@ -183,6 +183,81 @@ fn visible_parts<R: Real + 'static>(list: &mut List<R>) {
     }
 }
 
+/// Where the lights are that are timed.
+#[derive(Clone, Copy)]
+struct Room<R> {
+    /// A vertex, and edges from there.
+    a: Vec3<R>,
+    e1: Vec3<R>,
+    e2: Vec3<R>,
+    /// A corner, and perpendicular edges from there.
+    corner: Vec3<R>,
+    du: Vec3<R>,
+    dv: Vec3<R>,
+    up: Vec3<R>,
+    /// From the vertex to the last corner of a patch.
+    twisted: Vec3<R>,
+    radius: R,
+}
+/// A light of the room, and what it is called.
+trait InRoom<R> {
+    const NAME: &'static str;
+    fn of(room: &Room<R>) -> Self;
+}
+macro_rules! in_room {
+    ($($light:ident $(<$n:literal>)? $name:literal |$r:ident| $value:expr;)+) => {$(
+        impl<R: Real> InRoom<R> for $light<R $(, $n)?> {
+            const NAME: &'static str = $name;
+            fn of($r: &Room<R>) -> Self {
+                $value
+            }
+        }
+    )+};
+}
+in_room! {
+    Sphere "sphere" |r| Self { center: r.a, radius: r.radius };
+    Triangle "triangle" |r| Self { v0: r.a, e1: r.e1, e2: r.e2 };
+    Parallelogram "parallelogram" |r| Self::new(r.a, r.e1, r.e2);
+    Rectangle "rectangle" |r| Self::new(r.corner, r.du, r.dv);
+    Disk "disk" |r| Self { center: r.a, normal: r.up, radius: r.radius };
+    Cylinder "cylinder" |r| Self::new(r.a, r.e1, r.radius);
+    Polygon<5> "pentagon" |r| {
+        let Room { a, e1, e2, .. } = *r;
+        Self { corners: [a, a + e1, a + e1 + e2 * half_of(), a + e1 * half_of() + e2, a + e2] }
+    };
+    BilinearPatch "bilinear patch" |r| Self::new(r.a, r.e1, r.e2, r.twisted);
+    Line "line" |r| Self::new(r.a, r.e1);
+    Sun "sun" |r| Self::new(r.up, r.radius);
+}
+fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {
+    format!("{} {}", L::NAME, by.replace('_', " "))
+}
+macro_rules! all_lights {
+    ({ $list:ident, $room:ident } $(
+        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
+            $(
+                $(#[$doc:meta])* $sampler:ident $([$n:literal])?
+                    $(= $sampler_c:ident, $name:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
+            )+
+        }
+    )+) => {$(
+        let light = $light::of(&$room);
+        $($list.light(&named(&light, stringify!($by)), move |p| {
+            let _ = p;
+            all_lights!(@ light, $by, p, $room, $place)
+        });)+
+    )+};
+    (@ $light:ident, $by:ident, $p:ident, $n:ident, ()) => {
+        $light.$by()
+    };
+    (@ $light:ident, $by:ident, $p:ident, $n:ident, (p)) => {
+        $light.$by($p)
+    };
+    (@ $light:ident, $by:ident, $p:ident, $n:ident, (p, n)) => {
+        $light.$by($p, $n.up)
+    };
+}
+
 fn half_of<R: Real>() -> R {
     R::lit(0.5)
 }
@@ -279,31 +354,9 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
         SphericalRectangle::new(corner - p, du, dv).sample(u)
     });
 
-    let sphere = Sphere { center: a, radius };
-    list.light("sphere by area", move |p| sphere.by_area(p));
-    let rectangle = Rectangle::new(corner, du, dv);
-    list.light("rectangle by area", move |p| rectangle.by_area(p));
-    list.light("rectangle by solid angle", move |p| rectangle.by_solid_angle(p));
-    list.light("sphere by solid angle", move |p| sphere.by_solid_angle(p));
     let up = vector([0.0, 1.0, 0.0]);
-    list.light("sphere by projected solid angle", move |p| sphere.by_projected_solid_angle(p, up));
-    let triangle = Triangle { v0: a, e1, e2 };
-    list.light("triangle by area", move |p| triangle.by_area(p));
-    list.light("triangle by solid angle", move |p| triangle.by_solid_angle(p));
-    list.light("triangle by projected solid angle", move |p| triangle.by_projected_solid_angle(p, up));
-    let quad = Parallelogram { p: a, u: e1, v: e2 };
-    list.light("parallelogram by area", move |p| quad.by_area(p));
-    list.light("parallelogram by solid angle", move |p| quad.by_solid_angle(p));
     list.warp("cosine-warped triangle", CosineWarped::new(SphericalTriangle::new(a, b, c), up));
-    list.light("triangle by cosine warp", move |p| triangle.by_cosine_warp(p, up));
     list.warp("spherical disk", SphericalDisk::new(a, up, radius));
-    let disk = Disk { center: a, normal: up, radius };
-    list.light("disk by area", move |p| disk.by_area(p));
-    list.light("disk by solid angle", move |p| disk.by_solid_angle(p));
-    let line = Line { p: a, edge: e1 };
-    list.light("line by length", move |p| line.by_length(p));
-    list.light("line by angle", move |p| line.by_angle(p));
-    list.light("line by projected solid angle", move |p| line.by_projected_solid_angle(p, up));
     let arc = SphericalSegment::new(a, e1);
     list.prepared("spherical segment sample", move |_, u| arc.sample(u.x));
     list.prepared("spherical segment invert", move |p, _| arc.invert(p));
@@ -311,22 +364,15 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("projected segment sample", move |_, u| arc.sample(u.x));
     list.prepared("projected segment invert", move |p, _| arc.invert(p));
 
-    list.light("parallelogram by projected solid angle", move |p| quad.by_projected_solid_angle(p, up));
 
     list.warp("disk surface", DiskSurface { center: a, normal: up, radius });
     list.warp("cylinder side", CylinderSide { p: a, axis: e1, radius });
     list.warp("sphere surface", SphereSurface { center: a, radius });
     let twisted = e1 + e2 + up * R::lit(0.3);
     list.warp("patch surface", PatchSurface { p: a, u: e1, v: e2, w: twisted });
-    let patch = BilinearPatch { p: a, u: e1, v: e2, w: twisted };
-    list.light("bilinear patch by area", move |p| patch.by_area(p));
-    let cylinder = Cylinder { p: a, axis: e1, radius };
-    list.light("cylinder by area", move |p| cylinder.by_area(p));
-    let pentagon = Polygon { corners: [a, a + e1, a + e1 + e2 * half_of(), a + e1 * half_of() + e2, a + e2] };
-    list.light("pentagon by area", move |p| pentagon.by_area(p));
-    list.light("pentagon by solid angle", move |p| pentagon.by_solid_angle(p));
-    list.light("pentagon by projected solid angle", move |p| pentagon.by_projected_solid_angle(p, up));
-    list.light("rectangle by cosine warp", move |p| rectangle.by_cosine_warp(p, up));
+
+    let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius };
+    etendue::techniques!(all_lights! { { list, room } });
 
     visible_parts(&mut list);
 
