@@ -108,13 +108,17 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
         let Technique { sampler, by, .. } = technique;
         // the fields of a light whose sampler is another one's are that one's
         let this = if technique.name.is_empty() {
-            let fields: Vec<_> = fields.iter().map(|[field, ..]| format!("{{{field}[0], {field}[1], {field}[2]}}")).collect();
+            let fields: Vec<_> =
+                fields.iter().map(|[field, ..]| format!("{{{field}[0], {field}[1], {field}[2]}}")).collect();
             format!("Etendue{}{{{}}}", technique.light(), fields.join(", "))
         } else {
             "*this".to_owned()
         };
         match technique.place {
-            [] => writeln!(out, "    // The same at every point.\n    {sampler} {by}() const {{ return {{{this}, Vec3()}}; }}")?,
+            [] => writeln!(
+                out,
+                "    // The same at every point.\n    {sampler} {by}() const {{ return {{{this}, Vec3()}}; }}"
+            )?,
             [_] => writeln!(out, "    {sampler} {by}(Vec3 at) const {{ return {{{this}, at}}; }}")?,
             _ => writeln!(out, "    {sampler} {by}(Vec3 at, Vec3 n) const {{ return {{{this}, at, n}}; }}")?,
         }
@@ -146,7 +150,8 @@ fn c() -> String {
     for light in LIGHTS {
         for technique in light.own() {
             let on_surface = u8::from(technique.on_surface());
-            write!(rows, " \\\n    T({}, {}, {}, {on_surface})", technique.sampler, light.name, technique.name).unwrap();
+            write!(rows, " \\\n    T({}, {}, {}, {on_surface})", technique.sampler, light.name, technique.name)
+                .unwrap();
         }
     }
     rows + "\n"
@@ -163,11 +168,15 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
         writeln!(out, "    def {by}(self{place}) -> Sampler: ...")?;
     }
     let by: Vec<_> = light.techniques.iter().map(|technique| format!("\"{}\"", &technique.by[3..])).collect();
-    let functions = [("sample", "u", "Samples"), ("hit", "w", "Samples"), ("pdf", "w", "_F32"), ("invert", "w", "_F32")];
+    let functions =
+        [("sample", "u", "Samples"), ("hit", "w", "Samples"), ("pdf", "w", "_F32"), ("invert", "w", "_F32")];
     for (function, at, result) in functions {
         writeln!(out, "    @staticmethod\n    def {function}_each(")?;
         arguments.iter().try_for_each(|argument| writeln!(out, "        {argument},"))?;
-        writeln!(out, "        *,\n        p: ArrayLike,\n        {at}: ArrayLike,\n        n: ArrayLike | None = None,")?;
+        writeln!(
+            out,
+            "        *,\n        p: ArrayLike,\n        {at}: ArrayLike,\n        n: ArrayLike | None = None,"
+        )?;
         writeln!(out, "        by: Literal[{}] = \"{}\",\n    ) -> {result}: ...", by.join(", "), light.default)?;
     }
     out.push('\n');

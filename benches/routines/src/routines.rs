@@ -17,8 +17,8 @@ use etendue::warp::{
     UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{
-    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere, Sun,
-    Triangle, Uint, Vec2, Vec3,
+    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere,
+    Sun, Triangle, Uint, Vec2, Vec3,
 };
 use std::hint::black_box;
 
@@ -363,7 +363,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     let arc = ProjectedSegment::new(a, e1, up);
     list.prepared("projected segment sample", move |_, u| arc.sample(u.x));
     list.prepared("projected segment invert", move |p, _| arc.invert(p));
-
 
     list.warp("disk surface", DiskSurface { center: a, normal: up, radius });
     list.warp("cylinder side", CylinderSide { p: a, axis: e1, radius });

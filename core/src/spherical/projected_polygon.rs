@@ -6,8 +6,8 @@ use super::projected_triangle::{
     LEAST_HEIGHT, ProjectedTriangle, ahead, area, difference, edge, lack, with_rest, within,
 };
 use super::{DirectionSample, to_unit};
-use crate::math::ratio;
 use crate::lanewise::lanewise_by_map;
+use crate::math::ratio;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
