@@ -66,7 +66,7 @@ etendue::techniques!(lights! {});
 /// The constructors and the methods of a light in C++.
 fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
     let Light { name, fields, .. } = light;
-    writeln!(out, "// {}{name} with its constructors and techniques.", "Etendue")?;
+    writeln!(out, "// Etendue{name} with its constructors and techniques.")?;
     writeln!(out, "struct {name} : Etendue{name} {{")?;
     if fields[0][2] == "corners" {
         out.push_str(
