@@ -18,7 +18,6 @@ __all__ = [
     "CylinderSide",
     "Disk",
     "DiskSurface",
-    "Exponential",
     "GgxVisibleNormals",
     "Independent",
     "JointSobol",
@@ -29,7 +28,6 @@ __all__ = [
     "Linear",
     "LowDistortionTriangle",
     "NO_LIGHT",
-    "Normal",
     "Octahedral",
     "OwenSobol",
     "Parallelogram",
@@ -653,14 +651,6 @@ class Linear(Warp):
 @final
 class Tent(Warp):
     def __new__(cls, radius: ArrayLike) -> Tent: ...
-
-@final
-class Exponential(Warp):
-    def __new__(cls, rate: ArrayLike) -> Exponential: ...
-
-@final
-class Normal(Warp):
-    def __new__(cls, mean: ArrayLike, sigma: ArrayLike) -> Normal: ...
 
 class Sequence:
     def pairs(self, count: int, *, pixel: ArrayLike | None = None, dimension: int = 0, first: int = 0) -> _F32: ...

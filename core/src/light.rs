@@ -65,6 +65,7 @@
 //! | line | length | 34.6 | 3.25 | 10.6 | 1.26 | 0.43 | 0.65 | 4.49 |
 //! |  | angle | 109.9 | 9.80 | 14.5 | 1.97 | 0.43 | 2.08 | 10.6 |
 //! |  | projected solid angle | 279.8 | 35.6 | 123.2 | 16.0 | 0.62 | 4.23 | 36.5 |
+//! | sun | solid angle | 6.04 | 0.79 | 6.49 | 0.77 | 0.28 | 1.19 | 0.82 |
 //! <!-- end of table -->
 //!
 //! Without compiler flags a packet of 8 is two registers, and software computes each fused multiply-add, with the same bits;

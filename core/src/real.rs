@@ -13,7 +13,7 @@ mod uint;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
-pub(crate) use functions::{exp_minus_half_square, polynomial};
+pub(crate) use functions::polynomial;
 pub use mask::{MaskF64X4, MaskX4, MaskX8, MaskX16};
 
 /// A truth value per lane.
@@ -166,10 +166,6 @@ pub trait Real:
     /// 2⁻ᵉ, where e is the exponent of `self`: a power of two that scales a normal number to [1, 2), and has a
     /// finite reciprocal. Of 0 and subnormal numbers it is 2¹²⁷ (2¹⁰²³ in double precision).
     fn pow2_scale(self) -> Self;
-    /// floor(log₂ self) of a positive normal number.
-    fn exponent(self) -> Self;
-    /// 2ⁿ for an integer n = `self` from −126 (−1022 in double precision) to 127 (1023).
-    fn power_of_two(self) -> Self;
     /// A number in [0, 1 − 2⁻²⁴] from the 24 high bits, on the same grid at every precision.
     fn unit(bits: Self::Uint) -> Self;
     /// Converts counters to reals: exact below 2²⁴.
@@ -203,21 +199,6 @@ pub trait Real:
     fn atan_eighth(self) -> Self {
         functions::atan_eighth_f32(self)
     }
-    /// eˣ; 0 below −87.3, where it would be subnormal, and at most e^88.3 (−708 and 709 in double precision).
-    #[inline(always)]
-    fn exp(self) -> Self {
-        functions::exp_f32(self)
-    }
-    /// eˣ − 1, free of cancellation; with the limits of [`exp`](Real::exp).
-    #[inline(always)]
-    fn exp_m1(self) -> Self {
-        functions::exp_m1_f32(self)
-    }
-    /// ln(1 + x) for −1 < x ≤ 1.2e38, free of cancellation. Elsewhere the result is unspecified; callers must guard against it.
-    #[inline(always)]
-    fn ln_1p(self) -> Self {
-        functions::ln_1p_f32(self)
-    }
     /// Cube root of a number ≥ 0; 0 for a subnormal one.
     #[inline(always)]
     fn cbrt(self) -> Self {
@@ -225,16 +206,6 @@ pub trait Real:
     }
     /// x^(−1/3) of a positive normal number within 3.5 %: where [`cbrt`](Real::cbrt) starts.
     fn inverse_cbrt_estimate(self) -> Self;
-    /// Φ, the probability that a standard normal variable is below `self`. The lower tail keeps its relative accuracy.
-    #[inline(always)]
-    fn normal_cdf(self) -> Self {
-        functions::normal_cdf_f32(self)
-    }
-    /// Φ⁻¹ of the argument clamped to [2⁻²⁵, 1 − 2⁻²⁵], so that the result is within ±5.42.
-    #[inline(always)]
-    fn normal_quantile(self) -> Self {
-        functions::normal_quantile_f32(self)
-    }
 }
 
 /// The greatest finite number of single precision; results stay within it at every precision.

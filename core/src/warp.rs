@@ -24,16 +24,12 @@
 //! |---|---|---|---|
 //! | [`Linear`] | [0, 1) | linear between two end values | includes a = b |
 //! | [`Tent`] | [−r, r] | (r − \|x\|)/r² | pixel filters |
-//! | [`Exponential`] | [0, ∞) | λ exp(−λx) | distances in a medium |
-//! | [`Normal`] | the line | Gaussian | by the quantile function: keeps strata, has an inverse |
 
 mod bilinear;
 mod cone;
 mod disk;
-mod exponential;
 mod hemisphere;
 mod linear;
-mod normal;
 mod octahedral;
 mod surface;
 mod triangle;
@@ -43,10 +39,8 @@ pub use bilinear::Bilinear;
 pub use cone::{Cone, UniformHemisphere, UniformSphere};
 pub use disk::{ConcentricDisk, PolarDisk};
 pub(crate) use disk::{concentric, invert_concentric};
-pub use exponential::Exponential;
 pub use hemisphere::CosineHemisphere;
 pub use linear::{Linear, Tent};
-pub use normal::Normal;
 pub use octahedral::Octahedral;
 pub use surface::{CylinderSide, DiskSurface, PatchSurface, SphereSurface, per_steradian};
 pub use triangle::{AreaTriangle, LowDistortionTriangle};

@@ -2,10 +2,10 @@
 //! regime, property).
 
 use etendue_properties::fixtures::{
-    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, Exponential, GgxVisibleNormals, Hexagon,
-    Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap,
-    ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle,
-    UniformHemisphere, UniformSphere, nearest_hit,
+    AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, GgxVisibleNormals, Hexagon, Linear,
+    LowDistortionTriangle, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap, ProjectedParallelogram,
+    ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle, UniformHemisphere,
+    UniformSphere, nearest_hit,
 };
 use etendue_properties::generators::{self, Case, Random};
 use etendue_properties::properties::{self, Fixture};
@@ -75,8 +75,6 @@ fn main() {
             warp("low_distortion_triangle", || vec![("whole", LowDistortionTriangle)], 4000),
             warp("linear", generators::linears, 1000),
             warp("tent", generators::tents, 1000),
-            warp("exponential", generators::exponentials, 1000),
-            warp("normal", generators::normals, 1000),
             warp("bilinear", generators::bilinears, 1000),
             warp("ggx_visible_normals", generators::microsurfaces, 500),
             warp("cosine_hemisphere", || vec![("whole", CosineHemisphere)], 4000),
@@ -169,8 +167,6 @@ fn any_parameters_are_total() {
         properties::any_bits(&GgxVisibleNormals { alpha: [0.3, 0.1], wi: c }, u);
         properties::any_bits(&Linear { a: a[0], b: b[1] }, u);
         properties::any_bits(&Tent { radius: a[0] }, u);
-        properties::any_bits(&Exponential { rate: a[0] }, u);
-        properties::any_bits(&Normal { mean: b[1], sigma: a[0] }, u);
         properties::any_bits(&Bilinear { corners: [a[0], a[1], b[0], c[2]] }, u);
         properties::any_bits(&Cone { one_minus_cos: b[0].clamp(0.0, 2.0) }, u);
     }

@@ -24,9 +24,9 @@ use etendue::spherical::{
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, Exponential,
-    GgxVisibleNormals, Linear, LowDistortionTriangle, Normal, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent,
-    UniformHemisphere, UniformSphere,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, GgxVisibleNormals,
+    Linear, LowDistortionTriangle, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent, UniformHemisphere,
+    UniformSphere,
 };
 use etendue::{
     LightSample, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, Warp1, f32x8,
@@ -184,8 +184,6 @@ fn warps(count: &mut Count) {
     count.warp(GgxVisibleNormals::new(lit(1.0), lit(1.0), [0.0, 0.6, 0.8].into()), 2.0 * (PI - 0.643_501_1));
     count.line(Linear { a: lit(1.0), b: lit(3.0) });
     count.line(Tent { radius: lit(2.0) });
-    count.line(Exponential { rate: lit(0.5) });
-    count.line(Normal { mean: lit(1.0), sigma: lit(2.0) });
 }
 
 fn seen(count: &mut Count) {

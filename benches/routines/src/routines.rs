@@ -12,9 +12,9 @@ use etendue::spherical::{
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, Exponential,
-    GgxVisibleNormals, Linear, LowDistortionTriangle, Normal, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent,
-    UniformHemisphere, UniformSphere, Warp, Warp1,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, GgxVisibleNormals,
+    Linear, LowDistortionTriangle, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent, UniformHemisphere,
+    UniformSphere, Warp, Warp1,
 };
 use etendue::{
     BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere,
@@ -306,8 +306,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.warp("octahedral", Octahedral);
     list.line("linear", Linear { a: R::lit(1.0), b: R::lit(3.0) });
     list.line("tent", Tent { radius: R::lit(2.0) });
-    list.line("exponential", Exponential { rate: R::lit(0.7) });
-    list.line("normal", Normal { mean: R::lit(0.5), sigma: R::lit(2.0) });
 
     let [a, b, c] = [[-1.0, 2.0, -0.5], [1.5, 2.5, 0.0], [0.2, 3.0, 1.0]].map(vector);
     list.directions("spherical cap", SphericalCap::new(a, R::lit(0.7)));

@@ -129,8 +129,6 @@ fn warps() -> Table {
         warp("list", "a table", "[`AliasTable`](crate::discrete::AliasTable)", ["alias table 2048 cell", ""], "", ["1 step of u", "Vose 1991", "many lights"]),
         warp("line, numbers", "linear", "[`Linear`](crate::warp::Linear)", ["linear sample", ""], "linear", ["1.8e−7", "PBR 2.3.2", "linear falloff"]),
         warp("", "tent", "[`Tent`](crate::warp::Tent)", ["tent sample", ""], "tent", ["1.7e−7 relative", "inverse distribution", "pixel filters"]),
-        warp("", "exponential", "[`Exponential`](crate::warp::Exponential)", ["exponential sample", ""], "exponential", ["1.4e−7 relative", "inverse distribution", "free paths"]),
-        warp("", "normal", "[`Normal`](crate::warp::Normal)", ["normal sample", ""], "normal", ["3.7e−7 σz", "Giles 2011", "keeps strata, has an inverse"]),
     ];
     let header = &["shape", "uniform by", "routine", "x1", "x8", "new, x8", "measured", "greatest error", "source", "for"];
     Table { file: "core/src/index.md", name: "warps", header, rows }
@@ -174,6 +172,7 @@ fn lights() -> Vec<Vec<Cell>> {
         "line", "length", "line by length";
         "", "angle", "line by angle";
         "", "projected solid angle", "line by projected solid angle";
+        "sun", "solid angle", "sun by solid angle";
     ]
 }
 

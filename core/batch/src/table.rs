@@ -152,8 +152,6 @@ etendue::techniques!(table! {
     { patch_surface: WarpFunctions<PatchSurface<f32>> }
     { linear: WarpFunctions<Linear<f32>> }
     { tent: WarpFunctions<Tent<f32>> }
-    { exponential: WarpFunctions<Exponential<f32>> }
-    { normal: WarpFunctions<Normal<f32>> }
     { independent: SequenceFunctions<Independent> }
     { owen_sobol: SequenceFunctions<OwenSobol> }
     { joint_sobol: SequenceFunctions<JointSobol> }

@@ -116,4 +116,4 @@ macro_rules! lines {
             |warp, point| Vec2::new(Warp1::invert(warp, point[0]), R::lit(0.0)));
     )+};
 }
-lines!(Linear Tent Exponential Normal);
+lines!(Linear Tent);

@@ -578,20 +578,6 @@ typedef struct {
   float radius;
 } EtendueTent;
 
-// Numbers from 0 up with the pdf rate exp(-rate x).
-typedef struct {
-  // The rate, per unit of length.
-  float rate;
-} EtendueExponential;
-
-// Normally distributed numbers.
-typedef struct {
-  // Mean.
-  float mean;
-  // Standard deviation, in the unit of the mean.
-  float sigma;
-} EtendueNormal;
-
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -2943,61 +2929,6 @@ EtendueStatus etendue_tent_pdf_batch(const EtendueTent *warp, size_t n, const fl
 
 // The random numbers of each point, in columns.
 EtendueStatus etendue_tent_invert_batch(const EtendueTent *warp, size_t n, const float *const *points, float *const *u);
-
-// Numbers from 0 up, exponential. `u` and `point` are one number each.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_exponential_sample(const EtendueExponential *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_exponential_pdf(const EtendueExponential *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_exponential_invert(const EtendueExponential *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_exponential_sample_batch(const EtendueExponential *warp,
-                                               size_t n,
-                                               const float *const *u,
-                                               float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_exponential_pdf_batch(const EtendueExponential *warp,
-                                            size_t n,
-                                            const float *const *points,
-                                            float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_exponential_invert_batch(const EtendueExponential *warp,
-                                               size_t n,
-                                               const float *const *points,
-                                               float *const *u);
-
-// Normally distributed numbers. `u` and `point` are one number each.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_normal_sample(const EtendueNormal *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_normal_pdf(const EtendueNormal *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_normal_invert(const EtendueNormal *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_normal_sample_batch(const EtendueNormal *warp,
-                                          size_t n,
-                                          const float *const *u,
-                                          float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_normal_pdf_batch(const EtendueNormal *warp, size_t n, const float *const *points, float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_normal_invert_batch(const EtendueNormal *warp,
-                                          size_t n,
-                                          const float *const *points,
-                                          float *const *u);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -604,14 +604,6 @@ struct Tent : EtendueTent {
     explicit Tent(float radius_) : EtendueTent{radius_} {}
     ETENDUE_WARP(etendue_tent, 1, 1)
 };
-struct Exponential : EtendueExponential {
-    explicit Exponential(float rate_) : EtendueExponential{rate_} {}
-    ETENDUE_WARP(etendue_exponential, 1, 1)
-};
-struct Normal : EtendueNormal {
-    Normal(float mean_, float sigma_) : EtendueNormal{mean_, sigma_} {}
-    ETENDUE_WARP(etendue_normal, 1, 1)
-};
 
 // ---- sequences ----
 
@@ -806,12 +798,6 @@ inline float InvertLinearSample(float x, float a, float b) { return Linear(a, b)
 inline float SampleTent(float u, float r) { return Tent(r).sample(u); }
 inline float TentPDF(float x, float r) { return Tent(r).pdf(x); }
 inline float InvertTentSample(float x, float r) { return Tent(r).invert(x); }
-inline float SampleExponential(float u, float a) { return Exponential(a).sample(u); }
-inline float ExponentialPDF(float x, float a) { return Exponential(a).pdf(x); }
-inline float InvertExponentialSample(float x, float a) { return Exponential(a).invert(x); }
-inline float SampleNormal(float u, float mu = 0, float sigma = 1) { return Normal(mu, sigma).sample(u); }
-inline float NormalPDF(float x, float mu = 0, float sigma = 1) { return Normal(mu, sigma).pdf(x); }
-inline float InvertNormalSample(float x, float mu = 0, float sigma = 1) { return Normal(mu, sigma).invert(x); }
 
 // `w` are four densities, in pbrt's order: at (0, 0), (1, 0), (0, 1) and (1, 1).
 template <class Weights>

@@ -201,22 +201,6 @@ parameters! {
         radius: f32,
     }
 }
-parameters! {
-    /// Numbers from 0 up with the pdf rate exp(-rate x).
-    EtendueExponential = warp::Exponential<f32> {
-        /// The rate, per unit of length.
-        rate: f32,
-    }
-}
-parameters! {
-    /// Normally distributed numbers.
-    EtendueNormal = warp::Normal<f32> {
-        /// Mean.
-        mean: f32,
-        /// Standard deviation, in the unit of the mean.
-        sigma: f32,
-    }
-}
 
 /// Prepares the visible normals of a GGX microsurface: the roughnesses along x and y, and the unit direction to the viewer in the frame
 /// whose z axis is the normal.
@@ -323,14 +307,4 @@ warp!(
     /// Numbers in [-r, r], a tent. `u` and `point` are one number each.
     warp::Tent<f32>, 1 -> 1, (warp: EtendueTent), &*warp.cast(),
     etendue_tent_sample etendue_tent_pdf etendue_tent_invert etendue_tent_sample_batch etendue_tent_pdf_batch etendue_tent_invert_batch
-);
-warp!(
-    /// Numbers from 0 up, exponential. `u` and `point` are one number each.
-    warp::Exponential<f32>, 1 -> 1, (warp: EtendueExponential), &*warp.cast(),
-    etendue_exponential_sample etendue_exponential_pdf etendue_exponential_invert etendue_exponential_sample_batch etendue_exponential_pdf_batch etendue_exponential_invert_batch
-);
-warp!(
-    /// Normally distributed numbers. `u` and `point` are one number each.
-    warp::Normal<f32>, 1 -> 1, (warp: EtendueNormal), &*warp.cast(),
-    etendue_normal_sample etendue_normal_pdf etendue_normal_invert etendue_normal_sample_batch etendue_normal_pdf_batch etendue_normal_invert_batch
 );

@@ -144,7 +144,7 @@ static void test_warps() {
     test_warp(DiskSurface({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f)), test_warp(CylinderSide({-1, 2, 0.3f}, {2, 0.1f, 0.2f}, 0.3f));
     test_warp(SphereSurface({0.3f, 2, 0.1f}, 0.5f));
     test_warp(PatchSurface({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}));
-    test_warp(Linear(1, 3)), test_warp(Tent(2)), test_warp(Exponential(1.5f)), test_warp(Normal(0.5f, 2));
+    test_warp(Linear(1, 3)), test_warp(Tent(2));
 
     std::array<float, 20> x, y, a, b, c, pdf;
     CHECK(R2{1}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
@@ -229,7 +229,6 @@ static void test_pbrt() {
     CHECK(std::fabs(UniformConePDF(0.75f) / Cone(0.25f).pdf({0, 0, 1}) - 1) < 1e-6f);
     CHECK(std::fabs(InvertLinearSample(SampleLinear(0.3f, 1, 3), 1, 3) - 0.3f) < 1e-6f && std::fabs(LinearPDF(0.5f, 1, 3) - 1) < 1e-6f);
     CHECK(std::fabs(InvertTentSample(SampleTent(0.3f, 2), 2) - 0.3f) < 1e-6f && std::fabs(TentPDF(1, 2) - 0.25f) < 1e-6f);
-    CHECK(std::fabs(InvertExponentialSample(SampleExponential(0.3f, 2), 2) - 0.3f) < 1e-6f && std::fabs(ExponentialPDF(0, 2) - 2) < 1e-6f);
     CHECK(std::fabs(InvertNormalSample(SampleNormal(0.3f)) - 0.3f) < 1e-6f && std::fabs(NormalPDF(0) - 0.398942280f) < 1e-6f);
     const float weights[4] = {1, 2, 0.5f, 3};
     CHECK(near(InvertBilinearSample(SampleBilinear(u, weights), weights), u) && std::fabs(BilinearPDF({1, 0}, weights) - 2 / 1.625f) < 1e-6f);
@@ -332,7 +331,6 @@ static void test_calls_of_pbrt() {
     CHECK(near(InvertBilinearSample(u2, weights), u) && BilinearPDF(u2, renderer::span<float>(weights)) == BilinearPDF(u2, weights));
     CHECK(near(InvertBilinearSample(SampleBilinear(number, {1, 2, 0.5f, 3}), {1, 2, 0.5f, 3}), u) && BilinearPDF(u2, {1, 2, 0.5f, 3}) > 0);
     CHECK(SampleTent(number[0], 2) < 0 && SampleNormal(number[1], 0., .1) > 0 && SampleLinear(number[0], 0, 1) > 0);
-    CHECK(SampleExponential(number[0], 2) > 0);
 }
 
 // What converts to what.

@@ -178,8 +178,4 @@ warps! {
     Linear(a: Number, b: Number) |x| etendue::warp::Linear { a: x[0], b: x[1] };
     /// Numbers within ±r with the density of a tent: pdf (1 − |x|/r)/r per unit length; 0 if the radius r is 0.
     Tent(radius: Number) |x| etendue::warp::Tent { radius: x[0] };
-    /// Distances x = −ln(1−u)/λ: pdf λ exp(−λx) per unit length for x ≥ 0; 0 if the rate λ is 0.
-    Exponential(rate: Number) |x| etendue::warp::Exponential { rate: x[0] };
-    /// Numbers with a normal distribution, x = μ + σΦ⁻¹(u): pdf exp(−(x−μ)²/2σ²)/(σ√(2π)) per unit length; 0 if sigma is 0.
-    Normal(mean: Number, sigma: Number) |x| etendue::warp::Normal { mean: x[0], sigma: x[1] };
 }

@@ -426,13 +426,7 @@ def warps():
         wi = unit(rng)
         return et.GgxVisibleNormals(*rng.uniform(0.2, 0.9, 2), np.abs(wi)), HEMISPHERE
 
-    def exponential(rng):
-        rate = positive(rng)
-        return et.Exponential(rate), Segment(0, 12 / rate)
 
-    def normal(rng):
-        mean, sigma = rng.normal(), positive(rng)
-        return et.Normal(mean, sigma), Segment(mean - 5 * sigma, mean + 5 * sigma)
 
     def tent(rng):
         radius = positive(rng)
@@ -456,8 +450,6 @@ def warps():
         "PatchSurface": patch,
         "Linear": lambda rng: (et.Linear(*rng.uniform(0, 3, 2)), Segment(0, 1)),
         "Tent": tent,
-        "Exponential": exponential,
-        "Normal": normal,
     }
     for name, make in cases.items():
 

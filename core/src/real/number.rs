@@ -55,18 +55,6 @@ macro_rules! lane_by_lane {
             Self::from_fn(|i| libm::atan2(self.lane(i), other.lane(i)))
         }
         #[inline(always)]
-        fn exp(self) -> Self {
-            Self::from_fn(|i| libm::exp(self.lane(i).clamped(-745.0, 709.0)))
-        }
-        #[inline(always)]
-        fn exp_m1(self) -> Self {
-            Self::from_fn(|i| libm::expm1(self.lane(i).clamped(-745.0, 709.0)))
-        }
-        #[inline(always)]
-        fn ln_1p(self) -> Self {
-            Self::from_fn(|i| libm::log1p(self.lane(i)))
-        }
-        #[inline(always)]
         fn cbrt(self) -> Self {
             Self::from_fn(|i| libm::cbrt(self.lane(i)))
         }
@@ -74,32 +62,11 @@ macro_rules! lane_by_lane {
         fn inverse_cbrt_estimate(self) -> Self {
             Self::from_fn(|i| 1.0 / libm::cbrt(self.lane(i)))
         }
-        #[inline(always)]
-        fn normal_cdf(self) -> Self {
-            Self::from_fn(|i| 0.5 * libm::erfc(-core::f64::consts::FRAC_1_SQRT_2 * self.lane(i)))
-        }
-        #[inline(always)]
-        fn normal_quantile(self) -> Self {
-            // the polynomial of single precision, then one step of Halley's method, which cubes its error; below the median,
-            // where Φ keeps its digits
-            let half = Self::lit(0.5);
-            let above = self.gt(half);
-            let lower = <Self as Real>::blend(above, Self::lit(1.0) - self, self);
-            let lower = Real::clamped(lower, Self::lit(super::functions::LEAST_TAIL), half);
-            let z = super::functions::normal_quantile_f32(lower);
-            let refined = Self::from_fn(|i| {
-                let z = z.lane(i);
-                let excess = 0.5 * libm::erfc(-core::f64::consts::FRAC_1_SQRT_2 * z) - lower.lane(i);
-                let newton = excess * libm::sqrt(2.0 * core::f64::consts::PI) * libm::exp(0.5 * z * z);
-                z - newton / (1.0 + 0.5 * z * newton)
-            });
-            refined.negate_where(above)
-        }
     };
 }
 
 macro_rules! scalar_real {
-    ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal, $mantissa:literal, $bias:literal,
+    ($scalar:ident, $bits:ident, $packet:ident, $exponent:literal, $reflected:literal,
      $fused:ident, $functions:ident) => {
         impl Real for $scalar {
             type Scalar = $scalar;
@@ -191,16 +158,6 @@ macro_rules! scalar_real {
                     .greater($scalar::MIN_POSITIVE * 0.5)
             }
             #[inline(always)]
-            fn exponent(self) -> Self {
-                let integer = (1_u64 << $mantissa) as $scalar;
-                $scalar::from_bits(self.to_bits() >> $mantissa | integer.to_bits()) - (integer + $bias)
-            }
-            #[inline(always)]
-            fn power_of_two(self) -> Self {
-                let integer = 1.5 * (1_u64 << $mantissa) as $scalar + $bias;
-                $scalar::from_bits((self + integer).to_bits() << $mantissa)
-            }
-            #[inline(always)]
             fn unit(bits: u32) -> Self {
                 (bits >> 8) as $scalar * (1.0 / 16_777_216.0)
             }
@@ -216,12 +173,12 @@ macro_rules! scalar_real {
         }
     };
 }
-scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, 23, 127.0, single, polynomials);
-scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, 52, 1023.0, double, lane_by_lane);
+scalar_real!(f32, u32, f32x4, 0x7f80_0000, 0x7f00_0000, single, polynomials);
+scalar_real!(f64, u64, f64x2, 0x7ff0_0000_0000_0000, 0x7fe0_0000_0000_0000, double, lane_by_lane);
 
 macro_rules! packet_real {
     ($packet:ident, $scalar:ident, $bits:ident, $mask:ident, $uint:ident, $lanes:literal, $exponent:literal,
-     $reflected:literal, $mantissa:literal, $bias:literal, $fused:ident, $from_int:ident, $functions:ident, $to_uint:expr,
+     $reflected:literal, $fused:ident, $from_int:ident, $functions:ident, $to_uint:expr,
      $mask_uint:expr) => {
         impl Real for $packet {
             type Scalar = $scalar;
@@ -323,17 +280,6 @@ macro_rules! packet_real {
                     .fast_max($packet::splat($scalar::MIN_POSITIVE * 0.5))
             }
             #[inline(always)]
-            fn exponent(self) -> Self {
-                let integer = $packet::splat((1_u64 << $mantissa) as $scalar);
-                $packet::from_bits((self.to_bits() >> ($mantissa as u32)) | integer.to_bits())
-                    - (integer + $packet::splat($bias))
-            }
-            #[inline(always)]
-            fn power_of_two(self) -> Self {
-                let integer = 1.5 * (1_u64 << $mantissa) as $scalar + $bias;
-                $packet::from_bits((self + $packet::splat(integer)).to_bits() << ($mantissa as u32))
-            }
-            #[inline(always)]
             fn unit(bits: $uint) -> Self {
                 $packet::$from_int((bits >> 8u32).cast_signed()) * $packet::splat(1.0 / 16_777_216.0)
             }
@@ -359,8 +305,6 @@ packet_real!(
     4,
     0x7f80_0000,
     0x7f00_0000,
-    23,
-    127.0,
     single,
     from_i32x4,
     polynomials,
@@ -376,8 +320,6 @@ packet_real!(
     8,
     0x7f80_0000,
     0x7f00_0000,
-    23,
-    127.0,
     single,
     from_i32x8,
     polynomials,
@@ -393,8 +335,6 @@ packet_real!(
     16,
     0x7f80_0000,
     0x7f00_0000,
-    23,
-    127.0,
     single,
     from_i32x16,
     polynomials,
@@ -410,8 +350,6 @@ packet_real!(
     4,
     0x7ff0_0000_0000_0000,
     0x7fe0_0000_0000_0000,
-    52,
-    1023.0,
     double,
     from_i32x4,
     lane_by_lane,

@@ -108,8 +108,6 @@ pub(crate) fn add(list: &mut List<'_>) {
         "low_distortion_triangle": [("whole", LowDistortionTriangle)];
         "linear": generators::linears();
         "tent": generators::tents();
-        "exponential": generators::exponentials();
-        "normal": generators::normals();
         "bilinear": generators::bilinears();
         "ggx_visible_normals": generators::microsurfaces();
         "cosine_hemisphere": [("whole", CosineHemisphere)];

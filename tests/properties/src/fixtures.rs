@@ -14,7 +14,7 @@ mod surface;
 pub use cosine::{CosineRectangle, CosineTriangle};
 pub use disk::Disk;
 pub use flat::{AreaTriangle, Hexagon, LowDistortionTriangle, Parallelogram, Rectangle, Triangle};
-pub use line::{Bilinear, Exponential, Linear, Normal, Tent};
+pub use line::{Bilinear, Linear, Tent};
 pub use normals::GgxVisibleNormals;
 pub use projected::ProjectedCap;
 pub use projected_flat::{ProjectedParallelogram, ProjectedPentagon, ProjectedTriangle};

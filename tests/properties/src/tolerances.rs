@@ -49,10 +49,6 @@ pub const CONE: Tolerance = Tolerance { point: 3.02, steps: 0.0, distance: 0.0, 
 pub const LINEAR: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 3.0 };
 /// A root, a sum and a quotient; the pdf has two quotients.
 pub const TENT: Tolerance = Tolerance { point: 3.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 3.0 };
-/// A logarithm accurate to 1.3e−7, of up to 16.7 means; the exponential in the pdf cancels the rounding of its argument.
-pub const EXPONENTIAL: Tolerance = Tolerance { point: 40.0, steps: 0.0, distance: 0.0, pdf: 4.0, round_trip: 40.0 };
-/// A quantile of up to 5.42σ, accurate to 3.3e−7 relative to its own size, and a sum.
-pub const NORMAL: Tolerance = Tolerance { point: 30.0, steps: 0.0, distance: 0.0, pdf: 8.0, round_trip: 30.0 };
 /// Two linear densities; x is drawn from the density at the rounded y, which moves it as much as these steps of u would.
 pub const BILINEAR: Tolerance = Tolerance { point: 6.0, steps: 4.0, distance: 0.0, pdf: 8.0, round_trip: 6.0 };
 /// A cone; a sum that is short where a grazing view sees normals turned away from it (a step of u turns the normal there as much as

@@ -1,7 +1,7 @@
 //! Functions of one argument, over all 2³² floats.
 
 use crate::sweep::{Extent, Figure, Found, SPARSE, on_all_processors};
-use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, PI};
 use etendue::math::{one_minus_cos, rsqrt};
 use etendue::{Real, f32x8, u32x8};
 
@@ -9,8 +9,6 @@ use etendue::{Real, f32x8, u32x8};
 const DOCUMENTATION: &str = include_str!("../../../core/src/math.rs");
 
 const LEAST: f64 = f32::MIN_POSITIVE as f64;
-/// Φ⁻¹ of 2⁻²⁵, the greatest result of the quantile.
-const LAST_QUANTILE: f64 = 5.419_983_174_916_868;
 
 fn show(bits: u64) -> String {
     format!("{bits:#010x} = {:e}", f32::from_bits(bits as u32))
@@ -118,18 +116,6 @@ fn relative(y: f32, truth: f64) -> f64 {
     (f64::from(y) / truth - 1.0).abs()
 }
 
-/// The relative error of Φ⁻¹(u) = z, from Φ(z): Newton's method, whose remainder is z/2 times the square of the error.
-fn quantile_error(u: f64, z: f64) -> f64 {
-    let excess = if (u - 0.5).abs() < 0.2 {
-        0.5 * libm::erf(z * FRAC_1_SQRT_2) - (u - 0.5)
-    } else if u < 0.5 {
-        0.5 * libm::erfc(-z * FRAC_1_SQRT_2) - u
-    } else {
-        (1.0 - u) - 0.5 * libm::erfc(z * FRAC_1_SQRT_2)
-    };
-    if u == 0.5 { z.abs() } else { (excess * (2.0 * PI).sqrt() * (0.5 * z * z).exp() / z).abs() }
-}
-
 fn figure(of: &'static str, documented: f64, worst: u64) -> Figure {
     Figure { of, documented, worst }
 }
@@ -192,73 +178,6 @@ fn sines_and_arcs(all: &mut String, extent: Extent) {
             }
         }
     });
-}
-
-fn exponentials_and_logarithms(all: &mut String, extent: Extent) {
-    let figures = [figure("relative", 8.6e-8, 0xc1db_0878)];
-    let domain = |x: f32| (-87.3..=88.3).contains(&x);
-    let truth = Truth { of: |x: f64| [x.exp()], domain };
-    check(
-        all,
-        extent,
-        "Real::exp",
-        figures,
-        |x| [Real::exp(x)],
-        truth,
-        |x, [y], [truth], at, found| {
-            if domain(x) {
-                found.error(0, relative(y, truth), at);
-            } else if x > 88.3 {
-                found.outside("e^88.3 above it", y == Real::exp(88.3_f32), at);
-            } else {
-                found.outside("0 below −87.3 and of NaN", y == 0.0, at);
-            }
-        },
-    );
-
-    let figures = [figure("relative", 1.3e-7, 0x4187_dd08)];
-    let domain = |x: f32| x <= 88.3;
-    let truth = Truth { of: |x: f64| [x.exp_m1()], domain };
-    check(
-        all,
-        extent,
-        "Real::exp_m1",
-        figures,
-        |x| [Real::exp_m1(x)],
-        truth,
-        |x, [y], [truth], at, found| {
-            if x == 0.0 {
-                found.demand("0 at 0", y == 0.0, at);
-            } else if domain(x) {
-                found.error(0, relative(y, truth), at);
-            } else if x > 88.3 {
-                found.outside("e^88.3 − 1 above it", y == Real::exp_m1(88.3_f32), at);
-            } else {
-                found.outside("−1 of NaN", y == -1.0, at);
-            }
-        },
-    );
-
-    let figures = [figure("relative", 1.3e-7, 0x3edb_2765)];
-    let domain = |x: f32| x > -1.0 && x <= 1.2e38;
-    let truth = Truth { of: |x: f64| [x.ln_1p()], domain };
-    check(
-        all,
-        extent,
-        "Real::ln_1p",
-        figures,
-        |x| [Real::ln_1p(x)],
-        truth,
-        |x, [y], [truth], at, found| {
-            if x == 0.0 {
-                found.demand("0 at 0", y == 0.0, at);
-            } else if domain(x) {
-                found.error(0, relative(y, truth), at);
-            } else {
-                found.outside("unspecified", true, at);
-            }
-        },
-    );
 }
 
 fn roots(all: &mut String, extent: Extent) {
@@ -341,43 +260,6 @@ fn roots(all: &mut String, extent: Extent) {
     );
 }
 
-fn normal_distribution(all: &mut String, extent: Extent) {
-    let figures = [figure("relative", 4.3e-7, 0x3c3f_f4d4), figure("absolute, below −12.8", 4e-40, 0xc153_6b08)];
-    let domain = |z: f32| !z.is_nan();
-    let truth = Truth { of: |z: f64| [0.5 * libm::erfc(-FRAC_1_SQRT_2 * z)], domain };
-    check(
-        all,
-        extent,
-        "Real::normal_cdf",
-        figures,
-        |z| [Real::normal_cdf(z)],
-        truth,
-        |z, [y], [truth], at, found| {
-            if z >= -12.8 {
-                found.error(0, relative(y, truth), at);
-            } else if domain(z) {
-                found.error(1, (f64::from(y) - truth).abs(), at);
-            } else {
-                found.outside("0 of NaN", y == 0.0, at);
-            }
-        },
-    );
-
-    let figures = [figure("relative", 3.5e-7, 0x3e9c_cd23)];
-    let truth = Truth { of: |_| [], domain: |_: f32| false };
-    let call = |u| [Real::normal_quantile(u)];
-    check(all, extent, "Real::normal_quantile", figures, call, truth, |u, [z], [], at, found| {
-        // 1 − 2⁻²⁵ is no number of single precision, so all below 1 are in the domain
-        if (1.0 / 33_554_432.0..1.0).contains(&u) {
-            found.error(0, quantile_error(f64::from(u), f64::from(z)), at);
-        } else {
-            let truth = if u >= 1.0 { LAST_QUANTILE } else { -LAST_QUANTILE };
-            let what = "the quantile of 1 − 2⁻²⁵ from 1 on, and that of 2⁻²⁵ below it and of NaN";
-            found.outside(what, relative(z, truth) < 3.5e-7, at);
-        }
-    });
-}
-
 /// A function that is exact or rounded once: each result is compared with the definition, if there is one for the argument.
 fn exact(
     faults: &mut String,
@@ -427,17 +309,6 @@ fn operations(all: &mut String, extent: Extent) {
         };
         Some(power && scale)
     });
-    exact(all, extent, "Real::exponent", Real::exponent, |x, y| {
-        (x > 0.0 && x.is_normal()).then(|| {
-            // 2^y ≤ x < 2^(y + 1)
-            let least = f64::from(y).exp2();
-            y == y.round_ties_even() && least <= f64::from(x) && f64::from(x) < 2.0 * least
-        })
-    });
-    exact(all, extent, "Real::power_of_two", Real::power_of_two, |x, y| {
-        let integer = x == x.round_ties_even() && (-126.0..=127.0).contains(&x);
-        integer.then(|| f64::from(y) == 2.0_f64.powi(x as i32))
-    });
     exact(
         all,
         extent,
@@ -477,4 +348,4 @@ macro_rules! tests {
         }
     };
 }
-tests!(sines_and_arcs, exponentials_and_logarithms, roots, normal_distribution, operations);
+tests!(sines_and_arcs, roots, operations);

@@ -92,8 +92,6 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     visitor.warp("patch surface", patch);
     visitor.warp("linear", Linear { a: 3.0, b: 1.0 });
     visitor.warp("tent", Tent { radius: 1.5 });
-    visitor.warp("exponential", Exponential { rate: 2.0 });
-    visitor.warp("normal", Normal { mean: 0.5, sigma: 2.0 });
     visitor.sequence("independent", Independent::new(1));
     visitor.sequence("Owen-Sobol", OwenSobol::new(1));
     visitor.sequence("joint Sobol", JointSobol::new(1));

@@ -58,8 +58,6 @@ warps! {
     (EtenduePatchSurface) 2 3 etendue_patch_surface_sample etendue_patch_surface_pdf etendue_patch_surface_invert etendue_patch_surface_sample_batch etendue_patch_surface_pdf_batch etendue_patch_surface_invert_batch;
     (EtendueLinear) 1 1 etendue_linear_sample etendue_linear_pdf etendue_linear_invert etendue_linear_sample_batch etendue_linear_pdf_batch etendue_linear_invert_batch;
     (EtendueTent) 1 1 etendue_tent_sample etendue_tent_pdf etendue_tent_invert etendue_tent_sample_batch etendue_tent_pdf_batch etendue_tent_invert_batch;
-    (EtendueExponential) 1 1 etendue_exponential_sample etendue_exponential_pdf etendue_exponential_invert etendue_exponential_sample_batch etendue_exponential_pdf_batch etendue_exponential_invert_batch;
-    (EtendueNormal) 1 1 etendue_normal_sample etendue_normal_pdf etendue_normal_invert etendue_normal_sample_batch etendue_normal_pdf_batch etendue_normal_invert_batch;
 }
 
 /// The warp with a unit vector, a disk.

@@ -8,7 +8,6 @@ use crate::chart::pictures::heat;
 use crate::chart::plot::{Bar, Chart, Dot, Line, Scale};
 use crate::chart::stats::{self, Cost, Estimate, gain};
 use etendue::sequence::{Independent, Sequence, Stratified};
-use etendue::warp::{Normal, Warp1};
 use etendue::{Vec2, u32x8};
 
 /// exp(−1000(x−¼)²), whose integral over [0, 1] is √(π/1000) to 10⁻²⁸.
@@ -57,32 +56,33 @@ pub(super) fn importance(seed: u64) -> Finding {
     const SAMPLES: u32 = 65_536;
     let [good, bad] = [(0.1, 4.6), (1.2, 0.2)].map(|(outside, inside)| Steps { outside, inside });
     let sigma = 1.0 / 2000.0_f64.sqrt();
-    let perfect = Normal::<f64> { mean: 0.25, sigma };
+    let perfect = |x: f64| bump(x) / (sigma * std::f64::consts::TAU.sqrt());
     let integral = (std::f64::consts::PI / 1000.0).sqrt();
     let sequence = Independent::new(seed);
     // the variance of one sample in each batch
-    let batches = |key: u32, estimate: &dyn Fn(f64) -> f64| -> Vec<f64> {
+    let batches = |key: u32, estimate: &dyn Fn(Vec2<f64>) -> f64| -> Vec<f64> {
         (0..BATCHES as u32)
             .map(|batch| {
                 let of = |i: u32| {
                     let u: Vec2<f64> = sequence.pair(batch, i, key);
-                    (estimate(u.x) - integral).powi(2)
+                    (estimate(u) - integral).powi(2)
                 };
                 (0..SAMPLES).map(of).sum::<f64>() / f64::from(SAMPLES)
             })
             .collect()
     };
-    let uniform = batches(0, &bump);
+    let uniform = batches(0, &|u| bump(u.x));
     let by_steps = |key, p: Steps| {
         batches(key, &move |u| {
-            let x = p.sample(u);
+            let x = p.sample(u.x);
             bump(x) / p.pdf(x)
         })
     };
     let (like, unlike) = (by_steps(1, good), by_steps(2, bad));
     let exact = batches(3, &|u| {
-        let x = perfect.sample(u);
-        bump(x) / perfect.pdf(x)
+        // a normal distribution, by Box and Muller's method
+        let x = sigma.mul_add((-2.0 * (-u.x).ln_1p()).sqrt() * (std::f64::consts::TAU * u.y).cos(), 0.25);
+        bump(x) / perfect(x)
     });
     let costs = |v: &[f64]| -> Vec<Cost> { v.iter().map(|&mse| Cost { mse, seconds: 1.0 }).collect() };
     let of = |v: &[f64]| Estimate::of(v);

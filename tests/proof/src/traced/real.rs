@@ -157,12 +157,6 @@ impl Real for Traced {
         let binade = (from..to).find(|&e| magnitude.lt(Self::constant(f64::powi(2.0, e + 1)))).unwrap_or(to);
         Self::constant(f64::powi(2.0, -binade).max(f64::powi(2.0, -127)))
     }
-    fn exponent(self) -> Self {
-        Self::unknown()
-    }
-    fn power_of_two(self) -> Self {
-        Self::unknown()
-    }
     fn unit(bits: u32) -> Self {
         Self::constant(f64::from(bits >> 8) / 16_777_216.0)
     }
@@ -195,25 +189,10 @@ impl Real for Traced {
     fn acos(self) -> Self {
         Self::unknown()
     }
-    fn exp(self) -> Self {
-        Self::unknown()
-    }
-    fn exp_m1(self) -> Self {
-        Self::unknown()
-    }
-    fn ln_1p(self) -> Self {
-        Self::unknown()
-    }
     fn cbrt(self) -> Self {
         Self::unknown()
     }
     fn inverse_cbrt_estimate(self) -> Self {
-        Self::unknown()
-    }
-    fn normal_cdf(self) -> Self {
-        Self::unknown()
-    }
-    fn normal_quantile(self) -> Self {
         Self::unknown()
     }
 }

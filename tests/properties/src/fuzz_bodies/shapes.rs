@@ -3,9 +3,9 @@
 use super::{Input, scalable};
 use crate::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, CosineRectangle, CosineTriangle, Disk,
-    Exponential, GgxVisibleNormals, Hexagon, Linear, LowDistortionTriangle, Normal, Octahedral, Parallelogram,
-    PolarDisk, ProjectedCap, ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle,
-    Segment, Tent, Triangle, UniformHemisphere, UniformSphere, nearest_hit,
+    GgxVisibleNormals, Hexagon, Linear, LowDistortionTriangle, Octahedral, Parallelogram, PolarDisk, ProjectedCap,
+    ProjectedParallelogram, ProjectedPentagon, ProjectedSegment, ProjectedTriangle, Rectangle, Segment, Tent, Triangle,
+    UniformHemisphere, UniformSphere, nearest_hit,
 };
 use crate::generators::{self, Random};
 use crate::properties::{self, Fixture};
@@ -50,7 +50,7 @@ pub(super) fn fixed_warps(input: &mut Input<'_>) {
 
 /// Densities on the line, and the bilinear density.
 pub(super) fn line_warps(input: &mut Input<'_>) {
-    let (kind, u) = (input.below(5), input.square());
+    let (kind, u) = (input.below(3), input.square());
     let [a, b, c, d] = [(); 4].map(|()| input.number());
     let random = &mut Random::new(input.seed());
     let fair = |x: f32| (1e-25..1e25).contains(&x);
@@ -67,22 +67,6 @@ pub(super) fn line_warps(input: &mut Input<'_>) {
             properties::any_bits(&s, u);
             if fair(a) {
                 properties::pointwise(&s, u, random);
-            }
-        }
-        2 => {
-            let s = Exponential { rate: a };
-            properties::any_bits(&s, u);
-            // the density of the tail is 4e−18 of the greatest
-            if (1e-18..1e18).contains(&a) {
-                properties::pointwise(&s, u, random);
-            }
-        }
-        3 => {
-            let s = Normal { mean: b, sigma: a };
-            properties::any_bits(&s, u);
-            // the densities of the tails are 1e−16 of the greatest
-            if (1e-20..1e20).contains(&a) {
-                properties::pointwise(&Normal { mean: 0.0, sigma: a }, u, random);
             }
         }
         _ => {

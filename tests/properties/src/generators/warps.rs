@@ -2,8 +2,7 @@
 
 use super::{Case, EPSILON};
 use crate::fixtures::{
-    Bilinear, Cone, CylinderSide, DiskSurface, Exponential, GgxVisibleNormals, Linear, Normal, PatchSurface,
-    SphereSurface, Tent,
+    Bilinear, Cone, CylinderSide, DiskSurface, GgxVisibleNormals, Linear, PatchSurface, SphereSurface, Tent,
 };
 
 /// Cones of half-angles from 1e−15 to π.
@@ -66,22 +65,6 @@ const SIZES: [(&str, f32); 7] = [
 #[must_use]
 pub fn tents() -> Vec<Case<Tent>> {
     SIZES.map(|(name, radius)| (name, Tent { radius })).to_vec()
-}
-
-/// Exponentials of every rate.
-#[must_use]
-pub fn exponentials() -> Vec<Case<Exponential>> {
-    SIZES.map(|(name, size)| (name, Exponential { rate: 1.0 / size })).to_vec()
-}
-
-/// Normal distributions of every scale, about 0 and about means that are large or small relative to σ.
-#[must_use]
-pub fn normals() -> Vec<Case<Normal>> {
-    let mut all = SIZES.map(|(name, sigma)| (name, Normal { mean: 0.0, sigma })).to_vec();
-    all.push(("mean of 3σ", Normal { mean: 0.3, sigma: 0.1 }));
-    all.push(("mean of -100σ", Normal { mean: -100.0, sigma: 1.0 }));
-    all.push(("mean of 1e-3σ", Normal { mean: 1.0, sigma: 1e3 }));
-    all
 }
 
 /// Bilinear densities: flat, ordinary, with corners and sides of 0, steep, in tiny and huge units.
