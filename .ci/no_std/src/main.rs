@@ -310,17 +310,8 @@ macro_rules! all_lights {
         }
     )+) => {$(
         let light = $light::known();
-        $($count.light(irradiance(&light), |u| all_lights!(@ light, $by, $place).sample(u));)+
+        $($count.light(irradiance(&light), |u| etendue::prepared!(light, $by $place, ORIGIN.into(), UP.into()).sample(u));)+
     )+};
-    (@ $light:ident, $by:ident, ()) => {
-        $light.$by()
-    };
-    (@ $light:ident, $by:ident, (p)) => {
-        $light.$by(ORIGIN.into())
-    };
-    (@ $light:ident, $by:ident, (p, n)) => {
-        $light.$by(ORIGIN.into(), UP.into())
-    };
 }
 
 fn lights(count: &mut Count) {

@@ -244,18 +244,9 @@ macro_rules! all_lights {
         let light = $light::of(&$room);
         $($list.light(&named(&light, stringify!($by)), move |p| {
             let _ = p;
-            all_lights!(@ light, $by, p, $room, $place)
+            etendue::prepared!(light, $by $place, p, $room.up)
         });)+
     )+};
-    (@ $light:ident, $by:ident, $p:ident, $n:ident, ()) => {
-        $light.$by()
-    };
-    (@ $light:ident, $by:ident, $p:ident, $n:ident, (p)) => {
-        $light.$by($p)
-    };
-    (@ $light:ident, $by:ident, $p:ident, $n:ident, (p, n)) => {
-        $light.$by($p, $n.up)
-    };
 }
 
 fn half_of<R: Real>() -> R {

@@ -53,9 +53,6 @@ impl SampleColumns {
     }
     /// The columns from element `i` on.
     pub(crate) fn from(&self, i: usize) -> Self {
-        fn from<T>(column: *mut T, i: usize) -> *mut T {
-            if column.is_null() { column } else { column.wrapping_add(i) }
-        }
         Self {
             direction: self.direction.map(|column| from(column, i)),
             distance: from(self.distance, i),
@@ -104,6 +101,13 @@ pub struct EvaluationColumns {
     pub u: [*mut f32; 2],
     /// The nearest point of the light in each direction, with its pdf.
     pub hit: SampleColumns,
+}
+
+impl EvaluationColumns {
+    /// The columns from element `i` on.
+    pub(crate) fn from(&self, i: usize) -> Self {
+        Self { pdf: from(self.pdf, i), u: self.u.map(|column| from(column, i)), hit: self.hit.from(i) }
+    }
 }
 
 impl Evaluations<'_> {
@@ -164,6 +168,11 @@ impl Default for Counters {
     fn default() -> Self {
         Self { pixel: 0, sample: 0, dimension: 0, pixels: core::ptr::null(), samples: core::ptr::null() }
     }
+}
+
+/// A column from element `i` on.
+fn from<T>(column: *mut T, i: usize) -> *mut T {
+    if column.is_null() { column } else { column.wrapping_add(i) }
 }
 
 #[track_caller]

@@ -246,17 +246,16 @@ pub(crate) unsafe extern "C" fn evaluate_each<T: Technique, R: Packet>(
         for i in 0..n {
             // SAFETY: the caller's columns have `n` elements
             unsafe {
-                let sampler = views.one(i);
+                let (sampler, out) = (views.one(i), out.from(i));
                 let w = directions.map(|column| column.add(i));
-                let from = |column: *mut f32| if column.is_null() { column } else { column.add(i) };
-                if !pdfs.is_null() {
-                    pdf::<T, f32>(&sampler, 1, w, from(*pdfs));
+                if !out.pdf.is_null() {
+                    pdf::<T, f32>(&sampler, 1, w, out.pdf);
                 }
                 if wants_u {
-                    invert::<T, f32>(&sampler, 1, w, Vec2::new(from(u[0]), from(u[1])));
+                    invert::<T, f32>(&sampler, 1, w, Vec2::new(out.u[0], out.u[1]));
                 }
                 if wants_hit {
-                    hit::<T, f32>(&sampler, 1, w, &hits.from(i));
+                    hit::<T, f32>(&sampler, 1, w, &out.hit);
                 }
             }
         }

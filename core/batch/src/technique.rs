@@ -21,21 +21,12 @@ pub trait Technique: LightSampler<f32> + Copy + 'static {
     fn of(sampler: Self::Of<f32>) -> Self;
 }
 
-/// A light prepared at a point, with the normal there if the technique needs one, and whether it does.
-macro_rules! prepared {
-    ($light:expr, $by:ident, $p:expr, $n:expr, ()) => {
-        $light.$by()
-    };
-    ($light:expr, $by:ident, $p:expr, $n:expr, (p)) => {
-        $light.$by($p)
-    };
-    ($light:expr, $by:ident, $p:expr, $n:expr, (p, n)) => {
-        $light.$by($p, $n)
-    };
-    (on_surface (p, n)) => {
+/// Whether a method takes a normal.
+macro_rules! on_surface {
+    ((p, n)) => {
         true
     };
-    (on_surface $other:tt) => {
+    ($other:tt) => {
         false
     };
 }
@@ -57,11 +48,11 @@ macro_rules! implement {
         impl Technique for $sampler<f32 $(, $n)?> {
             type Light<X: Copy> = $light<X $(, $n)?>;
             type Of<R: Real> = $sampler<R $(, $n)?>;
-            const ON_SURFACE: bool = prepared!(on_surface $place);
+            const ON_SURFACE: bool = on_surface!($place);
             #[inline(always)]
             fn prepare<R: Real>(light: Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Of<R> {
                 let _ = (p, n);
-                prepared!(light, $by, p, n, $place)
+                etendue::prepared!(light, $by $place, p, n)
             }
             #[inline(always)]
             fn map<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y> {

@@ -171,8 +171,8 @@ typedef struct {
   float data[88];
 } EtendueTriangleByCosineWarp;
 
-// A parallelogram corner + s*edge_s + t*edge_t, s and t in [0, 1], that emits from the side of edge_s x edge_t. Without area,
-// and from a point in its plane, the pdf is 0. uv: (s, t).
+// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge x the second one. Without
+// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
 typedef struct {
   // Corner, in the coordinates of the scene.
   float p[3];
@@ -214,8 +214,9 @@ typedef struct {
   float data[549];
 } EtendueParallelogramByProjectedSolidAngle;
 
-// A rectangle corner + s*edge_s + t*edge_t with perpendicular edges, s and t in [0, 1], that emits from the side of
-// edge_s x edge_t. Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t).
+// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.
+// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
+// in [0, 1].
 typedef struct {
   // Corner, in the coordinates of the scene.
   float p[3];
@@ -351,8 +352,8 @@ typedef struct {
   float data[1084];
 } EtenduePolygonByProjectedSolidAngle;
 
-// A bilinear patch corner + s*edge_s + t*edge_t + st(diagonal - edge_s - edge_t), s and t in [0, 1], that emits from the side of
-// ds x dt. Without area the pdf is 0. uv: (s, t).
+// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
+// pdf is 0. uv: (s, t), in [0, 1].
 typedef struct {
   // Corner, in the coordinates of the scene.
   float p[3];

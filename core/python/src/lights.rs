@@ -349,6 +349,10 @@ macro_rules! lights {
             numbers: Vec<f32>,
         }
         impl $light {
+            fn fields<'a, 'py, const N: usize>(values: [&'a Bound<'py, PyAny>; N]) -> [Field<'a, 'py>; N] {
+                const FIELDS: &[(&str, Kind, &str)] = &[$((stringify!($argument), kind!($kind), stringify!($kind))),+];
+                core::array::from_fn(|k| (FIELDS[k].0, FIELDS[k].1, FIELDS[k].2 == "vertex", values[k]))
+            }
             fn build<X: Copy>(numbers: &[X]) -> light::$light<X $(, $corners)?> {
                 let mut numbers = numbers.iter().copied();
                 light::$light { $($field: next!($kind numbers)),+ }
@@ -378,7 +382,7 @@ macro_rules! lights {
         impl $light {
             #[new]
             fn new($($argument: &Bound<'_, PyAny>),+) -> PyResult<Self> {
-                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                let fields = Self::fields([$($argument),+]);
                 Ok(Self { numbers: one(&fields)? })
             }
             $($(#[$doc])*
@@ -404,7 +408,7 @@ macro_rules! lights {
                 n: Option<&Bound<'_, PyAny>>,
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
-                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                let fields = Self::fields([$($argument),+]);
                 Self::each(py, &fields, p, n, by, Call::Sample, u)
             }
             /// The points of a light of its own for each row that unit directions w (..., 3) hit, as `sample_each` takes lights and points.
@@ -419,7 +423,7 @@ macro_rules! lights {
                 n: Option<&Bound<'_, PyAny>>,
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
-                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                let fields = Self::fields([$($argument),+]);
                 Self::each(py, &fields, p, n, by, Call::Hit, w)
             }
             /// The probability densities of unit directions w (..., 3), as `sample_each` takes lights and points.
@@ -434,7 +438,7 @@ macro_rules! lights {
                 n: Option<&Bound<'_, PyAny>>,
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
-                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                let fields = Self::fields([$($argument),+]);
                 Self::each(py, &fields, p, n, by, Call::Pdf, w)
             }
             /// The numbers u in [0, 1)² that are mapped to unit directions w (..., 3), as `sample_each` takes lights and points.
@@ -449,7 +453,7 @@ macro_rules! lights {
                 n: Option<&Bound<'_, PyAny>>,
                 by: &str,
             ) -> PyResult<Py<PyAny>> {
-                let fields = [$((stringify!($argument), kind!($kind), stringify!($kind) == "vertex", $argument)),+];
+                let fields = Self::fields([$($argument),+]);
                 Self::each(py, &fields, p, n, by, Call::Invert, w)
             }
             fn __repr__(&self) -> String {

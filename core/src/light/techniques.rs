@@ -2,11 +2,15 @@
 
 /// Expands `callback! { before… list }` for the list of all lights, each with its fields and the techniques that sample it.
 ///
-/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by "default" { technique; … }`. A field is a `point`, an `edge` (from one point to
-/// another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one), a `direction`, a `number` or
-/// `corners`. A technique is `Sampler [corners] = NameInC, name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
-/// numbers, and the measure is its method that returns what it is uniform over, if it has one. A sampler that another light has already has
-/// no name and no numbers here; the light converts into that one. The first lines of documentation are those that hosts without Rust read.
+/// A light is `Light [corners] = NameInC, ColumnsInC { field as argument: kind, … } by "default" { technique; … }`. A field is a `point`,
+/// an `edge` (from one point to another), an edge to a `vertex` (hosts with constructors take the vertex, not the edge from the first one),
+/// a `direction`, a `number` or `corners`.
+///
+/// A technique is `Sampler [corners] = NameInC, name_in_c[numbers]: method(arguments) measure;`: a prepared sampler consists of so many
+/// numbers, and the measure is its method that returns what it is uniform over, if it has one. A sampler that another light has already
+/// has no name and no numbers here; the light converts into that one.
+///
+/// Hosts without Rust read the documentation of each row, where the fields have other names: it does not name them.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! techniques {
@@ -49,8 +53,8 @@ macro_rules! techniques {
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
                 TriangleByCosineWarp = EtendueTriangleByCosineWarp, triangle_by_cosine_warp[88]: by_cosine_warp(p, n) solid_angle;
             }
-            /// A parallelogram corner + s·edge_s + t·edge_t, s and t in [0, 1], that emits from the side of edge_s × edge_t. Without area,
-            /// and from a point in its plane, the pdf is 0. uv: (s, t).
+            /// A parallelogram, of a corner and two edges from there, that emits from the side of the first edge × the second one. Without
+            /// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
             Parallelogram = EtendueParallelogram, EtendueParallelogramColumns {
                 /// Corner, in the coordinates of the scene.
                 p as corner: point,
@@ -67,8 +71,9 @@ macro_rules! techniques {
                 /// steradian, 0 where nothing of the light is above the horizon.
                 ParallelogramByProjectedSolidAngle = EtendueParallelogramByProjectedSolidAngle, parallelogram_by_projected_solid_angle[549]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
-            /// A rectangle corner + s·edge_s + t·edge_t with perpendicular edges, s and t in [0, 1], that emits from the side of
-            /// edge_s × edge_t. Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t).
+            /// A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge × the second one.
+            /// Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
+            /// in [0, 1].
             Rectangle = EtendueRectangle, EtendueRectangleColumns {
                 /// Corner, in the coordinates of the scene.
                 p as corner: point,
@@ -129,8 +134,8 @@ macro_rules! techniques {
                 /// steradian, 0 where nothing of the light is above the horizon.
                 PolygonByProjectedSolidAngle [8] = EtenduePolygonByProjectedSolidAngle, polygon_by_projected_solid_angle[1084]: by_projected_solid_angle(p, n) projected_solid_angle;
             }
-            /// A bilinear patch corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
-            /// ∂s × ∂t. Without area the pdf is 0. uv: (s, t).
+            /// A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ∂s × ∂t. Without area the
+            /// pdf is 0. uv: (s, t), in [0, 1].
             BilinearPatch = EtendueBilinearPatch, EtendueBilinearPatchColumns {
                 /// Corner, in the coordinates of the scene.
                 p as corner: point,
@@ -174,5 +179,20 @@ macro_rules! techniques {
                 SunBySolidAngle = EtendueSunBySolidAngle, sun_by_solid_angle[10]: by_solid_angle() solid_angle;
             }
         }
+    };
+}
+
+/// A light prepared by a method of the list, at a point and with the normal there, for those of them that it takes.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! prepared {
+    ($light:expr, $by:ident(), $p:expr, $n:expr) => {
+        $light.$by()
+    };
+    ($light:expr, $by:ident(p), $p:expr, $n:expr) => {
+        $light.$by($p)
+    };
+    ($light:expr, $by:ident(p, n), $p:expr, $n:expr) => {
+        $light.$by($p, $n)
     };
 }

@@ -257,18 +257,6 @@ macro_rules! measure {
         Measure::CosineWarp
     };
 }
-/// A light prepared for a point, with the normal there if the technique needs one.
-macro_rules! prepared {
-    ($light:expr, $by:ident, $p:expr, $n:expr, ()) => {
-        $light.$by()
-    };
-    ($light:expr, $by:ident, $p:expr, $n:expr, (p)) => {
-        $light.$by($p)
-    };
-    ($light:expr, $by:ident, $p:expr, $n:expr, (p, n)) => {
-        $light.$by($p, $n)
-    };
-}
 macro_rules! techniques {
     ($(
         $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
@@ -283,7 +271,7 @@ macro_rules! techniques {
         /// The light of a shape, by a technique.
         fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 5], R)) -> Box<dyn LightSampler<R>> {
             $($(if (shape, by) == (shape!($light), measure!($by)) {
-                return boxed(|| prepared!($light::placed(v, *radius), $by, v[0], v[4], $place));
+                return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, v[0], v[4]));
             })+)+
             panic!("the core's list has no {shape:?} by {by:?}");
         }

@@ -2,7 +2,7 @@
 
 mod accuracy;
 mod compact;
-mod double;
+mod known_values;
 mod properties;
 mod scenes;
 mod solids;

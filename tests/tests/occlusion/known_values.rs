@@ -13,7 +13,7 @@ fn visible(p: [f64; 3], n: [f64; 3], light: &Convex<f32>) -> f64 {
     found.unwrap().to_array()[0]
 }
 
-/// The expected values have been computed with 60 digits: by Lambert's formula, and as the integral over a sphere's cap.
+/// The expected values have been computed with 60 digits by mpmath: by Lambert's formula, and as the integral over a sphere's cap.
 #[test]
 fn low_and_tiny_lights_agree_with_sixty_digits() {
     let sphere = Convex::Sphere { center: Vec3::from([180.10497, 864.8909, 340.59827]), radius: 13.872385 };
