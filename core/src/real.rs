@@ -143,7 +143,8 @@ pub trait Real:
     }
     /// Absolute value.
     fn abs(self) -> Self;
-    /// The magnitude of `self` with the sign bit of `sign`.
+    /// The magnitude of `self` with the sign bit of `sign`. A NaN counts as positive, because neither compilers nor processors
+    /// promise the sign of a NaN that they compute.
     fn copysign(self, sign: Self) -> Self;
     /// Square root, correctly rounded; NaN for negative numbers.
     fn sqrt(self) -> Self;

@@ -54,4 +54,8 @@ fn exact_values() {
     assert_eq!([1.0_f32, 2.0].map(Real::acos), [0.0, 0.0]);
     assert_eq!([0.0_f32, 1.0].map(one_minus_cos), [0.0, 1.0]);
     assert_eq!([0.0, -0.0, 1e-40, 1.0, 8.0].map(|x: f32| Real::cbrt(x)), [0.0, 0.0, 0.0, 1.0, 2.0]);
+    // hardware and compilers give the NaNs that they compute either sign
+    let nans = f32x8::from_fn(|k| if k % 2 == 0 { f32::NAN } else { -f32::NAN });
+    assert_eq!([f32::NAN, -f32::NAN, -1.0].map(|sign| Real::copysign(2.0_f32, sign)), [2.0, 2.0, -2.0]);
+    assert_eq!(Real::copysign(f32x8::lit(2.0), nans).to_array(), [2.0; 8]);
 }

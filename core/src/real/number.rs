@@ -133,7 +133,8 @@ macro_rules! scalar_real {
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
                 let magnitude = $bits::MAX >> 1;
-                $scalar::from_bits(self.to_bits() & magnitude | sign.to_bits() & !magnitude)
+                let sign = if sign.is_nan() { 0 } else { sign.to_bits() };
+                $scalar::from_bits(self.to_bits() & magnitude | sign & !magnitude)
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
@@ -254,7 +255,7 @@ macro_rules! packet_real {
             }
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {
-                $packet::copysign(self, sign)
+                $packet::copysign(self, sign & sign.simd_eq(sign))
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
