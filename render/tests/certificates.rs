@@ -10,6 +10,7 @@ use brute_force::solids::solids;
 use brute_force::values;
 use brute_force::views::World;
 use etendue::{Mask, f32x8};
+use etendue_oracle::tier::cases;
 use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet};
 use etendue_render::camera::Pinhole;
 use etendue_render::certificates::{Bodies, Certificate, Certifier, Patch, Pyramid, Viewer};
@@ -59,7 +60,7 @@ fn campaign(made: fn(&mut Random) -> Scenes, looks: usize, rounds: u32, seed: u3
 
 #[test]
 fn certificates_agree_with_brute_force() {
-    let c = campaign(scenes, 100, 1, 1);
+    let c = campaign(scenes, cases(25, 100), 1, 1);
     assert!(c.lit * 10 > c.corridors && c.dark * 20 > c.corridors && c.blockers * 20 > c.corridors, "{c:?}");
     assert!(c.covered * 50 > c.pairs, "{c:?}");
     assert!(c.unclear * 200 < c.pairs, "{c:?}");
@@ -69,7 +70,7 @@ fn certificates_agree_with_brute_force() {
 /// Each body that a certificate lists hides what its triangles hide.
 #[test]
 fn bodies_agree_with_their_triangles() {
-    let c = campaign(solids, 100, 3, 7);
+    let c = campaign(solids, cases(40, 100), cases(2, 3), 7);
     assert!(c.with_bodies * 60 > c.corridors && c.dark * 20 > c.corridors && c.lit * 20 > c.corridors, "{c:?}");
     // points next to a body that stands on their floor are as near to the plane of its lower face as the rounding of that
     assert!(c.solid_unclear * 40 < c.solid && c.solid_met * 20 > c.solid, "{c:?}");
@@ -138,7 +139,7 @@ fn values_that_were_wrong_agree_with_the_truth() {
 
 #[test]
 fn values_agree_with_the_truth() {
-    soundness(SHAFTS, CHAMFERED);
+    soundness(cases(SHAFTS / 8, SHAFTS), CHAMFERED);
 }
 
 #[test]

@@ -325,7 +325,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 16] = [
     ("core/python", &["etendue", "etendue-batch"], &[]),
     ("render", &["etendue"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
-    ("render/cli", &["etendue-laboratory", "etendue-render"], &[]),
+    ("render/cli", &["etendue-laboratory", "etendue-render"], &["etendue-oracle"]),
     ("tests/bits", &["etendue", "etendue-properties"], &[]),
     ("tests/oracle", &[], &[]),
     ("tests/proof", &["etendue", "etendue-oracle"], &[]),

@@ -4,6 +4,7 @@ use core::f64::consts::{PI, TAU};
 use etendue::discrete::TableError;
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
+use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, length, sub};
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
@@ -184,7 +185,7 @@ fn pdf_matches_the_table() {
 #[test]
 fn samples_follow_the_pdf() {
     for map in MAPS {
-        for image in images(map).iter().filter(|i| [49, 18, 91].contains(&i.weights.len())) {
+        for image in images(map).iter().filter(|i| [49, 18, 91].contains(&i.weights.len())).step_by(cases(3, 1)) {
             let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
             let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
             let name = format!("{map:?} {}x{} {}", image.width, image.height, image.name);

@@ -7,6 +7,7 @@ use etendue::{
     Parallelogram, PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
     f32x16,
 };
+use etendue_oracle::tier::cases;
 use etendue_oracle::{
     V3, along, basis, cross, dot, facing_disk, gauss_legendre, length, perpendicular_disk, projected_polygon, sub, unit,
 };
@@ -29,7 +30,8 @@ fn origin() -> Vec3<f64> {
 
 #[test]
 fn disk_has_its_form_factor() {
-    for (r, h, a) in [(0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (2.0, 0.3, 2.5), (1e-3, 1.0, 3.0), (30.0, 1.0, 31.0)] {
+    let all = [(2.0, 0.3, 2.5), (0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (1e-3, 1.0, 3.0), (30.0, 1.0, 31.0)];
+    for (r, h, a) in all.into_iter().take(cases(2, 5)) {
         let disk = Disk { center: [a, 0.0, h].into(), normal: [0.0, 0.0, -1.0].into(), radius: r };
         let of = |n: V3| mean(1500, |u| irradiance(&disk.by_area(origin()).sample(u), n));
         let (facing, upright) = (of([0.0, 0.0, 1.0]) / PI, of([1.0, 0.0, 0.0]) / PI);
@@ -55,7 +57,8 @@ fn disk_has_its_form_factor() {
 #[test]
 fn rectangle_has_its_projected_solid_angle() {
     let mut random = Random::new(5);
-    for (size, height) in [(1.0, 1.0), (1e-3, 1.0), (4.0, 0.5), (1.0, 1e-2), (30.0, 1.0)] {
+    for (size, height) in [(4.0, 0.5), (1.0, 1e-2), (1.0, 1.0), (1e-3, 1.0), (30.0, 1.0)].into_iter().take(cases(1, 5))
+    {
         let (s, t) = basis(random.direction());
         let n = unit(cross(s, t));
         let (u, v) = (s.map(|x| x * size), t.map(|x| x * 0.7 * size));

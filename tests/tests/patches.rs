@@ -1,6 +1,7 @@
 //! Bilinear patches: what a ray meets is what was sampled, of flat ones along the axes, too, where one of two roots does not exist.
 
 use etendue::{BilinearPatch, LightSampler, Vec2};
+use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
 use etendue_properties::generators::Random;
 use etendue_properties::techniques::{self, AreaLight, LightShape, Measure};
@@ -84,7 +85,7 @@ fn a_ray_to_a_sample_of_a_flat_patch_hits_that_sample() {
 fn pdf_of_a_flat_patch_integrates_to_1() {
     const N: usize = 150;
     let mut worst = 0.0_f64;
-    for (name, patch) in flat() {
+    for (name, patch) in flat().into_iter().step_by(cases(3, 1)) {
         let sampler = sampler(patch);
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[s, t]| at(patch, s, t));
         let normal = unit(cross(wide(patch[1]), wide(patch[2])));

@@ -1,6 +1,7 @@
 //! Polygons as lights: irradiance against Lambert's formula, coincident corners, lanes, arbitrary bits.
 
 use etendue::{LightSample, LightSampler, Mask, Parallelogram, Polygon, Real, Vec2, Vec3, f32x4, f32x8, f32x16};
+use etendue_oracle::tier::is_long;
 use etendue_oracle::{V3, along, basis, cross, dot, projected_polygon, unit};
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
@@ -62,10 +63,12 @@ fn agrees<const N: usize>(random: &mut Random) {
 #[test]
 fn irradiance_matches_lamberts_formula() {
     let mut random = Random::new(1);
-    agrees::<3>(&mut random);
-    agrees::<4>(&mut random);
     agrees::<5>(&mut random);
-    agrees::<8>(&mut random);
+    if is_long() {
+        agrees::<3>(&mut random);
+        agrees::<4>(&mut random);
+        agrees::<8>(&mut random);
+    }
 }
 
 /// The points of a parallelogram and of the same polygon have equal moments.

@@ -2,6 +2,7 @@
 
 use etendue::sequence::{Independent, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
 use etendue::{Real, Uint, Vec2, f32x4, f32x8, f32x16, f64x4, u32x4};
+use etendue_oracle::tier::cases;
 use etendue_properties::generators::AlongCurve;
 use etendue_properties::stats;
 use etendue_properties::tolerances::SIGNIFICANCE;
@@ -397,12 +398,12 @@ impl HalfPlane {
 
 /// Factor by which the variance of exp(x + y) and of straight edges is below that of independent samples, each with its standard error.
 fn gains(sequence: &impl Sequence, n: u32) -> [[f64; 2]; 2] {
-    const TRIALS: u32 = 20_000;
+    let trials: u32 = cases(2500, 20_000);
     let integral = (std::f64::consts::E - 1.0).powi(2);
     let square = ((1.0_f64.exp().powi(2) - 1.0) / 2.0).powi(2);
     let mut squares = [Vec::new(), Vec::new()];
     let mut random = [square - integral * integral, 0.0];
-    for trial in 0..TRIALS {
+    for trial in 0..trials {
         let plane = HalfPlane::new(trial);
         let (mut smooth, mut edge) = (0.0, 0.0);
         for i in 0..n {
@@ -412,12 +413,12 @@ fn gains(sequence: &impl Sequence, n: u32) -> [[f64; 2]; 2] {
         }
         squares[0].push((smooth / f64::from(n)).powi(2));
         squares[1].push((edge / f64::from(n)).powi(2));
-        random[1] += plane.area * (1.0 - plane.area) / f64::from(TRIALS);
+        random[1] += plane.area * (1.0 - plane.area) / f64::from(trials);
     }
     [0, 1].map(|k| {
         let (mean, variance) = stats::mean_variance(&squares[k]);
         let gain = random[k] / f64::from(n) / mean;
-        [gain, gain * (variance / f64::from(TRIALS)).sqrt() / mean]
+        [gain, gain * (variance / f64::from(trials)).sqrt() / mean]
     })
 }
 

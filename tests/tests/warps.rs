@@ -1,6 +1,7 @@
 //! Every property of every warp in every regime, and how many were checked. `-- --nocapture` prints the greatest figure of each (warp,
 //! regime, property).
 
+use etendue_oracle::tier::{cases, is_long};
 use etendue_properties::fixtures::{
     AreaTriangle, Bilinear, Cap, ConcentricDisk, Cone, CosineHemisphere, Disk, GgxVisibleNormals, Hexagon, Linear,
     LowDistortionTriangle, Octahedral, Parallelogram, PatchSurface, PolarDisk, ProjectedCap, ProjectedParallelogram,
@@ -11,6 +12,7 @@ use etendue_properties::generators::{self, Case, Random};
 use etendue_properties::properties::{self, Fixture};
 use etendue_properties::suite;
 use libtest_mimic::{Arguments, Failed, Trial};
+use std::collections::BTreeSet;
 use std::sync::Mutex;
 
 /// What was checked, for the summary.
@@ -24,9 +26,14 @@ struct Checked {
 }
 static CHECKED: Mutex<Vec<Checked>> = Mutex::new(Vec::new());
 
-/// Runs all properties over the cases. Reports every regime that breaks one, with its first message.
-fn all<S: Fixture>(warp: &'static str, cases: &[Case<S>], random: usize) -> Result<(), Failed> {
-    let outcomes = suite::all(cases, random);
+/// Runs all properties over the cases; in the quick tier, over one of each regime. Reports every regime that breaks one, with its first
+/// message.
+fn all<S: Fixture>(warp: &'static str, mut cases: Vec<Case<S>>, random: usize) -> Result<(), Failed> {
+    if !is_long() {
+        let mut seen = BTreeSet::new();
+        cases.retain(|case| seen.insert(case.0));
+    }
+    let outcomes = suite::all(&cases, if is_long() { random } else { random / 8 });
     if std::env::args().any(|a| a == "--nocapture") {
         for (property, r) in outcomes.iter().flat_map(|o| o.regimes.iter().map(|r| (o.property, r))) {
             println!(
@@ -51,7 +58,7 @@ fn all<S: Fixture>(warp: &'static str, cases: &[Case<S>], random: usize) -> Resu
 }
 
 fn warp<S: Fixture>(name: &'static str, cases: impl FnOnce() -> Vec<Case<S>> + Send + 'static, random: usize) -> Trial {
-    Trial::test(name, move || all(name, &cases(), random))
+    Trial::test(name, move || all(name, cases(), random))
 }
 fn other(name: &'static str, run: fn()) -> Trial {
     Trial::test(name, move || {
@@ -135,7 +142,7 @@ fn main() {
 fn any_parameters_are_total() {
     let mut random = Random::new(99);
     let square = generators::square(40, 5);
-    for i in 0..20_000 {
+    for i in 0..cases(2000, 20_000) {
         let mut vector = || {
             if i % 2 == 0 { generators::nasty(&mut random) } else { core::array::from_fn(|_| random.any_f32()) }
         };
@@ -252,13 +259,13 @@ fn mirrors_have_no_density() {
 }
 fn nasty_rectangles() {
     let mut random = Random::new(15);
-    for _ in 0..20_000 {
+    for _ in 0..cases(2000, 20_000) {
         let mut vector = || generators::nasty(&mut random);
         let rectangle = Rectangle::new(vector(), vector(), vector());
         properties::any_bits(&rectangle, [random.unit(), random.unit()]);
     }
     // random bits, mostly of very different magnitudes
-    for _ in 0..20_000 {
+    for _ in 0..cases(2000, 20_000) {
         let mut vector = || core::array::from_fn(|_| random.any_f32());
         let rectangle = Rectangle::new(vector(), vector(), vector());
         properties::any_bits(&rectangle, [random.unit(), random.unit()]);

@@ -1,6 +1,7 @@
 //! Runs the fuzz bodies of the renderer and of the C interface without a fuzzer, on the committed seeds and findings, and on randomly damaged copies of them.
 
 use etendue_fuzz_bodies as files;
+use etendue_oracle::tier::cases;
 use std::path::Path;
 
 /// A random number generator.
@@ -41,27 +42,27 @@ fn damaged(name: &str, body: fn(&[u8]), times: u64) {
 
 #[test]
 fn scenes() {
-    damaged("scene", files::scene, 4000);
+    damaged("scene", files::scene, cases(500, 4000));
 }
 #[test]
 fn images() {
-    damaged("image", files::image, 2000);
+    damaged("image", files::image, cases(200, 2000));
 }
 #[test]
 fn parts() {
-    damaged("part", files::part, 1000);
+    damaged("part", files::part, cases(100, 1000));
 }
 #[test]
 fn certificates() {
-    damaged("certificates", files::certificates, 30_000);
+    damaged("certificates", files::certificates, cases(3000, 30_000));
 }
 #[test]
 fn c_interface() {
-    damaged("c_interface", files::c_interface, 1000);
+    damaged("c_interface", files::c_interface, cases(100, 1000));
     // every function, whatever the seeds are
     let mut state = 1;
     for function in 0..44 {
-        for k in 0..500 {
+        for k in 0..cases(50, 500) {
             let mut bytes: Vec<u8> = (0..4 + k % 300).map(|_| next(&mut state) as u8).collect();
             bytes[1] = function;
             let outcome = std::panic::catch_unwind(|| files::c_interface(&bytes));

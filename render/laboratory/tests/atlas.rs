@@ -5,6 +5,7 @@ use etendue_laboratory::atlas::methods;
 use etendue_laboratory::atlas::pose::{Kind, Pose, Shape, Sweep, sweeps};
 use etendue_laboratory::atlas::survey::{Detail, Figures, LIMIT, survey};
 use etendue_laboratory::atlas::truth::Truth;
+use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
 use etendue_properties::generators::Random;
 
@@ -73,7 +74,7 @@ fn density_holds(truth: &Truth, u: [f64; 2], pose: &Pose) -> bool {
 /// The fraction of cells in which each technique keeps the contract must not fall.
 #[test]
 fn cells_within_the_contract() {
-    let detail = Detail { turns: 1, samples: 16, strata: 4, quick: true };
+    let detail = Detail { turns: 1, samples: cases(4, 16), strata: 4, quick: true };
     let charts = survey(Kind::all(), detail, || ());
     for summary in etendue_laboratory::atlas::page::summary(&charts) {
         let (name, ours) = summary.method;

@@ -99,6 +99,7 @@ mod tests {
     use super::*;
     use etendue::sequence::{Independent, Sequence};
     use etendue::{Uint, Vec2};
+    use etendue_oracle::tier::cases;
 
     /// With and without lights at infinity: the pmf sums to 1, a choice has the pmf of its light, and lights are chosen as often as their
     /// pmf says, also the weakest together.
@@ -119,7 +120,7 @@ mod tests {
             let pmf: Vec<f64> = (0..count as u32).map(|i| f64::from(at.pmf(i).as_array()[0])).collect();
             assert!((pmf.iter().sum::<f64>() - 1.0).abs() < 1e-5, "{count}: {}", pmf.iter().sum::<f64>());
             assert!(powers.iter().zip(&pmf).all(|(power, pmf)| (*power > 0.0) == (*pmf > 0.0)));
-            let (mut weak, draws) = (0.0, 1 << 18);
+            let (mut weak, draws) = (0.0, cases(1_u32 << 14, 1 << 18));
             for i in (0..draws).step_by(8) {
                 let lanes = u32x8::from_fn(|k| i + k as u32);
                 let u: Vec2<X8> = Independent::new(5).pair(u32x8::splat(0), lanes, 0);

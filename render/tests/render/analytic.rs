@@ -1,6 +1,7 @@
 //! Light computed from certificates, against the same light sampled.
 
 use crate::variance::reported_to_measured;
+use etendue_oracle::tier::cases;
 use etendue_render::film::Film;
 use etendue_render::{RayCount, Sampler, Settings, Technique, World, scene};
 use std::path::Path;
@@ -17,7 +18,7 @@ const SETTINGS: Settings = Settings {
 };
 /// Scenes in which lights have an area: behind boxes, balls and meshes, through a lens and in mirrors, on diffuse surfaces and metals.
 const SCENES: [&str; 7] =
-    ["sphere-light", "triangle-light", "quads", "cornell-box", "mirror-room", "defocus", "plates"];
+    ["quads", "mirror-room", "defocus", "plates", "cornell-box", "sphere-light", "triangle-light"];
 
 fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
     world.render(settings, |_| ())
@@ -28,9 +29,9 @@ fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
 #[test]
 fn agrees_with_sampled_lights() {
     const SIDE: usize = 8;
-    for name in SCENES {
+    for name in SCENES.into_iter().take(cases(4, 7)) {
         let world = World::new(&scene::load(name).unwrap()).unwrap();
-        let settings = Settings { spp: 1024, ..SETTINGS };
+        let settings = Settings { spp: cases(128, 1024), ..SETTINGS };
         let technique = if name == "plates" { Technique::MisPower } else { Technique::SolidAngle };
         let (film, _) = render(&world, &settings);
         let (sampled, _) = render(&world, &Settings { technique, ..settings });
@@ -50,7 +51,7 @@ fn agrees_with_sampled_lights() {
         println!("{name}: z {z:.2}, squares differ by at most {greatest:.1e} of the mean");
         assert!(z.abs() < 4.0, "{name}: means differ by {z:.1} standard deviations");
         // the highlights of metals are sampled here, but with the other technique's weights there
-        assert!(greatest < 4e-3 || name == "plates", "{name}: squares differ by {greatest:e}");
+        assert!(greatest < cases(1.1e-2, 4e-3) || name == "plates", "{name}: squares differ by {greatest:e}");
     }
 }
 
@@ -89,7 +90,7 @@ fn closed_surfaces_are_dark_inside() {
             );
             let world = World::new(&scene::parse(&text, "closed.pbrt", Path::new("")).unwrap()).unwrap();
             let [ours, sampled] = [Technique::Analytic, Technique::SolidAngle]
-                .map(|technique| render(&world, &Settings { technique, ..SETTINGS }).0.mean()[1]);
+                .map(|technique| render(&world, &Settings { technique, spp: cases(16, 64), ..SETTINGS }).0.mean()[1]);
             println!("light at {height}: {ours:.5} {sampled:.5}");
             assert!((height == 9) == (ours == 0.0), "{text}: {ours}");
             assert!((ours - sampled).abs() <= 0.01 * sampled, "{text}: {ours} {sampled}");
@@ -101,7 +102,7 @@ fn closed_surfaces_are_dark_inside() {
 #[test]
 fn knows_its_variance() {
     let world = World::new(&scene::load("quads").unwrap()).unwrap();
-    for sampler in [Sampler::Sobol, Sampler::Adaptive] {
+    for sampler in [Sampler::Adaptive, Sampler::Sobol].into_iter().take(cases(1, 2)) {
         let ratio = reported_to_measured(&world, &Settings { sampler, ..SETTINGS });
         assert!((ratio - 1.0).abs() < 0.1, "{sampler:?}: {ratio}");
     }

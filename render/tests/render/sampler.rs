@@ -1,6 +1,7 @@
 //! The random numbers that samplers generate for the pixel, the light and the lens.
 
 use etendue::{Mask, Real, u32x8};
+use etendue_oracle::tier::cases;
 use etendue_render::Sampler;
 use etendue_render::packet::X8;
 use etendue_render::sampler::{CHOICE, FILM, LENS, LIGHT, Packet, Source};
@@ -106,7 +107,7 @@ fn replicates_are_independent() {
                 let f = |p: &[f64; 6]| (p[0] + 0.3) * (p[2] + 0.1) + p[3] * p[4] + (p[1] - p[5]).powi(2);
                 points.chunks(span as usize).map(|set| set.iter().map(f).sum::<f64>() / f64::from(span)).collect()
             };
-            let n = 2000;
+            let n = cases(400, 2000);
             let (mut replicates, mut pixels, mut seeds) = (Vec::new(), Vec::new(), Vec::new());
             for i in 0..n {
                 let pixel = [i % 256, i / 256];

@@ -5,6 +5,7 @@
 //! - [`curves`]: disks and line segments, and their maps by definition.
 //! - [`visible`]: what convex blockers leave of a light.
 //! - [`direct`]: images by direct lighting, exhaustive and without offsets of rays.
+//! - [`tier`]: how many cases a test runs.
 //! - At the root: vectors in f64; closed forms for caps, polygons and disks ([`cap`], [`projected_cap`], [`lambert`], …); quadrature
 //!   ([`gauss_legendre`], [`integrate`]); and [`Greatest`], the measure of a greatest error.
 
@@ -17,6 +18,7 @@ pub mod flat;
 mod greatest;
 mod outline;
 mod quadrature;
+pub mod tier;
 mod vectors;
 pub mod visible;
 

@@ -9,6 +9,7 @@ use crate::tolerances::{self, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
 use etendue::spherical::DirectionSample;
 use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8};
+use etendue_oracle::tier::cases;
 use etendue_oracle::{Greatest, V3, cross, integrate, length, sub};
 
 /// Points of the plane or of space, one in each lane.
@@ -512,24 +513,24 @@ fn integral_of<S: Fixture, R: Real>(s: &S, ulp: f64) -> f64 {
 }
 
 #[cfg(feature = "checks")]
-/// χ² of 2²⁰ samples against the true pdf, over 16 × 16 cells of the independent parameterisation. A shape too small for a rounded
-/// direction uses 2¹⁸ samples of the f64 code instead.
+/// χ² of 2²⁰ samples against the true pdf, over 16 × 16 cells of the independent parameterisation; in the quick tier, of 2¹⁶ over 8 × 8. A
+/// shape too small for a rounded direction uses 2¹⁸ (2¹⁵) samples of the f64 code instead.
 ///
 /// Returns the p-value.
 pub fn chi_square<S: Fixture>(s: &S, seed: u64) -> f64 {
     if s.extent()[1] > tolerances::RESOLVED * s.granularity() {
-        chi_square_of::<S, f32x8>(s, seed, 1 << 20)
+        chi_square_of::<S, f32x8>(s, seed, cases(1 << 16, 1 << 20))
     } else {
-        chi_square_of::<S, etendue::f64x4>(s, seed, 1 << 18)
+        chi_square_of::<S, etendue::f64x4>(s, seed, cases(1 << 15, 1 << 18))
     }
 }
 #[cfg(feature = "checks")]
 fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
-    const N: usize = 16;
-    let cells = N as f64;
-    let expected: Vec<f64> = (0..N * N)
+    let side = cases(8, 16);
+    let cells = side as f64;
+    let expected: Vec<f64> = (0..side * side)
         .map(|i| {
-            let (x, y) = ((i % N) as f64 / cells, (i / N) as f64 / cells);
+            let (x, y) = ((i % side) as f64 / cells, (i / side) as f64 / cells);
             let mut f = |a, b| {
                 let (w, measure) = s.chart(a, b);
                 measure * s.true_pdf(w)
@@ -539,14 +540,14 @@ fn chi_square_of<S: Fixture, R: Real>(s: &S, seed: u64, n: usize) -> f64 {
         .collect();
     let warp = S::prepare::<R>(&[*s]);
     let mut random = Random::new(seed);
-    let mut observed = vec![0_u64; N * N];
+    let mut observed = vec![0_u64; side * side];
     for _ in 0..n / R::LANES {
         let mut axis = || R::from_fn(|_| R::Scalar::lit(f64::from(random.unit())));
         let x = axis();
         let points = warp.sample(Vec2::new(x, axis()));
         for i in 0..R::LANES {
-            let [a, b] = s.locate(points.at(i)).map(|x| ((x * cells) as usize).min(N - 1));
-            observed[a + b * N] += 1;
+            let [a, b] = s.locate(points.at(i)).map(|x| ((x * cells) as usize).min(side - 1));
+            observed[a + b * side] += 1;
         }
     }
     let p = stats::chi_square(&observed, &expected);

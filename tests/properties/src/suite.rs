@@ -3,6 +3,7 @@
 use crate::generators::{self, Case, Random};
 use crate::properties::{self, Fixture};
 use etendue_oracle::Greatest;
+use etendue_oracle::tier;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The result of one property in one regime.
@@ -76,9 +77,9 @@ pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> Outcome {
     each("reach", cases, |s, _| square.iter().map(|&u| properties::within_reach(s, u)).collect::<Greatest>().error())
 }
 
-/// All properties over the cases, at the edges of the square and at `random` further points.
+/// All properties over the cases, at the edges of the square and at `random` further points; in the quick tier, at every second of them.
 pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES] {
-    let square = generators::square(random, 1);
+    let square: Vec<_> = generators::square(random, 1).into_iter().step_by(tier::cases(2, 1)).collect();
     let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
         let square = &square;
         move |s: &S, seed: usize| {

@@ -5,6 +5,7 @@ use crate::solids::{SOLID_KINDS, scene_with_solids};
 use crate::truth::Truth;
 use etendue::{Real, f32x8};
 use etendue_oracle::Greatest;
+use etendue_oracle::tier::cases;
 use etendue_properties::generators::Random;
 use etendue_properties::occlusion::Scene;
 
@@ -119,7 +120,7 @@ fn accuracy_past_polyhedra(packets: u32) {
 
 #[test]
 fn visible_parts() {
-    accuracy(150);
+    accuracy(cases(75, 150));
 }
 
 #[test]
@@ -129,7 +130,7 @@ fn visible_parts_of_a_million_points() {
 }
 #[test]
 fn visible_parts_past_polyhedra() {
-    accuracy_past_polyhedra(150);
+    accuracy_past_polyhedra(cases(30, 150));
 }
 #[test]
 #[ignore = "400,000 points: some minutes"]

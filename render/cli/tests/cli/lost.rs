@@ -137,9 +137,8 @@ fn only_regular_files_are_replaced() {
 #[test]
 fn a_png_that_fails_does_not_hide_the_exr() {
     let folder = Folder::new();
-    let child =
-        folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "256", "--threads", "1", "-o", "a.exr"]);
-    thread::sleep(Duration::from_millis(1500));
+    let child = folder.spawn(&["render", "quads", "--size", "256x256", "--spp", "32", "--threads", "1", "-o", "a.exr"]);
+    thread::sleep(Duration::from_millis(300));
     assert!(!folder.path("a.exr").exists(), "this test needs a rendering that takes longer");
     fs::create_dir(folder.path("a.png")).unwrap();
     let output = child.wait_with_output().unwrap();
@@ -190,7 +189,7 @@ fn messages_are_plain() {
     assert!(!error.contains("did you mean") && error.contains("sphere-light"), "{error}");
 }
 
-/// Interrupts a rendering after a second, or later if it is not `ready`; returns its message.
+/// Interrupts a rendering after 0.3 seconds, or later if it is not `ready`; returns its message.
 #[cfg(unix)]
 fn interrupted(folder: &Folder, more: &[&str], ready: impl Fn() -> bool) -> String {
     ended(folder, "-INT", 130, more, ready)
@@ -199,8 +198,8 @@ fn interrupted(folder: &Folder, more: &[&str], ready: impl Fn() -> bool) -> Stri
 /// The same with another signal, and the exit code that it should give.
 #[cfg(unix)]
 fn ended(folder: &Folder, signal: &str, code: i32, more: &[&str], ready: impl Fn() -> bool) -> String {
-    let child = folder.spawn(&[&["render", "quads", "--size", "256x256", "-o", "a.exr"], more].concat());
-    thread::sleep(Duration::from_secs(1));
+    let child = folder.spawn(&[&["render", "quads", "--size", "64x64", "-o", "a.exr"], more].concat());
+    thread::sleep(Duration::from_millis(300));
     let start = Instant::now();
     while !ready() && start.elapsed() < Duration::from_secs(60) {
         thread::sleep(Duration::from_millis(20));
@@ -256,10 +255,10 @@ fn a_signal_that_is_ignored_stays_so() {
     let folder = Folder::new();
     // as `nohup` begins a program
     let command =
-        format!("trap '' HUP; exec '{}' render quads --size 64x64 --time 3 -o a.exr", env!("CARGO_BIN_EXE_etendue"));
+        format!("trap '' HUP; exec '{}' render quads --size 64x64 --time 1.5 -o a.exr", env!("CARGO_BIN_EXE_etendue"));
     let mut shell = Command::new("sh");
     let child = shell.current_dir(&folder.0).args(["-c", &command]).stdout(Stdio::null()).spawn().unwrap();
-    thread::sleep(Duration::from_secs(1));
+    thread::sleep(Duration::from_millis(500));
     assert!(Command::new("kill").args(["-HUP", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success(), "{:?}", output.status);

@@ -2,6 +2,7 @@
 
 use super::{Folder, json, keys};
 use etendue_laboratory::chart::reference::Reference;
+use etendue_oracle::tier::cases;
 use etendue_render::compare::Comparison;
 use etendue_render::image;
 use serde_json::Value;
@@ -24,7 +25,7 @@ const SAMPLED: [&str; 2] = ["--technique", "solid-angle"];
 #[test]
 fn the_error_asked_for_is_reached() {
     let claimed_and_measured = |scene, more: &[&str]| claimed_and_measured(scene, &[&SAMPLED, more].concat());
-    for scene in ["quads", "triangle-light", "sphere-light"] {
+    for scene in ["quads", "triangle-light", "sphere-light"].into_iter().take(cases(1, 3)) {
         let (claimed, measured, report) = claimed_and_measured(scene, &["--error", "0.01"]);
         println!("{scene}: {claimed:.5} claimed, {measured:.5} measured, {}", report["passes"]);
         assert!(claimed <= 0.01, "{report}");
@@ -37,8 +38,11 @@ fn the_error_asked_for_is_reached() {
         assert_eq!((&report["sampler"], &passes[0]["seed"]), (&"adaptive".into(), &0.into()));
     }
     // several passes, and the same in percent
-    let (claimed, measured, report) = claimed_and_measured("quads", &["--error", "0.2%", "--seed", "5"]);
-    assert!(claimed <= 0.002 && (measured / claimed - 1.0).abs() < 0.2, "{claimed} claimed, {measured} measured");
+    let (claimed, measured, report) = claimed_and_measured("quads", &["--error", cases("0.4%", "0.2%"), "--seed", "5"]);
+    assert!(
+        claimed <= cases(0.004, 0.002) && (measured / claimed - 1.0).abs() < 0.2,
+        "{claimed} claimed, {measured} measured"
+    );
     let passes = report["passes"].as_array().unwrap();
     assert!(passes.len() > 1 && passes[0]["seed"] == 5 && passes[1]["seed"] != 5, "{report}");
 }
@@ -48,26 +52,26 @@ fn the_error_asked_for_is_reached() {
 #[test]
 fn the_error_of_edges_is_claimed() {
     let (mut claims, mut errors) = (0.0, 0.0);
-    for seed in 0..12 {
+    for seed in 0..cases(4, 12) {
         let seed = seed.to_string();
         let (claimed, measured, report) = claimed_and_measured("triangle-light", &["--error", "0.01", "--seed", &seed]);
         assert_eq!((&report["technique"], &report["chosen"]), (&"auto".into(), &"analytic".into()));
         (claims, errors) = (claims + claimed.powi(2), errors + measured.powi(2));
     }
     println!("measured over claimed squared error: {:.3}", errors / claims);
-    assert!((errors / claims - 1.0).abs() < 0.2, "{claims:e} claimed, {errors:e} measured");
+    assert!((errors / claims - 1.0).abs() < cases(0.35, 0.2), "{claims:e} claimed, {errors:e} measured");
 }
 
 #[test]
 fn the_time_asked_for_is_kept() {
     let claimed_and_measured = |scene, more: &[&str]| claimed_and_measured(scene, &[&SAMPLED, more].concat());
-    let (claimed, measured, report) = claimed_and_measured("quads", &["--time", "1.5"]);
+    let (claimed, measured, report) = claimed_and_measured("quads", &["--time", cases("0.7", "1.5")]);
     println!("{claimed:.5} claimed, {measured:.5} measured, {report}");
     assert!((measured / claimed - 1.0).abs() < 0.2, "{claimed} claimed, {measured} measured");
     let seconds = report["seconds"]["render"].as_array().unwrap();
     assert_eq!(seconds.len(), 1);
     // other processes may take the processor in between
-    assert!((0.5..3.0).contains(&seconds[0].as_f64().unwrap()), "{report}");
+    assert!((0.3..3.0).contains(&seconds[0].as_f64().unwrap()), "{report}");
     // a preview by another sampler is no part of the image
     let passes = report["passes"].as_array().unwrap();
     assert!(passes.iter().all(|p| p["sampler"] == "adaptive" && p["spp"].as_u64() >= Some(32)), "{report}");
@@ -82,13 +86,25 @@ fn the_time_asked_for_is_kept() {
 fn passes_do_not_depend_on_threads() {
     let folder = Folder::new();
     let bytes = |threads: &str| {
-        let arguments = ["render", "quads", "--size", "40x30", "--error", "0.005", "-o", "a.exr", "--threads", threads];
+        let arguments = [
+            "render",
+            "quads",
+            "--size",
+            "40x30",
+            "--error",
+            cases("0.01", "0.005"),
+            "-o",
+            "a.exr",
+            "--threads",
+            threads,
+        ];
         folder.succeed(&arguments);
         std::fs::read(folder.path("a.exr")).unwrap()
     };
     assert_eq!(bytes("1"), bytes("3"));
     // every sampler has valid numbers of samples
-    for sampler in ["independent", "stratified", "stratified-4d", "latin", "sobol", "sobol-4d", "z-order", "adaptive"] {
+    let samplers = ["independent", "stratified", "stratified-4d", "latin", "sobol", "sobol-4d", "z-order", "adaptive"];
+    for sampler in samplers.into_iter().step_by(cases(4, 1)) {
         for scene in ["quads", "defocus"] {
             let arguments = ["render", scene, "--size", "16x16", "--error", "5%", "--sampler", sampler, "--json"];
             let report = json(&folder.succeed(&arguments));
