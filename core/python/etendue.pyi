@@ -15,9 +15,7 @@ __all__ = [
     "Cone",
     "CosineHemisphere",
     "Cylinder",
-    "CylinderSide",
     "Disk",
-    "DiskSurface",
     "GgxVisibleNormals",
     "Independent",
     "JointSobol",
@@ -39,7 +37,6 @@ __all__ = [
     "Samples",
     "Sequence",
     "Sphere",
-    "SphereSurface",
     "Stratified",
     "Sun",
     "Tent",
@@ -627,18 +624,6 @@ class Bilinear(Warp):
 @final
 class GgxVisibleNormals(Warp):
     def __new__(cls, alpha_x: ArrayLike, alpha_y: ArrayLike, wi: ArrayLike) -> GgxVisibleNormals: ...
-
-@final
-class DiskSurface(Warp):
-    def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike) -> DiskSurface: ...
-
-@final
-class CylinderSide(Warp):
-    def __new__(cls, start: ArrayLike, axis: ArrayLike, radius: ArrayLike) -> CylinderSide: ...
-
-@final
-class SphereSurface(Warp):
-    def __new__(cls, center: ArrayLike, radius: ArrayLike) -> SphereSurface: ...
 
 @final
 class PatchSurface(Warp):

@@ -18,19 +18,9 @@
 //! light behind a few convex blockers, without samples.
 //!
 //! # The contract
-//! 1. **Total.** No panic, NaN or infinity for any finite input. Degenerate lanes have pdf 0 and do not affect their neighbours.
-//! 2. **Closed.** `invert(sample(u)) = u` to rounding, ∫pdf = 1, and the pdf of a sample is the pdf that is evaluated for its direction.
-//! 3. **Threshold-free.** No size, distance or unit at which a routine switches to a worse formula. Scaling all lengths by a power of two
-//!    changes no bit of a direction or a pdf.
-//! 4. **Lane-identical.** Equal input gives the same bits in `f32`, `f32x4`, `f32x8` and `f32x16`, on every processor and with all
-//!    compiler flags. CI compares a hash per routine on x86-64 with and without AVX2, FMA and AVX-512, on 64-bit ARM, and on WebAssembly
-//!    with and without vectors.
-//! 5. **Bounded.** Each routine states its greatest error, as measured by the tests.
-//!
-//! *Closed* and *bounded* hold where single precision can express the answer. Below, the table of limits names the exceptions: points
-//! nearly in the plane of a flat light, and lights on the horizon. Over the atlas of sizes, elevations, distances and aspect ratios,
-//! direction, pdf and inverse stay within 10⁻⁵ in all cells for spheres, disks and lines, in 99 % of them for flat lights by solid angle
-//! and in 96 % by projected solid angle (`cargo run --release -- atlas --quick`).
+//! Every routine is *total*, *closed*, *threshold-free*, *lane-identical* and *bounded*. The README, which comes with this package, says
+//! what each word promises. *Closed* and *bounded* hold where single precision can express the answer; the list below the index names
+//! the exceptions.
 //!
 //! # Conventions
 //! Lengths may be in any unit. Angles are in radians, or in turns where the name says so; solid angles in steradians; pdfs per steradian

@@ -73,20 +73,22 @@
 
 mod cylinder;
 mod delta;
+mod disk;
 mod distant;
 mod environment;
 mod flat;
 mod line;
 mod patch;
 mod polygon;
-mod round;
 mod sample;
 mod sampler;
+mod sphere;
 mod surface;
 mod techniques;
 
-pub use cylinder::PlacedCylinder;
+pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
 pub use delta::{DeltaSampler, DirectionalLight, PointLight, SpotLight};
+pub use disk::{Disk, DiskByArea, DiskBySolidAngle, PlacedDisk};
 pub use distant::{
     ConstantEnvironment, EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, Sun, SunBySolidAngle,
 };
@@ -98,14 +100,8 @@ pub use flat::{
 };
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle, PlacedLine};
 pub use patch::{BilinearPatch, PatchByArea, PlacedPatch};
-pub use polygon::{Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonBySolidAngle};
-pub use round::{
-    Cylinder, CylinderByArea, Disk, DiskByArea, DiskBySolidAngle, Sphere, SphereByArea, SphereByProjectedSolidAngle,
-    SphereBySolidAngle,
-};
+pub use polygon::{PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonBySolidAngle};
 pub use sample::{AreaSample, FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, BySolidAngle, LightSampler};
-pub use surface::{
-    AreaSurface, PlacedDisk, PlacedParallelogram, PlacedPolygon, PlacedSphere, PlacedTriangle, Surface, SurfaceHit,
-    SurfacePoint,
-};
+pub use sphere::{PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
+pub use surface::{AreaSurface, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint};

@@ -61,6 +61,20 @@ pub(crate) fn ratio<R: Real>(a: R, b: R) -> R {
     (a / R::blend(some, b, R::lit(1.0))).keep(some)
 }
 
+/// a/b, or 0 where b is 0 or the quotient would not be finite.
+#[inline(always)]
+pub(crate) fn quotient<R: Real>(a: R, b: R) -> R {
+    quotient_if_any(a, b).0
+}
+
+/// The same, and whether there is a quotient: 0 may as well be one.
+#[inline(always)]
+pub(crate) fn quotient_if_any<R: Real>(a: R, b: R) -> (R, R::Mask) {
+    let some = b.abs().gt(R::lit(1e-37));
+    let most = R::lit(1e37);
+    ((a / R::blend(some, b, R::lit(1.0))).keep(some).clamped(-most, most), some)
+}
+
 /// True in double precision, where series are longer and iterations take more steps.
 #[inline(always)]
 pub(crate) fn double<R: Real>() -> bool {

@@ -13,10 +13,7 @@
 //! | [`LowDistortionTriangle`] | barycentrics of a triangle | 2 | keeps strata compact; cheaper |
 //! | [`GgxVisibleNormals`] | normals of a microsurface | D_v | anisotropic; also gives the pdf of the reflected direction |
 //! | [`Bilinear`] | unit square | bilinear in the point | for textured or tilted emitters |
-//! | [`DiskSurface`] | points of a disk in space | 1/(πR²) | [`per_steradian`] converts |
-//! | [`CylinderSide`] | points of a cylinder's side | 1/(2πRL) | [`per_steradian`] converts |
-//! | [`SphereSurface`] | points of a sphere | 1/(4πR²) | [`per_steradian`] converts |
-//! | [`PatchSurface`] | points of a bilinear patch | nearly 1/area | [`per_steradian`] converts |
+//! | [`PatchSurface`] | points of a bilinear patch | nearly 1/area | [`BilinearPatch`](crate::BilinearPatch) is the light |
 //!
 //! One-dimensional maps implement [`Warp1`]:
 //!
@@ -31,9 +28,10 @@ mod disk;
 mod hemisphere;
 mod linear;
 mod octahedral;
-mod surface;
+mod patch;
 mod triangle;
 mod visible_normals;
+mod warps;
 
 pub use bilinear::Bilinear;
 pub use cone::{Cone, UniformHemisphere, UniformSphere};
@@ -42,7 +40,7 @@ pub(crate) use disk::{concentric, invert_concentric};
 pub use hemisphere::CosineHemisphere;
 pub use linear::{Linear, Tent};
 pub use octahedral::Octahedral;
-pub use surface::{CylinderSide, DiskSurface, PatchSurface, SphereSurface, per_steradian};
+pub use patch::PatchSurface;
 pub use triangle::{AreaTriangle, LowDistortionTriangle};
 pub use visible_normals::GgxVisibleNormals;
 

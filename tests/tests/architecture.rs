@@ -1,8 +1,9 @@
-//! What the sources themselves must keep: imports that go one way, a README that can be read, and names that are gone.
+//! What the sources themselves must keep: imports go one way, and documents are short.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use syn::visit::{self, Visit};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -29,137 +30,80 @@ fn sources(endings: &[&str]) -> Vec<PathBuf> {
     all.filter(|path| path.iter().all(|part| part != "target")).collect()
 }
 
-/// The tokens of a source, without comments and literals of text. Punctuation is one character each, except for `::`.
-fn tokens(text: &str) -> Vec<String> {
-    let text: Vec<char> = text.chars().collect();
-    let at = |i: usize| text.get(i).copied().unwrap_or(' ');
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let (mut all, mut i) = (Vec::new(), 0);
-    while i < text.len() {
-        let start = i;
-        match (at(i), at(i + 1)) {
-            ('/', '/') => i += text[i..].iter().take_while(|c| **c != '\n').count(),
-            ('/', '*') => {
-                i += 2;
-                while i < text.len() && (at(i), at(i + 1)) != ('*', '/') {
-                    i += 1;
-                }
-                i += 2;
-            }
-            ('"', _) => {
-                i += 1;
-                while i < text.len() && at(i) != '"' {
-                    i += if at(i) == '\\' { 2 } else { 1 };
-                }
-                i += 1;
-            }
-            ('\'', '\\') => i += 3 + text[i + 3..].iter().take_while(|c| **c != '\'').count() + 1,
-            ('\'', _) => i += if at(i + 2) == '\'' { 3 } else { 1 },
-            (':', ':') => {
-                all.push("::".to_owned());
-                i += 2;
-            }
-            (c, _) if is_word(c) => {
-                i += text[i..].iter().take_while(|c| is_word(**c)).count();
-                let word: String = text[start..i].iter().collect();
-                let hashes = text[i..].iter().take_while(|c| **c == '#').count();
-                if ["r", "br", "cr"].contains(&word.as_str()) && at(i + hashes) == '"' {
-                    i += hashes + 1;
-                    let closes = |i: usize| at(i) == '"' && (1..=hashes).all(|k| at(i + k) == '#');
-                    while i < text.len() && !closes(i) {
-                        i += 1;
-                    }
-                    i += hashes + 1;
-                } else {
-                    all.push(word);
-                }
-            }
-            (c, _) => {
-                if !c.is_whitespace() {
-                    all.push(c.to_string());
-                }
-                i += 1;
-            }
-        }
-    }
-    all
-}
-
-/// The same tokens without the items that are compiled for tests alone.
-fn without_tests(tokens: &[String]) -> Vec<String> {
-    let (mut all, mut i) = (Vec::new(), 0);
-    while i < tokens.len() {
-        if !tokens[i..].iter().map(String::as_str).take(7).eq(["#", "[", "cfg", "(", "test", ")", "]"]) {
-            all.push(tokens[i].clone());
-            i += 1;
-            continue;
-        }
-        // up to the end of the block, or to a semicolon outside of brackets
-        let mut depth = 0;
-        i += 7;
-        while i < tokens.len() {
-            let token = tokens[i].as_str();
-            depth += i32::from(["(", "[", "{"].contains(&token)) - i32::from([")", "]", "}"].contains(&token));
-            i += 1;
-            if depth == 0 && [";", "}"].contains(&token) {
-                break;
-            }
-        }
-    }
-    all
-}
-
 type Module = Vec<String>;
 
-/// Adds the paths of a use tree that begins at a token, and returns where it ends.
-fn tree(tokens: &[String], mut at: usize, mut prefix: Module, paths: &mut Vec<Module>) -> usize {
-    while let Some(token) = tokens.get(at) {
-        match token.as_str() {
-            "super" => drop(prefix.pop()),
-            "self" => {}
-            "{" => {
-                at += 1;
-                while at < tokens.len() && tokens[at] != "}" {
-                    at = tree(tokens, at, prefix.clone(), paths);
-                    // `as` and the new name, and the comma
-                    while at < tokens.len() && tokens[at] != "," && tokens[at] != "}" {
-                        at += 1;
-                    }
-                    at += usize::from(tokens.get(at).is_some_and(|token| token == ","));
-                }
-                return at + 1;
-            }
-            word if word.starts_with(|c: char| c.is_alphabetic() || c == '_') => prefix.push(word.to_owned()),
-            _ => break,
-        }
-        at += 1;
-        if tokens.get(at).is_none_or(|token| token != "::") {
-            break;
-        }
-        at += 1;
-    }
-    paths.push(prefix);
-    at
+/// The paths from the root of the crate that a module names by `crate::`, `super::` or `self::`, outside of its tests and of macros, and
+/// whether one of its modules has the attribute `path`.
+struct Named<'m> {
+    module: &'m [String],
+    paths: Vec<Module>,
+    has_path: bool,
 }
 
-/// The paths from the root of the crate that a module names by `crate::`, `super::` or `self::`, outside of its tests.
-fn named(text: &str, module: &[String]) -> Vec<Module> {
-    let tokens = without_tests(&tokens(text));
-    let mut paths = Vec::new();
-    for i in 1..tokens.len() {
-        // visibility is no import
-        if tokens[i] != "::" || i > 1 && ["::", "in"].contains(&tokens[i - 2].as_str()) {
-            continue;
-        }
-        let start = match tokens[i - 1].as_str() {
+impl Named<'_> {
+    /// Adds a path, if it begins at the root of the crate or at this module.
+    fn take(&mut self, path: &[String]) {
+        let start = match path[0].as_str() {
             "crate" => Vec::new(),
-            "super" => module[..module.len() - 1].to_vec(),
-            "self" => module.to_vec(),
-            _ => continue,
+            "super" => self.module[..self.module.len() - 1].to_vec(),
+            "self" if path.len() > 1 => self.module.to_vec(),
+            _ => return,
         };
-        tree(&tokens, i + 1, start, &mut paths);
+        let add = |mut module: Module, part: &String| {
+            match part.as_str() {
+                "super" => drop(module.pop()),
+                "self" => {}
+                _ => module.push(part.clone()),
+            }
+            module
+        };
+        self.paths.push(path[1..].iter().fold(start, add));
     }
-    paths
+    fn tree(&mut self, tree: &syn::UseTree, mut prefix: Module) {
+        match tree {
+            syn::UseTree::Path(path) => {
+                prefix.push(path.ident.to_string());
+                self.tree(&path.tree, prefix);
+            }
+            syn::UseTree::Group(group) => group.items.iter().for_each(|tree| self.tree(tree, prefix.clone())),
+            syn::UseTree::Name(syn::UseName { ident }) | syn::UseTree::Rename(syn::UseRename { ident, .. }) => {
+                prefix.push(ident.to_string());
+                self.take(&prefix);
+            }
+            syn::UseTree::Glob(_) => self.take(&prefix),
+        }
+    }
+}
+
+impl<'ast> Visit<'ast> for Named<'_> {
+    fn visit_item(&mut self, item: &'ast syn::Item) {
+        let attributes = match item {
+            syn::Item::Mod(item) => &item.attrs,
+            syn::Item::Fn(item) => &item.attrs,
+            syn::Item::Use(item) => &item.attrs,
+            _ => return visit::visit_item(self, item),
+        };
+        self.has_path |= attributes.iter().any(|attribute| attribute.path().is_ident("path"));
+        let is_test = |attribute: &syn::Attribute| matches!(&attribute.meta, syn::Meta::List(list) if list.path.is_ident("cfg") && list.tokens.to_string() == "test");
+        if !attributes.iter().any(is_test) {
+            visit::visit_item(self, item);
+        }
+    }
+    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
+        self.tree(&item.tree, Vec::new());
+    }
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        self.take(&path.segments.iter().map(|segment| segment.ident.to_string()).collect::<Vec<_>>());
+        visit::visit_path(self, path);
+    }
+    // visibility is no import
+    fn visit_visibility(&mut self, _: &'ast syn::Visibility) {}
+}
+
+fn named<'m>(text: &str, module: &'m [String]) -> Named<'m> {
+    let mut named = Named { module, paths: Vec::new(), has_path: false };
+    named.visit_file(&syn::parse_file(text).unwrap_or_else(|error| panic!("{}: {error}", module.join("::"))));
+    named
 }
 
 type Graph = BTreeMap<String, BTreeSet<String>>;
@@ -188,7 +132,7 @@ fn levels(package: &str) -> BTreeMap<String, Graph> {
             graph.entry(own(above)).or_default().insert(own(module));
             graph.entry(own(module)).or_default();
         }
-        for path in named(text, module) {
+        for path in named(text, module).paths {
             let known = (0..=path.len()).rev().map(|n| &path[..n]).find(|path| texts.contains_key(*path)).unwrap();
             let common = known.iter().zip(module).take_while(|(a, b)| a == b).count();
             let graph = levels.entry(name(&module[..common])).or_default();
@@ -304,17 +248,15 @@ fn imports_are_found() {
         //! [`a`](crate::comment)
         use crate::{a::{self, B}, c::*, d as e};
         use super::super::f;
-        pub(in crate::visible) fn g<'x>(x: &'x str) -> char { super::h::<u8>(r#"" crate::raw"#, "\" crate::text"); '"' }
+        pub(in crate::visible) fn g<'x>(x: &'x str) -> char { super::h::<u8>("crate::text"); '"' }
         #[cfg(test)]
-        #[allow(unused)]
-        mod tests { use super::super::tested; fn f() -> [u8; 2] { [0; 2] } }
-        #[cfg(test)]
-        mod other;
+        mod tests { use super::super::tested; }
         fn i() { self::j() /* crate::block */ }
     "##;
     let path = |text: &str| text.split("::").map(str::to_owned).collect::<Vec<_>>();
-    let found: Vec<_> = named(text, &path("m::n")).iter().map(|path| path.join("::")).collect();
+    let found: Vec<_> = named(text, &path("m::n")).paths.iter().map(|path| path.join("::")).collect();
     assert_eq!(found, ["a", "a::B", "c", "d", "f", "m::h", "m::n::j"]);
+    assert!(named("#[path = \"other.rs\"] mod module;", &path("m::n")).has_path);
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
@@ -399,71 +341,17 @@ fn modules_have_no_other_paths() {
     let all = sources(&[".rs"]);
     assert!(all.len() > 150, "{} sources", all.len());
     for path in all {
-        let tokens = tokens(&fs::read_to_string(&path).unwrap());
-        let has_path = tokens.windows(3).any(|three| *three == ["#", "[", "path"]);
-        assert!(!has_path, "{}", path.display());
+        let module = [path.display().to_string()];
+        assert!(!named(&fs::read_to_string(&path).unwrap(), &module).has_path, "{}", path.display());
     }
 }
 
 #[test]
-fn readme_is_short() {
-    let words = fs::read_to_string(root().join("README.md")).unwrap().split_whitespace().count();
-    println!("{words} words");
-    assert!((300..=1000).contains(&words), "README.md has {words} words");
-}
-
-/// Names that were replaced by those of the field.
-#[test]
-fn old_names_are_gone() {
-    let old = [
-        "Sighting",
-        "SphereCap",
-        "below_one",
-        "exponent_reciprocal",
-        "product_error(",
-        "fn density(&self)",
-        ".density()",
-        "fn probability(",
-        ".probability",
-        "::seen::",
-        "mod seen",
-        "fn built(",
-        "mod exact",
-        "enum Eye",
-        "mod pupil",
-        "mod laws",
-        "mod subjects",
-        "mod planted",
-        "mod campaign",
-        "uter product",
-        "s told",
-        "hat which",
-        "where it is none",
-        "Of each:",
-    ];
-    // whole words of the renderer alone: the laboratory has a `Way` of another kind
-    let old_in_the_renderer = ["crate::accel", "Accel", "Soup", "with_way", "Way::"];
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let has_word = |line: &str, name: &str| {
-        line.match_indices(name).any(|(at, _)| {
-            let (before, after) = (&line[..at], &line[at + name.len()..]);
-            !before.ends_with(is_word) && (name.ends_with(':') || !after.starts_with(is_word))
-        })
-    };
-    assert!(has_word("a Way::B", "Way::") && has_word("Accel", "Accel") && !has_word("\"Accelerator\"", "Accel"));
-    let mut found = Vec::new();
-    for path in sources(&[".rs", ".md"]) {
-        // this list, and the list of what changed
-        if path.ends_with("architecture.rs") || path.ends_with("CHANGELOG.md") {
-            continue;
-        }
-        let is_renderer = path.starts_with(root().join("render/src"));
-        let text = fs::read_to_string(&path).unwrap();
-        for (number, line) in text.lines().enumerate() {
-            let everywhere = old.iter().filter(|name| line.contains(**name) && !line.contains("two_prod_error("));
-            let here = old_in_the_renderer.iter().filter(|name| is_renderer && has_word(line, name));
-            found.extend(everywhere.chain(here).map(|name| format!("{}:{}: {name}", path.display(), number + 1)));
-        }
-    }
-    assert!(found.is_empty(), "old names:\n{}", found.join("\n"));
+fn documents_are_short() {
+    let words = |path: &Path| fs::read_to_string(path).unwrap().split_whitespace().count();
+    let more = ["README.md", "fuzz/README.md"].map(|file| root().join(file));
+    let all = [&more[..], &sources(&[".md"])].concat();
+    let [readme, sum] = [words(&more[0]), all.iter().map(|path| words(path)).sum()];
+    println!("README.md has {readme} words, all documents {sum}");
+    assert!((300..=1000).contains(&readme) && sum <= 9000, "README.md has {readme} words, all documents {sum}");
 }

@@ -1,7 +1,6 @@
 //! Lights: means against closed forms, points on the shape, lanes, scale, arguments of any bits.
 
 use core::f64::consts::{PI, TAU};
-use etendue::warp::per_steradian;
 use etendue::{
     BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask,
     Parallelogram, PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
@@ -169,27 +168,6 @@ fn a_patch_that_is_seen_twice_is_hit_where_it_is_near() {
         near(from + ahead * (0.5 * apart), -ahead, 0.5 * apart, a);
         assert_eq!(hit(from - ahead * 0.5, -ahead).pdf, 0.0);
     }
-}
-
-/// A pdf per unit area becomes the pdf of the direction, whichever side of the surface the normal points to; 0 edge-on.
-#[test]
-fn pdf_per_area_becomes_one_per_steradian() {
-    let mut random = Random::new(31);
-    let disk = Disk::new(Vec3::lit([0.4, -1.0, 2.0]), unit([0.3, 0.2, -0.7]).into(), 0.7_f64).by_area(origin());
-    for _ in 0..200 {
-        let s = disk.sample(Vec2::new(random.unit_f64(), random.unit_f64()));
-        let point = s.direction * s.distance;
-        for normal in [s.normal, -s.normal] {
-            let pdf = per_steradian(1.0 / disk.area(), point, normal);
-            assert!((pdf / s.pdf - 1.0).abs() < 1e-12, "{pdf} is not {}", s.pdf);
-        }
-    }
-    let per_steradian = |point: [f32; 3], normal: [f32; 3]| per_steradian(2.0_f32, point.into(), normal.into());
-    assert_eq!(per_steradian([0.0, 0.0, 3.0], [0.0, 0.0, 1.0]), 18.0);
-    assert_eq!(per_steradian([0.0, 0.0, 3.0], [0.0, 0.0, -1.0]), 18.0);
-    // edge-on, and where the result is too large
-    assert_eq!(per_steradian([0.0, 0.0, 3.0], [1.0, 0.0, 0.0]), 0.0);
-    assert_eq!(per_steradian([0.0, 0.0, 1e19], [0.0, 0.0, 1.0]), 0.0);
 }
 
 #[test]

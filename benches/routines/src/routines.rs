@@ -12,9 +12,8 @@ use etendue::spherical::{
     SphericalParallelogram, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, CylinderSide, DiskSurface, GgxVisibleNormals,
-    Linear, LowDistortionTriangle, Octahedral, PatchSurface, PolarDisk, SphereSurface, Tent, UniformHemisphere,
-    UniformSphere, Warp, Warp1,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, Linear, LowDistortionTriangle,
+    Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{
     BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere,
@@ -353,9 +352,6 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("projected segment sample", move |_, u| arc.sample(u.x));
     list.prepared("projected segment invert", move |p, _| arc.invert(p));
 
-    list.warp("disk surface", DiskSurface { center: a, normal: up, radius });
-    list.warp("cylinder side", CylinderSide { p: a, axis: e1, radius });
-    list.warp("sphere surface", SphereSurface { center: a, radius });
     let twisted = e1 + e2 + up * R::lit(0.3);
     list.warp("patch surface", PatchSurface { p: a, u: e1, v: e2, w: twisted });
 

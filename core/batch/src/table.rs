@@ -134,31 +134,25 @@ macro_rules! table {
         })+
     };
 }
-etendue::techniques!(table! {
-    { concentric_disk: WarpFunctions<ConcentricDisk> }
-    { polar_disk: WarpFunctions<PolarDisk> }
-    { uniform_hemisphere: WarpFunctions<UniformHemisphere> }
-    { uniform_sphere: WarpFunctions<UniformSphere> }
-    { cosine_hemisphere: WarpFunctions<CosineHemisphere> }
-    { octahedral: WarpFunctions<Octahedral> }
-    { area_triangle: WarpFunctions<AreaTriangle> }
-    { low_distortion_triangle: WarpFunctions<LowDistortionTriangle> }
-    { cone: WarpFunctions<Cone<f32>> }
-    { bilinear: WarpFunctions<Bilinear<f32>> }
-    { ggx_visible_normals: WarpFunctions<GgxVisibleNormals<f32>> }
-    { disk_surface: WarpFunctions<DiskSurface<f32>> }
-    { cylinder_side: WarpFunctions<CylinderSide<f32>> }
-    { sphere_surface: WarpFunctions<SphereSurface<f32>> }
-    { patch_surface: WarpFunctions<PatchSurface<f32>> }
-    { linear: WarpFunctions<Linear<f32>> }
-    { tent: WarpFunctions<Tent<f32>> }
-    { independent: SequenceFunctions<Independent> }
-    { owen_sobol: SequenceFunctions<OwenSobol> }
-    { joint_sobol: SequenceFunctions<JointSobol> }
-    { stratified: SequenceFunctions<Stratified> }
-    { latin_hypercube: SequenceFunctions<LatinHypercube> }
-    { lattice: SequenceFunctions<Lattice> }
-});
+macro_rules! with_warps {
+    ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $numbers:tt -> $coordinates:literal;)+) => {
+        with_warps!(@ $([$warp $([$r])?] $name)+);
+    };
+    (@ $([$($warp:tt)+] $name:ident)+) => {
+        etendue::techniques!(table! {
+            $({ $name: WarpFunctions<with_warps!(# $($warp)+)> })+
+            { independent: SequenceFunctions<Independent> }
+            { owen_sobol: SequenceFunctions<OwenSobol> }
+            { joint_sobol: SequenceFunctions<JointSobol> }
+            { stratified: SequenceFunctions<Stratified> }
+            { latin_hypercube: SequenceFunctions<LatinHypercube> }
+            { lattice: SequenceFunctions<Lattice> }
+        });
+    };
+    (# $warp:ident) => { $warp };
+    (# $warp:ident [R]) => { $warp<f32> };
+}
+etendue::warps!(with_warps! {});
 
 /// The functions of this compilation.
 #[cfg_attr(feature = "level-v3", unsafe(export_name = "etendue_batch_v3"))]

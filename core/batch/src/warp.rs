@@ -48,12 +48,21 @@ impl<R: Real> Point<R> for Vec3<R> {
 }
 
 macro_rules! warps {
-    ($($name:ident $([$packets:tt])?: $coordinates:literal;)+) => {$(
+    ($($(#[$doc:meta])* $name:ident $([$packets:tt] = $struct:ident)?, $module:ident: $numbers:tt -> $coordinates:literal;)+) => {
+        $(warps!($numbers $name $([$packets])?; $coordinates);)+
+    };
+    (2 $name:ident $([$packets:tt])?; $coordinates:literal) => {
         warps!(@ $name $([$packets])?; $coordinates, 2;
             |warp, u| Point::coordinates(Warp::sample(warp, u)),
             |warp, point| Warp::pdf(warp, Point::from_coordinates(point)),
             |warp, point| Warp::invert(warp, Point::from_coordinates(point)));
-    )+};
+    };
+    (1 $name:ident $([$packets:tt])?; $coordinates:literal) => {
+        warps!(@ $name $([$packets])?; $coordinates, 1;
+            |warp, u| [Warp1::sample(warp, u.x), R::lit(0.0), R::lit(0.0)],
+            |warp, point| Warp1::pdf(warp, point[0]),
+            |warp, point| Vec2::new(Warp1::invert(warp, point[0]), R::lit(0.0)));
+    };
     (@ $name:ident; $($rest:tt)+) => {
         impl BatchWarp for $name {
             type Of<R: Real> = $name;
@@ -91,29 +100,4 @@ macro_rules! warps {
         }
     };
 }
-warps! {
-    ConcentricDisk: 2;
-    PolarDisk: 2;
-    UniformHemisphere: 3;
-    UniformSphere: 3;
-    CosineHemisphere: 3;
-    Octahedral: 3;
-    AreaTriangle: 2;
-    LowDistortionTriangle: 2;
-    Cone [R]: 3;
-    Bilinear [R]: 2;
-    GgxVisibleNormals [R]: 3;
-    DiskSurface [R]: 3;
-    CylinderSide [R]: 3;
-    SphereSurface [R]: 3;
-    PatchSurface [R]: 3;
-}
-macro_rules! lines {
-    ($($name:ident)+) => {$(
-        warps!(@ $name [R]; 1, 1;
-            |warp, u| [Warp1::sample(warp, u.x), R::lit(0.0), R::lit(0.0)],
-            |warp, point| Warp1::pdf(warp, point[0]),
-            |warp, point| Vec2::new(Warp1::invert(warp, point[0]), R::lit(0.0)));
-    )+};
-}
-lines!(Linear Tent);
+etendue::warps!(warps! {});

@@ -575,21 +575,7 @@ struct GgxVisibleNormals : EtendueGgxVisibleNormals {
     }
     ETENDUE_WARP(etendue_ggx_visible_normals, 2, 3)
 };
-// Surfaces in space, by area: their parameters are those of the lights.
-struct DiskSurface : EtendueDiskSurface {
-    DiskSurface(Vec3 center_, Vec3 axis, float radius_)
-        : EtendueDiskSurface{{center_.x, center_.y, center_.z}, {axis.x, axis.y, axis.z}, radius_} {}
-    ETENDUE_WARP(etendue_disk_surface, 2, 3)
-};
-struct CylinderSide : EtendueCylinderSide {
-    CylinderSide(Vec3 end, Vec3 to_other, float radius_)
-        : EtendueCylinderSide{{end.x, end.y, end.z}, {to_other.x, to_other.y, to_other.z}, radius_} {}
-    ETENDUE_WARP(etendue_cylinder_side, 2, 3)
-};
-struct SphereSurface : EtendueSphereSurface {
-    SphereSurface(Vec3 center_, float radius_) : EtendueSphereSurface{{center_.x, center_.y, center_.z}, radius_} {}
-    ETENDUE_WARP(etendue_sphere_surface, 2, 3)
-};
+// A bilinear patch, by area.
 struct PatchSurface : EtenduePatchSurface {
     PatchSurface(Vec3 corner, Vec3 s, Vec3 t, Vec3 opposite)
         : EtenduePatchSurface{{corner.x, corner.y, corner.z}, {s.x, s.y, s.z}, {t.x, t.y, t.z}, {opposite.x, opposite.y, opposite.z}} {}

@@ -552,15 +552,11 @@ typedef struct {
     W(cone, Cone, 2, 3)                               \
     W(bilinear, Bilinear, 2, 2)                       \
     W(ggx_visible_normals, GgxVisibleNormals, 2, 3)   \
-    W(disk_surface, DiskSurface, 2, 3)                \
-    W(cylinder_side, CylinderSide, 2, 3)              \
-    W(sphere_surface, SphereSurface, 2, 3)            \
     W(patch_surface, PatchSurface, 2, 3)              \
     W(linear, Linear, 1, 1)                           \
     W(tent, Tent, 1, 1)
-static const float Cone[] = {0.3f}, Bilinear[] = {1, 2, 0.5f, 3}, DiskSurface[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.5f};
+static const float Cone[] = {0.3f}, Bilinear[] = {1, 2, 0.5f, 3};
 static float GgxVisibleNormals[12];
-static const float CylinderSide[] = {-1, 2, 0.3f, 2, 0.1f, 0.2f, 0.3f}, SphereSurface[] = {0.3f, 2, 0.1f, 0.5f};
 static const float PatchSurface[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0.2f, 1.1f, 1.3f, 0.6f, 1.2f};
 static const float Linear[] = {1, 3}, Tent[] = {2};
 #define WRITE_WITHOUT(PREFIX, U, P) WARP_FUNCTIONS(PREFIX, )

@@ -141,8 +141,6 @@ static void test_warps() {
     test_warp(ConcentricDisk()), test_warp(PolarDisk()), test_warp(UniformHemisphere()), test_warp(UniformSphere()), test_warp(CosineHemisphere());
     test_warp(Octahedral()), test_warp(AreaTriangle()), test_warp(LowDistortionTriangle()), test_warp(Cone(0.3f));
     test_warp(Bilinear(1, 2, 0.5f, 3)), test_warp(GgxVisibleNormals(0.3f, 0.5f, {0.48f, 0.36f, 0.8f}));
-    test_warp(DiskSurface({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f)), test_warp(CylinderSide({-1, 2, 0.3f}, {2, 0.1f, 0.2f}, 0.3f));
-    test_warp(SphereSurface({0.3f, 2, 0.1f}, 0.5f));
     test_warp(PatchSurface({-0.5f, 2, -0.3f}, {1.2f, 0.1f, 0.2f}, {0.1f, 0.2f, 1.1f}, {1.3f, 0.6f, 1.2f}));
     test_warp(Linear(1, 3)), test_warp(Tent(2));
 

@@ -133,7 +133,7 @@ macro_rules! warps {
         }
     };
 }
-use Kind::{Direction, Number};
+use Kind::Number;
 const POINT: Kind = Kind::Row(3);
 warps! {
     /// Points of the unit disk, uniform in area, by the map of concentric squares to rings: (2) to (2), pdf 1/π per unit area.
@@ -163,14 +163,6 @@ warps! {
     /// 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal. A mirror, α ≤ 1e-15, has pdf 0.
     GgxVisibleNormals(alpha_x: Number, alpha_y: Number, wi: POINT)
     |x| etendue::warp::GgxVisibleNormals::new(x[0], x[1], v(x, 2));
-    /// Points of a disk in space, uniform in area: (2) to (3), pdf 1/(πR²) per unit area. A radius of 0 gives pdf 0.
-    DiskSurface(center: POINT, normal: Direction, radius: Number)
-    |x| etendue::warp::DiskSurface { center: v(x, 0), normal: v(x, 3), radius: x[6] };
-    /// Points of the side of a cylinder, uniform in area: (2) to (3), pdf 1/(2πR·|axis|) per unit area. Without area the pdf is 0.
-    CylinderSide(start: POINT, axis: POINT, radius: Number)
-    |x| etendue::warp::CylinderSide { p: v(x, 0), axis: v(x, 3), radius: x[6] };
-    /// Points of a sphere, uniform in area: (2) to (3), pdf 1/(4πR²) per unit area. A radius of 0 gives pdf 0.
-    SphereSurface(center: POINT, radius: Number) |x| etendue::warp::SphereSurface { center: v(x, 0), radius: x[3] };
     /// Points of a bilinear patch (see `BilinearPatch`), nearly uniform in area: (2) to (3), exact pdf per unit area. Without area it is 0.
     PatchSurface(corner: POINT, edge_s: POINT, edge_t: POINT, diagonal: POINT)
     |x| etendue::warp::PatchSurface { p: v(x, 0), u: v(x, 3), v: v(x, 6), w: v(x, 9) };

@@ -1,13 +1,52 @@
-//! The side of a cylinder relative to the shading point.
+//! The sides of cylinders.
 
 use super::sample::direction_to;
-use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint, quotient};
+use super::sampler::ByArea;
+use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
-use crate::math::atan2_turns;
+use crate::math::{atan2_turns, quotient};
 use crate::real::{Real, unit_interval};
 use crate::spherical::to_unit;
 use crate::vector::{Frame, Vec2, Vec3};
 use core::f64::consts::PI;
+
+lanewise! {
+    /// The side of a cylinder, without its ends, that emits outwards.
+    ///
+    /// It is sampled by area only, and more than half of it faces away: for thin tubes take a [`Line`](super::Line). A radius ≤ 0 or an
+    /// axis of length 0 gives pdf 0. Surface coordinates: height along the axis, and azimuth in turns.
+    pub struct Cylinder {
+        /// Centre of one end, in the coordinates of the scene.
+        pub p: Vec3<R>,
+        /// From there to the centre of the other end.
+        pub axis: Vec3<R>,
+        /// Radius, in the unit of the coordinates.
+        pub radius: R,
+    }
+}
+
+impl<R: Real> Cylinder<R> {
+    /// The cylinder from the end at `p` along `axis`.
+    #[inline(always)]
+    pub fn new(p: Vec3<R>, axis: Vec3<R>, radius: R) -> Self {
+        Self { p, axis, radius }
+    }
+    /// Uniform over the surface, seen from the point `p`.
+    ///
+    /// - Formula: x = p + u₀·axis + R(s cosφ + t sinφ), φ = 2πu₁, s and t perpendicular to the axis.
+    /// - Domain: u in [0, 1)²; any axis that is not 0, radius > 0.
+    /// - pdf of a sample: distance²/(|cosθ'| 2πR·|axis|) per steradian, of the point that was drawn; of a direction: that of the nearest
+    ///   point in it, which a rounded direction determines only as well as it
+    ///   determines the point.
+    /// - Degenerate: a radius or axis of 0: pdf 0.
+    #[inline(always)]
+    pub fn by_area(&self, p: Vec3<R>) -> CylinderByArea<R> {
+        ByArea { origin: p, surface: PlacedCylinder::new(self.p - p, self.axis, self.radius) }
+    }
+}
+
+/// A [`Cylinder`] sampled by area from a point.
+pub type CylinderByArea<R> = ByArea<R, PlacedCylinder<R>>;
 
 lanewise! {
     /// The side of a cylinder relative to the shading point. Its surface coordinates are the height along the axis and the azimuth in

@@ -2,8 +2,8 @@
 
 use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
-use super::surface::quotient;
 use crate::lanewise::lanewise;
+use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
 use crate::spherical::{DirectionSample, ProjectedSegment, SphericalSegment, to_unit};
 use crate::vector::{Vec2, Vec3};

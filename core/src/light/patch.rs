@@ -1,8 +1,9 @@
 //! Bilinear patches.
 
 use super::sampler::ByArea;
-use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint, quotient, quotient_if_any};
+use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
+use crate::math::{quotient, quotient_if_any};
 use crate::real::Real;
 use crate::spherical::to_unit;
 use crate::vector::{Vec2, Vec3};

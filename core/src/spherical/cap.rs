@@ -1,4 +1,4 @@
-use super::DirectionSample;
+use super::direction::DirectionSample;
 use crate::lanewise::lanewise;
 use crate::real::Real;
 use crate::vector::{Frame, Vec2, Vec3};

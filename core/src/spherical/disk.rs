@@ -1,8 +1,8 @@
+use super::direction::DirectionSample;
 use super::double_word::compensated_dot;
 use super::line::finite_or_zero;
-use super::{DirectionSample, reciprocal_or_zero};
 use crate::lanewise::lanewise;
-use crate::math::{double, ratio, rsqrt};
+use crate::math::{double, quotient, ratio, rsqrt};
 use crate::real::{Real, unit_interval};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Linear, Warp, Warp1};
@@ -255,7 +255,7 @@ impl<R: Real> SphericalDisk<R> {
     /// The pdf per steradian of every direction that hits the disk, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
-        reciprocal_or_zero(self.solid_angle)
+        quotient(R::lit(1.0), self.solid_angle)
     }
     /// True where the point is on the side to which the normal points.
     #[inline(always)]

@@ -1,6 +1,6 @@
+use super::direction::{DirectionSample, above_horizon};
 use super::double_word::{dot_dw, rounded_sum, unit_normal};
 use super::projected_cap::segment;
-use super::{DirectionSample, above_horizon};
 use crate::lanewise::lanewise;
 use crate::math::{double, ratio};
 use crate::real::{Real, unit_interval};

@@ -1,7 +1,9 @@
+use super::direction::{DirectionSample, to_unit};
 use super::double_word::{compensated_height, cross_dw, sum_dw};
 use super::triangle::Planes;
-use super::{DirectionSample, SphericalTriangle, to_unit};
+use super::triangle::SphericalTriangle;
 use crate::lanewise::lanewise_by_map;
+use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -75,7 +77,7 @@ impl<R: Real> SphericalParallelogram<R> {
     /// The pdf per steradian of every direction that hits the parallelogram, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
-        super::reciprocal_or_zero(self.solid_angle())
+        quotient(R::lit(1.0), self.solid_angle())
     }
     /// True where the point is on the side to which the normal u×v points.
     #[inline(always)]

@@ -1,5 +1,7 @@
-use super::{DirectionSample, SphericalTriangle};
+use super::direction::DirectionSample;
+use super::triangle::SphericalTriangle;
 use crate::lanewise::lanewise_by_map;
+use crate::math::quotient;
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -81,7 +83,7 @@ impl<R: Real, const N: usize> SphericalPolygon<R, N> {
     /// The pdf per steradian of every direction that hits the polygon, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
-        super::reciprocal_or_zero(self.solid_angle)
+        quotient(R::lit(1.0), self.solid_angle)
     }
     /// True where the point is on the side from which the corners run counterclockwise.
     #[inline(always)]

@@ -1,8 +1,8 @@
 mod lune;
 mod segment;
 
+use super::direction::{DirectionSample, above_horizon};
 use super::double_word::dot_dw;
-use super::{DirectionSample, above_horizon};
 use crate::lanewise::lanewise;
 use crate::math::{difference_of_products, double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};

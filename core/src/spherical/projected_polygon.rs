@@ -1,3 +1,4 @@
+use super::direction::{DirectionSample, to_unit};
 use super::double_word::{cross_dw, dot_dw, sum_dw, unit_normal};
 use super::projected_triangle::piece::{Piece, narrowest};
 use super::projected_triangle::sector::Sector;
@@ -5,9 +6,8 @@ use super::projected_triangle::zenith::{Found, Side, sectors, surrounds, without
 use super::projected_triangle::{
     LEAST_HEIGHT, ProjectedTriangle, ahead, area, difference, edge, lack, with_rest, within,
 };
-use super::{DirectionSample, to_unit};
 use crate::lanewise::lanewise_by_map;
-use crate::math::ratio;
+use crate::math::{quotient, ratio};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -240,7 +240,7 @@ impl<R: Real, const N: usize> ProjectedPolygon<R, N> {
     /// The pdf per steradian of a direction that is known to hit the polygon and has the cosine `cos` to the normal: cosθ/Ω⊥.
     #[inline(always)]
     pub fn pdf_at_cosine(&self, cos: R) -> R {
-        cos.greater(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
+        cos.greater(R::lit(0.0)) * quotient(R::lit(1.0), self.projected)
     }
     /// True where the point is on the side from which the corners run counterclockwise.
     #[inline(always)]

@@ -3,11 +3,11 @@ pub(super) mod piece;
 pub(super) mod sector;
 pub(super) mod zenith;
 
+use super::direction::{DirectionSample, to_unit};
 use super::double_word::{compensated_height, cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use super::triangle::SLACK;
-use super::{DirectionSample, to_unit};
 use crate::lanewise::lanewise;
-use crate::math::{ratio, rsqrt};
+use crate::math::{quotient, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -302,7 +302,7 @@ impl<R: Real> ProjectedTriangle<R> {
     /// The pdf per steradian of a direction that is known to hit the triangle and has the cosine `cos` to the normal: cosθ/Ω⊥.
     #[inline(always)]
     pub fn pdf_at_cosine(&self, cos: R) -> R {
-        cos.greater(R::lit(0.0)) * super::reciprocal_or_zero(self.projected)
+        cos.greater(R::lit(0.0)) * quotient(R::lit(1.0), self.projected)
     }
     /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.
     #[inline(always)]

@@ -1,4 +1,4 @@
-use super::DirectionSample;
+use super::direction::DirectionSample;
 use super::double_word::{compensated_height, cross_dw, dot_dw, rounded_sum, sum_dw};
 use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};

@@ -1,10 +1,10 @@
 mod arc;
 mod inverse;
 
+use super::direction::{DirectionSample, to_unit};
 use super::double_word::{compensated_height, cross_dw, sum_dw};
-use super::{DirectionSample, to_unit};
 use crate::lanewise::lanewise;
-use crate::math::rsqrt;
+use crate::math::{quotient, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -307,7 +307,7 @@ impl<R: Real> SphericalTriangle<R> {
     /// The pdf per steradian of every direction that hits the triangle, 1/Ω; 0 where Ω is 0.
     #[inline(always)]
     pub fn uniform_pdf(&self) -> R {
-        super::reciprocal_or_zero(self.solid_angle)
+        quotient(R::lit(1.0), self.solid_angle)
     }
 
     /// True where the point is on the side to which the normal (v1−v0)×(v2−v0) points.

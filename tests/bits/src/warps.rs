@@ -115,9 +115,6 @@ pub(crate) fn add(list: &mut List<'_>) {
         "uniform_sphere": [("whole", UniformSphere)];
         "octahedral": [("whole", Octahedral)];
         "cone": generators::cones();
-        "disk_surface": generators::disk_surfaces();
-        "sphere_surface": generators::sphere_surfaces();
-        "cylinder_side": generators::cylinder_sides();
         "patch_surface": generators::patch_surfaces();
         "spherical_cap": generators::caps(3, 11);
         "spherical_triangle": generators::triangles(4, 12);

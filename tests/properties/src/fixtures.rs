@@ -22,4 +22,4 @@ pub use round::{
     Cap, ConcentricDisk, Cone, CosineHemisphere, Octahedral, PolarDisk, UniformHemisphere, UniformSphere, nearest_hit,
 };
 pub use segment::{ProjectedSegment, Segment};
-pub use surface::{CylinderSide, DiskSurface, PatchSurface, SphereSurface};
+pub use surface::PatchSurface;

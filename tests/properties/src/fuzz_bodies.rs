@@ -74,12 +74,6 @@ targets! {
     projected_polygon: shapes, 50;
     /// Triangles and rectangles by solid angle, warped towards the cosine.
     cosine_warped: shapes, 100;
-    /// Disks in space, by area.
-    disk_surface: surfaces, 200;
-    /// Spheres in space, by area.
-    sphere_surface: surfaces, 200;
-    /// Sides of cylinders, by area.
-    cylinder_side: surfaces, 200;
     /// Bilinear patches, by area.
     patch_surface: surfaces, 20;
     /// Lights with a surface, and lines, by every technique.

@@ -1,7 +1,7 @@
 //! The part of a polygon between two half-planes of constant azimuth and two great circles that meet in a vertex.
 #![expect(unreachable_pub, reason = "the structs of lanewise! are declared pub")]
 
-use super::super::above_horizon;
+use super::super::direction::above_horizon;
 use crate::lanewise::lanewise;
 use crate::math::{double, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};

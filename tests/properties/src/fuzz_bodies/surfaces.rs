@@ -1,7 +1,7 @@
 //! Surfaces in space.
 
 use super::Input;
-use crate::fixtures::{CylinderSide, DiskSurface, PatchSurface, SphereSurface};
+use crate::fixtures::PatchSurface;
 use crate::generators::Random;
 use crate::properties::{self, Fixture};
 
@@ -18,31 +18,6 @@ fn units(input: &mut Input<'_>) -> (f32, f32) {
 }
 fn place(input: &mut Input<'_>, reach: f32) -> [f32; 3] {
     [(); 3].map(|()| input.ordinary() * 0.5 * reach)
-}
-
-/// Disks.
-pub(super) fn disk_surface(input: &mut Input<'_>) {
-    let any = DiskSurface { center: input.vector(&[]), normal: input.direction(), radius: input.number() };
-    let (radius, reach) = units(input);
-    let fair = DiskSurface { center: place(input, reach), normal: input.direction(), radius };
-    check(&any, &fair, input);
-}
-
-/// Spheres.
-pub(super) fn sphere_surface(input: &mut Input<'_>) {
-    let any = SphereSurface { center: input.vector(&[]), radius: input.number() };
-    let (radius, reach) = units(input);
-    check(&any, &SphereSurface { center: place(input, reach), radius }, input);
-}
-
-/// Sides of cylinders; the ordinary ones are up to sixteen times as long as wide, or as wide as long.
-pub(super) fn cylinder_side(input: &mut Input<'_>) {
-    let p = input.vector(&[]);
-    let any = CylinderSide { p, axis: input.vector(&[p]), radius: input.number() };
-    let (radius, reach) = units(input);
-    let length = radius * (f32::from(input.below(9)) - 4.0).exp2();
-    let axis = input.direction().map(|x| x * length);
-    check(&any, &CylinderSide { p: place(input, reach), axis, radius }, input);
 }
 
 /// Bilinear patches. The ordinary ones are slightly twisted near-squares, convex as seen along the normal of their middle.

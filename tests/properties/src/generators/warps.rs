@@ -1,9 +1,7 @@
 //! Parameters of maps of lines, squares and surfaces.
 
 use super::{Case, EPSILON};
-use crate::fixtures::{
-    Bilinear, Cone, CylinderSide, DiskSurface, GgxVisibleNormals, Linear, PatchSurface, SphereSurface, Tent,
-};
+use crate::fixtures::{Bilinear, Cone, GgxVisibleNormals, Linear, PatchSurface, Tent};
 
 /// Cones of half-angles from 1e−15 to π.
 #[must_use]
@@ -117,32 +115,8 @@ const PLACES: [(&str, f32, f32); 5] = [
 
 const PLACE: [f32; 3] = [0.48, -0.64, 0.6];
 
-const AXIS: [f32; 3] = [0.36, 0.48, -0.8];
-
 fn times(v: [f32; 3], s: f32) -> [f32; 3] {
     v.map(|x| x * s)
-}
-
-/// Disks in space.
-#[must_use]
-pub fn disk_surfaces() -> [Case<DiskSurface>; 5] {
-    PLACES.map(|(name, d, radius)| (name, DiskSurface { center: times(PLACE, d), normal: AXIS, radius }))
-}
-
-/// Spheres in space.
-#[must_use]
-pub fn sphere_surfaces() -> [Case<SphereSurface>; 5] {
-    PLACES.map(|(name, d, radius)| (name, SphereSurface { center: times(PLACE, d), radius }))
-}
-
-/// Sides of cylinders in space: of ordinary proportions, long, and short.
-#[must_use]
-pub fn cylinder_sides() -> Vec<Case<CylinderSide>> {
-    let of = |(name, d, radius)| (name, CylinderSide { p: times(PLACE, d), axis: times(AXIS, 2.0 * radius), radius });
-    let mut all = PLACES.map(of).to_vec();
-    all.push(("long", CylinderSide { p: PLACE, axis: times(AXIS, 10.0), radius: 0.1 }));
-    all.push(("short", CylinderSide { p: PLACE, axis: times(AXIS, 0.1), radius: 1.0 }));
-    all
 }
 
 /// Bilinear patches in space: flat, twisted, a trapezium, long, and with two corners nearly coincident.

@@ -1,4 +1,0 @@
-//! Runs `fuzz_bodies::cylinder_side` on any bytes.
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_properties::fuzz_bodies::cylinder_side(bytes));
