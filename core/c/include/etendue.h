@@ -50,7 +50,7 @@ typedef struct {
   float radius;
 } EtendueSphere;
 
-// Uniform over the surface: pdf distance^2/(|cos(theta')| 4pi R^2) per steradian, theta' at the light. More than half of the samples
+// Uniform over the surface: pdf distance^2/(|cos(theta')| 4 piR^2) per steradian, theta' at the light. More than half of the samples
 // face away.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
@@ -434,7 +434,7 @@ typedef struct {
   float one_minus_cos;
 } EtendueSun;
 
-// Uniform over the cone: pdf 1/(2pi (1 - cos(sigma))) per steradian, 0 where the cone is empty.
+// Uniform over the cone: pdf 1/(2 pi(1 - cos(sigma))) per steradian, 0 where the cone is empty.
 //
 // What is inside does not concern callers: it may be copied, and used by any thread.
 typedef struct {
@@ -524,34 +524,6 @@ typedef struct {
   // Relative densities at (0, 0), (1, 0), (0, 1) and (1, 1): at least 0, in any unit.
   float corners[4];
 } EtendueBilinear;
-
-// Points of a disk in space, uniform in area.
-typedef struct {
-  // Centre.
-  float center[3];
-  // Unit normal.
-  float normal[3];
-  // Radius, in the unit of the coordinates.
-  float radius;
-} EtendueDiskSurface;
-
-// Points of the side of a cylinder, uniform in area.
-typedef struct {
-  // Centre of one end.
-  float p[3];
-  // From there to the centre of the other end.
-  float axis[3];
-  // Radius, in the unit of the coordinates.
-  float radius;
-} EtendueCylinderSide;
-
-// Points of a sphere, uniform in area.
-typedef struct {
-  // Centre.
-  float center[3];
-  // Radius, in the unit of the coordinates.
-  float radius;
-} EtendueSphereSurface;
 
 // Points of a bilinear patch, nearly uniform in area.
 typedef struct {
@@ -2674,7 +2646,7 @@ EtendueStatus etendue_area_triangle_pdf_batch(size_t n, const float *const *poin
 // The random numbers of each point, in columns.
 EtendueStatus etendue_area_triangle_invert_batch(size_t n, const float *const *points, float *const *u);
 
-// The same by a map that keeps strata compact: pdf 2.
+// Barycentric coordinates of the second and third vertex of a triangle, by a map that keeps strata compact: pdf 2.
 //
 // Maps random numbers `u` to a point.
 EtendueStatus etendue_low_distortion_triangle_sample(const float *u, float *point);
@@ -2768,93 +2740,6 @@ EtendueStatus etendue_ggx_visible_normals_invert_batch(const EtendueGgxVisibleNo
                                                        size_t n,
                                                        const float *const *points,
                                                        float *const *u);
-
-// Points of a disk in space: pdf 1/(pi radius^2) per unit area.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_disk_surface_sample(const EtendueDiskSurface *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_disk_surface_pdf(const EtendueDiskSurface *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_disk_surface_invert(const EtendueDiskSurface *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_disk_surface_sample_batch(const EtendueDiskSurface *warp,
-                                                size_t n,
-                                                const float *const *u,
-                                                float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_disk_surface_pdf_batch(const EtendueDiskSurface *warp,
-                                             size_t n,
-                                             const float *const *points,
-                                             float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_disk_surface_invert_batch(const EtendueDiskSurface *warp,
-                                                size_t n,
-                                                const float *const *points,
-                                                float *const *u);
-
-// Points of the side of a cylinder: pdf 1/area.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_cylinder_side_sample(const EtendueCylinderSide *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_cylinder_side_pdf(const EtendueCylinderSide *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_cylinder_side_invert(const EtendueCylinderSide *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_cylinder_side_sample_batch(const EtendueCylinderSide *warp,
-                                                 size_t n,
-                                                 const float *const *u,
-                                                 float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_cylinder_side_pdf_batch(const EtendueCylinderSide *warp,
-                                              size_t n,
-                                              const float *const *points,
-                                              float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_cylinder_side_invert_batch(const EtendueCylinderSide *warp,
-                                                 size_t n,
-                                                 const float *const *points,
-                                                 float *const *u);
-
-// Points of a sphere: pdf 1/(4 pi radius^2) per unit area.
-//
-// Maps random numbers `u` to a point.
-EtendueStatus etendue_sphere_surface_sample(const EtendueSphereSurface *warp, const float *u, float *point);
-
-// The pdf at a point, in the measure of the warp; 0 outside its range, and if a pointer is NULL.
-float etendue_sphere_surface_pdf(const EtendueSphereSurface *warp, const float *point);
-
-// The random numbers that are mapped to a point; any in [0, 1)^2 outside the range of the warp.
-EtendueStatus etendue_sphere_surface_invert(const EtendueSphereSurface *warp, const float *point, float *u);
-
-// A point for each u, in columns.
-EtendueStatus etendue_sphere_surface_sample_batch(const EtendueSphereSurface *warp,
-                                                  size_t n,
-                                                  const float *const *u,
-                                                  float *const *points);
-
-// The pdf at each point, in columns.
-EtendueStatus etendue_sphere_surface_pdf_batch(const EtendueSphereSurface *warp,
-                                               size_t n,
-                                               const float *const *points,
-                                               float *out);
-
-// The random numbers of each point, in columns.
-EtendueStatus etendue_sphere_surface_invert_batch(const EtendueSphereSurface *warp,
-                                                  size_t n,
-                                                  const float *const *points,
-                                                  float *const *u);
 
 // Points of a bilinear patch: pdf nearly 1/area.
 //
