@@ -497,7 +497,7 @@ impl Chosen {
     }
     #[inline]
     fn parallelogram(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        let light = Parallelogram { p: self.place, u: self.first, v: self.second };
+        let light = Parallelogram { corner: self.place, edge_s: self.first, edge_t: self.second };
         match measure {
             Measure::Area => light.by_area(p).sample(u).into(),
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),

@@ -104,7 +104,7 @@ fn flat_lights() {
         );
 
         let corners = [a, along(a, b, 1.0), along(along(a, b, 1.0), c, 1.0), along(a, c, 1.0)];
-        let light = Parallelogram { p: packet(p), u: packet(u), v: packet(v) };
+        let light = Parallelogram { corner: packet(p), edge_s: packet(u), edge_t: packet(v) };
         let truth = projected_polygon(&corners, n);
         close(&name("parallelogram by area"), mean(n, |u| light.by_area(origin).sample(u)), truth, scale, GRID_AREA);
         close(
@@ -171,7 +171,7 @@ fn samples_lie_on_their_shapes() {
         let triangle = Triangle { v0: of(v0), e1: of(e1), e2: of(e2) };
         check(triangle.by_area(of(p)).sample(u), Some(0.5 * length(normal)), &in_triangle);
         check(triangle.by_solid_angle(of(p)).sample(u), None, &in_triangle);
-        let panel = Parallelogram { p: of(v0), u: of(e1), v: of(e2) };
+        let panel = Parallelogram { corner: of(v0), edge_s: of(e1), edge_t: of(e2) };
         check(panel.by_area(of(p)).sample(u), Some(length(normal)), &in_square);
         check(panel.by_solid_angle(of(p)).sample(u), None, &in_square);
 

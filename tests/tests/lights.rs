@@ -66,7 +66,7 @@ fn rectangle_has_its_projected_solid_angle() {
         let corners = [p, along(p, u, 1.0), along(along(p, u, 1.0), v, 1.0), along(p, v, 1.0)];
         // the receiver faces the rectangle, or cuts it with its horizon
         for receiver in [n.map(|x| -x), unit(along(u, n, -0.3 * size))] {
-            let light = Rectangle { p: p.into(), u: u.into(), v: v.into() };
+            let light = Rectangle { corner: p.into(), edge_s: u.into(), edge_t: v.into() };
             let e = mean(1024, |u| irradiance(&light.by_solid_angle(origin()).sample(u), receiver));
             let truth = projected_polygon(&corners, receiver);
             assert!((e / truth - 1.0).abs() < 1e-5, "{size} {height}: {e} for {truth}");
@@ -80,7 +80,7 @@ fn rectangle_has_its_projected_solid_angle() {
             assert!((warped - half).abs() < 1e-4 * truth, "{size} {height} triangle, warped: {warped} for {half}");
             let by_area = mean(1024, |u| irradiance(&light.by_area(origin()).sample(u), receiver));
             assert!((by_area / truth - 1.0).abs() < 1e-3 || height < size, "{size} {height}: {by_area} for {truth}");
-            let behind = Rectangle { u: light.v, v: light.u, ..light };
+            let behind = Rectangle { edge_s: light.edge_t, edge_t: light.edge_s, ..light };
             assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin()).sample(u), receiver)), 0.0);
         }
     }
@@ -188,7 +188,7 @@ fn disk_points_lie_on_it() {
 #[test]
 fn cylinder_is_a_wedge() {
     let (r, d, half) = (0.4_f64, 1.5_f64, 400.0_f64);
-    let cylinder = Cylinder { p: [d, 0.0, -half].into(), axis: [0.0, 0.0, 2.0 * half].into(), radius: r };
+    let cylinder = Cylinder { start: [d, 0.0, -half].into(), axis: [0.0, 0.0, 2.0 * half].into(), radius: r };
     // u₀ from tangents, so that the near part is sampled: the integral over the axis in closed form is the wedge's
     let n = 1200;
     let mut sum = 0.0;
@@ -206,7 +206,7 @@ fn cylinder_is_a_wedge() {
     let truth = 4.0 * (r / d).asin();
     assert!((omega / truth - 1.0).abs() < 1e-2, "{omega} for {truth}");
     // far away it is seen as a rectangle 2R × length
-    let far = Cylinder { p: [100.0, 0.0, -0.5].into(), axis: [0.0, 0.0, 1.0].into(), radius: 0.1 };
+    let far = Cylinder { start: [100.0, 0.0, -0.5].into(), axis: [0.0, 0.0, 1.0].into(), radius: 0.1 };
     let omega = mean(800, |u| {
         let s = far.by_area(origin()).sample(u);
         if s.emits { 1.0 / s.pdf } else { 0.0 }
@@ -219,7 +219,7 @@ fn cylinder_points_lie_on_it() {
     let mut random = Random::new(2);
     for _ in 0..2000 {
         let (p, axis, r) = (random.direction(), random.direction(), random.magnitude(1e-3, 10.0));
-        let cylinder = Cylinder { p: p.into(), axis: axis.into(), radius: r };
+        let cylinder = Cylinder { start: p.into(), axis: axis.into(), radius: r };
         let u = [random.unit_f64(), random.unit_f64()];
         let s = cylinder.by_area(origin()).sample(Vec2::new(u[0], u[1]));
         let x = sub(s.direction.at(0).map(|w| w * s.distance), p);
@@ -256,7 +256,7 @@ fn lines_have_their_irradiance() {
     for i in 0..30 {
         let size = [1.0, 0.01, 20.0][i % 3];
         let (p, e, n) = (random.direction(), random.direction().map(|x| x * size), random.direction());
-        let (line, truth) = (Line { p: p.into(), edge: e.into() }, line_irradiance(p, e, n));
+        let (line, truth) = (Line { start: p.into(), edge: e.into() }, line_irradiance(p, e, n));
         let total = line_irradiance(p, e, unit(p)) + truth;
         let steps = 20_000;
         let mean = |f: &dyn Fn(f64) -> LightSample<f64>| {
@@ -349,10 +349,10 @@ fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [Li
     [
         Disk { center: a, normal: n, radius: r }.by_area(p).sample(u),
         Disk { center: a, normal: n, radius: r }.by_solid_angle(p).sample(u),
-        Cylinder { p: a, axis: b, radius: r }.by_area(p).sample(u),
-        Line { p: a, edge: b }.by_length(p).sample(u),
-        Line { p: a, edge: b }.by_angle(p).sample(u),
-        Line { p: a, edge: b }.by_projected_solid_angle(p, n).sample(u),
+        Cylinder { start: a, axis: b, radius: r }.by_area(p).sample(u),
+        Line { start: a, edge: b }.by_length(p).sample(u),
+        Line { start: a, edge: b }.by_angle(p).sample(u),
+        Line { start: a, edge: b }.by_projected_solid_angle(p, n).sample(u),
         PointLight { position: a }.prepare(p).sample(u),
         SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.prepare(p).sample(u),
         SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.prepare(p).sample(u),
@@ -443,7 +443,7 @@ fn scale_changes_no_direction() {
                 Disk { center: times(a, 1.0), normal: times(b, 1.0), radius: r }
                     .by_area(times(p, 1.0))
                     .sample(squares_of(&[u])),
-                Cylinder { p: times(a, 1.0), axis: times(b, 1.0), radius: r }
+                Cylinder { start: times(a, 1.0), axis: times(b, 1.0), radius: r }
                     .by_area(times(p, 1.0))
                     .sample(squares_of(&[u])),
             ];
@@ -451,7 +451,7 @@ fn scale_changes_no_direction() {
                 Disk { center: times(a, f), normal: times(b, 1.0), radius: r * f }
                     .by_area(times(p, f))
                     .sample(squares_of(&[u])),
-                Cylinder { p: times(a, f), axis: times(b, f), radius: r * f }
+                Cylinder { start: times(a, f), axis: times(b, f), radius: r * f }
                     .by_area(times(p, f))
                     .sample(squares_of(&[u])),
             ];

@@ -75,7 +75,7 @@ fn irradiance_matches_lamberts_formula() {
 #[test]
 fn a_parallelogram_is_a_polygon() {
     let (p, u, v) = (Vec3::new(0.3, 1.0, -0.2), Vec3::new(1.0, 0.2, 0.1), Vec3::new(-0.1, 0.3, 1.5_f64));
-    let one = Parallelogram { p, u, v };
+    let one = Parallelogram { corner: p, edge_s: u, edge_t: v };
     // counterclockwise as seen from the side to which u×v points
     let other = Polygon { corners: [p, p + u, p + u + v, p + v] };
     let o = Vec3::default();

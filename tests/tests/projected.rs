@@ -115,7 +115,7 @@ fn flats() {
                 let (origin, up) = (packet([0.0; 3]), packet(normal));
                 let (pu, pv) = (packet(u), packet(v));
                 let triangle = Triangle { v0: packet(p), e1: pu, e2: pv };
-                let quad = Parallelogram { p: packet(p), u: pu, v: pv };
+                let quad = Parallelogram { corner: packet(p), edge_s: pu, edge_t: pv };
                 let corners = [corner(&[]), corner(&[wide(u)]), corner(&[wide(u), wide(v)]), corner(&[wide(v)])];
                 for (name, truth, (mean, variance, lost)) in [
                     (
@@ -189,7 +189,7 @@ fn invisible_shapes_have_pdf_0() {
         ([0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]),
     ] {
         let light = Triangle { v0: splat(p), e1: splat(u), e2: splat(v) };
-        let quad = Parallelogram { p: splat(p), u: splat(u), v: splat(v) };
+        let quad = Parallelogram { corner: splat(p), edge_s: splat(u), edge_t: splat(v) };
         for square in generators::square(20, 24) {
             let at = Vec2::new(square[0], square[1]);
             for sample in [

@@ -214,7 +214,7 @@ fn surfaces(count: &mut Count) {
     let (center, normal, radius) = ([0.0, 2.0, 0.0].into(), [0.0, -1.0, 0.0].into(), lit(0.5));
     let (u, v) = ([1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
     // a trapezium
-    count.warp(PatchSurface { p: center, u, v, w: [0.5, 0.0, 1.0].into() }, 0.75);
+    count.warp(PatchSurface { corner: center, edge_s: u, edge_t: v, diagonal: [0.5, 0.0, 1.0].into() }, 0.75);
 }
 
 fn tables(count: &mut Count) {

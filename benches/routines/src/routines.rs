@@ -353,7 +353,7 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     list.prepared("projected segment invert", move |p, _| arc.invert(p));
 
     let twisted = e1 + e2 + up * R::lit(0.3);
-    list.warp("patch surface", PatchSurface { p: a, u: e1, v: e2, w: twisted });
+    list.warp("patch surface", PatchSurface { corner: a, edge_s: e1, edge_t: e2, diagonal: twisted });
 
     let room = Room { a, e1, e2, corner, du, dv, up, twisted, radius };
     etendue::techniques!(all_lights! { { list, room } });

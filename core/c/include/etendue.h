@@ -175,11 +175,11 @@ typedef struct {
 // area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
 typedef struct {
   // Corner, in the coordinates of the scene.
-  float p[3];
+  float corner[3];
   // Edge along s.
-  float u[3];
+  float edge_s[3];
   // Edge along t.
-  float v[3];
+  float edge_t[3];
 } EtendueParallelogram;
 
 // Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
@@ -192,11 +192,11 @@ typedef struct {
 // Columns of lights: the fields are those of the light.
 typedef struct {
   // Corner, in the coordinates of the scene.
-  const float *p[3];
+  const float *corner[3];
   // Edge along s.
-  const float *u[3];
+  const float *edge_s[3];
   // Edge along t.
-  const float *v[3];
+  const float *edge_t[3];
 } EtendueParallelogramColumns;
 
 // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
@@ -219,11 +219,11 @@ typedef struct {
 // in [0, 1].
 typedef struct {
   // Corner, in the coordinates of the scene.
-  float p[3];
+  float corner[3];
   // Edge along s.
-  float u[3];
+  float edge_s[3];
   // Edge along t, perpendicular to the other one.
-  float v[3];
+  float edge_t[3];
 } EtendueRectangle;
 
 // Uniform over the solid angle Omega at the point p: pdf 1/Omega per steradian.
@@ -236,11 +236,11 @@ typedef struct {
 // Columns of lights: the fields are those of the light.
 typedef struct {
   // Corner, in the coordinates of the scene.
-  const float *p[3];
+  const float *corner[3];
   // Edge along s.
-  const float *u[3];
+  const float *edge_s[3];
   // Edge along t, perpendicular to the other one.
-  const float *v[3];
+  const float *edge_t[3];
 } EtendueRectangleColumns;
 
 // By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
@@ -289,7 +289,7 @@ typedef struct {
 // azimuth in turns.
 typedef struct {
   // Centre of one end, in the coordinates of the scene.
-  float p[3];
+  float start[3];
   // From there to the centre of the other end.
   float axis[3];
   // Radius, in the unit of the coordinates.
@@ -307,7 +307,7 @@ typedef struct {
 // Columns of lights: the fields are those of the light.
 typedef struct {
   // Centre of one end, in the coordinates of the scene.
-  const float *p[3];
+  const float *start[3];
   // From there to the centre of the other end.
   const float *axis[3];
   // Radius, in the unit of the coordinates.
@@ -356,13 +356,13 @@ typedef struct {
 // pdf is 0. uv: (s, t), in [0, 1].
 typedef struct {
   // Corner, in the coordinates of the scene.
-  float p[3];
+  float corner[3];
   // From there to the next corner, s = 1.
-  float u[3];
+  float edge_s[3];
   // From there to the other next corner, t = 1.
-  float v[3];
+  float edge_t[3];
   // From there to the opposite corner.
-  float w[3];
+  float diagonal[3];
 } EtendueBilinearPatch;
 
 // Nearly uniform over the surface: the pdf per unit area, times distance^2/|cos(theta')|, is exact for the map.
@@ -375,13 +375,13 @@ typedef struct {
 // Columns of lights: the fields are those of the light.
 typedef struct {
   // Corner, in the coordinates of the scene.
-  const float *p[3];
+  const float *corner[3];
   // From there to the next corner, s = 1.
-  const float *u[3];
+  const float *edge_s[3];
   // From there to the other next corner, t = 1.
-  const float *v[3];
+  const float *edge_t[3];
   // From there to the opposite corner.
-  const float *w[3];
+  const float *diagonal[3];
 } EtendueBilinearPatchColumns;
 
 // A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
@@ -390,7 +390,7 @@ typedef struct {
 // the length, and 0.
 typedef struct {
   // One end, in the coordinates of the scene.
-  float p[3];
+  float start[3];
   // From there to the other end.
   float edge[3];
 } EtendueLine;
@@ -405,7 +405,7 @@ typedef struct {
 // Columns of lights: the fields are those of the light.
 typedef struct {
   // One end, in the coordinates of the scene.
-  const float *p[3];
+  const float *start[3];
   // From there to the other end.
   const float *edge[3];
 } EtendueLineColumns;
@@ -528,13 +528,13 @@ typedef struct {
 // Points of a bilinear patch, nearly uniform in area.
 typedef struct {
   // Corner.
-  float p[3];
+  float corner[3];
   // From there to the next corner, s = 1.
-  float u[3];
+  float edge_s[3];
   // From there to the other next corner, t = 1.
-  float v[3];
+  float edge_t[3];
   // From there to the opposite corner.
-  float w[3];
+  float diagonal[3];
 } EtenduePatchSurface;
 
 // Numbers in [0, 1) with a pdf linear between two end values.

@@ -445,15 +445,15 @@ struct Triangle : EtendueTriangle {
 };
 // EtendueParallelogram with its constructors and techniques.
 struct Parallelogram : EtendueParallelogram {
-    Parallelogram(Vec3 p_, Vec3 u_, Vec3 v_) : EtendueParallelogram{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}} {}
+    Parallelogram(Vec3 corner_, Vec3 edge_s_, Vec3 edge_t_) : EtendueParallelogram{{corner_.x, corner_.y, corner_.z}, {edge_s_.x, edge_s_.y, edge_s_.z}, {edge_t_.x, edge_t_.y, edge_t_.z}} {}
     ParallelogramByArea by_area(Vec3 at) const { return {*this, at}; }
     ParallelogramBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
 // EtendueRectangle with its constructors and techniques.
 struct Rectangle : EtendueRectangle {
-    Rectangle(Vec3 p_, Vec3 u_, Vec3 v_) : EtendueRectangle{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}} {}
-    ParallelogramByArea by_area(Vec3 at) const { return {EtendueParallelogram{{p[0], p[1], p[2]}, {u[0], u[1], u[2]}, {v[0], v[1], v[2]}}, at}; }
+    Rectangle(Vec3 corner_, Vec3 edge_s_, Vec3 edge_t_) : EtendueRectangle{{corner_.x, corner_.y, corner_.z}, {edge_s_.x, edge_s_.y, edge_s_.z}, {edge_t_.x, edge_t_.y, edge_t_.z}} {}
+    ParallelogramByArea by_area(Vec3 at) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at}; }
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
     RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
@@ -465,7 +465,7 @@ struct Disk : EtendueDisk {
 };
 // EtendueCylinder with its constructors and techniques.
 struct Cylinder : EtendueCylinder {
-    Cylinder(Vec3 p_, Vec3 axis_, float radius_) : EtendueCylinder{{p_.x, p_.y, p_.z}, {axis_.x, axis_.y, axis_.z}, radius_} {}
+    Cylinder(Vec3 start_, Vec3 axis_, float radius_) : EtendueCylinder{{start_.x, start_.y, start_.z}, {axis_.x, axis_.y, axis_.z}, radius_} {}
     CylinderByArea by_area(Vec3 at) const { return {*this, at}; }
 };
 // EtenduePolygon with its constructors and techniques.
@@ -487,12 +487,12 @@ struct Polygon : EtenduePolygon {
 };
 // EtendueBilinearPatch with its constructors and techniques.
 struct BilinearPatch : EtendueBilinearPatch {
-    BilinearPatch(Vec3 p_, Vec3 u_, Vec3 v_, Vec3 w_) : EtendueBilinearPatch{{p_.x, p_.y, p_.z}, {u_.x, u_.y, u_.z}, {v_.x, v_.y, v_.z}, {w_.x, w_.y, w_.z}} {}
+    BilinearPatch(Vec3 corner_, Vec3 edge_s_, Vec3 edge_t_, Vec3 diagonal_) : EtendueBilinearPatch{{corner_.x, corner_.y, corner_.z}, {edge_s_.x, edge_s_.y, edge_s_.z}, {edge_t_.x, edge_t_.y, edge_t_.z}, {diagonal_.x, diagonal_.y, diagonal_.z}} {}
     PatchByArea by_area(Vec3 at) const { return {*this, at}; }
 };
 // EtendueLine with its constructors and techniques.
 struct Line : EtendueLine {
-    Line(Vec3 p_, Vec3 edge_) : EtendueLine{{p_.x, p_.y, p_.z}, {edge_.x, edge_.y, edge_.z}} {}
+    Line(Vec3 start_, Vec3 edge_) : EtendueLine{{start_.x, start_.y, start_.z}, {edge_.x, edge_.y, edge_.z}} {}
     LineByLength by_length(Vec3 at) const { return {*this, at}; }
     LineByAngle by_angle(Vec3 at) const { return {*this, at}; }
     LineByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }

@@ -160,13 +160,13 @@ parameters! {
     /// Points of a bilinear patch, nearly uniform in area.
     EtenduePatchSurface = warp::PatchSurface<f32> {
         /// Corner.
-        p: [f32; 3],
+        corner: [f32; 3],
         /// From there to the next corner, s = 1.
-        u: [f32; 3],
+        edge_s: [f32; 3],
         /// From there to the other next corner, t = 1.
-        v: [f32; 3],
+        edge_t: [f32; 3],
         /// From there to the opposite corner.
-        w: [f32; 3],
+        diagonal: [f32; 3],
     }
 }
 parameters! {

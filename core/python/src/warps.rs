@@ -165,7 +165,7 @@ warps! {
     |x| etendue::warp::GgxVisibleNormals::new(x[0], x[1], v(x, 2));
     /// Points of a bilinear patch (see `BilinearPatch`), nearly uniform in area: (2) to (3), exact pdf per unit area. Without area it is 0.
     PatchSurface(corner: POINT, edge_s: POINT, edge_t: POINT, diagonal: POINT)
-    |x| etendue::warp::PatchSurface { p: v(x, 0), u: v(x, 3), v: v(x, 6), w: v(x, 9) };
+    |x| etendue::warp::PatchSurface { corner: v(x, 0), edge_s: v(x, 3), edge_t: v(x, 6), diagonal: v(x, 9) };
     /// Numbers in [0, 1) with a density linear from a at 0 to b at 1: pdf 2(a(1−x) + bx)/(a+b) per unit length; 0 if neither is positive.
     Linear(a: Number, b: Number) |x| etendue::warp::Linear { a: x[0], b: x[1] };
     /// Numbers within ±r with the density of a tent: pdf (1 − |x|/r)/r per unit length; 0 if the radius r is 0.

@@ -17,7 +17,7 @@ lanewise! {
     /// axis of length 0 gives pdf 0. Surface coordinates: height along the axis, and azimuth in turns.
     pub struct Cylinder {
         /// Centre of one end, in the coordinates of the scene.
-        pub p: Vec3<R>,
+        pub start: Vec3<R>,
         /// From there to the centre of the other end.
         pub axis: Vec3<R>,
         /// Radius, in the unit of the coordinates.
@@ -26,14 +26,14 @@ lanewise! {
 }
 
 impl<R: Real> Cylinder<R> {
-    /// The cylinder from the end at `p` along `axis`.
+    /// The cylinder from the end at `start` along `axis`.
     #[inline(always)]
-    pub fn new(p: Vec3<R>, axis: Vec3<R>, radius: R) -> Self {
-        Self { p, axis, radius }
+    pub fn new(start: Vec3<R>, axis: Vec3<R>, radius: R) -> Self {
+        Self { start, axis, radius }
     }
     /// Uniform over the surface, seen from the point `p`.
     ///
-    /// - Formula: x = p + u₀·axis + R(s cosφ + t sinφ), φ = 2πu₁, s and t perpendicular to the axis.
+    /// - Formula: x = start + u₀·axis + R(s cosφ + t sinφ), φ = 2πu₁, s and t perpendicular to the axis.
     /// - Domain: u in [0, 1)²; any axis that is not 0, radius > 0.
     /// - pdf of a sample: distance²/(|cosθ'| 2πR·|axis|) per steradian, of the point that was drawn; of a direction: that of the nearest
     ///   point in it, which a rounded direction determines only as well as it
@@ -41,7 +41,7 @@ impl<R: Real> Cylinder<R> {
     /// - Degenerate: a radius or axis of 0: pdf 0.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> CylinderByArea<R> {
-        ByArea { origin: p, surface: PlacedCylinder::new(self.p - p, self.axis, self.radius) }
+        ByArea { origin: p, surface: PlacedCylinder::new(self.start - p, self.axis, self.radius) }
     }
 }
 

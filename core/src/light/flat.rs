@@ -98,7 +98,7 @@ pub type TriangleByProjectedSolidAngle<R> = ByProjectedSolidAngle<R, PlacedTrian
 pub type TriangleByCosineWarp<R> = ByCosineWarp<R, PlacedTriangle<R>, SphericalTriangle<R>>;
 
 lanewise! {
-    /// A parallelogram light p + su + tv, s and t in [0, 1], that emits from the side of u×v.
+    /// A parallelogram light corner + s·edge_s + t·edge_t, s and t in [0, 1], that emits from the side of edge_s × edge_t.
     ///
     /// For rectangles whose strata should follow the edges take [`Rectangle`]. A point in the plane of the parallelogram, or a
     /// parallelogram without area, gives pdf 0. Surface coordinates: (s, t).
@@ -112,23 +112,23 @@ lanewise! {
     /// ```
     pub struct Parallelogram {
         /// Corner, in the coordinates of the scene.
-        pub p: Vec3<R>,
+        pub corner: Vec3<R>,
         /// Edge along s.
-        pub u: Vec3<R>,
+        pub edge_s: Vec3<R>,
         /// Edge along t.
-        pub v: Vec3<R>,
+        pub edge_t: Vec3<R>,
     }
 }
 
 impl<R: Real> Parallelogram<R> {
-    /// The parallelogram with a corner at `p` and the edges `u` and `v`.
+    /// The parallelogram with this corner and these edges from there.
     #[inline(always)]
-    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
-        Self { p, u, v }
+    pub fn new(corner: Vec3<R>, edge_s: Vec3<R>, edge_t: Vec3<R>) -> Self {
+        Self { corner, edge_s, edge_t }
     }
     #[inline(always)]
     fn placed(&self, p: Vec3<R>) -> PlacedParallelogram<R> {
-        PlacedParallelogram::new(self.p - p, self.u, self.v)
+        PlacedParallelogram::new(self.corner - p, self.edge_s, self.edge_t)
     }
     /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, with the error of
     /// [`Triangle::by_area`].
@@ -139,7 +139,7 @@ impl<R: Real> Parallelogram<R> {
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalParallelogram`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> ParallelogramBySolidAngle<R> {
-        let shape = SphericalParallelogram::new(self.p - p, self.u, self.v);
+        let shape = SphericalParallelogram::new(self.corner - p, self.edge_s, self.edge_t);
         BySolidAngle { origin: p, surface: self.placed(p), shape }
     }
     /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, [`ProjectedPolygon`]: pdf
@@ -147,7 +147,7 @@ impl<R: Real> Parallelogram<R> {
     /// has the same value.
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> ParallelogramByProjectedSolidAngle<R> {
-        let shape = ProjectedPolygon::parallelogram(self.p - p, self.u, self.v, n);
+        let shape = ProjectedPolygon::parallelogram(self.corner - p, self.edge_s, self.edge_t, n);
         ByProjectedSolidAngle { origin: p, normal: n, surface: self.placed(p), shape }
     }
 }
@@ -161,29 +161,30 @@ pub type ParallelogramByProjectedSolidAngle<R> =
     ByProjectedSolidAngle<R, PlacedParallelogram<R>, ProjectedPolygon<R, 4>>;
 
 lanewise! {
-    /// A rectangle light p + su + tv, s and t in [0, 1], u perpendicular to v, that emits from the side of u×v.
+    /// A rectangle light corner + s·edge_s + t·edge_t, s and t in [0, 1], with perpendicular edges, that emits from the side of
+    /// edge_s × edge_t.
     ///
     /// Its map by solid angle keeps the sides of strata along the edges, for 1.7 times the cost of the [`Parallelogram`]'s. A point in
     /// the plane of the rectangle, or a rectangle without area, gives pdf 0. Surface coordinates: (s, t).
     pub struct Rectangle {
         /// Corner, in the coordinates of the scene.
-        pub p: Vec3<R>,
+        pub corner: Vec3<R>,
         /// Edge along s.
-        pub u: Vec3<R>,
-        /// Edge along t, perpendicular to `u`.
-        pub v: Vec3<R>,
+        pub edge_s: Vec3<R>,
+        /// Edge along t, perpendicular to `edge_s`.
+        pub edge_t: Vec3<R>,
     }
 }
 
 impl<R: Real> Rectangle<R> {
-    /// The rectangle with a corner at `p` and the edges `u` and `v`, which must be perpendicular.
+    /// The rectangle with this corner and these edges from there, which must be perpendicular.
     #[inline(always)]
-    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
-        Self { p, u, v }
+    pub fn new(corner: Vec3<R>, edge_s: Vec3<R>, edge_t: Vec3<R>) -> Self {
+        Self { corner, edge_s, edge_t }
     }
     #[inline(always)]
     fn placed(&self, p: Vec3<R>) -> PlacedParallelogram<R> {
-        PlacedParallelogram::new(self.p - p, self.u, self.v)
+        PlacedParallelogram::new(self.corner - p, self.edge_s, self.edge_t)
     }
     /// Uniform over the surface, seen from the point `p`: pdf distance²/(|cosθ'| A) per steradian, with the error of
     /// [`Triangle::by_area`].
@@ -194,24 +195,24 @@ impl<R: Real> Rectangle<R> {
     /// Uniform over the solid angle Ω at the point `p`, [`SphericalRectangle`]: pdf 1/Ω per steradian.
     #[inline(always)]
     pub fn by_solid_angle(&self, p: Vec3<R>) -> RectangleBySolidAngle<R> {
-        let shape = SphericalRectangle::new(self.p - p, self.u, self.v);
+        let shape = SphericalRectangle::new(self.corner - p, self.edge_s, self.edge_t);
         BySolidAngle { origin: p, surface: self.placed(p), shape }
     }
     /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, [`CosineWarped`]: for diffuse
     /// surfaces. The pdf is per steradian.
     #[inline(always)]
     pub fn by_cosine_warp(&self, p: Vec3<R>, n: Vec3<R>) -> RectangleByCosineWarp<R> {
-        let corner = self.p - p;
-        let corners = [corner, corner + self.u, corner + self.v, corner + self.u + self.v];
-        let shape = SphericalRectangle::new(corner, self.u, self.v);
+        let corner = self.corner - p;
+        let corners = [corner, corner + self.edge_s, corner + self.edge_t, corner + self.edge_s + self.edge_t];
+        let shape = SphericalRectangle::new(corner, self.edge_s, self.edge_t);
         let warped = CosineWarped::with_cosines(shape, corners.map(|v| direction_to(v).direction.dot(n)));
         ByCosineWarp { origin: p, surface: self.placed(p), warped }
     }
 }
 
 impl<R> From<Rectangle<R>> for Parallelogram<R> {
-    fn from(Rectangle { p, u, v }: Rectangle<R>) -> Self {
-        Self { p, u, v }
+    fn from(Rectangle { corner, edge_s, edge_t }: Rectangle<R>) -> Self {
+        Self { corner, edge_s, edge_t }
     }
 }
 

@@ -20,38 +20,38 @@ lanewise! {
     /// direction determines the point no better.
     pub struct Line {
         /// One end, in the coordinates of the scene.
-        pub p: Vec3<R>,
+        pub start: Vec3<R>,
         /// From there to the other end.
         pub edge: Vec3<R>,
     }
 }
 
 impl<R: Real> Line<R> {
-    /// The line from `p` to `p + edge`.
+    /// The line from `start` to `start + edge`.
     #[inline(always)]
-    pub fn new(p: Vec3<R>, edge: Vec3<R>) -> Self {
-        Self { p, edge }
+    pub fn new(start: Vec3<R>, edge: Vec3<R>) -> Self {
+        Self { start, edge }
     }
     /// Uniform over the length, seen from the point `p`: density 1/length per unit of length, pdf r²/(length · sinγ).
     #[inline(always)]
     pub fn by_length(&self, p: Vec3<R>) -> LineByLength<R> {
-        LineByLength { line: PlacedLine::new(p, self.p - p, self.edge) }
+        LineByLength { line: PlacedLine::new(p, self.start - p, self.edge) }
     }
     /// Uniform over the angle α that the line subtends at the point `p`, [`SphericalSegment`]: better than by length wherever the point is
     /// near. Density 1/α per radian, pdf r/α.
     #[inline(always)]
     pub fn by_angle(&self, p: Vec3<R>) -> LineByAngle<R> {
         LineByAngle {
-            line: PlacedLine::new(p, self.p - p, self.edge),
-            arc: SphericalSegment::new(self.p - p, self.edge),
+            line: PlacedLine::new(p, self.start - p, self.edge),
+            arc: SphericalSegment::new(self.start - p, self.edge),
         }
     }
     /// By projected solid angle above the horizon of the unit normal `n` at the point `p`, [`ProjectedSegment`]: on an unoccluded diffuse
     /// surface every sample has the same value. pdf 0 where nothing of the line is above the horizon.
     #[inline(always)]
     pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> LineByProjectedSolidAngle<R> {
-        let arc = ProjectedSegment::new(self.p - p, self.edge, n);
-        LineByProjectedSolidAngle { line: PlacedLine::new(p, self.p - p, self.edge), arc }
+        let arc = ProjectedSegment::new(self.start - p, self.edge, n);
+        LineByProjectedSolidAngle { line: PlacedLine::new(p, self.start - p, self.edge), arc }
     }
 }
 

@@ -10,32 +10,41 @@ use crate::vector::{Vec2, Vec3};
 use crate::warp::{PatchSurface, Warp};
 
 lanewise! {
-    /// A bilinear patch light p + su + tv + st(w − u − v), s and t in [0, 1], that emits from the side of ∂s×∂t.
+    /// A bilinear patch light corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], that emits from the side of
+    /// ∂s×∂t.
     ///
     /// It is sampled by area only. A patch without area gives pdf 0. Surface coordinates: (s, t).
     pub struct BilinearPatch {
         /// Corner, in the coordinates of the scene.
-        pub p: Vec3<R>,
+        pub corner: Vec3<R>,
         /// From there to the next corner, s = 1.
-        pub u: Vec3<R>,
+        pub edge_s: Vec3<R>,
         /// From there to the other next corner, t = 1.
-        pub v: Vec3<R>,
+        pub edge_t: Vec3<R>,
         /// From there to the opposite corner.
-        pub w: Vec3<R>,
+        pub diagonal: Vec3<R>,
     }
 }
 
 impl<R: Real> BilinearPatch<R> {
-    /// The patch with the corners p, p + u, p + v and p + w, the last opposite to the first.
+    /// The patch with this corner, and the others at these vectors from there: s = 1, t = 1, and s = t = 1.
     #[inline(always)]
-    pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>, w: Vec3<R>) -> Self {
-        Self { p, u, v, w }
+    pub fn new(corner: Vec3<R>, edge_s: Vec3<R>, edge_t: Vec3<R>, diagonal: Vec3<R>) -> Self {
+        Self { corner, edge_s, edge_t, diagonal }
     }
     /// Nearly uniform over the surface, seen from the point `p`: [`PatchSurface`]. The pdf is exact for that map: its pdf per unit area
     /// times distance²/|cosθ'|. The pdf of a direction is that of the nearest point in it.
     #[inline(always)]
     pub fn by_area(&self, p: Vec3<R>) -> PatchByArea<R> {
-        ByArea { origin: p, surface: PlacedPatch::new(PatchSurface { p: self.p - p, u: self.u, v: self.v, w: self.w }) }
+        ByArea {
+            origin: p,
+            surface: PlacedPatch::new(PatchSurface {
+                corner: self.corner - p,
+                edge_s: self.edge_s,
+                edge_t: self.edge_t,
+                diagonal: self.diagonal,
+            }),
+        }
     }
 }
 
@@ -56,9 +65,9 @@ lanewise! {
 impl<R: Real> PlacedPatch<R> {
     #[inline(always)]
     fn new(surface: PatchSurface<R>) -> Self {
-        let PatchSurface { p, u, v, w } = surface;
-        let ([p, u, v, w], scale) = to_unit([p, u, v, w]);
-        Self { surface, small: PatchSurface { p, u, v, w }, scale }
+        let PatchSurface { corner, edge_s, edge_t, diagonal } = surface;
+        let ([corner, edge_s, edge_t, diagonal], scale) = to_unit([corner, edge_s, edge_t, diagonal]);
+        Self { surface, small: PatchSurface { corner, edge_s, edge_t, diagonal }, scale }
     }
     /// Unit normal and its length before that, |∂s×∂t|, in units.
     #[inline(always)]
@@ -72,7 +81,7 @@ impl<R: Real> PlacedPatch<R> {
     #[inline(always)]
     fn meet(&self, ray: Vec3<R>) -> (Vec2<R>, R, R::Mask) {
         let (zero, one, half) = (R::lit(0.0), R::lit(1.0), R::lit(0.5));
-        let PatchSurface { p, u, v, w } = self.small;
+        let PatchSurface { corner: p, edge_s: u, edge_t: v, diagonal: w } = self.small;
         let twist = (w - u) - v;
         let (a, b, c) = (ray.dot(u.cross(twist)), ray.dot(p.cross(twist) + u.cross(v)), ray.dot(p.cross(v)));
         let root = (b * b - R::lit(4.0) * a * c).greater(zero).sqrt();
@@ -118,7 +127,7 @@ impl<R: Real> AreaSurface<R> for PlacedPatch<R> {
     #[inline(always)]
     fn draw(&self, u: Vec2<R>) -> SurfacePoint<R> {
         let uv = self.surface.parameters().sample(u);
-        let position = self.surface.p + self.surface.offset(uv);
+        let position = self.surface.corner + self.surface.offset(uv);
         let below = |x: R| x.abs().lt(R::lit(f64::INFINITY));
         let finite = below(position.x) & below(position.y) & below(position.z);
         SurfacePoint {

@@ -57,11 +57,11 @@ macro_rules! techniques {
             /// area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
             Parallelogram = EtendueParallelogram, EtendueParallelogramColumns {
                 /// Corner, in the coordinates of the scene.
-                p as corner: point,
+                corner as corner: point,
                 /// Edge along s.
-                u as edge_s: edge,
+                edge_s as edge_s: edge,
                 /// Edge along t.
-                v as edge_t: edge,
+                edge_t as edge_t: edge,
             } by "solid_angle" {
                 /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 ParallelogramByArea = EtendueParallelogramByArea, parallelogram_by_area[36]: by_area(p) area;
@@ -76,11 +76,11 @@ macro_rules! techniques {
             /// in [0, 1].
             Rectangle = EtendueRectangle, EtendueRectangleColumns {
                 /// Corner, in the coordinates of the scene.
-                p as corner: point,
+                corner as corner: point,
                 /// Edge along s.
-                u as edge_s: edge,
+                edge_s as edge_s: edge,
                 /// Edge along t, perpendicular to the other one.
-                v as edge_t: edge,
+                edge_t as edge_t: edge,
             } by "solid_angle" {
                 /// Uniform over the surface of area A, as a parallelogram: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
                 ParallelogramByArea: by_area(p) area;
@@ -108,7 +108,7 @@ macro_rules! techniques {
             /// azimuth in turns.
             Cylinder = EtendueCylinder, EtendueCylinderColumns {
                 /// Centre of one end, in the coordinates of the scene.
-                p as start: point,
+                start as start: point,
                 /// From there to the centre of the other end.
                 axis as axis: edge,
                 /// Radius, in the unit of the coordinates.
@@ -138,13 +138,13 @@ macro_rules! techniques {
             /// pdf is 0. uv: (s, t), in [0, 1].
             BilinearPatch = EtendueBilinearPatch, EtendueBilinearPatchColumns {
                 /// Corner, in the coordinates of the scene.
-                p as corner: point,
+                corner as corner: point,
                 /// From there to the next corner, s = 1.
-                u as edge_s: edge,
+                edge_s as edge_s: edge,
                 /// From there to the other next corner, t = 1.
-                v as edge_t: edge,
+                edge_t as edge_t: edge,
                 /// From there to the opposite corner.
-                w as diagonal: edge,
+                diagonal as diagonal: edge,
             } by "area" {
                 /// Nearly uniform over the surface: the pdf per unit area, times distance²/|cosθ'|, is exact for the map.
                 PatchByArea = EtenduePatchByArea, patch_by_area[28]: by_area(p) area;
@@ -155,7 +155,7 @@ macro_rules! techniques {
             /// the length, and 0.
             Line = EtendueLine, EtendueLineColumns {
                 /// One end, in the coordinates of the scene.
-                p as start: point,
+                start as start: point,
                 /// From there to the other end.
                 edge as edge: edge,
             } by "angle" {

@@ -18,13 +18,13 @@ fn finite<R: Real>(point: Vec3<R>) -> Vec3<R> {
 const SLACK: f64 = 4.0 / 16_777_216.0;
 
 lanewise! {
-    /// Points of a bilinear patch p + su + tv + st(w − u − v), s and t in [0, 1], nearly uniform in area: for twisted quads.
+    /// Points of a bilinear patch corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], nearly uniform in area: for twisted quads.
     ///
     /// Set the four corners, then call `sample`, `pdf` or `invert`. A patch without area gives pdf 0.
     ///
     /// - Formula: (s, t) from the [`Bilinear`] distribution whose corner values are the patch's area per unit of s and t there,
     ///   |∂s×∂t|.
-    /// - Domain: u in [0, 1)²; corners p, p+u, p+v, p+w, planar or not, of a patch that does not fold back on itself: along its
+    /// - Domain: u in [0, 1)²; corners planar or not, of a patch that does not fold back on itself: along its
     ///   middle normal, it projects to a convex quadrilateral.
     /// - Density: the pdf per unit area is that of (s, t) over the exact |∂s×∂t| (not over its bilinear approximation); 0
     ///   beyond the edges. It is constant on a parallelogram. A point off the patch counts as one near it.
@@ -36,30 +36,30 @@ lanewise! {
     /// - Source: Pharr, Jakob and Humphreys, PBR 4th ed., 6.6.
     pub struct PatchSurface {
         /// Corner s = t = 0, in any unit of length.
-        pub p: Vec3<R>,
-        /// Vector from `p` to the corner s = 1, t = 0, in the unit of `p`.
-        pub u: Vec3<R>,
-        /// Vector from `p` to the corner s = 0, t = 1, in the unit of `p`.
-        pub v: Vec3<R>,
-        /// Vector from `p` to the opposite corner s = t = 1, in the unit of `p`.
-        pub w: Vec3<R>,
+        pub corner: Vec3<R>,
+        /// Vector from there to the corner s = 1, t = 0, in the unit of `corner`.
+        pub edge_s: Vec3<R>,
+        /// Vector from there to the corner s = 0, t = 1, in the unit of `corner`.
+        pub edge_t: Vec3<R>,
+        /// Vector from there to the opposite corner s = t = 1, in the unit of `corner`.
+        pub diagonal: Vec3<R>,
     }
 }
 impl<R: Real> PatchSurface<R> {
     #[inline(always)]
     fn twist(&self) -> Vec3<R> {
-        (self.w - self.u) - self.v
+        (self.diagonal - self.edge_s) - self.edge_t
     }
     /// The normal ∂s×∂t at (s, t), not normalised.
     #[inline(always)]
     pub fn normal(&self, st: Vec2<R>) -> Vec3<R> {
         let d = self.twist();
-        d.mul_add(st.y, self.u).cross(d.mul_add(st.x, self.v))
+        d.mul_add(st.y, self.edge_s).cross(d.mul_add(st.x, self.edge_t))
     }
-    /// The point at (s, t), relative to p.
+    /// The point at (s, t), relative to the corner.
     #[inline(always)]
     pub fn offset(&self, st: Vec2<R>) -> Vec3<R> {
-        self.twist().mul_add(st.y, self.u).mul_add(st.x, self.v * st.y)
+        self.twist().mul_add(st.y, self.edge_s).mul_add(st.x, self.edge_t * st.y)
     }
     /// The distribution of (s, t).
     #[inline(always)]
@@ -69,13 +69,18 @@ impl<R: Real> PatchSurface<R> {
         let at = |s: R, t: R| unit.normal(Vec2::new(s, t)).length();
         Bilinear { corners: [at(zero, zero), at(one, zero), at(zero, one), at(one, one)] }
     }
-    /// The patch with edges near 1 and p at the origin; the reciprocal of its unit of length; and whether it is finite.
+    /// The patch with edges near 1 and its corner at the origin; the reciprocal of its unit of length; and whether it is finite.
     #[inline(always)]
     fn in_units(&self) -> (Self, R, R::Mask) {
-        let reach = self.u.max_abs().greater(self.v.max_abs()).greater(self.w.max_abs());
+        let reach = self.edge_s.max_abs().greater(self.edge_t.max_abs()).greater(self.diagonal.max_abs());
         let (scale, finite) = (reach.pow2_scale(), reach.lt(R::lit(1e37)));
         let scaled = |e: Vec3<R>| Vec3::new(e.x.keep(finite), e.y.keep(finite), e.z.keep(finite)) * scale;
-        let unit = Self { p: Vec3::default(), u: scaled(self.u), v: scaled(self.v), w: scaled(self.w) };
+        let unit = Self {
+            corner: Vec3::default(),
+            edge_s: scaled(self.edge_s),
+            edge_t: scaled(self.edge_t),
+            diagonal: scaled(self.diagonal),
+        };
         (unit, scale, finite)
     }
     /// The (s, t) of a point; may lie outside [0, 1]².
@@ -84,12 +89,16 @@ impl<R: Real> PatchSurface<R> {
         let (zero, one, half, most) = (R::lit(0.0), R::lit(1.0), R::lit(0.5), R::lit(4.0));
         let (unit, scale, _) = self.in_units();
         let far = R::lit(64.0);
-        let q = (point - self.p) * scale;
+        let q = (point - self.corner) * scale;
         let q = Vec3::new(q.x.clamped(-far, far), q.y.clamped(-far, far), q.z.clamped(-far, far));
         let d = unit.twist();
         // (q − su)×(v + sd) = 0, projected along the middle normal
         let n = unit.normal(Vec2::new(half, half));
-        let (a, b, c) = (-n.dot(unit.u.cross(d)), n.dot(q.cross(d) - unit.u.cross(unit.v)), n.dot(q.cross(unit.v)));
+        let (a, b, c) = (
+            -n.dot(unit.edge_s.cross(d)),
+            n.dot(q.cross(d) - unit.edge_s.cross(unit.edge_t)),
+            n.dot(q.cross(unit.edge_t)),
+        );
         let root = (b * b - R::lit(4.0) * a * c).greater(zero).sqrt();
         let sum = b + root.copysign(b);
         let quotient = |x: R, y: R| {
@@ -99,11 +108,11 @@ impl<R: Real> PatchSurface<R> {
         let (first, second) = (quotient(R::lit(-2.0) * c, sum), quotient(-half * sum, a));
         let nearer = (second - half).abs().lt((first - half).abs()) & a.abs().gt(R::lit(1e-6) * b.abs());
         let s = R::blend(nearer, second, first);
-        let line = d.mul_add(s, unit.v);
-        let t = quotient((q - unit.u * s).dot(line), line.length_squared());
+        let line = d.mul_add(s, unit.edge_t);
+        let t = quotient((q - unit.edge_s * s).dot(line), line.length_squared());
         let mut st = Vec2::new(s, t);
         for _ in 0..2 {
-            let (by_s, by_t) = (d.mul_add(st.y, unit.u), d.mul_add(st.x, unit.v));
+            let (by_s, by_t) = (d.mul_add(st.y, unit.edge_s), d.mul_add(st.x, unit.edge_t));
             let (left, normal) = (q - unit.offset(st), by_s.cross(by_t));
             let square = normal.length_squared();
             let step = |x: Vec3<R>| quotient(x.dot(normal), square).clamped(-half, half);
@@ -123,7 +132,7 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
         let (unit, scale, _) = self.in_units();
-        finite(self.p + unit.offset(self.parameters().sample(u)) * scale.pow2_scale())
+        finite(self.corner + unit.offset(self.parameters().sample(u)) * scale.pow2_scale())
     }
     /// The pdf per unit area of the patch.
     #[inline(always)]
@@ -133,9 +142,10 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
         let (unit, scale, finite) = self.in_units();
         let d = unit.twist();
         // coordinates are rounded, so allow for that, relative to the sides
-        let slack = R::lit(SLACK) * (self.p.max_abs() * scale + R::lit(2.0));
+        let slack = R::lit(SLACK) * (self.corner.max_abs() * scale + R::lit(2.0));
         let beyond = |x: R, side: Vec3<R>| (x - x.clamped(zero, one)).abs() * side.length();
-        let inside = beyond(st.x, d.mul_add(st.y, unit.u)).le(slack) & beyond(st.y, d.mul_add(st.x, unit.v)).le(slack);
+        let inside =
+            beyond(st.x, d.mul_add(st.y, unit.edge_s)).le(slack) & beyond(st.y, d.mul_add(st.x, unit.edge_t)).le(slack);
         let st = Vec2 { x: st.x.clamped(zero, R::ONE_MINUS_EPSILON), y: st.y.clamped(zero, R::ONE_MINUS_EPSILON) };
         self.pdf_at(st).keep(inside & finite)
     }

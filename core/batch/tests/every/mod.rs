@@ -85,7 +85,8 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     visitor.warp("cone", Cone { one_minus_cos: 0.3 });
     visitor.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 3.0] });
     visitor.warp("GGX visible normals", GgxVisibleNormals::new(0.3, 0.5, v(0.6, 0.0, 0.8)));
-    let patch = PatchSurface { p: center, u: v(1.0, 0.0, 0.0), v: v(0.0, 0.0, 1.0), w: v(0.0, 0.3, 0.0) };
+    let patch =
+        PatchSurface { corner: center, edge_s: v(1.0, 0.0, 0.0), edge_t: v(0.0, 0.0, 1.0), diagonal: v(0.0, 0.3, 0.0) };
     visitor.warp("patch surface", patch);
     visitor.warp("linear", Linear { a: 3.0, b: 1.0 });
     visitor.warp("tent", Tent { radius: 1.5 });

@@ -99,7 +99,7 @@ fn segment(pose: &Pose) -> (V, V) {
 }
 fn line(pose: &Pose) -> Line<f32> {
     let (a, edge) = segment(pose);
-    Line { p: vector(a), edge: vector(edge) }
+    Line { start: vector(a), edge: vector(edge) }
 }
 fn corners(pose: &Pose) -> [V; 6] {
     match pose.shape {
@@ -131,7 +131,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
     });
     let area = ours("by area", |pose, draw| {
         let (p, u, v) = flat(pose);
-        let light = Parallelogram { p: vector(p), u: vector(u), v: vector(v) };
+        let light = Parallelogram { corner: vector(p), edge_s: vector(u), edge_t: vector(v) };
         draw.light(|u| light.by_area(ORIGIN).sample(u));
     });
     let triangle_area = ours("by area", |pose, draw| {

@@ -24,7 +24,7 @@ impl<const WRONG: bool> CosineWarp<WRONG> {
         // the receiver's normal is +z
         let cos = |corner: Vec3<R>| corner.normalize().z.greater(R::lit(0.01));
         let corners = [cos(p), cos(p + u), cos(p + v), cos(p + u + v)];
-        (Rectangle { p, u, v }, SphericalRectangle::new(p, u, v), Bilinear { corners })
+        (Rectangle { corner: p, edge_s: u, edge_t: v }, SphericalRectangle::new(p, u, v), Bilinear { corners })
     }
 }
 impl<const WRONG: bool> Technique for CosineWarp<WRONG> {
