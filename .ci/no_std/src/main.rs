@@ -211,10 +211,9 @@ fn seen(count: &mut Count) {
 }
 
 fn surfaces(count: &mut Count) {
-    let (center, normal, radius) = ([0.0, 2.0, 0.0].into(), [0.0, -1.0, 0.0].into(), lit(0.5));
-    let (u, v) = ([1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
+    let (corner, edge_s, edge_t) = ([0.0, 2.0, 0.0].into(), [1.0, 0.0, 0.0].into(), [0.0, 0.0, 1.0].into());
     // a trapezium
-    count.warp(PatchSurface { corner: center, edge_s: u, edge_t: v, diagonal: [0.5, 0.0, 1.0].into() }, 0.75);
+    count.warp(PatchSurface { corner, edge_s, edge_t, diagonal: [0.5, 0.0, 1.0].into() }, 0.75);
 }
 
 fn tables(count: &mut Count) {
@@ -283,15 +282,15 @@ known! {
     // E = π R²/d²
     Sphere: 0.25 * PI, Self { center: [0.0, 2.0, 0.0].into(), radius: lit(1.0) };
     Triangle: 0.5 * SQUARE, { let [p, u, v] = sides(); Self { v0: p, e1: u, e2: v } };
-    Parallelogram: SQUARE, { let [p, u, v] = sides(); Self { p, u, v } };
-    Rectangle: SQUARE, { let [p, u, v] = sides(); Self { p, u, v } };
+    Parallelogram: SQUARE, { let [p, u, v] = sides(); Self::new(p, u, v) };
+    Rectangle: SQUARE, { let [p, u, v] = sides(); Self::new(p, u, v) };
     // E = π r²/(h² + r²); the normal points down because the disk is one-sided
     Disk: 0.5 * PI, Self { center: [0.0, 1.0, 0.0].into(), normal: [0.0, -1.0, 0.0].into(), radius: lit(1.0) };
-    Cylinder: 0.507_279, Self { p: [-1.0, 2.0, 0.0].into(), axis: [2.0, 0.0, 0.0].into(), radius: lit(0.5) };
+    Cylinder: 0.507_279, Self { start: [-1.0, 2.0, 0.0].into(), axis: [2.0, 0.0, 0.0].into(), radius: lit(0.5) };
     Polygon<4>: SQUARE, { let [p, u, v] = sides(); Self { corners: [p, p + u, p + u + v, p + v] } };
-    BilinearPatch: SQUARE, { let [p, u, v] = sides(); Self { p, u, v, w: u + v } };
+    BilinearPatch: SQUARE, { let [p, u, v] = sides(); Self::new(p, u, v, u + v) };
     // per unit of width
-    Line: 0.431_823_8, Self { p: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
+    Line: 0.431_823_8, Self { start: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
     Sun: 0.25 * PI, Self { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
 }
 fn irradiance<L: Known>(_: &L) -> f32 {
