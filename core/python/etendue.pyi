@@ -530,6 +530,59 @@ class Line:
     ) -> _F32: ...
 
 @final
+class Annulus:
+    def __new__(cls, center: ArrayLike, normal: ArrayLike, radius: ArrayLike, inner_radius: ArrayLike) -> Annulus: ...
+    def by_area(self, p: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        inner_radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        inner_radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        inner_radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        center: ArrayLike,
+        normal: ArrayLike,
+        radius: ArrayLike,
+        inner_radius: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["area"] = "area",
+    ) -> _F32: ...
+
+@final
 class Sun:
     def __new__(cls, direction: ArrayLike, one_minus_cos: ArrayLike) -> Sun: ...
     def by_solid_angle(self) -> Sampler: ...

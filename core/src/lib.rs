@@ -52,7 +52,7 @@ pub mod warp;
 
 pub use lanewise::Lanewise;
 pub use light::{
-    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line,
+    Annulus, BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line,
     Parallelogram, PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle,
 };
 pub use real::{Mask, Real, Uint};

@@ -24,6 +24,7 @@
 //! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | [`by_cosine_warp`](Rectangle::by_cosine_warp) |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`BilinearPatch`] | [`by_area`](BilinearPatch::by_area) | | |
+//! | [`Annulus`] | [`by_area`](Annulus::by_area) | | |
 //! | [`Disk`] | [`by_area`](Disk::by_area) | [`by_solid_angle`](Disk::by_solid_angle) | |
 //! | [`Cylinder`] | [`by_area`](Cylinder::by_area): more than half of it faces away | | |
 //! | [`Line`] | [`by_length`](Line::by_length) | [`by_angle`](Line::by_angle) | [`by_projected_solid_angle`](Line::by_projected_solid_angle) |
@@ -71,6 +72,7 @@
 //! Without compiler flags a packet of 8 is two registers, and software computes each fused multiply-add, with the same bits;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
+mod annulus;
 mod cylinder;
 mod delta;
 mod disk;
@@ -86,6 +88,7 @@ mod sphere;
 mod surface;
 mod techniques;
 
+pub use annulus::{Annulus, AnnulusByArea, PlacedAnnulus};
 pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
 pub use delta::{DeltaSampler, DirectionalLight, PointLight, SpotLight};
 pub use disk::{Disk, DiskByArea, DiskBySolidAngle, PlacedDisk};

@@ -2,9 +2,9 @@
 
 use core::f64::consts::{PI, TAU};
 use etendue::{
-    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask,
-    Parallelogram, PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4, f32x8,
-    f32x16,
+    Annulus, BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line,
+    Mask, Parallelogram, PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x4,
+    f32x8, f32x16,
 };
 use etendue_oracle::tier::cases;
 use etendue_oracle::{
@@ -84,6 +84,35 @@ fn rectangle_has_its_projected_solid_angle() {
             assert_eq!(mean(20, |u| irradiance(&behind.by_solid_angle(origin()).sample(u), receiver)), 0.0);
         }
     }
+}
+
+/// What a ring of any width gives is what the disk gives, less what its hole would; its hole has pdf 0.
+#[test]
+fn annulus_is_a_disk_without_a_disk() {
+    for (r, inner, h, a) in
+        [(0.5, 0.25, 1.0, 0.7), (2.0, 1.9, 0.3, 2.5), (1.0, 0.999, 0.01, 1.02), (30.0, 3.0, 1.0, 31.0)]
+    {
+        let (center, normal) = (Vec3::from([a, 0.0, h]), Vec3::from([0.0, 0.0, -1.0]));
+        let annulus = Annulus::new(center, normal, r, inner).by_area(origin());
+        let e = mean(cases(700, 1500), |u| irradiance(&annulus.sample(u), [0.0, 0.0, 1.0])) / PI;
+        let truth = facing_disk(r, h, a) - facing_disk(inner, h, a);
+        assert!((e / truth - 1.0).abs() < 2e-3, "{r} {inner} {h} {a}: {e} for {truth}");
+        for (aside, inside) in [(0.5 * inner, false), (0.5 * (inner + r), true), (1.1 * r, false)] {
+            let w = (center + Vec3::from([0.0, aside, 0.0])).normalize();
+            assert_eq!(annulus.pdf(w) > 0.0, inside, "{r} {inner} {h} {a}: {aside}");
+        }
+    }
+    // as wide as its hole, or less
+    for inner in [1.0, 1.5, f64::MAX] {
+        let none = Annulus::new([0.0, 0.0, 2.0].into(), [0.0, 0.0, -1.0].into(), 1.0, inner).by_area(origin());
+        assert_eq!(none.sample(Vec2::new(0.5, 0.5)).pdf, 0.0, "{inner}");
+    }
+    // without a hole it is a disk
+    let (center, normal) = (Vec3::from([0.3, 0.1, 2.0]), Vec3::from([0.0, 0.0, -1.0]));
+    let (disk, whole) =
+        (Disk::new(center, normal, 0.5).by_area(origin()), Annulus::new(center, normal, 0.5, -1.0).by_area(origin()));
+    let w = Vec3::from([0.1, 0.1, 2.0]).normalize();
+    assert_eq!((disk.pdf(w), disk.area()), (whole.pdf(w), whole.area()));
 }
 
 /// Facing, on the axis: by area the second moment is (π²k²/3)(1 − (1+k²)⁻³), by solid angle 4π²(1−c)(1−c³)/3, with k = R/h, c = 1/√(1+k²).

@@ -8,8 +8,8 @@ use core::f32::consts::PI;
 use etendue::discrete::{AliasTable, PiecewiseConstant1d, PiecewiseConstant2d};
 use etendue::estimate::{Heuristic, Reservoir, Welford};
 use etendue::light::{
-    BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment, Line,
-    PointLight, Polygon, SpotLight, Sun,
+    Annulus, BilinearPatch, ConstantEnvironment, Cylinder, DirectionalLight, Disk, EnvironmentMap, ImageEnvironment,
+    Line, PointLight, Polygon, SpotLight, Sun,
 };
 use etendue::random::DrawExt;
 use etendue::select::{
@@ -24,9 +24,8 @@ use etendue::spherical::{
     SphericalParallelogram, SphericalPolygon, SphericalRectangle, SphericalSegment, SphericalTriangle,
 };
 use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals,
-    Linear, LowDistortionTriangle, Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere,
-    UniformSphere,
+    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, Linear, LowDistortionTriangle,
+    Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere,
 };
 use etendue::{
     LightSample, LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triangle, Vec2, Vec3, Warp, Warp1, f32x8,
@@ -291,6 +290,8 @@ known! {
     BilinearPatch: SQUARE, { let [p, u, v] = sides(); Self::new(p, u, v, u + v) };
     // per unit of width
     Line: 0.431_823_8, Self { start: [-1.0, 2.0, 0.0].into(), edge: [2.0, 0.0, 0.0].into() };
+    // π (r²/(h² + r²) − i²/(h² + i²))
+    Annulus: 0.3 * PI, Self::new([0.0, 1.0, 0.0].into(), [0.0, -1.0, 0.0].into(), lit(1.0), lit(0.5));
     Sun: 0.25 * PI, Self { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
 }
 fn irradiance<L: Known>(_: &L) -> f32 {

@@ -16,8 +16,8 @@ use etendue::warp::{
     Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{
-    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle, Sphere,
-    Sun, Triangle, Uint, Vec2, Vec3,
+    Annulus, BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle,
+    Sphere, Sun, Triangle, Uint, Vec2, Vec3,
 };
 use std::hint::black_box;
 
@@ -226,6 +226,7 @@ in_room! {
     };
     BilinearPatch "bilinear patch" |r| Self::new(r.a, r.e1, r.e2, r.twisted);
     Line "line" |r| Self::new(r.a, r.e1);
+    Annulus "annulus" |r| Self::new(r.a, r.up, r.radius, r.radius * half_of());
     Sun "sun" |r| Self::new(r.up, r.radius);
 }
 fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {

@@ -164,6 +164,7 @@ fn lights() -> Vec<Vec<Cell>> {
         "", "projected solid angle", "pentagon by projected solid angle";
         "disk", "area", "disk by area";
         "", "solid angle", "disk by solid angle";
+        "annulus", "area", "annulus by area";
         "cylinder", "area", "cylinder by area";
         "bilinear patch", "area", "bilinear patch by area";
         "line", "length", "line by length";

@@ -425,6 +425,38 @@ typedef struct {
   float data[46];
 } EtendueLineByProjectedSolidAngle;
 
+// An annulus, a disk without its middle, that emits from the side of its normal. No width, and a point in its plane, give pdf 0.
+// uv: (1 + q)/2 for the position q on the unit disk.
+typedef struct {
+  // Centre, in the coordinates of the scene.
+  float center[3];
+  // Unit normal.
+  float normal[3];
+  // Radius, in the unit of the coordinates.
+  float radius;
+  // Radius of the hole, in the unit of the coordinates.
+  float inner_radius;
+} EtendueAnnulus;
+
+// Uniform over the surface of area A: pdf distance^2/(|cos(theta')| A) per steradian, theta' at the light.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[18];
+} EtendueAnnulusByArea;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  // Centre, in the coordinates of the scene.
+  const float *center[3];
+  // Unit normal.
+  const float *normal[3];
+  // Radius, in the unit of the coordinates.
+  const float *radius;
+  // Radius of the hole, in the unit of the coordinates.
+  const float *inner_radius;
+} EtendueAnnulusColumns;
+
 // A sun: the same radiance from all directions within an angle sigma of one direction, at every point. The distance is the
 // largest number of single precision.
 typedef struct {
@@ -2344,6 +2376,83 @@ EtendueStatus etendue_line_by_projected_solid_angle_hit_each(const EtendueLineCo
                                                              const float *const *normals,
                                                              const float *const *w,
                                                              const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_annulus_by_area_prepare(const EtendueAnnulus *light, const float *p, EtendueAnnulusByArea *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_annulus_by_area_sample(const EtendueAnnulusByArea *sampler,
+                                             const float *u,
+                                             EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_annulus_by_area_pdf(const EtendueAnnulusByArea *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_annulus_by_area_invert(const EtendueAnnulusByArea *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_annulus_by_area_hit(const EtendueAnnulusByArea *sampler,
+                                          const float *w,
+                                          EtendueLightSample *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_annulus_by_area_sample_once(const EtendueAnnulus *light,
+                                                  const float *p,
+                                                  const float *u,
+                                                  EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_annulus_by_area_sample_batch(const EtendueAnnulusByArea *sampler,
+                                                   size_t n,
+                                                   const float *const *u,
+                                                   const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_annulus_by_area_pdf_batch(const EtendueAnnulusByArea *sampler,
+                                                size_t n,
+                                                const float *const *w,
+                                                float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_annulus_by_area_invert_batch(const EtendueAnnulusByArea *sampler,
+                                                   size_t n,
+                                                   const float *const *w,
+                                                   float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_annulus_by_area_hit_batch(const EtendueAnnulusByArea *sampler,
+                                                size_t n,
+                                                const float *const *w,
+                                                const EtendueSampleColumns *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_annulus_by_area_sample_each(const EtendueAnnulusColumns *lights,
+                                                  size_t n,
+                                                  const float *const *p,
+                                                  const float *const *u,
+                                                  const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_annulus_by_area_pdf_each(const EtendueAnnulusColumns *lights,
+                                               size_t n,
+                                               const float *const *p,
+                                               const float *const *w,
+                                               float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_annulus_by_area_invert_each(const EtendueAnnulusColumns *lights,
+                                                  size_t n,
+                                                  const float *const *p,
+                                                  const float *const *w,
+                                                  float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_annulus_by_area_hit_each(const EtendueAnnulusColumns *lights,
+                                               size_t n,
+                                               const float *const *p,
+                                               const float *const *w,
+                                               const EtendueSampleColumns *out);
 
 // Prepares the light for a shading point.
 EtendueStatus etendue_sun_by_solid_angle_prepare(const EtendueSun *light, const float *p, EtendueSunBySolidAngle *out);

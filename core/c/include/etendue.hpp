@@ -414,6 +414,7 @@ ETENDUE_ANYWHERE(PatchByArea, BilinearPatch, etendue_patch_by_area)
 ETENDUE_ANYWHERE(LineByLength, Line, etendue_line_by_length)
 ETENDUE_ANYWHERE(LineByAngle, Line, etendue_line_by_angle)
 ETENDUE_ON_SURFACE(LineByProjectedSolidAngle, Line, etendue_line_by_projected_solid_angle)
+ETENDUE_ANYWHERE(AnnulusByArea, Annulus, etendue_annulus_by_area)
 ETENDUE_ANYWHERE(SunBySolidAngle, Sun, etendue_sun_by_solid_angle)
 
 using SphereColumns = LightColumns<EtendueSphereColumns>;
@@ -425,6 +426,7 @@ using CylinderColumns = LightColumns<EtendueCylinderColumns>;
 using PolygonColumns = LightColumns<EtenduePolygonColumns>;
 using BilinearPatchColumns = LightColumns<EtendueBilinearPatchColumns>;
 using LineColumns = LightColumns<EtendueLineColumns>;
+using AnnulusColumns = LightColumns<EtendueAnnulusColumns>;
 using SunColumns = LightColumns<EtendueSunColumns>;
 
 // EtendueSphere with its constructors and techniques.
@@ -496,6 +498,11 @@ struct Line : EtendueLine {
     LineByLength by_length(Vec3 at) const { return {*this, at}; }
     LineByAngle by_angle(Vec3 at) const { return {*this, at}; }
     LineByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {*this, at, n}; }
+};
+// EtendueAnnulus with its constructors and techniques.
+struct Annulus : EtendueAnnulus {
+    Annulus(Vec3 center_, Vec3 normal_, float radius_, float inner_radius_) : EtendueAnnulus{{center_.x, center_.y, center_.z}, {normal_.x, normal_.y, normal_.z}, radius_, inner_radius_} {}
+    AnnulusByArea by_area(Vec3 at) const { return {*this, at}; }
 };
 // EtendueSun with its constructors and techniques.
 struct Sun : EtendueSun {

@@ -217,6 +217,7 @@ typedef struct {
     T(LineByLength, Line, line_by_length, 0) \
     T(LineByAngle, Line, line_by_angle, 0) \
     T(LineByProjectedSolidAngle, Line, line_by_projected_solid_angle, 1) \
+    T(AnnulusByArea, Annulus, annulus_by_area, 0) \
     T(SunBySolidAngle, Sun, sun_by_solid_angle, 0)
 // end of what is from the list
 
@@ -230,6 +231,7 @@ static const float BilinearPatch[] = {-0.5f, 2, -0.3f, 1.2f, 0.1f, 0.2f, 0.1f, 0
 static const float Polygon[] = {-0.5f, 2, -0.3f, 0.6f, 2, -0.4f, 0.9f, 2, 0.4f, 0.2f, 2, 0.9f, -0.6f, 2, 0.5f,
                                 -0.6f, 2, 0.5f, -0.6f, 2, 0.5f, -0.6f, 2, 0.5f};
 static const float Line[] = {-1, 2, 0.3f, 2, 0.1f, 0.2f};
+static const float Annulus[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.5f, 0.3f};
 static const float Sun[] = {0.36f, 0.8f, 0.48f, 1e-3f};
 
 #define WRITE_FUNCTIONS(NAME, LIGHT, PREFIX, ON_SURFACE) FUNCTIONS_##ON_SURFACE(NAME, LIGHT, PREFIX)

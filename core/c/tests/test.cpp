@@ -106,6 +106,7 @@ static void test_lights() {
     CHECK(Polygon(nullptr, 0).by_solid_angle(p).sample(u).pdf == 0);
     const Line line({-1, 2, 0.3f}, {2, 0.1f, 0.2f});
     test(line.by_length(p), true), test(line.by_angle(p), true), test(line.by_projected_solid_angle(p, n), true);
+    test(Annulus({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f, 0.3f).by_area(p));
     test(Sun({0.36f, 0.8f, 0.48f}, 1e-3f).by_solid_angle());
 
     // the same light for each point, in columns

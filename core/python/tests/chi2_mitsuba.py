@@ -119,6 +119,21 @@ class Round:
         return np.stack([turns(y, x), (x * x + y * y) / self.radius**2], axis=1)
 
 
+class Ring:
+    """An annulus: s is the azimuth, t the part of the area that is nearer to the centre."""
+
+    def __init__(self, center, normal, radius, inner):
+        self.disk, self.hole = Round(center, normal, radius), (inner / radius) ** 2
+
+    def at(self, x):
+        points, normals = self.disk.at(np.stack([x[:, 0], self.hole + x[:, 1] * (1 - self.hole)], axis=1))
+        return points, normals * (1 - self.hole)
+
+    def of(self, points):
+        s, t = self.disk.of(points).T
+        return np.stack([s, (t - self.hole) / (1 - self.hole)], axis=1)
+
+
 class Ball:
     """The part of a sphere that is visible from p, or all of it: s is the azimuth, t the height about the axis towards p."""
 
@@ -338,6 +353,9 @@ def pose(light, rng):
         elif light is et.Disk:
             normal = single(z)
             fields, surface = (place, normal, radius), Round(place, normal, radius)
+        elif light is et.Annulus:
+            normal, inner = single(z), float(single(radius * rng.uniform(0.1, 0.9)))
+            fields, surface = (place, normal, radius, inner), Ring(place, normal, radius, inner)
         elif light is et.Line:
             fields, surface = (place, u), Edge(place, u)
         elif light is et.Sun:
@@ -375,7 +393,7 @@ def pose(light, rng):
 
 
 def lights():
-    for light in (et.Sphere, et.Triangle, et.Parallelogram, et.Rectangle, et.Disk, et.Cylinder, et.BilinearPatch, et.Polygon, et.Line, et.Sun):
+    for light in (et.Sphere, et.Triangle, et.Parallelogram, et.Rectangle, et.Disk, et.Annulus, et.Cylinder, et.BilinearPatch, et.Polygon, et.Line, et.Sun):
         for by in (name[3:] for name in dir(light) if name.startswith("by_")):
 
             def case(rng, light=light, by=by):

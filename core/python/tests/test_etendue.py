@@ -21,6 +21,7 @@ LIGHTS = {
     et.BilinearPatch: ([0, 2, 0], [1, 0, 0], [0, 0, 1], [1, 0.3, 1]),
     et.Polygon: (CORNERS,),
     et.Line: ([0, 1.5, 0.2], [1, 0.2, 0]),
+    et.Annulus: ([0, 1.5, 0.2], [0, -1, 0], 0.5, 0.3),
     et.Sun: ([0, 1, 0], 0.01),
 }
 ON_SURFACE = {"projected_solid_angle", "cosine_warp"}
@@ -312,8 +313,8 @@ def test_any_numbers_at_all(light, by):
     count = 3000
     with np.errstate(all="ignore"):
         fields = [rng.choice(special, (count, *np.shape(f))) for f in LIGHTS[light]]
-        if light in (et.Disk, et.Sun):
-            k = 1 if light is et.Disk else 0
+        if light in (et.Disk, et.Annulus, et.Sun):
+            k = 0 if light is et.Sun else 1
             fields[k] = rng.choice(np.float32([[0, 0, 1], [0, 0, 0], [np.nan, 0, 0], [0.6, 0, 0.8]]), count)
         p = rng.choice(special, (count, 3))
         s = light.sample_each(*fields, p=p, u=rng.random((count, 2)), n=[0, 0, 1], by=by)
@@ -418,7 +419,7 @@ def test_a_point_on_the_light(light, by):
     w = et.UniformSphere().sample(et.OwenSobol(2).pairs(1024))
     for x in (s.pdf, s.weight, s.distance, sampler.pdf(w), sampler.hit(w).weight, sampler.invert(w)):
         assert np.isfinite(x).all() and (x >= 0).all()
-    if light in (et.Triangle, et.Parallelogram, et.Rectangle, et.Disk, et.Polygon):
+    if light in (et.Triangle, et.Parallelogram, et.Rectangle, et.Disk, et.Polygon, et.Annulus):
         assert not s.pdf.any() and not sampler.pdf(w).any()
 
 

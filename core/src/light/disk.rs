@@ -76,12 +76,33 @@ impl<R: Real> PlacedDisk<R> {
         let (center, radius) = (center.keep(finite), radius.keep(finite));
         Self { center, frame: Frame::new(normal), radius, height: compensated_dot(center, normal) }
     }
-    /// Position on the unit disk, beyond it too.
+    /// Position on the unit disk in the direction `w`; beyond it too, but finite.
     #[inline(always)]
-    fn position(&self, w: Vec3<R>) -> Vec2<R> {
+    pub(super) fn position(&self, w: Vec3<R>) -> Vec2<R> {
         let distance = quotient(self.height, w.dot(self.frame.n));
         let offset = w.mul_add(distance, -self.center);
-        Vec2::new(quotient(offset.dot(self.frame.s), self.radius), quotient(offset.dot(self.frame.t), self.radius))
+        let most = R::lit(1e15);
+        let part = |x: R| quotient(x, self.radius).clamped(-most, most);
+        Vec2::new(part(offset.dot(self.frame.s)), part(offset.dot(self.frame.t)))
+    }
+    /// The point at the position q on the unit disk.
+    #[inline(always)]
+    pub(super) fn point(&self, q: Vec2<R>, inverse_pdf: R) -> SurfacePoint<R> {
+        let offset = self.frame.s * (q.x * self.radius) + self.frame.t * (q.y * self.radius);
+        SurfacePoint { position: self.center + offset, normal: self.frame.n, uv: Self::to_uv(q), inverse_pdf }
+    }
+    /// Where the unit direction `w` hits the disk; by how much it misses the centre within the plane, times the cosine, so that nothing is
+    /// divided by it; the radius times the cosine; and the rounding of both.
+    #[inline(always)]
+    pub(super) fn within(&self, w: Vec3<R>) -> (R::Mask, R, R, R) {
+        let zero = R::lit(0.0);
+        let scale = self.center.max_abs().greater(self.radius.abs()).pow2_scale();
+        let (center, height, radius) = (self.center * scale, self.height * scale, self.radius * scale);
+        let cos = w.dot(self.frame.n);
+        let off = (w * height - center * cos).length();
+        let slack = (center.length() + radius) * R::lit(SLACK);
+        let hit = off.le(radius.mul_add(cos.abs(), slack)) & (cos * height).gt(zero) & radius.gt(zero);
+        (hit, off, radius * cos.abs(), slack)
     }
     #[inline(always)]
     fn to_uv(q: Vec2<R>) -> Vec2<R> {
@@ -100,10 +121,7 @@ impl<R: Real> AreaSurface<R> for PlacedDisk<R> {
     const FLAT: bool = true;
     #[inline(always)]
     fn draw(&self, u: Vec2<R>) -> SurfacePoint<R> {
-        let q: Vec2<R> = ConcentricDisk.sample(u);
-        let offset = self.frame.s * (q.x * self.radius) + self.frame.t * (q.y * self.radius);
-        let (normal, uv) = (self.frame.n, Self::to_uv(q));
-        SurfacePoint { position: self.center + offset, normal, uv, inverse_pdf: self.area() }
+        self.point(ConcentricDisk.sample(u), self.area())
     }
     #[inline(always)]
     fn inverse_pdf(&self, _: Vec2<R>) -> R {
@@ -111,20 +129,11 @@ impl<R: Real> AreaSurface<R> for PlacedDisk<R> {
     }
     #[inline(always)]
     fn contains(&self, w: Vec3<R>) -> R::Mask {
-        let zero = R::lit(0.0);
-        // by how much the direction misses the centre within the plane, times the cosine, so that nothing is divided by it
-        let scale = self.center.max_abs().greater(self.radius.abs()).pow2_scale();
-        let (center, height, radius) = (self.center * scale, self.height * scale, self.radius * scale);
-        let cos = w.dot(self.frame.n);
-        let off = (w * height - center * cos).length();
-        let slack = (center.length() + radius) * R::lit(SLACK);
-        off.le(radius.mul_add(cos.abs(), slack)) & (cos * height).gt(zero) & radius.gt(zero)
+        self.within(w).0
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let q = self.position(w);
-        let most = R::lit(1e15);
-        let q = Vec2::new(q.x.clamped(-most, most), q.y.clamped(-most, most));
         ConcentricDisk.invert(q * (R::lit(1.0) / q.length().greater(R::lit(1.0))))
     }
     #[inline(always)]

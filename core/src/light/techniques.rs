@@ -167,6 +167,21 @@ macro_rules! techniques {
                 /// it.
                 LineByProjectedSolidAngle = EtendueLineByProjectedSolidAngle, line_by_projected_solid_angle[46]: by_projected_solid_angle(p, n);
             }
+            /// An annulus, a disk without its middle, that emits from the side of its normal. No width, and a point in its plane, give pdf 0.
+            /// uv: (1 + q)/2 for the position q on the unit disk.
+            Annulus = EtendueAnnulus, EtendueAnnulusColumns {
+                /// Centre, in the coordinates of the scene.
+                center as center: point,
+                /// Unit normal.
+                normal as normal: direction,
+                /// Radius, in the unit of the coordinates.
+                radius as radius: number,
+                /// Radius of the hole, in the unit of the coordinates.
+                inner_radius as inner_radius: number,
+            } by "area" {
+                /// Uniform over the surface of area A: pdf distance²/(|cosθ'| A) per steradian, θ' at the light.
+                AnnulusByArea = EtendueAnnulusByArea, annulus_by_area[18]: by_area(p) area;
+            }
             /// A sun: the same radiance from all directions within an angle σ of one direction, at every point. The distance is the
             /// largest number of single precision.
             Sun = EtendueSun, EtendueSunColumns {

@@ -6,8 +6,8 @@ use crate::tolerances::ULP;
 use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
-    BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle,
-    Sphere, Sun, Triangle, Vec2, Vec3, f32x8, f32x16,
+    Annulus, BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real,
+    Rectangle, Sphere, Sun, Triangle, Vec2, Vec3, f32x8, f32x16,
 };
 use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
 
@@ -190,8 +190,17 @@ pub enum LightShape {
     Patch,
     /// From `a` along `b`.
     Line,
+    /// About `a`, with normal `b`, of the radius, with a hole of half of that.
+    Annulus,
     /// Towards `b`, with the radius as 1 − cos of its angle.
     Sun,
+}
+impl LightShape {
+    /// Whether `b` is a unit normal.
+    #[must_use]
+    pub fn has_normal(self) -> bool {
+        matches!(self, Self::Disk | Self::Annulus)
+    }
 }
 /// How.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -302,6 +311,7 @@ placed! {
     Polygon<4>: |v, _| Self::new([v[1], v[1] + v[2], v[1] + v[2] + v[3], v[1] + v[3]]);
     BilinearPatch: |v, _| Self::new(v[1], v[2], v[3], v[4]);
     Line: |v, _| Self::new(v[1], v[2]);
+    Annulus: |v, radius| Self::new(v[1], v[2], radius, radius * R::lit(0.5));
     Sun: |v, radius| Self::new(v[2], radius);
 }
 
@@ -319,7 +329,7 @@ impl AreaLight {
             c = core::array::from_fn(|k| (f64::from(c[k]) - along * f64::from(b[k])) as f32);
         }
         let size = [1.0, 1e-3, 1e-6, 30.0][round as usize % 4];
-        if shape != LightShape::Disk {
+        if !shape.has_normal() {
             b = b.map(|x| x * size);
         }
         c = c.map(|x| x * size);
@@ -414,6 +424,7 @@ impl Technique for AreaLight {
             LightShape::Triangle => (cross(b, c), 0.5 * length(cross(b, c)), 0.0),
             LightShape::Parallelogram | LightShape::Rectangle => (cross(b, c), length(cross(b, c)), 0.0),
             LightShape::Disk => (b, PI * r * r, 0.0),
+            LightShape::Annulus => (b, 0.75 * PI * r * r, 0.0),
             LightShape::Cylinder => {
                 let x = from(a);
                 let along = dot(x, b) / dot(b, b);
@@ -434,7 +445,7 @@ impl Technique for AreaLight {
         let sine = length(cross(b, c)) / (length(b) * length(c));
         let slim = if flat { 8.0 / sine } else { 0.0 };
         let known = (16.0 + slim + (12.0 + slim + 4.0 * turned) / cos) * ULP;
-        if flat || self.shape == LightShape::Disk {
+        if flat || self.shape.has_normal() {
             // the direction determines the distance, by its cosine, of which the pdf is a third power
             let distance = dot(a, normal).abs() / (length(normal) * cos);
             return Some((distance * distance / (cos * area), 3.0 * known));
@@ -458,7 +469,7 @@ impl Technique for AreaLight {
     fn scaled(&self, factor: f32) -> Self {
         let times = |v: [f32; 3]| v.map(|x| x * factor);
         // directions stay
-        let b = if self.shape == LightShape::Disk { self.b } else { times(self.b) };
+        let b = if self.shape.has_normal() { self.b } else { times(self.b) };
         let n = if self.shape == LightShape::Patch { times(self.n) } else { self.n };
         Self { p: times(self.p), a: times(self.a), b, c: times(self.c), n, radius: self.radius * factor, ..*self }
     }

@@ -53,6 +53,7 @@ overhead! {
         Self::new(core::array::from_fn(|i| v(corners[i.min(4)][0], 1.0, corners[i.min(4)][1])))
     };
     Line: Self::new(v(0.0, 1.5, 0.2), v(1.0, 0.2, 0.0));
+    Annulus: Self::new(v(0.0, 1.5, 0.2), v(0.0, -1.0, 0.0), 0.5, 0.3);
     Sun: Self::new(v(0.0, 1.0, 0.0), 1e-5);
 }
 macro_rules! visit_techniques {

@@ -15,7 +15,7 @@ pub(super) fn area_lights(input: &mut Input<'_>) {
         let p = input.vector(&[]);
         let a = input.vector(&[p]);
         // normals are unit vectors
-        let b = if shape == LightShape::Disk { input.direction() } else { input.vector(&[a, p]) };
+        let b = if shape.has_normal() { input.direction() } else { input.vector(&[a, p]) };
         let c = input.vector(&[a, b]);
         let n = if shape == LightShape::Patch { input.vector(&[b, c]) } else { input.direction() };
         (AreaLight { shape, by, p, a, b, c, n, radius: input.number() }, input.square())
@@ -46,11 +46,11 @@ pub(super) fn area_lights(input: &mut Input<'_>) {
     // These edges are not perpendicular, as those of a rectangle have to be. A flat shape must be clearly out of the plane of the point;
     // most of all a polygon, whose corners are rounded, or a shape over a horizon.
     let [v, e, f] = [a, b, c].map(wide);
-    let normal = if shape == LightShape::Disk { e } else { cross(e, f) };
+    let normal = if shape.has_normal() { e } else { cross(e, f) };
     let elevation = dot(v, normal).abs() / (length(v) * length(normal));
     let strict = by == Measure::ProjectedSolidAngle || shape == LightShape::Polygon;
     let flat =
-        matches!(shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon | LightShape::Disk);
+        matches!(shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Polygon) || shape.has_normal();
     let lifted = elevation > 1e-3 && length(v) > 1e-3 && length(normal) > 1e-3;
     let fair = !flat || lifted && (!strict || elevation > 0.05 && length(v) > 0.05 && length(normal) > 0.05);
     if shape != LightShape::Rectangle && fair {
