@@ -7,7 +7,7 @@
 use etendue_benches::memory::{peak, start_peak};
 use etendue_render::film::Pixel;
 use etendue_render::integrator::{Settings, World};
-use etendue_render::merge::{Goal, Merged, merge};
+use etendue_render::merge::{MergeGoal, Merged, merge};
 use etendue_render::parts::{self, Content, Piece};
 use etendue_render::sampler::Sampler;
 use etendue_render::sensor::Sensor;
@@ -49,7 +49,7 @@ fn row(what: &str, frame: &Frame, count: u32, piece: impl Fn(u32) -> Piece + Syn
     let bytes: u64 = files.iter().map(|file| fs::metadata(file).map_or(0, |file| file.len())).sum();
     start_peak();
     let start = Instant::now();
-    let Merged::Image(film) = merge(&files, Goal::Image, |_| ()).expect("whole parts").merged else {
+    let Merged::Image(film) = merge(&files, MergeGoal::Image, |_| ()).expect("whole parts").merged else {
         unreachable!("the goal is an image")
     };
     let merged = start.elapsed().as_secs_f64();

@@ -2,14 +2,14 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use etendue_render::bvh::Scratch;
-use etendue_routines::rays::{How, Kind, Workload};
+use etendue_routines::rays::{How, RayKind, Workload};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 fn rays(criterion: &mut Criterion) {
     for scene in ["quads", "terrain"] {
         let workload = Workload::new(scene, 512);
-        for (kind, name) in Kind::ALL {
+        for (kind, name) in RayKind::ALL {
             let mut group = criterion.benchmark_group(format!("{scene}, {name}"));
             group.throughput(Throughput::Elements(1));
             let rays = workload.rays(kind);

@@ -1,18 +1,21 @@
-//! Rectangles of pixels [x0, y0, x1, y1), and values for their pixels, row by row.
+//! Rectangles of pixels, and values for their pixels, row by row.
+
+/// A rectangle of pixels: its first column and row, and the column and row after its last, in pixels of the image.
+pub type Area = [u32; 4];
 
 /// Numbers of columns and rows of an area.
-fn size([x0, y0, x1, y1]: [u32; 4]) -> [usize; 2] {
+fn size([x0, y0, x1, y1]: Area) -> [usize; 2] {
     [(x1 - x0) as usize, (y1 - y0) as usize]
 }
 
 /// Number of pixels of an area.
-pub fn count(area: [u32; 4]) -> usize {
+pub fn count(area: Area) -> usize {
     let [across, down] = size(area);
     across * down
 }
 
 /// The values of the pixels of `part`, out of those of an area that contains it, which has `each` values for a pixel.
-pub fn crop<T: Clone>(values: &[T], area: [u32; 4], part: [u32; 4], each: usize) -> Vec<T> {
+pub fn crop<T: Clone>(values: &[T], area: Area, part: Area, each: usize) -> Vec<T> {
     let (width, [across, down]) = (size(area)[0], size(part));
     let [left, top] = [part[0] - area[0], part[1] - area[1]].map(|at| at as usize);
     let row = |y: usize| &values[((top + y) * width + left) * each..][..across * each];
@@ -20,7 +23,7 @@ pub fn crop<T: Clone>(values: &[T], area: [u32; 4], part: [u32; 4], each: usize)
 }
 
 /// Replaces the values of the pixels of `part`, which the area of `values` contains.
-pub fn paste<T>(values: &mut [T], area: [u32; 4], part: [u32; 4], from: impl IntoIterator<Item = T>) {
+pub fn paste<T>(values: &mut [T], area: Area, part: Area, from: impl IntoIterator<Item = T>) {
     let (width, [across, down]) = (size(area)[0], size(part));
     let [left, top] = [part[0] - area[0], part[1] - area[1]].map(|at| at as usize);
     let mut from = from.into_iter();

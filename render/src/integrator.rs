@@ -14,6 +14,7 @@ pub use analytic::Survey;
 pub use settings::{RayCount, Settings};
 
 use crate::area;
+use crate::area::Area;
 use crate::bvh::BuildError;
 use crate::camera::Camera;
 use crate::film::{BlockSum, Film, Pixel, PixelSum};
@@ -196,7 +197,7 @@ impl World {
         &self,
         camera: &Camera,
         settings: &Settings,
-        area: [u32; 4],
+        area: Area,
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Pixel>, RayCount) {
         self.tiles(camera, settings, area, |renderer, area| {
@@ -230,7 +231,7 @@ impl World {
         &self,
         camera: &Camera,
         settings: &Settings,
-        area: [u32; 4],
+        area: Area,
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Statistics>, RayCount) {
         let (sets, Effort { pilot, .. }) = Self::effort(camera, settings);
@@ -270,7 +271,7 @@ impl World {
     pub fn render_range(
         &self,
         settings: &Settings,
-        area: [u32; 4],
+        area: Area,
         range: Range<u32>,
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Planes>, RayCount) {
@@ -285,7 +286,7 @@ impl World {
     fn planes<V: Sample>(
         &self,
         settings: &Settings,
-        area: [u32; 4],
+        area: Area,
         range: &Range<u32>,
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Planes>, RayCount) {
@@ -310,7 +311,7 @@ impl World {
     pub fn render_area(
         &self,
         settings: &Settings,
-        area: [u32; 4],
+        area: Area,
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Pixel>, RayCount) {
         assert!(settings.is_of_tiles(area) && settings.sampler != Sampler::Adaptive);
@@ -329,7 +330,7 @@ impl World {
     pub fn render_pilot(
         &self,
         settings: &Settings,
-        area: [u32; 4],
+        area: Area,
         progress: impl Fn(u64) + Sync,
     ) -> (Vec<Statistics>, RayCount) {
         assert!(settings.is_of_tiles(area) && settings.sampler == Sampler::Adaptive);
@@ -368,8 +369,8 @@ impl World {
         &self,
         camera: &Camera,
         settings: &Settings,
-        area: [u32; 4],
-        of: impl Fn(&mut TileRenderer, [u32; 4]) -> Vec<T> + Sync,
+        area: Area,
+        of: impl Fn(&mut TileRenderer, Area) -> Vec<T> + Sync,
     ) -> (Vec<T>, RayCount) {
         let rendered: Vec<_> = areas(area)
             .map_init(
@@ -391,7 +392,7 @@ impl World {
 }
 
 /// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.
-fn areas([left, top, right, bottom]: [u32; 4]) -> impl IndexedParallelIterator<Item = [u32; 4]> + use<> {
+fn areas([left, top, right, bottom]: Area) -> impl IndexedParallelIterator<Item = Area> + use<> {
     let columns = (right - left).div_ceil(TILE);
     let tiles = columns as usize * (bottom - top).div_ceil(TILE) as usize;
     (0..tiles).into_par_iter().map(move |tile| {

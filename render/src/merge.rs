@@ -1,10 +1,10 @@
 //! Puts the parts of an image together: exactly, in any order and grouping.
 
-use crate::area::{count, crop, paste};
+use crate::area::{Area, count, crop, paste};
 use crate::film::{Film, Pixel};
 use crate::frame::Frame;
 use crate::integrator::{Allotment, Statistics};
-use crate::parts::{Content, Kind, PartFile, Piece};
+use crate::parts::{Content, PartFile, Piece, PieceKind};
 use crate::sums::{Block, Moments, Planes, Sums, blocks};
 use rayon::prelude::*;
 use serde_json::Value;
@@ -21,7 +21,7 @@ const AT_ONCE: usize = 1 << 25;
 
 /// What to make of the parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Goal {
+pub enum MergeGoal {
     /// The whole image; what is missing is an error.
     Image,
     /// An image of the samples that are there.
@@ -40,11 +40,11 @@ pub enum Merged {
 }
 
 /// An area, and a range of the samples of its pixels, that no part holds.
-pub type Gap = ([u32; 4], Range<u32>);
+pub type Gap = (Area, Range<u32>);
 
 /// The parts, put together.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct MergeOutcome {
     /// What they are parts of.
     pub frame: Frame,
     /// What they make.
@@ -58,7 +58,7 @@ pub struct Outcome {
 }
 
 /// A gap as the options that render it.
-fn options(area: [u32; 4], range: &Range<u32>) -> String {
+fn options(area: Area, range: &Range<u32>) -> String {
     format!("--range {}:{} --tile {}", range.start, range.end, text_of(area))
 }
 
@@ -77,7 +77,7 @@ fn list(mut lines: Vec<String>) -> String {
 struct Headers {
     path: PathBuf,
     frame: Frame,
-    pieces: Vec<(([u32; 4], Kind), Value)>,
+    pieces: Vec<((Area, PieceKind), Value)>,
 }
 
 /// The rectangles between all edges of all pieces. A piece covers each of them wholly or not at all.
@@ -87,7 +87,7 @@ struct Cells {
 }
 
 impl Cells {
-    fn new(areas: impl Iterator<Item = [u32; 4]>) -> Self {
+    fn new(areas: impl Iterator<Item = Area>) -> Self {
         let (mut columns, mut rows) = (Vec::new(), Vec::new());
         for [x0, y0, x1, y1] in areas {
             columns.extend([x0, x1]);
@@ -100,12 +100,12 @@ impl Cells {
         Self { columns, rows }
     }
     /// The indices of the cells of an area, row by row.
-    fn of(&self, [x0, y0, x1, y1]: [u32; 4]) -> impl Iterator<Item = usize> {
+    fn of(&self, [x0, y0, x1, y1]: Area) -> impl Iterator<Item = usize> {
         let at = |edges: &[u32], edge| edges.partition_point(|&other| other < edge);
         let (across, width) = (at(&self.columns, x0)..at(&self.columns, x1), self.columns.len() - 1);
         (at(&self.rows, y0)..at(&self.rows, y1)).flat_map(move |y| across.clone().map(move |x| y * width + x))
     }
-    fn area(&self, cell: usize) -> [u32; 4] {
+    fn area(&self, cell: usize) -> Area {
         let width = self.columns.len() - 1;
         let (x, y) = (cell % width, cell / width);
         [self.columns[x], self.rows[y], self.columns[x + 1], self.rows[y + 1]]
@@ -145,7 +145,7 @@ impl Cell {
         (0..pixels).into_par_iter().map(pixel).collect()
     }
     /// The pieces of a part: finished pixels, or one piece for each run of samples without a gap.
-    fn pieces(&mut self, area: [u32; 4], frame: &Frame) -> Vec<Piece> {
+    fn pieces(&mut self, area: Area, frame: &Frame) -> Vec<Piece> {
         if let Some(pixels) = self.pixels.take() {
             return vec![Piece { area, content: Content::Pixels(pixels) }];
         }
@@ -170,16 +170,16 @@ impl Cell {
 /// # Errors
 /// Fails if a file is not a part, is damaged, or is a part of another image than most; if two files have some samples in common, unless
 /// their contents are the same; and if samples are missing, unless the goal allows it. The message names the files and the gaps.
-pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Result<Outcome, String> {
+pub fn merge(files: &[PathBuf], goal: MergeGoal, progress: impl Fn(u64) + Sync) -> Result<MergeOutcome, String> {
     let headers = read_headers(files)?;
     let frame = common_frame(&headers)?;
-    let is_pilot = |kind: &Kind| matches!(kind, Kind::Pilot(_));
+    let is_pilot = |kind: &PieceKind| matches!(kind, PieceKind::Pilot(_));
     let pilots = headers.iter().all(|file| file.pieces.iter().all(|((_, kind), _)| is_pilot(kind)));
     if !pilots {
-        let of_pilot = |kind: &Kind| matches!(kind, Kind::Pilot(_) | Kind::Allotment(_));
+        let of_pilot = |kind: &PieceKind| matches!(kind, PieceKind::Pilot(_) | PieceKind::Allotment(_));
         let odd = headers.iter().filter(|file| file.pieces.iter().any(|((_, kind), _)| of_pilot(kind)));
         let line = |file: &Headers| {
-            let is_whole = file.pieces.iter().any(|((_, kind), _)| matches!(kind, Kind::Allotment(_)));
+            let is_whole = file.pieces.iter().any(|((_, kind), _)| matches!(kind, PieceKind::Allotment(_)));
             let what =
                 if is_whole { "is a whole pilot already, for --after" } else { "belongs to the pilot, others do not" };
             format!("{}: {what}", file.path.display())
@@ -193,7 +193,7 @@ pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Re
     let areas = used.iter().flat_map(|file| file.pieces.iter().map(|((area, _), _)| *area));
     let cells = Cells::new(areas.chain([frame.settings.whole()]));
     let gaps = gaps(&used, &cells, &frame)?;
-    if !gaps.is_empty() && (goal == Goal::Image || pilots && goal == Goal::Partial) {
+    if !gaps.is_empty() && (goal == MergeGoal::Image || pilots && goal == MergeGoal::Partial) {
         let (what, help) = if pilots { ("pilot", "") } else { ("image", "; --partial writes an image without them") };
         let line = |(area, range): &Gap| {
             if pilots { format!("--pilot --tile {}", text_of(*area)) } else { options(*area, range) }
@@ -203,12 +203,12 @@ pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Re
     }
     let merged = if pilots {
         let pieces = read_pieces(&used, &progress)?;
-        if goal == Goal::Part { Merged::Part(pieces) } else { Merged::Part(vec![allot(&frame, pieces)?]) }
+        if goal == MergeGoal::Part { Merged::Part(pieces) } else { Merged::Part(vec![allot(&frame, pieces)?]) }
     } else {
         join(&used, &cells, &frame, goal, &progress)?
     };
     let (used, duplicates) = (used.len(), duplicates.into_iter().map(|file| file.path.clone()).collect());
-    Ok(Outcome { frame, merged, used, duplicates, gaps })
+    Ok(MergeOutcome { frame, merged, used, duplicates, gaps })
 }
 
 /// How many samples follow the pilot in this file, for the pixels of an area. The file is the merge of a pilot, or a part that holds all
@@ -216,18 +216,19 @@ pub fn merge(files: &[PathBuf], goal: Goal, progress: impl Fn(u64) + Sync) -> Re
 ///
 /// # Errors
 /// Fails if the file is damaged, holds no whole pilot, or that of another image than `frame`.
-pub fn allotment(path: &Path, frame: &Frame, area: [u32; 4]) -> Result<Allotment, String> {
+pub fn allotment(path: &Path, frame: &Frame, area: Area) -> Result<Allotment, String> {
     let wrong = |what: &str| format!("{}: {what}", path.display());
     let mut file = PartFile::open(path).map_err(|error| error.to_string())?;
     if let Some(difference) = frame.difference(&file.frame) {
         return Err(wrong(&format!("the pilot of another image: {difference}")));
     }
     let whole = frame.settings.whole();
-    let merged = matches!(&file.pieces[..], [piece] if piece.area == whole && matches!(piece.kind, Kind::Allotment(_)));
+    let merged =
+        matches!(&file.pieces[..], [piece] if piece.area == whole && matches!(piece.kind, PieceKind::Allotment(_)));
     let piece = if merged {
         file.read_rows(&(area[1]..area[3])).map_err(|error| error.to_string())?.remove(0)
     } else {
-        if !file.pieces.iter().all(|piece| matches!(piece.kind, Kind::Pilot(_))) {
+        if !file.pieces.iter().all(|piece| matches!(piece.kind, PieceKind::Pilot(_))) {
             return Err(wrong("this is no pilot"));
         }
         let headers = read_headers(&[path.to_owned()])?;
@@ -247,7 +248,7 @@ pub fn allotment(path: &Path, frame: &Frame, area: [u32; 4]) -> Result<Allotment
     Ok(allotment.crop(area))
 }
 
-fn text_of([x0, y0, x1, y1]: [u32; 4]) -> String {
+fn text_of([x0, y0, x1, y1]: Area) -> String {
     format!("{x0},{y0},{x1},{y1}")
 }
 
@@ -407,12 +408,12 @@ fn join(
     files: &[&Headers],
     cells: &Cells,
     frame: &Frame,
-    goal: Goal,
+    goal: MergeGoal,
     progress: &(impl Fn(u64) + Sync),
 ) -> Result<Merged, String> {
     let whole = frame.settings.whole();
     let nothing = Pixel::of_sets(std::iter::empty(), false);
-    let mut film = if goal == Goal::Part { Vec::new() } else { vec![nothing; count(whole)] };
+    let mut film = if goal == MergeGoal::Part { Vec::new() } else { vec![nothing; count(whole)] };
     let mut open: BTreeMap<usize, Cell> = BTreeMap::new();
     for batch in batches(files) {
         for Piece { area, content } in read_batch(batch, progress)? {
@@ -439,7 +440,7 @@ fn join(
                         return Err("a part is not what its header says".into());
                     }
                 }
-                if goal != Goal::Part
+                if goal != MergeGoal::Part
                     && let Some(pixels) = cell.pixels.take()
                 {
                     paste(&mut film, whole, place, pixels);
@@ -448,7 +449,7 @@ fn join(
             }
         }
     }
-    if goal == Goal::Part {
+    if goal == MergeGoal::Part {
         let pieces = open.into_iter().flat_map(|(index, mut cell)| cell.pieces(cells.area(index), frame));
         return Ok(Merged::Part(pieces.collect()));
     }

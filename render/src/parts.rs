@@ -4,6 +4,7 @@
 //! each pixel. With the adaptive sampler, it holds what the pilot found, or how many samples the pixels receive after it.
 
 use crate::area;
+use crate::area::Area;
 use crate::files::{FileError, failed, make_folder, replace};
 use crate::film::Pixel;
 use crate::frame::Frame;
@@ -36,14 +37,14 @@ pub enum Content {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// The pixels [x0, y0, x1, y1), which form tiles (see [`Settings::is_of_tiles`](crate::Settings::is_of_tiles)).
-    pub area: [u32; 4],
+    pub area: Area,
     /// What is known of them.
     pub content: Content,
 }
 
 /// What kind of content a piece has.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum PieceKind {
     /// Finished pixels.
     Pixels,
     /// Sums of this range of samples.
@@ -54,7 +55,7 @@ pub enum Kind {
     Allotment(u32),
 }
 
-impl Kind {
+impl PieceKind {
     /// The range of the samples of each pixel that a piece of this kind knows, out of `spp`.
     pub fn range(&self, spp: u32) -> Range<u32> {
         match self {
@@ -94,12 +95,12 @@ impl Kind {
 
 impl Piece {
     /// What kind of content it has.
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> PieceKind {
         match &self.content {
-            Content::Pixels(_) => Kind::Pixels,
-            Content::Range(range, _) => Kind::Range(range.clone()),
-            Content::Pilot(pixels) => Kind::Pilot(pixels.first().map_or(0, |pixel| pixel.lights as u32)),
-            Content::Allotment(allotment) => Kind::Allotment(allotment.lights as u32),
+            Content::Pixels(_) => PieceKind::Pixels,
+            Content::Range(range, _) => PieceKind::Range(range.clone()),
+            Content::Pilot(pixels) => PieceKind::Pilot(pixels.first().map_or(0, |pixel| pixel.lights as u32)),
+            Content::Allotment(allotment) => PieceKind::Allotment(allotment.lights as u32),
         }
     }
 }
@@ -234,20 +235,20 @@ impl Found {
 }
 
 /// The piece of a layer of this kind; `None` if a plane is missing.
-fn from_layer(frame: &Frame, kind: &Kind, layer: Layer) -> Option<Piece> {
+fn from_layer(frame: &Frame, kind: &PieceKind, layer: Layer) -> Option<Piece> {
     let Layer { area, planes, .. } = layer;
     let count = area::count(area);
     let sets = frame.sets() as usize;
     let mut found = Found(planes.into_iter().collect());
     let content = match kind {
-        Kind::Pixels => {
+        PieceKind::Pixels => {
             let [r, g, b] = RGB.map(|channel| found.f32(channel));
             let [u, v, w] = RGB.map(|channel| found.f32(&format!("variance.{channel}")));
             let (r, g, b, u, v, w, n) = (r?, g?, b?, u?, v?, w?, found.u32("samples.N")?);
             let pixel = |i: usize| Pixel { mean: [r[i], g[i], b[i]], variance: [u[i], v[i], w[i]], samples: n[i] };
             Content::Pixels((0..count).map(pixel).collect())
         }
-        Kind::Range(range) => {
+        PieceKind::Range(range) => {
             let (span, independent) = (frame.span(), !frame.settings.sampler.has_sets());
             let planes = blocks(range.clone(), span).map(|block| {
                 Some(Planes {
@@ -261,7 +262,7 @@ fn from_layer(frame: &Frame, kind: &Kind, layer: Layer) -> Option<Piece> {
             });
             Content::Range(range.clone(), planes.collect::<Option<_>>()?)
         }
-        Kind::Pilot(lights) => {
+        PieceKind::Pilot(lights) => {
             let lights = *lights as usize;
             let (sums, variance) = (found.sums(sets, count)?, found.f64("variance")?);
             let packets = found.packets(sets)?;
@@ -279,7 +280,7 @@ fn from_layer(frame: &Frame, kind: &Kind, layer: Layer) -> Option<Piece> {
             };
             Content::Pilot((0..count).map(pixel).collect())
         }
-        Kind::Allotment(lights) => {
+        PieceKind::Allotment(lights) => {
             let lights = *lights as usize;
             let weights = found.lights("weight", lights, count, Found::f32)?;
             let packets = found.packets(sets)?;
@@ -335,9 +336,9 @@ pub struct PartFile<R = BufReader<File>> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceHeader {
     /// The pixels [x0, y0, x1, y1).
-    pub area: [u32; 4],
+    pub area: Area,
     /// What is known of them.
-    pub kind: Kind,
+    pub kind: PieceKind,
     /// Checksums of the contents.
     pub checksums: Value,
 }
@@ -366,7 +367,7 @@ impl<R: Read + Seek> PartFile<R> {
         let frame =
             Frame::from_json(text).map_err(|what| failed(path, format!("damaged: the frame is not valid: {what}")))?;
         let piece = |LayerHeader { area, text, .. }: &LayerHeader| {
-            let kind = Kind::from_json(text).filter(|kind| kind.fits(&frame) && frame.settings.is_of_tiles(*area));
+            let kind = PieceKind::from_json(text).filter(|kind| kind.fits(&frame) && frame.settings.is_of_tiles(*area));
             let kind = kind.ok_or_else(|| failed(path, format!("damaged: no piece of {area:?} can be {text}")))?;
             Ok(PieceHeader { area: *area, kind, checksums: text["checksums"].clone() })
         };

@@ -83,7 +83,7 @@ const SLOW: f64 = 1e6;
 
 /// What to render until when.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
+pub struct Refinement {
     /// The settings of the first pass, except for `spp` and `sampler`, which are chosen for each pass.
     pub settings: Settings,
     /// The sampler of all passes; `None` for [`default_sampler`] of each pass.
@@ -102,7 +102,7 @@ impl Goal {
     }
 }
 
-impl Plan {
+impl Refinement {
     fn sampler_of(&self, spp: u32) -> Sampler {
         self.sampler.unwrap_or_else(|| default_sampler(spp, self.settings.sets, self.lens))
     }
@@ -158,7 +158,7 @@ impl Plan {
 /// unknown because it is black, or too bright for single precision; or if no number of samples reaches it, and no time ends the rendering.
 pub fn render(
     world: &World,
-    plan: &Plan,
+    plan: &Refinement,
     progress: impl Fn(u64) + Sync,
     mut start: impl FnMut(Option<&Progress>, u32),
     mut finish: impl FnMut(&Progress) -> Result<(), String>,
@@ -340,7 +340,7 @@ mod tests {
             let technique = crate::Technique::Area;
             let (sampler, settings) =
                 (Some(sampler), Settings { width: 1, height: 1, spp: 1, technique, depth: 0, sampler, sets, seed: 0 });
-            Plan { settings, sampler, lens, goal: Goal { seconds: None, error } }.counts()
+            Refinement { settings, sampler, lens, goal: Goal { seconds: None, error } }.counts()
         };
         let of = |sampler, sets, lens| plan(sampler, sets, lens, Some(0.1));
         assert_eq!(of(Sampler::Sobol, 0, false).unwrap()[..3], [2, 4, 8]);

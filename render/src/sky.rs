@@ -11,11 +11,11 @@ use etendue::{ConstantEnvironment, LightSample, LightSampler, Vec2, Vec3, Warp, 
 pub struct Sky {
     /// Rows of the rotation from the world to the light.
     rows: [[f32; 3]; 3],
-    kind: Kind,
+    kind: SkyKind,
 }
 
 #[derive(Clone, Debug)]
-enum Kind {
+enum SkyKind {
     Constant([f32; 3]),
     Image { width: usize, map: etendue::light::EnvironmentMap, texels: Vec<[f32; 3]>, table: Vec<f32> },
 }
@@ -24,13 +24,13 @@ impl Sky {
     /// Builds the table.
     pub fn new(environment: &scene::Environment) -> Self {
         let kind = match &environment.sky {
-            scene::SkyRadiance::Constant(radiance) => Kind::Constant(*radiance),
+            scene::SkyRadiance::Constant(radiance) => SkyKind::Constant(*radiance),
             scene::SkyRadiance::Image { width, map, texels } => {
                 let weights: Vec<f32> = texels.iter().map(|t| t.iter().sum()).collect();
                 let mut table = vec![0.0; ImageEnvironment::buffer(*width, texels.len() / width)];
                 ImageEnvironment::build(&weights, *width, *map, &mut table)
                     .expect("the scene reader has checked the texels");
-                Kind::Image { width: *width, map: *map, texels: texels.clone(), table }
+                SkyKind::Image { width: *width, map: *map, texels: texels.clone(), table }
             }
         };
         Self { rows: environment.to_light, kind }
@@ -39,8 +39,8 @@ impl Sky {
     pub fn flux(&self) -> f64 {
         let sum = |rgb: &[f32; 3]| rgb.iter().map(|&x| f64::from(x)).sum::<f64>();
         match &self.kind {
-            Kind::Constant(radiance) => 4.0 * std::f64::consts::PI * sum(radiance),
-            Kind::Image { width, map, texels, .. } => {
+            SkyKind::Constant(radiance) => 4.0 * std::f64::consts::PI * sum(radiance),
+            SkyKind::Image { width, map, texels, .. } => {
                 let height = texels.len() / width;
                 let rows = texels.chunks(*width).enumerate();
                 rows.map(|(y, row)| row.iter().map(sum).sum::<f64>() * map.texel_solid_angle(*width, height, y)).sum()
@@ -61,8 +61,8 @@ impl Sky {
     #[inline]
     pub fn radiance(&self, direction: V8) -> V8 {
         match &self.kind {
-            Kind::Constant(radiance) => (*radiance).into(),
-            Kind::Image { width, texels, .. } => {
+            SkyKind::Constant(radiance) => (*radiance).into(),
+            SkyKind::Image { width, texels, .. } => {
                 let texel = self.image().texel(self.to_light(direction));
                 gather(texels, *width, texel.x, texel.y)
             }
@@ -72,14 +72,14 @@ impl Sky {
     #[inline]
     pub fn sample(&self, measure: Measure, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
         match &self.kind {
-            Kind::Constant(radiance) => {
+            SkyKind::Constant(radiance) => {
                 let sample = match measure {
                     Measure::Projected => ConstantEnvironment.by_projected_solid_angle(normal).sample(u),
                     _ => ConstantEnvironment.by_solid_angle().sample(u),
                 };
                 (sample, (*radiance).into())
             }
-            Kind::Image { width, texels, .. } => {
+            SkyKind::Image { width, texels, .. } => {
                 let mut drawn = self.image().draw(u);
                 drawn.light.direction = self.to_world(drawn.light.direction);
                 (drawn.light, gather(texels, *width, drawn.x, drawn.y))
@@ -90,20 +90,20 @@ impl Sky {
     #[inline]
     pub fn pdf(&self, measure: Measure, normal: V8, direction: V8) -> X8 {
         match (&self.kind, measure) {
-            (Kind::Constant(_), Measure::Projected) => {
+            (SkyKind::Constant(_), Measure::Projected) => {
                 ConstantEnvironment.by_projected_solid_angle(normal).pdf(direction)
             }
-            (Kind::Constant(_), _) => ConstantEnvironment.by_solid_angle().pdf(direction),
-            (Kind::Image { .. }, _) => self.image().pdf(self.to_light(direction)),
+            (SkyKind::Constant(_), _) => ConstantEnvironment.by_solid_angle().pdf(direction),
+            (SkyKind::Image { .. }, _) => self.image().pdf(self.to_light(direction)),
         }
     }
     #[inline]
     fn image(&self) -> ImageEnvironment<'_> {
         match &self.kind {
-            Kind::Image { width, map, table, .. } => {
+            SkyKind::Image { width, map, table, .. } => {
                 ImageEnvironment::from_buffer(table, *width, *map).expect("a table of its own size")
             }
-            Kind::Constant(_) => unreachable!("a constant sky has no image"),
+            SkyKind::Constant(_) => unreachable!("a constant sky has no image"),
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Splits an image into tiles and ranges of samples of about equal size.
 
+use crate::area::Area;
 use crate::integrator::Settings;
 use std::ops::Range;
 
 /// Splits an image into at most `count` areas of whole tiles, as square as possible.
 #[must_use]
-pub fn areas(settings: &Settings, count: u32) -> Vec<[u32; 4]> {
+pub fn areas(settings: &Settings, count: u32) -> Vec<Area> {
     let size = [settings.width, settings.height];
     let tiles = size.map(|side| side.div_ceil(Settings::TILE));
     let grid = |across: u32| [across, (count.max(1) / across).min(tiles[1])];

@@ -9,18 +9,18 @@ struct Light {
     name: &'static str,
     fields: &'static [[&'static str; 3]],
     default: &'static str,
-    techniques: &'static [Technique],
+    techniques: &'static [Row],
 }
 
 /// A technique: its sampler, its name in C, which is empty if another light has that sampler, its method, and the arguments of that.
-struct Technique {
+struct Row {
     sampler: &'static str,
     name: &'static str,
     by: &'static str,
     place: &'static [&'static str],
 }
 
-impl Technique {
+impl Row {
     /// The light whose sampler it is.
     fn light(&self) -> &'static str {
         self.sampler.split("By").next().unwrap()
@@ -32,7 +32,7 @@ impl Technique {
 
 impl Light {
     /// Techniques whose samplers no other light has.
-    fn own(&self) -> impl Iterator<Item = &'static Technique> {
+    fn own(&self) -> impl Iterator<Item = &'static Row> {
         self.techniques.iter().filter(|technique| !technique.name.is_empty())
     }
 }
@@ -52,7 +52,7 @@ macro_rules! lights {
             name: stringify!($light),
             fields: &[$([stringify!($field), stringify!($argument), stringify!($kind)]),+],
             default: $default,
-            techniques: &[$(Technique {
+            techniques: &[$(Row {
                 sampler: stringify!($sampler),
                 name: concat!($(stringify!($technique))?),
                 by: stringify!($by),
@@ -105,7 +105,7 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
         }
     }
     for technique in light.techniques {
-        let Technique { sampler, by, .. } = technique;
+        let Row { sampler, by, .. } = technique;
         // the fields of a light whose sampler is another one's are that one's
         let this = if technique.name.is_empty() {
             let fields: Vec<_> =
@@ -163,7 +163,7 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     let arguments: Vec<_> = fields.iter().map(|[_, argument, _]| format!("{argument}: ArrayLike")).collect();
     writeln!(out, "@final\nclass {name}:")?;
     writeln!(out, "    def __new__(cls, {}) -> {name}: ...", arguments.join(", "))?;
-    for Technique { by, place, .. } in light.techniques {
+    for Row { by, place, .. } in light.techniques {
         let place: String = place.iter().map(|name| format!(", {name}: ArrayLike")).collect();
         writeln!(out, "    def {by}(self{place}) -> Sampler: ...")?;
     }

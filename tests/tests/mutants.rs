@@ -29,7 +29,7 @@ fn properties<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
 fn reach<D: Defect>(cases: &[Case<D::Of>]) -> Noticed {
     noticed(&[suite::within_reach(&plant::<D>(cases))])
 }
-fn noticed(outcomes: &[suite::Outcome]) -> Noticed {
+fn noticed(outcomes: &[suite::PropertyOutcome]) -> Noticed {
     outcomes
         .iter()
         .filter(|outcome| outcome.broken().next().is_some())

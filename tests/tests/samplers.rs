@@ -4,7 +4,7 @@ use etendue::{LightSampler, Mask, Parallelogram, Real, Rectangle, Sphere, Triang
 use etendue_oracle::{cross, dot, length, sub, unit, wide};
 use etendue_properties::generators::Random;
 use etendue_properties::properties::{Coordinates, squares_of};
-use etendue_properties::techniques::{self, AreaLight, LightShape, Measure, Technique};
+use etendue_properties::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
 
 /// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.
 fn clear(light: &AreaLight) -> bool {

@@ -47,8 +47,9 @@ fn all<S: Fixture>(warp: &'static str, mut cases: Vec<Case<S>>, random: usize) -
     let mut regimes: Vec<_> = cases.iter().map(|c| c.0).collect();
     regimes.sort_unstable();
     regimes.dedup();
-    let greatest = ["accurate", "density"]
-        .map(|property| outcomes.iter().find(|o| o.property == property).map_or(f64::NAN, suite::Outcome::greatest));
+    let greatest = ["accurate", "density"].map(|property| {
+        outcomes.iter().find(|o| o.property == property).map_or(f64::NAN, suite::PropertyOutcome::greatest)
+    });
     CHECKED.lock().unwrap().push(Checked { warp, regimes: regimes.len(), cases: cases.len(), greatest });
     let broken: Vec<_> = outcomes
         .iter()

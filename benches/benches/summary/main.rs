@@ -14,7 +14,7 @@ mod instructions;
 use etendue::{f32x4, f32x8, f32x16};
 use etendue_laboratory::cost::{self, Rounds};
 use etendue_render::bvh::Scratch;
-use etendue_routines::rays::{How, Kind, Workload};
+use etendue_routines::rays::{How, RayKind, Workload};
 use etendue_routines::{SAMPLES, routines, tables};
 use instructions::WIDTHS;
 use std::hint::black_box;
@@ -94,7 +94,7 @@ fn rays(json: Option<&str>) {
     for scene in ["quads", "terrain"] {
         let workload = Workload::new(scene, 512);
         let mut stack = Scratch::default();
-        for (kind, name) in Kind::ALL {
+        for (kind, name) in RayKind::ALL {
             let rays = workload.rays(kind);
             let rounds: Vec<_> = (0..REPETITIONS)
                 .map(|_| {

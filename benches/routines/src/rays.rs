@@ -14,7 +14,7 @@ const SIDE: u32 = 256;
 
 /// The kinds of rays, each in groups of 64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum RayKind {
     /// Camera rays through one pixel, closest hit.
     Pixel,
     /// Camera rays through 8 × 8 pixels, closest hit.
@@ -29,7 +29,7 @@ pub enum Kind {
     Shuffled,
 }
 
-impl Kind {
+impl RayKind {
     /// All kinds, with names.
     pub const ALL: [(Self, &'static str); 6] = [
         (Self::Pixel, "camera, a pixel"),
@@ -149,12 +149,12 @@ impl Workload {
 
     /// The number of rays of a kind.
     #[must_use]
-    pub fn rays(&self, kind: Kind) -> u64 {
+    pub fn rays(&self, kind: RayKind) -> u64 {
         self.kinds[kind as usize].1.len() as u64
     }
 
     /// Traces all rays of a kind and returns the number of hits.
-    pub fn trace(&self, kind: Kind, how: How, stack: &mut Scratch) -> u64 {
+    pub fn trace(&self, kind: RayKind, how: How, stack: &mut Scratch) -> u64 {
         let (groups, rays) = &self.kinds[kind as usize];
         let bvh = match how {
             How::Obvhs if kind.nearest() => {

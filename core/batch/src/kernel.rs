@@ -3,7 +3,7 @@
 //! Columns are raw pointers, since callers in other languages pass them so, since an output may be null, and since an output may be
 //! the same memory as an input.
 
-use crate::technique::Technique;
+use crate::technique::BatchTechnique;
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns};
 use core::mem::MaybeUninit;
@@ -142,7 +142,7 @@ fn packets(n: usize, lanes: usize, mut f: impl FnMut(Place)) {
 }
 
 /// Prepares a light for one point.
-pub(crate) unsafe extern "C" fn prepare<T: Technique>(
+pub(crate) unsafe extern "C" fn prepare<T: BatchTechnique>(
     light: &T::Light<f32>,
     p: Vec3<f32>,
     normal: Vec3<f32>,
@@ -158,10 +158,16 @@ const fn is_for_one<T, R: Packet>(n: usize) -> bool {
 }
 
 /// Stands for [`prepare`] in tables that are not asked for it.
-pub(crate) unsafe extern "C" fn no_prepare<T: Technique>(_: &T::Light<f32>, _: Vec3<f32>, _: Vec3<f32>, _: *mut T) {}
+pub(crate) unsafe extern "C" fn no_prepare<T: BatchTechnique>(
+    _: &T::Light<f32>,
+    _: Vec3<f32>,
+    _: Vec3<f32>,
+    _: *mut T,
+) {
+}
 
 /// Samples of one prepared light.
-pub(crate) unsafe extern "C" fn sample<T: Technique, R: Packet>(
+pub(crate) unsafe extern "C" fn sample<T: BatchTechnique, R: Packet>(
     sampler: &T,
     n: usize,
     u: Vec2<*const f32>,
@@ -180,7 +186,7 @@ pub(crate) unsafe extern "C" fn sample<T: Technique, R: Packet>(
 
 /// Lights of their own for each element, as seen from points of surfaces with normals of their own.
 #[repr(C)]
-pub struct Views<T: Technique> {
+pub struct Views<T: BatchTechnique> {
     /// The lights.
     pub lights: T::Light<*const f32>,
     /// The shading points.
@@ -189,7 +195,7 @@ pub struct Views<T: Technique> {
     pub normals: Vec3<*const f32>,
 }
 
-impl<T: Technique> Views<T> {
+impl<T: BatchTechnique> Views<T> {
     /// The lights of a packet, prepared.
     #[inline(always)]
     unsafe fn prepare<R: Packet>(&self, place: Place) -> T::Of<R> {
@@ -214,7 +220,7 @@ impl<T: Technique> Views<T> {
 }
 
 /// Samples of a light of its own for each element, prepared for a point of its own.
-pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Packet>(
+pub(crate) unsafe extern "C" fn sample_each<T: BatchTechnique, R: Packet>(
     views: &Views<T>,
     n: usize,
     u: Vec2<*const f32>,
@@ -234,7 +240,7 @@ pub(crate) unsafe extern "C" fn sample_each<T: Technique, R: Packet>(
 }
 
 /// The pdf, the random numbers and the hit of a direction of its own for each element; null columns are not wanted.
-pub(crate) unsafe extern "C" fn evaluate_each<T: Technique, R: Packet>(
+pub(crate) unsafe extern "C" fn evaluate_each<T: BatchTechnique, R: Packet>(
     views: &Views<T>,
     n: usize,
     directions: Vec3<*const f32>,
@@ -281,7 +287,7 @@ pub(crate) unsafe extern "C" fn evaluate_each<T: Technique, R: Packet>(
 }
 
 /// The pdf of directions.
-pub(crate) unsafe extern "C" fn pdf<T: Technique, R: Packet>(
+pub(crate) unsafe extern "C" fn pdf<T: BatchTechnique, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,
@@ -299,7 +305,7 @@ pub(crate) unsafe extern "C" fn pdf<T: Technique, R: Packet>(
 }
 
 /// The random numbers that the sampler maps to directions.
-pub(crate) unsafe extern "C" fn invert<T: Technique, R: Packet>(
+pub(crate) unsafe extern "C" fn invert<T: BatchTechnique, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,
@@ -319,7 +325,7 @@ pub(crate) unsafe extern "C" fn invert<T: Technique, R: Packet>(
 }
 
 /// Where directions hit the light.
-pub(crate) unsafe extern "C" fn hit<T: Technique, R: Packet>(
+pub(crate) unsafe extern "C" fn hit<T: BatchTechnique, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,

@@ -38,7 +38,7 @@ mod warp;
 pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
 pub use kernel::Views;
 pub use table::{InTable, LightFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions};
-pub use technique::Technique;
+pub use technique::BatchTechnique;
 pub use warp::BatchWarp;
 
 use etendue::select::LightTree;
@@ -141,7 +141,7 @@ impl Batch {
     /// Prepares a light for the point `p` of a surface with the unit normal `n`.
     pub fn prepare<T>(&self, light: &T::Light<f32>, p: Vec3<f32>, n: Vec3<f32>) -> T
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let mut out = core::mem::MaybeUninit::<T>::uninit();
         // SAFETY: the function writes a whole sampler
@@ -153,7 +153,7 @@ impl Batch {
     /// Samples one prepared light, at the numbers `u` in [0, 1)².
     pub fn sample<T>(&self, sampler: &T, u: Vec2<&[f32]>, out: Samples<'_>)
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let n = u.x.len();
         check(n, [u.y.len()]);
@@ -171,7 +171,7 @@ impl Batch {
         u: Vec2<&[f32]>,
         out: Samples<'_>,
     ) where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let count = u.x.len();
         check(count, [u.y.len()]);
@@ -189,7 +189,7 @@ impl Batch {
         w: Vec3<&[f32]>,
         out: Evaluations<'_>,
     ) where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let count = w.x.len();
         check(count, [w.y.len(), w.z.len()]);
@@ -200,7 +200,7 @@ impl Batch {
     /// The pdf of unit directions, per steradian (lines: see [`etendue::Line`]).
     pub fn pdf<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: &mut [f32])
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let n = out.len();
         check(n, [directions.x.len(), directions.y.len(), directions.z.len()]);
@@ -210,7 +210,7 @@ impl Batch {
     /// The numbers in [0, 1)² that the sampler maps to unit directions.
     pub fn invert<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Vec2<&mut [f32]>)
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let n = out.x.len();
         check(n, [out.y.len(), directions.x.len(), directions.y.len(), directions.z.len()]);
@@ -221,7 +221,7 @@ impl Batch {
     /// The nearest points of the light in unit directions, with their pdf; 0 where a direction misses it.
     pub fn hit<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Samples<'_>)
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let n = directions.x.len();
         check(n, [directions.y.len(), directions.z.len()]);
@@ -307,7 +307,7 @@ impl Batch {
 
 /// Lights, points and normals by pointers.
 #[track_caller]
-fn views<T: Technique>(count: usize, lights: T::Light<&[f32]>, p: Vec3<&[f32]>, n: Vec3<&[f32]>) -> Views<T> {
+fn views<T: BatchTechnique>(count: usize, lights: T::Light<&[f32]>, p: Vec3<&[f32]>, n: Vec3<&[f32]>) -> Views<T> {
     check(count, [p.x.len(), p.y.len(), p.z.len()]);
     if T::ON_SURFACE {
         check(count, [n.x.len(), n.y.len(), n.z.len()]);

@@ -1,7 +1,7 @@
 //! The functions of every level, in tables of the same form.
 
 use crate::kernel::{Packet, Views};
-use crate::technique::Technique;
+use crate::technique::BatchTechnique;
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns, kernel};
 use etendue::light::*;
@@ -14,7 +14,7 @@ type Column = *const f32;
 
 /// The functions of a light's technique, by raw pointers to columns.
 #[repr(C)]
-pub struct LightFunctions<T: Technique> {
+pub struct LightFunctions<T: BatchTechnique> {
     /// Prepares a light for a point of a surface with a normal.
     pub prepare: unsafe extern "C" fn(&T::Light<f32>, Vec3<f32>, Vec3<f32>, *mut T),
     /// See [`Batch::sample`](crate::Batch::sample).
@@ -30,7 +30,7 @@ pub struct LightFunctions<T: Technique> {
     /// See [`Batch::hit`](crate::Batch::hit).
     pub hit: unsafe extern "C" fn(&T, usize, Vec3<Column>, &SampleColumns),
 }
-impl<T: Technique> LightFunctions<T> {
+impl<T: BatchTechnique> LightFunctions<T> {
     const fn of<R: Packet>() -> Self {
         Self {
             // the other levels prepare faster or as fast, with the instructions of x86-64-v3

@@ -4,7 +4,7 @@ use etendue::light::*;
 use etendue::{LightSampler, Real, Vec3};
 
 /// A light prepared for a shading point by one technique, in numbers of single precision.
-pub trait Technique: LightSampler<f32> + Copy + 'static {
+pub trait BatchTechnique: LightSampler<f32> + Copy + 'static {
     /// The light over numbers, packets of numbers, or columns.
     type Light<X: Copy>: Copy;
     /// The prepared light over packets.
@@ -45,7 +45,7 @@ macro_rules! implement {
     // the sampler of another light
     (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt) => {};
     (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt, $name:ident) => {
-        impl Technique for $sampler<f32 $(, $n)?> {
+        impl BatchTechnique for $sampler<f32 $(, $n)?> {
             type Light<X: Copy> = $light<X $(, $n)?>;
             type Of<R: Real> = $sampler<R $(, $n)?>;
             const ON_SURFACE: bool = on_surface!($place);

@@ -101,7 +101,7 @@ struct Equal {
 impl Visitor for Equal {
     fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         for (batch, input) in levels().into_iter().flat_map(|batch| self.inputs.iter().map(move |input| (batch, input)))
         {

@@ -117,7 +117,7 @@ impl Bench {
 impl Visitor for Bench {
     fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let input = &Inputs::new();
         let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
@@ -193,7 +193,7 @@ impl Visitor for Bench {
 
 /// The same samples by the core, with the instructions of this build.
 #[inline(never)]
-fn by_core<T: Technique, R: Real<Scalar = f32>>(sampler: &T, u: Vec2<&[f32]>, out: &mut Results) {
+fn by_core<T: BatchTechnique, R: Real<Scalar = f32>>(sampler: &T, u: Vec2<&[f32]>, out: &mut Results) {
     let sampler = sampler.splat::<R>();
     for at in (0..N).step_by(R::LANES) {
         let s = sampler.sample(u.map(|column| R::from_fn(|lane| column[at + lane])));

@@ -5,7 +5,7 @@ use core::mem::{align_of, size_of};
 use core::ptr::null_mut;
 use etendue::light;
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, EvaluationColumns, SampleColumns, Technique, Views};
+use etendue_batch::{Batch, BatchTechnique, EvaluationColumns, SampleColumns, Views};
 
 /// One sample of a light as seen from a shading point, or the point of a light that a ray hits.
 ///
@@ -331,7 +331,7 @@ macro_rules! technique {
             ) -> Option<Views<$type>> {
                 // SAFETY: the caller's pointers are null or point to what the header says
                 unsafe {
-                    let (lights, points, there) = (lights.cast::<<$type as Technique>::Light<*const f32>>(), columns(p)?, (*lights).all_there());
+                    let (lights, points, there) = (lights.cast::<<$type as BatchTechnique>::Light<*const f32>>(), columns(p)?, (*lights).all_there());
                     #[allow(unused_variables)]
                     let normals = Vec3::new(core::ptr::null::<f32>(), core::ptr::null(), core::ptr::null());
                     $(let normals = vec3(columns($normals)?);)?

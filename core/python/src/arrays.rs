@@ -12,7 +12,7 @@ const LAST: f32 = 1.0 - 1.0 / 16_777_216.0;
 
 /// What an argument is made of.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum FieldKind {
     /// A number.
     Number,
     /// A number in [0, 1).
@@ -29,7 +29,7 @@ pub(crate) enum Kind {
     Index,
 }
 
-impl Kind {
+impl FieldKind {
     /// The lengths of its own axes, where they are fixed.
     fn axes(self) -> &'static str {
         match self {
@@ -74,7 +74,7 @@ impl Kind {
 /// An argument as a numpy array whose shape and type were checked.
 pub(crate) struct Argument<'py> {
     name: &'static str,
-    kind: Kind,
+    kind: FieldKind,
     array: Bound<'py, PyAny>,
     /// The axes before its own.
     pub(crate) shape: Vec<usize>,
@@ -82,7 +82,7 @@ pub(crate) struct Argument<'py> {
 }
 
 impl<'py> Argument<'py> {
-    pub(crate) fn new(name: &'static str, kind: Kind, object: &Bound<'py, PyAny>) -> PyResult<Self> {
+    pub(crate) fn new(name: &'static str, kind: FieldKind, object: &Bound<'py, PyAny>) -> PyResult<Self> {
         let py = object.py();
         let named = |e: PyErr| {
             let message = format!("{name}: {}", e.value(py));
@@ -96,14 +96,14 @@ impl<'py> Argument<'py> {
         let mut shape: Vec<usize> = array.getattr("shape")?.extract()?;
         let dtype = array.getattr("dtype")?;
         let letter: String = dtype.getattr("kind")?.extract()?;
-        let wanted = if kind == Kind::Index { "iu" } else { "biuf" };
+        let wanted = if kind == FieldKind::Index { "iu" } else { "biuf" };
         // an empty list is an array of floats
         if !wanted.contains(&letter) && !shape.contains(&0) {
-            let numbers = if kind == Kind::Index { "integers" } else { "real numbers" };
+            let numbers = if kind == FieldKind::Index { "integers" } else { "real numbers" };
             return Err(PyTypeError::new_err(format!("{name} must be an array of {numbers}, not of {dtype}")));
         }
         // an empty list stands for no rows
-        let (array, axes) = if shape == [0] && kind.rank() > 0 && kind != Kind::Corners {
+        let (array, axes) = if shape == [0] && kind.rank() > 0 && kind != FieldKind::Corners {
             let axes = vec![kind.width()];
             (array.call_method1("reshape", ((0, kind.width()),))?, axes)
         } else {
@@ -119,7 +119,7 @@ impl<'py> Argument<'py> {
         Ok(Self { name, kind, array, shape, axes })
     }
     /// An argument of one element.
-    pub(crate) fn single(name: &'static str, kind: Kind, object: &Bound<'py, PyAny>) -> PyResult<Self> {
+    pub(crate) fn single(name: &'static str, kind: FieldKind, object: &Bound<'py, PyAny>) -> PyResult<Self> {
         let this = Self::new(name, kind, object)?;
         if this.shape.is_empty() {
             return Ok(this);
@@ -157,7 +157,7 @@ impl<'py> Argument<'py> {
             }
             columns
         };
-        if self.kind == Kind::Direction {
+        if self.kind == FieldKind::Direction {
             self.check_length(&columns, shape)?;
         }
         Ok(columns)

@@ -1,8 +1,8 @@
 //! Lights, and lights prepared for a shading point.
 
-use crate::arrays::{Argument, Kind, array, broadcast, rows, run, zero_columns, zeros};
+use crate::arrays::{Argument, FieldKind, array, broadcast, rows, run, zero_columns, zeros};
 use etendue::{Vec2, Vec3, light};
-use etendue_batch::{Batch, Evaluations, InTable, LightFunctions, Technique};
+use etendue_batch::{Batch, BatchTechnique, Evaluations, InTable, LightFunctions};
 use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -13,7 +13,7 @@ trait Prepared: Send + Sync {
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]);
     fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>);
 }
-impl<T: Technique + InTable<Functions = LightFunctions<T>> + Send + Sync> Prepared for T {
+impl<T: BatchTechnique + InTable<Functions = LightFunctions<T>> + Send + Sync> Prepared for T {
     fn sample(&self, u: Vec2<&[f32]>, out: etendue_batch::Samples<'_>) {
         Batch::new().sample(self, u, out);
     }
@@ -117,20 +117,20 @@ impl Sampler {
 impl Sampler {
     /// Draws directions to the light for numbers u in [0, 1)², (..., 2). Lines use the first number alone.
     fn sample(&self, py: Python<'_>, u: &Bound<'_, PyAny>) -> PyResult<Samples> {
-        let u = Argument::new("u", Kind::Units, u)?;
+        let u = Argument::new("u", FieldKind::Units, u)?;
         let columns = u.columns(&u.shape)?;
         Samples::of(py, u.shape, |out| self.prepared.sample(Vec2::new(&columns[0], &columns[1]), out))
     }
     /// The points of the light that unit directions w hit, (..., 3), with the pdf with which `sample` draws them; the pdf is 0 where a
     /// direction misses the light.
     fn hit(&self, py: Python<'_>, w: &Bound<'_, PyAny>) -> PyResult<Samples> {
-        let w = Argument::new("w", Kind::Direction, w)?;
+        let w = Argument::new("w", FieldKind::Direction, w)?;
         let columns = w.columns(&w.shape)?;
         Samples::of(py, w.shape, |out| self.prepared.hit(vector(&columns), out))
     }
     /// The probability density per steradian with which `sample` draws unit directions w, (..., 3); 0 where they miss the light.
     fn pdf<'py>(&self, py: Python<'py>, w: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let w = Argument::new("w", Kind::Direction, w)?;
+        let w = Argument::new("w", FieldKind::Direction, w)?;
         let columns = w.columns(&w.shape)?;
         let mut out = zeros(columns[0].len())?;
         run(py, out.len(), || self.prepared.pdf(vector(&columns), &mut out));
@@ -138,7 +138,7 @@ impl Sampler {
     }
     /// The numbers u in [0, 1)² that `sample` maps to unit directions w, (..., 3); any numbers where they miss the light.
     fn invert<'py>(&self, py: Python<'py>, w: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let w = Argument::new("w", Kind::Direction, w)?;
+        let w = Argument::new("w", FieldKind::Direction, w)?;
         let columns = w.columns(&w.shape)?;
         let mut out = zero_columns::<2>(columns[0].len())?;
         run(py, columns[0].len(), || {
@@ -175,7 +175,7 @@ impl Sampler {
 
 /// An argument of a light's constructor: its name, its kind, whether it is a vertex of which the core keeps the edge from the first one, and
 /// its value.
-type Field<'a, 'py> = (&'static str, Kind, bool, &'a Bound<'py, PyAny>);
+type Field<'a, 'py> = (&'static str, FieldKind, bool, &'a Bound<'py, PyAny>);
 
 /// The numbers of a light in columns, in the order of the core.
 fn numbers(fields: &[Field<'_, '_>], arguments: &[Argument<'_>], shape: &[usize]) -> PyResult<Vec<Vec<f32>>> {
@@ -201,11 +201,11 @@ fn one(fields: &[Field<'_, '_>]) -> PyResult<Vec<f32>> {
 /// Prepares a light for a point p and a normal n, or for those of them that the technique needs.
 fn prepare<T>(light: &T::Light<f32>, place: &[(&'static str, &Bound<'_, PyAny>)]) -> PyResult<T>
 where
-    T: Technique + InTable<Functions = LightFunctions<T>>,
+    T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
 {
     let mut vectors = [Vec3::default(); 2];
     for (&(name, object), vector) in place.iter().zip(&mut vectors) {
-        let kind = if name == "n" { Kind::Direction } else { Kind::Row(3) };
+        let kind = if name == "n" { FieldKind::Direction } else { FieldKind::Row(3) };
         let columns = Argument::single(name, kind, object)?.columns(&[])?;
         *vector = Vec3::new(columns[0][0], columns[1][0], columns[2][0]);
     }
@@ -236,12 +236,12 @@ impl Each {
         fields: &[Field<'_, '_>],
         p: &Bound<'_, PyAny>,
         n: Option<&Bound<'_, PyAny>>,
-        (name, kind, at): (&'static str, Kind, &Bound<'_, PyAny>),
+        (name, kind, at): (&'static str, FieldKind, &Bound<'_, PyAny>),
     ) -> PyResult<Self> {
         let arguments = fields.iter().map(|&(name, kind, _, object)| Argument::new(name, kind, object));
         let arguments = arguments.collect::<PyResult<Vec<_>>>()?;
-        let (p, at) = (Argument::new("p", Kind::Row(3), p)?, Argument::new(name, kind, at)?);
-        let n = n.map(|n| Argument::new("n", Kind::Direction, n)).transpose()?;
+        let (p, at) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new(name, kind, at)?);
+        let n = n.map(|n| Argument::new("n", FieldKind::Direction, n)).transpose()?;
         let shape = broadcast(py, &arguments.iter().chain([&p, &at]).chain(&n).collect::<Vec<_>>())?;
         let light = numbers(fields, &arguments, &shape)?;
         let n = n.map(|n| n.columns(&shape)).transpose()?;
@@ -255,7 +255,7 @@ impl Each {
         build: impl for<'a> Fn(&[&'a [f32]]) -> T::Light<&'a [f32]> + Send + Sync,
     ) -> PyResult<Py<PyAny>>
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>,
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
     {
         let Self { shape, light, p, n, at } = self;
         if T::ON_SURFACE && n.is_none() {
@@ -299,16 +299,16 @@ impl Each {
 /// The kind of an argument.
 macro_rules! kind {
     (number) => {
-        Kind::Number
+        FieldKind::Number
     };
     (direction) => {
-        Kind::Direction
+        FieldKind::Direction
     };
     (corners) => {
-        Kind::Corners
+        FieldKind::Corners
     };
     ($vector:ident) => {
-        Kind::Row(3)
+        FieldKind::Row(3)
     };
 }
 /// A field of a light from the next numbers.
@@ -350,7 +350,7 @@ macro_rules! lights {
         }
         impl $light {
             fn fields<'a, 'py, const N: usize>(values: [&'a Bound<'py, PyAny>; N]) -> [Field<'a, 'py>; N] {
-                const FIELDS: &[(&str, Kind, &str)] = &[$((stringify!($argument), kind!($kind), stringify!($kind))),+];
+                const FIELDS: &[(&str, FieldKind, &str)] = &[$((stringify!($argument), kind!($kind), stringify!($kind))),+];
                 core::array::from_fn(|k| (FIELDS[k].0, FIELDS[k].1, FIELDS[k].2 == "vertex", values[k]))
             }
             fn build<X: Copy>(numbers: &[X]) -> light::$light<X $(, $corners)?> {
@@ -370,7 +370,7 @@ macro_rules! lights {
                 if !names.contains(&by) {
                     return Err(PyValueError::new_err(format!("by must be one of {names:?}, not {by:?}")));
                 }
-                let at = if let Call::Sample = call { ("u", Kind::Units, at) } else { ("w", Kind::Direction, at) };
+                let at = if let Call::Sample = call { ("u", FieldKind::Units, at) } else { ("w", FieldKind::Direction, at) };
                 let each = Each::new(py, fields, p, n, at)?;
                 $(if by == &stringify!($by)[3..] {
                     return each.call::<light::$sampler<f32 $(, $n)?>>(py, call, |x| Self::build(x).into());

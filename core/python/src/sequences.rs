@@ -1,6 +1,6 @@
 //! Sequences of random numbers.
 
-use crate::arrays::{Argument, Kind, rows, run, zero_columns};
+use crate::arrays::{Argument, FieldKind, rows, run, zero_columns};
 use etendue::Vec2;
 use etendue_batch::{Batch, Counters, InTable, SequenceFunctions};
 use pyo3::exceptions::{PyMemoryError, PyValueError};
@@ -43,7 +43,7 @@ impl Sequence {
         let (mut shape, pixels) = match pixel {
             None => (vec![], vec![0]),
             Some(pixel) => {
-                let pixel = Argument::new("pixel", Kind::Index, pixel)?;
+                let pixel = Argument::new("pixel", FieldKind::Index, pixel)?;
                 let pixels = pixel.indices(&pixel.shape)?;
                 (pixel.shape, pixels)
             }

@@ -1,6 +1,6 @@
 //! Choice among many lights.
 
-use crate::arrays::{Argument, Kind, array, broadcast, room, run, zeros};
+use crate::arrays::{Argument, FieldKind, array, broadcast, room, run, zeros};
 use etendue::Vec3;
 use etendue::select::{LightBound, LightTree as Tree, NO_LIGHT, Node8};
 use etendue_batch::{Batch, Choices};
@@ -38,12 +38,12 @@ impl LightTree {
         power: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let arguments = [
-            ("center", Kind::Row(3), Some(center)),
-            ("radius", Kind::Number, Some(radius)),
-            ("normal", Kind::Direction, normal),
-            ("cos_cone", Kind::Number, cos_cone),
-            ("two_sided", Kind::Number, two_sided),
-            ("power", Kind::Number, power),
+            ("center", FieldKind::Row(3), Some(center)),
+            ("radius", FieldKind::Number, Some(radius)),
+            ("normal", FieldKind::Direction, normal),
+            ("cos_cone", FieldKind::Number, cos_cone),
+            ("two_sided", FieldKind::Number, two_sided),
+            ("power", FieldKind::Number, power),
         ];
         let mut given = Vec::new();
         for (name, kind, object) in arguments {
@@ -89,8 +89,8 @@ impl LightTree {
         n: &Bound<'py, PyAny>,
         u: &Bound<'py, PyAny>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let (p, n) = (Argument::new("p", Kind::Row(3), p)?, Argument::new("n", Kind::Direction, n)?);
-        let u = Argument::new("u", Kind::Unit, u)?;
+        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Direction, n)?);
+        let u = Argument::new("u", FieldKind::Unit, u)?;
         let shape = broadcast(py, &[&p, &n, &u])?;
         let (p, n, u) = (p.columns(&shape)?, n.columns(&shape)?, u.columns(&shape)?);
         let count = u[0].len();
@@ -110,8 +110,8 @@ impl LightTree {
         n: &Bound<'py, PyAny>,
         light: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (p, n) = (Argument::new("p", Kind::Row(3), p)?, Argument::new("n", Kind::Direction, n)?);
-        let light = Argument::new("light", Kind::Index, light)?;
+        let (p, n) = (Argument::new("p", FieldKind::Row(3), p)?, Argument::new("n", FieldKind::Direction, n)?);
+        let light = Argument::new("light", FieldKind::Index, light)?;
         let shape = broadcast(py, &[&p, &n, &light])?;
         let (p, n, light) = (p.columns(&shape)?, n.columns(&shape)?, light.indices(&shape)?);
         let mut pmf = zeros(light.len())?;

@@ -1,6 +1,6 @@
 //! Maps of random numbers that need no shading point.
 
-use crate::arrays::{Argument, Kind, array, room, rows, run, zero_columns, zeros};
+use crate::arrays::{Argument, FieldKind, array, room, rows, run, zero_columns, zeros};
 use etendue_batch::{Batch, BatchWarp, InTable, WarpFunctions};
 use pyo3::prelude::*;
 
@@ -51,8 +51,8 @@ fn result<'py>(
 impl Warp {
     fn points<'py>(&self, points: &Bound<'py, PyAny>) -> PyResult<(Argument<'py>, Vec<Vec<f32>>)> {
         let kind = match self.map.sizes()[1] {
-            1 => Kind::Number,
-            coordinates => Kind::Row(coordinates),
+            1 => FieldKind::Number,
+            coordinates => FieldKind::Row(coordinates),
         };
         let points = Argument::new("x", kind, points)?;
         let columns = points.columns(&points.shape)?;
@@ -65,7 +65,7 @@ impl Warp {
     /// Points for numbers u in [0, 1)², (..., 2), or in [0, 1), (...), as the warp needs.
     fn sample<'py>(&self, py: Python<'py>, u: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let [width, coordinates] = self.map.sizes();
-        let u = Argument::new("u", if width == 2 { Kind::Units } else { Kind::Unit }, u)?;
+        let u = Argument::new("u", if width == 2 { FieldKind::Units } else { FieldKind::Unit }, u)?;
         let columns = u.columns(&u.shape)?;
         let n = columns[0].len();
         let mut out = room(3)?;
@@ -95,7 +95,7 @@ impl Warp {
     }
 }
 
-type Field<'a, 'py> = (&'static str, Kind, &'a Bound<'py, PyAny>);
+type Field<'a, 'py> = (&'static str, FieldKind, &'a Bound<'py, PyAny>);
 
 fn numbers(fields: &[Field<'_, '_>]) -> PyResult<Vec<f32>> {
     let mut numbers = Vec::new();
@@ -133,8 +133,8 @@ macro_rules! warps {
         }
     };
 }
-use Kind::Number;
-const POINT: Kind = Kind::Row(3);
+use FieldKind::Number;
+const POINT: FieldKind = FieldKind::Row(3);
 warps! {
     /// Points of the unit disk, uniform in area, by the map of concentric squares to rings: (2) to (2), pdf 1/π per unit area.
     ConcentricDisk() |_x| etendue::warp::ConcentricDisk;
@@ -158,7 +158,7 @@ warps! {
     Cone(one_minus_cos: Number) |x| etendue::warp::Cone { one_minus_cos: x[0] };
     /// Points of the unit square with a density bilinear between the values `corners` (4) at (0, 0), (1, 0), (0, 1) and (1, 1): (2) to (2).
     /// Without a positive corner the pdf is 0.
-    Bilinear(corners: Kind::Row(4)) |x| etendue::warp::Bilinear { corners: [x[0], x[1], x[2], x[3]] };
+    Bilinear(corners: FieldKind::Row(4)) |x| etendue::warp::Bilinear { corners: [x[0], x[1], x[2], x[3]] };
     /// GGX normals of roughness alpha_x and alpha_y that are visible from the direction wi (3, z up): (2) to (3), pdf
     /// 2 max(0, wi·m) / (π αx αy l⁴ (|M·wi| + wi.z)) per steradian of the normal. A mirror, α ≤ 1e-15, has pdf 0.
     GgxVisibleNormals(alpha_x: Number, alpha_y: Number, wi: POINT)

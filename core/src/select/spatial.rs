@@ -38,7 +38,7 @@ pub struct SpatialLights {
 
 /// Points farther away than this, relative to the extent of the lights, count as this far: the lights then differ by less than a rounding,
 /// and no weight vanishes.
-const FAR: f64 = (1_u64 << 30) as f64;
+const FARTHEST: f64 = (1_u64 << 30) as f64;
 /// The least radius relative to the extent of the lights, and the least power relative to the strongest.
 const SMALL: f32 = 1.0 / (1_u64 << 50) as f32;
 /// The least weight of a light that can contribute, if all weights are smaller.
@@ -92,7 +92,7 @@ impl SpatialLights {
         let lit = |x: f32| R::lit(f64::from(x));
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         // a point that is farther than this keeps its direction; at the origin, the quotient is infinite
-        let p = p * (R::lit(FAR) / p.max_abs()).lesser(lit(self.scale));
+        let p = p * (R::lit(FARTHEST) / p.max_abs()).lesser(lit(self.scale));
         let mut at = LightsAt { ends: [zero; FEW], count: self.count };
         let mut sum = zero;
         for (light, weight) in self.lights[..self.count].iter().zip(&mut at.ends) {

@@ -18,7 +18,7 @@ use part::{Part, Units};
 pub const NO_LIGHT: u32 = u32::MAX;
 
 /// Points farther away than this, relative to the extent of the lights, count as this far.
-const FAR: f64 = (1_u64 << 30) as f64;
+const FARTHEST: f64 = (1_u64 << 30) as f64;
 /// The greatest number of lanes of a packet.
 const MOST_LANES: usize = 16;
 /// More than the number of levels of 2²⁷ lights: seven splits, each of which leaves at most 15/16, leave a child at most 0.64 of a node.
@@ -178,7 +178,7 @@ impl<'a> LightTree<'a> {
     pub fn at<R: Real>(&self, p: Vec3<R>, n: Vec3<R>) -> TreeAt<'a, R> {
         let scale = self.nodes.first().map_or(1.0, |root| f32::from_bits(root.link));
         // a point that is farther than this keeps its direction; at the origin, the quotient is infinite
-        let p = p * (R::lit(FAR) / p.max_abs()).lesser(R::lit(f64::from(scale)));
+        let p = p * (R::lit(FARTHEST) / p.max_abs()).lesser(R::lit(f64::from(scale)));
         TreeAt { tree: *self, p, n }
     }
 }

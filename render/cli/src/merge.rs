@@ -4,9 +4,9 @@ use crate::interrupt::Interrupt;
 use crate::output::Output;
 use crate::progress::bar;
 use clap::Args;
-use etendue_render::merge::{self, Goal, Merged, Outcome};
+use etendue_render::merge::{self, MergeGoal, MergeOutcome, Merged};
 use etendue_render::options::{out, pool, threads};
-use etendue_render::parts::{Kind, PartFile};
+use etendue_render::parts::{PartFile, PieceKind};
 use etendue_render::{files, parts};
 use std::error::Error;
 use std::fs;
@@ -35,7 +35,8 @@ pub(crate) struct Options {
 /// Whether a merge would lose what is in this file of its folder by writing to it: another part than a merged pilot, which can be made
 /// again from the others.
 fn is_needed(path: &Path) -> bool {
-    PartFile::open(path).is_ok_and(|part| part.pieces.iter().any(|piece| !matches!(piece.kind, Kind::Allotment(_))))
+    PartFile::open(path)
+        .is_ok_and(|part| part.pieces.iter().any(|piece| !matches!(piece.kind, PieceKind::Allotment(_))))
 }
 
 /// The files, and those in the folders whose names end in `.exr`, in the order of their names; without the output, which may be an image in
@@ -81,15 +82,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let output = Output::of(options.output.clone(), &[])?;
     let files = files_of(&options.parts, &output)?;
     let goal = match options {
-        Options { partial: true, .. } => Goal::Partial,
-        Options { as_part: true, .. } => Goal::Part,
-        _ => Goal::Image,
+        Options { partial: true, .. } => MergeGoal::Partial,
+        Options { as_part: true, .. } => MergeGoal::Part,
+        _ => MergeGoal::Image,
     };
     let bar = bar(files.len() as u64, "{wide_bar} {pos} of {len} parts");
     interrupt.watch(&bar, &output.exr);
     let merged = pool(options.threads)?.install(|| merge::merge(&files, goal, |done| bar.inc(done)));
     bar.finish_and_clear();
-    let Outcome { frame, merged, used, duplicates, gaps } = merged?;
+    let MergeOutcome { frame, merged, used, duplicates, gaps } = merged?;
     let mut out = out();
     for file in &duplicates {
         writeln!(out, "ignored {}, which holds what another part holds", file.display())?;

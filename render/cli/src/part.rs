@@ -6,10 +6,11 @@ use crate::output::named;
 use crate::progress::bar;
 use clap::Args;
 use etendue_render::area;
+use etendue_render::area::Area;
 use etendue_render::files;
 use etendue_render::merge;
 use etendue_render::options::{out, pool, say};
-use etendue_render::parts::{self, Content, Kind, PartFile, Piece};
+use etendue_render::parts::{self, Content, PartFile, Piece, PieceKind};
 use etendue_render::scene::Scene;
 use etendue_render::{Frame, Sampler, Settings, World};
 use serde_json::json;
@@ -38,7 +39,7 @@ pub(crate) struct PartOptions {
 
 /// The pixels [x0, y0, x1, y1).
 #[derive(Clone, Copy)]
-struct Tile([u32; 4]);
+struct Tile(Area);
 
 /// Parses `--range`.
 fn range(text: &str) -> Result<Range<u32>, String> {
@@ -50,13 +51,13 @@ fn range(text: &str) -> Result<Range<u32>, String> {
 /// Parses `--tile`.
 fn tile(text: &str) -> Result<Tile, String> {
     let sides: Option<Vec<u32>> = text.split(',').map(|side| side.parse().ok()).collect();
-    let valid = sides.and_then(|sides| <[u32; 4]>::try_from(sides).ok()).map(Tile);
+    let valid = sides.and_then(|sides| <Area>::try_from(sides).ok()).map(Tile);
     valid.ok_or_else(|| "must be four numbers, such as 0,0,64,64".to_owned())
 }
 
 /// The pixels and samples of a part.
 pub(crate) struct PartContent {
-    area: [u32; 4],
+    area: Area,
     what: What,
 }
 
@@ -106,14 +107,14 @@ impl PartOptions {
 }
 
 /// The name of the file of a part: what it holds.
-pub(crate) fn file_name(area: [u32; 4], range: Option<&Range<u32>>) -> String {
+pub(crate) fn file_name(area: Area, range: Option<&Range<u32>>) -> String {
     let [x0, y0, x1, y1] = area;
     let samples = range.map_or_else(String::new, |range| format!("-s{:05}-{:05}", range.start, range.end));
     format!("x{x0:04}-{x1:04}-y{y0:04}-{y1:04}{samples}.exr")
 }
 
 /// Why a file is not the part that is wanted; `None` if it is.
-fn flaw(path: &Path, frame: &Frame, area: [u32; 4], is_kind: impl Fn(&Kind) -> bool) -> Option<String> {
+fn flaw(path: &Path, frame: &Frame, area: Area, is_kind: impl Fn(&PieceKind) -> bool) -> Option<String> {
     let mut part = match PartFile::open(path) {
         Ok(part) => part,
         Err(error) => return Some(error.to_string()),
@@ -155,10 +156,10 @@ pub(crate) fn run(
         let what = "the pilot is read from this file, so the part cannot be written to it: choose another name with -o";
         return Err(format!("{}: {what}", path.display()).into());
     }
-    let is_kind = |kind: &Kind| match (kind, what) {
-        (Kind::Pixels, What::Samples(range)) => *range == (0..settings.spp),
-        (Kind::Range(own), What::Samples(range)) => own == range,
-        (Kind::Pixels, What::After(_)) | (Kind::Pilot(_), What::Pilot) => true,
+    let is_kind = |kind: &PieceKind| match (kind, what) {
+        (PieceKind::Pixels, What::Samples(range)) => *range == (0..settings.spp),
+        (PieceKind::Range(own), What::Samples(range)) => own == range,
+        (PieceKind::Pixels, What::After(_)) | (PieceKind::Pilot(_), What::Pilot) => true,
         _ => false,
     };
     let report = |rendered: bool| {

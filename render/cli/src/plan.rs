@@ -4,6 +4,7 @@ use crate::image::ImageOptions;
 use crate::output::Output;
 use crate::part::file_name;
 use clap::Args;
+use etendue_render::area::Area;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{out, whole};
 use etendue_render::{Sampler, split};
@@ -76,7 +77,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let areas = split::areas(&settings, tasks / ranges);
     let spp = settings.spp;
     let program = std::env::args_os().next().unwrap_or_else(|| "etendue".into());
-    let render = |area: [u32; 4], more: &OsStr, to: &Path| {
+    let render = |area: Area, more: &OsStr, to: &Path| {
         let [x0, y0, x1, y1] = area;
         let tile = format!("--tile={x0},{y0},{x1},{y1}");
         [words([&program, &"render"]), image.arguments(), words([&tile, &more, &"-o", &to])].concat()
@@ -93,7 +94,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     } else {
         let parts =
             areas.iter().flat_map(|&area| split::ranges(spp, *ranges).into_iter().map(move |range| (area, range)));
-        let part = |(area, range): ([u32; 4], Range<u32>)| {
+        let part = |(area, range): (Area, Range<u32>)| {
             let more = format!("--range={}:{}", range.start, range.end);
             render(area, more.as_ref(), &folder.join(file_name(area, Some(&range))))
         };

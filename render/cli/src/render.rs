@@ -9,7 +9,7 @@ use clap::Args;
 use etendue_render::claim::{Claim, why_unknown};
 use etendue_render::film::Film;
 use etendue_render::options::{name, out, pool, whole};
-use etendue_render::progressive::{self, Goal, Pass, Plan, Progress, reports_variance};
+use etendue_render::progressive::{self, Goal, Pass, Progress, Refinement, reports_variance};
 use etendue_render::{RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
@@ -84,7 +84,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let load = start.elapsed().as_secs_f64();
     let lens = scene.camera.lens.is_some();
     let goal = Goal { seconds: options.time, error: options.error };
-    let plan = (goal != Goal::default()).then_some(Plan { settings, sampler: image.sampler, lens, goal });
+    let plan = (goal != Goal::default()).then_some(Refinement { settings, sampler: image.sampler, lens, goal });
     match &plan {
         None => image.check(&settings, lens)?,
         Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
@@ -99,7 +99,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let world = pool.install(|| World::from_scene(&mut scene))?.with_sensor(image.sensor);
     let build = start.elapsed().as_secs_f64();
 
-    let studio = Studio { world: &world, settings, output: &output, interrupt: &interrupt };
+    let studio = Session { world: &world, settings, output: &output, interrupt: &interrupt };
     let done = pool.install(|| match &plan {
         None => studio.once(options.repeat, lens),
         Some(plan) => studio.refine(plan),
@@ -118,14 +118,14 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 }
 
 /// Everything that an image is made with.
-struct Studio<'a> {
+struct Session<'a> {
     world: &'a World,
     settings: Settings,
     output: &'a Output,
     interrupt: &'a Interrupt,
 }
 
-impl Studio<'_> {
+impl Session<'_> {
     /// Renders the same image `repeat` times and writes it.
     fn once(&self, repeat: u32, lens: bool) -> Result<Image, String> {
         let Settings { width, height, spp, sampler, sets, .. } = self.settings;
@@ -149,7 +149,7 @@ impl Studio<'_> {
     }
 
     /// Renders passes and writes the image after each.
-    fn refine(&self, plan: &Plan) -> Result<Image, String> {
+    fn refine(&self, plan: &Refinement) -> Result<Image, String> {
         let pixels = u64::from(self.settings.width) * u64::from(self.settings.height);
         let (length, template) = match plan.goal.seconds {
             Some(seconds) => ((seconds * 1000.0) as u64, format!("{{wide_bar}} {{elapsed}} of {seconds} s  {{msg}}")),

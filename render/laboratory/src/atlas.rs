@@ -16,7 +16,7 @@ use clap::Args;
 use etendue_render::files::make_folder;
 use etendue_render::options::{out, threads};
 use indicatif::{ProgressBar, ProgressStyle};
-use pose::Kind;
+use pose::ShapeKind;
 use std::error::Error;
 use std::io::Write;
 use std::path::PathBuf;
@@ -30,7 +30,7 @@ pub struct Options {
     pub output: PathBuf,
     /// Shapes to measure [default: all]
     #[arg(long, value_enum, value_delimiter = ',')]
-    pub shape: Vec<Kind>,
+    pub shape: Vec<ShapeKind>,
     /// Measure coarse maps, in two minutes on two cores
     #[arg(long)]
     pub quick: bool,
@@ -45,7 +45,7 @@ pub struct Options {
 /// Fails if a file cannot be written.
 pub fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let mut kinds = Vec::new();
-    for &kind in if options.shape.is_empty() { Kind::all() } else { &options.shape } {
+    for &kind in if options.shape.is_empty() { ShapeKind::all() } else { &options.shape } {
         if !kinds.contains(&kind) {
             kinds.push(kind);
         }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 use etendue_laboratory::atlas::methods;
-use etendue_laboratory::atlas::pose::{Kind, Pose, Shape, Sweep, sweeps};
+use etendue_laboratory::atlas::pose::{Pose, Shape, ShapeKind, Sweep, sweeps};
 use etendue_laboratory::atlas::survey::{Detail, Figures, LIMIT, survey};
 use etendue_laboratory::atlas::truth::Truth;
 use etendue_oracle::tier::cases;
@@ -17,7 +17,7 @@ fn close(a: f64, b: f64, tolerance: f64, what: &str) {
 #[test]
 fn maps_match_their_pdf() {
     let mut checked = 0;
-    for &kind in Kind::all() {
+    for &kind in ShapeKind::all() {
         for sweep in sweeps(kind, true) {
             for (i, j) in [(2, 0.4), (5, 0.55), (8, 0.7), (9, 0.9), (10, 0.2)] {
                 let x = sweep.x[i.min(sweep.x.len() - 1)].value;
@@ -75,7 +75,7 @@ fn density_holds(truth: &Truth, u: [f64; 2], pose: &Pose) -> bool {
 #[test]
 fn cells_within_the_contract() {
     let detail = Detail { turns: 1, samples: cases(4, 16), strata: 4, quick: true };
-    let charts = survey(Kind::all(), detail, || ());
+    let charts = survey(ShapeKind::all(), detail, || ());
     for summary in etendue_laboratory::atlas::page::summary(&charts) {
         let (name, ours) = summary.method;
         let part = summary.cells[0] as f64 / summary.cells[2] as f64;
@@ -99,11 +99,11 @@ fn cells_within_the_contract() {
         let (kind, sweep) = (chart.kind, &chart.sweep);
         for (i, cell) in chart.cells.iter().enumerate() {
             let (x, y) = (sweep.x[i % sweep.x.len()].value, sweep.y[i / sweep.x.len()].value);
-            if kind == Kind::ProjectedSphere {
+            if kind == ShapeKind::ProjectedSphere {
                 caps += 1;
                 cap_within_domain(sweep, [x, y], cell);
             }
-            if kind == Kind::ProjectedSegment {
+            if kind == ShapeKind::ProjectedSegment {
                 let low = if sweep.name == "size-horizon" { x <= 1e-2 } else { y.abs() <= 1e-3 };
                 assert!(
                     cell.bias.is_nan() || cell.bias <= LIMIT || low,
@@ -130,7 +130,7 @@ fn cap_within_domain(sweep: &Sweep, [x, y]: [f64; 2], cell: &Figures) {
     let held = if sine.abs() > 4e-7 { cell.meets() } else { forward.meets() };
     assert!(held, "ProjectedCap {}: {x:e} {y:e} {cell:?}", sweep.name);
     // the pose whose bias is measured: rounding moves small spheres by more than their size
-    let pose = sweep.pose(Kind::ProjectedSphere, x, y, 1);
+    let pose = sweep.pose(ShapeKind::ProjectedSphere, x, y, 1);
     let Shape::Sphere { center, radius } = pose.shape else { panic!("a sphere has the shape of one") };
     let (c, n) = (wide(center), wide(pose.normal));
     let elevation = (dot(c, n) / (length(c) * length(n))).clamp(-1.0, 1.0).asin();
@@ -141,15 +141,15 @@ fn cap_within_domain(sweep: &Sweep, [x, y]: [f64; 2], cell: &Figures) {
         sweep.name
     );
 }
-fn flat(kind: Kind) -> bool {
-    use Kind::*;
+fn flat(kind: ShapeKind) -> bool {
+    use ShapeKind::*;
     matches!(
         kind,
         Triangle | Parallelogram | Rectangle | Polygon | ProjectedTriangle | ProjectedParallelogram | ProjectedPolygon
     )
 }
 /// The domain in which flat shapes keep the contract in every cell, as the documentation states it.
-fn within_domain(kind: Kind, sweep: &str, x: f64, y: f64) -> bool {
+fn within_domain(kind: ShapeKind, sweep: &str, x: f64, y: f64) -> bool {
     let above = |nearest: f64| !(x >= 10.0 && y / x <= nearest);
     match (kind.projected(), sweep) {
         // within rounding of the plane of a shape that surrounds the point; specks edge-on
@@ -158,7 +158,7 @@ fn within_domain(kind: Kind, sweep: &str, x: f64, y: f64) -> bool {
         (false, _) => !(x >= 1e5 && y <= 1e-6),
         (true, "size-elevation") => above(1e-2) && !(x <= 1e-5 && y <= 1e-5),
         // a fan with an edge next to the zenith
-        (true, "size-horizon") => kind == Kind::ProjectedTriangle || x < 0.1,
+        (true, "size-horizon") => kind == ShapeKind::ProjectedTriangle || x < 0.1,
         _ => true,
     }
 }
@@ -189,9 +189,9 @@ const LEAST: [(&str, f64); 12] = [
 #[test]
 fn degenerate() {
     let none = Pose { shape: Shape::Sphere { center: [0.0, 0.0, 1.0], radius: 0.0 }, normal: [0.0, 0.0, 1.0] };
-    assert_eq!(Truth::new(Kind::Sphere, &none).measure, 0.0);
+    assert_eq!(Truth::new(ShapeKind::Sphere, &none).measure, 0.0);
     let inside = Pose { shape: Shape::Sphere { center: [0.0, 0.0, 1.0], radius: 2.0 }, normal: [0.0, 0.0, 1.0] };
-    close(Truth::new(Kind::Sphere, &inside).measure, 4.0 * PI, 1e-15, "inside");
-    close(Truth::new(Kind::ProjectedSphere, &inside).measure, PI, 1e-15, "inside, projected");
-    assert_eq!(methods::methods(Kind::Sphere).len(), 4);
+    close(Truth::new(ShapeKind::Sphere, &inside).measure, 4.0 * PI, 1e-15, "inside");
+    close(Truth::new(ShapeKind::ProjectedSphere, &inside).measure, PI, 1e-15, "inside, projected");
+    assert_eq!(methods::methods(ShapeKind::Sphere).len(), 4);
 }

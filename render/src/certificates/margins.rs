@@ -113,7 +113,7 @@ fn bodies_stand_for_their_triangles_only_if_the_light_is_outside() {
 
 /// The bound of rounding in a scene with coordinates of this size, which is more than that of points on lights of size 1.
 const REACH: f32 = 1e12;
-const FAR: f64 = REACH as f64 / (1_u64 << 48) as f64;
+const ROUNDING: f64 = REACH as f64 / (1_u64 << 48) as f64;
 
 fn set(patch: &Patch, geometry: Geometry) -> (Facing, Shaft) {
     let emission = Some(Emission { radiance: [1.0; 3], two_sided: false });
@@ -143,7 +143,7 @@ fn sphere(y: f64) -> Geometry {
 fn patches_near_the_plane_of_a_light_are_on_no_side() {
     let panel = Geometry::Parallelogram { p: [-1.0, 0.0, -1.0], u: [0.0, 0.0, 2.0], v: [2.0, 0.0, 0.0] };
     for (y, expected) in [(-1.5, 'A'), (-0.9, 'U'), (-0.1, 'U'), (0.1, 'U'), (0.9, 'U'), (1.5, 'T')] {
-        let found = match set(&loose(y * FAR), panel.clone()).0 {
+        let found = match set(&loose(y * ROUNDING), panel.clone()).0 {
             Facing::Away => 'A',
             Facing::Unknown => 'U',
             Facing::Towards => 'T',
@@ -151,18 +151,18 @@ fn patches_near_the_plane_of_a_light_are_on_no_side() {
         assert_eq!(found, expected, "{y}");
     }
     let (_, shaft) = set(&loose(1.0), panel);
-    assert!(shaft.end.unwrap().2 < etendue::occlusion::SPARED - 0.9 * FAR);
+    assert!(shaft.end.unwrap().2 < etendue::occlusion::SPARED - 0.9 * ROUNDING);
 }
 
 #[test]
 fn patches_near_a_ball_are_on_no_side() {
     for (gap, is_apart) in [(0.5, false), (0.9, false), (1.5, true)] {
-        let facing = set(&loose(1.0 + gap * FAR), sphere(0.0)).0;
+        let facing = set(&loose(1.0 + gap * ROUNDING), sphere(0.0)).0;
         assert_eq!(matches!(facing, Facing::Towards), is_apart, "{gap}");
-        let facing = set(&level(), sphere(1.0 + gap * FAR)).0;
+        let facing = set(&level(), sphere(1.0 + gap * ROUNDING)).0;
         assert_eq!(matches!(facing, Facing::Towards), is_apart, "{gap} above");
         // below the horizon, at a distance
-        let aside = Geometry::Sphere { center: [10.0, (-1.0 - gap * FAR) as f32, 0.0], radius: 1.0 };
+        let aside = Geometry::Sphere { center: [10.0, (-1.0 - gap * ROUNDING) as f32, 0.0], radius: 1.0 };
         let facing = set(&level(), aside).0;
         assert_eq!(matches!(facing, Facing::Away), is_apart, "{gap} below");
     }
@@ -172,7 +172,7 @@ fn patches_near_a_ball_are_on_no_side() {
 fn shafts_are_wider_than_rounding() {
     for patch in [level(), Patch { ground: None, ..level() }] {
         let (_, shaft) = set(&patch, sphere(4.0));
-        let misses = |y: f64| shaft.misses(&[V64::new(0.0, y * FAR, 0.0)], 0.0);
+        let misses = |y: f64| shaft.misses(&[V64::new(0.0, y * ROUNDING, 0.0)], 0.0);
         assert!(!misses(0.0) && !misses(-0.9) && misses(-1.5));
     }
 }

@@ -3,6 +3,7 @@
 //! Layers may be of any part of the image. Each layer has a checksum for every sixteen rows, which are read and compressed together.
 
 use super::size::believe;
+use crate::area::Area;
 use crate::files::{FileError, failed};
 use exr::block::UncompressedBlock;
 use exr::block::lines::LineIndex;
@@ -49,7 +50,7 @@ impl Numbers {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// The pixels [x0, y0, x1, y1).
-    pub area: [u32; 4],
+    pub area: Area,
     /// Planes of numbers and their names, which differ.
     pub planes: Vec<(String, Numbers)>,
     /// Whatever else there is to say, as a JSON object.
@@ -60,7 +61,7 @@ pub struct Layer {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerHeader {
     /// The pixels [x0, y0, x1, y1).
-    pub area: [u32; 4],
+    pub area: Area,
     /// As in [`Layer`], with the checksums.
     pub text: Value,
     /// The names of its planes, in the order of the file.
@@ -90,7 +91,7 @@ pub(super) fn why(error: &exr::error::Error) -> String {
 const OUTSIDE: &str = "it is cut off, or its table leads to a place outside of it";
 
 /// One checksum for every sixteen rows.
-fn checksums([x0, y0, x1, y1]: [u32; 4], planes: &[(String, Numbers)]) -> Vec<String> {
+fn checksums([x0, y0, x1, y1]: Area, planes: &[(String, Numbers)]) -> Vec<String> {
     let (across, rows) = ((x1 - x0) as usize, (y1 - y0) as usize);
     let bands = (0..rows).step_by(ROWS as usize).collect::<Vec<_>>().into_par_iter();
     let checksum = |row: usize| {

@@ -6,7 +6,7 @@
 
 use super::allocation::{APART, Weights};
 use super::settings::Settings;
-use crate::area::crop;
+use crate::area::{Area, crop};
 use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::{V8, X8};
 use crate::sums::{Adder, Moments, Sum};
@@ -22,8 +22,8 @@ const POWER: f64 = 0.4;
 const NEAR: usize = 2;
 /// Pixels up to this far away have a small weight, since all near ones may have missed an edge that passes through the pixel. (This
 /// helps a pilot of eight samples; with more it makes no difference.)
-const FAR: usize = 6;
-const WEIGHT_FAR: f64 = 0.003;
+const OUTERMOST: usize = 6;
+const WEIGHT_OUTERMOST: f64 = 0.003;
 
 /// Numbers of samples per set of a pixel, in packets of eight.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +67,7 @@ pub struct Statistics {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Allotment {
     /// The pixels [x0, y0, x1, y1).
-    pub area: [u32; 4],
+    pub area: Area,
     /// Packets of each pixel in each set, with those of the pilot.
     pub packets: Vec<u32>,
     /// Number of lights among which the samples are shared by weight; 0 if they are not.
@@ -103,7 +103,7 @@ impl Allotment {
     }
     /// The same for the pixels of a rectangle within the area.
     #[must_use]
-    pub fn crop(&self, area: [u32; 4]) -> Self {
+    pub fn crop(&self, area: Area) -> Self {
         Self {
             area,
             packets: crop(&self.packets, self.area, area, 1),
@@ -188,8 +188,8 @@ fn greatest_power(x: f64) -> f64 {
 /// Σ `sums` / Σ `counts` over the neighbours of each pixel, excluding the pixel itself.
 fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
     let weighted = |values: &[f64]| {
-        let (near, far) = (sums_around(values, columns, NEAR), sums_around(values, columns, FAR));
-        near.into_iter().zip(far).map(|(near, far)| near + WEIGHT_FAR * far)
+        let (near, far) = (sums_around(values, columns, NEAR), sums_around(values, columns, OUTERMOST));
+        near.into_iter().zip(far).map(|(near, far)| near + WEIGHT_OUTERMOST * far)
     };
     weighted(sums).zip(weighted(counts)).map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect()
 }

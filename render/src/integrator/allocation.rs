@@ -3,6 +3,7 @@
 //! The number of samples of a light depends on its possible contribution to the pixel's corners, or on the samples of neighbouring
 //! pixels, never on the pixel's own samples: that keeps the estimate unbiased.
 
+use crate::area::Area;
 use etendue::select::{Allocation, FEW};
 use std::borrow::Cow;
 
@@ -13,7 +14,7 @@ pub const APART: usize = 8;
 pub(super) struct Weights<'a> {
     pub(super) lights: usize,
     pub(super) of: Cow<'a, [f32]>,
-    pub(super) area: [u32; 4],
+    pub(super) area: Area,
     /// Samples per set that each light received in the first block of each pixel; empty if that block is not done.
     pub(super) begun: &'a [[u32; APART]],
 }

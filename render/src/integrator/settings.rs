@@ -1,5 +1,6 @@
 //! What an image depends on besides the scene, and what it cost.
 
+use crate::area::Area;
 use crate::sampler::Sampler;
 use crate::technique::Technique;
 use std::ops::AddAssign;
@@ -38,12 +39,12 @@ impl Settings {
 
     /// The area [x0, y0, x1, y1) of the whole image in pixels.
     #[must_use]
-    pub const fn whole(&self) -> [u32; 4] {
+    pub const fn whole(&self) -> Area {
         [0, 0, self.width, self.height]
     }
     /// Whether an area [x0, y0, x1, y1) consists of whole tiles of the image: its sides are at multiples of 16 or at the image's edges.
     #[must_use]
-    pub fn is_of_tiles(&self, [x0, y0, x1, y1]: [u32; 4]) -> bool {
+    pub fn is_of_tiles(&self, [x0, y0, x1, y1]: Area) -> bool {
         let is_side = |at: u32, end: u32| at.is_multiple_of(TILE) || at == end;
         let is_range = |a: u32, b: u32, end: u32| a < b && b <= end && is_side(a, end) && is_side(b, end);
         is_range(x0, x1, self.width) && is_range(y0, y1, self.height)

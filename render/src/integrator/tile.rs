@@ -6,6 +6,7 @@ use super::analytic::Survey;
 use super::paths::{Numbers, Paths, Radiance};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings, TILE};
+use crate::area::Area;
 use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample};
 use crate::film::Accumulator;
@@ -32,7 +33,7 @@ pub(super) struct TileRenderer<'a> {
 }
 
 /// The pixels of an area [x0, y0, x1, y1) along a Z-order curve, so that successive pixels are close in the image.
-fn z_order([x0, y0, x1, y1]: [u32; 4]) -> Vec<[u32; 2]> {
+fn z_order([x0, y0, x1, y1]: Area) -> Vec<[u32; 2]> {
     let even = |i: u32| (0..4).fold(0, |n, bit| n | (i >> (2 * bit) & 1) << bit);
     let all = (0..TILE * TILE).map(|i| [x0 + even(i), y0 + even(i >> 1)]);
     all.filter(|&[x, y]| x < x1 && y < y1).collect()
@@ -53,14 +54,14 @@ struct Run {
 }
 
 /// Lanes of a packet that belong to one run.
-struct Piece {
+struct TilePiece {
     packet: usize,
     lanes: Range<usize>,
     /// The run from the first of these lanes on.
     run: Run,
 }
 
-impl Piece {
+impl TilePiece {
     /// The lanes that are kept.
     fn kept(&self) -> Range<usize> {
         let Run { next, kept, .. } = self.run;
@@ -94,7 +95,7 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Renders a range of the samples of the pixels of an area [x0, y0, x1, y1), row by row.
-    pub(super) fn range<A: Accumulator>(&mut self, area: [u32; 4], range: Range<u32>, sum: A) -> Vec<A::Output> {
+    pub(super) fn range<A: Accumulator>(&mut self, area: Area, range: Range<u32>, sum: A) -> Vec<A::Output> {
         let Settings { spp, .. } = *self.settings;
         let span = if self.source.span() == 0 { spp } else { self.source.span() };
         let whole = span.is_multiple_of(8);
@@ -107,7 +108,7 @@ impl<'a> TileRenderer<'a> {
     /// are allocated to the lights by `weights` if given, otherwise by the corners of the pixels.
     pub(super) fn parts(
         &mut self,
-        area: [u32; 4],
+        area: Area,
         [pilot, sets]: [u32; 2],
         weights: Option<&Weights<'_>>,
         range: impl Fn([u32; 2]) -> [u32; 2],
@@ -119,14 +120,14 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Prepares for the pixels of a tile.
-    pub(super) fn begin(&mut self, [x0, y0, ..]: [u32; 4]) {
+    pub(super) fn begin(&mut self, [x0, y0, ..]: Area) {
         if let Some(analytic) = &mut self.paths.analytic {
             analytic.begin([x0, y0]);
         }
     }
 
     /// Tries certificates at eight places in a tile.
-    pub(super) fn try_out(&mut self, [x0, y0, x1, y1]: [u32; 4]) {
+    pub(super) fn try_out(&mut self, [x0, y0, x1, y1]: Area) {
         if self.paths.analytic.is_none() {
             return;
         }
@@ -177,7 +178,7 @@ impl<'a> TileRenderer<'a> {
     #[expect(clippy::too_many_arguments, reason = "each is a part of what is to be sampled")]
     fn samples<A: Accumulator>(
         &mut self,
-        area: [u32; 4],
+        area: Area,
         whole: bool,
         [span, block]: [u32; 2],
         sets: u32,
@@ -214,7 +215,7 @@ impl<'a> TileRenderer<'a> {
             {
                 let known = pieces.len();
                 let packet = Self::packet(&mut run, &mut runs, span, packets.len(), &mut pieces);
-                if pieces[known..].iter().all(|piece: &Piece| piece.kept().is_empty()) {
+                if pieces[known..].iter().all(|piece: &TilePiece| piece.kept().is_empty()) {
                     pieces.truncate(known);
                     continue;
                 }
@@ -233,7 +234,7 @@ impl<'a> TileRenderer<'a> {
             let radiance = self.radiance(&packets, allocated);
             for piece in pieces.drain(..) {
                 let kept = piece.kept();
-                let Piece { packet, lanes, run } = piece;
+                let TilePiece { packet, lanes, run } = piece;
                 if kept.is_empty() {
                     continue;
                 }
@@ -264,13 +265,13 @@ impl<'a> TileRenderer<'a> {
         runs: &mut impl Iterator<Item = Run>,
         span: u32,
         packet: usize,
-        pieces: &mut Vec<Piece>,
+        pieces: &mut Vec<TilePiece>,
     ) -> Packet {
         let lanes = u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
         let first = run.unwrap_or_else(|| unreachable!("there is a run"));
         if first.end - first.next >= 8 {
             let next = first.next + 8;
-            pieces.push(Piece { packet, lanes: 0..8, run: first });
+            pieces.push(TilePiece { packet, lanes: 0..8, run: first });
             *run = if next == first.end { runs.next() } else { Some(Run { next, ..first }) };
             let [x, y] = first.pixel.map(u32x8::splat);
             let sample = u32x8::splat(first.set * span + first.next) + lanes;
@@ -290,7 +291,7 @@ impl<'a> TileRenderer<'a> {
             }
             filled += taken;
             let next = current.next + taken;
-            pieces.push(Piece { packet, lanes: range, run: current });
+            pieces.push(TilePiece { packet, lanes: range, run: current });
             *run = if next == current.end { runs.next() } else { Some(Run { next, ..current }) };
         }
         // the last packet of a tile repeats its last sample
@@ -358,7 +359,7 @@ impl<'a> TileRenderer<'a> {
 
     /// Weights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
     /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
-    fn weights(&mut self, area: [u32; 4], size: u32) -> Option<Weights<'static>> {
+    fn weights(&mut self, area: Area, size: u32) -> Option<Weights<'static>> {
         let lights = self.scene.lights.few()?;
         // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
         let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);

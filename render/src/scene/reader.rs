@@ -9,7 +9,7 @@ use super::lights::{self, DeltaLight, Environment};
 use super::materials::{self, Material};
 use super::message::{Message, Place, utf8};
 use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
-use super::shapes::{self, Output, Surface};
+use super::shapes::{self, Output, ShapeAttributes};
 use super::transform::{Transform, length, scaled};
 use crate::image;
 use crate::limits::{MOST_SAMPLES, is_size};
@@ -457,7 +457,7 @@ impl Reader<'_> {
         if det == 0.0 || !det.is_finite() {
             return Err(params.error("its transform is singular"));
         }
-        let surface = Surface {
+        let surface = ShapeAttributes {
             ctm: self.state.ctm,
             flip: self.state.reverse != (det < 0.0),
             material: self.out.material(self.state.material),

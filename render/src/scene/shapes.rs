@@ -30,7 +30,7 @@ pub(super) struct Output {
 
 /// The part of the graphics state that applies to a shape.
 #[derive(Clone, Debug)]
-pub(super) struct Surface {
+pub(super) struct ShapeAttributes {
     pub(super) ctm: Transform,
     /// Whether the normal opposes the order of the transformed vertices.
     pub(super) flip: bool,
@@ -67,7 +67,7 @@ impl Output {
     /// Adds a triangle of world points, which errors call `name`.
     fn triangle(
         &mut self,
-        surface: &Surface,
+        surface: &ShapeAttributes,
         [a, b, c]: [[f64; 3]; 3],
         name: &dyn Fn() -> String,
     ) -> Result<(), String> {
@@ -81,7 +81,12 @@ impl Output {
     }
 
     /// Adds a parallelogram with corners p00, p10, p01, p11; fails if the last corner is off.
-    fn parallelogram(&mut self, surface: &Surface, p: [[f64; 3]; 4], name: &dyn Fn() -> String) -> Result<(), String> {
+    fn parallelogram(
+        &mut self,
+        surface: &ShapeAttributes,
+        p: [[f64; 3]; 4],
+        name: &dyn Fn() -> String,
+    ) -> Result<(), String> {
         let [p00, p10, p01, p11] = p;
         let (u, v) = (sub(p10, p00), sub(p01, p00));
         let off = length(sub(p11, add(p10, v))) / length(u).max(length(v));
@@ -104,7 +109,7 @@ impl Output {
     /// Adds a quad with corners in cyclic order: a parallelogram, or two triangles if it is planar and convex.
     fn quad(
         &mut self,
-        surface: &Surface,
+        surface: &ShapeAttributes,
         [a, b, c, d]: [[f64; 3]; 4],
         name: &dyn Fn() -> String,
     ) -> Result<(), String> {
@@ -130,7 +135,7 @@ fn round(p: [f64; 3]) -> [f32; 3] {
     p.map(|x| x as f32)
 }
 
-impl Surface {
+impl ShapeAttributes {
     /// Transforms points to world space; fails if one is not finite in f32.
     fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
         let place = |(i, p): (usize, [f64; 3])| {
@@ -144,7 +149,7 @@ impl Surface {
 }
 
 /// Reads `Shape "sphere"`.
-pub(super) fn sphere(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
+pub(super) fn sphere(out: &mut Output, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     params.reject(&["zmin", "zmax", "phimax"])?;
     let radius = params.float("radius")?.unwrap_or(1.0);
     let Some(factor) = surface.ctm.similarity() else {
@@ -169,7 +174,7 @@ pub(super) fn sphere(out: &mut Output, surface: &Surface, params: &mut Params) -
 /// Reads world points from "P" and groups of `N` indices from "indices"; `N` points need no indices.
 #[allow(clippy::type_complexity)] // a pair that only two callers see
 fn indexed<const N: usize>(
-    surface: &Surface,
+    surface: &ShapeAttributes,
     params: &mut Params,
 ) -> Result<(Vec<[f64; 3]>, Vec<[usize; N]>), Message> {
     let Some(numbers) = params.numbers("P", "point3", 3)? else {
@@ -191,7 +196,7 @@ fn indexed<const N: usize>(
 }
 
 /// In pbrt normals decide the emitting side, so they are an error on one-sided lights; elsewhere all is flat shaded.
-fn shading(out: &mut Output, surface: &Surface, params: &mut Params, has_normals: bool) -> Result<(), Message> {
+fn shading(out: &mut Output, surface: &ShapeAttributes, params: &mut Params, has_normals: bool) -> Result<(), Message> {
     let given = params.given("N") | has_normals;
     if given && surface.emission.is_some_and(|emission| !emission.two_sided) {
         return Err(
@@ -210,7 +215,7 @@ fn shading(out: &mut Output, surface: &Surface, params: &mut Params, has_normals
 }
 
 /// Reads `Shape "trianglemesh"`.
-pub(super) fn triangle_mesh(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
+pub(super) fn triangle_mesh(out: &mut Output, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     shading(out, surface, params, false)?;
     let (points, indices) = indexed::<3>(surface, params)?;
     for (i, corners) in indices.iter().enumerate() {
@@ -221,7 +226,7 @@ pub(super) fn triangle_mesh(out: &mut Output, surface: &Surface, params: &mut Pa
 }
 
 /// Reads `Shape "bilinearmesh"`.
-pub(super) fn bilinear_mesh(out: &mut Output, surface: &Surface, params: &mut Params) -> Result<(), Message> {
+pub(super) fn bilinear_mesh(out: &mut Output, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     shading(out, surface, params, false)?;
     let (points, indices) = indexed::<4>(surface, params)?;
     for (i, corners) in indices.iter().enumerate() {
@@ -232,7 +237,12 @@ pub(super) fn bilinear_mesh(out: &mut Output, surface: &Surface, params: &mut Pa
 }
 
 /// Reads `Shape "plymesh"` from a file.
-pub(super) fn ply_mesh(out: &mut Output, surface: &Surface, params: &mut Params, path: &Path) -> Result<(), Message> {
+pub(super) fn ply_mesh(
+    out: &mut Output,
+    surface: &ShapeAttributes,
+    params: &mut Params,
+    path: &Path,
+) -> Result<(), Message> {
     let shown = path.display().to_string();
     let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
@@ -266,7 +276,12 @@ pub(super) fn ply_mesh(out: &mut Output, surface: &Surface, params: &mut Params,
 }
 
 /// Adds shapes of a built-in scene that are computed, which need no checks. Each light has its own radiance, times that of the surface.
-pub(super) fn computed(out: &mut Output, surface: &Surface, params: &Params, name: &str) -> Result<(), Message> {
+pub(super) fn computed(
+    out: &mut Output,
+    surface: &ShapeAttributes,
+    params: &Params,
+    name: &str,
+) -> Result<(), Message> {
     if surface.ctm != Transform::IDENTITY || surface.flip {
         return Err(params.error(format!("builtin:{name} takes no transform")));
     }

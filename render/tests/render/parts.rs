@@ -1,10 +1,10 @@
 //! Parts of an image make the image, bit for bit, however it was split, and nothing else.
 
 use etendue_oracle::tier::cases;
-use etendue_render::area::count;
+use etendue_render::area::{Area, count};
 use etendue_render::film::Film;
-use etendue_render::merge::{Goal, Merged, Outcome, merge};
-use etendue_render::parts::{self, Content, Kind, PartFile, Piece};
+use etendue_render::merge::{MergeGoal, MergeOutcome, Merged, merge};
+use etendue_render::parts::{self, Content, PartFile, Piece, PieceKind};
 use etendue_render::sums::{Block, Join, Moments, Planes, Sums, blocks};
 use etendue_render::{Frame, Sampler, Sensor, Settings, Technique, World, scene};
 use std::ops::Range;
@@ -39,7 +39,7 @@ impl Random {
         ends.windows(2).map(|pair| pair[0]..pair[1]).collect()
     }
     /// Splits an area into tiles at random, also at different places in each row.
-    fn areas(&mut self, settings: &Settings) -> Vec<[u32; 4]> {
+    fn areas(&mut self, settings: &Settings) -> Vec<Area> {
         let tiles = |side: u32| 0..side.div_ceil(16);
         let mut all = Vec::new();
         for rows in self.split(tiles(settings.height), 3) {
@@ -98,7 +98,7 @@ impl Job {
     fn write(&mut self, pieces: Vec<Piece>) -> PathBuf {
         self.write_of(&self.frame.clone(), pieces)
     }
-    fn piece(&self, area: [u32; 4], range: Range<u32>) -> Piece {
+    fn piece(&self, area: Area, range: Range<u32>) -> Piece {
         let settings = &self.frame.settings;
         let content = if range == (0..settings.spp) {
             Content::Pixels(self.world.render_area(settings, area, |_| ()).0)
@@ -119,7 +119,7 @@ impl Job {
         files
     }
     fn image(&self, files: &[PathBuf]) -> Film {
-        match merge(files, Goal::Image, |_| ()).unwrap().merged {
+        match merge(files, MergeGoal::Image, |_| ()).unwrap().merged {
             Merged::Image(film) => film,
             Merged::Part(_) => panic!("not an image"),
         }
@@ -128,7 +128,7 @@ impl Job {
     fn group(&mut self, files: &mut Vec<PathBuf>, random: &mut Random) {
         random.shuffle(files);
         let some: Vec<_> = files.drain(..1 + random.below(files.len())).collect();
-        let outcome = merge(&some, Goal::Part, |_| ()).unwrap();
+        let outcome = merge(&some, MergeGoal::Part, |_| ()).unwrap();
         let Merged::Part(pieces) = outcome.merged else { panic!("not a part") };
         files.push(self.write(pieces));
     }
@@ -184,8 +184,8 @@ fn any_split_order_and_grouping_makes_the_image() {
             job.group(&mut files, &mut random);
             let copy = job.folder.0.join("copy.exr");
             std::fs::copy(&files[0], &copy).unwrap();
-            let Outcome { duplicates, merged, .. } =
-                merge(&[files[0].clone(), copy.clone()], Goal::Image, |_| ()).unwrap();
+            let MergeOutcome { duplicates, merged, .. } =
+                merge(&[files[0].clone(), copy.clone()], MergeGoal::Image, |_| ()).unwrap();
             assert!(merged == Merged::Image(film.clone()) && duplicates == [copy], "{name}");
         }
     }
@@ -214,9 +214,9 @@ fn adaptive_parts_make_the_image() {
             pilots.push(job.write(vec![Piece { area, content: Content::Pilot(pixels) }]));
         }
         random.shuffle(&mut pilots);
-        let missing = merge(&pilots[1..], Goal::Partial, |_| ());
+        let missing = merge(&pilots[1..], MergeGoal::Partial, |_| ());
         assert!(pilots.len() == 1 || missing.unwrap_err().contains("--pilot --tile"), "{name}");
-        let Merged::Part(whole) = merge(&pilots, Goal::Image, |_| ()).unwrap().merged else { panic!("{name}") };
+        let Merged::Part(whole) = merge(&pilots, MergeGoal::Image, |_| ()).unwrap().merged else { panic!("{name}") };
         let pilot = job.write(whole);
         let mut files = Vec::new();
         for area in random.areas(&settings) {
@@ -228,7 +228,7 @@ fn adaptive_parts_make_the_image() {
         random.shuffle(&mut files);
         assert!(job.image(&files) == film, "{name} {technique:?} {spp}");
         // a pilot is no part of the image
-        let error = merge(&[files, pilots].concat(), Goal::Image, |_| ()).unwrap_err();
+        let error = merge(&[files, pilots].concat(), MergeGoal::Image, |_| ()).unwrap_err();
         assert!(error.contains("belongs to the pilot"), "{error}");
     }
 }
@@ -244,16 +244,16 @@ fn what_does_not_fit_is_refused_and_named() {
     let parts = [add(&mut job, left, 0..8), add(&mut job, left, 8..24), add(&mut job, right, 0..24)];
     let film = job.film();
     assert!(job.image(&parts) == film);
-    let refused = |files: &[PathBuf], goal: Goal, says: &[&str]| {
+    let refused = |files: &[PathBuf], goal: MergeGoal, says: &[&str]| {
         let error = merge(files, goal, |_| ()).unwrap_err();
         says.iter().for_each(|part| assert!(error.contains(part), "{error:?} should contain {part:?}"));
     };
     let names: Vec<_> = parts.iter().map(|path| path.to_string_lossy().into_owned()).collect();
 
     // gaps, with the options that fill them
-    refused(&parts[1..], Goal::Image, &["1 part", "--range 0:8 --tile 0,0,32,37"]);
-    refused(&parts[..2], Goal::Image, &["--range 0:24 --tile 32,0,50,37"]);
-    let partial = merge(&parts[1..], Goal::Partial, |_| ()).unwrap();
+    refused(&parts[1..], MergeGoal::Image, &["1 part", "--range 0:8 --tile 0,0,32,37"]);
+    refused(&parts[..2], MergeGoal::Image, &["--range 0:24 --tile 32,0,50,37"]);
+    let partial = merge(&parts[1..], MergeGoal::Partial, |_| ()).unwrap();
     assert_eq!(partial.gaps, [(left, 0..8)]);
     let Merged::Image(some) = partial.merged else { panic!("not an image") };
     for (i, (some, all)) in some.pixels.iter().zip(&film.pixels).enumerate() {
@@ -263,15 +263,21 @@ fn what_does_not_fit_is_refused_and_named() {
         // 4 samples of the first set and 12 of the second
         assert!(some.variance.iter().all(|v| v.is_finite()), "{i}: {some:?}");
     }
-    let Merged::Image(some) = merge(&parts[..1], Goal::Partial, |_| ()).unwrap().merged else { panic!("not an image") };
+    let Merged::Image(some) = merge(&parts[..1], MergeGoal::Partial, |_| ()).unwrap().merged else {
+        panic!("not an image")
+    };
     assert!(
         some.pixels[40] == etendue_render::film::Pixel { mean: [0.0; 3], variance: [f32::INFINITY; 3], samples: 0 }
     );
 
     // overlaps, of ranges and of areas
     let [twice, across] = [add(&mut job, left, 7..9), add(&mut job, [16, 0, 50, 37], 0..24)];
-    refused(&[&parts[..], &[twice]].concat(), Goal::Image, &[&names[0], "both hold --range 7:8 --tile 0,0,32,37"]);
-    refused(&[&parts[..], &[across]].concat(), Goal::Image, &[&names[0], "both hold --range 0:8 --tile 16,0,32,37"]);
+    refused(&[&parts[..], &[twice]].concat(), MergeGoal::Image, &[&names[0], "both hold --range 7:8 --tile 0,0,32,37"]);
+    refused(
+        &[&parts[..], &[across]].concat(),
+        MergeGoal::Image,
+        &[&names[0], "both hold --range 0:8 --tile 16,0,32,37"],
+    );
 
     // parts of other images
     let settings = SETTINGS;
@@ -286,12 +292,16 @@ fn what_does_not_fit_is_refused_and_named() {
         let mut other = Job::new(name, settings);
         let alien = add(&mut other, left, 0..8);
         let alien_name = alien.to_string_lossy().into_owned();
-        refused(&[&[alien], &parts[..]].concat(), Goal::Image, &[&alien_name, "not a part of the same image", says]);
+        refused(
+            &[&[alien], &parts[..]].concat(),
+            MergeGoal::Image,
+            &[&alien_name, "not a part of the same image", says],
+        );
     }
     let build = Frame { build: "0.0.0 another".into(), ..job.frame.clone() };
     let piece = job.piece(left, 0..8);
     let alien = job.write_of(&build, vec![piece]);
-    refused(&[&[alien], &parts[..]].concat(), Goal::Image, &["its build of etendue is \"0.0.0 another\""]);
+    refused(&[&[alien], &parts[..]].concat(), MergeGoal::Image, &["its build of etendue is \"0.0.0 another\""]);
 
     // other values for the same samples
     let mut piece = job.piece(left, 0..8);
@@ -299,8 +309,8 @@ fn what_does_not_fit_is_refused_and_named() {
     planes[0].sums[7][1] += 1e-9;
     let wrong = job.write(vec![piece]);
     let wrong_name = wrong.to_string_lossy().into_owned();
-    refused(&[&parts[..], &[wrong]].concat(), Goal::Image, &[&names[0], &wrong_name, "different values"]);
-    refused(&[], Goal::Image, &["there are no parts"]);
+    refused(&[&parts[..], &[wrong]].concat(), MergeGoal::Image, &[&names[0], &wrong_name, "different values"]);
+    refused(&[], MergeGoal::Image, &["there are no parts"]);
 }
 
 /// A damaged part is an error that names it, or the part is as it was: never other values.
@@ -409,13 +419,13 @@ fn pieces_are_read_as_written() {
     let (settings, area) = (job.frame.settings, job.frame.settings.whole());
     let (pixels, _) = job.world.render_pilot(&settings, area, |_| ());
     let pilot = Piece { area, content: Content::Pilot(pixels) };
-    let lights = if let Kind::Pilot(lights) = pilot.kind() { lights } else { 0 };
+    let lights = if let PieceKind::Pilot(lights) = pilot.kind() { lights } else { 0 };
     let path = job.write(vec![pilot.clone()]);
     assert_eq!(PartFile::open(&path).unwrap().read().unwrap(), [pilot]);
-    let Merged::Part(pieces) = merge(&[path], Goal::Image, |_| ()).unwrap().merged else { panic!("a part") };
+    let Merged::Part(pieces) = merge(&[path], MergeGoal::Image, |_| ()).unwrap().merged else { panic!("a part") };
     let whole = job.write(pieces.clone());
     let mut part = PartFile::open(&whole).unwrap();
-    assert_eq!(part.pieces[0].kind, Kind::Allotment(lights));
+    assert_eq!(part.pieces[0].kind, PieceKind::Allotment(lights));
     assert_eq!(part.read().unwrap(), pieces);
     let rows = part.read_rows(&(16..20)).unwrap();
     assert_eq!(rows[0].area, [0, 16, 50, 32]);

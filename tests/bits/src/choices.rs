@@ -44,13 +44,13 @@ fn sets(count: usize, slots: usize) -> Vec<Set> {
 
 /// The choices of one kind.
 #[derive(Clone, Copy)]
-enum Kind {
+enum ChoiceKind {
     Uniform,
     Power,
     Spatial,
     Tree,
 }
-struct Choices(Kind, Vec<Set>);
+struct Choices(ChoiceKind, Vec<Set>);
 
 impl Routine for Choices {
     fn run<R: Real>(&self, figures: &mut Figures) {
@@ -69,16 +69,18 @@ impl Routine for Choices {
                 let lights: Vec<_> = slots.iter().map(|slot| slot.1).collect();
                 let (p, n) = (vectors_of::<R>(|i| slots[i].2.0), vectors_of(|i| slots[i].2.1));
                 match self.0 {
-                    Kind::Uniform => chosen::<R>(lanes, &UniformLights { count: bounds.len() as u32 }, &us, &lights),
-                    Kind::Power => chosen::<R>(lanes, &power, &us, &lights),
-                    Kind::Spatial => {
+                    ChoiceKind::Uniform => {
+                        chosen::<R>(lanes, &UniformLights { count: bounds.len() as u32 }, &us, &lights)
+                    }
+                    ChoiceKind::Power => chosen::<R>(lanes, &power, &us, &lights),
+                    ChoiceKind::Spatial => {
                         let at = spatial.at(p, n);
                         chosen(lanes, &at, &us, &lights);
                         at.weights().for_each(|weight| lanes.real(weight));
                         let some = at.only(|k| R::Mask::splat(k % 3 != 1));
                         chosen(lanes, &some, &us, &lights);
                     }
-                    Kind::Tree => {
+                    ChoiceKind::Tree => {
                         let at = tree.at(p, n);
                         chosen(lanes, &at, &us, &lights);
                         choice(lanes, &at.choose_by([0, 1].map(|k| R::Uint::from_fn(|i| slots[i].3[k]))));
@@ -163,10 +165,10 @@ impl Routine for Tables {
 }
 
 pub(crate) fn add(list: &mut List<'_>) {
-    list.add("choice/UniformLights", &Choices(Kind::Uniform, sets(20, 2 * Figures::MOST)));
-    list.add("choice/PowerLights", &Choices(Kind::Power, sets(50, 4 * Figures::MOST)));
-    list.add("choice/SpatialLights", &Choices(Kind::Spatial, sets(12, 8 * Figures::MOST)));
-    list.add("choice/LightTree", &Choices(Kind::Tree, sets(200, 8 * Figures::MOST)));
+    list.add("choice/UniformLights", &Choices(ChoiceKind::Uniform, sets(20, 2 * Figures::MOST)));
+    list.add("choice/PowerLights", &Choices(ChoiceKind::Power, sets(50, 4 * Figures::MOST)));
+    list.add("choice/SpatialLights", &Choices(ChoiceKind::Spatial, sets(12, 8 * Figures::MOST)));
+    list.add("choice/LightTree", &Choices(ChoiceKind::Tree, sets(200, 8 * Figures::MOST)));
     list.add("choice/Allocation", &Allocations);
     list.add("tables", &Tables);
 }

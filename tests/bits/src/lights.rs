@@ -8,7 +8,7 @@ use etendue::{
 };
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
-use etendue_properties::techniques::{AreaLight, Technique};
+use etendue_properties::techniques::{AreaLight, LightFixture};
 
 const SLOTS: usize = 50 * Figures::MOST;
 

@@ -8,7 +8,7 @@ use etendue::select::{
     Choice, Join, LightBound, LightChoice, LightTree, NO_LIGHT, Node8, Sequential, TreeAt, TreeChild,
 };
 use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
-pub use lamp::{Kind, Lamp};
+pub use lamp::{Lamp, LampKind};
 pub use regimes::{Regime, place};
 
 /// The number of levels that the tree may have.

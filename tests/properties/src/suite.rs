@@ -21,13 +21,13 @@ pub struct Regime {
 
 /// The result of one property.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct PropertyOutcome {
     /// Its name.
     pub property: &'static str,
     /// The result in each regime.
     pub regimes: Vec<Regime>,
 }
-impl Outcome {
+impl PropertyOutcome {
     /// Greatest figure over all regimes.
     #[must_use]
     pub fn greatest(&self) -> f64 {
@@ -50,7 +50,7 @@ pub fn message(panic: &(dyn core::any::Any + Send)) -> String {
 }
 
 /// Runs one property over the cases.
-fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> Outcome {
+fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, usize) -> f64) -> PropertyOutcome {
     let mut regimes: Vec<Regime> = Vec::new();
     for (i, (name, subject)) in cases.iter().enumerate() {
         let at = regimes.iter().position(|r| r.name == *name).unwrap_or_else(|| {
@@ -68,17 +68,17 @@ fn each<S: Fixture>(property: &'static str, cases: &[Case<S>], run: impl Fn(&S, 
             }
         }
     }
-    Outcome { property, regimes }
+    PropertyOutcome { property, regimes }
 }
 
 /// **Within reach**, alone: also for shapes that are too ill-conditioned for the other properties.
-pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> Outcome {
+pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> PropertyOutcome {
     let square = generators::square(20, 2);
     each("reach", cases, |s, _| square.iter().map(|&u| properties::within_reach(s, u)).collect::<Greatest>().error())
 }
 
 /// All properties over the cases, at the edges of the square and at `random` further points; in the quick tier, at every second of them.
-pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [Outcome; PROPERTIES] {
+pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> [PropertyOutcome; PROPERTIES] {
     let square: Vec<_> = generators::square(random, 1).into_iter().step_by(tier::cases(2, 1)).collect();
     let at = |run: fn(&S, [f32; 2], &mut Random) -> f64| {
         let square = &square;

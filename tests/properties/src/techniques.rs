@@ -12,7 +12,7 @@ use etendue::{
 use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
 
 /// A light with its parameters, seen from a point, and one way of sampling it.
-pub trait Technique: Copy + Debug {
+pub trait LightFixture: Copy + Debug {
     /// The light prepared for its shading point; lane `i` from `lanes[i % lanes.len()]`.
     fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>>;
     /// Relative difference allowed between the pdf of a sample and the pdf of its direction; `None` where the direction says nothing.
@@ -87,7 +87,7 @@ fn every_figure<R: Real>(sampler: &dyn LightSampler<R>, u: Vec2<R>, i: usize) ->
 
 /// **Total** and **lane-identical**: every number is finite; pdf, distance and inverse are in range; the direction is a unit vector where
 /// the pdf is not 0; every width gives the same bits.
-pub fn any_bits<T: Technique>(lights: &[T; 8], us: &[[f32; 2]; 8]) {
+pub fn any_bits<T: LightFixture>(lights: &[T; 8], us: &[[f32; 2]; 8]) {
     let (eight, sixteen) = (T::prepare::<f32x8>(lights), T::prepare::<f32x16>(&twice(lights)));
     for i in 0..8 {
         let (light, u) = (lights[i], us[i]);
@@ -119,7 +119,7 @@ pub fn any_bits<T: Technique>(lights: &[T; 8], us: &[[f32; 2]; 8]) {
 
 /// **One pdf**: that of a sample is the one that is evaluated for its direction, to the bit where the direction determines it; and a ray in
 /// that direction hits the light with it.
-pub fn one_pdf<T: Technique>(light: &T, u: [f32; 2]) {
+pub fn one_pdf<T: LightFixture>(light: &T, u: [f32; 2]) {
     let sampler = T::prepare::<f32>(&[*light]);
     let s = sampler.sample(squares_of(&[u]));
     let Some(allowed) = light.evaluated_to(&s) else { return };
@@ -140,7 +140,7 @@ pub fn one_pdf<T: Technique>(light: &T, u: [f32; 2]) {
 }
 
 /// The density is the truth for the point that was drawn.
-pub fn measure<T: Technique>(light: &T, u: [f32; 2]) {
+pub fn measure<T: LightFixture>(light: &T, u: [f32; 2]) {
     let s = T::prepare::<f32>(&[*light]).sample(squares_of(&[u]));
     let Some((truth, known)) = light.truth(s.direction.at(0), f64::from(s.distance)) else { return };
     // what is next to a number's end, or known to less than a tenth, tells nothing
@@ -152,7 +152,7 @@ pub fn measure<T: Technique>(light: &T, u: [f32; 2]) {
 }
 
 /// **Threshold-free**: lengths times a power of two change no bit of a direction, and none of a density, but for its exponent.
-pub fn scale<T: Technique>(light: &T, u: [f32; 2]) {
+pub fn scale<T: LightFixture>(light: &T, u: [f32; 2]) {
     let one = T::prepare::<f32>(&[*light]).sample(squares_of(&[u]));
     for power in [-20, -7, 1, 20] {
         let factor = 2.0_f32.powi(power);
@@ -376,7 +376,7 @@ impl AreaLight {
     }
 }
 
-impl Technique for AreaLight {
+impl LightFixture for AreaLight {
     fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
         prepare(lanes[0].shape, lanes[0].by, &Self::vectors::<R>(lanes))
     }

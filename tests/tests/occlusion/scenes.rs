@@ -9,7 +9,7 @@ use etendue_properties::occlusion::Scene;
 
 /// How shapes are placed.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Kind {
+pub(crate) enum Difficulty {
     Any,
     Tiny,
     Small,
@@ -34,29 +34,29 @@ pub(crate) enum Kind {
     Sixteen,
 }
 
-pub(crate) const KINDS: [Kind; 22] = [
-    Kind::Any,
-    Kind::Tiny,
-    Kind::Small,
-    Kind::Huge,
-    Kind::Far,
-    Kind::Near,
-    Kind::EdgeOn,
-    Kind::Horizon,
-    Kind::SliverLight,
-    Kind::SliverBlockers,
-    Kind::TouchLight,
-    Kind::TouchSurface,
-    Kind::Quads,
-    Kind::Fan,
-    Kind::Box,
-    Kind::Twice,
-    Kind::LightPlane,
-    Kind::CrossHorizon,
-    Kind::Axis,
-    Kind::Exact,
-    Kind::InPlane,
-    Kind::Sixteen,
+pub(crate) const KINDS: [Difficulty; 22] = [
+    Difficulty::Any,
+    Difficulty::Tiny,
+    Difficulty::Small,
+    Difficulty::Huge,
+    Difficulty::Far,
+    Difficulty::Near,
+    Difficulty::EdgeOn,
+    Difficulty::Horizon,
+    Difficulty::SliverLight,
+    Difficulty::SliverBlockers,
+    Difficulty::TouchLight,
+    Difficulty::TouchSurface,
+    Difficulty::Quads,
+    Difficulty::Fan,
+    Difficulty::Box,
+    Difficulty::Twice,
+    Difficulty::LightPlane,
+    Difficulty::CrossHorizon,
+    Difficulty::Axis,
+    Difficulty::Exact,
+    Difficulty::InPlane,
+    Difficulty::Sixteen,
 ];
 
 /// Which shapes are spheres.
@@ -78,7 +78,7 @@ pub(crate) fn corners(random: &mut Random, middle: V3, [s, t]: [V3; 2], [a, b]: 
     (0..n).map(at).collect()
 }
 
-pub(crate) fn scene(random: &mut Random, kind: Kind, round: Round) -> Scene {
+pub(crate) fn scene(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
     let scene = unplaced(random, kind, round);
     Placement::new(random).scene(scene)
 }
@@ -126,25 +126,25 @@ impl Placement {
 }
 
 /// A scene about the origin, where the points are, and the light at a distance of about 1.
-fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
+fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
     let toward = random.direction();
     let (s, t) = basis(toward);
     let size = match kind {
-        Kind::Tiny => random.magnitude(5e-5, 1e-3),
-        Kind::Small => random.magnitude(1e-3, 3e-2),
-        Kind::Huge => random.magnitude(2.0, 8.0),
-        Kind::Far => random.magnitude(0.05, 1.0),
+        Difficulty::Tiny => random.magnitude(5e-5, 1e-3),
+        Difficulty::Small => random.magnitude(1e-3, 3e-2),
+        Difficulty::Huge => random.magnitude(2.0, 8.0),
+        Difficulty::Far => random.magnitude(0.05, 1.0),
         _ => random.magnitude(0.1, 1.5),
     };
     let size = if round == Round::Light { size.min(0.97) } else { size };
     let radii = match kind {
-        Kind::SliverLight => [size, size * random.magnitude(1e-5, 1e-2)],
+        Difficulty::SliverLight => [size, size * random.magnitude(1e-5, 1e-2)],
         _ => [size, size * random.magnitude(0.3, 1.0)],
     };
     // the plane of the light: any, or facing, or seen edge-on
     let tilt = match kind {
-        Kind::EdgeOn => along(s, toward, random.magnitude(1e-4, 3e-2)),
-        Kind::Huge | Kind::Exact => along(toward, random.direction(), 0.2),
+        Difficulty::EdgeOn => along(s, toward, random.magnitude(1e-4, 3e-2)),
+        Difficulty::Huge | Difficulty::Exact => along(toward, random.direction(), 0.2),
         _ => along(toward, random.direction(), 0.9),
     };
     let plane = basis(unit(tilt));
@@ -160,17 +160,17 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
         along(along(flat[0], sub(flat[1], flat[0]), x), sub(flat[2], flat[0]), y)
     };
     let way = |random: &mut Random| match kind {
-        Kind::Near => random.magnitude(1e-3, 1e-1),
-        Kind::Far => 1.0 - random.magnitude(1e-4, 1e-1),
+        Difficulty::Near => random.magnitude(1e-3, 1e-1),
+        Difficulty::Far => 1.0 - random.magnitude(1e-4, 1e-1),
         _ => random.range(0.1, 0.9),
     };
     let spread = match kind {
-        Kind::Near => 1e-3 * size,
-        Kind::Exact => 0.0,
+        Difficulty::Near => 1e-3 * size,
+        Difficulty::Exact => 0.0,
         _ => 0.2 * size.min(1.0),
     };
     let normal = match kind {
-        Kind::Horizon => {
+        Difficulty::Horizon => {
             let near = random.range(-0.9, 0.9) * size.min(1.0);
             along(along(s.map(|x| x * random.range(-1.0, 1.0)), t, random.range(-1.0, 1.0)), toward, near)
         }
@@ -189,7 +189,7 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                 blockers.push(polygon(&corners(random, at.map(|x| x * f), [plane.0, plane.1], [radius; 2])));
             } else {
                 let center = match kind {
-                    Kind::Axis => toward,
+                    Difficulty::Axis => toward,
                     _ => at,
                 };
                 blockers.push(sphere(center.map(|x| x * f), radius));
@@ -197,20 +197,20 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
         }
     } else {
         let count = match kind {
-            Kind::Sixteen => 16,
-            Kind::Any => 1 + random.word() % 6,
+            Difficulty::Sixteen => 16,
+            Difficulty::Any => 1 + random.word() % 6,
             _ => 1 + random.word() % 4,
         };
         for i in 0..count {
             let (at, f) = (place(random), way(random));
             let middle = at.map(|x| x * f);
-            let own = f * size * if kind == Kind::Sixteen { 0.2 } else { random.magnitude(0.1, 2.0) };
+            let own = f * size * if kind == Difficulty::Sixteen { 0.2 } else { random.magnitude(0.1, 2.0) };
             let facing = basis(unit(along(toward, random.direction(), 0.7)));
             let mut plane = [facing.0, facing.1];
             let mut radii = [own, own * random.magnitude(0.3, 1.0)];
             match kind {
-                Kind::SliverBlockers => radii[1] = own * random.magnitude(1e-6, 1e-2),
-                Kind::InPlane => {
+                Difficulty::SliverBlockers => radii[1] = own * random.magnitude(1e-6, 1e-2),
+                Difficulty::InPlane => {
                     // the plane passes the points at a small distance
                     let along_it = unit(cross(middle, random.direction()));
                     let other = unit(along(middle, random.direction(), random.magnitude(1e-7, 1e-2)));
@@ -219,12 +219,19 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                 _ => {}
             }
             let mut own_corners = corners(random, middle, plane, radii);
-            if matches!(kind, Kind::TouchLight | Kind::LightPlane | Kind::CrossHorizon | Kind::Axis | Kind::Exact) {
+            if matches!(
+                kind,
+                Difficulty::TouchLight
+                    | Difficulty::LightPlane
+                    | Difficulty::CrossHorizon
+                    | Difficulty::Axis
+                    | Difficulty::Exact
+            ) {
                 // one of their corners moves out of the plane
                 own_corners.truncate(3);
             }
             match kind {
-                Kind::TouchLight => {
+                Difficulty::TouchLight => {
                     // a corner or an edge on a place of the light, on its edge or at its corner
                     let on = |random: &mut Random| match random.word() % 3 {
                         0 => flat[random.word() as usize % flat.len()],
@@ -239,7 +246,7 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                         own_corners = vec![a, b, along(out, sub(b, a), 1.0), out];
                     }
                 }
-                Kind::TouchSurface => {
+                Difficulty::TouchSurface => {
                     // a wall that stands on the surface
                     let height = dot(middle, normal);
                     let foot = along(middle, normal, -height);
@@ -248,12 +255,12 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                     let (a, b) = (along(foot, aside, -wide), along(foot, aside, wide));
                     own_corners = vec![a, b, along(b, normal, height), along(a, normal, height)];
                 }
-                Kind::Quads if own_corners.len() == 4 => {
+                Difficulty::Quads if own_corners.len() == 4 => {
                     let half = [own_corners[0], own_corners[1], own_corners[2]];
                     blockers.push(polygon(&half));
                     own_corners.remove(1);
                 }
-                Kind::Fan if i == 0 => {
+                Difficulty::Fan if i == 0 => {
                     let n = 3 + random.word() as usize % 5;
                     for k in 0..n {
                         let rim = |k: usize| {
@@ -264,8 +271,8 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                     }
                     continue;
                 }
-                Kind::Fan => continue,
-                Kind::Box if i == 0 => {
+                Difficulty::Fan => continue,
+                Difficulty::Box if i == 0 => {
                     let (x, y) = (plane[0], plane[1]);
                     let z = cross(x, y);
                     let extent = [own, own * random.range(0.2, 1.0), own * random.range(0.2, 1.0)];
@@ -287,8 +294,8 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                     }
                     continue;
                 }
-                Kind::Box => continue,
-                Kind::Twice => {
+                Difficulty::Box => continue,
+                Difficulty::Twice => {
                     let mut again = own_corners.clone();
                     match random.word() % 3 {
                         0 => again.reverse(),
@@ -299,16 +306,16 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                     let nearer = if random.unit() < 0.5 { 1.0 } else { random.range(0.3, 0.9) };
                     blockers.push(polygon(&again.iter().map(|c| c.map(|x| x * nearer)).collect::<Vec<_>>()));
                 }
-                Kind::LightPlane => {
+                Difficulty::LightPlane => {
                     let far = random.range(0.5, 1.5);
                     own_corners[0] = place(random).map(|x| x * (1.0 + far));
                 }
-                Kind::CrossHorizon => {
+                Difficulty::CrossHorizon => {
                     let below = random.range(0.1, 1.0);
                     let height = dot(own_corners[0], normal);
                     own_corners[0] = along(own_corners[0], normal, -height - below);
                 }
-                Kind::Axis => {
+                Difficulty::Axis => {
                     // an edge or a corner on the axis of the light
                     if random.unit() < 0.5 {
                         own_corners[0] = toward.map(|x| x * f);
@@ -318,7 +325,7 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
                         own_corners[1] = along(toward.map(|x| x * f), across, -own);
                     }
                 }
-                Kind::Exact => {
+                Difficulty::Exact => {
                     own_corners = flat.iter().map(|c| c.map(|x| x * f)).collect();
                     if flat.len() == 3 && random.unit() < 0.3 {
                         // and once a little off
@@ -338,7 +345,7 @@ fn unplaced(random: &mut Random, kind: Kind, round: Round) -> Scene {
         narrow(off.map(|x| if i == 0 { 0.0 } else { spread * x }))
     });
     let normals = core::array::from_fn(|i| {
-        let off = if kind == Kind::TouchSurface || i < 2 { 0.0 } else { 0.1 };
+        let off = if kind == Difficulty::TouchSurface || i < 2 { 0.0 } else { 0.1 };
         narrow(unit(along(normal, random.direction(), off)))
     });
     Scene { light, blockers, solids: Vec::new(), points, normals }

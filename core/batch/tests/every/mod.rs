@@ -11,7 +11,7 @@ pub(crate) trait Visitor {
     /// A light by the technique `T`.
     fn technique<T>(&mut self, name: &str, light: T::Light<f32>)
     where
-        T: Technique + InTable<Functions = LightFunctions<T>>;
+        T: BatchTechnique + InTable<Functions = LightFunctions<T>>;
     /// A warp.
     fn warp<W>(&mut self, name: &str, warp: W)
     where

@@ -10,7 +10,7 @@ use etendue_c::*;
 use std::ptr::{null, null_mut};
 
 /// The functions of a technique, with every struct as numbers or pointers in a row.
-pub(super) struct Technique {
+pub(super) struct Functions {
     /// The light's struct.
     name: &'static str,
     light: usize,
@@ -66,9 +66,9 @@ macro_rules! techniques {
             )+
         }
     )+) => {
-        pub(super) const TECHNIQUES: &[Technique] = &[$($($(
+        pub(super) const TECHNIQUES: &[Functions] = &[$($($(
             // SAFETY of all: the caller's pointers are those that the functions demand
-            Technique {
+            Functions {
                 name: stringify!($light),
                 light: size_of::<$light>() / 4,
                 sampler: $size,

@@ -1,6 +1,6 @@
 //! The techniques for each kind of shape: those of the library, and textbook formulas.
 
-use super::pose::{Kind, Pose, Shape};
+use super::pose::{Pose, Shape, ShapeKind};
 use super::sample::{Draw, Sample};
 use super::textbook::{self, Excess, add};
 use etendue::light::Polygon;
@@ -121,7 +121,7 @@ const ORIGIN: Vec3<f32> = Vec3 { x: 0.0, y: 0.0, z: 0.0 };
 
 /// The techniques for a kind of shape: by (projected) solid angle, then by area, then textbook formulas.
 #[must_use]
-pub fn methods(kind: Kind) -> Vec<Method> {
+pub fn methods(kind: ShapeKind) -> Vec<Method> {
     let ours = |name, run| Method { name, ours: true, run };
     let textbook = |name, run| Method { name, ours: false, run };
     let sphere_area = ours("by area", |pose, draw| {
@@ -153,7 +153,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
         });
     });
     match kind {
-        Kind::Sphere => vec![
+        ShapeKind::Sphere => vec![
             ours("SphericalCap", |pose, draw| {
                 let (center, radius, _) = sphere(pose);
                 draw.warp(&SphericalCap::new(vector(center), radius));
@@ -168,7 +168,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 textbook::cone(center, radius, true, draw);
             }),
         ],
-        Kind::ProjectedSphere => vec![
+        ShapeKind::ProjectedSphere => vec![
             ours("ProjectedCap", |pose, draw| {
                 let (center, radius, normal) = sphere(pose);
                 let map = ProjectedCap::new(vector(center), radius, vector(normal));
@@ -186,7 +186,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 });
             }),
         ],
-        Kind::Triangle => vec![
+        ShapeKind::Triangle => vec![
             ours("SphericalTriangle", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 let (p, u, v) = (vector(p), vector(u), vector(v));
@@ -206,7 +206,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 textbook::triangle_with_thresholds(p, u, v, draw);
             }),
         ],
-        Kind::Parallelogram => vec![
+        ShapeKind::Parallelogram => vec![
             ours("SphericalParallelogram", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 draw.warp(&SphericalParallelogram::new(vector(p), vector(u), vector(v)));
@@ -215,7 +215,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
             textbook("Arvo ×2, angle excess", |pose, draw| textbook::fan(halves(pose), Excess::Angles, draw)),
             textbook("Van Oosterom ×2", |pose, draw| textbook::fan(halves(pose), Excess::Oosterom, draw)),
         ],
-        Kind::Rectangle => vec![
+        ShapeKind::Rectangle => vec![
             ours("SphericalRectangle", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 draw.warp(&SphericalRectangle::new(vector(p), vector(u), vector(v)));
@@ -230,7 +230,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 textbook::rectangle_with_thresholds(p, u, v, draw);
             }),
         ],
-        Kind::Polygon => vec![
+        ShapeKind::Polygon => vec![
             ours("SphericalPolygon", |pose, draw| {
                 draw.warp(&SphericalPolygon::new(corners(pose).map(vector)));
             }),
@@ -238,7 +238,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
             textbook("Arvo ×4, angle excess", |pose, draw| textbook::fan(hexagon(pose), Excess::Angles, draw)),
             textbook("Van Oosterom ×4", |pose, draw| textbook::fan(hexagon(pose), Excess::Oosterom, draw)),
         ],
-        Kind::Disk => vec![
+        ShapeKind::Disk => vec![
             ours("SphericalDisk", |pose, draw| {
                 let (center, normal, radius) = disk(pose);
                 draw.warp(&SphericalDisk::new(vector(center), vector(normal), radius));
@@ -254,7 +254,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.with_density(&map, 1.0 / textbook::disk(center, normal, radius), None);
             }),
         ],
-        Kind::Segment => vec![
+        ShapeKind::Segment => vec![
             ours("SphericalSegment", |pose, draw| {
                 let (a, edge) = segment(pose);
                 let map = SphericalSegment::new(vector(a), vector(edge));
@@ -270,7 +270,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.line(|u| vector(map.sample(u)), |_| map.pdf(), |w| map.invert(back(w)), weight);
             }),
         ],
-        Kind::ProjectedTriangle => vec![
+        ShapeKind::ProjectedTriangle => vec![
             ours("ProjectedTriangle", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 let (p, u, v, n) = (vector(p), vector(u), vector(v), vector(pose.normal));
@@ -286,7 +286,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
             }),
         ],
-        Kind::ProjectedParallelogram => vec![
+        ShapeKind::ProjectedParallelogram => vec![
             ours("ProjectedPolygon of 4", |pose, draw| {
                 let (p, u, v) = flat(pose);
                 let n = vector(pose.normal);
@@ -302,7 +302,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.with_density(&map, 1.0 / textbook::lambert(&corners, pose.normal), Some(n));
             }),
         ],
-        Kind::ProjectedPolygon => vec![
+        ShapeKind::ProjectedPolygon => vec![
             ours("ProjectedPolygon of 6", |pose, draw| {
                 let n = vector(pose.normal);
                 let map = ProjectedPolygon::new(corners(pose).map(vector), n);
@@ -315,7 +315,7 @@ pub fn methods(kind: Kind) -> Vec<Method> {
                 draw.with_density(&map, 1.0 / textbook::lambert(&corners(pose), pose.normal), Some(n));
             }),
         ],
-        Kind::ProjectedSegment => vec![
+        ShapeKind::ProjectedSegment => vec![
             ours("ProjectedSegment", |pose, draw| {
                 let (a, edge) = segment(pose);
                 let map = ProjectedSegment::new(vector(a), vector(edge), vector(pose.normal));

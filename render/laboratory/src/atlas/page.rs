@@ -1,6 +1,6 @@
 //! Writes the maps, the table and the page.
 
-use super::pose::{Kind, Sweep};
+use super::pose::{ShapeKind, Sweep};
 use super::survey::{ErrorMap, Figures, LIMIT};
 use etendue_oracle::Greatest;
 use etendue_render::files;
@@ -252,8 +252,8 @@ fn sheet(charts: &[&ErrorMap]) -> String {
 /// Greatest errors of a technique over all its sweeps.
 #[derive(Clone, Debug)]
 pub struct Summary {
-    /// Kind of shape.
-    pub kind: Kind,
+    /// ShapeKind of shape.
+    pub kind: ShapeKind,
     /// Name of the technique, and whether it belongs to the library.
     pub method: (&'static str, bool),
     /// Greatest errors of direction, pdf and round trip, and greatest bias; NaN if not measured.
@@ -354,7 +354,7 @@ fn legend(stops: &[(f64, [u8; 3])], low: i32, high: i32, first: &str, last: &str
     out
 }
 
-fn html(charts: &[ErrorMap], sheets: &[(Kind, Sweep, String)], quick: bool) -> String {
+fn html(charts: &[ErrorMap], sheets: &[(ShapeKind, Sweep, String)], quick: bool) -> String {
     let mut rows = String::new();
     let mut last = None;
     for s in summary(charts) {
@@ -449,7 +449,7 @@ fn table_of_cells(charts: &[ErrorMap]) -> Result<Vec<u8>, Box<dyn Error>> {
 /// # Errors
 /// Fails if a file cannot be written.
 pub fn write(charts: &[ErrorMap], directory: &Path, quick: bool) -> Result<(), Box<dyn Error>> {
-    let mut sheets: Vec<(Kind, Sweep, String)> = Vec::new();
+    let mut sheets: Vec<(ShapeKind, Sweep, String)> = Vec::new();
     let mut rest = charts;
     while let Some(first) = rest.first() {
         let same = |c: &&ErrorMap| c.kind == first.kind && c.sweep.name == first.sweep.name;

@@ -5,7 +5,7 @@ use etendue_oracle::{V3, cross, length as norm, narrow, unit};
 
 /// A kind of shape and the measure by which it is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Kind {
+pub enum ShapeKind {
     /// A sphere by solid angle
     Sphere,
     /// A sphere by projected solid angle
@@ -31,7 +31,7 @@ pub enum Kind {
     /// A line segment by the irradiance it causes
     ProjectedSegment,
 }
-impl Kind {
+impl ShapeKind {
     /// All kinds.
     #[must_use]
     pub fn all() -> &'static [Self] {
@@ -210,7 +210,7 @@ fn cuts() -> Vec<Tick> {
 
 /// The sweeps of a kind; coarse if `quick`.
 #[must_use]
-pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
+pub fn sweeps(kind: ShapeKind, quick: bool) -> Vec<Sweep> {
     let fine = if quick { 1 } else { 2 };
     if kind.round() {
         // up to the surface, and inside
@@ -265,7 +265,7 @@ pub fn sweeps(kind: Kind, quick: bool) -> Vec<Sweep> {
     }
     let mut heights = vec![named(0.0, "0")];
     heights.extend(powers(-6, 9, fine));
-    if kind == Kind::Disk {
+    if kind == ShapeKind::Disk {
         let mut x = vec![named(0.0, "0")];
         x.extend(powers(-6, -1, fine));
         x.push(named(0.5, ""));
@@ -356,7 +356,7 @@ impl Sweep {
 
     /// The pose of a cell, rotated at random for each `turn`.
     #[must_use]
-    pub fn pose(&self, kind: Kind, x: f64, y: f64, turn: u64) -> Pose {
+    pub fn pose(&self, kind: ShapeKind, x: f64, y: f64, turn: u64) -> Pose {
         let mut random = Random(turn.wrapping_mul(0x1234_5678_9abc_def1) ^ x.to_bits() ^ y.to_bits().rotate_left(17));
         let exact = y == 0.0 && (kind.round() == (self.axes == Axes::Elevation) || !kind.round());
         let axes = axes(&mut random, exact && self.axes != Axes::Horizon);
@@ -404,11 +404,11 @@ impl Sweep {
             axes[k].map(|x| x * coarse(size / l))
         };
         let shape = match kind {
-            Kind::Disk => {
+            ShapeKind::Disk => {
                 let radius = if self.axes == Axes::Foot { 1.0 } else { 0.5 * length } as f32;
                 Shape::Disk { center: narrow(center), normal: up, radius }
             }
-            Kind::Segment | Kind::ProjectedSegment => {
+            ShapeKind::Segment | ShapeKind::ProjectedSegment => {
                 let u = narrow(edge(0, length));
                 Shape::Segment { a: narrow(core::array::from_fn(|i| center[i] - 0.5 * f64::from(u[i]))), edge: u }
             }
@@ -417,10 +417,10 @@ impl Sweep {
         Pose { shape, normal }
     }
 
-    fn flat(&self, kind: Kind, center: V3, [u, mut v]: [V3; 2], y: f64, turn: u64) -> Shape {
+    fn flat(&self, kind: ShapeKind, center: V3, [u, mut v]: [V3; 2], y: f64, turn: u64) -> Shape {
         let skew = match kind {
             _ if kind.triangle() => 0.3,
-            Kind::Parallelogram | Kind::ProjectedParallelogram if self.axes != Axes::Aspect => 0.4,
+            ShapeKind::Parallelogram | ShapeKind::ProjectedParallelogram if self.axes != Axes::Aspect => 0.4,
             _ => 0.0,
         };
         v = core::array::from_fn(|i| v[i] + skew * u[i]);

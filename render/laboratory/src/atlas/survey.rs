@@ -1,7 +1,7 @@
 //! Measures the errors and the cost of every technique over the sweeps.
 
 use super::methods::{self, Method};
-use super::pose::{self, Kind, Pose, Sweep};
+use super::pose::{self, Pose, ShapeKind, Sweep};
 use super::sample::{Draw, Sample};
 use super::truth::Truth;
 use crate::cost::{self, Rounds};
@@ -74,8 +74,8 @@ impl Figures {
 /// The errors of one technique over one sweep.
 #[derive(Clone, Debug)]
 pub struct ErrorMap {
-    /// Kind of shape.
-    pub kind: Kind,
+    /// ShapeKind of shape.
+    pub kind: ShapeKind,
     /// Axes of the map.
     pub sweep: Sweep,
     /// The technique.
@@ -121,13 +121,13 @@ impl Detail {
 
 /// Number of cells of these kinds of shapes.
 #[must_use]
-pub fn cells(kinds: &[Kind], detail: Detail) -> usize {
-    let of = |&kind: &Kind| pose::sweeps(kind, detail.quick).iter().map(|s| s.x.len() * s.y.len()).sum::<usize>();
+pub fn cells(kinds: &[ShapeKind], detail: Detail) -> usize {
+    let of = |&kind: &ShapeKind| pose::sweeps(kind, detail.quick).iter().map(|s| s.x.len() * s.y.len()).sum::<usize>();
     kinds.iter().map(of).sum()
 }
 
 /// Measures these kinds of shapes, and calls `tick` after each cell.
-pub fn survey(kinds: &[Kind], detail: Detail, tick: impl Fn() + Sync) -> Vec<ErrorMap> {
+pub fn survey(kinds: &[ShapeKind], detail: Detail, tick: impl Fn() + Sync) -> Vec<ErrorMap> {
     let mut charts = Vec::new();
     for &kind in kinds {
         let methods = methods::methods(kind);
@@ -154,7 +154,7 @@ pub fn survey(kinds: &[Kind], detail: Detail, tick: impl Fn() + Sync) -> Vec<Err
 }
 
 /// Nanoseconds to prepare for a point and draw one sample, of each method.
-fn costs(kind: Kind, sweep: &Sweep, methods: &[Method]) -> Vec<f64> {
+fn costs(kind: ShapeKind, sweep: &Sweep, methods: &[Method]) -> Vec<f64> {
     let us = pose::square(64, 1);
     let pose = sweep.pose(kind, if sweep.touches() { 2.0 } else { 0.3 }, 0.6, 1);
     let routine = |method: &Method| {
@@ -243,7 +243,7 @@ const LAST: f64 = 1.0 - 0.5 * f64::EPSILON;
 
 /// Measures one cell with all methods.
 #[must_use]
-pub fn cell(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], detail: Detail) -> Vec<Figures> {
+pub fn cell(kind: ShapeKind, sweep: &Sweep, [x, y]: [f64; 2], methods: &[Method], detail: Detail) -> Vec<Figures> {
     let mut tallies: Vec<_> = methods.iter().map(|_| Tally::default()).collect();
     let mut samples = Vec::new();
     for turn in 0..detail.turns {
@@ -294,7 +294,7 @@ fn strata(side: usize) -> Vec<[f32; 2]> {
 }
 
 /// The bias of each method in a pose: the mean of (estimate − exact estimate for the same u), relative to the closed form.
-fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> {
+fn biases(kind: ShapeKind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> {
     let truth = Truth::new(kind, pose);
     let normal = if kind.projected() { unit(wide(pose.normal)) } else { truth.towards() };
     let closed = truth.irradiance(normal);
@@ -355,7 +355,7 @@ fn biases(kind: Kind, pose: &Pose, methods: &[Method], side: usize) -> Vec<f64> 
 }
 
 /// Relative variance of one sample of the irradiance of a diffuse receiver.
-fn variance(kind: Kind, sweep: &Sweep, [x, y]: [f64; 2], method: &Method) -> f64 {
+fn variance(kind: ShapeKind, sweep: &Sweep, [x, y]: [f64; 2], method: &Method) -> f64 {
     let us = strata(24);
     let pose: Pose = sweep.pose(kind, x, y, 0);
     let mut samples = Vec::with_capacity(us.len());

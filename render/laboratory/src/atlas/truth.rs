@@ -1,7 +1,7 @@
 //! Exact results for a shape seen from a point, by the oracle: solid angles, pdfs and the maps themselves. Nothing here calls the code under
 //! test, except for the directions of projected shapes (see [`Truth::direction`]).
 
-use super::pose::{Kind, Pose, Shape};
+use super::pose::{Pose, Shape, ShapeKind};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use etendue::spherical::{ProjectedCap, ProjectedPolygon, ProjectedTriangle};
 use etendue::warp::ConcentricDisk;
@@ -40,7 +40,7 @@ pub struct Truth {
     projected: bool,
     normal: V3,
     shape: Shape,
-    kind: Kind,
+    kind: ShapeKind,
 }
 
 /// Angle between unit vectors.
@@ -51,7 +51,7 @@ fn between(a: Dd3, b: Dd3) -> f64 {
 impl Truth {
     /// The exact results for a kind of shape in a pose.
     #[must_use]
-    pub fn new(kind: Kind, pose: &Pose) -> Self {
+    pub fn new(kind: ShapeKind, pose: &Pose) -> Self {
         let projected = kind.projected();
         let normal = unit(wide(pose.normal));
         let n = dd(wide(pose.normal));
@@ -91,23 +91,23 @@ impl Truth {
                 let minus = |a: Dd3| a.map(|x| -x);
                 let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
                 match kind {
-                    Kind::Rectangle => {
+                    ShapeKind::Rectangle => {
                         let window = Window::new(p, u, v);
                         let measure = window.solid_angle;
                         (Map::Window(window), measure, widest(&[p, pu, puv, pv]))
                     }
-                    Kind::Triangle => {
+                    ShapeKind::Triangle => {
                         let fan = Fan::new(p, u, v);
                         let measure = fan.solid_angle();
                         (Map::Fans(vec![fan]), measure, widest(&[p, pu, pv]))
                     }
-                    Kind::ProjectedTriangle => {
+                    ShapeKind::ProjectedTriangle => {
                         let body = ProjectedTriangle::with_edges(pw, pw + uw, pw + vw, uw, vw, wide_normal);
                         let corners = [p, pu, pv];
                         let measure = facing(&corners, n);
                         (Map::Triangle(Box::new(body)), measure, widest(&corners))
                     }
-                    Kind::ProjectedParallelogram => {
+                    ShapeKind::ProjectedParallelogram => {
                         let body = ProjectedPolygon::parallelogram(pw, uw, vw, wide_normal);
                         let corners = [p, pu, puv, pv];
                         let measure = facing(&corners, n);
@@ -197,7 +197,11 @@ impl Truth {
         let middle = match &self.shape {
             Shape::Sphere { center, .. } | Shape::Disk { center, .. } => wide(*center),
             Shape::Flat { p, u, v } => {
-                let part = if matches!(self.kind, Kind::Triangle | Kind::ProjectedTriangle) { 1.0 / 3.0 } else { 0.5 };
+                let part = if matches!(self.kind, ShapeKind::Triangle | ShapeKind::ProjectedTriangle) {
+                    1.0 / 3.0
+                } else {
+                    0.5
+                };
                 core::array::from_fn(|i| f64::from(p[i]) + part * (f64::from(u[i]) + f64::from(v[i])))
             }
             Shape::Corners(c) => core::array::from_fn(|i| c.iter().map(|c| f64::from(c[i])).sum::<f64>()),
@@ -242,7 +246,7 @@ impl Truth {
             Shape::Flat { p, u: e1, v: e2 } => {
                 let (p, e1, e2) = (dd(wide(*p)), dd(wide(*e1)), dd(wide(*e2)));
                 let normal = cross(e1, e2);
-                let (b1, b2, part) = if matches!(self.kind, Kind::Triangle | Kind::ProjectedTriangle) {
+                let (b1, b2, part) = if matches!(self.kind, ShapeKind::Triangle | ShapeKind::ProjectedTriangle) {
                     let root = u[0].sqrt();
                     (root * (1.0 - u[1]), root * u[1], 0.5)
                 } else {
@@ -332,7 +336,7 @@ impl Truth {
             Shape::Flat { p, u, v } => {
                 let (p, u, v) = (dd(wide(*p)), dd(wide(*u)), dd(wide(*v)));
                 let (pu, puv, pv) = (add(p, u), add(add(p, u), v), add(p, v));
-                let corners = if matches!(self.kind, Kind::Triangle | Kind::ProjectedTriangle) {
+                let corners = if matches!(self.kind, ShapeKind::Triangle | ShapeKind::ProjectedTriangle) {
                     vec![p, pu, pv]
                 } else {
                     vec![p, pu, puv, pv]

@@ -4,7 +4,7 @@ use super::judge::read;
 use super::regimes::Regime;
 use etendue_render::film::Film;
 use etendue_render::options::name;
-use etendue_render::progressive::{Goal, Plan, Progress, default_sampler, render};
+use etendue_render::progressive::{Goal, Progress, Refinement, default_sampler, render};
 use etendue_render::scene::Scene;
 use etendue_render::{Claim, Settings, Technique, World};
 use rayon::prelude::*;
@@ -142,7 +142,7 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
         }
     }
     let mut refine = |way, goal| {
-        let plan = Plan { settings: settings(spp, SEEDS + 1), sampler: None, lens, goal };
+        let plan = Refinement { settings: settings(spp, SEEDS + 1), sampler: None, lens, goal };
         let Progress { film, error, .. } = render(&world, &plan, |_| (), |_, _| (), |_| Ok(()))?;
         images.push((way, film, error));
         Ok::<(), String>(())

@@ -19,7 +19,7 @@ fn around(values: &[f64], i: usize, reach: usize) -> f64 {
 #[test]
 fn neighbours_are_summed() {
     let values = integers(7);
-    for reach in [1, NEAR, FAR, 40] {
+    for reach in [1, NEAR, OUTERMOST, 40] {
         for (i, sum) in sums_around(&values, WIDTH, reach).into_iter().enumerate() {
             assert_eq!(sum, around(&values, i, reach), "pixel {i}, reach {reach}");
         }
@@ -30,7 +30,7 @@ fn means_weight_near_and_far_neighbours() {
     let (sums, mut counts) = (integers(7), integers(5));
     counts[..9].fill(0.0);
     for (i, mean) in mean_around(&sums, &counts, WIDTH).into_iter().enumerate() {
-        let both = |values: &[f64]| around(values, i, NEAR) + WEIGHT_FAR * around(values, i, FAR);
+        let both = |values: &[f64]| around(values, i, NEAR) + WEIGHT_OUTERMOST * around(values, i, OUTERMOST);
         let expected = both(&sums) / both(&counts);
         assert!((mean / expected - 1.0).abs() < 1e-14, "pixel {i}: {mean} instead of {expected}");
     }

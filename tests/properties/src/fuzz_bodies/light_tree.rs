@@ -2,16 +2,16 @@
 
 use super::Input;
 use crate::generators::Random;
-use crate::light_tree::{Grove, Kind, Lamp, Regime, place};
+use crate::light_tree::{Grove, Lamp, LampKind, Regime, place};
 use crate::techniques::LightShape;
 
-const KINDS: [Kind; 6] = [
-    Kind::Area(LightShape::Triangle),
-    Kind::Area(LightShape::Parallelogram),
-    Kind::Area(LightShape::Disk),
-    Kind::Area(LightShape::Sphere),
-    Kind::Point,
-    Kind::Spot,
+const KINDS: [LampKind; 6] = [
+    LampKind::Area(LightShape::Triangle),
+    LampKind::Area(LightShape::Parallelogram),
+    LampKind::Area(LightShape::Disk),
+    LampKind::Area(LightShape::Sphere),
+    LampKind::Point,
+    LampKind::Spot,
 ];
 
 /// A light of any numbers.
@@ -20,10 +20,10 @@ fn lamp(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Lamp {
     let a = input.vector(before);
     before.push(a);
     let (mut b, mut c) = (input.vector(before), input.vector(before));
-    if matches!(kind, Kind::Spot | Kind::Area(LightShape::Disk)) {
+    if matches!(kind, LampKind::Spot | LampKind::Area(LightShape::Disk)) {
         b = input.direction();
     }
-    if kind == Kind::Spot {
+    if kind == LampKind::Spot {
         let cosine = input.unit();
         c = [cosine + (1.0 - cosine) * input.unit(), cosine, 0.0];
     }

@@ -2,7 +2,7 @@
 
 use super::{Input, scalable};
 use crate::properties;
-use crate::techniques::{self, AreaLight, LightShape, Measure, Technique};
+use crate::techniques::{self, AreaLight, LightFixture, LightShape, Measure};
 use etendue::{
     ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
 };
@@ -68,7 +68,7 @@ struct Distant {
     x: f32,
     y: f32,
 }
-impl Technique for Distant {
+impl LightFixture for Distant {
     fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
         let of = |i: usize| lanes[i % lanes.len()];
         let vector = |pick: fn(&Self) -> [f32; 3]| -> Vec3<R> { properties::vectors_of(|i| pick(&of(i))) };

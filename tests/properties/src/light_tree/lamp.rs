@@ -1,14 +1,14 @@
 //! Lights that a tree chooses among: how they are sampled, and the bound that a renderer states of them.
 
 use crate::properties::squares_of;
-use crate::techniques::{AreaLight, LightShape, Measure, Technique};
+use crate::techniques::{AreaLight, LightFixture, LightShape, Measure};
 use etendue::select::LightBound;
 use etendue::{LightSample, LightSampler, PointLight, SpotLight, Vec3};
 use etendue_oracle::{V3, along, cross, length, narrow, sub, unit, wide};
 
 /// What kind of light it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum LampKind {
     /// A shape with an area, or a line.
     Area(LightShape),
     /// A point light at `a`.
@@ -21,7 +21,7 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug)]
 pub struct Lamp {
     /// What it is.
-    pub kind: Kind,
+    pub kind: LampKind,
     /// Corner, centre or position.
     pub a: [f32; 3],
     /// Edge, normal or axis.
@@ -45,27 +45,27 @@ impl Lamp {
         let [a, b, c] = [self.a, self.b, self.c].map(wide);
         let r = f64::from(self.radius).abs();
         let (center, radius, normal) = match self.kind {
-            Kind::Area(LightShape::Sphere) => (a, r, ZERO),
-            Kind::Area(LightShape::Triangle) => {
+            LampKind::Area(LightShape::Sphere) => (a, r, ZERO),
+            LampKind::Area(LightShape::Triangle) => {
                 let center = along(along(a, b, 1.0 / 3.0), c, 1.0 / 3.0);
                 let far = [a, along(a, b, 1.0), along(a, c, 1.0)].map(|corner| length(sub(corner, center)));
                 (center, far.into_iter().fold(0.0, f64::max), cross(b, c))
             }
-            Kind::Area(LightShape::Disk) => (a, r, b),
-            Kind::Area(LightShape::Cylinder) => (along(a, b, 0.5), libm::hypot(0.5 * length(b), r), ZERO),
-            Kind::Area(LightShape::Line) => (along(a, b, 0.5), 0.5 * length(b), ZERO),
-            Kind::Area(_) => {
+            LampKind::Area(LightShape::Disk) => (a, r, b),
+            LampKind::Area(LightShape::Cylinder) => (along(a, b, 0.5), libm::hypot(0.5 * length(b), r), ZERO),
+            LampKind::Area(LightShape::Line) => (along(a, b, 0.5), 0.5 * length(b), ZERO),
+            LampKind::Area(_) => {
                 let diagonals = [1.0, -1.0].map(|sign| length(along(b, c, sign)));
                 (along(along(a, b, 0.5), c, 0.5), 0.5 * diagonals[0].max(diagonals[1]), cross(b, c))
             }
-            Kind::Point => (a, 0.0, ZERO),
-            Kind::Spot => (a, 0.0, b),
+            LampKind::Point => (a, 0.0, ZERO),
+            LampKind::Spot => (a, 0.0, b),
         };
         LightBound {
             center: narrow(center),
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(unit(normal)),
-            cos_cone: if self.kind == Kind::Spot { self.c[1] } else { 0.0 },
+            cos_cone: if self.kind == LampKind::Spot { self.c[1] } else { 0.0 },
             two_sided: self.two_sided && length(normal) > 0.0,
             power: self.power,
         }
@@ -81,12 +81,12 @@ impl Lamp {
         };
         let position = self.a.into();
         match self.kind {
-            Kind::Point => Some(PointLight { position }.prepare(p.into()).sample(squares_of(&[u]))).filter(shines),
-            Kind::Spot => {
+            LampKind::Point => Some(PointLight { position }.prepare(p.into()).sample(squares_of(&[u]))).filter(shines),
+            LampKind::Spot => {
                 let light = SpotLight { position, axis: self.b.into(), cos_inner: self.c[0], cos_outer: self.c[1] };
                 Some(light.prepare(p.into()).sample(squares_of(&[u]))).filter(shines)
             }
-            Kind::Area(shape) => {
+            LampKind::Area(shape) => {
                 let Self { a, b, c, radius, .. } = *self;
                 let measures = [Measure::Area, Measure::SolidAngle, Measure::ProjectedSolidAngle];
                 let able = measures.into_iter().filter(|&by| AreaLight::KINDS.contains(&(shape, by)));
@@ -104,8 +104,8 @@ impl Lamp {
     pub fn scaled(&self, factor: f32) -> Self {
         let times = |v: [f32; 3]| v.map(|x| x * factor);
         let (b, c) = match self.kind {
-            Kind::Spot => (self.b, self.c),
-            Kind::Area(LightShape::Disk) => (self.b, times(self.c)),
+            LampKind::Spot => (self.b, self.c),
+            LampKind::Area(LightShape::Disk) => (self.b, times(self.c)),
             _ => (times(self.b), times(self.c)),
         };
         Self { a: times(self.a), b, c, radius: self.radius * factor, ..*self }

@@ -1,6 +1,6 @@
 //! Sets of lights, and points among them, at which a bound or a choice may fail.
 
-use super::{Kind, Lamp, Place};
+use super::{Lamp, LampKind, Place};
 use crate::generators::Random;
 use crate::techniques::LightShape;
 use core::f64::consts::TAU;
@@ -56,15 +56,15 @@ impl Regime {
         Self::Clusters,
         Self::SmallAndFar,
     ];
-    const SHAPES: [Kind; 8] = [
-        Kind::Area(LightShape::Triangle),
-        Kind::Area(LightShape::Parallelogram),
-        Kind::Area(LightShape::Disk),
-        Kind::Area(LightShape::Sphere),
-        Kind::Point,
-        Kind::Spot,
-        Kind::Area(LightShape::Cylinder),
-        Kind::Area(LightShape::Line),
+    const SHAPES: [LampKind; 8] = [
+        LampKind::Area(LightShape::Triangle),
+        LampKind::Area(LightShape::Parallelogram),
+        LampKind::Area(LightShape::Disk),
+        LampKind::Area(LightShape::Sphere),
+        LampKind::Point,
+        LampKind::Spot,
+        LampKind::Area(LightShape::Cylinder),
+        LampKind::Area(LightShape::Line),
     ];
 
     /// The unit of lengths.
@@ -76,7 +76,7 @@ impl Regime {
             _ => 1.0,
         }
     }
-    fn kind(self, random: &mut Random) -> Kind {
+    fn kind(self, random: &mut Random) -> LampKind {
         let among = match self {
             Self::SphereOutwards | Self::Plane | Self::TwoSided | Self::OneSided | Self::Slivers => 0..3,
             Self::Spheres => 3..4,
@@ -153,7 +153,7 @@ impl Lamp {
 }
 
 /// A light about a centre.
-fn shape(kind: Kind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f64, random: &mut Random) -> Lamp {
+fn shape(kind: LampKind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f64, random: &mut Random) -> Lamp {
     let (s, t) = basis(normal);
     let turn = random.range(0.0, TAU);
     let mix = |turn: f64, size: f64| along(s.map(|x| x * libm::cos(turn) * size), t, libm::sin(turn) * size);
@@ -161,13 +161,13 @@ fn shape(kind: Kind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine: f6
     let third = along(along(center, e, -1.0 / 3.0), f, -1.0 / 3.0);
     let corner = along(along(center, e, -0.5), f, -0.5);
     let (a, b, c) = match kind {
-        Kind::Area(LightShape::Triangle) => (third, e, f),
-        Kind::Area(LightShape::Parallelogram) => (corner, e, f),
-        Kind::Area(LightShape::Line | LightShape::Cylinder) => (along(center, e, -0.5), e, f),
-        Kind::Spot => (center, normal, [cosine + (1.0 - cosine) * random.unit_f64(), cosine, 0.0]),
+        LampKind::Area(LightShape::Triangle) => (third, e, f),
+        LampKind::Area(LightShape::Parallelogram) => (corner, e, f),
+        LampKind::Area(LightShape::Line | LightShape::Cylinder) => (along(center, e, -0.5), e, f),
+        LampKind::Spot => (center, normal, [cosine + (1.0 - cosine) * random.unit_f64(), cosine, 0.0]),
         _ => (center, normal, f),
     };
-    let radius = if kind == Kind::Point || kind == Kind::Spot { 0.0 } else { (0.5 * size) as f32 };
+    let radius = if kind == LampKind::Point || kind == LampKind::Spot { 0.0 } else { (0.5 * size) as f32 };
     Lamp { kind, a: narrow(a), b: narrow(b), c: narrow(c), radius, two_sided: false, power: 1.0 }
 }
 
@@ -184,7 +184,7 @@ pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (Place, usi
     let any = |random: &mut Random| core::array::from_fn(|_| unit_length * random.range(-1.5, 1.5));
     let corner = match random.word() % 3 {
         0 => wide(lamp.a),
-        1 if lamp.kind != Kind::Spot => along(wide(lamp.a), wide(lamp.b), 1.0),
+        1 if lamp.kind != LampKind::Spot => along(wide(lamp.a), wide(lamp.b), 1.0),
         _ => center,
     };
     let p = match random.word() % 11 {
@@ -199,7 +199,7 @@ pub fn place(regime: Regime, lamps: &[Lamp], random: &mut Random) -> (Place, usi
         5 => along(center, direction, unit_length * random.magnitude(1e2, 1e12)),
         6 => direction.map(|x| x * 1e30),
         7 => along(center, normal, size * random.magnitude(0.1, 1e4)),
-        8 if lamp.kind == Kind::Spot => {
+        8 if lamp.kind == LampKind::Spot => {
             // at the edge of the cone
             let cos = f64::from(bound.cos_cone) * (1.0 + random.range(-1.0, 1.0) * random.magnitude(1e-8, 1e-3));
             let way = along(normal.map(|x| x * cos), within, (1.0 - cos * cos).max(0.0).sqrt());

@@ -1,7 +1,7 @@
 //! Defects of lights.
 
 use crate::properties::vectors_of;
-use crate::techniques::Technique;
+use crate::techniques::LightFixture;
 use etendue::spherical::SphericalRectangle;
 use etendue::warp::Bilinear;
 use etendue::{Disk, LightSample, LightSampler, Mask, Real, Rectangle, Vec2, Vec3, Warp};
@@ -27,7 +27,7 @@ impl<const WRONG: bool> CosineWarp<WRONG> {
         (Rectangle { corner: p, edge_s: u, edge_t: v }, SphericalRectangle::new(p, u, v), Bilinear { corners })
     }
 }
-impl<const WRONG: bool> Technique for CosineWarp<WRONG> {
+impl<const WRONG: bool> LightFixture for CosineWarp<WRONG> {
     fn prepare<R: Real>(lanes: &[Self]) -> Box<dyn LightSampler<R>> {
         let (light, seen, warp) = Self::parts::<R>(lanes);
         Box::new(Warped::<R, WRONG> { light, seen, warp })
