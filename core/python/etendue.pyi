@@ -241,6 +241,7 @@ class Rectangle:
     def __new__(cls, corner: ArrayLike, edge_s: ArrayLike, edge_t: ArrayLike) -> Rectangle: ...
     def by_area(self, p: ArrayLike) -> Sampler: ...
     def by_solid_angle(self, p: ArrayLike) -> Sampler: ...
+    def by_projected_solid_angle(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     def by_cosine_warp(self, p: ArrayLike, n: ArrayLike) -> Sampler: ...
     @staticmethod
     def sample_each(
@@ -251,7 +252,7 @@ class Rectangle:
         p: ArrayLike,
         u: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def hit_each(
@@ -262,7 +263,7 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
     ) -> Samples: ...
     @staticmethod
     def pdf_each(
@@ -273,7 +274,7 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
     ) -> _F32: ...
     @staticmethod
     def invert_each(
@@ -284,7 +285,7 @@ class Rectangle:
         p: ArrayLike,
         w: ArrayLike,
         n: ArrayLike | None = None,
-        by: Literal["area", "solid_angle", "cosine_warp"] = "solid_angle",
+        by: Literal["area", "solid_angle", "projected_solid_angle", "cosine_warp"] = "solid_angle",
     ) -> _F32: ...
 
 @final

@@ -21,7 +21,7 @@
 //! | [`Sphere`] | [`by_area`](Sphere::by_area) wastes all but (1−R/d)/2 of its samples | [`by_solid_angle`](Sphere::by_solid_angle), always better | [`by_projected_solid_angle`](Sphere::by_projected_solid_angle): diffuse surfaces |
 //! | [`Triangle`] | [`by_area`](Triangle::by_area): small for its distance | [`by_solid_angle`](Triangle::by_solid_angle): all others | [`by_projected_solid_angle`](Triangle::by_projected_solid_angle), or [`by_cosine_warp`](Triangle::by_cosine_warp) |
 //! | [`Parallelogram`] | [`by_area`](Parallelogram::by_area) | [`by_solid_angle`](Parallelogram::by_solid_angle) | [`by_projected_solid_angle`](Parallelogram::by_projected_solid_angle) |
-//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | [`by_cosine_warp`](Rectangle::by_cosine_warp) |
+//! | [`Rectangle`] | [`by_area`](Rectangle::by_area) | [`by_solid_angle`](Rectangle::by_solid_angle) | [`by_projected_solid_angle`](Rectangle::by_projected_solid_angle), or [`by_cosine_warp`](Rectangle::by_cosine_warp) |
 //! | [`Polygon`], 3 to 8 corners | [`by_area`](Polygon::by_area) | [`by_solid_angle`](Polygon::by_solid_angle) | [`by_projected_solid_angle`](Polygon::by_projected_solid_angle) |
 //! | [`BilinearPatch`] | [`by_area`](BilinearPatch::by_area) | | |
 //! | [`Annulus`] | [`by_area`](Annulus::by_area) | | |
@@ -32,6 +32,9 @@
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `prepare`: one direction, `delta` holds | | |
+//!
+//! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
+//! patches, and the projected solid angle of disks. A sun and a constant environment have no area.
 //!
 //! # Costs
 //! Nanoseconds per sample on one core, of the call that a renderer makes: direction, distance, pdf, `emits` and `delta`, with the

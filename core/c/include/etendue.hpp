@@ -457,6 +457,7 @@ struct Rectangle : EtendueRectangle {
     Rectangle(Vec3 corner_, Vec3 edge_s_, Vec3 edge_t_) : EtendueRectangle{{corner_.x, corner_.y, corner_.z}, {edge_s_.x, edge_s_.y, edge_s_.z}, {edge_t_.x, edge_t_.y, edge_t_.z}} {}
     ParallelogramByArea by_area(Vec3 at) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at}; }
     RectangleBySolidAngle by_solid_angle(Vec3 at) const { return {*this, at}; }
+    ParallelogramByProjectedSolidAngle by_projected_solid_angle(Vec3 at, Vec3 n) const { return {EtendueParallelogram{{corner[0], corner[1], corner[2]}, {edge_s[0], edge_s[1], edge_s[2]}, {edge_t[0], edge_t[1], edge_t[2]}}, at, n}; }
     RectangleByCosineWarp by_cosine_warp(Vec3 at, Vec3 n) const { return {*this, at, n}; }
 };
 // EtendueDisk with its constructors and techniques.

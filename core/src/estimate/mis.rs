@@ -1,3 +1,5 @@
+//! Weights that combine techniques (multiple importance sampling).
+
 use crate::light::LightSample;
 use crate::real::Real;
 

@@ -1,3 +1,5 @@
+//! Reservoirs: one of a stream of candidates, in proportion to its weight.
+
 use crate::real::{Real, Uint};
 
 /// Holds one candidate of a stream, chosen in proportion to weights that arrive one at a time: for lights, or samples of them.

@@ -156,7 +156,7 @@ impl<R: Real> Parallelogram<R> {
 pub type ParallelogramByArea<R> = ByArea<R, PlacedParallelogram<R>>;
 /// A [`Parallelogram`] sampled by solid angle from a point.
 pub type ParallelogramBySolidAngle<R> = BySolidAngle<R, PlacedParallelogram<R>, SphericalParallelogram<R>>;
-/// A [`Parallelogram`] sampled by projected solid angle from a point on a surface.
+/// A [`Parallelogram`] or a [`Rectangle`] sampled by projected solid angle from a point on a surface.
 pub type ParallelogramByProjectedSolidAngle<R> =
     ByProjectedSolidAngle<R, PlacedParallelogram<R>, ProjectedPolygon<R, 4>>;
 
@@ -198,6 +198,12 @@ impl<R: Real> Rectangle<R> {
         let shape = SphericalRectangle::new(self.corner - p, self.edge_s, self.edge_t);
         BySolidAngle { origin: p, surface: self.placed(p), shape }
     }
+    /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal `n` at the point `p`, as a parallelogram:
+    /// [`Parallelogram::by_projected_solid_angle`].
+    #[inline(always)]
+    pub fn by_projected_solid_angle(&self, p: Vec3<R>, n: Vec3<R>) -> ParallelogramByProjectedSolidAngle<R> {
+        Parallelogram::from(*self).by_projected_solid_angle(p, n)
+    }
     /// By solid angle times a bilinear approximation of the cosine to the unit normal `n` at the point `p`, [`CosineWarped`]: for diffuse
     /// surfaces. The pdf is per steradian.
     #[inline(always)]
@@ -211,6 +217,7 @@ impl<R: Real> Rectangle<R> {
 }
 
 impl<R> From<Rectangle<R>> for Parallelogram<R> {
+    #[inline(always)]
     fn from(Rectangle { corner, edge_s, edge_t }: Rectangle<R>) -> Self {
         Self { corner, edge_s, edge_t }
     }

@@ -86,6 +86,9 @@ macro_rules! techniques {
                 ParallelogramByArea: by_area(p) area;
                 /// Uniform over the solid angle Ω at the point p: pdf 1/Ω per steradian.
                 RectangleBySolidAngle = EtendueRectangleBySolidAngle, rectangle_by_solid_angle[88]: by_solid_angle(p) solid_angle;
+                /// Uniform over the projected solid angle Ω⊥ above the horizon of the unit normal n at the point p, as a parallelogram: pdf
+                /// cosθ/Ω⊥ per steradian, 0 where nothing of the light is above the horizon.
+                ParallelogramByProjectedSolidAngle: by_projected_solid_angle(p, n) projected_solid_angle;
                 /// By solid angle times a bilinear approximation of the cosine to the unit normal n at the point p; pdf per steradian.
                 RectangleByCosineWarp = EtendueRectangleByCosineWarp, rectangle_by_cosine_warp[92]: by_cosine_warp(p, n) solid_angle;
             }

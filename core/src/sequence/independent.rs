@@ -1,3 +1,5 @@
+//! Independent random numbers.
+
 use super::Sequence;
 use crate::real::{Real, Uint};
 use crate::vector::Vec2;

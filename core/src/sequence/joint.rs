@@ -1,3 +1,5 @@
+//! Sequences whose pairs of dimensions are stratified together.
+
 use super::owen_sobol::{pascal, scramble};
 use super::stratified::{divide, replicate};
 use super::{Independent, OwenSobol, Sequence};

@@ -1,3 +1,5 @@
+//! Latin hypercube samples.
+
 use super::independent::hash4;
 use super::stratified::{permute, replicate};
 use super::{Independent, Sequence};

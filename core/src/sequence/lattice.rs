@@ -1,3 +1,5 @@
+//! Rank-1 lattices.
+
 use super::owen_sobol::scramble;
 use super::{Independent, Sequence};
 use crate::real::{Real, Uint};

@@ -1,3 +1,5 @@
+//! Owen-scrambled Sobol points, in two dimensions at a time.
+
 use super::independent::hash4;
 use super::{Independent, Sequence};
 use crate::real::{Real, Uint};

@@ -1,3 +1,5 @@
+//! Jittered strata.
+
 use super::independent::hash4;
 use super::{Independent, Sequence};
 use crate::real::{Real, Uint, unit_interval};

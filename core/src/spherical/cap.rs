@@ -1,3 +1,5 @@
+//! Spheres by solid angle.
+
 use super::direction::DirectionSample;
 use crate::lanewise::lanewise;
 use crate::real::Real;

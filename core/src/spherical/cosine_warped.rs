@@ -1,3 +1,5 @@
+//! Shapes by solid angle, warped towards the cosine.
+
 use crate::lanewise::Lanewise;
 use crate::real::Real;
 use crate::vector::{Vec2, Vec3};

@@ -1,3 +1,5 @@
+//! Disks by solid angle.
+
 use super::direction::DirectionSample;
 use super::double_word::compensated_dot;
 use super::line::finite_or_zero;

@@ -1,3 +1,5 @@
+//! Line segments by angle, and by projected solid angle.
+
 use super::direction::{DirectionSample, above_horizon};
 use super::double_word::{dot_dw, rounded_sum, unit_normal};
 use super::projected_cap::segment;

@@ -1,3 +1,5 @@
+//! Parallelograms by solid angle.
+
 use super::direction::{DirectionSample, to_unit};
 use super::double_word::{compensated_height, cross_dw, sum_dw};
 use super::triangle::Planes;

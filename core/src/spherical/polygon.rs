@@ -1,3 +1,5 @@
+//! Convex polygons by solid angle.
+
 use super::direction::DirectionSample;
 use super::triangle::SphericalTriangle;
 use crate::lanewise::lanewise_by_map;

@@ -1,3 +1,5 @@
+//! Spheres by projected solid angle.
+
 mod lune;
 mod segment;
 

@@ -1,3 +1,5 @@
+//! Convex polygons by projected solid angle.
+
 use super::direction::{DirectionSample, to_unit};
 use super::double_word::{cross_dw, dot_dw, sum_dw, unit_normal};
 use super::projected_triangle::piece::{Piece, narrowest};

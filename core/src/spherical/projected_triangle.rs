@@ -1,3 +1,5 @@
+//! Triangles by projected solid angle.
+
 mod horizon;
 pub(super) mod piece;
 pub(super) mod sector;

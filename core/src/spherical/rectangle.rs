@@ -1,3 +1,5 @@
+//! Rectangles by solid angle.
+
 use super::direction::DirectionSample;
 use super::double_word::{compensated_height, cross_dw, dot_dw, rounded_sum, sum_dw};
 use crate::lanewise::lanewise;

@@ -1,3 +1,5 @@
+//! Triangles by solid angle.
+
 mod arc;
 mod inverse;
 

@@ -1,3 +1,5 @@
+//! The unit square with a bilinear density.
+
 use super::{Linear, Warp, Warp1};
 use crate::lanewise::lanewise_by_map;
 use crate::real::Real;

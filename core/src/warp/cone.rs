@@ -1,3 +1,5 @@
+//! Cones of directions, hemispheres and spheres, uniform in solid angle.
+
 use super::Warp;
 use crate::lanewise::lanewise;
 use crate::math::atan2_turns;

@@ -1,3 +1,5 @@
+//! The unit disk, uniform in area.
+
 use super::Warp;
 use crate::math::atan2_turns;
 use crate::real::{Real, unit_interval};

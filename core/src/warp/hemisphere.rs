@@ -1,3 +1,5 @@
+//! The hemisphere in proportion to the cosine.
+
 use super::Warp;
 use super::disk::{concentric, invert_concentric};
 use crate::real::Real;

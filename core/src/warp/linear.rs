@@ -1,3 +1,5 @@
+//! Linear densities on an interval, and tents.
+
 use super::Warp1;
 use crate::lanewise::lanewise;
 use crate::real::{GREATEST, Real, unit_interval};

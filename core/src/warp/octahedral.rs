@@ -1,3 +1,5 @@
+//! Directions by the octahedral map.
+
 use super::Warp;
 use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};

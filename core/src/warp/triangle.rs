@@ -1,3 +1,5 @@
+//! Barycentric coordinates of a triangle, uniform in area.
+
 use super::Warp;
 use crate::real::{Real, unit_interval};
 use crate::vector::Vec2;

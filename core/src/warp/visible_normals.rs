@@ -1,3 +1,5 @@
+//! Visible normals of a GGX microsurface.
+
 use super::{Cone, Warp};
 use crate::lanewise::lanewise;
 use crate::real::{GREATEST, Real, unit_interval};

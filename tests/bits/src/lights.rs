@@ -48,7 +48,10 @@ struct Area(Vec<(AreaLight, [f32; 2], [f32; 3])>);
 
 impl Area {
     fn new(kind: usize) -> Self {
-        let mut random = Random::new(500 + kind as u64);
+        // numbers of its own, wherever it is in the list
+        let name = format!("{:?}", AreaLight::KINDS[kind]);
+        let mut random =
+            Random::new(name.bytes().fold(500_u64, |seed, byte| (seed * 31 + u64::from(byte)) % 1_000_003));
         let slot = |round| {
             let mut light = AreaLight::any(kind, round as u32 / 3, &mut random);
             if round % 8 == 7 {
