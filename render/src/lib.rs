@@ -26,7 +26,6 @@ pub mod frame;
 pub mod geometry;
 pub mod image;
 pub mod integrator;
-pub mod light_tree;
 pub mod lights;
 pub mod limits;
 pub mod merge;

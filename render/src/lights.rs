@@ -1,6 +1,7 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
 
 mod many;
+pub mod tree;
 
 use crate::bvh::BuildError;
 use crate::bvh::NOTHING;

@@ -9,27 +9,8 @@ use crate::claim::{Claim, why_unknown};
 use crate::film::Film;
 use crate::integrator::{RayCount, Settings, World};
 use crate::limits::MOST_SAMPLES;
-use crate::sampler::Sampler;
+use crate::sampler::{Sampler, default_sampler, reports_variance};
 use std::time::Instant;
-
-/// The sampler with the least error in equal time among those that report the variance of `spp` samples in `sets` sets (see
-/// [`Settings::sets`]): [`Sampler::Adaptive`] from two sets of 16 samples on, else [`Sampler::Sobol`] for an even number of samples,
-/// else [`Sampler::Independent`]. If one set is asked for, no variance is, and a net has the least error.
-#[must_use]
-pub fn default_sampler(spp: u32, sets: u32, lens: bool) -> Sampler {
-    let fits = |s: &Sampler| s.check(spp, sets, lens).is_ok() && (sets == 1 || reports_variance(*s, spp, sets, lens));
-    [Sampler::Adaptive, Sampler::Sobol].into_iter().find(fits).unwrap_or(Sampler::Independent)
-}
-
-/// Whether pixels of `spp` samples in `sets` sets (see [`Settings::sets`]) have a finite variance.
-#[must_use]
-pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bool {
-    match sampler {
-        // each of its samples is a set
-        Sampler::Independent => spp > 1,
-        _ => sampler.sets(spp, sets, lens) > 1,
-    }
-}
 
 /// When an image is finished: as soon as one of these is reached.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -302,20 +283,6 @@ fn sum(a: RayCount, b: RayCount) -> RayCount {
 mod tests {
     use super::*;
     use crate::film::Pixel;
-
-    #[test]
-    fn the_default_sampler_reports_a_variance_if_any_does() {
-        for lens in [false, true] {
-            for spp in 2..200 {
-                assert!(reports_variance(default_sampler(spp, 0, lens), spp, 0, lens), "{spp}");
-            }
-        }
-        let chosen = [1, 2, 3, 16, 31, 32, 33, 64].map(|spp| default_sampler(spp, 0, false));
-        use Sampler::{Adaptive, Independent, Sobol};
-        assert_eq!(chosen, [Independent, Sobol, Independent, Sobol, Independent, Adaptive, Adaptive, Adaptive]);
-        assert_eq!([8, 16].map(|spp| default_sampler(spp, 1, false)), [Sobol, Adaptive]);
-        assert_eq!(default_sampler(32, 4, false), Sobol);
-    }
 
     #[test]
     fn passes_are_averaged_by_their_weights() {

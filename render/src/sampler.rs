@@ -262,3 +262,41 @@ impl Source {
         }
     }
 }
+
+/// The best sampler that still reports the variance of `spp` samples in `sets` sets (see
+/// [`Settings::sets`](crate::Settings::sets)): [`Sampler::Adaptive`] from two sets of 16 samples on, else [`Sampler::Sobol`] for an even number of samples,
+/// else [`Sampler::Independent`]. If one set is asked for, nobody asks for a variance, and a net has the least error.
+#[must_use]
+pub fn default_sampler(spp: u32, sets: u32, lens: bool) -> Sampler {
+    let fits = |s: &Sampler| s.check(spp, sets, lens).is_ok() && (sets == 1 || reports_variance(*s, spp, sets, lens));
+    [Sampler::Adaptive, Sampler::Sobol].into_iter().find(fits).unwrap_or(Sampler::Independent)
+}
+
+/// Whether pixels of `spp` samples in `sets` sets (see [`Settings::sets`](crate::Settings::sets)) have a finite variance.
+#[must_use]
+pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bool {
+    match sampler {
+        // each of its samples is a set
+        Sampler::Independent => spp > 1,
+        _ => sampler.sets(spp, sets, lens) > 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_sampler_reports_a_variance_if_any_does() {
+        for lens in [false, true] {
+            for spp in 2..200 {
+                assert!(reports_variance(default_sampler(spp, 0, lens), spp, 0, lens), "{spp}");
+            }
+        }
+        let chosen = [1, 2, 3, 16, 31, 32, 33, 64].map(|spp| default_sampler(spp, 0, false));
+        use Sampler::{Adaptive, Independent, Sobol};
+        assert_eq!(chosen, [Independent, Sobol, Independent, Sobol, Independent, Adaptive, Adaptive, Adaptive]);
+        assert_eq!([8, 16].map(|spp| default_sampler(spp, 1, false)), [Sobol, Adaptive]);
+        assert_eq!(default_sampler(32, 4, false), Sobol);
+    }
+}

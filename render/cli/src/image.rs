@@ -3,7 +3,7 @@
 use clap::Args;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, say, size, threads, whole};
-use etendue_render::progressive::default_sampler;
+use etendue_render::sampler::default_sampler;
 use etendue_render::scene::{self, Scene};
 use etendue_render::{Sampler, Sensor, Settings, Technique};
 use std::error::Error;

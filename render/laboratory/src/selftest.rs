@@ -4,7 +4,7 @@ mod touching;
 
 use clap::ValueEnum;
 use etendue_render::film::Film;
-use etendue_render::progressive::reports_variance;
+use etendue_render::sampler::reports_variance;
 use etendue_render::scene::{Material, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
 

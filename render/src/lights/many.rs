@@ -1,7 +1,7 @@
 //! Choice among many lights: by a tree of those that are somewhere, and by power among those that are infinitely far away.
 
+use super::tree::{OwnedTree, Threads};
 use crate::bvh::BuildError;
-use crate::light_tree::{OwnedTree, Threads};
 use crate::packet::{V8, X8, equal, pick, select};
 use etendue::select::{Choice, LightBound, LightChoice, PowerLights, TreeAt};
 use etendue::{Real, u32x8};
