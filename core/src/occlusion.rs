@@ -32,16 +32,16 @@
 //! Nanoseconds per point, one at a time and in packets of 8. A blocker beside the light takes a quarter of the time of one before it.
 //!
 //! <!-- table: visible -->
-//! AMD EPYC, x86-64-v3, 2026-11-23.
+//! AMD EPYC, x86-64-v3, 2026-11-24.
 //!
 //! | light | blockers | x1 | x8 |
 //! |---|---|---|---|
-//! | polygon | none | 130.8 | 14.5 |
-//! |  | a polygon before it | 315.4 | 51.0 |
-//! |  | 4 polygons, 1 before it | 535.6 | 83.7 |
-//! |  | a sphere before it | 266.6 | 52.9 |
-//! | sphere | none | 18.5 | 2.80 |
-//! |  | a polygon before it | 340.3 | 55.1 |
+//! | polygon | none | 107.7 | 13.8 |
+//! |  | a polygon before it | 407.2 | 69.7 |
+//! |  | 4 polygons, 1 before it | 743.8 | 131.4 |
+//! |  | a sphere before it | 247.2 | 45.9 |
+//! | sphere | none | 14.4 | 1.91 |
+//! |  | a polygon before it | 329.2 | 49.0 |
 //! <!-- end of table -->
 
 mod cap;

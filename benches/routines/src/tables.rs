@@ -158,6 +158,7 @@ fn lights() -> Vec<Vec<Cell>> {
         "", "projected solid angle", "parallelogram by projected solid angle";
         "rectangle", "area", "rectangle by area";
         "", "solid angle", "rectangle by solid angle";
+        "", "projected solid angle", "rectangle by projected solid angle";
         "", "cosine warp", "rectangle by cosine warp";
         "polygon, 5 corners", "area", "pentagon by area";
         "", "solid angle", "pentagon by solid angle";
