@@ -35,7 +35,7 @@ lanewise! {
     /// - Density: the pdf is 1/Ω per steradian inside (and within 6 to 9 ulp beyond, 17 at the ends of the major axis), 0
     ///   outside. Ω = 4 sinα sinβ ∫₀¹.
     /// - Degenerate input: the point in the disk's plane (on the disk and its rim too), a radius ≤ 0, or Ω < 1e−37 gives pdf 0.
-    /// - Greatest error: Ω 4e−7 relative; direction 1.8e−7, besides 4 steps of 2⁻²⁴ in u; distance 2e−7 relative, over the
+    /// - Greatest error: Ω 4.5e−7 relative; direction 1.8e−7, besides 4 steps of 2⁻²⁴ in u; distance 2e−7 relative, over the
     ///   cosine to the disk's normal.
     /// - Source: Guillén, Ureña, King, Fajardo, Georgiev, López-Moreno and Jarabo, "Area-Preserving Parameterizations for
     ///   Spherical Ellipses", CGF 36(4), 2017, for the polar map; the integral by the eccentric angle and its inverse are

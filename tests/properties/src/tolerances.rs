@@ -88,8 +88,8 @@ pub const SEGMENT: Tolerance = Tolerance { point: 9.8, steps: 0.0, distance: 8.0
 /// Like [`SEGMENT`]. The inverted irradiance is a sum of three terms: 4 steps, as for the projected cap.
 pub const PROJECTED_SEGMENT: Tolerance = Tolerance { steps: 4.0, ..SEGMENT };
 /// The half-angles are roots of a dozen roundings; the solid angle is a product with a sum of 20 terms. The inverted integral is such a sum
-/// too: 4 steps. Fuzzing found at most 6.4 units for the pdf and 8.1 for the inverse.
-pub const SPHERICAL_DISK: Tolerance = Tolerance { point: 4.0, steps: 4.0, distance: 4.0, pdf: 7.0, round_trip: 9.0 };
+/// too: 4 steps. Fuzzing found at most 7.3 units for the pdf, of a disk that is seen nearly edge-on, and 8.1 for the inverse.
+pub const SPHERICAL_DISK: Tolerance = Tolerance { point: 4.0, steps: 4.0, distance: 4.0, pdf: 7.5, round_trip: 9.0 };
 /// A frame and a sum; coordinates are rounded relative to their size: 3 ulp. Fuzzing found at most 5.1 units. The pdf has a length, two
 /// products and a quotient; fuzzing found at most 4.2.
 pub const SURFACE: Tolerance = Tolerance { point: 6.0, steps: 0.0, distance: 0.0, pdf: 5.0, round_trip: 8.0 };
