@@ -44,7 +44,8 @@ impl<R: Real> Annulus<R> {
     /// - Formula: x = c + Rρ(s cosφ + t sinφ), ρ² = k² + u₀(1 − k²), φ = 2πu₁, with k the ratio of the radii, s and t perpendicular to the
     ///   normal.
     /// - Domain: u in [0, 1)²; any unit normal, radius > 0.
-    /// - pdf: distance²/(|cosθ'| πR²(1 − k²)) per steradian; the tests allow a relative error of (48 + 36/|cosθ'| + 4/(1 − k))·2⁻²⁴.
+    /// - pdf: distance²/(|cosθ'| πR²(1 − k²)) per steradian; the tests allow a relative error of (48 + 36/|cosθ'|)·2⁻²⁴ for
+    ///   k = ½.
     /// - Degenerate: no width, a point in the plane: pdf 0.
     /// - Source: inversion of the distribution of ρ².
     #[inline(always)]
