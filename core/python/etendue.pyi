@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 _F32 = NDArray[np.float32]
 
 __all__ = [
+    "Annulus",
     "AreaTriangle",
     "Bilinear",
     "BilinearPatch",
