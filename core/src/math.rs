@@ -61,7 +61,7 @@ pub(crate) fn ratio<R: Real>(a: R, b: R) -> R {
     (a / R::blend(some, b, R::lit(1.0))).keep(some)
 }
 
-/// a/b, or 0 where b is 0 or the quotient would not be finite.
+/// a/b within ±1e37, or 0 where |b| ≤ 1e−37.
 #[inline(always)]
 pub(crate) fn quotient<R: Real>(a: R, b: R) -> R {
     quotient_if_any(a, b).0
