@@ -120,19 +120,22 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     #[inline]
     pub(super) fn clip_in(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
         // unrolled for each number of corners
-        match self.count {
-            3 => self.clip_corners::<3>(lanes, normal, least),
-            4 => self.clip_corners::<4>(lanes, normal, least),
-            5 => self.clip_corners::<5>(lanes, normal, least),
-            6 => self.clip_corners::<6>(lanes, normal, least),
-            7 => self.clip_corners::<7>(lanes, normal, least),
-            8 => self.clip_corners::<8>(lanes, normal, least),
-            9 => self.clip_corners::<9>(lanes, normal, least),
-            10 => self.clip_corners::<10>(lanes, normal, least),
-            11 => self.clip_corners::<11>(lanes, normal, least),
-            12 => self.clip_corners::<12>(lanes, normal, least),
+        let (corners, some) = (&mut self.corners, &mut self.some);
+        let splits = match self.count {
+            3 => clip_corners::<R, 3>(corners, some, lanes, normal, least),
+            4 => clip_corners::<R, 4>(corners, some, lanes, normal, least),
+            5 => clip_corners::<R, 5>(corners, some, lanes, normal, least),
+            6 => clip_corners::<R, 6>(corners, some, lanes, normal, least),
+            7 => clip_corners::<R, 7>(corners, some, lanes, normal, least),
+            8 => clip_corners::<R, 8>(corners, some, lanes, normal, least),
+            9 => clip_corners::<R, 9>(corners, some, lanes, normal, least),
+            10 => clip_corners::<R, 10>(corners, some, lanes, normal, least),
+            11 => clip_corners::<R, 11>(corners, some, lanes, normal, least),
+            12 => clip_corners::<R, 12>(corners, some, lanes, normal, least),
             _ => Err(TooMany),
-        }
+        }?;
+        self.count += usize::from(splits);
+        Ok(())
     }
     /// Lanes in which any corner is inside of a plane that the base is above by `height`, and in which all are.
     #[inline(always)]
@@ -152,63 +155,6 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         }
         self.some & low & high
     }
-    /// Clips an outline of `N` corners.
-    #[inline]
-    fn clip_corners<const N: usize>(&mut self, lanes: R::Mask, normal: Vec3<R>, least: R) -> Result<(), TooMany> {
-        let no = R::Mask::splat(false);
-        let Some(corners) = self.corners.first_chunk_mut::<N>() else { return Err(TooMany) };
-        let height = corners.map(|corner| corner.dot(normal) - least);
-        let mut inside = height.map(|height| height.ge(R::lit(0.0)) | !lanes);
-        let any = inside.iter().fold(no, |any, &inside| any | inside);
-        let all = inside.iter().fold(!no, |all, &inside| all & inside);
-        self.some = self.some & any;
-        if !(self.some & !all).any() {
-            return Ok(());
-        }
-        let next = |i: usize| if i + 1 == N { 0 } else { i + 1 };
-        let before = |i: usize| if i == 0 { N - 1 } else { i - 1 };
-        let (mut once, mut twice) = (no, no);
-        for i in 0..N {
-            let leaves = inside[before(i)] & !inside[i];
-            twice = twice | (once & leaves);
-            once = once | leaves;
-        }
-        if twice.any() {
-            only_the_lowest(&height, &mut inside, twice);
-        }
-        // where edge i crosses the plane, if it does, and the place at which the outline leaves the inside
-        let crossing: [Vec3<R>; N] = core::array::from_fn(|i| {
-            let fall = height[i] - height[next(i)];
-            let share = height[i] / R::blend(inside[i] ^ inside[next(i)], fall, R::lit(1.0));
-            (corners[next(i)] - corners[i]).mul_add(share, corners[i])
-        });
-        let (mut left, mut back) = (Vec3::default(), Vec3::default());
-        for i in 0..N {
-            left = Vec3::blend(inside[i] & !inside[next(i)], crossing[i], left);
-            back = Vec3::blend(!inside[i] & inside[next(i)], crossing[i], back);
-        }
-        // Of the corners outside, those before the place where the outline leaves, and the one where it returns, become the point of return.
-        // So a corner that other lanes make a lane repeat changes neither with which corner the list begins, nor the order of any sum.
-        let (mut gone, mut moved, mut carried) = (no, no, Vec3::default());
-        for i in 0..N {
-            let outside = !inside[i];
-            let (leaves, returns) = (outside & inside[before(i)], outside & inside[next(i)]);
-            let splits = leaves & returns;
-            gone = gone | leaves;
-            let corner = Vec3::blend((returns | !gone) & !leaves, back, left);
-            let corner = Vec3::blend(inside[i], corners[i], corner);
-            corners[i] = Vec3::blend(moved, carried, corner);
-            carried = Vec3::blend(splits, back, corner);
-            moved = moved | splits;
-        }
-        if (moved & self.some).any() {
-            let last = Vec3::blend(moved, carried, corners[N - 1]);
-            *self.corners.get_mut(N).ok_or(TooMany)? = last;
-            self.count += 1;
-        }
-        Ok(())
-    }
-
     /// ½ n·Σ θᵢ Γᵢ, which is Ω⊥ if no part lies below the horizon; 0 in lanes in which nothing is left.
     #[inline]
     pub(super) fn projected_solid_angle(&self, normal: Vec3<R>) -> R {
@@ -289,6 +235,69 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
         }
         (sum * R::lit(0.5)).abs()
     }
+}
+
+/// Clips the outline of the first `N` corners, of which something is left in some lanes, in these lanes only. Returns whether it now has
+/// another corner.
+#[inline]
+fn clip_corners<R: Real, const N: usize>(
+    corners: &mut [Vec3<R>],
+    some: &mut R::Mask,
+    lanes: R::Mask,
+    normal: Vec3<R>,
+    least: R,
+) -> Result<bool, TooMany> {
+    let no = R::Mask::splat(false);
+    let Some((corners, free)) = corners.split_first_chunk_mut::<N>() else { return Err(TooMany) };
+    let height = corners.map(|corner| corner.dot(normal) - least);
+    let mut inside = height.map(|height| height.ge(R::lit(0.0)) | !lanes);
+    let any = inside.iter().fold(no, |any, &inside| any | inside);
+    let all = inside.iter().fold(!no, |all, &inside| all & inside);
+    *some = *some & any;
+    if !(*some & !all).any() {
+        return Ok(false);
+    }
+    let next = |i: usize| if i + 1 == N { 0 } else { i + 1 };
+    let before = |i: usize| if i == 0 { N - 1 } else { i - 1 };
+    let (mut once, mut twice) = (no, no);
+    for i in 0..N {
+        let leaves = inside[before(i)] & !inside[i];
+        twice = twice | (once & leaves);
+        once = once | leaves;
+    }
+    if twice.any() {
+        only_the_lowest(&height, &mut inside, twice);
+    }
+    // where edge i crosses the plane, if it does, and the place at which the outline leaves the inside
+    let crossing: [Vec3<R>; N] = core::array::from_fn(|i| {
+        let fall = height[i] - height[next(i)];
+        let share = height[i] / R::blend(inside[i] ^ inside[next(i)], fall, R::lit(1.0));
+        (corners[next(i)] - corners[i]).mul_add(share, corners[i])
+    });
+    let (mut left, mut back) = (Vec3::default(), Vec3::default());
+    for i in 0..N {
+        left = Vec3::blend(inside[i] & !inside[next(i)], crossing[i], left);
+        back = Vec3::blend(!inside[i] & inside[next(i)], crossing[i], back);
+    }
+    // Of the corners outside, those before the place where the outline leaves, and the one where it returns, become the point of return.
+    // So a corner that other lanes make a lane repeat changes neither with which corner the list begins, nor the order of any sum.
+    let (mut gone, mut moved, mut carried) = (no, no, Vec3::default());
+    for i in 0..N {
+        let outside = !inside[i];
+        let (leaves, returns) = (outside & inside[before(i)], outside & inside[next(i)]);
+        let splits = leaves & returns;
+        gone = gone | leaves;
+        let corner = Vec3::blend((returns | !gone) & !leaves, back, left);
+        let corner = Vec3::blend(inside[i], corners[i], corner);
+        corners[i] = Vec3::blend(moved, carried, corner);
+        carried = Vec3::blend(splits, back, corner);
+        moved = moved | splits;
+    }
+    let splits = (moved & *some).any();
+    if splits {
+        *free.first_mut().ok_or(TooMany)? = Vec3::blend(moved, carried, corners[N - 1]);
+    }
+    Ok(splits)
 }
 
 /// In these lanes, counts corners outside as inside unless they are next to the lowest one.

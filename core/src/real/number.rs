@@ -196,8 +196,13 @@ macro_rules! packet_real {
                 $packet::splat(value as $scalar)
             }
             #[inline(always)]
-            fn from_fn(f: impl FnMut(usize) -> $scalar) -> Self {
-                $packet::new(core::array::from_fn(f))
+            fn from_fn(mut f: impl FnMut(usize) -> $scalar) -> Self {
+                // compiles in a third of the time that `array::from_fn` takes
+                let mut lanes = [0.0; $lanes];
+                for (i, lane) in lanes.iter_mut().enumerate() {
+                    *lane = f(i);
+                }
+                $packet::new(lanes)
             }
             #[inline(always)]
             fn lane(self, i: usize) -> $scalar {

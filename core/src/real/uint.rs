@@ -60,8 +60,12 @@ macro_rules! packet_uint {
                 $vector::splat(value)
             }
             #[inline(always)]
-            fn from_fn(f: impl FnMut(usize) -> u32) -> Self {
-                $vector::new(core::array::from_fn(f))
+            fn from_fn(mut f: impl FnMut(usize) -> u32) -> Self {
+                let mut lanes = [0; $lanes];
+                for (i, lane) in lanes.iter_mut().enumerate() {
+                    *lane = f(i);
+                }
+                $vector::new(lanes)
             }
             #[inline(always)]
             fn lane(self, i: usize) -> u32 {
