@@ -6,9 +6,10 @@
 
 use etendue_benches::memory::{peak, start_peak};
 use etendue_render::film::Pixel;
+use etendue_render::integrator::{Content, Samples};
 use etendue_render::integrator::{Settings, World};
 use etendue_render::merge::{MergeGoal, Merged, merge};
-use etendue_render::parts::{self, Content, Piece};
+use etendue_render::parts::{self, Piece};
 use etendue_render::sampler::Sampler;
 use etendue_render::sensor::Sensor;
 use etendue_render::technique::Technique;
@@ -49,7 +50,7 @@ fn row(what: &str, frame: &Frame, count: u32, piece: impl Fn(u32) -> Piece + Syn
     let bytes: u64 = files.iter().map(|file| fs::metadata(file).map_or(0, |file| file.len())).sum();
     start_peak();
     let start = Instant::now();
-    let Merged::Image(film) = merge(&files, MergeGoal::Image, |_| ()).expect("whole parts").merged else {
+    let Merged::Image(film) = merge(&files, MergeGoal::Image, &|_| ()).expect("whole parts").merged else {
         unreachable!("the goal is an image")
     };
     let merged = start.elapsed().as_secs_f64();
@@ -70,7 +71,7 @@ fn main() {
     let frame = |settings: Settings| Frame::new(&scene, settings, Sensor::Radiance).expect("a built-in scene");
     println!("| parts | image, M pixels | kB each | written in s | merged in s | image written in s | peak, MB |");
     println!("|---|---|---|---|---|---|---|");
-    let (pixels, _) = world.render_area(&settings(SIDE, SAMPLES), [0, 0, SIDE, SIDE], |_| ());
+    let pixels = world.render(&settings(SIDE, SAMPLES), &|_| ()).0.pixels;
     let tiles = |what: &str, side: u32, across: u32, pixels: &[Pixel]| {
         let tile = |i: u32| [i % across * side, i / across * side, (i % across + 1) * side, (i / across + 1) * side];
         let piece = |i: u32| Piece { area: tile(i), content: Content::Pixels(pixels.to_vec()) };
@@ -86,7 +87,8 @@ fn main() {
     }
     for count in [100, 1_000, 10_000].into_iter().filter(|count| *count <= most) {
         let settings = settings(SIDE, SAMPLES * count);
-        let (planes, _) = world.render_range(&settings, settings.whole(), 0..SAMPLES, |_| ());
+        let (first, _) = world.view(&settings).render(settings.whole(), Samples::Range(0..SAMPLES), &|_| ());
+        let Content::Range(_, planes) = first else { unreachable!("a range of samples") };
         let piece = |i: u32| Piece {
             area: settings.whole(),
             content: Content::Range(i * SAMPLES..(i + 1) * SAMPLES, planes.clone()),

@@ -89,7 +89,7 @@ fn row(make: impl Fn() -> Scene) {
     };
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let start = Instant::now();
-    let _ = one.install(|| world.render(&settings, |_| ()));
+    let _ = one.install(|| world.render(&settings, &|_| ()));
     let speed = 256.0 * 256.0 * 16.0 / start.elapsed().as_secs_f64() / 1e6;
     let (bytes, peak) = (world.bytes() as f64 / triangles as f64, peak());
     drop(world);

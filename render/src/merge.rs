@@ -3,8 +3,8 @@
 use crate::area::{Area, count, crop, paste};
 use crate::film::{Film, Pixel};
 use crate::frame::Frame;
-use crate::integrator::{Allotment, Statistics};
-use crate::parts::{Content, PartFile, Piece, PieceKind};
+use crate::integrator::{Allotment, Content, Statistics};
+use crate::parts::{PartFile, Piece, PieceKind};
 use crate::sums::{Block, Moments, Planes, Sums, blocks};
 use rayon::prelude::*;
 use serde_json::Value;
@@ -170,7 +170,7 @@ impl Cell {
 /// # Errors
 /// Fails if a file is not a part, is damaged, or is a part of another image than most; if two files have some samples in common, unless
 /// their contents are the same; and if samples are missing, unless the goal allows it. The message names the files and the gaps.
-pub fn merge(files: &[PathBuf], goal: MergeGoal, progress: impl Fn(u64) + Sync) -> Result<MergeOutcome, String> {
+pub fn merge(files: &[PathBuf], goal: MergeGoal, progress: &(dyn Fn(u64) + Sync)) -> Result<MergeOutcome, String> {
     let headers = read_headers(files)?;
     let frame = common_frame(&headers)?;
     let is_pilot = |kind: &PieceKind| matches!(kind, PieceKind::Pilot(_));
@@ -370,7 +370,7 @@ fn batches<'a>(files: &'a [&'a Headers]) -> impl Iterator<Item = &'a [&'a Header
     })
 }
 
-fn read_batch(batch: &[&Headers], progress: &(impl Fn(u64) + Sync)) -> Result<Vec<Piece>, String> {
+fn read_batch(batch: &[&Headers], progress: &(dyn Fn(u64) + Sync)) -> Result<Vec<Piece>, String> {
     let read = |file: &&Headers| {
         let pieces = PartFile::open(&file.path).and_then(|mut part| part.read());
         progress(1);
@@ -386,7 +386,7 @@ fn read_batch(batch: &[&Headers], progress: &(impl Fn(u64) + Sync)) -> Result<Ve
     if errors.is_empty() { Ok(all) } else { Err(list(errors)) }
 }
 
-fn read_pieces(files: &[&Headers], progress: &(impl Fn(u64) + Sync)) -> Result<Vec<Piece>, String> {
+fn read_pieces(files: &[&Headers], progress: &(dyn Fn(u64) + Sync)) -> Result<Vec<Piece>, String> {
     let mut all = Vec::new();
     for batch in batches(files) {
         all.extend(read_batch(batch, progress)?);
@@ -409,7 +409,7 @@ fn join(
     cells: &Cells,
     frame: &Frame,
     goal: MergeGoal,
-    progress: &(impl Fn(u64) + Sync),
+    progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Merged, String> {
     let whole = frame.settings.whole();
     let nothing = Pixel::of_sets(std::iter::empty(), false);

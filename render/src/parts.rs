@@ -10,7 +10,7 @@ use crate::film::Pixel;
 use crate::frame::Frame;
 use crate::image::layers::{self, Contents, Layer, LayerFile, LayerHeader, Numbers};
 use crate::image::{self, Compression};
-use crate::integrator::{APART, Allotment, Statistics};
+use crate::integrator::{APART, Allotment, Content, Statistics};
 use crate::sampler::Sampler;
 use crate::sums::{Block, Planes, blocks};
 use serde_json::{Value, json};
@@ -19,19 +19,6 @@ use std::fs::File;
 use std::io::{BufReader, Read, Seek};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// What a piece knows of each of its pixels, row by row.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Content {
-    /// The finished pixels.
-    Pixels(Vec<Pixel>),
-    /// The sums of the largest blocks of this range of samples, in order.
-    Range(Range<u32>, Vec<Planes>),
-    /// What the pilot found.
-    Pilot(Vec<Statistics>),
-    /// How many samples follow the pilot.
-    Allotment(Allotment),
-}
 
 /// A rectangle of an image.
 #[derive(Clone, Debug, PartialEq)]

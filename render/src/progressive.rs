@@ -140,7 +140,7 @@ impl Refinement {
 pub fn render(
     world: &World,
     plan: &Refinement,
-    progress: impl Fn(u64) + Sync,
+    progress: &(dyn Fn(u64) + Sync),
     mut start: impl FnMut(Option<&Progress>, u32),
     mut finish: impl FnMut(&Progress) -> Result<(), String>,
 ) -> Result<Progress, String> {
@@ -150,7 +150,7 @@ pub fn render(
     // smaller passes have another sampler
     let full =
         counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
-    let systematic = world.systematic(&settings);
+    let systematic = world.view(&settings).systematic();
     let began = Instant::now();
     // a preview only measures the time
     let mut next = at_most(&counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
@@ -161,7 +161,7 @@ pub fn render(
         let pass_began = Instant::now();
         let of_pass =
             Settings { spp: next, sampler: plan.sampler_of(next), seed: seed(settings.seed, index), ..settings };
-        let (film, rays) = world.render(&of_pass, &progress);
+        let (film, rays) = world.render(&of_pass, progress);
         let [seconds, pass_seconds] = [began, pass_began].map(|start| start.elapsed().as_secs_f64());
         let pass = Pass { spp: next, sampler: of_pass.sampler, seed: of_pass.seed, seconds: pass_seconds };
         let own = f64::from(next).powf(power);

@@ -88,7 +88,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     };
     let bar = bar(files.len() as u64, "{wide_bar} {pos} of {len} parts");
     interrupt.watch(&bar, &output.exr);
-    let merged = pool(options.threads)?.install(|| merge::merge(&files, goal, |done| bar.inc(done)));
+    let merged = pool(options.threads)?.install(|| merge::merge(&files, goal, &|done| bar.inc(done)));
     bar.finish_and_clear();
     let MergeOutcome { frame, merged, used, duplicates, gaps } = merged?;
     let mut out = out();

@@ -8,9 +8,10 @@ use clap::Args;
 use etendue_render::area;
 use etendue_render::area::Area;
 use etendue_render::files;
+use etendue_render::integrator::Samples;
 use etendue_render::merge;
 use etendue_render::options::{out, pool, say};
-use etendue_render::parts::{self, Content, PartFile, Piece, PieceKind};
+use etendue_render::parts::{self, PartFile, Piece, PieceKind};
 use etendue_render::scene::Scene;
 use etendue_render::{Frame, Sampler, Settings, World};
 use serde_json::json;
@@ -197,14 +198,13 @@ pub(crate) fn run(
     let bar = bar(area::count(*area) as u64, "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
     interrupt.watch(&bar, &path);
     let progress = |done: u64| bar.inc(done);
-    let content = pool.install(|| match (what, &allotment) {
-        (What::Pilot, _) => Content::Pilot(world.render_pilot(&settings, *area, progress).0),
-        (_, Some(allotment)) => Content::Pixels(world.render_rest(&settings, allotment, progress).0),
-        (What::Samples(range), _) if *range != (0..settings.spp) => {
-            Content::Range(range.clone(), world.render_range(&settings, *area, range.clone(), progress).0)
-        }
-        _ => Content::Pixels(world.render_area(&settings, *area, progress).0),
-    });
+    let samples = match (what, &allotment) {
+        (What::Pilot, _) => Samples::Pilot,
+        (_, Some(allotment)) => Samples::Rest(allotment),
+        (What::Samples(range), _) if *range != (0..settings.spp) => Samples::Range(range.clone()),
+        _ => Samples::All,
+    };
+    let (content, _) = pool.install(|| world.view(&settings).render(*area, samples, &progress));
     bar.finish_and_clear();
     {
         let _status = interrupt.lock();

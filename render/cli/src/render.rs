@@ -106,7 +106,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         Some(plan) => studio.refine(plan),
     })?;
 
-    let chosen = world.chosen(&settings);
+    let chosen = world.view(&settings).technique();
     let times = [load, build];
     let said = if options.json {
         let object = to_json(options, &settings, chosen, &done, &output, times, pool.current_num_threads());
@@ -137,12 +137,13 @@ impl Session<'_> {
         let mut last = None;
         for _ in 0..repeat {
             let start = Instant::now();
-            last = Some(self.world.render(&self.settings, |done| bar.inc(done)));
+            let view = self.world.view(&self.settings);
+            last = Some(view.image(&|done| bar.inc(done)));
             seconds.push(start.elapsed().as_secs_f64());
         }
         let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
         bar.finish_and_clear();
-        let error = Claim::new(&film, self.world.systematic(&self.settings));
+        let error = Claim::new(&film, self.world.view(&self.settings).systematic());
         self.write(&film, spp.into(), error)?;
         let has_sets = reports_variance(sampler, spp, sets, lens);
         let sets = sampler.sets(spp, sets, lens);
@@ -173,7 +174,7 @@ impl Session<'_> {
             }
         };
         let finish = |known: &Progress| self.write(&known.film, known.spp, known.error);
-        let done = progressive::render(self.world, plan, advance, start, finish);
+        let done = progressive::render(self.world, plan, &advance, start, finish);
         bar.finish_and_clear();
         let Progress { film, error, spp, passes, seconds, rays } = done?;
         let largest = passes.iter().max_by_key(|p| p.spp).unwrap_or_else(|| unreachable!("there is a first pass"));

@@ -123,9 +123,9 @@ fn techniques(scene: &scene::Scene, subject: &ChartedScene, asked: &[Technique])
         let settings = Settings { width, height, spp: 8, technique, depth: Settings::DEPTH, sampler, sets: 1, seed: 1 };
         // `auto` chooses by the whole image
         let [width, height] = subject.size;
-        let chosen = subject.world.chosen(&Settings { width, height, ..settings });
+        let chosen = subject.world.view(&Settings { width, height, ..settings }).technique();
         let settings = Settings { technique: chosen, ..settings };
-        let pixels = subject.world.render(&settings, |_| ()).0.pixels;
+        let pixels = subject.world.render(&settings, &|_| ()).0.pixels;
         match images.iter().position(|other| *other == pixels) {
             Some(first) => leave(&format!("it gives the same image as {} in this scene", name(list[first]))),
             None => {
@@ -169,7 +169,7 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
     } else {
         let spp = options.reference_spp.unwrap_or(if options.quick { 1024 } else { 4096 });
         let bar = bar(u64::from(width) * u64::from(height), &format!("reference of {name}"))?;
-        let reference = Reference::render(&world, size, spp, |done| bar.inc(done));
+        let reference = Reference::render(&world, size, spp, &|done| bar.inc(done));
         bar.finish_and_clear();
         reference
     };
@@ -274,7 +274,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     let limit = options.time_limit.or(options.quick.then_some(150));
     alarm(stop, limit.map(|l| l.saturating_sub(start.elapsed().as_secs())));
     let bar = bar(plan.work(&rows), "measuring")?;
-    pool.install(|| plan.run(&mut table, &mut rows, stop, |done| bar.inc(done)).map_err(|e| e.to_string()))?;
+    pool.install(|| plan.run(&mut table, &mut rows, stop, &|done| bar.inc(done)).map_err(|e| e.to_string()))?;
     bar.finish_and_clear();
 
     let all = plan.keys.len() * plan.replicates as usize;

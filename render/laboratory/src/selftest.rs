@@ -69,7 +69,7 @@ pub fn rows(scene: &Scene, world: &World, effort: &Effort) -> Vec<Row> {
             images += 1;
             let seed = seed.wrapping_mul(0x1_0000).wrapping_add(images);
             let settings = Settings { width: side, height: side, spp, technique, depth, sampler, sets: 0, seed };
-            let (film, _) = world.render(&settings, |_| ());
+            let (film, _) = world.render(&settings, &|_| ());
             // a single replicate has no variance estimate
             if reports_variance(sampler, spp, 0, lens) {
                 rows.push(Row { technique, sampler, mean: film.mean(), error: error(&film), z: [0.0; 3] });

@@ -22,7 +22,7 @@ fn world(name: &str) -> World {
 }
 
 fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
-    world.render(settings, |_| ())
+    world.render(settings, &|_| ())
 }
 
 /// The mean number of samples is the requested one. Each set of a pixel has a power of two of packets, at least those of the pilot.

@@ -26,7 +26,7 @@ fn world(name: &str) -> World {
 /// can count samples per light.
 #[test]
 fn corners_are_looked_through_where_it_helps() {
-    let corners = |name: &str, settings: Settings| world(name).render(&settings, |_| ()).1.corner;
+    let corners = |name: &str, settings: Settings| world(name).render(&settings, &|_| ()).1.corner;
     let four_tiles = 4 * 17 * 17;
     assert_eq!(corners("quads", SETTINGS), four_tiles);
     assert_eq!(corners("quads", Settings { spp: 64, sets: 4, ..SETTINGS }), four_tiles);
@@ -57,7 +57,7 @@ fn bias(world: &World, precise: &Film, settings: Settings, n: u64) -> [f64; 2] {
     let pixels = precise.pixels.len() as f64;
     let off: Vec<f64> = (0..n)
         .map(|seed| {
-            let film = world.render(&Settings { seed: 100 + seed, ..settings }, |_| ()).0;
+            let film = world.render(&Settings { seed: 100 + seed, ..settings }, &|_| ()).0;
             let difference = |(a, b): (&Pixel, &Pixel)| f64::from(a.mean[0]) - f64::from(b.mean[0]);
             film.pixels.iter().zip(&precise.pixels).map(difference).sum::<f64>() / pixels
         })
@@ -75,7 +75,7 @@ fn bias(world: &World, precise: &Film, settings: Settings, n: u64) -> [f64; 2] {
 fn is_not_biased() {
     let world = world("quads");
     let precise = Settings { spp: cases(1 << 13, 1 << 16), sampler: Sampler::Sobol4d, sets: 4, seed: 7, ..SETTINGS };
-    let precise = world.render(&precise, |_| ()).0;
+    let precise = world.render(&precise, &|_| ()).0;
     for (sampler, spp, sets) in [(Sampler::Sobol, 8, 1), (Sampler::Sobol, 64, 4), (Sampler::Adaptive, 64, 1)] {
         let [mean, error] = bias(&world, &precise, Settings { spp, sets, sampler, ..SETTINGS }, cases(16, 200));
         assert!(mean.abs() < 4.0 * error && error < cases(1.8e-4, 5e-5), "{sampler:?}: {mean:e} ± {error:e}");
@@ -97,7 +97,7 @@ fn is_not_biased_in_other_scenes() {
             seed: 7,
             ..SETTINGS
         };
-        let precise = world.render(&precise, |_| ()).0;
+        let precise = world.render(&precise, &|_| ()).0;
         for (sampler, spp) in [(Sampler::Sobol, 8), (Sampler::Adaptive, 64)] {
             let [mean, error] =
                 bias(&world, &precise, Settings { spp, technique, sampler, ..SETTINGS }, cases(12, 100));
@@ -125,7 +125,7 @@ fn errs_less_than_by_chance() {
     let world = world("quads");
     let measured = |sampler| {
         let settings = Settings { width: 256, height: 256, spp: 64, sampler, ..SETTINGS };
-        Comparison::new(&reference, &Picture::from(&world.render(&settings, |_| ()).0), 1.9e-8).unwrap().mse
+        Comparison::new(&reference, &Picture::from(&world.render(&settings, &|_| ()).0), 1.9e-8).unwrap().mse
     };
     let (chance, allocated) = (measured(Sampler::Sobol4d), measured(Sampler::Sobol));
     println!("quads: {chance:.2e} at random, {allocated:.2e} allocated, ratio {:.2}", chance / allocated);

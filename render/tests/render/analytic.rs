@@ -21,7 +21,7 @@ const SCENES: [&str; 7] =
     ["quads", "mirror-room", "defocus", "plates", "cornell-box", "sphere-light", "triangle-light"];
 
 fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
-    world.render(settings, |_| ())
+    world.render(settings, &|_| ())
 }
 
 /// Images with sampled lights have the same mean, within the errors that both report. With the same samples of the pixel and the lens, only
@@ -126,7 +126,7 @@ fn auto_chooses() {
     ];
     for (name, technique) in expected {
         let world = World::from_scene(&mut scene::load(name).unwrap()).unwrap();
-        assert_eq!(world.chosen(&settings), technique, "{name}");
+        assert_eq!(world.view(&settings).technique(), technique, "{name}");
         if name == "quads" {
             let small = Settings { width: 64, height: 64, ..settings };
             assert_eq!(render(&world, &small), render(&world, &Settings { technique, ..small }));
@@ -156,8 +156,8 @@ fn the_error_of_closed_forms_is_bounded() {
         let (film, _) = render(&world, &SETTINGS);
         let squares = film.pixels.iter().flat_map(|p| p.mean).map(|x| f64::from(x).powi(2));
         let expected = 1e-5 * (squares.sum::<f64>() / (3 * film.pixels.len()) as f64).sqrt();
-        let bound = world.systematic(&SETTINGS);
+        let bound = world.view(&SETTINGS).systematic();
         assert!(expected > 0.0 && (bound / expected - 1.0).abs() < 0.05, "{bound:e} {expected:e}");
-        assert_eq!(world.systematic(&Settings { technique: Technique::SolidAngle, ..SETTINGS }), 0.0);
+        assert_eq!(world.view(&Settings { technique: Technique::SolidAngle, ..SETTINGS }).systematic(), 0.0);
     }
 }

@@ -29,7 +29,7 @@ fn settings(technique: Technique, sampler: Sampler, spp: u32, side: u32) -> Sett
 
 /// Mean and standard error of a pixel.
 fn pixel(world: &World, technique: Technique, spp: u32) -> ([f64; 3], [f64; 3]) {
-    let (film, _) = world.render(&settings(technique, Sampler::Independent, spp, 1), |_| ());
+    let (film, _) = world.render(&settings(technique, Sampler::Independent, spp, 1), &|_| ());
     let pixel = film.pixels[0];
     (pixel.mean.map(f64::from), pixel.variance.map(|v| f64::from(v).sqrt()))
 }
@@ -180,7 +180,7 @@ fn a_mirror_shows_the_mirror_image() {
     for technique in [Technique::SolidAngle, Technique::Area, Technique::MisPower, Technique::Brdf] {
         let [a, b] = [(&above, 3), (&below, 4)].map(|(world, seed)| {
             let settings = Settings { seed, ..settings(technique, Sampler::Independent, 128, 48) };
-            Picture::from(&world.render(&settings, |_| ()).0)
+            Picture::from(&world.render(&settings, &|_| ()).0)
         });
         let flip = |rows: &[[f32; 3]]| rows.chunks(48).rev().flatten().copied().collect::<Vec<_>>();
         let b = Picture { radiance: flip(&b.radiance), variance: b.variance.as_deref().map(flip), ..b };
@@ -212,7 +212,7 @@ fn chains_of_mirrors_end_at_their_depth() {
         let world = world(&text);
         for allowed in 0..8 {
             let settings = Settings { depth: allowed, ..settings(Technique::SolidAngle, Sampler::Stratified, 11, 2) };
-            let (film, rays) = world.render(&settings, |_| ());
+            let (film, rays) = world.render(&settings, &|_| ());
             let expected = if allowed >= depth { 8.0 * 0.5_f32.powi(depth as i32) } else { 0.0 };
             let seen = film.pixels[3].mean;
             assert!((seen[1] - expected).abs() < 1e-5, "{depth} mirrors, {allowed} allowed: {seen:?}");

@@ -27,7 +27,7 @@ fn read(text: &str) -> scene::Scene {
 }
 
 fn render(scene: &scene::Scene, settings: &Settings) -> Picture {
-    let film = World::new(scene).unwrap().render(settings, |_| ()).0;
+    let film = World::new(scene).unwrap().render(settings, &|_| ()).0;
     Picture::from(&film)
 }
 

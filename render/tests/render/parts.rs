@@ -3,8 +3,9 @@
 use etendue_oracle::tier::cases;
 use etendue_render::area::{Area, count};
 use etendue_render::film::Film;
+use etendue_render::integrator::{Content, Samples};
 use etendue_render::merge::{MergeGoal, MergeOutcome, Merged, merge};
-use etendue_render::parts::{self, Content, PartFile, Piece, PieceKind};
+use etendue_render::parts::{self, PartFile, Piece, PieceKind};
 use etendue_render::sums::{Block, Join, Moments, Planes, Sums, blocks};
 use etendue_render::{Frame, Sampler, Sensor, Settings, Technique, World, scene};
 use std::ops::Range;
@@ -87,7 +88,7 @@ impl Job {
         Self { world: World::new(&scene).unwrap(), frame, folder: Folder::new(), written: 0 }
     }
     fn film(&self) -> Film {
-        self.world.render(&self.frame.settings, |_| ()).0
+        self.world.render(&self.frame.settings, &|_| ()).0
     }
     fn write_of(&mut self, frame: &Frame, pieces: Vec<Piece>) -> PathBuf {
         let path = self.folder.0.join(format!("{}.exr", self.written));
@@ -100,11 +101,8 @@ impl Job {
     }
     fn piece(&self, area: Area, range: Range<u32>) -> Piece {
         let settings = &self.frame.settings;
-        let content = if range == (0..settings.spp) {
-            Content::Pixels(self.world.render_area(settings, area, |_| ()).0)
-        } else {
-            Content::Range(range.clone(), self.world.render_range(settings, area, range, |_| ()).0)
-        };
+        let samples = if range == (0..settings.spp) { Samples::All } else { Samples::Range(range) };
+        let (content, _) = self.world.view(settings).render(area, samples, &|_| ());
         Piece { area, content }
     }
     /// Renders all parts of a random split.
@@ -119,7 +117,7 @@ impl Job {
         files
     }
     fn image(&self, files: &[PathBuf]) -> Film {
-        match merge(files, MergeGoal::Image, |_| ()).unwrap().merged {
+        match merge(files, MergeGoal::Image, &|_| ()).unwrap().merged {
             Merged::Image(film) => film,
             Merged::Part(_) => panic!("not an image"),
         }
@@ -128,7 +126,7 @@ impl Job {
     fn group(&mut self, files: &mut Vec<PathBuf>, random: &mut Random) {
         random.shuffle(files);
         let some: Vec<_> = files.drain(..1 + random.below(files.len())).collect();
-        let outcome = merge(&some, MergeGoal::Part, |_| ()).unwrap();
+        let outcome = merge(&some, MergeGoal::Part, &|_| ()).unwrap();
         let Merged::Part(pieces) = outcome.merged else { panic!("not a part") };
         files.push(self.write(pieces));
     }
@@ -185,7 +183,7 @@ fn any_split_order_and_grouping_makes_the_image() {
             let copy = job.folder.0.join("copy.exr");
             std::fs::copy(&files[0], &copy).unwrap();
             let MergeOutcome { duplicates, merged, .. } =
-                merge(&[files[0].clone(), copy.clone()], MergeGoal::Image, |_| ()).unwrap();
+                merge(&[files[0].clone(), copy.clone()], MergeGoal::Image, &|_| ()).unwrap();
             assert!(merged == Merged::Image(film.clone()) && duplicates == [copy], "{name}");
         }
     }
@@ -210,25 +208,25 @@ fn adaptive_parts_make_the_image() {
         let (film, settings) = (job.film(), job.frame.settings);
         let mut pilots = Vec::new();
         for area in random.areas(&settings) {
-            let (pixels, _) = job.world.render_pilot(&settings, area, |_| ());
-            pilots.push(job.write(vec![Piece { area, content: Content::Pilot(pixels) }]));
+            let (content, _) = job.world.view(&settings).render(area, Samples::Pilot, &|_| ());
+            pilots.push(job.write(vec![Piece { area, content }]));
         }
         random.shuffle(&mut pilots);
-        let missing = merge(&pilots[1..], MergeGoal::Partial, |_| ());
+        let missing = merge(&pilots[1..], MergeGoal::Partial, &|_| ());
         assert!(pilots.len() == 1 || missing.unwrap_err().contains("--pilot --tile"), "{name}");
-        let Merged::Part(whole) = merge(&pilots, MergeGoal::Image, |_| ()).unwrap().merged else { panic!("{name}") };
+        let Merged::Part(whole) = merge(&pilots, MergeGoal::Image, &|_| ()).unwrap().merged else { panic!("{name}") };
         let pilot = job.write(whole);
         let mut files = Vec::new();
         for area in random.areas(&settings) {
             let pieces = PartFile::open(&pilot).unwrap().read_rows(&(area[1]..area[3])).unwrap();
             let Content::Allotment(allotment) = &pieces[0].content else { panic!("{name}") };
-            let (pixels, _) = job.world.render_rest(&settings, &allotment.crop(area), |_| ());
-            files.push(job.write(vec![Piece { area, content: Content::Pixels(pixels) }]));
+            let (content, _) = job.world.view(&settings).render(area, Samples::Rest(&allotment.crop(area)), &|_| ());
+            files.push(job.write(vec![Piece { area, content }]));
         }
         random.shuffle(&mut files);
         assert!(job.image(&files) == film, "{name} {technique:?} {spp}");
         // a pilot is no part of the image
-        let error = merge(&[files, pilots].concat(), MergeGoal::Image, |_| ()).unwrap_err();
+        let error = merge(&[files, pilots].concat(), MergeGoal::Image, &|_| ()).unwrap_err();
         assert!(error.contains("belongs to the pilot"), "{error}");
     }
 }
@@ -245,7 +243,7 @@ fn what_does_not_fit_is_refused_and_named() {
     let film = job.film();
     assert!(job.image(&parts) == film);
     let refused = |files: &[PathBuf], goal: MergeGoal, says: &[&str]| {
-        let error = merge(files, goal, |_| ()).unwrap_err();
+        let error = merge(files, goal, &|_| ()).unwrap_err();
         says.iter().for_each(|part| assert!(error.contains(part), "{error:?} should contain {part:?}"));
     };
     let names: Vec<_> = parts.iter().map(|path| path.to_string_lossy().into_owned()).collect();
@@ -253,7 +251,7 @@ fn what_does_not_fit_is_refused_and_named() {
     // gaps, with the options that fill them
     refused(&parts[1..], MergeGoal::Image, &["1 part", "--range 0:8 --tile 0,0,32,37"]);
     refused(&parts[..2], MergeGoal::Image, &["--range 0:24 --tile 32,0,50,37"]);
-    let partial = merge(&parts[1..], MergeGoal::Partial, |_| ()).unwrap();
+    let partial = merge(&parts[1..], MergeGoal::Partial, &|_| ()).unwrap();
     assert_eq!(partial.gaps, [(left, 0..8)]);
     let Merged::Image(some) = partial.merged else { panic!("not an image") };
     for (i, (some, all)) in some.pixels.iter().zip(&film.pixels).enumerate() {
@@ -263,7 +261,7 @@ fn what_does_not_fit_is_refused_and_named() {
         // 4 samples of the first set and 12 of the second
         assert!(some.variance.iter().all(|v| v.is_finite()), "{i}: {some:?}");
     }
-    let Merged::Image(some) = merge(&parts[..1], MergeGoal::Partial, |_| ()).unwrap().merged else {
+    let Merged::Image(some) = merge(&parts[..1], MergeGoal::Partial, &|_| ()).unwrap().merged else {
         panic!("not an image")
     };
     assert!(
@@ -417,12 +415,12 @@ fn blocks_are_the_largest_of_the_tree() {
 fn pieces_are_read_as_written() {
     let mut job = Job::new("quads", Settings { sampler: Sampler::Adaptive, spp: 64, ..SETTINGS });
     let (settings, area) = (job.frame.settings, job.frame.settings.whole());
-    let (pixels, _) = job.world.render_pilot(&settings, area, |_| ());
-    let pilot = Piece { area, content: Content::Pilot(pixels) };
+    let (content, _) = job.world.view(&settings).render(area, Samples::Pilot, &|_| ());
+    let pilot = Piece { area, content };
     let lights = if let PieceKind::Pilot(lights) = pilot.kind() { lights } else { 0 };
     let path = job.write(vec![pilot.clone()]);
     assert_eq!(PartFile::open(&path).unwrap().read().unwrap(), [pilot]);
-    let Merged::Part(pieces) = merge(&[path], MergeGoal::Image, |_| ()).unwrap().merged else { panic!("a part") };
+    let Merged::Part(pieces) = merge(&[path], MergeGoal::Image, &|_| ()).unwrap().merged else { panic!("a part") };
     let whole = job.write(pieces.clone());
     let mut part = PartFile::open(&whole).unwrap();
     assert_eq!(part.pieces[0].kind, PieceKind::Allotment(lights));

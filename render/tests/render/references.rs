@@ -67,7 +67,7 @@ fn scene(name: &str, mean: f64, reference_error: f64, hemisphere_spp: u32, hemis
             // 324 is four replicates of 3⁴ strata
             let spp = if sampler == Sampler::Stratified4d && !towards_lights { 324 } else { spp };
             let settings = Settings { width: 256, height: 256, spp, technique, depth: 8, sets: 0, sampler, seed: 1 };
-            let image = Picture::from(&world.render(&settings, |_| ()).0);
+            let image = Picture::from(&world.render(&settings, &|_| ()).0);
             let p = prediction(&reference, &image, reference_error);
             println!("{name} {technique:?} {sampler:?} {spp} spp: {p:?}");
             assert!(agrees(&p), "{name} {technique:?} {sampler:?}: {p:?}");
@@ -124,12 +124,12 @@ fn threads_do_not_matter_and_seeds_do() {
         let settings = Settings { width: 100, height: 75, spp, technique, depth: 8, sets: 0, sampler, seed: 7 };
         let on = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| world.render(&settings, |_| ()))
+            pool.install(|| world.render(&settings, &|_| ()))
         };
         let one = on(1);
         assert_eq!(one, on(2));
         assert_eq!(one, on(3));
-        let other = world.render(&Settings { seed: 8, ..settings }, |_| ());
+        let other = world.render(&Settings { seed: 8, ..settings }, &|_| ());
         assert_eq!(other.1.camera, one.1.camera);
         let same = one.0.pixels.iter().zip(&other.0.pixels).filter(|(a, b)| a == b && a.mean != [0.0; 3]).count();
         assert!(same * 100 < one.0.pixels.len(), "{same} pixels do not depend on the seed");
@@ -146,7 +146,7 @@ fn any_number_of_samples_and_any_size() {
     for (width, height) in [(1, 1), (17, 5), (33, 18)].into_iter().take(cases(2, 3)) {
         let of = |spp, technique, sampler, seed| {
             let settings = Settings { width, height, spp, technique, depth: 8, sets: 0, sampler, seed };
-            let (film, rays) = world.render(&settings, |_| ());
+            let (film, rays) = world.render(&settings, &|_| ());
             assert_eq!((film.width, film.height, film.pixels[0].samples), (width, height, spp));
             assert_eq!(film.pixels.len(), (width * height) as usize);
             assert_eq!(rays.camera, u64::from(width * height * spp));
@@ -201,7 +201,7 @@ fn terrain_agrees_with_itself() {
         let seed = technique as u64;
         let settings =
             Settings { width: 64, height: 64, spp, technique, depth: 8, sets: 0, sampler: Sampler::Independent, seed };
-        Picture::from(&world.render(&settings, |_| ()).0)
+        Picture::from(&world.render(&settings, &|_| ()).0)
     };
     let lights = of(64, Technique::SolidAngle);
     for (spp, technique) in

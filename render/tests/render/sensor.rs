@@ -29,7 +29,7 @@ fn render(scene: &scene::Scene, sensor: Sensor, sampler: Sampler, spp: u32) -> P
     let [width, height] = SIZE;
     let settings =
         Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 11, depth: 8, sets: 0 };
-    let film = World::new(scene).unwrap().with_sensor(sensor).render(&settings, |_| ()).0;
+    let film = World::new(scene).unwrap().with_sensor(sensor).render(&settings, &|_| ()).0;
     Picture::from(&film)
 }
 

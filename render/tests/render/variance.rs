@@ -8,7 +8,7 @@ use etendue_render::{Settings, World};
 /// The variance that images of 24 seeds (12 in the quick tier) report, relative to the variance among them: sums over all pixels, of green.
 pub(crate) fn reported_to_measured(world: &World, settings: &Settings) -> f64 {
     let films: Vec<_> =
-        (0..cases(12, 24)).map(|seed| world.render(&Settings { seed, ..*settings }, |_| ()).0).collect();
+        (0..cases(12, 24)).map(|seed| world.render(&Settings { seed, ..*settings }, &|_| ()).0).collect();
     let n = films.len() as f64;
     let (mut reported, mut measured) = (0.0, 0.0);
     for i in 0..films[0].pixels.len() {

@@ -23,7 +23,7 @@ fn scene(lens: &str, world: &str) -> scene::Scene {
 fn render(scene: &scene::Scene, camera: &Camera, [width, height]: [u32; 2], spp: u32, sampler: Sampler) -> Film {
     let settings =
         Settings { width, height, spp, technique: Technique::SolidAngle, sampler, seed: 4, depth: 1, sets: 0 };
-    World::new(scene).unwrap().render_through(camera, &settings, |_| ()).0
+    World::new(scene).unwrap().view_through(camera, &settings).image(&|_| ()).0
 }
 
 fn lens_of(scene: &scene::Scene) -> (ThinLens, scene::Lens) {

@@ -245,7 +245,7 @@ fn errors_are_those_of_the_images() {
             sets: 1,
             seed: rows[0].seed,
         };
-        let image = Picture::from(&world.render(&settings, |_| ()).0);
+        let image = Picture::from(&world.render(&settings, &|_| ()).0);
         let comparison = Comparison::new(&reference.picture, &image, reference.error).unwrap();
         assert!((rows[0].squared / comparison.mse - 1.0).abs() < 1e-12, "{key:?}");
         assert!(rows[0].seconds > 0.0 && rows[0].camera == 64 * 64 * u64::from(key.spp));
@@ -266,7 +266,7 @@ fn errors_are_those_of_the_images() {
                     sets: 0,
                     seed,
                 };
-                let film = world.render(&settings, |_| ()).0;
+                let film = world.render(&settings, &|_| ()).0;
                 film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>() / (3.0 * 64.0 * 64.0)
             };
             let predicted = (100..103).map(of).sum::<f64>() / 3.0;

@@ -94,7 +94,7 @@ impl Reference {
     fn new(world: &World, settings: &Settings, technique: Technique, lens: bool) -> Self {
         let spp = FINER * settings.spp;
         let sampler = default_sampler(spp, 0, lens);
-        let of = |seed| world.render(&Settings { technique, spp, sampler, seed, ..*settings }, |_| ()).0;
+        let of = |seed| world.render(&Settings { technique, spp, sampler, seed, ..*settings }, &|_| ()).0;
         Self([of(settings.seed ^ 0x7072_6563), of(settings.seed ^ 0x6973_6521)])
     }
     /// Mean of the product of the differences of an image from both. Where they have no error in common, that is the squared error of the
@@ -132,24 +132,24 @@ pub fn measure(scene: &Scene, seed: u64, [side, spp]: [u32; 2]) -> Result<Tally,
         seed: seed.wrapping_mul(0x9e37_79b9) ^ run << 40,
     };
     let base = settings(spp, 0);
-    let technique = world.chosen(&base);
-    let systematic = world.systematic(&base);
+    let view = world.view(&base);
+    let (technique, systematic) = (view.technique(), view.systematic());
     let mut images: Vec<(Way, Film, Option<Claim>)> = Vec::new();
     for spp in [2, 16, spp] {
         for run in 1..=SEEDS {
-            let (film, _) = world.render(&settings(spp, run), |_| ());
+            let (film, _) = world.render(&settings(spp, run), &|_| ());
             let claim = Claim::new(&film, systematic);
             images.push((Way::Samples(spp), film, claim));
         }
     }
     let mut refine = |way, goal| {
         let plan = Refinement { settings: settings(spp, SEEDS + 1), sampler: None, lens, goal };
-        let Progress { film, error, .. } = render(&world, &plan, |_| (), |_, _| (), |_| Ok(()))?;
+        let Progress { film, error, .. } = render(&world, &plan, &|_| (), |_, _| (), |_| Ok(()))?;
         images.push((way, film, error));
         Ok::<(), String>(())
     };
     refine(Way::Time, Goal { seconds: Some(0.05), error: None })?;
-    let (film, _) = world.render(&settings(spp, 0), |_| ());
+    let (film, _) = world.render(&settings(spp, 0), &|_| ());
     if let Some(claim) = Claim::new(&film, systematic).filter(|claim| 0.5 * claim.random > claim.systematic) {
         refine(Way::Error, Goal { seconds: None, error: Some(0.5 * claim.total()) })?;
     }

@@ -142,11 +142,12 @@ pub fn judge(scene: &Scene, techniques: &[Technique], effort: &Effort) -> Result
             sets: 4,
             seed,
         };
-        let chosen = world.chosen(&settings);
+        let view = world.view(&settings);
+        let chosen = view.technique();
         if technique != Technique::Auto && rows.iter().any(|row| row.chosen == technique) {
             continue;
         }
-        let (film, _) = world.render(&settings, |_| ());
+        let (film, _) = view.image(&|_| ());
         let image = blocks(&film, block);
         rows.push(compare([technique, chosen], &image, &truth, &slack, effort));
         images.push(image);

@@ -156,7 +156,7 @@ impl Plan {
         table: &mut Table,
         rows: &mut Rows,
         stop: &AtomicBool,
-        progress: impl Fn(u64) + Sync,
+        progress: &(dyn Fn(u64) + Sync),
     ) -> Result<(), Box<dyn Error>> {
         let mut last = None;
         for replicate in 0..self.replicates {
@@ -166,20 +166,20 @@ impl Plan {
                 }
                 if last != Some(key.scene) {
                     // warms the caches for the first image of a scene
-                    self.render(&Key { spp: key.spp.min(4), ..*key }, 0, |_| ());
+                    self.render(&Key { spp: key.spp.min(4), ..*key }, 0, &|_| ());
                     last = Some(key.scene);
                 }
                 if stop.load(Ordering::Relaxed) {
                     return Ok(());
                 }
-                let row = self.render(key, replicate, &progress);
+                let row = self.render(key, replicate, progress);
                 table.append(&self.scenes[key.scene], key, &row)?;
                 rows.entry(*key).or_default().push(row);
             }
         }
         Ok(())
     }
-    fn render(&self, key: &Key, replicate: u32, progress: impl Fn(u64) + Sync) -> Row {
+    fn render(&self, key: &Key, replicate: u32, progress: &(dyn Fn(u64) + Sync)) -> Row {
         let subject = &self.scenes[key.scene];
         let [width, height] = subject.size;
         let seed = self.seed(key, replicate);
@@ -198,7 +198,7 @@ impl Plan {
         let (film, rays) = loop {
             let first = seconds.is_empty();
             let start = Instant::now();
-            let image = subject.world.render(&settings, |pixels| {
+            let image = subject.world.render(&settings, &|pixels| {
                 if first {
                     progress(pixels * u64::from(key.spp));
                 }

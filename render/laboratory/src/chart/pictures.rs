@@ -94,7 +94,7 @@ fn spread(plan: &Plan, scene: usize, way: Way, spp: u32) -> Spread {
             let (technique, sampler) = (way.technique, way.sampler);
             let settings =
                 Settings { width, height, spp, technique, depth: Settings::DEPTH, sampler, sets: sets(sampler), seed };
-            let film = subject.world.render(&settings, |_| ()).0;
+            let film = subject.world.render(&settings, &|_| ()).0;
             if k == 0 {
                 samples = film.pixels.iter().map(|p| p.samples).collect();
             }

@@ -54,7 +54,7 @@ impl Reference {
     }
 
     /// Renders a reference with multiple importance sampling and stratified samples.
-    pub fn render(world: &World, [width, height]: [u32; 2], spp: u32, progress: impl Fn(u64) + Sync) -> Self {
+    pub fn render(world: &World, [width, height]: [u32; 2], spp: u32, progress: &(dyn Fn(u64) + Sync)) -> Self {
         // a seed that no measurement uses
         let (technique, sampler, seed) = (Technique::MisPower, Sampler::Stratified, 0x5eed_0f7e_fe7e_ce00);
         let settings = Settings {
@@ -149,7 +149,7 @@ mod tests {
     fn a_pixel_is_the_mean_of_its_parts() {
         let world = World::new(&etendue_render::scene::load("quads").unwrap()).unwrap();
         let reference = Reference::builtin("quads").unwrap().shrunk([32, 32]).unwrap();
-        let rendered = Reference::render(&world, [32, 32], 4096, |_| ());
+        let rendered = Reference::render(&world, [32, 32], 4096, &|_| ());
         let (squared, mean) = reference.difference(rendered.picture.radiance.iter().copied());
         let expected = reference.error + rendered.error;
         // with 1024 pixels of different variances, the mean square is accurate to some per cent

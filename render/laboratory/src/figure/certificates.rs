@@ -2,7 +2,6 @@
 
 use super::sheet::Svg;
 use super::studio::{Finding, Studio};
-use etendue_render::camera::Camera;
 use etendue_render::integrator::Survey;
 use etendue_render::options::name;
 use etendue_render::{Sampler, Settings, Technique, World, image, scene};
@@ -106,20 +105,19 @@ impl Studio<'_> {
             sets: 0,
             seed: self.seed,
         };
-        let camera = Camera::new(&scene.camera, SIDE, SIDE);
-        let automatic = settings(SIDE, Technique::Auto);
-        let surveys = world.survey(&camera, &automatic);
+        let automatic = world.view(&settings(SIDE, Technique::Auto));
+        let surveys = automatic.survey();
         let mut pairs = [0; OUTCOMES.len()];
         for survey in &surveys {
             pairs.iter_mut().zip(outcomes(survey)).for_each(|(sum, n)| *sum += u64::from(n));
         }
         let rays = [Technique::SolidAngle, Technique::Analytic].map(|technique| {
-            let (_, rays) = world.render(&settings(COUNTED, technique), |_| ());
+            let (_, rays) = world.render(&settings(COUNTED, technique), &|_| ());
             rays.shadow as f64 / f64::from(COUNTED * COUNTED)
         });
-        let (film, _) = world.render(&automatic, |_| ());
+        let (film, _) = automatic.image(&|_| ());
         let picture = film.pixels.iter().map(|pixel| image::tone_map(pixel.mean)).collect();
-        Ok(Account { surveys, pairs, rays, auto: world.chosen(&automatic), picture })
+        Ok(Account { surveys, pairs, rays, auto: automatic.technique(), picture })
     }
 
     pub(super) fn certificates(&self) -> Result<Finding, Box<dyn Error>> {

@@ -88,7 +88,7 @@ impl Studio<'_> {
                     sets: 1,
                     seed: self.seed,
                 };
-                let film = world.render(&settings, |_| ()).0;
+                let film = world.render(&settings, &|_| ()).0;
                 let at = |i: usize| &film.pixels[(84 + i / 80) * 256 + 60 + i % 80];
                 let pixels: Vec<_> = (0..80 * 80).map(|i| image::tone_map(at(i).mean)).collect();
                 Svg::image(&format!("{}, {spp}", name(sampler)), [80, 80], &pixels, 150.0)

@@ -36,7 +36,7 @@ impl Studio<'_> {
                 sets: 0,
                 seed: seed.wrapping_add(k),
             };
-            world.render(&settings, |_| ()).0
+            world.render(&settings, &|_| ()).0
         })
     }
 

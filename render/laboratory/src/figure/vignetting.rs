@@ -46,7 +46,7 @@ impl Studio<'_> {
         let seen = |camera: &Camera, [width, height]: [u32; 2], sampler, spp| {
             let (technique, seed) = (Technique::SolidAngle, self.seed);
             let settings = Settings { width, height, spp, technique, sampler, sets: 0, seed, depth: 1 };
-            world.render_through(camera, &settings, |_| ()).0
+            world.view_through(camera, &settings).image(&|_| ()).0
         };
         let [width, height] = IMAGE;
         let (mut rows, mut headline) = (Vec::new(), Vec::new());

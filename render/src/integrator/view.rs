@@ -1,0 +1,300 @@
+//! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
+
+use super::World;
+use super::adaptive::{Allotment, Effort, Statistics};
+use super::analytic::Survey;
+use super::settings::{RayCount, Settings, TILE};
+use super::tile::TileRenderer;
+use crate::area;
+use crate::area::Area;
+use crate::camera::Camera;
+use crate::film::{BlockSum, Film, Pixel, PixelSum};
+use crate::sampler::Sampler;
+use crate::sums::{Moments, Planes, Sample, Sum};
+use crate::technique::Technique;
+use rayon::prelude::*;
+use std::collections::HashSet;
+use std::ops::Range;
+
+/// Greatest number of pixels that are looked at to choose a technique.
+const PROBES: usize = 256;
+/// Greatest number of tiles that are looked at to bound what closed forms leave.
+const BOUNDED: usize = 16;
+
+/// Which samples of the pixels are rendered.
+#[derive(Clone, Debug)]
+pub enum Samples<'a> {
+    /// All of them.
+    All,
+    /// Those with these indices, in the largest blocks of samples that are within the range. Not for [`Sampler::Adaptive`].
+    Range(Range<u32>),
+    /// The pilot of [`Sampler::Adaptive`].
+    Pilot,
+    /// Those of [`Sampler::Adaptive`] that follow the pilot, for the area of the allotment.
+    Rest(&'a Allotment),
+}
+
+/// What is known of each pixel of an area, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// The finished pixels.
+    Pixels(Vec<Pixel>),
+    /// The sums of the largest blocks of this range of samples, in order.
+    Range(Range<u32>, Vec<Planes>),
+    /// What the pilot found.
+    Pilot(Vec<Statistics>),
+    /// How many samples follow the pilot.
+    Allotment(Allotment),
+}
+
+/// A world seen through a camera, with settings whose technique is fixed. Nothing that a view returns depends on the number of threads.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    world: &'a World,
+    camera: Camera,
+    settings: Settings,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(world: &'a World, camera: &Camera, settings: &Settings) -> Self {
+        let view = Self { world, camera: *camera, settings: *settings };
+        if settings.technique == Technique::Auto { view.by(view.choose()) } else { view }
+    }
+
+    fn by(&self, technique: Technique) -> Self {
+        Self { settings: Settings { technique, ..self.settings }, ..*self }
+    }
+
+    /// The technique that samples the lights: the one of the settings, or the one chosen for [`Technique::Auto`].
+    #[must_use]
+    pub const fn technique(&self) -> Technique {
+        self.settings.technique
+    }
+
+    /// The technique for [`Technique::Auto`].
+    ///
+    /// [`Technique::Analytic`] is chosen if the lights are known at half of the probes or more, and if these do not all see primitives of
+    /// their own: a certificate takes as long as some samples.
+    fn choose(&self) -> Technique {
+        let scene = &self.world.scene;
+        let (mut probes, mut lights, mut sampled, mut places) = (0, 0, 0, HashSet::new());
+        if scene.lights.only_few_areas() && !scene.surfaces.has_rough() {
+            for survey in self.by(Technique::Analytic).probe() {
+                lights += survey.lights();
+                sampled += survey.sampled();
+                probes += usize::from(survey.place.is_some());
+                places.extend(survey.place);
+            }
+        }
+        if probes > 0 && 2 * sampled <= lights && 4 * places.len() <= probes {
+            Technique::Analytic
+        } else if scene.surfaces.has_rough() {
+            Technique::MisPower
+        } else {
+            Technique::SolidAngle
+        }
+    }
+
+    /// A bound of the error that closed forms leave in an image, whatever its samples: the RMS over pixels and channels. It is
+    /// 1e−5 of what the lights that are computed would contribute if nothing hid them, seen from four pixels of some of the tiles.
+    #[must_use]
+    pub fn systematic(&self) -> f64 {
+        if !self.settings.technique.is_analytic(self.world.scene.lights.only_few_areas()) {
+            return 0.0;
+        }
+        // an odd number, so that not all are in the same columns
+        let apart = areas(self.settings.whole()).len().div_ceil(BOUNDED) | 1;
+        let tiles = areas(self.settings.whole()).step_by(apart);
+        let tiles = tiles.map_init(
+            || self.renderer(),
+            |renderer, area| {
+                renderer.begin(area);
+                renderer.try_out(area);
+                let [x0, y0, x1, y1] = area;
+                let quarters = |a: u32, b: u32| [(3 * a + b) / 4, (a + 3 * b) / 4];
+                let pixels = quarters(y0, y1).into_iter().flat_map(|y| quarters(x0, x1).map(|x| [x, y]));
+                let squares = pixels.flat_map(|pixel| renderer.doubt(pixel)).map(|x| f64::from(x).powi(2));
+                squares.sum::<f64>() / 12.0
+            },
+        );
+        // in order, whatever the threads
+        let squares: Vec<f64> = tiles.collect();
+        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+    }
+
+    /// What [`Technique::Analytic`] knows of the lights in the middle of each pixel, row by row.
+    #[must_use]
+    pub fn survey(&self) -> Vec<Survey> {
+        let whole = self.settings.whole();
+        let (surveys, _) = self.by(Technique::Analytic).tiles(whole, &|renderer, [x0, y0, x1, y1]| {
+            let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
+            renderer.begin([x0, y0, x1, y1]);
+            renderer.try_out([x0, y0, x1, y1]);
+            renderer.survey(&pixels)
+        });
+        surveys
+    }
+
+    /// What is known of the lights in the middle of every tile, or, in large images, of every second, third, … tile: at most [`PROBES`].
+    fn probe(&self) -> Vec<Survey> {
+        let apart = areas(self.settings.whole()).len().div_ceil(PROBES).max(1);
+        let probed = areas(self.settings.whole()).step_by(apart);
+        let probed = probed.map_init(
+            || self.renderer(),
+            |renderer, [x0, y0, x1, y1]| {
+                renderer.begin([x0, y0, x1, y1]);
+                renderer.survey(&[[x0.midpoint(x1), y0.midpoint(y1)]])[0]
+            },
+        );
+        probed.collect()
+    }
+
+    /// Renders the image; calls `progress` with the number of newly finished pixels.
+    pub fn image(&self, progress: &(dyn Fn(u64) + Sync)) -> (Film, RayCount) {
+        let (content, rays) = self.render(self.settings.whole(), Samples::All, progress);
+        let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
+        (Film { width: self.settings.width, height: self.settings.height, pixels }, rays)
+    }
+
+    /// Renders some of the samples of an area, which must consist of [tiles](Settings::is_of_tiles); calls `progress` with the number of
+    /// pixels for which they are newly finished. All samples, and those after a pilot, return pixels.
+    ///
+    /// # Panics
+    /// Panics if the sampler has no such samples, or if the area does not consist of tiles. All samples of [`Sampler::Adaptive`] need the
+    /// whole image.
+    pub fn render(&self, area: Area, samples: Samples, progress: &(dyn Fn(u64) + Sync)) -> (Content, RayCount) {
+        let (settings, camera) = (&self.settings, &self.camera);
+        let is_adaptive = settings.sampler == Sampler::Adaptive;
+        assert!(settings.is_of_tiles(area));
+        let (sets, Effort { pilot, .. }) = self.effort();
+        match samples {
+            Samples::All if is_adaptive => {
+                assert_eq!(area, settings.whole(), "a pilot allots samples to the whole image");
+                let (found, mut rays) = self.pilot(area, &|_| ());
+                let allotment = Allotment::new(settings, camera.has_lens(), &found);
+                let (content, more) = self.render(area, Samples::Rest(&allotment), progress);
+                rays += more;
+                (content, rays)
+            }
+            Samples::All => {
+                let (pixels, rays) = match settings.sampler {
+                    Sampler::Independent => self.pixels::<Moments>(area, progress),
+                    _ => self.pixels::<Sum>(area, progress),
+                };
+                (Content::Pixels(pixels), rays)
+            }
+            Samples::Range(range) => {
+                assert!(!is_adaptive && range.end <= settings.spp);
+                let (planes, rays) = match settings.sampler {
+                    Sampler::Independent => self.planes::<Moments>(area, &range, progress),
+                    _ => self.planes::<Sum>(area, &range, progress),
+                };
+                (Content::Range(range, planes), rays)
+            }
+            Samples::Pilot => {
+                assert!(is_adaptive);
+                let (found, rays) = self.pilot(area, progress);
+                (Content::Pilot(found), rays)
+            }
+            Samples::Rest(allotment) => {
+                assert!(is_adaptive && area == allotment.area);
+                let weights = allotment.weights();
+                let [left, top, right, _] = area;
+                let index = |x: u32, y: u32| ((y - top) * (right - left) + (x - left)) as usize;
+                let (pixels, rays) = self.tiles(area, &|renderer, area| {
+                    let range = |[x, y]: [u32; 2]| [pilot, allotment.packets[index(x, y)]];
+                    let rest = renderer.parts(area, [pilot, sets], weights.as_ref(), range);
+                    progress(rest.len() as u64);
+                    let [x0, y0, x1, y1] = area;
+                    let places = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
+                    places.zip(&rest).map(|((x, y), rest)| allotment.finish(index(x, y), rest, sets)).collect()
+                });
+                (Content::Pixels(pixels), rays)
+            }
+        }
+    }
+
+    /// Sets of each pixel, and the effort of adaptive sampling.
+    fn effort(&self) -> (u32, Effort) {
+        let Settings { spp, sampler, sets, .. } = self.settings;
+        let sets = sampler.sets(spp, sets, self.camera.has_lens());
+        (sets, Effort::new(spp, sets))
+    }
+
+    fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {
+        let (sets, Effort { pilot, .. }) = self.effort();
+        self.tiles(area, &|renderer, area| {
+            let parts = renderer.parts(area, [pilot, sets], None, |_| [0, pilot]);
+            progress(parts.len() as u64);
+            parts
+        })
+    }
+
+    /// The same number of samples for each pixel.
+    fn pixels<V: Sample>(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
+        self.tiles(area, &|renderer, area| {
+            let pixels = renderer.range(area, 0..self.settings.spp, PixelSum::<V>::default());
+            progress(pixels.len() as u64);
+            pixels
+        })
+    }
+
+    fn planes<V: Sample>(
+        &self,
+        area: Area,
+        range: &Range<u32>,
+        progress: &(dyn Fn(u64) + Sync),
+    ) -> (Vec<Planes>, RayCount) {
+        let (pixels, rays) = self.tiles(area, &|renderer, area| {
+            let pixels = renderer.range(area, range.clone(), BlockSum::<V>::default());
+            progress(pixels.len() as u64);
+            pixels
+        });
+        let moments = |block: usize| pixels.iter().map(move |pixel: &Vec<V>| pixel[block].moments());
+        let planes = |block: usize| Planes {
+            sums: moments(block).map(|moments| moments.sum).collect(),
+            squares: if V::INDEPENDENT { moments(block).map(|moments| moments.squares).collect() } else { Vec::new() },
+        };
+        ((0..pixels.first().map_or(0, Vec::len)).map(planes).collect(), rays)
+    }
+
+    fn renderer(&self) -> TileRenderer<'_> {
+        let Settings { width, height, .. } = self.settings;
+        TileRenderer::new(&self.world.scene, &self.settings, self.camera, self.world.exposure(width, height))
+    }
+
+    /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.
+    fn tiles<T: Clone + Default + Send>(
+        &self,
+        area: Area,
+        of: &(dyn Fn(&mut TileRenderer, Area) -> Vec<T> + Sync),
+    ) -> (Vec<T>, RayCount) {
+        let rendered: Vec<_> = areas(area)
+            .map_init(
+                || self.renderer(),
+                |renderer, area| {
+                    let pixels = of(renderer, area);
+                    (area, pixels, renderer.take_count())
+                },
+            )
+            .collect();
+        let mut pixels = vec![T::default(); area::count(area)];
+        let mut rays = RayCount::default();
+        for (part, tile, count) in rendered {
+            area::paste(&mut pixels, area, part, tile);
+            rays += count;
+        }
+        (pixels, rays)
+    }
+}
+
+/// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.
+fn areas([left, top, right, bottom]: Area) -> impl IndexedParallelIterator<Item = Area> + use<> {
+    let columns = (right - left).div_ceil(TILE);
+    let tiles = columns as usize * (bottom - top).div_ceil(TILE) as usize;
+    (0..tiles).into_par_iter().map(move |tile| {
+        let x = left + (tile as u32 % columns) * TILE;
+        let y = top + (tile as u32 / columns) * TILE;
+        [x, y, (x + TILE).min(right), (y + TILE).min(bottom)]
+    })
+}
