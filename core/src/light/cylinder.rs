@@ -2,7 +2,7 @@
 
 use super::sample::direction_to;
 use super::sampler::ByArea;
-use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint};
+use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
 use crate::math::{atan2_turns, quotient};
 use crate::real::{Real, unit_interval};
@@ -103,7 +103,7 @@ impl<R: Real> PlacedCylinder<R> {
         let near = R::blend(negative, small, -large);
         let far = R::blend(negative, large, -small);
         let size = o.max_abs() + radius + length;
-        let slack = size * R::lit(SLACK);
+        let slack = size * R::lit(SURFACE_SLACK);
         let crossing = |t: R| {
             let height = w.z.mul_add(t, o.z);
             let valid = t.gt(zero) & height.ge(-slack) & height.le(length + slack);

@@ -1,7 +1,7 @@
 //! Disks.
 
 use super::sampler::{ByArea, BySolidAngle};
-use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint};
+use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
 use crate::math::quotient;
 use crate::real::Real;
@@ -100,7 +100,7 @@ impl<R: Real> PlacedDisk<R> {
         let (center, height, radius) = (self.center * scale, self.height * scale, self.radius * scale);
         let cos = w.dot(self.frame.n);
         let off = (w * height - center * cos).length();
-        let slack = (center.length() + radius) * R::lit(SLACK);
+        let slack = (center.length() + radius) * R::lit(SURFACE_SLACK);
         let hit = off.le(radius.mul_add(cos.abs(), slack)) & (cos * height).gt(zero) & radius.gt(zero);
         (hit, off, radius * cos.abs(), slack)
     }

@@ -1,7 +1,7 @@
 //! Bilinear patches.
 
 use super::sampler::ByArea;
-use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint};
+use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
 use crate::math::{quotient, quotient_if_any};
 use crate::real::Real;
@@ -94,13 +94,13 @@ impl<R: Real> PlacedPatch<R> {
             let point = line.mul_add(t, start);
             let distance = ray.dot(point);
             // by as much as a direction is rounded, over the lengths of both lines
-            let slack = |length: R| R::lit(SLACK) * quotient(size, length).lesser(R::lit(1e3));
+            let slack = |length: R| R::lit(SURFACE_SLACK) * quotient(size, length).lesser(R::lit(1e3));
             let beyond = |x: R| (x - x.clamped(zero, one)).abs();
             let other = twist.mul_add(t.clamped(zero, one), u);
             let inside = beyond(s).le(slack(ray.cross(other).length())) & beyond(t).le(slack(across.length()));
             // the ray passes the point of the line that is nearest to it: so do neither a line that is only a point nor a root that is not
             // real; the plane through ray and line is known to one over the sine of their angle
-            let aside = (ray.cross(point).length() * across.length()).le(R::lit(SLACK) * size * line.length());
+            let aside = (ray.cross(point).length() * across.length()).le(R::lit(SURFACE_SLACK) * size * line.length());
             let found = root & meets & inside & aside & distance.gt(zero);
             (Vec2::new(s.clamped(zero, one), t.clamped(zero, one)), distance, found)
         };

@@ -1,7 +1,7 @@
 //! Spheres.
 
 use super::sampler::{ByArea, ByProjectedSolidAngle, BySolidAngle};
-use super::surface::{AreaSurface, SLACK, Surface, SurfaceHit, SurfacePoint};
+use super::surface::{AreaSurface, SURFACE_SLACK, Surface, SurfaceHit, SurfacePoint};
 use crate::lanewise::lanewise;
 use crate::math::quotient;
 use crate::real::Real;
@@ -124,7 +124,7 @@ impl<R: Real> AreaSurface<R> for PlacedSphere<R> {
         let zero = R::lit(0.0);
         let ([center, Vec3 { x: radius, .. }], _) = to_unit([self.center, Vec3::new(self.radius, zero, zero)]);
         let along = w.dot(center);
-        let reach = center.length().mul_add(R::lit(SLACK), radius);
+        let reach = center.length().mul_add(R::lit(SURFACE_SLACK), radius);
         let outside = center.length_squared_minus_square(radius).ge(zero);
         let hit = w.mul_add(-along, center).length().le(reach) & along.gt(zero);
         (hit | !outside) & radius.gt(zero)

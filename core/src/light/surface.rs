@@ -8,7 +8,7 @@ use crate::vector::{Vec2, Vec3};
 use crate::warp::{AreaTriangle, Warp};
 
 /// Angle in radians by which a direction may leave a shape through rounding: 12 ulp of a component near 1.
-pub(super) const SLACK: f64 = 12.0 / 16_777_216.0;
+pub(super) const SURFACE_SLACK: f64 = 12.0 / 16_777_216.0;
 
 /// Where a direction meets a surface.
 #[derive(Clone, Copy, Debug)]
@@ -133,14 +133,14 @@ impl<R: Real> AffinePlane<R> {
     /// True where `w` points towards the plane.
     #[inline(always)]
     pub(super) fn ahead(&self, w: Vec3<R>) -> R::Mask {
-        let slack = R::lit(SLACK);
+        let slack = R::lit(SURFACE_SLACK);
         self.inwards(w.dot(self.normal)).ge(-slack) & self.height.abs().gt(R::lit(0.0))
     }
     /// True where `w` is inside an edge between the points a and b, given the plane a × b and the size of what it is a sum of.
     #[inline(always)]
     pub(super) fn inside(&self, w: Vec3<R>, plane: Vec3<R>, size: R, [a, b]: [Vec3<R>; 2]) -> R::Mask {
         // the plane of points that are nearly opposite as seen from here is known only to −cos : sin of the angle between them
-        let slack = size.greater(-a.dot(b)) * R::lit(SLACK);
+        let slack = size.greater(-a.dot(b)) * R::lit(SURFACE_SLACK);
         self.inwards(w.dot(plane)).ge(-slack)
     }
     /// True where `w` hits the triangle or, with `all`, the parallelogram.

@@ -11,7 +11,7 @@ use crate::warp::{Linear, Warp, Warp1};
 
 /// Angle by which the rounding of its direction and of the frame may move a sample out of the disk: 6 ulp of a component near
 /// 1.
-const SLACK: f64 = 6.0 / 16_777_216.0;
+const DISK_SLACK: f64 = 6.0 / 16_777_216.0;
 
 lanewise! {
     /// Directions from a point to a disk (the interior of a spherical ellipse), uniform in solid angle: for every disk that is
@@ -316,7 +316,7 @@ impl<R: Real> Warp<R> for SphericalDisk<R> {
         let at = self.locate(w);
         // 6 ulp across the boundary, and more along the radius by its slant to the boundary
         let radius = at.rim_squared.sqrt();
-        let slack = R::lit(SLACK) * radius * (ratio(at.sin, self.sin_minor) + ratio(at.cos, self.sin_major));
+        let slack = R::lit(DISK_SLACK) * radius * (ratio(at.sin, self.sin_minor) + ratio(at.cos, self.sin_major));
         let beyond = slack * R::lit(0.5).mul_add(slack, radius);
         self.uniform_pdf().keep(at.one_minus_cos.le(at.rim_squared / (R::lit(1.0) + at.rim_cos) + beyond))
     }

@@ -11,7 +11,7 @@ use crate::warp::{Linear, Warp1};
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Angle by which the rounding of its direction may move a sample out of the segment: 4 ulp of a component near 1.
-const SLACK: f64 = 4.0 / 16_777_216.0;
+const LINE_SLACK: f64 = 4.0 / 16_777_216.0;
 const TURNS: f64 = 0.5 * FRAC_1_PI;
 
 /// Scales both by a power of two, and returns that scale; both become 0 if a coordinate is infinite.
@@ -137,7 +137,7 @@ impl<R: Real> SphericalSegment<R> {
     /// Tells whether the direction lies between the ends; allows for its rounding.
     #[inline(always)]
     fn between_ends(&self, w: Vec3<R>) -> R::Mask {
-        let slack = R::lit(-SLACK);
+        let slack = R::lit(-LINE_SLACK);
         // along the bisector of the ends, of length 2 or more
         let ahead = (self.from + self.to) + (self.from_turn + self.to_turn);
         w.dot(self.from_turn).ge(slack) & w.dot(self.to_turn).ge(slack) & w.dot(ahead).ge(slack)

@@ -7,7 +7,7 @@ pub(super) mod zenith;
 
 use super::direction::{DirectionSample, to_unit};
 use super::double_word::{compensated_height, cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
-use super::triangle::SLACK;
+use super::triangle::TRIANGLE_SLACK;
 use crate::lanewise::lanewise;
 use crate::math::{quotient, ratio, rsqrt};
 use crate::real::{Mask, Real, unit_interval};
@@ -386,12 +386,12 @@ impl<R: Real> ProjectedTriangle<R> {
 /// itself.
 #[inline(always)]
 pub(super) fn within<R: Real>(least: R) -> R::Mask {
-    least.ge(R::lit(-SLACK))
+    least.ge(R::lit(-TRIANGLE_SLACK))
 }
 /// Tells whether a direction leads towards the plane with that normal, with the same allowance.
 #[inline(always)]
 pub(super) fn ahead<R: Real>(w: Vec3<R>, plane: Vec3<R>, front: R::Mask) -> R::Mask {
-    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(SLACK)))
+    w.dot(plane).negate_where(front).ge(-(plane.length() * R::lit(TRIANGLE_SLACK)))
 }
 
 /// Two steps of u₀, in units of area: between two parts the map may jump, and u₀Ω⊥ is known only to this accuracy.

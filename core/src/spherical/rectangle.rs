@@ -9,7 +9,7 @@ use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 
 /// Angle by which the rounding of its direction may move a sample out of the rectangle: 8 ulp of a component near 1.
-const SLACK: f64 = 8.0 / 16_777_216.0;
+const RECTANGLE_SLACK: f64 = 8.0 / 16_777_216.0;
 const INV_FOUR_PI: f64 = 0.25 / core::f64::consts::PI;
 
 lanewise! {
@@ -163,20 +163,20 @@ impl<R: Real> SphericalRectangle<R> {
     #[inline(always)]
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // lengths in a unit near to the largest; so that every point of the rectangle has a finite distance
         let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs());
-        // so that every point of the rectangle has a finite distance
         let sum = p.max_abs() + u.max_abs() + v.max_abs();
         let finite = (sum + sum).lt(R::lit(f64::INFINITY));
         let scale = reach.pow2_scale();
         let scaled = |v: Vec3<R>| Vec3::new(v.x.keep(finite), v.y.keep(finite), v.z.keep(finite)) * scale;
         let (p, u, v) = (scaled(p), scaled(u), scaled(v));
+        // axes and sizes, and the height z of the point over the plane
         let ((x_axis, dx), (y_axis, dy)) = (u.unit_and_length(), v.unit_and_length());
         let (z_axis, signed) = normal_and_height(p, u, v);
         let corners = [p, p + u, p + u + v, p + v];
-
         let (z, side) = (signed.abs(), one.copysign(signed));
 
-        // both axes point to the far end; coordinates of far corners are small differences
+        // the ends (x₀, y₀) and (x₁, y₁): both axes point to the far end; coordinates of far corners are small differences
         let ends = |size: R, edge: Vec3<R>| {
             let unit = edge * edge.max_abs().pow2_scale();
             let squared = unit.length_squared();
@@ -206,6 +206,7 @@ impl<R: Real> SphericalRectangle<R> {
         let gone = gone_x.greater(gone_y);
         let base = Vec3::blend(gone.le(there_x.greater(there_y).greater(z)), from_corner, from_foot);
 
+        // the strips from the foot to x₁ and, if the foot is inside, to x₀
         let (zz, yy) = (z * z, y0 * y1);
         let (mm0, mm1) = (y0.mul_add(y0, zz), y1.mul_add(y1, zz));
         let im = ratio(one, (mm0 * mm1).sqrt());
@@ -232,6 +233,7 @@ impl<R: Real> SphericalRectangle<R> {
         let straddles = x0.lt(zero);
         let (near_sin, near_cos, near_above_p, near_above_s) =
             if straddles.any() { strip(-x0) } else { (zero, zero, zero, zero) };
+        // Ω, and whether the rectangle can be sampled
         let solid_angle = window(Vec2::new(x0, y0), Vec2::new(x1, y1), Vec2::new(dx, dy), z);
         let some = finite
             & solid_angle.gt(R::lit(1e-36))
@@ -244,7 +246,10 @@ impl<R: Real> SphericalRectangle<R> {
         let minus = |n: [Vec3<R>; 2]| n.map(|n| -n);
         let plane = |n: [Vec3<R>; 2], a: Vec3<R>, b: Vec3<R>| {
             let (unit, length) = (n[0] + n[1]).unit_and_length();
-            (turn(unit, side.lt(zero)), ratio(-a.dot(b), length).greater(one).lesser(R::lit(1e18)) * R::lit(SLACK))
+            (
+                turn(unit, side.lt(zero)),
+                ratio(-a.dot(b), length).greater(one).lesser(R::lit(1e18)) * R::lit(RECTANGLE_SLACK),
+            )
         };
         let (low_x, slack_low_x) = plane(minus(pv), corners[0], corners[3]);
         let (high_x, slack_high_x) = plane(sum_dw(pv, uv), corners[1], corners[2]);
@@ -397,7 +402,7 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
             & w.dot(self.far_x).ge(-self.slack_far.x)
             & w.dot(self.near_y).ge(-self.slack.y)
             & w.dot(self.far_y).ge(-self.slack_far.y)
-            & w.dot(self.normal).ge(R::lit(-SLACK));
+            & w.dot(self.normal).ge(R::lit(-RECTANGLE_SLACK));
         self.uniform_pdf().keep(inside)
     }
     #[inline(always)]

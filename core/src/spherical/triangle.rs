@@ -14,7 +14,7 @@ use crate::warp::Warp;
 /// Angle by which the error of its direction may move a sample out of the triangle: 12 ulp of a component near 1.
 const BEYOND: f64 = 12.0 / 16_777_216.0;
 /// The same for samples by projected solid angle: 8 ulp.
-pub(super) const SLACK: f64 = 8.0 / 16_777_216.0;
+pub(super) const TRIANGLE_SLACK: f64 = 8.0 / 16_777_216.0;
 
 lanewise! {
     /// Directions from a point to a triangle, uniform in solid angle: for every triangle that is not far.
@@ -90,17 +90,17 @@ lanewise! {
         /// 1/l₂
         inv_l2: R,
         /// T/G₀ = (G₁+G₂)/G₀ = cotH, with G₁ = d₀₂+d₁₂
-        total_over: R,
+        cot_half: R,
         /// 1/sinH
         inv_half_sin: R,
         /// G₂ = 1+d₀₁
         g2: R,
         /// G₂/G₀
-        g2_over: R,
+        g2_over_g0: R,
         /// 1+d₀₂
-        plus02: R,
+        one_plus_d02: R,
         /// 1−d₀₂², the squared sine of the side v0 v2
-        sin02: R,
+        sin02_squared: R,
         /// V₂/l₂ along `along`
         x2: R,
         /// V₂/l₂ along `across`
@@ -187,6 +187,7 @@ impl<R: Real> SphericalTriangle<R> {
     pub(super) fn prepare([v0, v1, v2]: [Vec3<R>; 3], planes: &Planes<R>, scale: R) -> Self {
         let Planes { n01, n02, n12, normal, volume, edge } = *planes;
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        // distances lᵢ of the vertices and the cosines dᵢⱼ between their directions
         let squared = [v0, v1, v2].map(Vec3::length_squared);
         let [i0, i1, i2] = squared.map(|s| rsqrt(s).keep(s.gt(R::lit(1e-36))));
         let (d01, d02) = (v0.dot(v1) * i0 * i1, v0.dot(v2) * i0 * i2);
@@ -196,26 +197,27 @@ impl<R: Real> SphericalTriangle<R> {
         };
         let i01 = inverse(n01);
         let (l0, l1, l2) = (squared[0] * i0, squared[1] * i1, squared[2] * i2);
+        // the side c from v0 to v1: its sine, 1−d₀₁ and 1+d₀₁, the smaller one from the sine, and tan(c/2)
         let sin_side = n01.length_squared() * i01 * i0 * i1;
         let inv_sin_side = i01 * l0 * l1;
         let stretch = R::lit(2.0) * inv_sin_side;
-        // 1−d₀₁ and 1+d₀₁, the smaller one from the sine
         let small = sin_side * sin_side / (one + d01.abs());
         let obtuse = d01.lt(zero);
         let (minus, g2) = (R::blend(obtuse, one - d01, small), R::blend(obtuse, small, one + d01));
         let tan_half = minus * inv_sin_side;
+        // tanH = G₀/T for H = Ω/2, T as (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
         let g0 = volume.abs() * i0 * i1 * i2;
-        // (V₀/l₀ + V₁/l₁)·V₂/l₂, so that opposite unit vectors cancel first
         let apex = v1 * i1;
         let mut total = (v0 * i0 + apex).dot(v2).mul_add(i2, g2);
+        // the frame at v1
         let towards = volume.lt(zero);
         let pole = n01 * i01;
         let along = apex.cross(pole);
         // V₂/l₂ along the tangents at v1, and 1+d₁₂
         let d12 = apex.dot(v2) * i2;
         let (mut x2, y2) = (along.dot(edge) * i2, volume.abs() * i01 * i2);
-        let (mut plus12, mut plus02) = (one + d12, one + d02);
-        let sin02 = n02.length_squared() * (i0 * i2) * (i0 * i2);
+        let (mut one_plus_d12, mut one_plus_d02) = (one + d12, one + d02);
+        let sin02_squared = n02.length_squared() * (i0 * i2) * (i0 * i2);
         // a side of more than 120° is rare: do the extra work only where there is one
         let wide = d01.lesser(d02).lesser(d12).lt(R::lit(-0.5));
         if wide.any() {
@@ -232,15 +234,15 @@ impl<R: Real> SphericalTriangle<R> {
             total = R::blend(wide, sum, total);
             x2 = R::blend(wide, -(n01.dot(n12) * i01 * i1 * i2), x2);
             let behind = x2.mul_add(x2, y2 * y2) / (one + d12.abs());
-            plus12 = R::blend(wide & d12.lt(zero), behind, plus12);
-            plus02 = R::blend(wide & d02.lt(zero), sin02 / (one + d02.abs()), plus02);
+            one_plus_d12 = R::blend(wide & d12.lt(zero), behind, one_plus_d12);
+            one_plus_d02 = R::blend(wide & d02.lt(zero), sin02_squared / (one + d02.abs()), one_plus_d02);
         }
         let across = Vec3::blend(towards, -pole, pole);
         // sinα : cosα = |volume| l₀ : n₀₁·n₀₂
         let opposite = volume.abs() * l0;
         let angle = opposite.gt(R::lit(1e-37));
         let cot_alpha = (n01.dot(n02) / R::blend(angle, opposite, one)).keep(angle);
-        // at a vertex everything is 0, and so is Ω
+        // Ω, and H; at a vertex everything is 0, and so is Ω
         let somewhere = i0.gt(zero) & i1.gt(zero) & i2.gt(zero) & g0.gt(zero);
         let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(somewhere);
         let inv_g0 = one / R::blend(g0.gt(R::lit(1e-37)), g0, one);
@@ -249,7 +251,7 @@ impl<R: Real> SphericalTriangle<R> {
         let over = rsqrt(squared);
         let half = Vec2::new(g0 * over, total * over);
         let inv_half_sin = inv_g0 * squared * over;
-        let by_plus = one / plus12.greater(R::lit(1e-30));
+        let by_plus = one / one_plus_d12.greater(R::lit(1e-30));
         // sin c / (2 sinH)
         let by_swept = R::lit(0.5) * sin_side * inv_half_sin;
         let some = by_swept.lt(R::lit(1e30));
@@ -263,7 +265,7 @@ impl<R: Real> SphericalTriangle<R> {
         let start = -d01 / R::blend(sin_side.gt(zero), sin_side, one);
         let inwards = |n: Vec3<R>| Vec3::blend(towards, -n, n);
         let start = start.greater(one).lesser(R::lit(1e18));
-        let far = start.greater(-d02 * rsqrt(sin02.greater(R::lit(1e-7))));
+        let far = start.greater(-d02 * rsqrt(sin02_squared.greater(R::lit(1e-7))));
         let slack =
             |n: Vec3<R>, a: Vec3<R>, b: Vec3<R>, known: R| (n.length() * known).greater(-a.dot(b)) * R::lit(BEYOND);
         Self {
@@ -285,12 +287,12 @@ impl<R: Real> SphericalTriangle<R> {
             sin_side,
             inv_l0: i0,
             inv_l2: i2,
-            total_over: total * inv_g0,
+            cot_half: total * inv_g0,
             inv_half_sin,
             g2,
-            g2_over: g2 * inv_g0,
-            plus02,
-            sin02,
+            g2_over_g0: g2 * inv_g0,
+            one_plus_d02,
+            sin02_squared,
             x2,
             y2,
             g1: total - g2,

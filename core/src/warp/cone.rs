@@ -8,7 +8,7 @@ use crate::vector::{Vec2, Vec3};
 
 const INV_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
 /// Angle by which rounding may move a direction out of its cone: 4 ulp of a component near 1.
-const SLACK: f64 = 4.0 / 16_777_216.0;
+const CONE_SLACK: f64 = 4.0 / 16_777_216.0;
 
 lanewise! {
     /// Directions within an angle σ of +z, uniform in solid angle: for suns, spheres and anything else that looks like a cap.
@@ -53,7 +53,7 @@ impl<R: Real> Cone<R> {
     /// rounding of the direction.
     #[inline(always)]
     pub fn contains(&self, one_minus_cos: R) -> R::Mask {
-        self.contains_but_for(one_minus_cos, SLACK)
+        self.contains_but_for(one_minus_cos, CONE_SLACK)
     }
     #[inline(always)]
     fn contains_but_for(&self, one_minus_cos: R, slack: f64) -> R::Mask {
@@ -67,7 +67,7 @@ impl<R: Real> Cone<R> {
     /// [`contains`](Self::contains) for a direction that has been rotated into a frame and back: allows for 10 ulp.
     #[inline(always)]
     pub(crate) fn contains_turned(&self, one_minus_cos: R) -> R::Mask {
-        self.contains_but_for(one_minus_cos, 2.5 * SLACK)
+        self.contains_but_for(one_minus_cos, 2.5 * CONE_SLACK)
     }
     /// The pdf per steradian of a direction that has been rotated into a frame and back.
     #[inline(always)]

@@ -15,7 +15,7 @@ fn finite<R: Real>(point: Vec3<R>) -> Vec3<R> {
 }
 
 /// Rounding of coordinates, relative to the largest: 4 ulp.
-const SLACK: f64 = 4.0 / 16_777_216.0;
+const PATCH_SLACK: f64 = 4.0 / 16_777_216.0;
 
 lanewise! {
     /// Points of a bilinear patch corner + s·edge_s + t·edge_t + st(diagonal − edge_s − edge_t), s and t in [0, 1], nearly uniform in area: for twisted quads.
@@ -142,7 +142,7 @@ impl<R: Real> Warp<R> for PatchSurface<R> {
         let (unit, scale, finite) = self.in_units();
         let d = unit.twist();
         // coordinates are rounded, so allow for that, relative to the sides
-        let slack = R::lit(SLACK) * (self.corner.max_abs() * scale + R::lit(2.0));
+        let slack = R::lit(PATCH_SLACK) * (self.corner.max_abs() * scale + R::lit(2.0));
         let beyond = |x: R, side: Vec3<R>| (x - x.clamped(zero, one)).abs() * side.length();
         let inside =
             beyond(st.x, d.mul_add(st.y, unit.edge_s)).le(slack) & beyond(st.y, d.mul_add(st.x, unit.edge_t)).le(slack);

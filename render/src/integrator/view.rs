@@ -1,10 +1,10 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
-use super::World;
 use super::adaptive::{Allotment, Effort, Statistics};
 use super::analytic::Survey;
 use super::settings::{RayCount, Settings, TILE};
 use super::tile::TileRenderer;
+use super::world::World;
 use crate::area;
 use crate::area::Area;
 use crate::camera::Camera;
@@ -55,12 +55,25 @@ pub struct View<'a> {
     settings: Settings,
 }
 
-impl<'a> View<'a> {
-    pub(super) fn new(world: &'a World, camera: &Camera, settings: &Settings) -> Self {
-        let view = Self { world, camera: *camera, settings: *settings };
+impl World {
+    /// The image of the scene's camera with these settings.
+    pub fn view(&self, settings: &Settings) -> View<'_> {
+        self.view_through(&Camera::new(&self.camera, settings.width, settings.height), settings)
+    }
+
+    /// Like [`World::view`], with a camera other than the scene's, made for an image of this size.
+    pub fn view_through(&self, camera: &Camera, settings: &Settings) -> View<'_> {
+        let view = View { world: self, camera: *camera, settings: *settings };
         if settings.technique == Technique::Auto { view.by(view.choose()) } else { view }
     }
 
+    /// Renders the image of the scene's camera, as [`View::image`] does.
+    pub fn render(&self, settings: &Settings, progress: &(dyn Fn(u64) + Sync)) -> (Film, RayCount) {
+        self.view(settings).image(progress)
+    }
+}
+
+impl View<'_> {
     fn by(&self, technique: Technique) -> Self {
         Self { settings: Settings { technique, ..self.settings }, ..*self }
     }

@@ -17,7 +17,7 @@ pub struct Affine {
 }
 
 /// Bounds the rounding errors of one of these operations, relative to the magnitudes of all its terms.
-const SLACK: f64 = 1.0 / (1_u64 << 47) as f64;
+const ROUNDING: f64 = 1.0 / (1_u64 << 47) as f64;
 
 impl Affine {
     /// One number.
@@ -45,11 +45,11 @@ impl Affine {
     /// The numbers that it can be.
     #[must_use]
     pub fn range(&self) -> Interval {
-        Interval::point(self.middle).widened(self.reach() * (1.0 + SLACK))
+        Interval::point(self.middle).widened(self.reach() * (1.0 + ROUNDING))
     }
     /// The form with rounding errors of its own operations, and this much more.
     fn and(mut self, magnitude: f64, more: f64) -> Self {
-        self.rest = (self.rest + more + magnitude * SLACK) * (1.0 + SLACK);
+        self.rest = (self.rest + more + magnitude * ROUNDING) * (1.0 + ROUNDING);
         self
     }
     /// Within this much of the form.

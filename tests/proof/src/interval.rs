@@ -172,7 +172,7 @@ impl Interval {
     /// sin 2πx and cos 2πx. The ends are those of `libm`, whose error is below 1 ulp, moved by 2⁻⁵⁰.
     #[must_use]
     pub fn sin_cos_turns(self) -> [Self; 2] {
-        const SLACK: f64 = 1.0 / (1_u64 << 50) as f64;
+        const BEYOND_LIBM: f64 = 1.0 / (1_u64 << 50) as f64;
         let wave = |shift: f64| {
             // extrema of cos 2π(x − shift) are at multiples of a half turn
             let (from, to) = (2.0 * (self.lo - shift), 2.0 * (self.hi - shift));
@@ -184,7 +184,7 @@ impl Interval {
             for k in (from - 1e-9).ceil() as i32..=(to + 1e-9).floor() as i32 {
                 if k % 2 == 0 { hi = 1.0 } else { lo = -1.0 }
             }
-            Self::new((lo - SLACK).max(-1.0), (hi + SLACK).min(1.0))
+            Self::new((lo - BEYOND_LIBM).max(-1.0), (hi + BEYOND_LIBM).min(1.0))
         };
         [wave(0.25), wave(0.0)]
     }

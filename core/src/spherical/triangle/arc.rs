@@ -39,7 +39,7 @@ impl<R: Real> SphericalTriangle<R> {
         let most = R::lit(1e15);
         let x = (-stretched).mul_add(turn_cos, self.tan_half).clamped(-most, most);
         let y = (stretched * turn_sin).clamped(zero, most);
-        let left = R::blend(far, sin * self.inv_half_sin, (-sin).mul_add(self.total_over, cos));
+        let left = R::blend(far, sin * self.inv_half_sin, (-sin).mul_add(self.cot_half, cos));
         let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, left] };
         // a side of more than 120° is rare: do the extra work only where there is one
         let long = self.g2.lt(R::lit(0.5));
@@ -53,8 +53,8 @@ impl<R: Real> SphericalTriangle<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let [w0, w2] = self.weights(arc.swept);
         // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, where S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ are small; 1 − P·V₀/l₀ comes from the sine
-        let along = w2.mul_add(self.plus02 - one, w0);
-        let apart = R::blend(along.gt(zero), w2 * w2 * self.sin02 / (one + along.greater(zero)), one - along);
+        let along = w2.mul_add(self.one_plus_d02 - one, w0);
+        let apart = R::blend(along.gt(zero), w2 * w2 * self.sin02_squared / (one + along.greater(zero)), one - along);
         let sum = w0.mul_add(self.g2, apart + w2 * self.g1.abs());
         let plus = w0.mul_add(self.g2, apart + w2 * self.g1);
         let inverse = one / plus.greater(R::lit(1e-30));
@@ -76,13 +76,13 @@ impl<R: Real> SphericalTriangle<R> {
     pub(super) fn weights(&self, [s, left]: [R; 2]) -> [R; 2] {
         let (zero, two) = (R::lit(0.0), R::lit(2.0));
         // r = a − b = cosη − sinη (G₁+G₂)/G₀ = sin(H−η)/sinH
-        let b = s * self.g2_over;
+        let b = s * self.g2_over_g0;
         let a = left + b;
         let w0 = (left * (a + b)).greater(zero);
         // b d₀₂ + a, w₂ − w₀ and |P|²: small differences where v0 and v2 are nearly opposite
-        let w2 = (two * b * b.mul_add(self.plus02, left)).greater(zero);
-        let more = two * b * b * self.plus02 - left * left;
-        let squared = more.mul_add(more, two * self.plus02 * w0 * w2);
+        let w2 = (two * b * b.mul_add(self.one_plus_d02, left)).greater(zero);
+        let more = two * b * b * self.one_plus_d02 - left * left;
+        let squared = more.mul_add(more, two * self.one_plus_d02 * w0 * w2);
         let inverse = rsqrt(squared.greater(R::lit(1e-30)));
         [w0 * inverse, w2 * inverse]
     }

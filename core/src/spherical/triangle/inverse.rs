@@ -68,7 +68,7 @@ impl<R: Real> SphericalTriangle<R> {
     pub(in crate::spherical) fn steep(&self, whole: R) -> R::Mask {
         let small = whole * R::lit(STEEP);
         // P leaves v0 and arrives at v2 within these parts of η
-        let steep = (self.g2_over * small).gt(R::lit(1.0)) | (self.g2_over * self.half.x * self.half.x).lt(small);
+        let steep = (self.g2_over_g0 * small).gt(R::lit(1.0)) | (self.g2_over_g0 * self.half.x * self.half.x).lt(small);
         steep & self.solid_angle.gt(R::lit(0.0))
     }
     /// The area by which a direction lies beyond the arc for `u` that leaves `rest` = 1−u₀, at most a few roundings: the map is more
