@@ -183,6 +183,11 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     Ok(())
 }
 
+/// The names that Python's `import *` finds.
+fn python_names() -> String {
+    LIGHTS.iter().map(|Light { name, .. }| format!("    \"{name}\",\n")).collect()
+}
+
 fn python() -> String {
     let mut out = String::new();
     LIGHTS.iter().for_each(|light| python_light(light, &mut out).unwrap());
@@ -216,4 +221,5 @@ fn cpp_is_what_the_list_gives() {
 #[test]
 fn python_types_are_what_the_list_gives() {
     check("core/python/etendue.pyi", "#", &python());
+    check("core/python/etendue.pyi", "    # lights", &python_names());
 }

@@ -336,6 +336,27 @@ fn narrow_spots_take_the_place_they_light() {
     }
 }
 
+/// A disk is bounded as a disk, not as its sphere: one below the horizon, ten times as wide as it is deep, is never chosen, in any plane.
+#[test]
+fn disks_are_bounded_as_disks() {
+    for axis in 0..3 {
+        let along = |x: f32, y: f32| {
+            let mut v = [y; 3];
+            v[axis] = x;
+            v
+        };
+        let normal = along(1.0, 0.0);
+        let disk = |height: f32| LightBound { normal, ..light(along(height, 1.0), 1.0, 1.0) };
+        for (height, is_chosen) in [(-0.1, false), (0.1, true)] {
+            let below = LightBound { two_sided: true, ..disk(height) };
+            let above = LightBound { normal: along(-1.0, 0.0), ..light(along(2.0, 0.0), 0.1, 1.0) };
+            let grove = Grove::new(vec![below, above]);
+            let pmf = [0, 1].map(|light| grove.pmf(([0.0; 3], normal), light));
+            assert!((pmf[0] > 0.0) == is_chosen && pmf[1] > 0.0, "{axis} {height}: {pmf:?}");
+        }
+    }
+}
+
 #[test]
 fn memory_of_the_wrong_size_is_refused() {
     let lights: Vec<_> = (0..100).map(|i| light([i as f32, 0.0, 1.0], 0.1, 1.0)).collect();

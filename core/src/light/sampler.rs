@@ -24,7 +24,7 @@ use crate::warp::Warp;
 /// - The normal `n` of a shading point must have length 1: by projected solid angle the pdf is multiplied by its length, so that it no
 ///   longer integrates to 1. The cosine warp takes any length.
 /// - `n` must be on the side from which light is gathered. With the opposite one, samples by projected solid angle are below the surface,
-///   or there are none.
+///   or there are none: a surface of two sides takes the normal on the viewer's side.
 /// - The normal of a light, whose direction its corners' order or its edges' cross product gives, is on the side that emits. From behind,
 ///   `pdf` is positive, but `emits` is false and `weight()` is 0; [`LightSample::two_sided`] is for lights that emit from both sides.
 /// - From a point on a flat light the pdf is 0. From a point on a curved one, rounding decides whether it is inside or outside: all results
