@@ -172,9 +172,10 @@ fn an_interrupted_run_leaves_a_report() {
         assert!(start.elapsed() < Duration::from_secs(60), "nothing is measured");
         thread::sleep(Duration::from_millis(5));
     }
-    // a million samples per pixel would take minutes: the second signal ends the program at once, and the table remains
+    // a million samples per pixel would take minutes: the second signal ends the program at once, and the table remains. In a job of a
+    // script, Ctrl-C is ignored, but not SIGTERM
     for _ in 0..2 {
-        let killed = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        let killed = Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
         assert!(killed.success());
         thread::sleep(Duration::from_millis(300));
         if child.try_wait().unwrap().is_some() {
@@ -190,7 +191,7 @@ fn an_interrupted_run_leaves_a_report() {
         assert!(start.elapsed() < Duration::from_secs(60), "nothing is measured");
         thread::sleep(Duration::from_millis(5));
     }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
     let (out, _) = text(&child.wait_with_output().unwrap(), 0);
     assert!(out.contains("stopped early") && out.contains("3 measurements come from an earlier run"), "{out}");
     assert!(fs::read_to_string(&table).unwrap().starts_with(&before));
