@@ -1,8 +1,8 @@
 //! What an image claims about its error.
 //!
 //! The error of samples falls with their number, and the variances of the pixels tell it. That of closed forms is the same in all samples,
-//! so that no variance tells it: [`World::systematic`](crate::World::systematic) bounds it by the scene. The claim is the root of the sum
-//! of both squares, since over random numbers the one has a mean of 0.
+//! so that no variance tells it: [`View::systematic`](crate::View::systematic) bounds it by the scene. The claim is the root of the sum of
+//! both squares, since over random numbers the one has a mean of 0.
 
 use crate::film::Film;
 
@@ -21,7 +21,7 @@ pub struct Claim {
 const ENOUGH: f64 = 8.0;
 
 impl Claim {
-    /// The claim of an image whose closed forms have at most this error (see [`World::systematic`](crate::World::systematic)). `None` if
+    /// The claim of an image whose closed forms have at most this error (see [`View::systematic`](crate::View::systematic)). `None` if
     /// a variance is not known, or if the image is black.
     #[must_use]
     pub fn new(film: &Film, systematic: f64) -> Option<Self> {

@@ -44,7 +44,7 @@ pub mod technique;
 
 pub use claim::Claim;
 pub use frame::Frame;
-pub use integrator::{RayCount, Settings, World};
+pub use integrator::{RayCount, Settings, View, World};
 pub use sampler::Sampler;
 pub use sensor::Sensor;
 pub use technique::Technique;
