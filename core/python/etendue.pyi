@@ -48,6 +48,9 @@ __all__ = [
     "Line",
     "Annulus",
     "Sun",
+    "PointLight",
+    "SpotLight",
+    "DirectionalLight",
     # lights end of what is from the list
 ]
 
@@ -629,6 +632,141 @@ class Sun:
         w: ArrayLike,
         n: ArrayLike | None = None,
         by: Literal["solid_angle"] = "solid_angle",
+    ) -> _F32: ...
+
+@final
+class PointLight:
+    def __new__(cls, position: ArrayLike) -> PointLight: ...
+    def by_delta(self, p: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        position: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        position: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        position: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        position: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> _F32: ...
+
+@final
+class SpotLight:
+    def __new__(cls, position: ArrayLike, axis: ArrayLike, cos_inner: ArrayLike, cos_outer: ArrayLike) -> SpotLight: ...
+    def by_delta(self, p: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        position: ArrayLike,
+        axis: ArrayLike,
+        cos_inner: ArrayLike,
+        cos_outer: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        position: ArrayLike,
+        axis: ArrayLike,
+        cos_inner: ArrayLike,
+        cos_outer: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        position: ArrayLike,
+        axis: ArrayLike,
+        cos_inner: ArrayLike,
+        cos_outer: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        position: ArrayLike,
+        axis: ArrayLike,
+        cos_inner: ArrayLike,
+        cos_outer: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> _F32: ...
+
+@final
+class DirectionalLight:
+    def __new__(cls, direction: ArrayLike) -> DirectionalLight: ...
+    def by_delta(self, p: ArrayLike) -> Sampler: ...
+    @staticmethod
+    def sample_each(
+        direction: ArrayLike,
+        *,
+        p: ArrayLike,
+        u: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> Samples: ...
+    @staticmethod
+    def hit_each(
+        direction: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> Samples: ...
+    @staticmethod
+    def pdf_each(
+        direction: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
+    ) -> _F32: ...
+    @staticmethod
+    def invert_each(
+        direction: ArrayLike,
+        *,
+        p: ArrayLike,
+        w: ArrayLike,
+        n: ArrayLike | None = None,
+        by: Literal["delta"] = "delta",
     ) -> _F32: ...
 
 # end of what is from the list

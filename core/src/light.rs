@@ -31,7 +31,7 @@
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
-//! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `prepare`: one direction, `delta` holds | | |
+//! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
 //!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
 //! patches, and the projected solid angle of disks. A sun and a constant environment have no area.
@@ -95,7 +95,9 @@ mod techniques;
 
 pub use annulus::{Annulus, AnnulusByArea, PlacedAnnulus};
 pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
-pub use delta::{DeltaSampler, DirectionalLight, PointLight, SpotLight};
+pub use delta::{
+    DirectionalLight, DirectionalLightByDelta, PointLight, PointLightByDelta, SpotLight, SpotLightByDelta,
+};
 pub use disk::{Disk, DiskByArea, DiskBySolidAngle, PlacedDisk};
 pub use distant::{
     ConstantEnvironment, EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, Sun, SunBySolidAngle,

@@ -399,12 +399,12 @@ impl Lights {
                 SPHERE => chosen.sphere(measure, p, normal, u),
                 TRIANGLE => chosen.triangle(measure, p, normal, u),
                 PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
-                POINT => PointLight::new(place).prepare(p).sample(u).into(),
+                POINT => PointLight::new(place).by_delta(p).sample(u).into(),
                 SPOT => {
                     let light = SpotLight { position: place, axis: first, cos_inner: second.x, cos_outer: second.y };
-                    light.prepare(p).sample(u).into()
+                    light.by_delta(p).sample(u).into()
                 }
-                DISTANT => DirectionalLight::new(place).prepare(p).sample(u).into(),
+                DISTANT => DirectionalLight::new(place).by_delta(p).sample(u).into(),
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
                     let (sample, radiance) = sky.sample(measure, normal, u);

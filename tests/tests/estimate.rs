@@ -144,7 +144,7 @@ fn weights_of_both_techniques_sum_to_one() {
         }
         assert!(compared > 400, "{name}: {compared}");
     }
-    let point = PointLight::new(Vec3::lit([0.0, 3.0, 0.0])).prepare(p).sample(Vec2::lit([0.5, 0.5]));
+    let point = PointLight::new(Vec3::lit([0.0, 3.0, 0.0])).by_delta(p).sample(Vec2::lit([0.5, 0.5]));
     assert!(point.delta);
     for heuristic in HEURISTICS {
         assert_eq!(heuristic.light_weight(&point, 7.0), 1.0 / point.pdf);

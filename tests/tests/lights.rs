@@ -353,22 +353,22 @@ fn sun_and_sky() {
 #[test]
 fn delta_lights() {
     let point = PointLight { position: [0.0, 3.0, 4.0].into() };
-    let s = point.prepare(origin()).sample(Vec2::default());
+    let s = point.by_delta(origin()).sample(Vec2::default());
     assert!(s.delta && s.emits && s.distance == 5.0 && (s.pdf - 25.0).abs() < 1e-13);
-    assert_eq!(point.prepare(point.position).sample(Vec2::default()).pdf, 0.0);
+    assert_eq!(point.by_delta(point.position).sample(Vec2::default()).pdf, 0.0);
     let (inner, outer) = (0.9, 0.7);
     let axis = [0.0, -0.6, -0.8];
     let spot = SpotLight { position: point.position, axis: axis.into(), cos_inner: inner, cos_outer: outer };
-    assert!((spot.prepare(origin()).sample(Vec2::default()).pdf - 25.0).abs() < 1e-12);
+    assert!((spot.by_delta(origin()).sample(Vec2::default()).pdf - 25.0).abs() < 1e-12);
     let (side, _) = basis(axis);
     let at = |cos: f64| {
         let w: V3 = core::array::from_fn(|k| axis[k] * cos + side[k] * (1.0 - cos * cos).sqrt());
-        spot.prepare(core::array::from_fn::<_, 3, _>(|k| [0.0, 3.0, 4.0][k] + 2.0 * w[k]).into())
+        spot.by_delta(core::array::from_fn::<_, 3, _>(|k| [0.0, 3.0, 4.0][k] + 2.0 * w[k]).into())
             .sample(Vec2::default())
     };
     assert!((at(0.95).pdf - 4.0).abs() < 1e-12 && (at(0.8).pdf - 8.0).abs() < 1e-9);
     assert!(at(0.69).pdf == 0.0 && !at(0.69).emits && !at(-0.95).emits);
-    let s = DirectionalLight { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.prepare(origin()).sample(Vec2::default());
+    let s = DirectionalLight { direction: Vec3::<f64>::new(0.0, 0.0, 1.0) }.by_delta(origin()).sample(Vec2::default());
     assert!(s.delta && s.emits && s.pdf == 1.0 && s.distance.is_finite());
 }
 
@@ -382,10 +382,10 @@ fn samples<R: Real>(p: Vec3<R>, a: Vec3<R>, b: Vec3<R>, r: R, u: Vec2<R>) -> [Li
         Line { start: a, edge: b }.by_length(p).sample(u),
         Line { start: a, edge: b }.by_angle(p).sample(u),
         Line { start: a, edge: b }.by_projected_solid_angle(p, n).sample(u),
-        PointLight { position: a }.prepare(p).sample(u),
-        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.prepare(p).sample(u),
-        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.prepare(p).sample(u),
-        DirectionalLight { direction: n }.prepare(p).sample(u),
+        PointLight { position: a }.by_delta(p).sample(u),
+        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.y }.by_delta(p).sample(u),
+        SpotLight { position: a, axis: n, cos_inner: u.x, cos_outer: u.x }.by_delta(p).sample(u),
+        DirectionalLight { direction: n }.by_delta(p).sample(u),
         Sun { direction: n, one_minus_cos: u.x + u.y }.by_solid_angle().sample(u),
         ConstantEnvironment.by_solid_angle().sample(u),
         ConstantEnvironment.by_projected_solid_angle(n).sample(u),

@@ -257,7 +257,7 @@ fn tables(count: &mut Count) {
     }
 }
 
-/// A light above the origin, and its irradiance there on a receiver that faces up, from radiance 1.
+/// A light above the origin, and its irradiance there on a receiver that faces up, from radiance, intensity or irradiance 1.
 trait Known {
     const IRRADIANCE: f32;
     fn known() -> Self;
@@ -293,6 +293,10 @@ known! {
     // π (r²/(h² + r²) − i²/(h² + i²))
     Annulus: 0.3 * PI, Self::new([0.0, 1.0, 0.0].into(), [0.0, -1.0, 0.0].into(), lit(1.0), lit(0.5));
     Sun: 0.25 * PI, Self { direction: UP.into(), one_minus_cos: lit(0.133_974_6) };
+    // E = I/d²
+    PointLight: 0.25, Self { position: [0.0, 2.0, 0.0].into() };
+    SpotLight: 0.25, Self { position: [0.0, 2.0, 0.0].into(), axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
+    DirectionalLight: 1.0, Self { direction: UP.into() };
 }
 fn irradiance<L: Known>(_: &L) -> f32 {
     L::IRRADIANCE
@@ -324,16 +328,10 @@ macro_rules! how_many {
     };
 }
 /// Checks that pass: one for each technique of the list, and the others of this file.
-const CHECKS: u32 = etendue::techniques!(how_many! {}) + 53;
+const CHECKS: u32 = etendue::techniques!(how_many! {}) + 50;
 
 fn lights(count: &mut Count) {
     etendue::techniques!(all_lights! { { count } });
-    let (o, position) = (ORIGIN.into(), [0.0, 2.0, 0.0].into());
-    // lights without a pdf, of radiant intensity 1 or irradiance 1
-    count.light(0.25, |u| PointLight { position }.prepare(o).sample(u));
-    let spot = SpotLight { position, axis: [0.0, -1.0, 0.0].into(), cos_inner: lit(0.9), cos_outer: lit(0.8) };
-    count.light(0.25, |u| spot.prepare(o).sample(u));
-    count.light(1.0, |u| DirectionalLight { direction: UP.into() }.prepare(o).sample(u));
     count.light(PI, |u| ConstantEnvironment.by_solid_angle().sample(u));
     count.light(PI, |u| ConstantEnvironment.by_projected_solid_angle(UP.into()).sample(u));
     let mut buffer = [0.0; ImageEnvironment::buffer(4, 2)];

@@ -16,8 +16,8 @@ use etendue::warp::{
     Octahedral, PatchSurface, PolarDisk, Tent, UniformHemisphere, UniformSphere, Warp, Warp1,
 };
 use etendue::{
-    Annulus, BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Parallelogram, Polygon, Real, Rectangle,
-    Sphere, Sun, Triangle, Uint, Vec2, Vec3,
+    Annulus, BilinearPatch, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
+    PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Uint, Vec2, Vec3,
 };
 use std::hint::black_box;
 
@@ -228,6 +228,9 @@ in_room! {
     Line "line" |r| Self::new(r.a, r.e1);
     Annulus "annulus" |r| Self::new(r.a, r.up, r.radius, r.radius * half_of());
     Sun "sun" |r| Self::new(r.up, r.radius);
+    PointLight "point light" |r| Self::new(r.a);
+    SpotLight "spot light" |r| Self { position: r.a, axis: -r.up, cos_inner: R::lit(0.9), cos_outer: R::lit(0.1) };
+    DirectionalLight "directional light" |r| Self::new(r.up);
 }
 fn named<R, L: InRoom<R>>(_: &L, by: &str) -> String {
     format!("{} {}", L::NAME, by.replace('_', " "))

@@ -481,6 +481,80 @@ typedef struct {
   const float *one_minus_cos;
 } EtendueSunColumns;
 
+// A point light, that emits the same intensity I in all directions. The estimator is f * I * cos(theta) * weight. No direction
+// hits it: its weight in multiple importance sampling is 1.
+typedef struct {
+  // Position, in the coordinates of the scene.
+  float position[3];
+} EtenduePointLight;
+
+// Its one direction, whatever the random numbers. The pdf of a sample is distance^2, which is no density; that of a
+// direction is 0.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[8];
+} EtenduePointLightByDelta;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  // Position, in the coordinates of the scene.
+  const float *position[3];
+} EtenduePointLightColumns;
+
+// A spot light: a point light that emits into a cone, with the intensity I on its axis. The estimator is f * I * cos(theta) * weight.
+// No direction hits it: its weight in multiple importance sampling is 1.
+typedef struct {
+  // Position, in the coordinates of the scene.
+  float position[3];
+  // Unit vector along which the light travels.
+  float axis[3];
+  // Cosine of the angle to the axis up to which the intensity is I.
+  float cos_inner;
+  // Cosine of the angle from which it is 0; less than the other one.
+  float cos_outer;
+} EtendueSpotLight;
+
+// Its one direction, whatever the random numbers. The pdf of a sample is distance^2 over the part of I that is emitted
+// there, which is no density, and 0 outside of the cone; that of a direction is 0.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[8];
+} EtendueSpotLightByDelta;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  // Position, in the coordinates of the scene.
+  const float *position[3];
+  // Unit vector along which the light travels.
+  const float *axis[3];
+  // Cosine of the angle to the axis up to which the intensity is I.
+  const float *cos_inner;
+  // Cosine of the angle from which it is 0; less than the other one.
+  const float *cos_outer;
+} EtendueSpotLightColumns;
+
+// A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The
+// estimator is f * E * cos(theta) * weight. No direction hits it: its weight in multiple importance sampling is 1.
+typedef struct {
+  // Unit vector towards the light.
+  float direction[3];
+} EtendueDirectionalLight;
+
+// Its one direction, whatever the random numbers. The pdf of a sample is 1, which is no density; that of a direction is 0.
+//
+// What is inside does not concern callers: it may be copied, and used by any thread.
+typedef struct {
+  float data[8];
+} EtendueDirectionalLightByDelta;
+
+// Columns of lights: the fields are those of the light.
+typedef struct {
+  // Unit vector towards the light.
+  const float *direction[3];
+} EtendueDirectionalLightColumns;
+
 // Which pairs of a sequence a batch needs.
 typedef struct {
   // The pixel of all elements, if `pixels` is NULL.
@@ -2530,6 +2604,245 @@ EtendueStatus etendue_sun_by_solid_angle_hit_each(const EtendueSunColumns *light
                                                   const float *const *p,
                                                   const float *const *w,
                                                   const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_point_light_by_delta_prepare(const EtenduePointLight *light,
+                                                   const float *p,
+                                                   EtenduePointLightByDelta *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_point_light_by_delta_sample(const EtenduePointLightByDelta *sampler,
+                                                  const float *u,
+                                                  EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_point_light_by_delta_pdf(const EtenduePointLightByDelta *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_point_light_by_delta_invert(const EtenduePointLightByDelta *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_point_light_by_delta_hit(const EtenduePointLightByDelta *sampler,
+                                               const float *w,
+                                               EtendueLightSample *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_point_light_by_delta_sample_once(const EtenduePointLight *light,
+                                                       const float *p,
+                                                       const float *u,
+                                                       EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_point_light_by_delta_sample_batch(const EtenduePointLightByDelta *sampler,
+                                                        size_t n,
+                                                        const float *const *u,
+                                                        const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_point_light_by_delta_pdf_batch(const EtenduePointLightByDelta *sampler,
+                                                     size_t n,
+                                                     const float *const *w,
+                                                     float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_point_light_by_delta_invert_batch(const EtenduePointLightByDelta *sampler,
+                                                        size_t n,
+                                                        const float *const *w,
+                                                        float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_point_light_by_delta_hit_batch(const EtenduePointLightByDelta *sampler,
+                                                     size_t n,
+                                                     const float *const *w,
+                                                     const EtendueSampleColumns *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_point_light_by_delta_sample_each(const EtenduePointLightColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const float *const *u,
+                                                       const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_point_light_by_delta_pdf_each(const EtenduePointLightColumns *lights,
+                                                    size_t n,
+                                                    const float *const *p,
+                                                    const float *const *w,
+                                                    float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_point_light_by_delta_invert_each(const EtenduePointLightColumns *lights,
+                                                       size_t n,
+                                                       const float *const *p,
+                                                       const float *const *w,
+                                                       float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_point_light_by_delta_hit_each(const EtenduePointLightColumns *lights,
+                                                    size_t n,
+                                                    const float *const *p,
+                                                    const float *const *w,
+                                                    const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_spot_light_by_delta_prepare(const EtendueSpotLight *light,
+                                                  const float *p,
+                                                  EtendueSpotLightByDelta *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_spot_light_by_delta_sample(const EtendueSpotLightByDelta *sampler,
+                                                 const float *u,
+                                                 EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_spot_light_by_delta_pdf(const EtendueSpotLightByDelta *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_spot_light_by_delta_invert(const EtendueSpotLightByDelta *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_spot_light_by_delta_hit(const EtendueSpotLightByDelta *sampler,
+                                              const float *w,
+                                              EtendueLightSample *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_spot_light_by_delta_sample_once(const EtendueSpotLight *light,
+                                                      const float *p,
+                                                      const float *u,
+                                                      EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_spot_light_by_delta_sample_batch(const EtendueSpotLightByDelta *sampler,
+                                                       size_t n,
+                                                       const float *const *u,
+                                                       const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_spot_light_by_delta_pdf_batch(const EtendueSpotLightByDelta *sampler,
+                                                    size_t n,
+                                                    const float *const *w,
+                                                    float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_spot_light_by_delta_invert_batch(const EtendueSpotLightByDelta *sampler,
+                                                       size_t n,
+                                                       const float *const *w,
+                                                       float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_spot_light_by_delta_hit_batch(const EtendueSpotLightByDelta *sampler,
+                                                    size_t n,
+                                                    const float *const *w,
+                                                    const EtendueSampleColumns *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_spot_light_by_delta_sample_each(const EtendueSpotLightColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *u,
+                                                      const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_spot_light_by_delta_pdf_each(const EtendueSpotLightColumns *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_spot_light_by_delta_invert_each(const EtendueSpotLightColumns *lights,
+                                                      size_t n,
+                                                      const float *const *p,
+                                                      const float *const *w,
+                                                      float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_spot_light_by_delta_hit_each(const EtendueSpotLightColumns *lights,
+                                                   size_t n,
+                                                   const float *const *p,
+                                                   const float *const *w,
+                                                   const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point.
+EtendueStatus etendue_directional_light_by_delta_prepare(const EtendueDirectionalLight *light,
+                                                         const float *p,
+                                                         EtendueDirectionalLightByDelta *out);
+
+// Draws a direction for u.
+EtendueStatus etendue_directional_light_by_delta_sample(const EtendueDirectionalLightByDelta *sampler,
+                                                        const float *u,
+                                                        EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_directional_light_by_delta_pdf(const EtendueDirectionalLightByDelta *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_directional_light_by_delta_invert(const EtendueDirectionalLightByDelta *sampler,
+                                                        const float *w,
+                                                        float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_directional_light_by_delta_hit(const EtendueDirectionalLightByDelta *sampler,
+                                                     const float *w,
+                                                     EtendueLightSample *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_directional_light_by_delta_sample_once(const EtendueDirectionalLight *light,
+                                                             const float *p,
+                                                             const float *u,
+                                                             EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_directional_light_by_delta_sample_batch(const EtendueDirectionalLightByDelta *sampler,
+                                                              size_t n,
+                                                              const float *const *u,
+                                                              const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_directional_light_by_delta_pdf_batch(const EtendueDirectionalLightByDelta *sampler,
+                                                           size_t n,
+                                                           const float *const *w,
+                                                           float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_directional_light_by_delta_invert_batch(const EtendueDirectionalLightByDelta *sampler,
+                                                              size_t n,
+                                                              const float *const *w,
+                                                              float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_directional_light_by_delta_hit_batch(const EtendueDirectionalLightByDelta *sampler,
+                                                           size_t n,
+                                                           const float *const *w,
+                                                           const EtendueSampleColumns *out);
+
+// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
+EtendueStatus etendue_directional_light_by_delta_sample_each(const EtendueDirectionalLightColumns *lights,
+                                                             size_t n,
+                                                             const float *const *p,
+                                                             const float *const *u,
+                                                             const EtendueSampleColumns *out);
+
+// The pdf of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_directional_light_by_delta_pdf_each(const EtendueDirectionalLightColumns *lights,
+                                                          size_t n,
+                                                          const float *const *p,
+                                                          const float *const *w,
+                                                          float *out);
+
+// The random numbers of a unit direction for each shading point, towards a light of its own: all in columns.
+EtendueStatus etendue_directional_light_by_delta_invert_each(const EtendueDirectionalLightColumns *lights,
+                                                             size_t n,
+                                                             const float *const *p,
+                                                             const float *const *w,
+                                                             float *const *u);
+
+// The nearest point of a light of its own for each shading point in a unit direction: all in columns.
+EtendueStatus etendue_directional_light_by_delta_hit_each(const EtendueDirectionalLightColumns *lights,
+                                                          size_t n,
+                                                          const float *const *p,
+                                                          const float *const *w,
+                                                          const EtendueSampleColumns *out);
 
 // Independent random numbers: a counter, hashed.
 //

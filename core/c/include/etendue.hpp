@@ -8,8 +8,8 @@
 //
 // - Numbers: Vec3, Vec2. A vector class of the host that has members x, y, z, or an array of three floats, converts to Vec3. Vec3 converts
 //   to every class with such members or an operator[] that three floats initialise: T{x, y, z}. The same holds for Vec2.
-// - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, Cylinder, BilinearPatch, Polygon, Line, Sun. Their methods by_... prepare
-//   them for a shading point.
+// - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, Cylinder, BilinearPatch, Polygon, Line, Annulus, Sun, PointLight, SpotLight,
+//   DirectionalLight. Their methods by_... prepare them for a shading point.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
 //   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
 // - Warps, sequences and LightTree.
@@ -416,6 +416,9 @@ ETENDUE_ANYWHERE(LineByAngle, Line, etendue_line_by_angle)
 ETENDUE_ON_SURFACE(LineByProjectedSolidAngle, Line, etendue_line_by_projected_solid_angle)
 ETENDUE_ANYWHERE(AnnulusByArea, Annulus, etendue_annulus_by_area)
 ETENDUE_ANYWHERE(SunBySolidAngle, Sun, etendue_sun_by_solid_angle)
+ETENDUE_ANYWHERE(PointLightByDelta, PointLight, etendue_point_light_by_delta)
+ETENDUE_ANYWHERE(SpotLightByDelta, SpotLight, etendue_spot_light_by_delta)
+ETENDUE_ANYWHERE(DirectionalLightByDelta, DirectionalLight, etendue_directional_light_by_delta)
 
 using SphereColumns = LightColumns<EtendueSphereColumns>;
 using TriangleColumns = LightColumns<EtendueTriangleColumns>;
@@ -428,6 +431,9 @@ using BilinearPatchColumns = LightColumns<EtendueBilinearPatchColumns>;
 using LineColumns = LightColumns<EtendueLineColumns>;
 using AnnulusColumns = LightColumns<EtendueAnnulusColumns>;
 using SunColumns = LightColumns<EtendueSunColumns>;
+using PointLightColumns = LightColumns<EtenduePointLightColumns>;
+using SpotLightColumns = LightColumns<EtendueSpotLightColumns>;
+using DirectionalLightColumns = LightColumns<EtendueDirectionalLightColumns>;
 
 // EtendueSphere with its constructors and techniques.
 struct Sphere : EtendueSphere {
@@ -510,6 +516,21 @@ struct Sun : EtendueSun {
     Sun(Vec3 direction_, float one_minus_cos_) : EtendueSun{{direction_.x, direction_.y, direction_.z}, one_minus_cos_} {}
     // The same at every point.
     SunBySolidAngle by_solid_angle() const { return {*this, Vec3()}; }
+};
+// EtenduePointLight with its constructors and techniques.
+struct PointLight : EtenduePointLight {
+    PointLight(Vec3 position_) : EtenduePointLight{{position_.x, position_.y, position_.z}} {}
+    PointLightByDelta by_delta(Vec3 at) const { return {*this, at}; }
+};
+// EtendueSpotLight with its constructors and techniques.
+struct SpotLight : EtendueSpotLight {
+    SpotLight(Vec3 position_, Vec3 axis_, float cos_inner_, float cos_outer_) : EtendueSpotLight{{position_.x, position_.y, position_.z}, {axis_.x, axis_.y, axis_.z}, cos_inner_, cos_outer_} {}
+    SpotLightByDelta by_delta(Vec3 at) const { return {*this, at}; }
+};
+// EtendueDirectionalLight with its constructors and techniques.
+struct DirectionalLight : EtendueDirectionalLight {
+    DirectionalLight(Vec3 direction_) : EtendueDirectionalLight{{direction_.x, direction_.y, direction_.z}} {}
+    DirectionalLightByDelta by_delta(Vec3 at) const { return {*this, at}; }
 };
 // end of what is from the list
 

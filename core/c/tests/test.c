@@ -218,7 +218,10 @@ typedef struct {
     T(LineByAngle, Line, line_by_angle, 0) \
     T(LineByProjectedSolidAngle, Line, line_by_projected_solid_angle, 1) \
     T(AnnulusByArea, Annulus, annulus_by_area, 0) \
-    T(SunBySolidAngle, Sun, sun_by_solid_angle, 0)
+    T(SunBySolidAngle, Sun, sun_by_solid_angle, 0) \
+    T(PointLightByDelta, PointLight, point_light_by_delta, 0) \
+    T(SpotLightByDelta, SpotLight, spot_light_by_delta, 0) \
+    T(DirectionalLightByDelta, DirectionalLight, directional_light_by_delta, 0)
 // end of what is from the list
 
 static const float Sphere[] = {0.3f, 2, 0.1f, 0.5f};
@@ -233,6 +236,9 @@ static const float Polygon[] = {-0.5f, 2, -0.3f, 0.6f, 2, -0.4f, 0.9f, 2, 0.4f, 
 static const float Line[] = {-1, 2, 0.3f, 2, 0.1f, 0.2f};
 static const float Annulus[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.5f, 0.3f};
 static const float Sun[] = {0.36f, 0.8f, 0.48f, 1e-3f};
+static const float PointLight[] = {0.3f, 2, 0.1f};
+static const float SpotLight[] = {0.3f, 2, 0.1f, 0, -1, 0, 0.9f, 0.5f};
+static const float DirectionalLight[] = {0.36f, 0.8f, 0.48f};
 
 #define WRITE_FUNCTIONS(NAME, LIGHT, PREFIX, ON_SURFACE) FUNCTIONS_##ON_SURFACE(NAME, LIGHT, PREFIX)
 TECHNIQUES(WRITE_FUNCTIONS)
@@ -276,10 +282,13 @@ static float difference(const float *a, const float *b, int count) {
     return most;
 }
 
-// Whether the pdf of a sample is that of its direction, bit for bit: not of a point of a curved light, nor of a line.
+static int is_delta(const Technique *t) {
+    return strstr(t->name, "by_delta") != NULL;
+}
+// Whether the pdf of a sample is that of its direction, bit for bit: not of a point of a curved light, nor of a line or a delta light.
 static int is_closed(const Technique *t) {
     const int is_curved = t->light == Sphere || t->light == Cylinder || t->light == BilinearPatch;
-    return t->light != Line && !(is_curved && strstr(t->name, "by_area"));
+    return t->light != Line && !is_delta(t) && !(is_curved && strstr(t->name, "by_area"));
 }
 
 static float u_numbers[2][MOST], w_numbers[3][MOST], p_numbers[3][MOST], n_numbers[3][MOST];
@@ -299,8 +308,10 @@ static void test_values(const Technique *t, const float *sampler) {
         CHECK(fabsf(length - 1) < 1e-6f);
         const float pdf = t->pdf(sampler, s.direction);
         if (is_closed(t)) CHECK(same(pdf, s.pdf));
-        // rays do not hit lines
+        // rays do not hit lines, and delta lights have no density
+        CHECK(pdf > 0 || is_delta(t) || !is_closed(t));
         CHECK(t->hit(sampler, s.direction, &hit) == OK && is_finite(&hit) && same(hit.pdf, t->light == Line ? 0 : pdf));
+        if (is_delta(t)) CHECK(pdf == 0 && s.weight > 0);
         CHECK(t->invert(sampler, s.direction, back) == OK);
         CHECK(back[0] >= 0 && back[0] < 1 && back[1] >= 0 && back[1] < 1);
         if (pdf > 0) {
@@ -318,7 +329,8 @@ static void test_values(const Technique *t, const float *sampler) {
     CHECK(t->pdf(sampler, down) == 0);
     CHECK(t->hit(sampler, down, &s) == OK && is_finite(&s) && s.pdf == 0 && s.weight == 0);
     CHECK(t->prepare(nothing, origin, up, degenerate) == OK);
-    CHECK(t->sample(degenerate, u, &s) == OK && is_finite(&s) && s.pdf == 0 && s.weight == 0);
+    // a delta light has none anyway
+    CHECK(t->sample(degenerate, u, &s) == OK && is_finite(&s) && (is_delta(t) || (s.pdf == 0 && s.weight == 0)));
 }
 
 // Batches equal single calls, at all sizes, with unaligned columns, with results in the place of inputs and with some results absent.

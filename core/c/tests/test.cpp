@@ -38,11 +38,11 @@ static const Vec2 u = {0.3f, 0.6f};
 
 // One prepared light: singles agree with each other, and batches with singles.
 template <class Sampler>
-static void test(const Sampler& sampler, bool is_line = false) {
+static void test(const Sampler& sampler, bool is_never_hit = false) {
     const LightSample s = sampler.sample(u);
     CHECK(s.pdf > 0);
     const Vec3 w = s.direction;
-    CHECK(is_line || (sampler.pdf(w) > 0 && sampler.hit(w).pdf == sampler.pdf(w)));
+    CHECK(is_never_hit || (sampler.pdf(w) > 0 && sampler.hit(w).pdf == sampler.pdf(w)));
     CHECK(near(Vec3(sampler.sample(sampler.invert(w)).direction), w));
 
     std::vector<float> x(37), y(37), a(37), b(37), c(37), pdf(37), back(37), front(37), other(36);
@@ -108,6 +108,10 @@ static void test_lights() {
     test(line.by_length(p), true), test(line.by_angle(p), true), test(line.by_projected_solid_angle(p, n), true);
     test(Annulus({0.3f, 2, 0.1f}, {0, -1, 0}, 0.5f, 0.3f).by_area(p));
     test(Sun({0.36f, 0.8f, 0.48f}, 1e-3f).by_solid_angle());
+    // delta lights: no direction hits them
+    test(PointLight({0.3f, 2, 0.1f}).by_delta(p), true);
+    test(SpotLight({0.3f, 2, 0.1f}, {0, -1, 0}, 0.9f, 0.5f).by_delta(p), true);
+    test(DirectionalLight({0.36f, 0.8f, 0.48f}).by_delta(p), true);
 
     // the same light for each point, in columns
     std::vector<float> zeros(5), ones(5, 1), twos(5, 2), x(5), y(5), pdf(5), shorter(4), p0(5, 0.1f), p2(5, -0.2f);

@@ -23,7 +23,11 @@ LIGHTS = {
     et.Line: ([0, 1.5, 0.2], [1, 0.2, 0]),
     et.Annulus: ([0, 1.5, 0.2], [0, -1, 0], 0.5, 0.3),
     et.Sun: ([0, 1, 0], 0.01),
+    et.PointLight: ([0.2, 1.5, 0.1],),
+    et.SpotLight: ([0, 1.5, 0.2], [0, -1, 0], 0.9, 0.5),
+    et.DirectionalLight: ([0, 1, 0],),
 }
+DISTANT = (et.Sun, et.DirectionalLight)
 ON_SURFACE = {"projected_solid_angle", "cosine_warp"}
 TECHNIQUES = [(light, name[3:]) for light in LIGHTS for name in dir(light) if name.startswith("by_")]
 # a rounded direction determines the pdf and the numbers of these only as well as it determines the point
@@ -81,6 +85,19 @@ def test_every_technique_is_here():
 # closed forms
 
 
+def test_delta_lights():
+    to = np.array([0.2, 1.5, 0.1]) - P
+    point = et.PointLight([0.2, 1.5, 0.1]).by_delta(P).sample([0.3, 0.6])
+    np.testing.assert_allclose(point.direction, to / np.linalg.norm(to), rtol=1e-6)
+    assert point.weight == pytest.approx(1 / (to @ to)) and point.distance == pytest.approx(np.linalg.norm(to))
+    # full in the inner cone, half as bright where the cosine is in the middle of both, and dark outside
+    for cosines, part in (((0.9, 0.5), 1), ((1, 2 * 1.3 / np.linalg.norm([0.1, 1.3, 0.1]) - 1), 0.5), ((0.9999, 0.9998), 0)):
+        spot = et.SpotLight([0, 1.5, 0.2], [0, -1, 0], *cosines).by_delta(P).sample([0.3, 0.6])
+        assert spot.weight * 1.71 == pytest.approx(part, rel=1e-4)
+    sun = et.DirectionalLight([0, 1, 0]).by_delta(P).sample([0.3, 0.6])
+    assert sun.direction.tolist() == [0, 1, 0] and sun.weight == 1 and sun.distance == np.finfo(np.float32).max
+
+
 def test_solid_angle_of_a_triangle():
     a, b, c = (np.array(v) - P for v in TRIANGLE)
     la, lb, lc = (np.linalg.norm(v) for v in (a, b, c))
@@ -127,8 +144,8 @@ def test_form_factors_of_a_sphere_and_a_disk():
 
 @each_technique
 def test_the_pdf_integrates_to_1(light, by):
-    if light is et.Line:
-        pytest.skip("no direction hits a line")
+    if light is et.Line or by == "delta":
+        pytest.skip("no direction hits a line or a delta light")
     # over a cone about the light
     target = {et.Sun: [0, 1, 0]}.get(light, prepare(light, by).sample(et.OwenSobol().pairs(256)).direction.mean(axis=0))
     frame = np.linalg.qr(np.column_stack([target, [1, 0, 0], [0, 0, 1]]))[0]
@@ -159,6 +176,10 @@ def test_closed(light, by):
     if (light, by) in {(et.Sphere, "area"), (et.Cylinder, "area")}:
         u, s = u[s.emits], sampler.sample(u[s.emits])
     back = sampler.invert(s.direction)
+    if by == "delta":
+        assert same(s, sampler.sample(u[::-1])) and s.emits.all() and (s.weight * s.pdf == pytest.approx(1))
+        assert not sampler.pdf(s.direction).any() and not sampler.hit(s.direction).weight.any() and not back.any()
+        return
     if light is et.Line:
         u, back = u[:, 0], back[:, 0]
     inner = np.ones(len(s.pdf), bool)
@@ -315,8 +336,8 @@ def test_any_numbers_at_all(light, by):
     count = 3000
     with np.errstate(all="ignore"):
         fields = [rng.choice(special, (count, *np.shape(f))) for f in LIGHTS[light]]
-        if light in (et.Disk, et.Annulus, et.Sun):
-            k = 0 if light is et.Sun else 1
+        if light in (et.Disk, et.Annulus, et.SpotLight, *DISTANT):
+            k = 0 if light in DISTANT else 1
             fields[k] = rng.choice(np.float32([[0, 0, 1], [0, 0, 0], [np.nan, 0, 0], [0.6, 0, 0.8]]), count)
         p = rng.choice(special, (count, 3))
         s = light.sample_each(*fields, p=p, u=rng.random((count, 2)), n=[0, 0, 1], by=by)
@@ -407,7 +428,7 @@ def test_wrong_arguments(call, kind, message):
 # what a host does wrong at first
 
 
-@pytest.mark.parametrize("light, by", [t for t in TECHNIQUES if t[0] not in (et.Line, et.Sun)], ids=lambda x: getattr(x, "__name__", x))
+@pytest.mark.parametrize("light, by", [t for t in TECHNIQUES if t[0] not in (et.Line, *DISTANT)], ids=lambda x: getattr(x, "__name__", x))
 def test_a_point_on_the_light(light, by):
     first = np.array(LIGHTS[light][0], np.float32)
     if light is et.BilinearPatch:
@@ -441,8 +462,8 @@ def test_normals():
 
 @each_technique
 def test_directions_from_points(light, by):
-    if light in (et.Line, et.Sun):
-        pytest.skip("no direction hits a line, and a sun has no points")
+    if light in (et.Line, et.Sun) or by == "delta":
+        pytest.skip("no direction hits a line or a delta light, and a sun has no points")
     u = 0.02 + 0.96 * et.OwenSobol(4).pairs(4096)
     sampler = prepare(light, by)
     s = sampler.sample(u)

@@ -14,41 +14,59 @@ fn inverse_square<R: Real>(distance: R) -> R {
     squared.keep(squared.lt(R::lit(1e37)))
 }
 
-#[inline(always)]
-fn delta<R: Real>(DirectionSample { direction, distance }: DirectionSample<R>, pdf: R) -> LightSample<R> {
-    let (emits, delta) = (pdf.gt(R::lit(0.0)), R::Mask::splat(true));
-    LightSample { distance, pdf, emits, delta, ..LightSample::miss(direction) }
-}
+/// A delta light prepared for a shading point.
+macro_rules! by_delta {
+    ($(#[$doc:meta])+ $name:ident) => {
+        lanewise! {
+            $(#[$doc])+
+            ///
+            /// Every `u` gives the same sample, and no other technique hits the light: its weight in multiple importance sampling is 1. Its
+            /// density is a delta distribution, so that [`pdf`](LightSampler::pdf) returns 0.
+            pub struct $name {
+                origin: Vec3<R>,
+                direction: Vec3<R>,
+                distance: R,
+                pdf: R,
+            }
+        }
 
-/// A light of one direction, prepared for a shading point: every `u` gives the same sample, and no other technique hits it.
-#[derive(Clone, Copy, Debug)]
-pub struct DeltaSampler<R: Real> {
-    origin: Vec3<R>,
-    sample: LightSample<R>,
+        impl<R: Real> LightSampler<R> for $name<R> {
+            #[inline(always)]
+            fn sample(&self, _: Vec2<R>) -> LightSample<R> {
+                let Self { direction, distance, pdf, .. } = *self;
+                let (emits, delta) = (pdf.gt(R::lit(0.0)), R::Mask::splat(true));
+                LightSample { distance, pdf, emits, delta, ..LightSample::miss(direction) }
+            }
+            #[inline(always)]
+            fn pdf(&self, _: Vec3<R>) -> R {
+                R::lit(0.0)
+            }
+            #[inline(always)]
+            fn invert(&self, _: Vec3<R>) -> Vec2<R> {
+                Vec2::lit([0.0, 0.0])
+            }
+            #[inline(always)]
+            fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+                LightSample::miss(w)
+            }
+            #[inline(always)]
+            fn origin(&self) -> Vec3<R> {
+                self.origin
+            }
+        }
+    };
 }
-
-impl<R: Real> LightSampler<R> for DeltaSampler<R> {
-    #[inline(always)]
-    fn sample(&self, _: Vec2<R>) -> LightSample<R> {
-        self.sample
-    }
-    /// 0: a delta light has no density.
-    #[inline(always)]
-    fn pdf(&self, _: Vec3<R>) -> R {
-        R::lit(0.0)
-    }
-    #[inline(always)]
-    fn invert(&self, _: Vec3<R>) -> Vec2<R> {
-        Vec2::lit([0.0, 0.0])
-    }
-    #[inline(always)]
-    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
-        LightSample::miss(w)
-    }
-    #[inline(always)]
-    fn origin(&self) -> Vec3<R> {
-        self.origin
-    }
+by_delta! {
+    /// A [`PointLight`] prepared for a shading point; its samples have pdf distance², which is no density.
+    PointLightByDelta
+}
+by_delta! {
+    /// A [`SpotLight`] prepared for a shading point; its samples have pdf distance²/falloff, which is no density.
+    SpotLightByDelta
+}
+by_delta! {
+    /// A [`DirectionalLight`]; its samples have pdf 1, which is no density.
+    DirectionalLightByDelta
 }
 
 lanewise! {
@@ -70,9 +88,9 @@ impl<R: Real> PointLight<R> {
     }
     /// Prepared for the shading point `p`. `pdf` is distance², which is no density: it makes f·I·cosθ/pdf what arrives.
     #[inline(always)]
-    pub fn prepare(&self, p: Vec3<R>) -> DeltaSampler<R> {
-        let to = direction_to(self.position - p);
-        DeltaSampler { origin: p, sample: delta(to, inverse_square(to.distance)) }
+    pub fn by_delta(&self, p: Vec3<R>) -> PointLightByDelta<R> {
+        let DirectionSample { direction, distance } = direction_to(self.position - p);
+        PointLightByDelta { origin: p, direction, distance, pdf: inverse_square(distance) }
     }
 }
 
@@ -106,12 +124,12 @@ impl<R: Real> SpotLight<R> {
     }
     /// Prepared for the shading point `p`. `pdf` is distance²/falloff, which is no density: it makes f·I·cosθ/pdf what arrives.
     #[inline(always)]
-    pub fn prepare(&self, p: Vec3<R>) -> DeltaSampler<R> {
-        let to = direction_to(self.position - p);
-        let falloff = self.falloff(-to.direction);
+    pub fn by_delta(&self, p: Vec3<R>) -> SpotLightByDelta<R> {
+        let DirectionSample { direction, distance } = direction_to(self.position - p);
+        let falloff = self.falloff(-direction);
         let some = falloff.gt(R::lit(0.0));
-        let pdf = inverse_square(to.distance) / R::blend(some, falloff, R::lit(1.0));
-        DeltaSampler { origin: p, sample: delta(to, pdf.keep(some & pdf.lt(R::lit(1e37)))) }
+        let pdf = inverse_square(distance) / R::blend(some, falloff, R::lit(1.0));
+        SpotLightByDelta { origin: p, direction, distance, pdf: pdf.keep(some & pdf.lt(R::lit(1e37))) }
     }
 }
 
@@ -131,10 +149,10 @@ impl<R: Real> DirectionalLight<R> {
     pub fn new(direction: Vec3<R>) -> Self {
         Self { direction }
     }
-    /// Prepared for any shading point `p`. `pdf` is 1.
+    /// Prepared for the shading point `p`; all points have the same samples. `pdf` is 1.
     #[inline(always)]
-    pub fn prepare(&self, p: Vec3<R>) -> DeltaSampler<R> {
-        let to = DirectionSample { direction: self.direction, distance: R::lit(FAR) };
-        DeltaSampler { origin: p, sample: delta(to, R::lit(1.0)) }
+    pub fn by_delta(&self, p: Vec3<R>) -> DirectionalLightByDelta<R> {
+        let (distance, pdf) = (R::lit(FAR), R::lit(1.0));
+        DirectionalLightByDelta { origin: p, direction: self.direction, distance, pdf }
     }
 }

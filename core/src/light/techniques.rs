@@ -196,6 +196,41 @@ macro_rules! techniques {
                 /// Uniform over the cone: pdf 1/(2π(1 − cosσ)) per steradian, 0 where the cone is empty.
                 SunBySolidAngle = EtendueSunBySolidAngle, sun_by_solid_angle[10]: by_solid_angle() solid_angle;
             }
+            /// A point light, that emits the same intensity I in all directions. The estimator is f · I · cosθ · weight. No direction
+            /// hits it: its weight in multiple importance sampling is 1.
+            PointLight = EtenduePointLight, EtenduePointLightColumns {
+                /// Position, in the coordinates of the scene.
+                position as position: point,
+            } by "delta" {
+                /// Its one direction, whatever the random numbers. The pdf of a sample is distance², which is no density; that of a
+                /// direction is 0.
+                PointLightByDelta = EtenduePointLightByDelta, point_light_by_delta[8]: by_delta(p);
+            }
+            /// A spot light: a point light that emits into a cone, with the intensity I on its axis. The estimator is f · I · cosθ · weight.
+            /// No direction hits it: its weight in multiple importance sampling is 1.
+            SpotLight = EtendueSpotLight, EtendueSpotLightColumns {
+                /// Position, in the coordinates of the scene.
+                position as position: point,
+                /// Unit vector along which the light travels.
+                axis as axis: direction,
+                /// Cosine of the angle to the axis up to which the intensity is I.
+                cos_inner as cos_inner: number,
+                /// Cosine of the angle from which it is 0; less than the other one.
+                cos_outer as cos_outer: number,
+            } by "delta" {
+                /// Its one direction, whatever the random numbers. The pdf of a sample is distance² over the part of I that is emitted
+                /// there, which is no density, and 0 outside of the cone; that of a direction is 0.
+                SpotLightByDelta = EtendueSpotLightByDelta, spot_light_by_delta[8]: by_delta(p);
+            }
+            /// A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The
+            /// estimator is f · E · cosθ · weight. No direction hits it: its weight in multiple importance sampling is 1.
+            DirectionalLight = EtendueDirectionalLight, EtendueDirectionalLightColumns {
+                /// Unit vector towards the light.
+                direction as direction: direction,
+            } by "delta" {
+                /// Its one direction, whatever the random numbers. The pdf of a sample is 1, which is no density; that of a direction is 0.
+                DirectionalLightByDelta = EtendueDirectionalLightByDelta, directional_light_by_delta[8]: by_delta(p);
+            }
         }
     };
 }

@@ -96,12 +96,12 @@ impl Routine for Distant {
                 [vectors_of(|i| places[i].0), vectors_of(|i| places[i].1), vectors_of(|i| places[i].2)];
             let cosine = |k: usize| lanes_of::<R>(|i| f64::from(places[i].3[k]));
             let all: Box<dyn LightSampler<R>> = match self.0 {
-                0 => Box::new(PointLight { position }.prepare(p)),
+                0 => Box::new(PointLight { position }.by_delta(p)),
                 1 => {
                     let (cos_inner, cos_outer) = (cosine(0), cosine(1) * R::lit(0.5));
-                    Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.prepare(p))
+                    Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.by_delta(p))
                 }
-                2 => Box::new(DirectionalLight::new(n).prepare(p)),
+                2 => Box::new(DirectionalLight::new(n).by_delta(p)),
                 3 => Box::new(Sun::new(n, cosine(0)).by_solid_angle()),
                 4 => Box::new(ConstantEnvironment.by_solid_angle()),
                 _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),

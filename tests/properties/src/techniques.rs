@@ -6,8 +6,8 @@ use crate::tolerances::ULP;
 use core::f64::consts::{PI, TAU};
 use core::fmt::Debug;
 use etendue::{
-    Annulus, BilinearPatch, Cylinder, Disk, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real,
-    Rectangle, Sphere, Sun, Triangle, Vec2, Vec3, f32x8, f32x16,
+    Annulus, BilinearPatch, Cylinder, DirectionalLight, Disk, LightSample, LightSampler, Line, Mask, Parallelogram,
+    PointLight, Polygon, Real, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, f32x8, f32x16,
 };
 use etendue_oracle::{V3, along, cross, dot, length, sub, wide};
 
@@ -195,6 +195,12 @@ pub enum LightShape {
     Annulus,
     /// Towards `b`, with the radius as 1 − cos of its angle.
     Sun,
+    /// At `a`.
+    PointLight,
+    /// At `a`, with axis `b`, and the radius as the cosine of its outer angle.
+    SpotLight,
+    /// Towards `b`.
+    DirectionalLight,
 }
 impl LightShape {
     /// Whether `b` is a unit normal.
@@ -214,6 +220,8 @@ pub enum Measure {
     ProjectedSolidAngle,
     /// Measure solid angle, warped towards the cosine to `n`.
     CosineWarp,
+    /// One direction.
+    Delta,
 }
 
 /// Any light with a surface.
@@ -266,6 +274,9 @@ macro_rules! measure {
     (by_cosine_warp) => {
         Measure::CosineWarp
     };
+    (by_delta) => {
+        Measure::Delta
+    };
 }
 macro_rules! techniques {
     ($(
@@ -314,11 +325,14 @@ placed! {
     Line: |v, _| Self::new(v[1], v[2]);
     Annulus: |v, radius| Self::new(v[1], v[2], radius, radius * R::lit(0.5));
     Sun: |v, radius| Self::new(v[2], radius);
+    PointLight: |v, _| Self::new(v[1]);
+    SpotLight: |v, radius| Self { position: v[1], axis: v[2], cos_inner: R::lit(1.0), cos_outer: radius };
+    DirectionalLight: |v, _| Self::new(v[2]);
 }
 
 impl AreaLight {
-    /// All shapes with a surface by all techniques: all of the core's list but the sun, which is last.
-    pub const KINDS: &[(LightShape, Measure)] = KINDS.split_last().unwrap().1;
+    /// All shapes with a surface by all techniques: all of the core's list but the sun and the delta lights, which are last.
+    pub const KINDS: &[(LightShape, Measure)] = KINDS.split_at(KINDS.len() - 4).0;
     /// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
     #[must_use]
     pub fn any(kind: usize, round: u32, random: &mut Random) -> Self {
@@ -435,7 +449,12 @@ impl LightFixture for AreaLight {
             }
             // what is across the direction
             LightShape::Line => (cross(b, cross(w, b)), length(b), 0.0),
-            LightShape::Polygon | LightShape::Patch | LightShape::Sun => return None,
+            LightShape::Polygon
+            | LightShape::Patch
+            | LightShape::Sun
+            | LightShape::PointLight
+            | LightShape::SpotLight
+            | LightShape::DirectionalLight => return None,
         };
         // what is subnormal has few digits: so has an edge in units of another that is so much longer
         let flat = matches!(self.shape, LightShape::Triangle | LightShape::Parallelogram | LightShape::Rectangle);

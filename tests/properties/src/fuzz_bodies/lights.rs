@@ -75,12 +75,12 @@ impl LightFixture for Distant {
         let number = |pick: fn(&Self) -> f32| -> R { properties::lanes_of(|i| f64::from(pick(&of(i)))) };
         let (p, position, n) = (vector(|d| d.p), vector(|d| d.a), vector(|d| d.n));
         match lanes[0].kind {
-            0 => Box::new(PointLight { position }.prepare(p)),
+            0 => Box::new(PointLight { position }.by_delta(p)),
             1 => {
                 let (cos_inner, cos_outer) = (number(|d| d.x), number(|d| d.y));
-                Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.prepare(p))
+                Box::new(SpotLight { position, axis: n, cos_inner, cos_outer }.by_delta(p))
             }
-            2 => Box::new(DirectionalLight::new(n).prepare(p)),
+            2 => Box::new(DirectionalLight::new(n).by_delta(p)),
             3 => Box::new(Sun::new(n, number(|d| d.x)).by_solid_angle()),
             4 => Box::new(ConstantEnvironment.by_solid_angle()),
             _ => Box::new(ConstantEnvironment.by_projected_solid_angle(n)),

@@ -81,10 +81,10 @@ impl Lamp {
         };
         let position = self.a.into();
         match self.kind {
-            LampKind::Point => Some(PointLight { position }.prepare(p.into()).sample(squares_of(&[u]))).filter(shines),
+            LampKind::Point => Some(PointLight { position }.by_delta(p.into()).sample(squares_of(&[u]))).filter(shines),
             LampKind::Spot => {
                 let light = SpotLight { position, axis: self.b.into(), cos_inner: self.c[0], cos_outer: self.c[1] };
-                Some(light.prepare(p.into()).sample(squares_of(&[u]))).filter(shines)
+                Some(light.by_delta(p.into()).sample(squares_of(&[u]))).filter(shines)
             }
             LampKind::Area(shape) => {
                 let Self { a, b, c, radius, .. } = *self;
