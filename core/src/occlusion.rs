@@ -32,16 +32,16 @@
 //! Nanoseconds per point, one at a time and in packets of 8. A blocker beside the light takes a quarter of the time of one before it.
 //!
 //! <!-- table: visible -->
-//! AMD EPYC, x86-64-v3, 2026-11-24.
+//! AMD EPYC, x86-64-v3, 2026-11-25.
 //!
 //! | light | blockers | x1 | x8 |
 //! |---|---|---|---|
-//! | polygon | none | 107.7 | 13.8 |
-//! |  | a polygon before it | 407.2 | 69.7 |
-//! |  | 4 polygons, 1 before it | 743.8 | 131.4 |
-//! |  | a sphere before it | 247.2 | 45.9 |
-//! | sphere | none | 14.4 | 1.91 |
-//! |  | a polygon before it | 329.2 | 49.0 |
+//! | polygon | none | 114.4 | 14.6 |
+//! |  | a polygon before it | 442.9 | 74.7 |
+//! |  | 4 polygons, 1 before it | 805.0 | 139.7 |
+//! |  | a sphere before it | 251.8 | 47.0 |
+//! | sphere | none | 14.7 | 1.94 |
+//! |  | a polygon before it | 349.1 | 49.7 |
 //! <!-- end of table -->
 
 mod cap;

@@ -172,6 +172,9 @@ fn lights() -> Vec<Vec<Cell>> {
         "", "angle", "line by angle";
         "", "projected solid angle", "line by projected solid angle";
         "sun", "solid angle", "sun by solid angle";
+        "point light", "delta", "point light by delta";
+        "spot light", "delta", "spot light by delta";
+        "directional light", "delta", "directional light by delta";
     ]
 }
 
