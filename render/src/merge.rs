@@ -202,10 +202,10 @@ pub fn merge(files: &[PathBuf], goal: MergeGoal, progress: &(dyn Fn(u64) + Sync)
         return Err(format!("the {what} lacks {count} part(s){help}:\n{}", list(gaps.iter().map(line).collect())));
     }
     let merged = if pilots {
-        let pieces = read_pieces(&used, &progress)?;
+        let pieces = read_pieces(&used, progress)?;
         if goal == MergeGoal::Part { Merged::Part(pieces) } else { Merged::Part(vec![allot(&frame, pieces)?]) }
     } else {
-        join(&used, &cells, &frame, goal, &progress)?
+        join(&used, &cells, &frame, goal, progress)?
     };
     let (used, duplicates) = (used.len(), duplicates.into_iter().map(|file| file.path.clone()).collect());
     Ok(MergeOutcome { frame, merged, used, duplicates, gaps })

@@ -1,5 +1,6 @@
 //! Numbers of single and double precision, and packets of them.
 
+use super::uint::lanes;
 use super::{Mask, MaskF64X4, MaskX4, MaskX8, MaskX16, Real, fused};
 use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, u32x4, u32x8, u32x16, u64x4};
 
@@ -196,13 +197,8 @@ macro_rules! packet_real {
                 $packet::splat(value as $scalar)
             }
             #[inline(always)]
-            fn from_fn(mut f: impl FnMut(usize) -> $scalar) -> Self {
-                // compiles in a third of the time that `array::from_fn` takes
-                let mut lanes = [0.0; $lanes];
-                for (i, lane) in lanes.iter_mut().enumerate() {
-                    *lane = f(i);
-                }
-                $packet::new(lanes)
+            fn from_fn(f: impl FnMut(usize) -> $scalar) -> Self {
+                $packet::new(lanes(f))
             }
             #[inline(always)]
             fn lane(self, i: usize) -> $scalar {

@@ -51,6 +51,16 @@ impl Uint for u32 {
     }
 }
 
+/// The lanes of a packet. `array::from_fn` would do, but it is several functions for each closure, and packets have very many closures.
+#[inline(always)]
+pub(super) fn lanes<T: Copy + Default, const N: usize>(mut f: impl FnMut(usize) -> T) -> [T; N] {
+    let mut lanes = [T::default(); N];
+    for (i, lane) in lanes.iter_mut().enumerate() {
+        *lane = f(i);
+    }
+    lanes
+}
+
 macro_rules! packet_uint {
     ($vector:ident, $lanes:literal) => {
         impl Uint for $vector {
@@ -60,12 +70,8 @@ macro_rules! packet_uint {
                 $vector::splat(value)
             }
             #[inline(always)]
-            fn from_fn(mut f: impl FnMut(usize) -> u32) -> Self {
-                let mut lanes = [0; $lanes];
-                for (i, lane) in lanes.iter_mut().enumerate() {
-                    *lane = f(i);
-                }
-                $vector::new(lanes)
+            fn from_fn(f: impl FnMut(usize) -> u32) -> Self {
+                $vector::new(lanes(f))
             }
             #[inline(always)]
             fn lane(self, i: usize) -> u32 {

@@ -163,7 +163,7 @@ impl<R: Real> SphericalRectangle<R> {
     #[inline(always)]
     pub fn new(p: Vec3<R>, u: Vec3<R>, v: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        // lengths in a unit near to the largest; so that every point of the rectangle has a finite distance
+        // the unit of length is a power of two near the largest length; every point of the rectangle must have a finite distance
         let reach = p.max_abs().greater(u.max_abs()).greater(v.max_abs());
         let sum = p.max_abs() + u.max_abs() + v.max_abs();
         let finite = (sum + sum).lt(R::lit(f64::INFINITY));

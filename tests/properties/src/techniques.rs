@@ -332,7 +332,11 @@ placed! {
 
 impl AreaLight {
     /// All shapes with a surface by all techniques: all of the core's list but the sun and the delta lights, which are last.
-    pub const KINDS: &[(LightShape, Measure)] = KINDS.split_at(KINDS.len() - 4).0;
+    pub const KINDS: &[(LightShape, Measure)] = {
+        let (with_surface, rest) = KINDS.split_at(KINDS.len() - 4);
+        assert!(matches!(rest[0].0, LightShape::Sun));
+        with_surface
+    };
     /// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
     #[must_use]
     pub fn any(kind: usize, round: u32, random: &mut Random) -> Self {
