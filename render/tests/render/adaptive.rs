@@ -114,5 +114,5 @@ fn is_not_biased() {
     let mean = off.iter().sum::<f64>() / n as f64;
     let error = (off.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n * (n - 1)) as f64).sqrt();
     println!("bias {mean:.1e} ± {error:.1e} of {:.3}", precise.mean()[0]);
-    assert!(mean.abs() < 4.0 * error && error < cases(8e-5, 2e-5), "{mean:e} ± {error:e}");
+    assert!(mean.abs() < 4.0 * error && error < cases(4e-5, 2e-5), "{mean:e} ± {error:e}");
 }

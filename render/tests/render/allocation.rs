@@ -78,7 +78,7 @@ fn is_not_biased() {
     let precise = world.render(&precise, &|_| ()).0;
     for (sampler, spp, sets) in [(Sampler::Sobol, 8, 1), (Sampler::Sobol, 64, 4), (Sampler::Adaptive, 64, 1)] {
         let [mean, error] = bias(&world, &precise, Settings { spp, sets, sampler, ..SETTINGS }, cases(12, 200));
-        assert!(mean.abs() < 4.0 * error && error < cases(2.1e-4, 5e-5), "{sampler:?}: {mean:e} ± {error:e}");
+        assert!(mean.abs() < 4.0 * error && error < cases(1.5e-4, 5e-5), "{sampler:?}: {mean:e} ± {error:e}");
     }
 }
 
