@@ -14,6 +14,7 @@ __all__ = [
     "Cone",
     "CosineHemisphere",
     "GgxVisibleNormals",
+    "ImageEnvironment",
     "Independent",
     "JointSobol",
     "LatinHypercube",
@@ -858,6 +859,11 @@ class LatinHypercube(Sequence):
 @final
 class Lattice(Sequence):
     def __new__(cls, seed: int = 0, count: int | None = None) -> Lattice: ...
+
+@final
+class ImageEnvironment:
+    def __new__(cls, weights: ArrayLike, map: Literal["equirectangular", "equal-area"] = "equirectangular") -> ImageEnvironment: ...
+    def by_radiance(self) -> Sampler: ...
 
 @final
 class LightTree:

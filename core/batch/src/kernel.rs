@@ -3,7 +3,7 @@
 //! Columns are raw pointers, since callers in other languages pass them so, since an output may be null, and since an output may be
 //! the same memory as an input.
 
-use crate::technique::BatchTechnique;
+use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns};
 use core::mem::MaybeUninit;
@@ -167,7 +167,7 @@ pub(crate) unsafe extern "C" fn no_prepare<T: BatchTechnique>(
 }
 
 /// Samples of one prepared light.
-pub(crate) unsafe extern "C" fn sample<T: BatchTechnique, R: Packet>(
+pub(crate) unsafe extern "C" fn sample<T: BatchSampler, R: Packet>(
     sampler: &T,
     n: usize,
     u: Vec2<*const f32>,
@@ -287,7 +287,7 @@ pub(crate) unsafe extern "C" fn evaluate_each<T: BatchTechnique, R: Packet>(
 }
 
 /// The pdf of directions.
-pub(crate) unsafe extern "C" fn pdf<T: BatchTechnique, R: Packet>(
+pub(crate) unsafe extern "C" fn pdf<T: BatchSampler, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,
@@ -305,7 +305,7 @@ pub(crate) unsafe extern "C" fn pdf<T: BatchTechnique, R: Packet>(
 }
 
 /// The random numbers that the sampler maps to directions.
-pub(crate) unsafe extern "C" fn invert<T: BatchTechnique, R: Packet>(
+pub(crate) unsafe extern "C" fn invert<T: BatchSampler, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,
@@ -325,7 +325,7 @@ pub(crate) unsafe extern "C" fn invert<T: BatchTechnique, R: Packet>(
 }
 
 /// Where directions hit the light.
-pub(crate) unsafe extern "C" fn hit<T: BatchTechnique, R: Packet>(
+pub(crate) unsafe extern "C" fn hit<T: BatchSampler, R: Packet>(
     sampler: &T,
     n: usize,
     directions: Vec3<*const f32>,

@@ -37,8 +37,8 @@ mod warp;
 
 pub use columns::{ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, SampleColumns, Samples};
 pub use kernel::Views;
-pub use table::{InTable, LightFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions};
-pub use technique::BatchTechnique;
+pub use table::{InTable, LightFunctions, SamplerFunctions, SequenceFunctions, Table, TreeFunctions, WarpFunctions};
+pub use technique::{BatchSampler, BatchTechnique};
 pub use warp::BatchWarp;
 
 use etendue::select::LightTree;
@@ -151,15 +151,12 @@ impl Batch {
         }
     }
     /// Samples one prepared light, at the numbers `u` in [0, 1)².
-    pub fn sample<T>(&self, sampler: &T, u: Vec2<&[f32]>, out: Samples<'_>)
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    pub fn sample<T: BatchSampler>(&self, sampler: &T, u: Vec2<&[f32]>, out: Samples<'_>) {
         let n = u.x.len();
         check(n, [u.y.len()]);
         let out = out.columns(n);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>().sample)(sampler, n, u.map(<[f32]>::as_ptr), &out) };
+        unsafe { (self.sampler::<T>().sample)(sampler, n, u.map(<[f32]>::as_ptr), &out) };
     }
     /// Prepares a light of its own for each element, for the point `p` of a surface with the unit normal `n`, and samples it. Techniques
     /// that need no normal do not read `n`, which may be empty.
@@ -198,36 +195,27 @@ impl Batch {
         unsafe { (self.functions::<T>().evaluate_each)(&views, count, w.map(<[f32]>::as_ptr), &out) };
     }
     /// The pdf of unit directions, per steradian (lines: see [`etendue::Line`]).
-    pub fn pdf<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: &mut [f32])
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    pub fn pdf<T: BatchSampler>(&self, sampler: &T, directions: Vec3<&[f32]>, out: &mut [f32]) {
         let n = out.len();
         check(n, [directions.x.len(), directions.y.len(), directions.z.len()]);
         // SAFETY: all columns have n elements, and the output is borrowed mutably
-        unsafe { (self.functions::<T>().pdf)(sampler, n, directions.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+        unsafe { (self.sampler::<T>().pdf)(sampler, n, directions.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
     }
     /// The numbers in [0, 1)² that the sampler maps to unit directions.
-    pub fn invert<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Vec2<&mut [f32]>)
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    pub fn invert<T: BatchSampler>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
         let n = out.x.len();
         check(n, [out.y.len(), directions.x.len(), directions.y.len(), directions.z.len()]);
         let out = out.map(<[f32]>::as_mut_ptr);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>().invert)(sampler, n, directions.map(<[f32]>::as_ptr), out) };
+        unsafe { (self.sampler::<T>().invert)(sampler, n, directions.map(<[f32]>::as_ptr), out) };
     }
     /// The nearest points of the light in unit directions, with their pdf; 0 where a direction misses it.
-    pub fn hit<T>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Samples<'_>)
-    where
-        T: BatchTechnique + InTable<Functions = LightFunctions<T>>,
-    {
+    pub fn hit<T: BatchSampler>(&self, sampler: &T, directions: Vec3<&[f32]>, out: Samples<'_>) {
         let n = directions.x.len();
         check(n, [directions.y.len(), directions.z.len()]);
         let out = out.columns(n);
         // SAFETY: all columns have n elements, and the outputs are borrowed mutably
-        unsafe { (self.functions::<T>().hit)(sampler, n, directions.map(<[f32]>::as_ptr), &out) };
+        unsafe { (self.sampler::<T>().hit)(sampler, n, directions.map(<[f32]>::as_ptr), &out) };
     }
 
     /// Points of a warp, at the numbers `u` in [0, 1)²: as many columns as a point has coordinates are written, and as many columns of
@@ -296,6 +284,12 @@ impl Batch {
         let [p, n] = [p, n].map(|v| v.map(<[f32]>::as_ptr));
         // SAFETY: all columns have `count` elements, and the output is borrowed mutably
         unsafe { (self.tree().pmf)(tree, count, p, n, lights.as_ptr(), out.as_mut_ptr()) };
+    }
+    /// The functions of a prepared light, or of an [`ImageEnvironment`](etendue::light::ImageEnvironment), by raw pointers.
+    #[inline]
+    #[must_use]
+    pub fn sampler<T: BatchSampler>(&self) -> SamplerFunctions<T> {
+        T::sampler_functions(self.table)
     }
     /// The functions of trees, by raw pointers.
     #[inline]

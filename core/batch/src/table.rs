@@ -1,7 +1,7 @@
 //! The functions of every level, in tables of the same form.
 
 use crate::kernel::{Packet, Views};
-use crate::technique::BatchTechnique;
+use crate::technique::{BatchSampler, BatchTechnique};
 use crate::warp::BatchWarp;
 use crate::{ChoiceColumns, Counters, EvaluationColumns, SampleColumns, kernel};
 use etendue::light::*;
@@ -12,17 +12,12 @@ use etendue::{Vec2, Vec3};
 
 type Column = *const f32;
 
-/// The functions of a light's technique, by raw pointers to columns.
+/// The functions of a prepared light, by raw pointers to columns.
+#[derive(Clone, Copy)]
 #[repr(C)]
-pub struct LightFunctions<T: BatchTechnique> {
-    /// Prepares a light for a point of a surface with a normal.
-    pub prepare: unsafe extern "C" fn(&T::Light<f32>, Vec3<f32>, Vec3<f32>, *mut T),
+pub struct SamplerFunctions<T: BatchSampler> {
     /// See [`Batch::sample`](crate::Batch::sample).
     pub sample: unsafe extern "C" fn(&T, usize, Vec2<Column>, &SampleColumns),
-    /// See [`Batch::sample_each`](crate::Batch::sample_each).
-    pub sample_each: unsafe extern "C" fn(&Views<T>, usize, Vec2<Column>, &SampleColumns),
-    /// See [`Batch::evaluate_each`](crate::Batch::evaluate_each).
-    pub evaluate_each: unsafe extern "C" fn(&Views<T>, usize, Vec3<Column>, &EvaluationColumns),
     /// See [`Batch::pdf`](crate::Batch::pdf).
     pub pdf: unsafe extern "C" fn(&T, usize, Vec3<Column>, *mut f32),
     /// See [`Batch::invert`](crate::Batch::invert).
@@ -30,17 +25,37 @@ pub struct LightFunctions<T: BatchTechnique> {
     /// See [`Batch::hit`](crate::Batch::hit).
     pub hit: unsafe extern "C" fn(&T, usize, Vec3<Column>, &SampleColumns),
 }
+impl<T: BatchSampler> SamplerFunctions<T> {
+    const fn of<R: Packet>() -> Self {
+        Self {
+            sample: kernel::sample::<T, R>,
+            pdf: kernel::pdf::<T, R>,
+            invert: kernel::invert::<T, R>,
+            hit: kernel::hit::<T, R>,
+        }
+    }
+}
+
+/// The functions of a light's technique, by raw pointers to columns.
+#[repr(C)]
+pub struct LightFunctions<T: BatchTechnique> {
+    /// Prepares a light for a point of a surface with a normal.
+    pub prepare: unsafe extern "C" fn(&T::Light<f32>, Vec3<f32>, Vec3<f32>, *mut T),
+    /// See [`Batch::sample_each`](crate::Batch::sample_each).
+    pub sample_each: unsafe extern "C" fn(&Views<T>, usize, Vec2<Column>, &SampleColumns),
+    /// See [`Batch::evaluate_each`](crate::Batch::evaluate_each).
+    pub evaluate_each: unsafe extern "C" fn(&Views<T>, usize, Vec3<Column>, &EvaluationColumns),
+    /// What is done with the prepared light.
+    pub sampler: SamplerFunctions<T>,
+}
 impl<T: BatchTechnique> LightFunctions<T> {
     const fn of<R: Packet>() -> Self {
         Self {
             // the other levels prepare faster or as fast, with the instructions of x86-64-v3
             prepare: if cfg!(feature = "level-v4") { kernel::no_prepare::<T> } else { kernel::prepare::<T> },
-            sample: kernel::sample::<T, R>,
             sample_each: kernel::sample_each::<T, R>,
             evaluate_each: kernel::evaluate_each::<T, R>,
-            pdf: kernel::pdf::<T, R>,
-            invert: kernel::invert::<T, R>,
-            hit: kernel::hit::<T, R>,
+            sampler: SamplerFunctions::of::<R>(),
         }
     }
 }
@@ -117,11 +132,12 @@ macro_rules! table {
         pub struct Table {
             $($field: $functions<$type>,)+
             pub(crate) tree: TreeFunctions,
+            pub(crate) image: SamplerFunctions<ByRadiance<'static>>,
         }
         impl Table {
             /// The functions over packets `R`, with the instructions of this compilation.
             const fn of<R: Packet>() -> Self {
-                Self { $($field: $functions::of::<R>(),)+ tree: TreeFunctions::of::<R>() }
+                Self { $($field: $functions::of::<R>(),)+ tree: TreeFunctions::of::<R>(), image: SamplerFunctions::of::<R>() }
             }
         }
         // SAFETY: the field holds the functions of this type

@@ -1,22 +1,42 @@
 //! Prepared lights over any kind of number: what a loop over packets needs to know of them.
 
+use crate::table::{InTable, SamplerFunctions, Table};
 use etendue::light::*;
 use etendue::{LightSampler, Real, Vec3};
 
-/// A light prepared for a shading point by one technique, in numbers of single precision.
-pub trait BatchTechnique: LightSampler<f32> + Copy + 'static {
-    /// The light over numbers, packets of numbers, or columns.
-    type Light<X: Copy>: Copy;
+/// A light prepared for a shading point, or the same for all of them, in numbers of single precision.
+pub trait BatchSampler: Copy {
     /// The prepared light over packets.
     type Of<R: Real>: LightSampler<R>;
+    /// The prepared light in every lane of a packet.
+    fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R>;
+    /// The functions of the prepared light.
+    fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self>;
+}
+
+impl<'a> BatchSampler for ByRadiance<'a> {
+    type Of<R: Real> = Self;
+    #[inline(always)]
+    fn splat<R: Real<Scalar = f32>>(&self) -> Self {
+        *self
+    }
+    #[inline]
+    fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self> {
+        // SAFETY: the types differ in how long the image lives, and the functions keep nothing of it
+        unsafe { core::mem::transmute::<SamplerFunctions<ByRadiance<'static>>, SamplerFunctions<Self>>(table.image) }
+    }
+}
+
+/// A light prepared for a shading point by one technique, in numbers of single precision.
+pub trait BatchTechnique: BatchSampler + LightSampler<f32> + 'static {
+    /// The light over numbers, packets of numbers, or columns.
+    type Light<X: Copy>: Copy;
     /// True if the preparation needs the normal of the surface.
     const ON_SURFACE: bool;
     /// Prepares for the point `p` of a surface with the unit normal `n`.
     fn prepare<R: Real>(light: Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Of<R>;
     /// The light with `f` applied to each of its numbers.
     fn map<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y>;
-    /// The prepared light in every lane of a packet.
-    fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R>;
     /// What was prepared in single precision.
     fn of(sampler: Self::Of<f32>) -> Self;
 }
@@ -45,9 +65,19 @@ macro_rules! implement {
     // the sampler of another light
     (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt) => {};
     (@ $light:ident, $sampler:ident $([$n:literal])?, $by:ident $place:tt, $name:ident) => {
+        impl BatchSampler for $sampler<f32 $(, $n)?> {
+            type Of<R: Real> = $sampler<R $(, $n)?>;
+            #[inline(always)]
+            fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R> {
+                Self::Of::<R>::splat(*self)
+            }
+            #[inline]
+            fn sampler_functions(table: &'static Table) -> SamplerFunctions<Self> {
+                Self::functions(table).sampler
+            }
+        }
         impl BatchTechnique for $sampler<f32 $(, $n)?> {
             type Light<X: Copy> = $light<X $(, $n)?>;
-            type Of<R: Real> = $sampler<R $(, $n)?>;
             const ON_SURFACE: bool = on_surface!($place);
             #[inline(always)]
             fn prepare<R: Real>(light: Self::Light<R>, p: Vec3<R>, n: Vec3<R>) -> Self::Of<R> {
@@ -57,10 +87,6 @@ macro_rules! implement {
             #[inline(always)]
             fn map<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y> {
                 light.map(f)
-            }
-            #[inline(always)]
-            fn splat<R: Real<Scalar = f32>>(&self) -> Self::Of<R> {
-                Self::Of::<R>::splat(*self)
             }
             #[inline(always)]
             fn of(sampler: Self::Of<f32>) -> Self {

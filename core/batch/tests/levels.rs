@@ -2,6 +2,7 @@
 
 mod every;
 
+use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
@@ -93,6 +94,68 @@ impl Written {
     }
 }
 
+/// Compares a sampler with the core's. Returns the numbers and the directions that were used.
+fn assert_sampler<'a, T: BatchSampler>(
+    batch: Batch,
+    input: &'a Columns,
+    n: usize,
+    name: &str,
+    sampler: &T,
+    alone: &impl LightSampler<f32>,
+) -> (Vec2<&'a [f32]>, [Vec<f32>; 3]) {
+    let u = Vec2::new(input.of(0, n), input.of(1, n));
+    let one = |i: usize| Vec2::new(u.x[i], u.y[i]);
+    let say = |i: usize| format!("{name}, {batch:?}, element {i} of {n}");
+
+    let mut written = Written::new(n);
+    batch.sample(sampler, u, written.samples());
+    let drawn: Vec<_> = (0..n).map(|i| alone.sample(one(i))).collect();
+    for (i, s) in drawn.iter().enumerate() {
+        assert_eq!(written.figures(i), figures(s), "sample: {}", say(i));
+    }
+
+    // half of the directions hit, half are any numbers
+    let directions: [Vec<f32>; 3] = core::array::from_fn(|axis| {
+        let coordinate = |i: usize| match axis {
+            _ if i % 2 == 1 => input.of(2 + axis, n)[i],
+            0 => drawn[i].direction.x,
+            1 => drawn[i].direction.y,
+            _ => drawn[i].direction.z,
+        };
+        (0..n).map(coordinate).collect()
+    });
+    let w = Vec3::new(&directions[0][..], &directions[1][..], &directions[2][..]);
+    let mut pdf = vec![-7.0; n];
+    batch.pdf(sampler, w, &mut pdf);
+    let mut inverse = [vec![-7.0; n], vec![-7.0; n]];
+    let [x, y] = &mut inverse;
+    batch.invert(sampler, w, Vec2::new(x, y));
+    let mut written = Written::new(n);
+    batch.hit(sampler, w, written.samples());
+    for i in 0..n {
+        assert_eq!(bits(pdf[i]), bits(alone.pdf(at(w, i))), "pdf: {}", say(i));
+        let u = alone.invert(at(w, i));
+        assert_eq!([inverse[0][i], inverse[1][i]].map(bits), [u.x, u.y].map(bits), "inverse: {}", say(i));
+        assert_eq!(written.figures(i), figures(&alone.hit(at(w, i))), "hit: {}", say(i));
+    }
+    (u, directions)
+}
+
+#[test]
+fn image_lights_have_the_bits_of_the_core() {
+    let weights: Vec<f32> = (0..24).map(|i| [0.0, 1.0, 0.3, 1e-3, 7.0][i % 5]).collect();
+    for map in [EnvironmentMap::EqualArea, EnvironmentMap::Equirectangular] {
+        let mut buffer = [0.0; ImageEnvironment::buffer(6, 4)];
+        let sky = ImageEnvironment::build(&weights, 6, map, &mut buffer).unwrap().by_radiance();
+        for (batch, hostile) in levels().into_iter().flat_map(|batch| [(batch, false), (batch, true)]) {
+            let input = Columns::new(hostile);
+            for n in COUNTS {
+                assert_sampler(batch, &input, n, "image", &sky, &sky);
+            }
+        }
+    }
+}
+
 struct Equal {
     inputs: [Columns; 2],
     compared: usize,
@@ -109,41 +172,10 @@ impl Visitor for Equal {
                 let (p, normal) = (Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.0, 1.0, 0.0));
                 let alone = T::of(T::prepare::<f32>(light, p, normal));
                 let sampler = batch.prepare::<T>(&light, p, normal);
-                let u = Vec2::new(input.of(0, n), input.of(1, n));
+                let (u, directions) = assert_sampler(batch, input, n, name, &sampler, &alone);
+                let w = Vec3::new(&directions[0][..], &directions[1][..], &directions[2][..]);
                 let one = |i: usize| Vec2::new(u.x[i], u.y[i]);
                 let say = |i: usize| format!("{name}, {batch:?}, element {i} of {n}");
-
-                let mut written = Written::new(n);
-                batch.sample(&sampler, u, written.samples());
-                let drawn: Vec<_> = (0..n).map(|i| alone.sample(one(i))).collect();
-                for (i, s) in drawn.iter().enumerate() {
-                    assert_eq!(written.figures(i), figures(s), "sample: {}", say(i));
-                }
-
-                // half of the directions hit, half are any numbers
-                let directions: [Vec<f32>; 3] = core::array::from_fn(|axis| {
-                    let coordinate = |i: usize| match axis {
-                        _ if i % 2 == 1 => input.of(2 + axis, n)[i],
-                        0 => drawn[i].direction.x,
-                        1 => drawn[i].direction.y,
-                        _ => drawn[i].direction.z,
-                    };
-                    (0..n).map(coordinate).collect()
-                });
-                let w = Vec3::new(&directions[0][..], &directions[1][..], &directions[2][..]);
-                let mut pdf = vec![-7.0; n];
-                batch.pdf(&sampler, w, &mut pdf);
-                let mut inverse = [vec![-7.0; n], vec![-7.0; n]];
-                let [x, y] = &mut inverse;
-                batch.invert(&sampler, w, Vec2::new(x, y));
-                let mut written = Written::new(n);
-                batch.hit(&sampler, w, written.samples());
-                for i in 0..n {
-                    assert_eq!(bits(pdf[i]), bits(alone.pdf(at(w, i))), "pdf: {}", say(i));
-                    let u = alone.invert(at(w, i));
-                    assert_eq!([inverse[0][i], inverse[1][i]].map(bits), [u.x, u.y].map(bits), "inverse: {}", say(i));
-                    assert_eq!(written.figures(i), figures(&alone.hit(at(w, i))), "hit: {}", say(i));
-                }
 
                 let mut k = 5;
                 let lights = T::map(light, |_| {

@@ -30,6 +30,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// How an image covers the sphere of directions. In both z is up and the first row of the image comes first.
+typedef enum {
+  // The octahedral map of equal areas, as in pbrt-v4: the texels of a square image all have the same solid angle.
+  ETENDUE_ENVIRONMENT_MAP_EQUAL_AREA = 0,
+  // Longitude and latitude: columns are the azimuth from +x in [0, 2 pi), rows the angle from +z in [0, pi].
+  ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR = 1,
+} EtendueEnvironmentMap;
+
 // What a function says that could not do its work.
 typedef enum {
   // The function did its work.
@@ -613,6 +621,19 @@ typedef struct {
   float *u;
 } EtendueChoiceColumns;
 
+// Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
+// points. The position in the image is `uv` of a sample.
+typedef struct {
+  // The table that etendue_image_environment_build wrote.
+  const float *table;
+  // Number of columns of the image.
+  size_t width;
+  // Number of its rows.
+  size_t height;
+  // One of EtendueEnvironmentMap.
+  uint32_t map;
+} EtendueImageEnvironment;
+
 // Visible normals of a GGX microsurface, prepared for a view; in the frame whose z axis is the normal of the surface.
 typedef struct {
   // What is inside does not concern callers.
@@ -684,12 +705,6 @@ EtendueStatus etendue_sphere_by_area_hit(const EtendueSphereByArea *sampler,
                                          const float *w,
                                          EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sphere_by_area_sample_once(const EtendueSphere *light,
-                                                 const float *p,
-                                                 const float *u,
-                                                 EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_sphere_by_area_sample_batch(const EtendueSphereByArea *sampler,
                                                   size_t n,
@@ -713,6 +728,12 @@ EtendueStatus etendue_sphere_by_area_hit_batch(const EtendueSphereByArea *sample
                                                size_t n,
                                                const float *const *w,
                                                const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_sphere_by_area_sample_once(const EtendueSphere *light,
+                                                 const float *p,
+                                                 const float *u,
+                                                 EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_area_sample_each(const EtendueSphereColumns *lights,
@@ -763,12 +784,6 @@ EtendueStatus etendue_sphere_by_solid_angle_hit(const EtendueSphereBySolidAngle 
                                                 const float *w,
                                                 EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sphere_by_solid_angle_sample_once(const EtendueSphere *light,
-                                                        const float *p,
-                                                        const float *u,
-                                                        EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_sphere_by_solid_angle_sample_batch(const EtendueSphereBySolidAngle *sampler,
                                                          size_t n,
@@ -792,6 +807,12 @@ EtendueStatus etendue_sphere_by_solid_angle_hit_batch(const EtendueSphereBySolid
                                                       size_t n,
                                                       const float *const *w,
                                                       const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_sphere_by_solid_angle_sample_once(const EtendueSphere *light,
+                                                        const float *p,
+                                                        const float *u,
+                                                        EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_solid_angle_sample_each(const EtendueSphereColumns *lights,
@@ -845,13 +866,6 @@ EtendueStatus etendue_sphere_by_projected_solid_angle_hit(const EtendueSphereByP
                                                           const float *w,
                                                           EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sphere_by_projected_solid_angle_sample_once(const EtendueSphere *light,
-                                                                  const float *p,
-                                                                  const float *n,
-                                                                  const float *u,
-                                                                  EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_sphere_by_projected_solid_angle_sample_batch(const EtendueSphereByProjectedSolidAngle *sampler,
                                                                    size_t n,
@@ -875,6 +889,13 @@ EtendueStatus etendue_sphere_by_projected_solid_angle_hit_batch(const EtendueSph
                                                                 size_t n,
                                                                 const float *const *w,
                                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_sphere_by_projected_solid_angle_sample_once(const EtendueSphere *light,
+                                                                  const float *p,
+                                                                  const float *n,
+                                                                  const float *u,
+                                                                  EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sphere_by_projected_solid_angle_sample_each(const EtendueSphereColumns *lights,
@@ -929,12 +950,6 @@ EtendueStatus etendue_triangle_by_area_hit(const EtendueTriangleByArea *sampler,
                                            const float *w,
                                            EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_area_sample_once(const EtendueTriangle *light,
-                                                   const float *p,
-                                                   const float *u,
-                                                   EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_triangle_by_area_sample_batch(const EtendueTriangleByArea *sampler,
                                                     size_t n,
@@ -958,6 +973,12 @@ EtendueStatus etendue_triangle_by_area_hit_batch(const EtendueTriangleByArea *sa
                                                  size_t n,
                                                  const float *const *w,
                                                  const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_triangle_by_area_sample_once(const EtendueTriangle *light,
+                                                   const float *p,
+                                                   const float *u,
+                                                   EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_area_sample_each(const EtendueTriangleColumns *lights,
@@ -1010,12 +1031,6 @@ EtendueStatus etendue_triangle_by_solid_angle_hit(const EtendueTriangleBySolidAn
                                                   const float *w,
                                                   EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_solid_angle_sample_once(const EtendueTriangle *light,
-                                                          const float *p,
-                                                          const float *u,
-                                                          EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_triangle_by_solid_angle_sample_batch(const EtendueTriangleBySolidAngle *sampler,
                                                            size_t n,
@@ -1039,6 +1054,12 @@ EtendueStatus etendue_triangle_by_solid_angle_hit_batch(const EtendueTriangleByS
                                                         size_t n,
                                                         const float *const *w,
                                                         const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_triangle_by_solid_angle_sample_once(const EtendueTriangle *light,
+                                                          const float *p,
+                                                          const float *u,
+                                                          EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_solid_angle_sample_each(const EtendueTriangleColumns *lights,
@@ -1093,13 +1114,6 @@ EtendueStatus etendue_triangle_by_projected_solid_angle_hit(const EtendueTriangl
                                                             const float *w,
                                                             EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_projected_solid_angle_sample_once(const EtendueTriangle *light,
-                                                                    const float *p,
-                                                                    const float *n,
-                                                                    const float *u,
-                                                                    EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_triangle_by_projected_solid_angle_sample_batch(const EtendueTriangleByProjectedSolidAngle *sampler,
                                                                      size_t n,
@@ -1123,6 +1137,13 @@ EtendueStatus etendue_triangle_by_projected_solid_angle_hit_batch(const EtendueT
                                                                   size_t n,
                                                                   const float *const *w,
                                                                   const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_triangle_by_projected_solid_angle_sample_once(const EtendueTriangle *light,
+                                                                    const float *p,
+                                                                    const float *n,
+                                                                    const float *u,
+                                                                    EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_projected_solid_angle_sample_each(const EtendueTriangleColumns *lights,
@@ -1180,13 +1201,6 @@ EtendueStatus etendue_triangle_by_cosine_warp_hit(const EtendueTriangleByCosineW
                                                   const float *w,
                                                   EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_triangle_by_cosine_warp_sample_once(const EtendueTriangle *light,
-                                                          const float *p,
-                                                          const float *n,
-                                                          const float *u,
-                                                          EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_triangle_by_cosine_warp_sample_batch(const EtendueTriangleByCosineWarp *sampler,
                                                            size_t n,
@@ -1210,6 +1224,13 @@ EtendueStatus etendue_triangle_by_cosine_warp_hit_batch(const EtendueTriangleByC
                                                         size_t n,
                                                         const float *const *w,
                                                         const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_triangle_by_cosine_warp_sample_once(const EtendueTriangle *light,
+                                                          const float *p,
+                                                          const float *n,
+                                                          const float *u,
+                                                          EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_triangle_by_cosine_warp_sample_each(const EtendueTriangleColumns *lights,
@@ -1264,12 +1285,6 @@ EtendueStatus etendue_parallelogram_by_area_hit(const EtendueParallelogramByArea
                                                 const float *w,
                                                 EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_parallelogram_by_area_sample_once(const EtendueParallelogram *light,
-                                                        const float *p,
-                                                        const float *u,
-                                                        EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_parallelogram_by_area_sample_batch(const EtendueParallelogramByArea *sampler,
                                                          size_t n,
@@ -1293,6 +1308,12 @@ EtendueStatus etendue_parallelogram_by_area_hit_batch(const EtendueParallelogram
                                                       size_t n,
                                                       const float *const *w,
                                                       const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_parallelogram_by_area_sample_once(const EtendueParallelogram *light,
+                                                        const float *p,
+                                                        const float *u,
+                                                        EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_area_sample_each(const EtendueParallelogramColumns *lights,
@@ -1345,12 +1366,6 @@ EtendueStatus etendue_parallelogram_by_solid_angle_hit(const EtendueParallelogra
                                                        const float *w,
                                                        EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_parallelogram_by_solid_angle_sample_once(const EtendueParallelogram *light,
-                                                               const float *p,
-                                                               const float *u,
-                                                               EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_parallelogram_by_solid_angle_sample_batch(const EtendueParallelogramBySolidAngle *sampler,
                                                                 size_t n,
@@ -1374,6 +1389,12 @@ EtendueStatus etendue_parallelogram_by_solid_angle_hit_batch(const EtendueParall
                                                              size_t n,
                                                              const float *const *w,
                                                              const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_parallelogram_by_solid_angle_sample_once(const EtendueParallelogram *light,
+                                                               const float *p,
+                                                               const float *u,
+                                                               EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
@@ -1428,13 +1449,6 @@ EtendueStatus etendue_parallelogram_by_projected_solid_angle_hit(const EtenduePa
                                                                  const float *w,
                                                                  EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_once(const EtendueParallelogram *light,
-                                                                         const float *p,
-                                                                         const float *n,
-                                                                         const float *u,
-                                                                         EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_batch(const EtendueParallelogramByProjectedSolidAngle *sampler,
                                                                           size_t n,
@@ -1458,6 +1472,13 @@ EtendueStatus etendue_parallelogram_by_projected_solid_angle_hit_batch(const Ete
                                                                        size_t n,
                                                                        const float *const *w,
                                                                        const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_once(const EtendueParallelogram *light,
+                                                                         const float *p,
+                                                                         const float *n,
+                                                                         const float *u,
+                                                                         EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_parallelogram_by_projected_solid_angle_sample_each(const EtendueParallelogramColumns *lights,
@@ -1514,12 +1535,6 @@ EtendueStatus etendue_rectangle_by_solid_angle_hit(const EtendueRectangleBySolid
                                                    const float *w,
                                                    EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_rectangle_by_solid_angle_sample_once(const EtendueRectangle *light,
-                                                           const float *p,
-                                                           const float *u,
-                                                           EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_rectangle_by_solid_angle_sample_batch(const EtendueRectangleBySolidAngle *sampler,
                                                             size_t n,
@@ -1543,6 +1558,12 @@ EtendueStatus etendue_rectangle_by_solid_angle_hit_batch(const EtendueRectangleB
                                                          size_t n,
                                                          const float *const *w,
                                                          const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_rectangle_by_solid_angle_sample_once(const EtendueRectangle *light,
+                                                           const float *p,
+                                                           const float *u,
+                                                           EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_rectangle_by_solid_angle_sample_each(const EtendueRectangleColumns *lights,
@@ -1596,13 +1617,6 @@ EtendueStatus etendue_rectangle_by_cosine_warp_hit(const EtendueRectangleByCosin
                                                    const float *w,
                                                    EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_rectangle_by_cosine_warp_sample_once(const EtendueRectangle *light,
-                                                           const float *p,
-                                                           const float *n,
-                                                           const float *u,
-                                                           EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_rectangle_by_cosine_warp_sample_batch(const EtendueRectangleByCosineWarp *sampler,
                                                             size_t n,
@@ -1626,6 +1640,13 @@ EtendueStatus etendue_rectangle_by_cosine_warp_hit_batch(const EtendueRectangleB
                                                          size_t n,
                                                          const float *const *w,
                                                          const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_rectangle_by_cosine_warp_sample_once(const EtendueRectangle *light,
+                                                           const float *p,
+                                                           const float *n,
+                                                           const float *u,
+                                                           EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_rectangle_by_cosine_warp_sample_each(const EtendueRectangleColumns *lights,
@@ -1676,12 +1697,6 @@ EtendueStatus etendue_disk_by_area_hit(const EtendueDiskByArea *sampler,
                                        const float *w,
                                        EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_disk_by_area_sample_once(const EtendueDisk *light,
-                                               const float *p,
-                                               const float *u,
-                                               EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_disk_by_area_sample_batch(const EtendueDiskByArea *sampler,
                                                 size_t n,
@@ -1705,6 +1720,12 @@ EtendueStatus etendue_disk_by_area_hit_batch(const EtendueDiskByArea *sampler,
                                              size_t n,
                                              const float *const *w,
                                              const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_disk_by_area_sample_once(const EtendueDisk *light,
+                                               const float *p,
+                                               const float *u,
+                                               EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_disk_by_area_sample_each(const EtendueDiskColumns *lights,
@@ -1755,12 +1776,6 @@ EtendueStatus etendue_disk_by_solid_angle_hit(const EtendueDiskBySolidAngle *sam
                                               const float *w,
                                               EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_disk_by_solid_angle_sample_once(const EtendueDisk *light,
-                                                      const float *p,
-                                                      const float *u,
-                                                      EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_disk_by_solid_angle_sample_batch(const EtendueDiskBySolidAngle *sampler,
                                                        size_t n,
@@ -1784,6 +1799,12 @@ EtendueStatus etendue_disk_by_solid_angle_hit_batch(const EtendueDiskBySolidAngl
                                                     size_t n,
                                                     const float *const *w,
                                                     const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_disk_by_solid_angle_sample_once(const EtendueDisk *light,
+                                                      const float *p,
+                                                      const float *u,
+                                                      EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_disk_by_solid_angle_sample_each(const EtendueDiskColumns *lights,
@@ -1834,12 +1855,6 @@ EtendueStatus etendue_cylinder_by_area_hit(const EtendueCylinderByArea *sampler,
                                            const float *w,
                                            EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_cylinder_by_area_sample_once(const EtendueCylinder *light,
-                                                   const float *p,
-                                                   const float *u,
-                                                   EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_cylinder_by_area_sample_batch(const EtendueCylinderByArea *sampler,
                                                     size_t n,
@@ -1863,6 +1878,12 @@ EtendueStatus etendue_cylinder_by_area_hit_batch(const EtendueCylinderByArea *sa
                                                  size_t n,
                                                  const float *const *w,
                                                  const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_cylinder_by_area_sample_once(const EtendueCylinder *light,
+                                                   const float *p,
+                                                   const float *u,
+                                                   EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_cylinder_by_area_sample_each(const EtendueCylinderColumns *lights,
@@ -1911,12 +1932,6 @@ EtendueStatus etendue_polygon_by_area_hit(const EtenduePolygonByArea *sampler,
                                           const float *w,
                                           EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_polygon_by_area_sample_once(const EtenduePolygon *light,
-                                                  const float *p,
-                                                  const float *u,
-                                                  EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_polygon_by_area_sample_batch(const EtenduePolygonByArea *sampler,
                                                    size_t n,
@@ -1940,6 +1955,12 @@ EtendueStatus etendue_polygon_by_area_hit_batch(const EtenduePolygonByArea *samp
                                                 size_t n,
                                                 const float *const *w,
                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_polygon_by_area_sample_once(const EtenduePolygon *light,
+                                                  const float *p,
+                                                  const float *u,
+                                                  EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_area_sample_each(const EtenduePolygonColumns *lights,
@@ -1992,12 +2013,6 @@ EtendueStatus etendue_polygon_by_solid_angle_hit(const EtenduePolygonBySolidAngl
                                                  const float *w,
                                                  EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_polygon_by_solid_angle_sample_once(const EtenduePolygon *light,
-                                                         const float *p,
-                                                         const float *u,
-                                                         EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_polygon_by_solid_angle_sample_batch(const EtenduePolygonBySolidAngle *sampler,
                                                           size_t n,
@@ -2021,6 +2036,12 @@ EtendueStatus etendue_polygon_by_solid_angle_hit_batch(const EtenduePolygonBySol
                                                        size_t n,
                                                        const float *const *w,
                                                        const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_polygon_by_solid_angle_sample_once(const EtenduePolygon *light,
+                                                         const float *p,
+                                                         const float *u,
+                                                         EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_solid_angle_sample_each(const EtenduePolygonColumns *lights,
@@ -2074,13 +2095,6 @@ EtendueStatus etendue_polygon_by_projected_solid_angle_hit(const EtenduePolygonB
                                                            const float *w,
                                                            EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_polygon_by_projected_solid_angle_sample_once(const EtenduePolygon *light,
-                                                                   const float *p,
-                                                                   const float *n,
-                                                                   const float *u,
-                                                                   EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_polygon_by_projected_solid_angle_sample_batch(const EtenduePolygonByProjectedSolidAngle *sampler,
                                                                     size_t n,
@@ -2104,6 +2118,13 @@ EtendueStatus etendue_polygon_by_projected_solid_angle_hit_batch(const EtenduePo
                                                                  size_t n,
                                                                  const float *const *w,
                                                                  const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_polygon_by_projected_solid_angle_sample_once(const EtenduePolygon *light,
+                                                                   const float *p,
+                                                                   const float *n,
+                                                                   const float *u,
+                                                                   EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_polygon_by_projected_solid_angle_sample_each(const EtenduePolygonColumns *lights,
@@ -2154,12 +2175,6 @@ EtendueStatus etendue_patch_by_area_hit(const EtenduePatchByArea *sampler,
                                         const float *w,
                                         EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_patch_by_area_sample_once(const EtendueBilinearPatch *light,
-                                                const float *p,
-                                                const float *u,
-                                                EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_patch_by_area_sample_batch(const EtenduePatchByArea *sampler,
                                                  size_t n,
@@ -2183,6 +2198,12 @@ EtendueStatus etendue_patch_by_area_hit_batch(const EtenduePatchByArea *sampler,
                                               size_t n,
                                               const float *const *w,
                                               const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_patch_by_area_sample_once(const EtendueBilinearPatch *light,
+                                                const float *p,
+                                                const float *u,
+                                                EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_patch_by_area_sample_each(const EtendueBilinearPatchColumns *lights,
@@ -2231,12 +2252,6 @@ EtendueStatus etendue_line_by_length_hit(const EtendueLineByLength *sampler,
                                          const float *w,
                                          EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_line_by_length_sample_once(const EtendueLine *light,
-                                                 const float *p,
-                                                 const float *u,
-                                                 EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_line_by_length_sample_batch(const EtendueLineByLength *sampler,
                                                   size_t n,
@@ -2260,6 +2275,12 @@ EtendueStatus etendue_line_by_length_hit_batch(const EtendueLineByLength *sample
                                                size_t n,
                                                const float *const *w,
                                                const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_line_by_length_sample_once(const EtendueLine *light,
+                                                 const float *p,
+                                                 const float *u,
+                                                 EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_length_sample_each(const EtendueLineColumns *lights,
@@ -2306,12 +2327,6 @@ EtendueStatus etendue_line_by_angle_hit(const EtendueLineByAngle *sampler,
                                         const float *w,
                                         EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_line_by_angle_sample_once(const EtendueLine *light,
-                                                const float *p,
-                                                const float *u,
-                                                EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_line_by_angle_sample_batch(const EtendueLineByAngle *sampler,
                                                  size_t n,
@@ -2335,6 +2350,12 @@ EtendueStatus etendue_line_by_angle_hit_batch(const EtendueLineByAngle *sampler,
                                               size_t n,
                                               const float *const *w,
                                               const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_line_by_angle_sample_once(const EtendueLine *light,
+                                                const float *p,
+                                                const float *u,
+                                                EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_angle_sample_each(const EtendueLineColumns *lights,
@@ -2388,13 +2409,6 @@ EtendueStatus etendue_line_by_projected_solid_angle_hit(const EtendueLineByProje
                                                         const float *w,
                                                         EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_line_by_projected_solid_angle_sample_once(const EtendueLine *light,
-                                                                const float *p,
-                                                                const float *n,
-                                                                const float *u,
-                                                                EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_line_by_projected_solid_angle_sample_batch(const EtendueLineByProjectedSolidAngle *sampler,
                                                                  size_t n,
@@ -2418,6 +2432,13 @@ EtendueStatus etendue_line_by_projected_solid_angle_hit_batch(const EtendueLineB
                                                               size_t n,
                                                               const float *const *w,
                                                               const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_line_by_projected_solid_angle_sample_once(const EtendueLine *light,
+                                                                const float *p,
+                                                                const float *n,
+                                                                const float *u,
+                                                                EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_line_by_projected_solid_angle_sample_each(const EtendueLineColumns *lights,
@@ -2470,12 +2491,6 @@ EtendueStatus etendue_annulus_by_area_hit(const EtendueAnnulusByArea *sampler,
                                           const float *w,
                                           EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_annulus_by_area_sample_once(const EtendueAnnulus *light,
-                                                  const float *p,
-                                                  const float *u,
-                                                  EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_annulus_by_area_sample_batch(const EtendueAnnulusByArea *sampler,
                                                    size_t n,
@@ -2499,6 +2514,12 @@ EtendueStatus etendue_annulus_by_area_hit_batch(const EtendueAnnulusByArea *samp
                                                 size_t n,
                                                 const float *const *w,
                                                 const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_annulus_by_area_sample_once(const EtendueAnnulus *light,
+                                                  const float *p,
+                                                  const float *u,
+                                                  EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_annulus_by_area_sample_each(const EtendueAnnulusColumns *lights,
@@ -2547,12 +2568,6 @@ EtendueStatus etendue_sun_by_solid_angle_hit(const EtendueSunBySolidAngle *sampl
                                              const float *w,
                                              EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_sun_by_solid_angle_sample_once(const EtendueSun *light,
-                                                     const float *p,
-                                                     const float *u,
-                                                     EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_sun_by_solid_angle_sample_batch(const EtendueSunBySolidAngle *sampler,
                                                       size_t n,
@@ -2576,6 +2591,12 @@ EtendueStatus etendue_sun_by_solid_angle_hit_batch(const EtendueSunBySolidAngle 
                                                    size_t n,
                                                    const float *const *w,
                                                    const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_sun_by_solid_angle_sample_once(const EtendueSun *light,
+                                                     const float *p,
+                                                     const float *u,
+                                                     EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_sun_by_solid_angle_sample_each(const EtendueSunColumns *lights,
@@ -2626,12 +2647,6 @@ EtendueStatus etendue_point_light_by_delta_hit(const EtenduePointLightByDelta *s
                                                const float *w,
                                                EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_point_light_by_delta_sample_once(const EtenduePointLight *light,
-                                                       const float *p,
-                                                       const float *u,
-                                                       EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_point_light_by_delta_sample_batch(const EtenduePointLightByDelta *sampler,
                                                         size_t n,
@@ -2655,6 +2670,12 @@ EtendueStatus etendue_point_light_by_delta_hit_batch(const EtenduePointLightByDe
                                                      size_t n,
                                                      const float *const *w,
                                                      const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_point_light_by_delta_sample_once(const EtenduePointLight *light,
+                                                       const float *p,
+                                                       const float *u,
+                                                       EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_point_light_by_delta_sample_each(const EtenduePointLightColumns *lights,
@@ -2705,12 +2726,6 @@ EtendueStatus etendue_spot_light_by_delta_hit(const EtendueSpotLightByDelta *sam
                                               const float *w,
                                               EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_spot_light_by_delta_sample_once(const EtendueSpotLight *light,
-                                                      const float *p,
-                                                      const float *u,
-                                                      EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_spot_light_by_delta_sample_batch(const EtendueSpotLightByDelta *sampler,
                                                        size_t n,
@@ -2734,6 +2749,12 @@ EtendueStatus etendue_spot_light_by_delta_hit_batch(const EtendueSpotLightByDelt
                                                     size_t n,
                                                     const float *const *w,
                                                     const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_spot_light_by_delta_sample_once(const EtendueSpotLight *light,
+                                                      const float *p,
+                                                      const float *u,
+                                                      EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_spot_light_by_delta_sample_each(const EtendueSpotLightColumns *lights,
@@ -2786,12 +2807,6 @@ EtendueStatus etendue_directional_light_by_delta_hit(const EtendueDirectionalLig
                                                      const float *w,
                                                      EtendueLightSample *out);
 
-// Prepares the light for a shading point and draws one direction.
-EtendueStatus etendue_directional_light_by_delta_sample_once(const EtendueDirectionalLight *light,
-                                                             const float *p,
-                                                             const float *u,
-                                                             EtendueLightSample *out);
-
 // Draws a direction for each u: two columns.
 EtendueStatus etendue_directional_light_by_delta_sample_batch(const EtendueDirectionalLightByDelta *sampler,
                                                               size_t n,
@@ -2815,6 +2830,12 @@ EtendueStatus etendue_directional_light_by_delta_hit_batch(const EtendueDirectio
                                                            size_t n,
                                                            const float *const *w,
                                                            const EtendueSampleColumns *out);
+
+// Prepares the light for a shading point and draws one direction.
+EtendueStatus etendue_directional_light_by_delta_sample_once(const EtendueDirectionalLight *light,
+                                                             const float *p,
+                                                             const float *u,
+                                                             EtendueLightSample *out);
 
 // Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
 EtendueStatus etendue_directional_light_by_delta_sample_each(const EtendueDirectionalLightColumns *lights,
@@ -2920,6 +2941,61 @@ EtendueStatus etendue_light_tree_pmf_batch(const EtendueLightTree *tree,
                                            const float *const *normals,
                                            const uint32_t *lights,
                                            float *out);
+
+// Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
+size_t etendue_image_environment_table(size_t width, size_t height);
+
+// Builds the table of an image, from a weight per steradian for each texel, row by row: its luminance, or a sum of its channels.
+//
+// `weights` has width x height elements, `table` has etendue_image_environment_table; it must live as long as `environment` is used,
+// `weights` need not. `map` is one of EtendueEnvironmentMap. Returns ETENDUE_STATUS_COUNT for a size that is not allowed, and
+// ETENDUE_STATUS_VALUE for another `map`, if a weight is negative, infinite or NaN, and if all weights are 0.
+EtendueStatus etendue_image_environment_build(const float *weights,
+                                              size_t width,
+                                              size_t height,
+                                              uint32_t map,
+                                              float *table,
+                                              EtendueImageEnvironment *environment);
+
+// Draws a direction for u.
+EtendueStatus etendue_image_environment_sample(const EtendueImageEnvironment *sampler,
+                                               const float *u,
+                                               EtendueLightSample *out);
+
+// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+float etendue_image_environment_pdf(const EtendueImageEnvironment *sampler, const float *w);
+
+// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+EtendueStatus etendue_image_environment_invert(const EtendueImageEnvironment *sampler, const float *w, float *u);
+
+// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+EtendueStatus etendue_image_environment_hit(const EtendueImageEnvironment *sampler,
+                                            const float *w,
+                                            EtendueLightSample *out);
+
+// Draws a direction for each u: two columns.
+EtendueStatus etendue_image_environment_sample_batch(const EtendueImageEnvironment *sampler,
+                                                     size_t n,
+                                                     const float *const *u,
+                                                     const EtendueSampleColumns *out);
+
+// The pdf of each unit direction: three columns.
+EtendueStatus etendue_image_environment_pdf_batch(const EtendueImageEnvironment *sampler,
+                                                  size_t n,
+                                                  const float *const *w,
+                                                  float *out);
+
+// The random numbers of each unit direction: three columns in, two out.
+EtendueStatus etendue_image_environment_invert_batch(const EtendueImageEnvironment *sampler,
+                                                     size_t n,
+                                                     const float *const *w,
+                                                     float *const *u);
+
+// The nearest point of the light in each unit direction: three columns.
+EtendueStatus etendue_image_environment_hit_batch(const EtendueImageEnvironment *sampler,
+                                                  size_t n,
+                                                  const float *const *w,
+                                                  const EtendueSampleColumns *out);
 
 // Prepares the visible normals of a GGX microsurface: the roughnesses along x and y, and the unit direction to the viewer in the frame
 // whose z axis is the normal.

@@ -9,7 +9,7 @@
 // - Numbers: Vec3, Vec2. A vector class of the host that has members x, y, z, or an array of three floats, converts to Vec3. Vec3 converts
 //   to every class with such members or an operator[] that three floats initialise: T{x, y, z}. The same holds for Vec2.
 // - Lights: Sphere, Triangle, Parallelogram, Rectangle, Disk, Cylinder, BilinearPatch, Polygon, Line, Annulus, Sun, PointLight, SpotLight,
-//   DirectionalLight. Their methods by_... prepare them for a shading point.
+//   DirectionalLight. Their methods by_... prepare them for a shading point. ImageEnvironment is the same at every point.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
 //   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
 // - Warps, sequences and LightTree.
@@ -287,6 +287,52 @@ class LightColumns {
 
 // ---- lights ----
 
+// What is done with a sampler c_.
+#define ETENDUE_SAMPLER_METHODS(PREFIX)                                                                                                \
+    /* Draws a direction for u. */                                                                                                     \
+    LightSample sample(Vec2 u) const {                                                                                                 \
+        LightSample out = {};                                                                                                              \
+        PREFIX##_sample(&c_, detail::Row<2>(u).v, &out);                                                                               \
+        return out;                                                                                                                    \
+    }                                                                                                                                  \
+    /* The pdf with which the unit direction w is drawn. */                                                                            \
+    float pdf(Vec3 w) const { return PREFIX##_pdf(&c_, detail::Row<3>(w).v); }                                                         \
+    /* The random numbers that are mapped to w. */                                                                                     \
+    Vec2 invert(Vec3 w) const {                                                                                                        \
+        detail::Row<2> u;                                                                                                              \
+        PREFIX##_invert(&c_, detail::Row<3>(w).v, u.v);                                                                                \
+        return u.value();                                                                                                              \
+    }                                                                                                                                  \
+    /* The nearest point of the light in the unit direction w; pdf 0 where w misses it. */                                             \
+    LightSample hit(Vec3 w) const {                                                                                                    \
+        LightSample out = {};                                                                                                              \
+        PREFIX##_hit(&c_, detail::Row<3>(w).v, &out);                                                                                  \
+        return out;                                                                                                                    \
+    }                                                                                                                                  \
+                                                                                                                                       \
+    Status sample(In<2> u, const SampleColumns& out) const {                                                                           \
+        const size_t n = u.size();                                                                                                     \
+        if (!detail::fits(u, n) || !out.fits(n)) return ETENDUE_STATUS_COUNT;                                                          \
+        const EtendueSampleColumns c_out = out.c();                                                                                    \
+        return PREFIX##_sample_batch(&c_, n, detail::Pointers<const float, 2>(u).p, &c_out);                                           \
+    }                                                                                                                                  \
+    Status pdf(In<3> w, Span<float> out) const {                                                                                       \
+        const size_t n = w.size();                                                                                                     \
+        if (!detail::fits(w, n) || !detail::fits(out, n)) return ETENDUE_STATUS_COUNT;                                                 \
+        return PREFIX##_pdf_batch(&c_, n, detail::Pointers<const float, 3>(w).p, out.data());                                          \
+    }                                                                                                                                  \
+    Status invert(In<3> w, Out<2> u) const {                                                                                           \
+        const size_t n = w.size();                                                                                                     \
+        if (!detail::fits(w, n) || !detail::fits_or_absent(u, n)) return ETENDUE_STATUS_COUNT;                                         \
+        return PREFIX##_invert_batch(&c_, n, detail::Pointers<const float, 3>(w).p, detail::Pointers<float, 2>(u).p);                  \
+    }                                                                                                                                  \
+    Status hit(In<3> w, const SampleColumns& out) const {                                                                              \
+        const size_t n = w.size();                                                                                                     \
+        if (!detail::fits(w, n) || !out.fits(n)) return ETENDUE_STATUS_COUNT;                                                          \
+        const EtendueSampleColumns c_out = out.c();                                                                                    \
+        return PREFIX##_hit_batch(&c_, n, detail::Pointers<const float, 3>(w).p, &c_out);                                              \
+    }
+
 // One technique: a light prepared for a shading point.
 //
 // NORMAL is the surface's unit normal, where the technique needs it: the arguments are (parameter, its C pointer, columns, check).
@@ -299,49 +345,7 @@ class LightColumns {
             PREFIX##_prepare(&light, detail::Row<3>(p).v POINTER, &c_);                                                                \
         }                                                                                                                              \
         const Etendue##NAME& c() const { return c_; }                                                                                  \
-        /* Draws a direction for u. */                                                                                                 \
-        LightSample sample(Vec2 u) const {                                                                                             \
-            LightSample out;                                                                                                           \
-            PREFIX##_sample(&c_, detail::Row<2>(u).v, &out);                                                                           \
-            return out;                                                                                                                \
-        }                                                                                                                              \
-        /* The pdf with which the unit direction w is drawn. */                                                                        \
-        float pdf(Vec3 w) const { return PREFIX##_pdf(&c_, detail::Row<3>(w).v); }                                                     \
-        /* The random numbers that are mapped to w. */                                                                                 \
-        Vec2 invert(Vec3 w) const {                                                                                                    \
-            detail::Row<2> u;                                                                                                          \
-            PREFIX##_invert(&c_, detail::Row<3>(w).v, u.v);                                                                            \
-            return u.value();                                                                                                          \
-        }                                                                                                                              \
-        /* The nearest point of the light in the unit direction w; pdf 0 where w misses it. */                                         \
-        LightSample hit(Vec3 w) const {                                                                                                \
-            LightSample out;                                                                                                           \
-            PREFIX##_hit(&c_, detail::Row<3>(w).v, &out);                                                                              \
-            return out;                                                                                                                \
-        }                                                                                                                              \
-                                                                                                                                       \
-        Status sample(In<2> u, const SampleColumns& out) const {                                                                       \
-            const size_t n = u.size();                                                                                                 \
-            if (!detail::fits(u, n) || !out.fits(n)) return ETENDUE_STATUS_COUNT;                                                      \
-            const EtendueSampleColumns c_out = out.c();                                                                                \
-            return PREFIX##_sample_batch(&c_, n, detail::Pointers<const float, 2>(u).p, &c_out);                                       \
-        }                                                                                                                              \
-        Status pdf(In<3> w, Span<float> out) const {                                                                                   \
-            const size_t n = w.size();                                                                                                 \
-            if (!detail::fits(w, n) || !detail::fits(out, n)) return ETENDUE_STATUS_COUNT;                                             \
-            return PREFIX##_pdf_batch(&c_, n, detail::Pointers<const float, 3>(w).p, out.data());                                      \
-        }                                                                                                                              \
-        Status invert(In<3> w, Out<2> u) const {                                                                                       \
-            const size_t n = w.size();                                                                                                 \
-            if (!detail::fits(w, n) || !detail::fits_or_absent(u, n)) return ETENDUE_STATUS_COUNT;                                     \
-            return PREFIX##_invert_batch(&c_, n, detail::Pointers<const float, 3>(w).p, detail::Pointers<float, 2>(u).p);              \
-        }                                                                                                                              \
-        Status hit(In<3> w, const SampleColumns& out) const {                                                                          \
-            const size_t n = w.size();                                                                                                 \
-            if (!detail::fits(w, n) || !out.fits(n)) return ETENDUE_STATUS_COUNT;                                                      \
-            const EtendueSampleColumns c_out = out.c();                                                                                \
-            return PREFIX##_hit_batch(&c_, n, detail::Pointers<const float, 3>(w).p, &c_out);                                          \
-        }                                                                                                                              \
+        ETENDUE_SAMPLER_METHODS(PREFIX)                                                                                                \
         /* Prepares a light of its own for each shading point, and draws a direction for each u. */                                    \
         static Status sample_each(const LightColumns<Etendue##LIGHT##Columns>& lights, In<3> p COLUMNS, In<2> u,                       \
                                   const SampleColumns& out) {                                                                          \
@@ -533,6 +537,29 @@ struct DirectionalLight : EtendueDirectionalLight {
     DirectionalLightByDelta by_delta(Vec3 at) const { return {*this, at}; }
 };
 // end of what is from the list
+
+// ---- light from an image ----
+
+using EnvironmentMap = EtendueEnvironmentMap;
+
+// Light from all around as an image tells it, in a table of the caller's, which must live as long as the environment is used: directions
+// in proportion to the image, the same for all shading points. Before it is built, its samples have pdf 0.
+class ImageEnvironment {
+    EtendueImageEnvironment c_ = {};
+
+  public:
+    // Number of floats in the table of an image; 0 for a size that is not allowed.
+    static size_t table(size_t width, size_t height) { return etendue_image_environment_table(width, height); }
+
+    // Builds the table, of table(width, height) floats, from a weight for each texel, row by row, from the top.
+    Status build(Span<const float> weights, size_t width, EnvironmentMap map, Span<float> table) {
+        const size_t height = width == 0 ? 0 : weights.size() / width, floats = ImageEnvironment::table(width, height);
+        if (floats == 0 || width * height != weights.size() || table.size() != floats) return ETENDUE_STATUS_COUNT;
+        return etendue_image_environment_build(weights.data(), width, height, map, table.data(), &c_);
+    }
+    const EtendueImageEnvironment& c() const { return c_; }
+    ETENDUE_SAMPLER_METHODS(etendue_image_environment)
+};
 
 // ---- warps ----
 

@@ -9,8 +9,11 @@
 mod light;
 mod sequence;
 mod tree;
+// after the lights, as in the header
+mod environment;
 mod warp;
 
+pub use environment::*;
 pub use light::*;
 pub use sequence::*;
 pub use tree::*;

@@ -5,7 +5,7 @@ use core::mem::{align_of, size_of};
 use core::ptr::null_mut;
 use etendue::light;
 use etendue::{Vec2, Vec3};
-use etendue_batch::{Batch, BatchTechnique, EvaluationColumns, SampleColumns, Views};
+use etendue_batch::{Batch, BatchSampler, BatchTechnique, EvaluationColumns, SampleColumns, Views};
 
 /// One sample of a light as seen from a shading point, or the point of a light that a ray hits.
 ///
@@ -51,7 +51,7 @@ pub struct EtendueSampleColumns {
 }
 
 impl EtendueSampleColumns {
-    fn columns(&self) -> SampleColumns {
+    pub(crate) fn columns(&self) -> SampleColumns {
         let Self { direction, distance, pdf, weight, normal, uv, emits } = *self;
         SampleColumns { direction, distance, pdf, weight, normal, uv, emits }
     }
@@ -59,7 +59,7 @@ impl EtendueSampleColumns {
 
 impl EtendueLightSample {
     /// The fields of one sample as columns of one element.
-    unsafe fn columns(this: *mut Self) -> SampleColumns {
+    pub(crate) unsafe fn columns(this: *mut Self) -> SampleColumns {
         // SAFETY: the caller's memory has room for a sample
         unsafe {
             SampleColumns {
@@ -78,7 +78,7 @@ impl EtendueLightSample {
 pub(crate) fn vec3<T>([x, y, z]: [T; 3]) -> Vec3<T> {
     Vec3::new(x, y, z)
 }
-fn vec2<T>([x, y]: [T; 2]) -> Vec2<T> {
+pub(crate) fn vec2<T>([x, y]: [T; 2]) -> Vec2<T> {
     Vec2::new(x, y)
 }
 
@@ -93,6 +93,143 @@ const NO_SAMPLES: SampleColumns = SampleColumns {
     uv: [null_mut(); 2],
     emits: null_mut(),
 };
+
+/// A struct of this interface that holds a prepared light, or a light that is the same for all shading points.
+pub(crate) trait Sampler {
+    /// The core's sampler.
+    type Core: BatchSampler;
+    /// Calls `f` with the core's sampler, unless the pointer is null or the struct is not valid.
+    unsafe fn with(this: *const Self, f: impl FnOnce(&Self::Core)) -> EtendueStatus;
+}
+pub(crate) unsafe fn with<S: Sampler>(sampler: *const S, f: impl FnOnce(&S::Core)) -> EtendueStatus {
+    // SAFETY: the caller's
+    unsafe { S::with(sampler, f) }
+}
+
+/// What is done with a sampler.
+macro_rules! sampler_functions {
+    ($sampler:ident, $module:ident) => {
+        /// Draws a direction for u.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample"))]
+        pub unsafe extern "C" fn sample(
+            sampler: *const $sampler,
+            u: *const f32,
+            out: *mut EtendueLightSample,
+        ) -> EtendueStatus {
+            refuse_null!(u, out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let out = EtendueLightSample::columns(out);
+                with(sampler, |sampler| (Batch::new().sampler().sample)(sampler, 1, vec2(each(u)), &out))
+            }
+        }
+        /// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf"))]
+        pub unsafe extern "C" fn pdf(sampler: *const $sampler, w: *const f32) -> f32 {
+            let mut pdf = 0.0;
+            if !w.is_null() {
+                // SAFETY: the pointers are not null, and point to what the header says
+                unsafe { with(sampler, |sampler| (Batch::new().sampler().pdf)(sampler, 1, vec3(each(w)), &mut pdf)) };
+            }
+            pdf
+        }
+        /// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert"))]
+        pub unsafe extern "C" fn invert(sampler: *const $sampler, w: *const f32, u: *mut f32) -> EtendueStatus {
+            refuse_null!(w, u);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                with(sampler, |sampler| (Batch::new().sampler().invert)(sampler, 1, vec3(each(w)), vec2(each_mut(u))))
+            }
+        }
+        /// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit"))]
+        pub unsafe extern "C" fn hit(
+            sampler: *const $sampler,
+            w: *const f32,
+            out: *mut EtendueLightSample,
+        ) -> EtendueStatus {
+            refuse_null!(w, out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let out = EtendueLightSample::columns(out);
+                with(sampler, |sampler| (Batch::new().sampler().hit)(sampler, 1, vec3(each(w)), &out))
+            }
+        }
+        /// Draws a direction for each u: two columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_batch"))]
+        pub unsafe extern "C" fn sample_batch(
+            sampler: *const $sampler,
+            n: usize,
+            u: *const *const f32,
+            out: *const EtendueSampleColumns,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            refuse_null!(out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let Some(u) = columns(u) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().sample)(sampler, n, vec2(u), &(*out).columns()))
+            }
+        }
+        /// The pdf of each unit direction: three columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_batch"))]
+        pub unsafe extern "C" fn pdf_batch(
+            sampler: *const $sampler,
+            n: usize,
+            w: *const *const f32,
+            out: *mut f32,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            refuse_null!(out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().pdf)(sampler, n, vec3(w), out))
+            }
+        }
+        /// The random numbers of each unit direction: three columns in, two out.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert_batch"))]
+        pub unsafe extern "C" fn invert_batch(
+            sampler: *const $sampler,
+            n: usize,
+            w: *const *const f32,
+            u: *const *mut f32,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let (Some(w), Some(u)) = (columns(w), outputs(u)) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().invert)(sampler, n, vec3(w), vec2(u)))
+            }
+        }
+        /// The nearest point of the light in each unit direction: three columns.
+        #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit_batch"))]
+        pub unsafe extern "C" fn hit_batch(
+            sampler: *const $sampler,
+            n: usize,
+            w: *const *const f32,
+            out: *const EtendueSampleColumns,
+        ) -> EtendueStatus {
+            if n == 0 {
+                return EtendueStatus::Ok;
+            }
+            refuse_null!(out);
+            // SAFETY: the pointers are not null, and point to what the header says
+            unsafe {
+                let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
+                with(sampler, |sampler| (Batch::new().sampler().hit)(sampler, n, vec3(w), &(*out).columns()))
+            }
+        }
+    };
+}
+pub(crate) use sampler_functions;
 
 /// The struct of a technique's sampler, and its functions, in a module of their own.
 macro_rules! technique {
@@ -116,6 +253,17 @@ macro_rules! technique {
         }
         const _: () = assert!(size_of::<$type>() == size_of::<$sampler>() && align_of::<$type>() <= align_of::<$sampler>());
 
+        impl Sampler for $sampler {
+            type Core = $type;
+            #[inline(always)]
+            unsafe fn with(this: *const Self, f: impl FnOnce(&$type)) -> EtendueStatus {
+                refuse_null!(this);
+                // SAFETY: `prepare` wrote it
+                f(unsafe { &*this.cast() });
+                EtendueStatus::Ok
+            }
+        }
+
         #[doc = concat!("The functions of [`", stringify!($sampler), "`]: their names in C begin with `etendue_", stringify!($module), "_`.")]
         pub mod $module {
             use super::*;
@@ -134,46 +282,7 @@ macro_rules! technique {
                 }
                 EtendueStatus::Ok
             }
-            /// Draws a direction for u.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample"))]
-            pub unsafe extern "C" fn sample(sampler: *const $sampler, u: *const f32, out: *mut EtendueLightSample) -> EtendueStatus {
-                refuse_null!(sampler, u, out);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let out = EtendueLightSample::columns(out);
-                    (Batch::new().functions::<$type>().sample)(&*sampler.cast(), 1, vec2(each(u)), &out);
-                }
-                EtendueStatus::Ok
-            }
-            /// The pdf with which a unit direction `w` is drawn; 0 where it misses the light, and if a pointer is NULL.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf"))]
-            pub unsafe extern "C" fn pdf(sampler: *const $sampler, w: *const f32) -> f32 {
-                let mut pdf = 0.0;
-                if !sampler.is_null() && !w.is_null() {
-                    // SAFETY: the pointers are not null, and point to what the header says
-                    unsafe { (Batch::new().functions::<$type>().pdf)(&*sampler.cast(), 1, vec3(each(w)), &mut pdf) };
-                }
-                pdf
-            }
-            /// The random numbers `u` that are mapped to a unit direction `w`; any in [0, 1)^2 where it misses the light.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert"))]
-            pub unsafe extern "C" fn invert(sampler: *const $sampler, w: *const f32, u: *mut f32) -> EtendueStatus {
-                refuse_null!(sampler, w, u);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe { (Batch::new().functions::<$type>().invert)(&*sampler.cast(), 1, vec3(each(w)), vec2(each_mut(u))) };
-                EtendueStatus::Ok
-            }
-            /// The nearest point of the light in a unit direction `w`, with the pdf of that direction; pdf 0 where it misses the light.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit"))]
-            pub unsafe extern "C" fn hit(sampler: *const $sampler, w: *const f32, out: *mut EtendueLightSample) -> EtendueStatus {
-                refuse_null!(sampler, w, out);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let out = EtendueLightSample::columns(out);
-                    (Batch::new().functions::<$type>().hit)(&*sampler.cast(), 1, vec3(each(w)), &out);
-                }
-                EtendueStatus::Ok
-            }
+            sampler_functions!($sampler, $module);
             /// Prepares the light for a shading point and draws one direction.
             #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_once"))]
             pub unsafe extern "C" fn sample_once(
@@ -186,70 +295,6 @@ macro_rules! technique {
                     prepare(light, p, $($n,)? sampler.as_mut_ptr());
                     sample(sampler.as_ptr(), u, out)
                 }
-            }
-            /// Draws a direction for each u: two columns.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_batch"))]
-            pub unsafe extern "C" fn sample_batch(
-                sampler: *const $sampler, n: usize, u: *const *const f32, out: *const EtendueSampleColumns,
-            ) -> EtendueStatus {
-                if n == 0 {
-                    return EtendueStatus::Ok;
-                }
-                refuse_null!(sampler, out);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let Some(u) = columns(u) else { return EtendueStatus::NullPointer };
-                    (Batch::new().functions::<$type>().sample)(&*sampler.cast(), n, vec2(u), &(*out).columns());
-                }
-                EtendueStatus::Ok
-            }
-            /// The pdf of each unit direction: three columns.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_pdf_batch"))]
-            pub unsafe extern "C" fn pdf_batch(
-                sampler: *const $sampler, n: usize, w: *const *const f32, out: *mut f32,
-            ) -> EtendueStatus {
-                if n == 0 {
-                    return EtendueStatus::Ok;
-                }
-                refuse_null!(sampler, out);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
-                    (Batch::new().functions::<$type>().pdf)(&*sampler.cast(), n, vec3(w), out);
-                }
-                EtendueStatus::Ok
-            }
-            /// The random numbers of each unit direction: three columns in, two out.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_invert_batch"))]
-            pub unsafe extern "C" fn invert_batch(
-                sampler: *const $sampler, n: usize, w: *const *const f32, u: *const *mut f32,
-            ) -> EtendueStatus {
-                if n == 0 {
-                    return EtendueStatus::Ok;
-                }
-                refuse_null!(sampler);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let (Some(w), Some(u)) = (columns(w), outputs(u)) else { return EtendueStatus::NullPointer };
-                    (Batch::new().functions::<$type>().invert)(&*sampler.cast(), n, vec3(w), vec2(u));
-                }
-                EtendueStatus::Ok
-            }
-            /// The nearest point of the light in each unit direction: three columns.
-            #[unsafe(export_name = concat!("etendue_", stringify!($module), "_hit_batch"))]
-            pub unsafe extern "C" fn hit_batch(
-                sampler: *const $sampler, n: usize, w: *const *const f32, out: *const EtendueSampleColumns,
-            ) -> EtendueStatus {
-                if n == 0 {
-                    return EtendueStatus::Ok;
-                }
-                refuse_null!(sampler, out);
-                // SAFETY: the pointers are not null, and point to what the header says
-                unsafe {
-                    let Some(w) = columns(w) else { return EtendueStatus::NullPointer };
-                    (Batch::new().functions::<$type>().hit)(&*sampler.cast(), n, vec3(w), &(*out).columns());
-                }
-                EtendueStatus::Ok
             }
             /// Prepares a light of its own for each shading point, and draws a direction for each u: all in columns.
             #[unsafe(export_name = concat!("etendue_", stringify!($module), "_sample_each"))]

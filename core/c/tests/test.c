@@ -826,6 +826,104 @@ static void test_tree(size_t light_count) {
     free(places);
 }
 
+// ---- light from an image ----
+
+static void test_image(uint32_t map) {
+    enum { WIDTH = 8, HEIGHT = 6, TEXELS = WIDTH * HEIGHT, TABLE = TEXELS + HEIGHT };
+    float weights[TEXELS], table[TABLE + 1];
+    for (int k = 0; k < TEXELS; k++) weights[k] = k == 13 ? 0 : uniform();
+    EtendueImageEnvironment sky, untouched;
+    memset(table, PATTERN, sizeof table);
+    memset(&sky, PATTERN, sizeof sky);
+    memset(&untouched, PATTERN, sizeof untouched);
+    const size_t most = (size_t)1 << 24;
+    CHECK(etendue_image_environment_table(WIDTH, HEIGHT) == TABLE && etendue_image_environment_table(most, 3) == 3 * most + 3);
+    CHECK(etendue_image_environment_table(0, 3) == 0 && etendue_image_environment_table(3, 0) == 0);
+    CHECK(etendue_image_environment_table(most + 1, 3) == 0 && etendue_image_environment_table(3, SIZE_MAX) == 0);
+    CHECK(etendue_image_environment_build(NULL, WIDTH, HEIGHT, map, table, &sky) == REFUSED);
+    CHECK(etendue_image_environment_build(weights, WIDTH, HEIGHT, map, NULL, &sky) == REFUSED);
+    CHECK(etendue_image_environment_build(weights, WIDTH, HEIGHT, map, table, NULL) == REFUSED);
+    CHECK(etendue_image_environment_build(weights, 0, HEIGHT, map, table, &sky) == ETENDUE_STATUS_COUNT);
+    CHECK(etendue_image_environment_build(weights, WIDTH, SIZE_MAX, map, table, &sky) == ETENDUE_STATUS_COUNT);
+    CHECK(etendue_image_environment_build(weights, WIDTH, HEIGHT, 2, table, &sky) == ETENDUE_STATUS_VALUE);
+    const float wrong[] = {-1, -1e-30f, (float)INFINITY, (float)NAN};
+    for (int k = 0; k < 4; k++) {
+        weights[TEXELS - 1] = wrong[k];
+        CHECK(etendue_image_environment_build(weights, WIDTH, HEIGHT, map, table, &sky) == ETENDUE_STATUS_VALUE);
+    }
+    const float dark[TEXELS] = {0};
+    CHECK(etendue_image_environment_build(dark, WIDTH, HEIGHT, map, table, &sky) == ETENDUE_STATUS_VALUE);
+    CHECK(is_untouched((unsigned char *)table, sizeof table) && memcmp(&sky, &untouched, sizeof sky) == 0);
+    weights[TEXELS - 1] = 0.5f;
+    CHECK(etendue_image_environment_build(weights, WIDTH, HEIGHT, map, table, &sky) == OK);
+    CHECK(is_untouched((unsigned char *)(table + TABLE), 4) && sky.table == table && sky.width == WIDTH && sky.height == HEIGHT);
+
+    float mean = 0;
+    for (int size = 0; size < SIZES; size++) {
+        const size_t n = sizes[size];
+        Results s = results(n), h = results(n), e = results(n);
+        Input u[2] = {input(u_numbers[0], n), input(u_numbers[1], n)};
+        Input w[3] = {input(w_numbers[0], n), input(w_numbers[1], n), input(w_numbers[2], n)};
+        const float *const u_in[2] = {u[0].column, u[1].column}, *const w_in[3] = {w[0].column, w[1].column, w[2].column};
+        const EtendueSampleColumns s_out = sample_columns(s.column), h_out = sample_columns(h.column);
+        CHECK(etendue_image_environment_sample_batch(&sky, n, u_in, &s_out) == OK && only_written(&s, 0, COLUMNS));
+        CHECK(etendue_image_environment_hit_batch(&sky, n, w_in, &h_out) == OK && only_written(&h, 0, COLUMNS));
+        CHECK(etendue_image_environment_pdf_batch(&sky, n, w_in, e.column[0]) == OK && only_written(&e, 0, 1));
+        CHECK(etendue_image_environment_invert_batch(&sky, n, w_in, e.column + 1) == OK && only_written(&e, 0, 3));
+        mean = 0;
+        for (size_t i = 0; i < n; i++) {
+            EtendueLightSample one;
+            float back[2];
+            const float u_i[2] = {u_numbers[0][i], u_numbers[1][i]}, w_i[3] = {w_numbers[0][i], w_numbers[1][i], w_numbers[2][i]};
+            CHECK(etendue_image_environment_sample(&sky, u_i, &one) == OK && is_finite(&one) && is_sample(s.column, i, &one));
+            CHECK(one.pdf > 0 && fabsf(one.pdf * one.weight - 1) < 1e-6f && same(one.pdf, etendue_image_environment_pdf(&sky, one.direction)));
+            // the weight is constant in each texel, which is that of the position in the image
+            const int x = (int)(one.uv[0] * WIDTH), y = (int)(one.uv[1] * HEIGHT);
+            CHECK(x >= 0 && x < WIDTH && y >= 0 && y < HEIGHT && weights[y * WIDTH + x] > 0);
+            mean += weights[y * WIDTH + x] * one.weight / (float)n;
+            CHECK(etendue_image_environment_hit(&sky, w_i, &one) == OK && is_finite(&one) && is_sample(h.column, i, &one));
+            CHECK(etendue_image_environment_invert(&sky, w_i, back) == OK && same(at(e.column[0], i), etendue_image_environment_pdf(&sky, w_i)));
+            CHECK(same(at(e.column[1], i), back[0]) && same(at(e.column[2], i), back[1]));
+        }
+        free(s.memory), free(h.memory), free(e.memory);
+        release(u[0]), release(u[1]), release(w[0]), release(w[1]), release(w[2]);
+    }
+    // every sample is worth the integral of the weights over the sphere
+    const double pi = 3.14159265358979324;
+    double integral = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            integral += weights[y * WIDTH + x] * (map == 0 ? 4 * pi / TEXELS : 2 * pi / WIDTH * (cos(pi * y / HEIGHT) - cos(pi * (y + 1) / HEIGHT)));
+    CHECK(fabs(mean / integral - 1) < 1e-5);
+
+    EtendueLightSample one;
+    Results r = results(64);
+    float sampled[2];
+    const float u[2] = {0.3f, 0.6f};
+    const float *const w_in[3] = {w_numbers[0], w_numbers[1], w_numbers[2]}, *const u_in[2] = {u_numbers[0], u_numbers[1]};
+    const EtendueSampleColumns columns = sample_columns(r.column);
+    CHECK(etendue_image_environment_sample(NULL, u, &one) == REFUSED && etendue_image_environment_sample(&sky, NULL, &one) == REFUSED);
+    CHECK(etendue_image_environment_sample(&sky, u, NULL) == REFUSED && etendue_image_environment_pdf(NULL, up) == 0);
+    CHECK(etendue_image_environment_invert(NULL, up, sampled) == REFUSED && etendue_image_environment_hit(NULL, up, &one) == REFUSED);
+    CHECK(etendue_image_environment_sample_batch(NULL, 64, u_in, &columns) == REFUSED);
+    CHECK(etendue_image_environment_sample_batch(&sky, 64, NULL, &columns) == REFUSED);
+    CHECK(etendue_image_environment_sample_batch(&sky, 64, u_in, NULL) == REFUSED);
+    CHECK(etendue_image_environment_hit_batch(NULL, 64, w_in, &columns) == REFUSED);
+    CHECK(etendue_image_environment_pdf_batch(NULL, 64, w_in, r.column[0]) == REFUSED);
+    CHECK(etendue_image_environment_invert_batch(NULL, 64, w_in, r.column) == REFUSED);
+    EtendueImageEnvironment broken = sky;
+    broken.table = NULL;
+    CHECK(etendue_image_environment_sample_batch(&broken, 64, u_in, &columns) == REFUSED);
+    broken = sky;
+    broken.map = 2;
+    CHECK(etendue_image_environment_sample_batch(&broken, 64, u_in, &columns) == ETENDUE_STATUS_VALUE);
+    broken = sky;
+    broken.width = 0;
+    CHECK(etendue_image_environment_sample_batch(&broken, 64, u_in, &columns) == ETENDUE_STATUS_COUNT);
+    CHECK(etendue_image_environment_sample_batch(NULL, 0, NULL, NULL) == OK && only_written(&r, 0, 0));
+    free(r.memory);
+}
+
 // ---- more than 2^31 elements ----
 
 // Inputs are 8 GB of zeros, which need no memory while they are only read; outputs lie in 64 MB that are mapped again and again, so that
@@ -921,6 +1019,9 @@ int main(int argc, char **argv) {
         test_tree(1);
         test_tree(0);
         CHECK(etendue_light_tree_nodes(0) < 2);
+        current = "image_environment";
+        test_image(ETENDUE_ENVIRONMENT_MAP_EQUAL_AREA);
+        test_image(ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR);
     }
     const uint32_t level = etendue_level();
     CHECK(level == 0 || level == 3 || level == 4);

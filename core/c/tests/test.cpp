@@ -195,6 +195,31 @@ static void test_tree() {
     CHECK(tree.pmf({x, y, z}, {flat, up, flat}, light, Span<float>(pmf.data(), 5)) == ETENDUE_STATUS_COUNT);
 }
 
+static void test_image() {
+    const std::vector<float> weights = {1, 2, 0, 4, 5, 6};
+    std::vector<float> table(ImageEnvironment::table(3, 2));
+    ImageEnvironment sky;
+    CHECK(sky.sample({0.3f, 0.6f}).pdf == 0 && sky.pdf(n) == 0 && sky.hit(n).weight == 0); // not built
+    CHECK(sky.build(weights, 4, ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR, table) == ETENDUE_STATUS_COUNT);
+    CHECK(sky.build(weights, 0, ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR, table) == ETENDUE_STATUS_COUNT);
+    CHECK(sky.build(weights, 3, ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR, Span<float>(table.data(), 7)) == ETENDUE_STATUS_COUNT);
+    CHECK(sky.build(weights, 3, ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR, table) == ETENDUE_STATUS_OK);
+    std::array<float, 20> x, y, a, b, c, pdf;
+    CHECK(OwenSobol{1}.pairs({}, {x, y}) == ETENDUE_STATUS_OK);
+    CHECK(sky.sample({x, y}, {{a, b, c}, {}, pdf, {}, {}, {}, {}}) == ETENDUE_STATUS_OK);
+    for (size_t i = 0; i < 20; i++) {
+        const LightSample one = sky.sample({x[i], y[i]});
+        CHECK(one.direction[0] == a[i] && one.direction[2] == c[i] && one.pdf == pdf[i]);
+        CHECK(sky.pdf(one.direction) == one.pdf && sky.hit(one.direction).uv[0] == one.uv[0]);
+        // of the lower row in proportion to 4, 5 and 6, of the upper one to 1, 2 and 0, by solid angle
+        const float density = weights[(c[i] < 0 ? 3 : 0) + size_t(one.uv[0] * 3)] / 37.6991118f;
+        CHECK(std::fabs(one.pdf / density - 1) < 1e-5f);
+        CHECK(std::fabs(Vec2(sky.invert(one.direction)).x - x[i]) < 1e-4f);
+    }
+    CHECK(sky.pdf({a, b, c}, x) == ETENDUE_STATUS_OK && x == pdf);
+    CHECK(sky.pdf({a, b, c}, Span<float>(x.data(), 5)) == ETENDUE_STATUS_COUNT);
+}
+
 static void test_pbrt() {
     const std::array<Point3, 3> v = {Point3{-0.5f, 2, -0.3f}, {0.7f, 2.1f, -0.1f}, {-0.4f, 2.2f, 0.8f}};
     const Point2 number = {0.3f, 0.6f};
@@ -346,6 +371,7 @@ int main() {
     test_warps();
     test_sequences();
     test_tree();
+    test_image();
     test_pbrt();
     test_calls_of_pbrt();
     std::printf("%d checks, %d failed\n", checks, failures);

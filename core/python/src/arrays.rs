@@ -204,7 +204,7 @@ impl<'py> Argument<'py> {
         Ok(())
     }
     /// Its element that is the `at`-th of those of `shape`, as one writes it in Python.
-    fn index(&self, mut at: usize, shape: &[usize], last: Option<usize>) -> String {
+    pub(crate) fn index(&self, mut at: usize, shape: &[usize], last: Option<usize>) -> String {
         let mut places: Vec<usize> = last.into_iter().collect();
         // from the last axis on, which is where the argument's own axes end, too
         for (i, &length) in shape.iter().rev().enumerate() {

@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod arrays;
+mod environment;
 mod lights;
 mod sequences;
 mod tree;
@@ -38,6 +39,7 @@ fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(level, module)?)?;
     lights::add(module)?;
+    environment::add(module)?;
     warps::add(module)?;
     sequences::add(module)?;
     tree::add(module)

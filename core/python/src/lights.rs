@@ -7,7 +7,7 @@ use pyo3::exceptions::{PyAttributeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 /// A light prepared by any technique.
-trait Prepared: Send + Sync {
+pub(crate) trait Prepared: Send + Sync {
     fn sample(&self, u: Vec2<&[f32]>, out: etendue_batch::Samples<'_>);
     fn hit(&self, w: Vec3<&[f32]>, out: etendue_batch::Samples<'_>);
     fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]);
@@ -107,6 +107,13 @@ pub(crate) struct Sampler {
 }
 
 impl Sampler {
+    pub(crate) fn new(
+        prepared: Box<dyn Prepared>,
+        technique: &'static str,
+        measure: Option<(&'static str, f32)>,
+    ) -> Self {
+        Self { prepared, technique, measure }
+    }
     fn measure(&self, name: &str) -> PyResult<f32> {
         let found = self.measure.filter(|measure| measure.0 == name).map(|measure| measure.1);
         found.ok_or_else(|| PyAttributeError::new_err(format!("a sampler {} has no {name}", self.technique)))
@@ -391,7 +398,7 @@ macro_rules! lights {
                 let sampler = prepare::<light::$sampler<f32 $(, $n)?>>(&Self::build(&self.numbers).into(), &place)?;
                 let measure = None $(.or(Some((stringify!($measure), sampler.$measure()))))?;
                 let technique = concat!(stringify!($light), " ", stringify!($by));
-                Ok(Sampler { prepared: Box::new(sampler), technique, measure })
+                Ok(Sampler::new(Box::new(sampler), technique, measure))
             })+
             /// Samples of a light of its own for each row, from a shading point of its own. All arrays are broadcast to one shape (...)
             /// beside their last axis: the constructor's arguments (..., 3) or (...), shading points p (..., 3), numbers u in [0, 1)²

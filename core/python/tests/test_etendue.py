@@ -78,7 +78,8 @@ each_sequence = pytest.mark.parametrize("sequence", SEQUENCES, ids=lambda x: typ
 
 def test_every_technique_is_here():
     stub = (pathlib.Path(__file__).parent.parent / "etendue.pyi").read_text()
-    assert len(TECHNIQUES) == stub.count("    def by_") > 20
+    # an image is the same at every point, and has a test of its own
+    assert len(TECHNIQUES) == stub.count("    def by_") - stub.count("    def by_radiance") > 20
     assert {type(warp).__name__ for warp, *_ in WARPS} == set(re.findall(r"class (\w+)\(Warp\)", stub))
 
 
@@ -418,6 +419,14 @@ EACH = {"p": P, "u": U}
         (lambda: et.LightTree([0, 0, 0], 1), ValueError, r"center must have the shape \(count, 3\)"),
         (lambda: et.LightTree(np.zeros((3, 3)), [1, 2]), ValueError, "do not agree: center .* radius"),
         (lambda: et.LightTree([[0, 0, 0]], 1).pmf(P, N, 0.5), TypeError, "light must be an array of integers"),
+        (lambda: et.ImageEnvironment([[1, 2]], "cube"), ValueError, 'map must be "equirectangular" or "equal-area", not "cube"'),
+        (lambda: et.ImageEnvironment(np.ones((2, 3, 3))), ValueError, r"the shape \(height, width\), not \(2, 3, 3\)"),
+        (lambda: et.ImageEnvironment(np.ones((0, 3))), ValueError, "1 to 16777216 rows and columns, not 0 and 3"),
+        (lambda: et.ImageEnvironment([[1, 2], [3, -1]]), ValueError, r"weights\[1, 1\] must be finite .* not -1"),
+        (lambda: et.ImageEnvironment([[1, np.nan]]), ValueError, r"weights\[0, 1\] must be finite .* not NaN"),
+        (lambda: et.ImageEnvironment([[1e39, 1]]), ValueError, r"weights\[0, 0\] must be finite .* not inf"),
+        (lambda: et.ImageEnvironment([[0, 0]]), ValueError, "all weights are 0"),
+        (lambda: et.ImageEnvironment(["x"]), TypeError, "weights must be an array of real numbers"),
     ],
 )
 def test_wrong_arguments(call, kind, message):
@@ -473,6 +482,45 @@ def test_directions_from_points(light, by):
     facing = np.abs(np.sum(w * s.normal, axis=1)) > 0.3
     facing &= s.emits | ((light, by) not in ROUGH)
     np.testing.assert_allclose(sampler.pdf(w)[facing], s.pdf[facing], rtol=1e-4)
+
+
+# light from an image
+
+
+def test_image_environment():
+    rng = np.random.default_rng(1)
+    weights = 0.1 + rng.random((16, 32))
+    weights[3, 5] = 0
+    sky = et.ImageEnvironment(weights)
+    assert "32 x 16" in repr(sky)
+    sampler = sky.by_radiance()
+    s = sampler.sample(et.OwenSobol().pairs(1 << 16))
+    # the cosines and azimuths of the rows' and columns' edges, in double precision
+    edges = np.cos(np.arange(17) * np.pi / 16)
+    power = weights * (edges[:-1] - edges[1:])[:, None] * (np.pi / 16)
+    x, y, z = s.direction.astype(float).T
+    column = np.floor(np.arctan2(y, x) % (2 * np.pi) * 16 / np.pi).astype(int) % 32
+    row = np.floor(np.arccos(np.clip(z, -1, 1)) * 16 / np.pi).astype(int)
+    # directions within rounding of an edge may be found on its other side
+    inside = np.abs(s.uv * [32, 16] % 1 - 0.5).max(axis=1) < 0.4999
+    assert inside.mean() > 0.99
+    found = np.stack([column, row], axis=1)[inside]
+    assert np.array_equal(found, np.floor(s.uv * [32, 16])[inside].astype(int))
+    # a table's probabilities are multiples of 2^-24 in the column of rows and in each row
+    np.testing.assert_allclose(s.pdf[inside], (weights[row, column] / power.sum())[inside], rtol=2e-5)
+    np.testing.assert_array_equal(s.pdf, sampler.pdf(s.direction))
+    np.testing.assert_allclose(s.weight * s.pdf, 1, rtol=1e-6)
+    counts = np.zeros((16, 32))
+    np.add.at(counts, (row, column), 1 / len(row))
+    assert np.abs(counts - power / power.sum()).max() < 3e-4 and counts[3, 5] == 0
+    back = sampler.sample(sampler.invert(s.direction))
+    np.testing.assert_allclose(back.direction[inside], s.direction[inside], atol=2e-6)
+    np.testing.assert_array_equal(sampler.hit(s.direction).uv, s.uv)
+    # the table lives as long as its samplers do
+    u = [[0.3, 0.6]]
+    assert et.ImageEnvironment([[1, 2]], "equal-area").by_radiance().sample(u).pdf[0] > 0
+    uniform = et.ImageEnvironment(np.ones((8, 8)), "equal-area").by_radiance()
+    np.testing.assert_allclose(uniform.sample(u).pdf, 1 / (4 * np.pi), rtol=1e-6)
 
 
 # the tree

@@ -1,0 +1,117 @@
+//! Light from all around as an image tells it.
+
+use crate::light::{EtendueLightSample, EtendueSampleColumns, Sampler, sampler_functions, vec2, vec3, with};
+use crate::{EtendueStatus, columns, each, each_mut, outputs, refuse_null};
+use core::slice::{from_raw_parts, from_raw_parts_mut};
+use etendue::light::{ByRadiance, EnvironmentMap, ImageEnvironment};
+use etendue_batch::Batch;
+
+/// The most columns or rows.
+const MOST: usize = 1 << 24;
+
+/// How an image covers the sphere of directions. In both z is up and the first row of the image comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
+pub enum EtendueEnvironmentMap {
+    /// The octahedral map of equal areas, as in pbrt-v4: the texels of a square image all have the same solid angle.
+    EqualArea = 0,
+    /// Longitude and latitude: columns are the azimuth from +x in [0, 2π), rows the angle from +z in [0, π].
+    Equirectangular = 1,
+}
+
+/// Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
+/// points. The position in the image is `uv` of a sample.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct EtendueImageEnvironment {
+    /// The table that [`etendue_image_environment_build`] wrote.
+    pub table: *const f32,
+    /// Number of columns of the image.
+    pub width: usize,
+    /// Number of its rows.
+    pub height: usize,
+    /// One of EtendueEnvironmentMap.
+    pub map: u32,
+}
+
+fn map_of(map: u32) -> Option<EnvironmentMap> {
+    match map {
+        0 => Some(EnvironmentMap::EqualArea),
+        1 => Some(EnvironmentMap::Equirectangular),
+        _ => None,
+    }
+}
+
+impl Sampler for EtendueImageEnvironment {
+    type Core = ByRadiance<'static>;
+    #[inline(always)]
+    unsafe fn with(this: *const Self, f: impl FnOnce(&ByRadiance<'static>)) -> EtendueStatus {
+        refuse_null!(this);
+        // SAFETY: the caller's pointer is not null
+        let Self { table, width, height, map } = unsafe { this.read() };
+        refuse_null!(table);
+        let Some(map) = map_of(map) else { return EtendueStatus::Value };
+        let length = etendue_image_environment_table(width, height);
+        // SAFETY: `etendue_image_environment_build` wrote it, and `f` keeps nothing of it
+        let table = unsafe { from_raw_parts(table, length) };
+        match ImageEnvironment::from_buffer(table, width, map) {
+            Ok(environment) => f(&environment.by_radiance()),
+            Err(_) => return EtendueStatus::Count,
+        }
+        EtendueStatus::Ok
+    }
+}
+
+/// Number of floats in the table of an image; 0 for one without columns or rows, or with more than 2^24 of them.
+#[unsafe(no_mangle)]
+pub extern "C" fn etendue_image_environment_table(width: usize, height: usize) -> usize {
+    let sizes = 1..=MOST;
+    let floats = if sizes.contains(&width) && sizes.contains(&height) { (width + 1).checked_mul(height) } else { None };
+    floats.unwrap_or(0)
+}
+
+/// Builds the table of an image, from a weight per steradian for each texel, row by row: its luminance, or a sum of its channels.
+///
+/// `weights` has width x height elements, `table` has [`etendue_image_environment_table`]; it must live as long as `environment` is used,
+/// `weights` need not. `map` is one of EtendueEnvironmentMap. Returns ETENDUE_STATUS_COUNT for a size that is not allowed, and
+/// ETENDUE_STATUS_VALUE for another `map`, if a weight is negative, infinite or NaN, and if all weights are 0.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn etendue_image_environment_build(
+    weights: *const f32,
+    width: usize,
+    height: usize,
+    map: u32,
+    table: *mut f32,
+    environment: *mut EtendueImageEnvironment,
+) -> EtendueStatus {
+    refuse_null!(weights, table, environment);
+    let length = etendue_image_environment_table(width, height);
+    if length == 0 {
+        return EtendueStatus::Count;
+    }
+    let Some(known) = map_of(map) else { return EtendueStatus::Value };
+    // SAFETY: the pointers are not null, and point to what the header says
+    let weights = unsafe { from_raw_parts(weights, width * height) };
+    // before the table is written
+    if weights.iter().any(|&w| !(w >= 0.0 && w < f32::INFINITY)) || weights.iter().all(|&w| w == 0.0) {
+        return EtendueStatus::Value;
+    }
+    // SAFETY: as above; every float of the table is written before it is read
+    let built = unsafe {
+        table.write_bytes(0, length);
+        ImageEnvironment::build(weights, width, known, from_raw_parts_mut(table, length)).is_ok()
+    };
+    if !built {
+        return EtendueStatus::Value;
+    }
+    // SAFETY: as above
+    unsafe { environment.write(EtendueImageEnvironment { table, width, height, map }) };
+    EtendueStatus::Ok
+}
+
+/// The functions of [`EtendueImageEnvironment`]: their names in C begin with `etendue_image_environment_`.
+pub mod image_environment {
+    use super::*;
+
+    sampler_functions!(EtendueImageEnvironment, image_environment);
+}

@@ -1,0 +1,107 @@
+//! Light from all around as an image tells it.
+
+use crate::arrays::{Argument, FieldKind, run, zeros};
+use crate::lights::{Prepared, Sampler};
+use etendue::light::{self, ByRadiance, EnvironmentMap};
+use etendue::{Vec2, Vec3};
+use etendue_batch::{Batch, Samples};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// The most columns or rows.
+const MOST: usize = 1 << 24;
+
+/// The table of an image, which samplers share.
+#[derive(Clone)]
+struct Image {
+    table: Arc<Vec<f32>>,
+    width: usize,
+    height: usize,
+    map: EnvironmentMap,
+}
+
+impl Image {
+    fn with<X>(&self, f: impl FnOnce(&ByRadiance<'_>) -> X) -> Option<X> {
+        let environment = light::ImageEnvironment::from_buffer(&self.table, self.width, self.map);
+        environment.ok().map(|environment| f(&environment.by_radiance()))
+    }
+}
+
+impl Prepared for Image {
+    fn sample(&self, u: Vec2<&[f32]>, out: Samples<'_>) {
+        self.with(|sampler| Batch::new().sample(sampler, u, out));
+    }
+    fn hit(&self, w: Vec3<&[f32]>, out: Samples<'_>) {
+        self.with(|sampler| Batch::new().hit(sampler, w, out));
+    }
+    fn pdf(&self, w: Vec3<&[f32]>, out: &mut [f32]) {
+        self.with(|sampler| Batch::new().pdf(sampler, w, out));
+    }
+    fn invert(&self, w: Vec3<&[f32]>, out: Vec2<&mut [f32]>) {
+        self.with(|sampler| Batch::new().invert(sampler, w, out));
+    }
+}
+
+/// Light from all around as an image tells it: a texel in proportion to its weight times its solid angle, and in the texel uniform by
+/// solid angle.
+///
+/// `weights` (height, width) are finite, not negative and not all 0, in any unit: the luminance of each texel, or the sum of its channels.
+/// z is up, and the first row is the top one. `map` is "equirectangular" for longitude and latitude (columns are the azimuth from +x, rows
+/// the angle from +z), or "equal-area" for the square octahedral map whose texels all have the same solid angle, as in pbrt-v4. `uv` of a
+/// sample is its position in the image, by column and row.
+#[pyclass(module = "etendue", frozen)]
+pub(crate) struct ImageEnvironment {
+    image: Image,
+}
+
+#[pymethods]
+impl ImageEnvironment {
+    #[new]
+    #[pyo3(signature = (weights, map="equirectangular"))]
+    fn new(py: Python<'_>, weights: &Bound<'_, PyAny>, map: &str) -> PyResult<Self> {
+        let map = match map {
+            "equirectangular" => EnvironmentMap::Equirectangular,
+            "equal-area" => EnvironmentMap::EqualArea,
+            _ => {
+                let message = format!("map must be \"equirectangular\" or \"equal-area\", not \"{map}\"");
+                return Err(PyValueError::new_err(message));
+            }
+        };
+        let argument = Argument::new("weights", FieldKind::Number, weights)?;
+        let &[height, width] = &argument.shape[..] else {
+            let message = format!("weights must have the shape (height, width), not {}", weights.getattr("shape")?);
+            return Err(PyValueError::new_err(message));
+        };
+        let sizes = 1..=MOST;
+        if !sizes.contains(&width) || !sizes.contains(&height) {
+            let message = format!("weights must have 1 to {MOST} rows and columns, not {height} and {width}");
+            return Err(PyValueError::new_err(message));
+        }
+        let columns = argument.columns(&argument.shape)?;
+        let weights = &columns[0];
+        if let Some(at) = weights.iter().position(|&weight| !(weight >= 0.0 && weight < f32::INFINITY)) {
+            let place = argument.index(at, &argument.shape, None);
+            let message = format!("{place} must be finite in float32 and not negative, not {}", weights[at]);
+            return Err(PyValueError::new_err(message));
+        }
+        let mut table = zeros(light::ImageEnvironment::buffer(width, height))?;
+        let built = run(py, weights.len(), || {
+            light::ImageEnvironment::build(weights, width, map, &mut table).map(|_| ()).map_err(|e| e.to_string())
+        });
+        built.map_err(PyValueError::new_err)?;
+        Ok(Self { image: Image { table: Arc::new(table), width, height, map } })
+    }
+    /// Directions in proportion to the image, the same for all shading points.
+    fn by_radiance(&self) -> Sampler {
+        Sampler::new(Box::new(self.image.clone()), "ImageEnvironment by_radiance", None)
+    }
+    fn __repr__(&self) -> String {
+        format!("<etendue.ImageEnvironment of {} x {} texels>", self.image.width, self.image.height)
+    }
+}
+
+/// Adds the environment to the module.
+pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<ImageEnvironment>()
+}
