@@ -93,7 +93,7 @@ pub unsafe extern "C" fn etendue_image_environment_build(
     // SAFETY: the pointers are not null, and point to what the header says
     let weights = unsafe { from_raw_parts(weights, width * height) };
     // before the table is written
-    if weights.iter().any(|&w| !(w >= 0.0 && w < f32::INFINITY)) || weights.iter().all(|&w| w == 0.0) {
+    if weights.iter().any(|&w| !(0.0..f32::INFINITY).contains(&w)) || weights.iter().all(|&w| w == 0.0) {
         return EtendueStatus::Value;
     }
     // SAFETY: as above; every float of the table is written before it is read

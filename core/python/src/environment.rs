@@ -80,7 +80,7 @@ impl ImageEnvironment {
         }
         let columns = argument.columns(&argument.shape)?;
         let weights = &columns[0];
-        if let Some(at) = weights.iter().position(|&weight| !(weight >= 0.0 && weight < f32::INFINITY)) {
+        if let Some(at) = weights.iter().position(|&weight| !(0.0..f32::INFINITY).contains(&weight)) {
             let place = argument.index(at, &argument.shape, None);
             let message = format!("{place} must be finite in float32 and not negative, not {}", weights[at]);
             return Err(PyValueError::new_err(message));
