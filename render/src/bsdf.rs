@@ -1,4 +1,4 @@
-//! BSDFs in packets: diffuse surfaces, perfect mirrors and rough metals.
+//! BSDFs in packets: diffuse surfaces, perfect mirrors, rough metals, and rough coats over diffuse surfaces.
 
 use crate::packet::{M8, V8, X8, equal, max, min, select};
 use crate::scene::Material;
@@ -9,22 +9,24 @@ use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
 /// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α, η (3), k (3), kind (bits). A mirror
-/// has its reflectance in place of η, and k = 0.
+/// has its reflectance in place of η, and k = 0; a coat its reflectance at normal incidence.
 pub type Finish = [f32; 8];
 
 // kind 0 is diffuse
 const MIRROR: u32 = 1;
 const METAL: u32 = 2;
 const ROUGH: u32 = 3;
+const COAT: u32 = 4;
 
 /// The record of a diffuse surface, with an arbitrary valid roughness.
 pub const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
 
-/// The record of a material.
+/// The record of a material; of a varying one it is that of a diffuse surface, since its own depends on the place.
 pub fn finish(material: &Material) -> Finish {
     let kind = |kind| f32::from_bits(kind);
     match *material {
-        Material::Diffuse(_) => PLAIN,
+        Material::Diffuse(_) | Material::Varying(_) => PLAIN,
+        Material::Glossy { specular: [r, g, b], alpha, .. } => [alpha, r, g, b, 0.0, 0.0, 0.0, kind(COAT)],
         Material::Mirror([r, g, b]) => [1.0, r, g, b, 0.0, 0.0, 0.0, kind(MIRROR)],
         Material::Conductor { eta: [a, b, c], k: [x, y, z], alpha } if alpha > 0.0 => {
             [alpha, a, b, c, x, y, z, kind(ROUGH)]
@@ -33,7 +35,16 @@ pub fn finish(material: &Material) -> Finish {
     }
 }
 
-/// Parameters of the metal in each lane.
+/// The albedo of a material's diffuse part; white for metals and mirrors that are not black.
+pub fn albedo(material: &Material) -> [f32; 3] {
+    match *material {
+        Material::Diffuse(albedo) | Material::Glossy { diffuse: albedo, .. } => albedo,
+        _ if material.is_black() => [0.0; 3],
+        Material::Mirror(_) | Material::Conductor { .. } | Material::Varying(_) => [1.0; 3],
+    }
+}
+
+/// Parameters of the metal or coat in each lane.
 #[derive(Clone, Copy)]
 pub struct Metal {
     alpha: X8,
@@ -64,15 +75,29 @@ impl Metal {
     pub fn mirrors(&self) -> M8 {
         equal(self.kind, u32x8::splat(MIRROR)) | equal(self.kind, u32x8::splat(METAL))
     }
-    /// Lanes of rough metals.
+    /// Lanes of rough metals and of coats.
     #[inline]
     pub fn rough(&self) -> M8 {
-        equal(self.kind, u32x8::splat(ROUGH))
+        equal(self.kind, u32x8::splat(ROUGH)) | self.coats()
+    }
+    /// Lanes of coats.
+    #[inline]
+    fn coats(&self) -> M8 {
+        equal(self.kind, u32x8::splat(COAT))
     }
     /// Reflectance of a perfect mirror at this cosine of the angle of incidence, per channel.
     #[inline]
     pub fn reflectance(&self, cos: X8) -> V8 {
         V8::blend(equal(self.kind, u32x8::splat(MIRROR)), self.eta, self.fresnel(cos))
+    }
+    /// Schlick's reflectance of a coat, per channel.
+    #[inline]
+    fn schlick(&self, cos: X8) -> V8 {
+        let one = X8::lit(1.0);
+        let away = one - min(max(cos, X8::lit(0.0)), one);
+        let square = away * away;
+        let fifth = square * square * away;
+        self.eta.map(|f0| (one - f0).mul_add(fifth, f0))
     }
     /// Reflectance of a smooth conductor for unpolarised light, per channel.
     #[inline]
@@ -111,15 +136,20 @@ fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
     X8::lit(0.5) * (across + along)
 }
 
-/// The BSDFs of eight surfaces for given outgoing directions. `METAL` compiles the code of rough metals in.
+/// The BSDFs of eight surfaces for given outgoing directions. `METAL` compiles in the code of all that is not flat and diffuse.
+///
+/// Where the normal is that of a smooth surface, light from below the flat surface counts for nothing, nor does light from below the
+/// smooth one: so no light leaks through (PBR 4th ed., 9.1.1 and 10.1.1).
 #[derive(Clone, Copy)]
 pub struct Bsdf<const METAL: bool> {
     normal: V8,
+    /// Normal of the flat surface.
+    flat: V8,
     albedo: V8,
     rough: Option<Rough>,
 }
 
-/// Rough metals in some of the lanes.
+/// Rough metals and coats in some of the lanes.
 #[derive(Clone, Copy)]
 struct Rough {
     lanes: M8,
@@ -127,6 +157,15 @@ struct Rough {
     frame: Frame<X8>,
     /// Outgoing directions in the frame.
     view: V8,
+    coats: Option<Coats>,
+}
+
+/// Coats in some of the lanes.
+#[derive(Clone, Copy)]
+struct Coats {
+    lanes: M8,
+    /// Probability with which the rough part is sampled, and not the diffuse one.
+    share: X8,
 }
 
 /// A BSDF for a pair of directions.
@@ -152,14 +191,17 @@ pub struct Scattered {
 }
 
 impl<const METAL: bool> Bsdf<METAL> {
-    /// The BSDFs of surfaces with this normal and albedo for camera rays along `direction`.
+    /// The BSDFs of surfaces with this normal and albedo for camera rays along `direction`; `flat` is the normal of the flat surface.
     #[inline(always)]
-    pub fn new(normal: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
+    pub fn new(normal: V8, flat: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
         let rough = metal.filter(|metal| METAL && metal.rough().any()).map(|metal| {
             let frame = Frame::new(normal);
-            Rough { lanes: metal.rough(), metal, frame, view: frame.to_local(-direction) }
+            let view = frame.to_local(-direction);
+            let lanes = metal.coats();
+            let coats = lanes.any().then(|| Coats { lanes, share: coat_share(metal.schlick(view.z), albedo) });
+            Rough { lanes: metal.rough(), metal, frame, view, coats }
         });
-        Self { normal, albedo, rough }
+        Self { normal, flat, albedo, rough }
     }
     /// Evaluates the BSDF for the unit vector `w`; 0 below the horizon, where diffuse lanes of a scene without metals have a negative
     /// `factor`.
@@ -168,13 +210,14 @@ impl<const METAL: bool> Bsdf<METAL> {
         let cos = w.dot(self.normal);
         let above = cos.gt(X8::lit(0.0));
         let factor = cos * X8::lit(INV_PI);
-        let pdf = factor.keep(above);
         if !METAL {
-            return Evaluated { color: self.albedo, factor, pdf };
+            return Evaluated { color: self.albedo, factor, pdf: factor.keep(above) };
         }
+        let above = above & w.dot(self.flat).gt(X8::lit(0.0));
+        let pdf = factor.keep(above);
         let value = self.albedo * factor.keep(above);
         let one = X8::lit(1.0);
-        let Some(Rough { lanes, metal, frame, view }) = &self.rough else {
+        let Some(Rough { lanes, metal, frame, view, coats }) = &self.rough else {
             return Evaluated { color: value, factor: one, pdf };
         };
         let local = frame.to_local(w);
@@ -183,8 +226,17 @@ impl<const METAL: bool> Bsdf<METAL> {
         let density = normals.reflected_pdf(m).keep(above);
         // f cosθ = F D G₂/(4 cosθᵢ) and the pdf is D G₁/(4 cosθᵢ), so their quotient is F G₂/G₁
         let share = density * shadowing(metal.alpha, view.z, local.z);
-        let color = V8::blend(*lanes, metal.fresnel(view.dot(m)) * share, value);
-        Evaluated { color, factor: one, pdf: select(*lanes, density, pdf) }
+        let cos = view.dot(m);
+        let mut color = V8::blend(*lanes, metal.fresnel(cos) * share, value);
+        let mut density = select(*lanes, density, pdf);
+        if let Some(Coats { lanes, share: chosen }) = coats {
+            let reflectance = metal.schlick(cos);
+            let through = V8::from([1.0; 3]) - reflectance;
+            let under = V8::new(value.x * through.x, value.y * through.y, value.z * through.z);
+            color = V8::blend(*lanes, reflectance * share + under, color);
+            density = select(*lanes, (density - pdf).mul_add(*chosen, pdf), density);
+        }
+        Evaluated { color, factor: one, pdf: density }
     }
     /// Samples a direction for the technique: uniform or by the cosine over the hemisphere, and otherwise from the BSDF, which is by the
     /// cosine for diffuse surfaces and by visible normals for rough metals.
@@ -204,9 +256,18 @@ impl<const METAL: bool> Bsdf<METAL> {
             };
             return Scattered { direction: frame.to_world(local), color: self.albedo, factor, pdf };
         }
-        if let Some(Rough { lanes, metal, view, .. }) = self.rough.as_ref().filter(|_| !by_cosine) {
+        if let Some(Rough { lanes, metal, view, coats, .. }) = self.rough.as_ref().filter(|_| !by_cosine) {
             let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
-            local = V8::blend(*lanes, normals.reflect(normals.sample(u)), local);
+            let (mut by_normals, mut u) = (*lanes, u);
+            if let Some(Coats { lanes, share }) = coats {
+                let first = u.x.lt(*share);
+                let rest = one - *share;
+                let left = select(first, u.x / *share, (u.x - *share) / select(rest.gt(zero), rest, one));
+                u.x = select(*lanes, min(left, X8::lit(LAST)), u.x);
+                local = V8::blend(*lanes, CosineHemisphere.sample(u), local);
+                by_normals = by_normals & (first | !*lanes);
+            }
+            local = V8::blend(by_normals, normals.reflect(normals.sample(u)), local);
         }
         let direction = frame.to_world(local);
         let Evaluated { color, pdf, .. } = self.evaluate(direction);
@@ -218,6 +279,20 @@ impl<const METAL: bool> Bsdf<METAL> {
         let some = pdf.gt(zero);
         Scattered { direction, color: color * (one / select(some, pdf, one)), factor: one, pdf }
     }
+}
+
+/// The largest number below 1.
+const LAST: f64 = 1.0 - 1.0 / 16_777_216.0;
+
+/// The probability with which a coat's rough part is sampled: its share of the reflectance, but at least a tenth, and at most nine unless
+/// nothing is below it.
+#[inline]
+fn coat_share(reflectance: V8, albedo: V8) -> X8 {
+    let most = |v: V8| max(max(v.x, v.y), v.z);
+    let (above, below) = (most(reflectance), most(albedo) * (X8::lit(1.0) - most(reflectance)));
+    let sum = above + below;
+    let share = above / select(sum.gt(X8::lit(0.0)), sum, X8::lit(1.0));
+    select(below.gt(X8::lit(0.0)), min(max(share, X8::lit(0.1)), X8::lit(0.9)), X8::lit(1.0))
 }
 
 /// G₂/G₁ of the height-correlated Smith masking-shadowing function (Heitz 2014, equation 99): (1 + Λᵢ)/(1 + Λᵢ + Λₒ), where
@@ -285,7 +360,7 @@ mod tests {
                 let cos = (1.0 - sin * sin).sqrt();
                 let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
                 let toward = V8::from([-sin, 0.0, -cos]);
-                let bsdf = Bsdf::<true>::new(normal, V8::default(), toward, Some(metal));
+                let bsdf = Bsdf::<true>::new(normal, normal, V8::default(), toward, Some(metal));
                 let n = 1024_u16;
                 let (mut sampled, mut weight, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
                 for i in 0..n {

@@ -2,8 +2,10 @@
 
 pub mod layers;
 mod size;
+mod texels;
 
 pub use exr::prelude::Compression;
+pub use texels::{Encoding, read_texels};
 
 use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};

@@ -2,8 +2,8 @@
 //!
 //! Modules import one way, from the last line of this list to the first:
 //!
-//! - [`packet`], [`area`], [`geometry`], [`limits`], [`options`]: packets of eight numbers, rectangles of pixels, the forms of shapes, how
-//!   large images can be, and what command lines share.
+//! - [`packet`], [`area`], [`geometry`], [`texture`], [`limits`], [`options`]: packets of eight numbers, rectangles of pixels, the forms
+//!   of shapes, what varies over them, how large images can be, and what command lines share.
 //! - [`sums`], [`film`], [`files`], [`image`], [`compare`]: sums of samples, pixels, and images in files.
 //! - [`scene`]: scene files.
 //! - [`bvh`], [`technique`], [`bsdf`], [`surfaces`]: what rays hit, and how it reflects.
@@ -41,6 +41,7 @@ pub mod split;
 pub mod sums;
 pub mod surfaces;
 pub mod technique;
+pub mod texture;
 
 pub use claim::Claim;
 pub use frame::Frame;

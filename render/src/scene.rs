@@ -3,6 +3,7 @@
 //! An unsupported feature is an error that names file and line; a feature that changes the image little, or only its noise, is a
 //! warning. Coordinates are transformed in f64 and rounded once to f32.
 
+mod builder;
 mod builtin;
 mod description;
 mod generated;
@@ -15,6 +16,7 @@ mod params;
 mod ply;
 mod reader;
 mod shapes;
+mod subdivision;
 #[cfg(test)]
 mod tests;
 mod transform;
@@ -22,9 +24,9 @@ mod transform;
 use crate::files::read_file;
 pub use crate::geometry::Geometry;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
-pub use description::{CameraSettings, Emission, FilmSettings, Lens, Scene, Shape};
+pub use description::{CameraSettings, Corners, Details, Emission, FilmSettings, Lens, Scene, Shape};
 pub use lights::{DeltaLight, Environment, SkyRadiance};
-pub use materials::Material;
+pub use materials::{Material, Varying};
 pub use message::Message;
 use message::utf8;
 use reader::Origin;

@@ -2,10 +2,10 @@
 
 mod points;
 
-use crate::bsdf::{Finish, Metal, PLAIN, finish};
+use crate::bsdf::{Finish, Metal, PLAIN, albedo, finish};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::packet::{M8, V8, X8, equal};
-use crate::scene::{Geometry, Material, Scene, Shape};
+use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
 use etendue::{Mask, Real, Vec3, u32x8};
 pub(crate) use points::{LEAST, LIFT};
 use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
@@ -47,9 +47,21 @@ pub struct Surfaces {
     place_materials: Vec<u32>,
     /// Material of all triangles if `place_materials` is empty.
     one_material: u32,
-    /// Whether all materials are diffuse.
-    pub only_diffuse: bool,
+    /// Whether all surfaces are flat, or spheres, and diffuse, each with one albedo.
+    pub is_plain: bool,
     rough: bool,
+    /// Whether materials reflect anything.
+    reflect: Vec<bool>,
+    /// What varies over surfaces, if anything does.
+    detail: Option<Detail>,
+}
+
+/// What varies over the surfaces of a scene.
+#[derive(Debug)]
+struct Detail {
+    corners: Arc<Details>,
+    /// For each material the one that varies, if it does.
+    varying: Vec<Option<Varying>>,
 }
 
 impl Surfaces {
@@ -81,18 +93,24 @@ impl Surfaces {
         } else {
             bvh.order().iter().map(|&id| scene.triangle_materials[id as usize]).collect()
         };
-        let albedo = |material: &Material| match *material {
-            Material::Diffuse(albedo) => albedo,
-            _ if material.is_black() => [0.0; 3],
-            Material::Mirror(_) | Material::Conductor { .. } => [1.0; 3],
+        let of = |material: &Material| match *material {
+            Material::Varying(index) => Some(scene.varying[index as usize].clone()),
+            _ => None,
         };
+        let varying: Vec<_> = scene.materials.iter().map(of).collect();
+        // what does not look at the place takes the mean
+        let material = |(material, of): (&Material, &Option<Varying>)| of.as_ref().map_or(*material, Varying::mean);
+        let means: Vec<Material> = scene.materials.iter().zip(&varying).map(material).collect();
+        let detailed = varying.iter().any(Option::is_some) || !scene.details.of_triangles.is_empty();
         Self {
-            rough: scene.materials.iter().any(Material::is_glossy),
-            only_diffuse: scene.materials.iter().all(|m| matches!(m, Material::Diffuse(_))),
+            rough: means.iter().any(Material::is_glossy),
+            is_plain: !detailed && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
             shapes: Arc::clone(&scene.shapes),
             bvh,
-            albedos: scene.materials.iter().map(albedo).collect(),
-            finishes: scene.materials.iter().map(finish).collect(),
+            albedos: means.iter().map(albedo).collect(),
+            finishes: means.iter().map(finish).collect(),
+            reflect: means.iter().map(|material| !material.is_black()).collect(),
+            detail: detailed.then(|| Detail { corners: Arc::clone(&scene.details), varying }),
             place_materials,
             one_material: scene.triangle_materials.first().copied().unwrap_or(0),
         }
@@ -105,7 +123,7 @@ impl Surfaces {
     pub fn light_shapes(&self) -> impl Iterator<Item = u32> {
         (0..).zip(self.shapes.iter()).filter(|(_, shape)| shape.emission.is_some()).map(|(index, _)| index)
     }
-    /// Whether any material is a rough metal.
+    /// Whether any material is glossy.
     pub fn has_rough(&self) -> bool {
         self.rough
     }
@@ -197,8 +215,8 @@ impl Surfaces {
             if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
                 surface.emission = V8::blend(lit, radiance, surface.emission);
             }
-            let albedo = self.albedos[shape.material as usize];
-            if albedo != [0.0; 3] {
+            if self.reflect[shape.material as usize] {
+                let albedo = self.albedos[shape.material as usize];
                 let reach = self.bvh.reach();
                 let Points { point, normal } = match (&shape.geometry, shape.geometry.plane()) {
                     (_, Some([corner, normal])) => on_plane(corner, normal, rays, reach),
@@ -215,7 +233,52 @@ impl Surfaces {
         });
     }
 
-    /// Materials at the hit points of these lanes.
+    /// Materials at the hit points of these lanes, and the lanes of smooth surfaces: `surface` gets their normals, and the albedos of
+    /// materials that vary.
+    #[inline]
+    pub fn materials(&self, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) -> (Metal, M8) {
+        match &self.detail {
+            Some(detail) => self.detailed(detail, hits, lanes, direction, surface),
+            None => (self.metal(hits, lanes), M8::splat(false)),
+        }
+    }
+
+    #[inline(never)]
+    fn detailed(&self, detail: &Detail, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) -> (Metal, M8) {
+        let (places, order) = (hits.place.as_array(), self.bvh.order());
+        let (mut finishes, mut smooth) = ([PLAIN; 8], 0);
+        for (lane, own) in finishes.iter_mut().enumerate().filter(|(lane, _)| lanes.lane(*lane)) {
+            let place = places[lane];
+            if place & SHAPE != 0 {
+                *own = self.finishes[self.shapes[(place & !SHAPE) as usize].material as usize];
+                continue;
+            }
+            let material = self.mesh_material(place) as usize;
+            let corners = detail.corners.of_triangles.get(order[place as usize] as usize);
+            let corners = corners.and_then(|&index| detail.corners.corners.get(index as usize));
+            let varying = detail.varying[material].as_ref();
+            let weights = corners.map(|_| barycentric(self.bvh.corners(place), lane_of(surface.point, lane)));
+            let varied = varying.map(|varying| match (corners, weights) {
+                (Some(corners), Some(weights)) => varying.at(mixed(&corners.uvs, weights)),
+                _ => varying.at([0.0; 2]),
+            });
+            *own = varied.as_ref().map_or(self.finishes[material], finish);
+            if let Some(varied) = varied {
+                set_lane(&mut surface.albedo, lane, albedo(&varied));
+            }
+            if let Some((Corners { normals, .. }, weights)) = corners.zip(weights)
+                && normals[0] != [0.0; 3]
+                && let Some(n) =
+                    smooth_normal(normals, weights, lane_of(surface.normal, lane), lane_of(direction, lane))
+            {
+                set_lane(&mut surface.normal, lane, n);
+                smooth |= 1 << lane;
+            }
+        }
+        (Metal::new(finishes.each_ref()), M8::from_bits(smooth))
+    }
+
+    /// Materials at the hit points of these lanes; of a material that varies, it is the mean.
     #[inline]
     pub fn metal(&self, hits: &Hits, lanes: M8) -> Metal {
         let places = hits.place.as_array();
@@ -233,6 +296,56 @@ impl Surfaces {
         });
         Metal::new(rows)
     }
+}
+
+fn lane_of(v: V8, lane: usize) -> [f32; 3] {
+    [v.x.lane(lane), v.y.lane(lane), v.z.lane(lane)]
+}
+fn set_lane(v: &mut V8, lane: usize, [x, y, z]: [f32; 3]) {
+    v.x.as_mut_array()[lane] = x;
+    v.y.as_mut_array()[lane] = y;
+    v.z.as_mut_array()[lane] = z;
+}
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// The weights of a triangle's corners at the point of its plane that is nearest to `p`, none of them negative.
+fn barycentric(corners: [f32; 9], p: [f32; 3]) -> [f32; 3] {
+    let corner = |i: usize| std::array::from_fn::<f64, 3, _>(|k| corners[3 * i + k].into());
+    let from_first = |q: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| q[k] - corner(0)[k]);
+    let (u, v, w) = (from_first(corner(1)), from_first(corner(2)), from_first(p.map(f64::from)));
+    let (uu, uv, vv, wu, wv) = (dot(u, u), dot(u, v), dot(v, v), dot(w, u), dot(w, v));
+    let inverse = 1.0 / (uu * vv - uv * uv);
+    let [s, t] = [(vv * wu - uv * wv) * inverse, (uu * wv - uv * wu) * inverse];
+    // the determinant of a sliver may round to 0
+    let [s, t] = [s, t].map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
+    [(1.0 - s - t).max(0.0) as f32, s as f32, t as f32]
+}
+fn mixed<const N: usize>(of: &[[f32; N]; 3], weights: [f32; 3]) -> [f32; N] {
+    std::array::from_fn(|k| of[0][k] * weights[0] + of[1][k] * weights[1] + of[2][k] * weights[2])
+}
+
+/// The least cosine between a smooth normal and the direction to the viewer.
+const LEAST_COS: f64 = 0.01;
+
+/// The normal of a smooth surface on the side of the flat normal, turned so far to the viewer that he sees the surface from the front;
+/// `None` if the normals at the corners cancel.
+fn smooth_normal(normals: &[[f32; 3]; 3], weights: [f32; 3], flat: [f32; 3], direction: [f32; 3]) -> Option<[f32; 3]> {
+    let unit = |n: [f64; 3]| {
+        let length = dot(n, n).sqrt();
+        (length > 1e-6).then(|| n.map(|x| x / length))
+    };
+    let mut n = unit(mixed(normals, weights).map(f64::from))?;
+    let (flat, direction) = (flat.map(f64::from), direction.map(f64::from));
+    if dot(n, flat) < 0.0 {
+        n = n.map(|x| -x);
+    }
+    let cos = -dot(n, direction);
+    if cos < LEAST_COS {
+        n = unit(std::array::from_fn(|k| n[k] - (LEAST_COS - cos) * direction[k]))?;
+    }
+    Some(n.map(|x| x as f32))
 }
 
 /// Radiance that a shape emits against the rays, and the lanes where it does.

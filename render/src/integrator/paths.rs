@@ -72,6 +72,10 @@ struct End {
     /// Directions of the rays that hit the surfaces.
     direction: V8,
     metal: Option<Metal>,
+    /// Lanes whose surface has the normal of a smooth one.
+    smooth: M8,
+    /// Normals of the flat surfaces.
+    flat: V8,
     /// Fractions of the light leaving the surfaces that reach the camera.
     throughput: V8,
 }
@@ -80,9 +84,9 @@ struct End {
 #[inline(always)]
 fn bsdf<const METAL: bool>(surface: &Surface, end: &End) -> Bsdf<METAL> {
     if METAL {
-        Bsdf::new(surface.normal, surface.albedo, end.direction, end.metal)
+        Bsdf::new(surface.normal, end.flat, surface.albedo, end.direction, end.metal)
     } else {
-        Bsdf::new(surface.normal, surface.albedo, V8::default(), None)
+        Bsdf::new(surface.normal, surface.normal, surface.albedo, V8::default(), None)
     }
 }
 
@@ -109,7 +113,6 @@ pub(super) struct Paths<'a> {
 
 impl<'a> Paths<'a> {
     pub(super) fn new(scene: &'a PreparedScene, settings: &Settings, camera: &Camera) -> Self {
-        let zero = V8::default();
         Self {
             scene,
             technique: settings.technique,
@@ -118,7 +121,7 @@ impl<'a> Paths<'a> {
             scratch: Scratch::default(),
             rays: Box::default(),
             surfaces: Box::new([Surface::default(); GROUP]),
-            ends: Box::new([End { direction: zero, metal: None, throughput: zero }; GROUP]),
+            ends: Box::new([End::start(); GROUP]),
             places: Box::default(),
             analytic: settings
                 .technique
@@ -142,7 +145,7 @@ impl<'a> Paths<'a> {
 
     /// Follows the rays that have been started. Returns the surfaces at their ends, which reflect but whose emission does not count.
     pub(super) fn surfaces(&mut self, active: &[M8]) -> &[Surface] {
-        if self.scene.surfaces.only_diffuse {
+        if self.scene.surfaces.is_plain {
             self.follow::<false>(active);
         } else {
             self.follow::<true>(active);
@@ -174,13 +177,13 @@ impl<'a> Paths<'a> {
         self.note_glossy(1);
         let Self { scene, analytic, surfaces, places, ends, .. } = self;
         let doubt = analytic.as_mut().map_or(V8::default(), |analytic| analytic.doubt(&surfaces[0], &places[0]));
-        if scene.surfaces.only_diffuse { doubt } else { product(ends[0].throughput, doubt) }
+        if scene.surfaces.is_plain { doubt } else { product(ends[0].throughput, doubt) }
     }
 
     fn note_glossy(&mut self, count: usize) {
-        if !self.scene.surfaces.only_diffuse {
+        if !self.scene.surfaces.is_plain {
             for (place, end) in self.places[..count].iter_mut().zip(&*self.ends) {
-                place.glossy = end.metal.map_or(M8::splat(false), |metal| metal.rough());
+                place.glossy = end.smooth | end.metal.map_or(M8::splat(false), |metal| metal.rough());
             }
         }
     }
@@ -196,7 +199,7 @@ impl<'a> Paths<'a> {
             self.count.camera += u64::from(active.bits().count_ones());
         }
         // what a scene does not need is not compiled in
-        if self.scene.surfaces.only_diffuse {
+        if self.scene.surfaces.is_plain {
             self.gather::<false>(active, numbers, allocated);
         } else {
             self.gather::<true>(active, numbers, allocated);
@@ -248,8 +251,7 @@ impl<'a> Paths<'a> {
         if METAL {
             radiance[..count].fill(Radiance::default());
             surfaces[..count].fill(Surface::default());
-            let one = V8::from([1.0; 3]);
-            ends[..count].fill(End { direction: V8::default(), metal: None, throughput: one });
+            ends[..count].fill(End { throughput: V8::from([1.0; 3]), ..End::start() });
         }
         for depth in 0.. {
             let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
@@ -273,23 +275,28 @@ impl<'a> Paths<'a> {
                     radiance[p].seen = see(&surfaces[p]);
                     continue;
                 }
-                let surface = world.hit(&hits[p], ray);
+                let mut surface = world.hit(&hits[p], ray);
                 let seen = see(&surface);
                 let incoming = ray.direction;
                 let end = &mut ends[p];
                 radiance[p].seen += keep(product(end.throughput, seen), here);
                 let reflects = surface.reflects & here;
-                let metal = world.metal(&hits[p], reflects);
+                let flat = surface.normal;
+                let (metal, smooth) = world.materials(&hits[p], reflects, incoming, &mut surface);
                 let mirrors = metal.mirrors() & reflects;
                 let ends_here = reflects & !mirrors;
+                end.smooth = end.smooth | (smooth & ends_here);
+                end.flat = V8::blend(ends_here, flat, end.flat);
                 end.settle(&mut surfaces[p], &surface, ends_here, incoming, metal);
                 places[p].primitives = pick(ends_here, hits[p].place, places[p].primitives);
                 places[p].direct = if depth == 0 { ends_here } else { places[p].direct & !ends_here };
                 going[p] = M8::splat(false);
                 if mirrors.any() && depth < self.depth {
-                    going[p] = mirrors;
-                    on = true;
                     let (origin, direction) = end.reflect(&surface, &metal, mirrors, incoming);
+                    // the mirror image of a smooth normal may be below the flat surface
+                    let mirrors = mirrors & (direction.dot(flat).gt(X8::lit(0.0)) | !smooth);
+                    going[p] = mirrors;
+                    on |= mirrors.any();
                     rays[0][p] = world.bvh.rays(origin, direction).leaving(hits[p].place);
                     self.count.mirror += u64::from(mirrors.bits().count_ones());
                 }
@@ -457,6 +464,11 @@ impl<'a> Paths<'a> {
 }
 
 impl End {
+    /// Before any ray has hit.
+    fn start() -> Self {
+        let zero = V8::default();
+        Self { direction: zero, metal: None, smooth: M8::splat(false), flat: zero, throughput: zero }
+    }
     /// Ends the paths of these lanes at a surface.
     #[inline]
     fn settle(&mut self, own: &mut Surface, surface: &Surface, lanes: M8, direction: V8, metal: Metal) {

@@ -1,7 +1,7 @@
 //! What a scene file describes.
 
 use super::lights::{DeltaLight, Environment};
-use super::materials::Material;
+use super::materials::{Material, Varying};
 use super::message::Message;
 use crate::geometry::Geometry;
 use std::path::PathBuf;
@@ -24,6 +24,10 @@ pub struct Scene {
     pub triangles: Vec<[[f32; 3]; 3]>,
     /// One index into `materials` per triangle.
     pub triangle_materials: Vec<u32>,
+    /// Materials that vary over their surfaces.
+    pub varying: Vec<Varying>,
+    /// Normals and texture coordinates of triangles that have them.
+    pub details: Arc<Details>,
     /// All spheres, and the triangles and parallelograms that emit. What renders the scene shares them.
     pub shapes: Arc<[Shape]>,
     /// Point, spot and distant lights.
@@ -34,6 +38,29 @@ pub struct Scene {
     pub warnings: Vec<Message>,
     /// The files that were read: the scene file itself if [`load`](super::load) read it, included files, meshes and images.
     pub inputs: Vec<PathBuf>,
+}
+
+/// Normals and texture coordinates of the triangles that have them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Details {
+    /// For each triangle an index into `corners`, or [`Details::NONE`]; empty if no triangle has any.
+    pub of_triangles: Vec<u32>,
+    /// Normals and texture coordinates.
+    pub corners: Vec<Corners>,
+}
+
+impl Details {
+    /// The index of no corners.
+    pub const NONE: u32 = u32::MAX;
+}
+
+/// What is known at the corners of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corners {
+    /// Unit normals of the smooth surface that the triangle stands for, on either side; 0 for a flat one.
+    pub normals: [[f32; 3]; 3],
+    /// Texture coordinates.
+    pub uvs: [[f32; 2]; 3],
 }
 
 /// The image to be written.

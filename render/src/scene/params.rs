@@ -242,6 +242,11 @@ impl Params {
         self.list.len() != before
     }
 
+    /// Whether the parameter is given, of whatever type.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.list.iter().any(|p| p.name == name)
+    }
+
     /// Fails if one of these parameters is given.
     pub(super) fn reject(&self, names: &[&str]) -> Result<(), Message> {
         match self.list.iter().find(|p| names.contains(&p.name.as_str())) {

@@ -14,8 +14,10 @@ pub(super) struct Mesh {
     pub(super) points: Vec<[f64; 3]>,
     /// Faces in the order of the file, with unchecked indices.
     pub(super) faces: Vec<Face>,
-    /// Whether the vertices have normals.
-    pub(super) has_normals: bool,
+    /// Normals of the vertices, of any length; none if the file has none.
+    pub(super) normals: Vec<[f64; 3]>,
+    /// Texture coordinates of the vertices; none if the file has none.
+    pub(super) uvs: Vec<[f64; 2]>,
     /// Warnings about ignored parts of the file.
     pub(super) warnings: Vec<String>,
 }
@@ -29,17 +31,30 @@ pub(super) struct Face {
     pub(super) corners: usize,
 }
 
-struct Vertex([f64; 3]);
+/// A point, a normal and texture coordinates.
+struct Vertex([f64; 8]);
+
+/// Names of the numbers of a vertex. Texture coordinates have several.
+const NUMBERS: [&[&str]; 8] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx"],
+    &["ny"],
+    &["nz"],
+    &["u", "s", "texture_u", "texture_s"],
+    &["v", "t", "texture_v", "texture_t"],
+];
 
 struct Other;
 
 impl PropertyAccess for Vertex {
     fn new() -> Self {
-        Vertex([f64::NAN; 3])
+        Vertex([f64::NAN; 8])
     }
 
     fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        let Some(axis) = ["x", "y", "z"].iter().position(|axis| *axis == name) else {
+        let Some(axis) = NUMBERS.iter().position(|names| names.contains(&name)) else {
             return PropertyAccessResult::Ignored;
         };
         self.0[axis] = match value {
@@ -103,13 +118,20 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
     let header = header.map_err(|error| describe_header(name, bytes, &error))?;
     check_header(&header, bytes, reader.get_ref().len()).map_err(|why| format!("{name}: header: {why}"))?;
 
-    let mut mesh = Mesh { points: Vec::new(), faces: Vec::new(), has_normals: false, warnings: Vec::new() };
+    let mut mesh =
+        Mesh { points: Vec::new(), faces: Vec::new(), normals: Vec::new(), uvs: Vec::new(), warnings: Vec::new() };
     for (element, def) in &header.elements {
         match element.as_str() {
             "vertex" => {
                 let vertices = read_element::<Vertex>(name, bytes, &mut reader, def, &header)?;
-                mesh.points = vertices.into_iter().map(|vertex| vertex.0).collect();
-                mesh.has_normals = ["nx", "ny", "nz"].iter().all(|n| def.properties.contains_key(*n));
+                mesh.points = vertices.iter().map(|Vertex([x, y, z, ..])| [*x, *y, *z]).collect();
+                let has = |k: usize| NUMBERS[k].iter().any(|name| def.properties.contains_key(*name));
+                if has(3) && has(4) && has(5) {
+                    mesh.normals = vertices.iter().map(|Vertex([_, _, _, x, y, z, ..])| [*x, *y, *z]).collect();
+                }
+                if has(6) && has(7) {
+                    mesh.uvs = vertices.iter().map(|Vertex([.., u, v])| [*u, *v]).collect();
+                }
             }
             "face" => mesh.faces = read_element::<Face>(name, bytes, &mut reader, def, &header)?,
             _ => {

@@ -1,5 +1,6 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
+use super::builder::{Builder, ShapeAttributes};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, Emission, FilmSettings, Lens, Scene};
 use super::includes::Includes;
@@ -9,7 +10,7 @@ use super::lights::{self, DeltaLight, Environment};
 use super::materials::{self, Material};
 use super::message::{Message, Place, utf8};
 use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
-use super::shapes::{self, Output, ShapeAttributes};
+use super::shapes;
 use super::transform::{Transform, length, scaled};
 use crate::image;
 use crate::limits::{MOST_SAMPLES, is_size};
@@ -38,7 +39,7 @@ struct Reader<'a> {
     pixel_samples: Option<u32>,
     delta_lights: Vec<DeltaLight>,
     environment: Option<Environment>,
-    out: Output,
+    out: Builder,
     state: State,
     saved: Vec<(State, Place)>,
     systems: HashMap<String, Transform>,
@@ -60,7 +61,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         pixel_samples: None,
         delta_lights: Vec::new(),
         environment: None,
-        out: Output::default(),
+        out: Builder::default(),
         state,
         saved: Vec::new(),
         systems: HashMap::new(),
@@ -84,6 +85,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         return Err(end.message("the scene has no WorldBegin"));
     }
     let mut out = reader.out;
+    out.finish();
     let emits = out.shapes.iter().any(|shape| shape.emission.is_some());
     if !emits && reader.delta_lights.is_empty() && reader.environment.is_none() {
         out.warnings.push(end.message("nothing emits light: the image will be black"));
@@ -97,6 +99,8 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         materials: out.materials,
         triangles: out.triangles,
         triangle_materials: out.triangle_materials,
+        varying: out.varying,
+        details: out.details.into(),
         shapes: out.shapes.into(),
         delta_lights: reader.delta_lights,
         environment: reader.environment,
@@ -468,6 +472,9 @@ impl Reader<'_> {
             "sphere" => shapes::sphere(&mut self.out, &surface, params),
             "trianglemesh" => shapes::triangle_mesh(&mut self.out, &surface, params),
             "bilinearmesh" => shapes::bilinear_mesh(&mut self.out, &surface, params),
+            "loopsubdiv" => shapes::loop_mesh(&mut self.out, &surface, params),
+            "disk" => shapes::disk(&mut self.out, &surface, params),
+            "cylinder" => shapes::cylinder(&mut self.out, &surface, params),
             "plymesh" => {
                 let Some(name) = params.text("filename")? else {
                     return Err(params.error("\"string filename\" is missing"));

@@ -1,244 +1,243 @@
-//! Reads shapes: transforms them to world space in f64, checks and orients them, and rounds once to f32.
+//! Reads shapes: transforms them to world space in f64, and gives them to the builder.
 
-use super::description::{Emission, Shape};
+use super::builder::{Builder, ShapeAttributes, Vertex};
+use super::description::Emission;
 use super::generated;
-use super::materials::Material;
 use super::message::Message;
 use super::params::{Params, shown};
 use super::ply;
-use super::transform::{Transform, add, cross, dot, length, sub};
+use super::subdivision;
+use super::transform::Transform;
 use crate::files::read_file;
 use crate::geometry::Geometry;
-use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-/// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
-/// coordinates of six digits pass, a visible bend does not.
-const FLATNESS: f64 = 1e-5;
-
-/// The geometry and materials of a scene.
-#[derive(Debug, Default)]
-pub(super) struct Output {
-    pub(super) materials: Vec<Material>,
-    pub(super) triangles: Vec<[[f32; 3]; 3]>,
-    pub(super) triangle_materials: Vec<u32>,
-    pub(super) shapes: Vec<Shape>,
-    pub(super) warnings: Vec<Message>,
-    material_index: HashMap<[u32; 8], u32>,
-    warned: HashSet<&'static str>,
-}
-
-/// The part of the graphics state that applies to a shape.
-#[derive(Clone, Debug)]
-pub(super) struct ShapeAttributes {
-    pub(super) ctm: Transform,
-    /// Whether the normal opposes the order of the transformed vertices.
-    pub(super) flip: bool,
-    pub(super) material: u32,
-    pub(super) emission: Option<Emission>,
-}
-
-impl Output {
-    /// The index of the material, which is added if it is new.
-    pub(super) fn material(&mut self, material: Material) -> u32 {
-        *self.material_index.entry(material.words()).or_insert_with(|| {
-            self.materials.push(material);
-            (self.materials.len() - 1) as u32
-        })
-    }
-
-    /// Warns about a parameter without effect, once per scene.
-    fn warn_once(&mut self, params: &Params, name: &'static str, why: &str) {
-        if self.warned.insert(name) {
-            self.warnings.push(params.error(format!("{name:?}: {why} (reported once)")));
-        }
-    }
-
-    fn push(&mut self, material: u32, emission: Option<Emission>, geometry: Geometry) {
-        match geometry {
-            Geometry::Triangle(corners) if emission.is_none() => {
-                self.triangles.push(corners);
-                self.triangle_materials.push(material);
-            }
-            _ => self.shapes.push(Shape { geometry, material, emission }),
-        }
-    }
-
-    /// Adds a triangle of world points, which errors call `name`.
-    fn triangle(
-        &mut self,
-        surface: &ShapeAttributes,
-        [a, b, c]: [[f64; 3]; 3],
-        name: &dyn Fn() -> String,
-    ) -> Result<(), String> {
-        let corners = (if surface.flip { [a, c, b] } else { [a, b, c] }).map(round);
-        let [a, b, c] = corners.map(|p| p.map(f64::from));
-        if cross(sub(b, a), sub(c, a)) == [0.0; 3] {
-            return Err(format!("{} has no area: {:?}", name(), corners));
-        }
-        self.push(surface.material, surface.emission, Geometry::Triangle(corners));
-        Ok(())
-    }
-
-    /// Adds a parallelogram with corners p00, p10, p01, p11; fails if the last corner is off.
-    fn parallelogram(
-        &mut self,
-        surface: &ShapeAttributes,
-        p: [[f64; 3]; 4],
-        name: &dyn Fn() -> String,
-    ) -> Result<(), String> {
-        let [p00, p10, p01, p11] = p;
-        let (u, v) = (sub(p10, p00), sub(p01, p00));
-        let off = length(sub(p11, add(p10, v))) / length(u).max(length(v));
-        if off > FLATNESS {
-            return Err(format!("{} is not a parallelogram: its last corner is off by {off:.1e} of its size", name()));
-        }
-        if surface.emission.is_none() {
-            self.triangle(surface, [p00, p10, p11], name)?;
-            return self.triangle(surface, [p00, p11, p01], name);
-        }
-        let (u, v) = if surface.flip { (v, u) } else { (u, v) };
-        let (p, u, v) = (round(p00), round(u), round(v));
-        if cross(u.map(f64::from), v.map(f64::from)) == [0.0; 3] {
-            return Err(format!("{} has no area: {:?}", name(), [p, u, v]));
-        }
-        self.push(surface.material, surface.emission, Geometry::Parallelogram { p, u, v });
-        Ok(())
-    }
-
-    /// Adds a quad with corners in cyclic order: a parallelogram, or two triangles if it is planar and convex.
-    fn quad(
-        &mut self,
-        surface: &ShapeAttributes,
-        [a, b, c, d]: [[f64; 3]; 4],
-        name: &dyn Fn() -> String,
-    ) -> Result<(), String> {
-        let off = length(sub(add(a, c), add(b, d)));
-        let size = length(sub(c, a)).max(length(sub(d, b)));
-        if off <= FLATNESS * length(sub(b, a)).max(length(sub(d, a))) {
-            return self.parallelogram(surface, [a, b, d, c], name);
-        }
-        let normal = cross(sub(c, a), sub(d, b));
-        let convex = [[d, a, b], [a, b, c], [b, c, d], [c, d, a]]
-            .iter()
-            .all(|[before, at, after]| dot(cross(sub(*after, *at), sub(*before, *at)), normal) > 0.0);
-        let bend = dot(sub(b, a), normal).abs() / length(normal);
-        if !(convex && bend <= FLATNESS * size) {
-            return Err(format!("{} is a quad that is not planar and convex: split it into triangles", name()));
-        }
-        self.triangle(surface, [a, b, c], name)?;
-        self.triangle(surface, [a, c, d], name)
-    }
-}
-
-fn round(p: [f64; 3]) -> [f32; 3] {
-    p.map(|x| x as f32)
-}
-
-impl ShapeAttributes {
-    /// Transforms points to world space; fails if one is not finite in f32.
-    fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
-        let place = |(i, p): (usize, [f64; 3])| {
-            let world = self.ctm.point(p);
-            let finite = round(world).iter().all(|x| x.is_finite());
-            let shown = if p.iter().all(|x| x.is_finite()) { world } else { p };
-            finite.then_some(world).ok_or_else(|| format!("vertex {i} is at {shown:?}, which is not finite in f32"))
-        };
-        points.enumerate().map(place).collect()
+/// Warns of the triangles of a shape that were left out.
+fn note_left_out(out: &mut Builder, params: &Params) {
+    let count = out.left_out();
+    if count > 0 {
+        out.warnings.push(params.error(format!("{count} triangle(s) without area are left out")));
     }
 }
 
 /// Reads `Shape "sphere"`.
-pub(super) fn sphere(out: &mut Output, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    params.reject(&["zmin", "zmax", "phimax"])?;
+pub(super) fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let radius = params.float("radius")?.unwrap_or(1.0);
-    let Some(factor) = surface.ctm.similarity() else {
-        return Err(params.error("its transform stretches it into an ellipsoid, which is not supported"));
-    };
-    if surface.flip && surface.emission.is_some_and(|emission| !emission.two_sided) {
-        return Err(params
-            .error("it would emit inwards (ReverseOrientation, or a mirroring transform), which is not supported"));
+    let [low, high] = [params.float("zmin")?.unwrap_or(-radius), params.float("zmax")?.unwrap_or(radius)];
+    let sweep = params.float("phimax")?.unwrap_or(360.0);
+    let similar = surface.ctm.similarity();
+    let inwards = surface.flip && surface.emission.is_some_and(|emission| !emission.two_sided);
+    let whole = low <= -radius && high >= radius && sweep >= 360.0;
+    if let Some(factor) = similar.filter(|_| whole && !inwards && !out.varies(surface.material)) {
+        let center = surface.place(std::iter::once([0.0; 3])).map_err(|why| params.error(why))?;
+        let world_radius = (radius * factor) as f32;
+        if !(world_radius > 0.0 && world_radius.is_finite()) {
+            return Err(params.error(format!(
+                "\"radius\": must be greater than 0 and finite, not {} ({world_radius:e} in world space)",
+                shown(radius)
+            )));
+        }
+        let center = center[0].map(|x| x as f32);
+        out.push(surface.material, surface.emission, Geometry::Sphere { center, radius: world_radius });
+        return Ok(());
     }
-    let center = surface.place(std::iter::once([0.0; 3])).map_err(|why| params.error(why))?;
-    let world_radius = (radius * factor) as f32;
-    if !(world_radius > 0.0 && world_radius.is_finite()) {
-        return Err(params.error(format!(
-            "\"radius\": must be greater than 0 and finite, not {} ({world_radius:e} in world space)",
-            shown(radius)
-        )));
+    if !(radius > 0.0) {
+        return Err(params.error(format!("\"radius\": must be greater than 0 and finite, not {}", shown(radius))));
     }
-    out.push(surface.material, surface.emission, Geometry::Sphere { center: round(center[0]), radius: world_radius });
+    tessellated(out, params, "a sphere that is partial, stretched, textured or emits inwards");
+    let sweep = sweep.clamp(0.0, 360.0).to_radians();
+    let angle = |z: f64| libm::acos((z / radius).clamp(-1.0, 1.0));
+    let [from, to] = [angle(low.min(high)), angle(low.max(high))];
+    swept(out, surface, params, [64, 32], |s, t| {
+        let (theta, (sin, cos)) = (from + (to - from) * t, libm::sincos(sweep * s));
+        let (r, z) = libm::sincos(theta);
+        let n = [r * cos, r * sin, z];
+        (n.map(|x| radius * x), n)
+    })
+}
+
+/// Reads `Shape "disk"`: a regular polygon of 64 sides and the same area, with a hole if it has one.
+pub(super) fn disk(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+    let (height, radius) = (params.float("height")?.unwrap_or(0.0), params.float("radius")?.unwrap_or(1.0));
+    let inner = params.float("innerradius")?.unwrap_or(0.0);
+    let sweep = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0).to_radians();
+    tessellated(out, params, "a disk");
+    let grown = 1.0 / polygon_share(sweep / 64.0);
+    swept(out, surface, params, [64, 1], |s, t| {
+        let (sin, cos) = libm::sincos(sweep * s);
+        let r = grown * (radius + (inner - radius) * t);
+        ([r * cos, r * sin, height], [0.0; 3])
+    })
+}
+
+/// Reads `Shape "cylinder"`: a prism of 64 sides and the same area.
+pub(super) fn cylinder(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+    let radius = params.float("radius")?.unwrap_or(1.0);
+    let [low, high] = [params.float("zmin")?.unwrap_or(-1.0), params.float("zmax")?.unwrap_or(1.0)];
+    let sweep = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0).to_radians();
+    tessellated(out, params, "a cylinder");
+    let half = sweep / 128.0;
+    let grown = half / libm::sin(half).max(f64::MIN_POSITIVE);
+    swept(out, surface, params, [64, 1], |s, t| {
+        let (sin, cos) = libm::sincos(sweep * s);
+        ([radius * grown * cos, radius * grown * sin, low + (high - low) * t], [cos, sin, 0.0])
+    })
+}
+
+/// The square root of the share of a sector that the triangle of its chord covers.
+fn polygon_share(angle: f64) -> f64 {
+    if angle > 0.0 { (libm::sin(angle) / angle).sqrt() } else { 1.0 }
+}
+
+/// Warns of a shape that becomes triangles.
+fn tessellated(out: &mut Builder, params: &Params, what: &str) {
+    out.warn_once(what, || params.error(format!("{what} becomes triangles")));
+}
+
+/// Adds a surface over (s, t) in [0, 1]² as a grid of quads; `at` returns points and outward normals, or 0 for flat ones.
+fn swept(
+    out: &mut Builder,
+    surface: &ShapeAttributes,
+    params: &Params,
+    [columns, rows]: [usize; 2],
+    at: impl Fn(f64, f64) -> ([f64; 3], [f64; 3]),
+) -> Result<(), Message> {
+    let mut grid = Vec::with_capacity((columns + 1) * (rows + 1));
+    for (i, j) in (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j))) {
+        let uv = [i as f64 / columns as f64, j as f64 / rows as f64];
+        let (point, normal) = at(uv[0], uv[1]);
+        let point = surface.place(std::iter::once(point)).map_err(|why| params.error(why))?[0];
+        let normal = surface.place_normals(std::iter::once(normal)).next().unwrap_or([0.0; 3]);
+        // the grid's own order, but for a flip, tells which side is outside
+        let normal = if surface.flip == (surface.ctm.determinant() < 0.0) { normal } else { normal.map(|x| -x) };
+        grid.push(Vertex { point, normal, uv });
+    }
+    for (i, j) in (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))) {
+        let vertex = |i: usize, j: usize| grid[j * (columns + 1) + i];
+        let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
+        out.triangle(surface, [a, b, c]);
+        out.triangle(surface, [a, c, d]);
+    }
+    // at the poles of a sphere and in the middle of a disk every second triangle has no area
+    out.left_out();
     Ok(())
 }
 
-/// Reads world points from "P" and groups of `N` indices from "indices"; `N` points need no indices.
-#[allow(clippy::type_complexity)] // a pair that only two callers see
+/// A mesh in world space.
+struct Mesh<const N: usize> {
+    vertices: Vec<Vertex>,
+    faces: Vec<[usize; N]>,
+}
+
+/// Reads the vertices from "P", "N" and "uv" and groups of `N` indices from "indices"; `N` points need no indices.
 fn indexed<const N: usize>(
+    out: &mut Builder,
     surface: &ShapeAttributes,
     params: &mut Params,
-) -> Result<(Vec<[f64; 3]>, Vec<[usize; N]>), Message> {
+) -> Result<Mesh<N>, Message> {
     let Some(numbers) = params.numbers("P", "point3", 3)? else {
         return Err(params.error("\"point3 P\" is missing"));
     };
     let points = numbers.chunks_exact(3).map(|p| [p[0], p[1], p[2]]);
     let points = surface.place(points).map_err(|why| params.error(why))?;
+    let normals = params.numbers("N", "normal", 3)?.unwrap_or_default();
+    let normals: Vec<_> = normals.chunks_exact(3).map(|n| [n[0], n[1], n[2]]).collect();
+    let uvs = params.numbers("uv", "point2", 2)?.unwrap_or_default();
+    let uvs: Vec<_> = uvs.chunks_exact(2).map(|uv| [uv[0], uv[1]]).collect();
+    for (name, count) in [("N", normals.len()), ("uv", uvs.len())] {
+        if count != 0 && count != points.len() {
+            return Err(params.error(format!("{name:?} has {count} values for {} points", points.len())));
+        }
+    }
+    if params.given("S") {
+        out.warn_once("S", || params.error("\"S\": ignored: no material is anisotropic"));
+    }
+    let vertices = vertices(surface, &points, &normals, &uvs);
     let Some(indices) = params.numbers("indices", "integer", N)? else {
         if points.len() != N {
             return Err(params.error(format!("\"indices\" is missing: it is optional only for {N} points")));
         }
-        return Ok((points, vec![std::array::from_fn(|i| i)]));
+        return Ok(Mesh { vertices, faces: vec![std::array::from_fn(|i| i)] });
     };
     if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i as usize >= points.len()) {
         return Err(params.error(format!("index {i} is out of range: there are {} points", points.len())));
     }
     let groups = indices.chunks_exact(N).map(|group| std::array::from_fn(|i| group[i] as usize));
-    Ok((points, groups.collect()))
+    Ok(Mesh { vertices, faces: groups.collect() })
 }
 
-/// In pbrt normals decide the emitting side, so they are an error on one-sided lights; elsewhere all is flat shaded.
-fn shading(out: &mut Output, surface: &ShapeAttributes, params: &mut Params, has_normals: bool) -> Result<(), Message> {
-    let given = params.given("N") | has_normals;
-    if given && surface.emission.is_some_and(|emission| !emission.two_sided) {
-        return Err(
-            params.error("\"N\" on a light is not supported: its emitting side follows the order of its vertices")
-        );
-    }
-    if given {
-        out.warn_once(params, "N", "ignored: surfaces are flat shaded");
-    }
-    for name in ["uv", "S"] {
-        if params.given(name) {
-            out.warn_once(params, name, "ignored: no material uses it");
-        }
-    }
-    Ok(())
+/// Vertices at world points, with normals and texture coordinates of the file, either of which may be missing.
+fn vertices(surface: &ShapeAttributes, points: &[[f64; 3]], normals: &[[f64; 3]], uvs: &[[f64; 2]]) -> Vec<Vertex> {
+    let mut normals = surface.place_normals(normals.iter().copied());
+    // pbrt's ReverseOrientation also reverses normals; what a mirroring transform does to them is no part of it
+    let reversed = surface.flip != (surface.ctm.determinant() < 0.0);
+    let mut next = |at: usize| {
+        let normal = normals.next().unwrap_or([0.0; 3]);
+        let uv = uvs.get(at).copied().filter(|uv| uv.iter().all(|x| x.is_finite())).unwrap_or([0.0; 2]);
+        (if reversed { normal.map(|x| -x) } else { normal }, uv)
+    };
+    let vertex = |(at, &point): (usize, &[f64; 3])| {
+        let (normal, uv) = next(at);
+        Vertex { point, normal, uv }
+    };
+    points.iter().enumerate().map(vertex).collect()
+}
+
+/// The texture coordinates of a face's corners where a mesh has none.
+const TRIANGLE_UVS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+const PATCH_UVS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+
+/// The corners of a face, with these texture coordinates if the mesh has none.
+fn corners<const N: usize>(vertices: &[Vertex], face: [usize; N], without: Option<&[[f64; 2]; N]>) -> [Vertex; N] {
+    std::array::from_fn(|k| {
+        let vertex = vertices[face[k]];
+        without.map_or(vertex, |uvs| Vertex { uv: uvs[k], ..vertex })
+    })
 }
 
 /// Reads `Shape "trianglemesh"`.
-pub(super) fn triangle_mesh(out: &mut Output, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    shading(out, surface, params, false)?;
-    let (points, indices) = indexed::<3>(surface, params)?;
-    for (i, corners) in indices.iter().enumerate() {
-        let done = out.triangle(surface, corners.map(|k| points[k]), &|| format!("triangle {i}"));
-        done.map_err(|why| params.error(why))?;
+pub(super) fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+    let own = (!params.has("uv")).then_some(&TRIANGLE_UVS);
+    let mesh = indexed::<3>(out, surface, params)?;
+    for face in mesh.faces {
+        out.triangle(surface, corners(&mesh.vertices, face, own));
     }
+    note_left_out(out, params);
     Ok(())
 }
 
 /// Reads `Shape "bilinearmesh"`.
-pub(super) fn bilinear_mesh(out: &mut Output, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    shading(out, surface, params, false)?;
-    let (points, indices) = indexed::<4>(surface, params)?;
-    for (i, corners) in indices.iter().enumerate() {
-        let done = out.parallelogram(surface, corners.map(|k| points[k]), &|| format!("patch {i}"));
-        done.map_err(|why| params.error(why))?;
+pub(super) fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+    let own = (!params.has("uv")).then_some(&PATCH_UVS);
+    let mesh = indexed::<4>(out, surface, params)?;
+    for face in mesh.faces {
+        out.patch(surface, corners(&mesh.vertices, face, own));
     }
+    note_left_out(out, params);
+    Ok(())
+}
+
+/// Reads `Shape "loopsubdiv"`: Loop's subdivision of a mesh.
+pub(super) fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+    let levels = params.integer("levels")?.unwrap_or(3).clamp(0, 10) as usize;
+    let mesh = indexed::<3>(out, surface, params)?;
+    let points = mesh.vertices.iter().map(|vertex| vertex.point).collect();
+    let smooth = subdivision::smooth(points, mesh.faces, levels);
+    let (points, faces, normals) = smooth.map_err(|why| params.error(why))?;
+    let side = if surface.flip { -1.0 } else { 1.0 };
+    for face in faces {
+        out.triangle(
+            surface,
+            face.map(|i| Vertex { point: points[i], normal: normals[i].map(|x| x * side), uv: [0.0; 2] }),
+        );
+    }
+    note_left_out(out, params);
     Ok(())
 }
 
 /// Reads `Shape "plymesh"` from a file.
 pub(super) fn ply_mesh(
-    out: &mut Output,
+    out: &mut Builder,
     surface: &ShapeAttributes,
     params: &mut Params,
     path: &Path,
@@ -246,15 +245,14 @@ pub(super) fn ply_mesh(
     let shown = path.display().to_string();
     let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
-    drop(bytes);
-    shading(out, surface, params, mesh.has_normals)?;
     out.warnings.extend(mesh.warnings.iter().map(|text| params.error(text)));
 
     let in_file = |why: String| params.error(format!("{shown}: {why}"));
     let points = surface.place(mesh.points.iter().copied()).map_err(in_file)?;
+    let vertices = vertices(surface, &points, &mesh.normals, &mesh.uvs);
+    let has_uvs = !mesh.uvs.is_empty();
     for (i, face) in mesh.faces.iter().enumerate() {
-        let name = || format!("face {i}");
-        let corner = |k: usize| {
+        let index = |k: usize| {
             let outside = || {
                 in_file(format!(
                     "face {i}: index {} is out of range: there are {} vertices",
@@ -263,21 +261,22 @@ pub(super) fn ply_mesh(
                 ))
             };
             let index = usize::try_from(face.indices[k]).map_err(|_| outside())?;
-            points.get(index).copied().ok_or_else(outside)
+            if index < points.len() { Ok(index) } else { Err(outside()) }
         };
-        let [a, b, c] = [corner(0)?, corner(1)?, corner(2)?];
-        let done = match face.corners {
-            3 => out.triangle(surface, [a, b, c], &name),
-            _ => out.quad(surface, [a, b, c, corner(3)?], &name),
-        };
-        done.map_err(in_file)?;
+        let [a, b, c] = [index(0)?, index(1)?, index(2)?];
+        if face.corners == 3 {
+            out.triangle(surface, corners(&vertices, [a, b, c], (!has_uvs).then_some(&TRIANGLE_UVS)));
+        } else {
+            out.quad(surface, corners(&vertices, [a, b, c, index(3)?], None));
+        }
     }
+    note_left_out(out, params);
     Ok(())
 }
 
 /// Adds shapes of a built-in scene that are computed, which need no checks. Each light has its own radiance, times that of the surface.
 pub(super) fn computed(
-    out: &mut Output,
+    out: &mut Builder,
     surface: &ShapeAttributes,
     params: &Params,
     name: &str,

@@ -3,6 +3,7 @@
 use crate::meshes::{Random, Triangle, add, cube, meshes, sheet};
 use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 use etendue_render::scene::{CameraSettings, Emission, FilmSettings, Geometry, Material, Scene, Shape};
+use std::sync::Arc;
 
 /// A scene of triangles and shapes.
 pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
@@ -16,6 +17,8 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
         materials: vec![Material::Diffuse([0.5; 3]), Material::Diffuse([0.0; 3])],
         triangle_materials: vec![0; triangles.len()],
         triangles,
+        varying: Vec::new(),
+        details: Arc::default(),
         shapes: shapes.into(),
         delta_lights: Vec::new(),
         environment: None,

@@ -16,6 +16,7 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         Material::Conductor { eta, k, alpha } => {
             Finish::Metal { eta: eta[CHANNEL].into(), k: k[CHANNEL].into(), alpha: alpha.into() }
         }
+        Material::Glossy { .. } | Material::Varying(_) => unreachable!("no such material is drawn"),
     };
     let triangle = |corners: [[f32; 3]; 3]| {
         let [corner, b, c] = corners.map(wide);

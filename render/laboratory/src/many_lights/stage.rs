@@ -118,7 +118,7 @@ impl Stage {
             self.surfaces.bvh.closest(&rays, &[M8::splat(true); ROWS], &mut hits, &mut scratch);
             std::array::from_fn(|row| {
                 let mut surface = self.surfaces.hit(&hits[row], &rays[row]);
-                if !self.surfaces.only_diffuse {
+                if !self.surfaces.is_plain {
                     let metal = self.surfaces.metal(&hits[row], surface.reflects);
                     surface.reflects = surface.reflects & !(metal.mirrors() | metal.rough());
                 }
