@@ -10,15 +10,18 @@ mod generated;
 mod includes;
 mod lexer;
 mod lights;
+mod material_parameters;
 mod materials;
 mod message;
 mod params;
 mod ply;
 mod reader;
 mod shapes;
+mod spectrum;
 mod subdivision;
 #[cfg(test)]
 mod tests;
+mod textures;
 mod transform;
 
 use crate::files::read_file;

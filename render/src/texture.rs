@@ -129,6 +129,8 @@ pub enum Texture {
     Product(Arc<[Texture; 2]>),
     /// 1 − x, but at least 0.
     Inverse(Arc<Texture>),
+    /// √x; of negative numbers 0.
+    Root(Arc<Texture>),
     /// (1 − t) a + t b.
     Mix(Arc<[Texture; 3]>),
     /// One texture in squares where ⌊s⌋ + ⌊t⌋ is even, the other one elsewhere.
@@ -151,7 +153,15 @@ impl Texture {
     pub const fn number(x: f32) -> Self {
         Self::Constant([x; 3])
     }
-    /// Whether it is the same everywhere.
+    /// The square root of a number.
+    #[must_use]
+    pub fn root(self) -> Self {
+        match self {
+            Self::Constant(color) => Self::Constant(color.map(|x| x.max(0.0).sqrt())),
+            other => Self::Root(Arc::new(other)),
+        }
+    }
+    /// The value, if it is the same everywhere.
     #[must_use]
     pub fn constant(&self) -> Option<[f32; 3]> {
         if let Self::Constant(color) = self { Some(*color) } else { None }
@@ -168,6 +178,7 @@ impl Texture {
                 std::array::from_fn(|k| a[k] * b[k])
             }
             Self::Inverse(of) => of.at(uv).map(|x| (1.0 - x).max(0.0)),
+            Self::Root(of) => of.at(uv).map(|x| x.max(0.0).sqrt()),
             Self::Mix(of) => {
                 let [a, b, t] = [0, 1, 2].map(|k| of[k].at(uv));
                 std::array::from_fn(|k| (1.0 - t[k]) * a[k] + t[k] * b[k])
@@ -193,6 +204,7 @@ impl Texture {
             Self::Channel(of, channel) => [of.mean()[*channel]; 3],
             Self::Product(of) => both(of, |a, b| a * b),
             Self::Inverse(of) => of.mean().map(|x| (1.0 - x).max(0.0)),
+            Self::Root(of) => of.mean().map(|x| x.max(0.0).sqrt()),
             Self::Mix(of) => {
                 let [a, b, t] = [0, 1, 2].map(|k| of[k].mean());
                 std::array::from_fn(|k| (1.0 - t[k]) * a[k] + t[k] * b[k])

@@ -2,10 +2,13 @@
 
 use super::description::{Corners, Details, Emission, Shape};
 use super::materials::{Material, Varying};
-use super::message::Message;
+use super::message::{Message, Notes};
+use super::params::MOST_RADIANCE;
+use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use crate::geometry::Geometry;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+use std::f64::consts::PI;
 
 /// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
 /// coordinates of six digits pass, a visible bend does not.
@@ -26,11 +29,11 @@ pub(super) struct Builder {
     pub(super) varying: Vec<Varying>,
     pub(super) details: Details,
     pub(super) shapes: Vec<Shape>,
-    pub(super) warnings: Vec<Message>,
+    pub(super) notes: Notes,
     material_index: HashMap<[u32; 8], u32>,
-    warned: HashSet<String>,
     /// Triangles without area that were left out since the last [`Builder::left_out`].
     left_out: usize,
+    is_object: bool,
 }
 
 /// What applies to all of a shape.
@@ -42,7 +45,16 @@ pub(super) struct ShapeAttributes {
     pub(super) flip: bool,
     pub(super) material: u32,
     pub(super) emission: Option<Emission>,
+    /// If given, the power of each emitting triangle, sphere or parallelogram; only the colour of `emission` then counts.
+    pub(super) power: Option<f64>,
 }
+
+/// Triangles that can be added several times.
+#[derive(Debug)]
+pub(super) struct Object(Builder);
+
+/// Most triangles of a scene, since instances are copies.
+const MOST_TRIANGLES: usize = 1 << 28;
 
 /// A corner of a triangle in world space.
 #[derive(Clone, Copy, Debug)]
@@ -52,13 +64,6 @@ pub(super) struct Vertex {
     pub(super) normal: [f64; 3],
     /// Texture coordinates.
     pub(super) uv: [f64; 2],
-}
-
-impl Vertex {
-    /// A point without a normal.
-    pub(super) const fn at(point: [f64; 3], uv: [f64; 2]) -> Self {
-        Self { point, normal: [0.0; 3], uv }
-    }
 }
 
 fn round(p: [f64; 3]) -> [f32; 3] {
@@ -89,10 +94,62 @@ impl Builder {
 
     /// Adds a warning, but only the first one of its kind.
     pub(super) fn warn_once(&mut self, kind: &str, message: impl FnOnce() -> Message) {
-        if self.warned.insert(kind.to_owned()) {
-            let message = message();
-            self.warnings.push(Message { text: format!("{} (reported once)", message.text), ..message });
+        self.notes.warn_once(kind, message);
+    }
+
+    /// Begins an object: what is added from now on is not part of the scene. Returns what was added before.
+    pub(super) fn begin_object(&mut self) -> Self {
+        let inner = Self { is_object: true, ..Self::default() };
+        let mut before = std::mem::replace(self, inner);
+        self.share(&mut before);
+        before
+    }
+
+    /// Ends an object.
+    pub(super) fn end_object(&mut self, before: Self) -> Object {
+        let mut object = std::mem::replace(self, before);
+        self.share(&mut object);
+        object.finish();
+        Object(object)
+    }
+
+    /// Takes what objects and scenes share from another builder.
+    fn share(&mut self, from: &mut Self) {
+        std::mem::swap(&mut self.materials, &mut from.materials);
+        std::mem::swap(&mut self.material_index, &mut from.material_index);
+        std::mem::swap(&mut self.varying, &mut from.varying);
+        std::mem::swap(&mut self.notes, &mut from.notes);
+    }
+
+    /// Whether an object is being read, which holds only triangles.
+    pub(super) const fn is_object(&self) -> bool {
+        self.is_object
+    }
+
+    /// Adds a copy of an object. Fails if there are too many triangles, or if a point is no longer finite.
+    pub(super) fn instance(&mut self, object: &Object, ctm: &Transform) -> Result<(), String> {
+        let Object(Self { triangles, triangle_materials, details, .. }) = object;
+        if self.triangles.len() + triangles.len() > MOST_TRIANGLES {
+            return Err(format!("instances are copies, and give more than {MOST_TRIANGLES} triangles"));
         }
+        let mut surface =
+            ShapeAttributes { ctm: *ctm, flip: ctm.determinant() < 0.0, material: 0, emission: None, power: None };
+        for (i, triangle) in triangles.iter().enumerate() {
+            surface.material = triangle_materials[i];
+            let corners = details.of_triangles.get(i).and_then(|&k| details.corners.get(k as usize));
+            let wide = |v: [f32; 3]| v.map(f64::from);
+            let points = surface.place(triangle.iter().map(|p| wide(*p)))?;
+            let normals = corners.map_or([[0.0; 3]; 3], |corners| corners.normals);
+            let mut normals = surface.place_normals(normals.into_iter().map(wide));
+            let vertex = |k: usize| Vertex {
+                point: points[k],
+                normal: normals.next().unwrap_or([0.0; 3]),
+                uv: corners.map_or([0.0; 2], |corners| corners.uvs[k].map(f64::from)),
+            };
+            let vertices = [0, 1, 2].map(vertex);
+            self.triangle(&surface, vertices);
+        }
+        Ok(())
     }
 
     /// Ends the list of triangles.
@@ -111,6 +168,21 @@ impl Builder {
             }
             _ => self.shapes.push(Shape { geometry, material, emission }),
         }
+    }
+
+    /// Adds a shape that emits as the attributes tell.
+    pub(super) fn add(&mut self, surface: &ShapeAttributes, geometry: Geometry) {
+        let emission = surface.emission.map(|emission| match surface.power {
+            Some(power) => {
+                // a Lambertian emitter of radiance L has the power πAL on each side that emits
+                let sides = if emission.two_sided { 2.0 } else { 1.0 };
+                let y = luminance(emission.radiance.map(f64::from)) * PI * sides * geometry.area();
+                let radiance = emission.radiance.map(|x| (f64::from(x) * power / y).min(MOST_RADIANCE.into()) as f32);
+                Emission { radiance, ..emission }
+            }
+            None => emission,
+        });
+        self.push(surface.material, emission, geometry);
     }
 
     /// The number of triangles without area that were left out since the last call.
@@ -142,7 +214,7 @@ impl Builder {
         } else if !self.details.of_triangles.is_empty() {
             self.details.of_triangles.push(Details::NONE);
         }
-        self.push(surface.material, surface.emission, Geometry::Triangle(vertices.map(|vertex| round(vertex.point))));
+        self.add(surface, Geometry::Triangle(vertices.map(|vertex| round(vertex.point))));
     }
 
     /// The corners of a triangle, if anything is to be known of them.
@@ -182,7 +254,7 @@ impl Builder {
             if cross(u.map(f64::from), v.map(f64::from)) == [0.0; 3] {
                 self.left_out += 1;
             } else {
-                self.push(surface.material, surface.emission, Geometry::Parallelogram { p, u, v });
+                self.add(surface, Geometry::Parallelogram { p, u, v });
             }
             return;
         }

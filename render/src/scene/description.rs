@@ -36,6 +36,8 @@ pub struct Scene {
     pub environment: Option<Environment>,
     /// Warnings about ignored parts of the file, in the order of the file.
     pub warnings: Vec<Message>,
+    /// Those of the warnings that say that something stands for something else, which direct light on opaque surfaces cannot show.
+    pub stand_ins: Vec<Message>,
     /// The files that were read: the scene file itself if [`load`](super::load) read it, included files, meshes and images.
     pub inputs: Vec<PathBuf>,
 }

@@ -1,12 +1,15 @@
 //! Reads `LightSource`: lights without a shape.
 
 use super::lexer::shortened;
-use super::message::Message;
-use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
+use super::message::{Message, Notes};
+use super::params::{MOST_RADIANCE, Params, Resolve, brightness, rounded, shown};
+use super::spectrum::luminance;
 use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
-use etendue::light::EnvironmentMap;
+use etendue::Vec2;
+use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
+use std::f64::consts::PI;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,49 +79,169 @@ pub(super) enum Source {
 /// Greatest number of texels of an environment.
 const MOST_TEXELS: usize = 1 << 26;
 
-/// Reads a `LightSource`; `open` reads an image file.
+/// Where the files of a light are found.
+pub(super) struct Files<'a> {
+    pub(super) resolve: Resolve<'a>,
+    /// Reads an image file.
+    pub(super) open: &'a dyn Fn(&str) -> Result<Picture, FileError>,
+}
+
+/// Reads a `LightSource`.
 pub(super) fn read(
     kind: &str,
     params: &mut Params,
     ctm: &Transform,
-    open: &dyn Fn(&str) -> Result<Picture, FileError>,
-    warnings: &mut Vec<Message>,
+    files: &Files<'_>,
+    notes: &mut Notes,
 ) -> Result<Source, Message> {
-    if !["point", "spot", "distant", "infinite"].contains(&kind) {
-        return Err(params.error("not supported, only \"point\", \"spot\", \"distant\" and \"infinite\""));
+    let file = match params.text("filename")? {
+        Some(file) => Some(file),
+        None => params.text("mapname")?,
+    };
+    // lights with a picture are plain ones with its mean
+    let (kind, file) = match (kind, file) {
+        ("goniometric", file) => {
+            notes.stand_in(kind, || params.error("becomes a point light of the same mean intensity"));
+            ("point", file)
+        }
+        ("projection", file) => {
+            notes.stand_in(kind, || params.error("becomes a spot light of the same mean intensity"));
+            let fov = params.float("fov")?.unwrap_or(90.0);
+            params.set_float("coneangle", 0.5 * fov);
+            params.set_float("conedeltaangle", 0.0);
+            ("spot", file)
+        }
+        ("point" | "spot" | "distant" | "infinite", file) => (kind, file),
+        _ => {
+            return Err(params.error(
+                "not supported, only \"point\", \"spot\", \"distant\", \"infinite\", \"goniometric\" and \"projection\"",
+            ));
+        }
+    };
+    if params.given("portal") {
+        notes.stand_in("portal", || params.error("\"portal\" is ignored: light comes from everywhere"));
     }
-    params.reject(&["power", "illuminance", "portal"])?;
-    let scale = params.float("scale")?.unwrap_or(1.0);
-    if scale < 0.0 {
-        return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(scale))));
+    // older files scale by a colour
+    let scale = params.numbers_of("scale", &["float", "rgb"], 1)?.unwrap_or_else(|| vec![1.0]);
+    let scale: [f64; 3] = match scale[..] {
+        [x] => [x; 3],
+        [r, g, b] => [r, g, b],
+        _ => return Err(params.error(format!("\"scale\": expected one number, found {}", scale.len()))),
+    };
+    if let Some(x) = scale.iter().find(|&&x| x < 0.0) {
+        return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(*x))));
     }
-    let file = if kind == "infinite" { params.text("filename")? } else { None };
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
-    let colour = params.rgb(name)?;
+    let colour = params.light(name, files.resolve)?;
+    let wanted = match kind {
+        "point" | "spot" => params.float("power")?,
+        _ => params.float("illuminance")?,
+    };
+    if let Some(x) = wanted.filter(|&x| x <= 0.0) {
+        return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
+    }
     let source = match file {
-        Some(_) if colour.is_some() => return Err(params.error("\"filename\" and \"L\" cannot be combined")),
-        Some(file) => {
+        Some(_) if colour.is_some() && kind == "infinite" => {
+            // pbrt-v3 multiplies both
+            return Err(params.error("\"filename\" and \"L\" cannot be combined"));
+        }
+        Some(file) if kind == "infinite" => {
             let to_light = turned(params, ctm)?;
-            match picture(params, &file, open, scale, warnings)? {
+            let picture = picture(params, &file, files.open, scale, notes)?.map(|sky| match wanted {
+                Some(wanted) => illuminating(sky, wanted),
+                None => sky,
+            });
+            match picture {
                 Some(sky) => Source::Environment(Environment { to_light, sky }),
                 None => Source::Dark,
             }
         }
-        None => {
-            let colour = colour.unwrap_or([1.0; 3]).map(|x| x * scale);
+        file => {
+            let mean = match file {
+                Some(file) => {
+                    let image = (files.open)(&file).map_err(|error| params.error(error.to_string()))?;
+                    let sum = image.radiance.iter().map(|rgb| rgb.map(f64::from));
+                    let sum = sum.fold([0.0; 3], |a, b| std::array::from_fn(|k| a[k] + b[k].max(0.0)));
+                    sum.map(|x| x / image.radiance.len() as f64)
+                }
+                None => [1.0; 3],
+            };
+            let given = colour.unwrap_or([1.0; 3]);
+            let mut colour: [f64; 3] = std::array::from_fn(|k| given[k] * scale[k] * mean[k]);
+            if let Some(wanted) = wanted {
+                // what a light of the intensity or radiance 1 has
+                let per_unit = match kind {
+                    "point" => 4.0 * PI,
+                    "spot" => spot_angle(params)?,
+                    "distant" => 1.0,
+                    _ => PI,
+                };
+                let y = luminance(colour);
+                colour = colour.map(|x| if y > 0.0 { x * wanted / (y * per_unit) } else { 0.0 });
+            }
             let most = if kind == "infinite" { MOST_RADIANCE } else { f32::MAX };
             let too_large =
                 || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
             let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
-            warnings.extend(brightness(colour).map(|text| params.error(text)));
+            brightness(colour).into_iter().for_each(|text| notes.warn(params.error(text)));
             let source = constant(kind, params, ctm, colour)?;
             if colour == [0.0; 3] { Source::Dark } else { source }
         }
     };
     if matches!(source, Source::Dark) {
-        warnings.push(params.error("emits nothing"));
+        notes.warn(params.error("emits nothing"));
     }
     Ok(source)
+}
+
+/// The power of a spot light of intensity 1 by pbrt's formula, which takes the mean of both cones: an angle in steradians.
+fn spot_angle(params: &mut Params) -> Result<f64, Message> {
+    let outer = params.float("coneangle")?.unwrap_or(30.0);
+    let delta = params.float("conedeltaangle")?.unwrap_or(5.0);
+    params.set_float("coneangle", outer);
+    params.set_float("conedeltaangle", delta);
+    let [inner, outer] = [outer - delta, outer].map(|degrees| libm::cos(degrees.to_radians()));
+    Ok(2.0 * PI * ((1.0 - inner) + (inner - outer) / 2.0))
+}
+
+/// The sky, scaled so that a surface that faces the light's +z has this illuminance, as in pbrt-v4.
+fn illuminating(sky: SkyRadiance, wanted: f64) -> SkyRadiance {
+    let SkyRadiance::Image { width, map, texels } = sky else { return sky };
+    let height = texels.len() / width;
+    let buffer = vec![0.0; ImageEnvironment::buffer(width, height)];
+    let Ok(environment) = ImageEnvironment::from_buffer(&buffer, width, map) else {
+        return SkyRadiance::Image { width, map, texels };
+    };
+    let mut sum = 0.0;
+    for (i, texel) in texels.iter().enumerate() {
+        let (x, y) = (i % width, i / width);
+        let middle = Texel { x: x as u32, y: y as u32, offset: Vec2::new(0.5, 0.5) };
+        let cos = f64::from(environment.direction::<f32>(&middle).z.max(0.0));
+        sum += luminance(texel.map(f64::from)) * cos * map.texel_solid_angle(width, height, y);
+    }
+    let factor = if sum > 0.0 { wanted / sum } else { 1.0 };
+    let texels = texels.into_iter().map(|rgb| rgb.map(|x| (f64::from(x) * factor) as f32)).collect();
+    SkyRadiance::Image { width, map, texels }
+}
+
+impl Environment {
+    /// The sum of two skies, if one of them is the same in all directions.
+    pub(super) fn and(self, other: Self) -> Option<Self> {
+        let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| (a[k] + b[k]).min(MOST_RADIANCE));
+        let (constant, other) = match (self.sky, other.sky) {
+            (SkyRadiance::Constant(a), sky) => (a, Self { sky, ..other }),
+            (sky, SkyRadiance::Constant(b)) => (b, Self { sky, to_light: self.to_light }),
+            _ => return None,
+        };
+        let sky = match other.sky {
+            SkyRadiance::Constant(b) => SkyRadiance::Constant(add(constant, b)),
+            SkyRadiance::Image { width, map, texels } => {
+                let texels = texels.into_iter().map(|texel| add(texel, constant)).collect();
+                SkyRadiance::Image { width, map, texels }
+            }
+        };
+        Some(Self { sky, ..other })
+    }
 }
 
 fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) -> Result<Source, Message> {
@@ -182,32 +305,25 @@ fn picture(
     params: &Params,
     name: &str,
     open: &dyn Fn(&str) -> Result<Picture, FileError>,
-    scale: f64,
-    warnings: &mut Vec<Message>,
+    scale: [f64; 3],
+    notes: &mut Notes,
 ) -> Result<Option<SkyRadiance>, Message> {
     let image = open(name).map_err(|error| params.error(error.to_string()))?;
     let (width, height) = (image.width, image.height);
     let wrong = |what: String| params.error(format!("{}: {what}", shortened(name)));
-    let map = match (width, height) {
-        _ if width == height => EnvironmentMap::EqualArea,
-        _ if width == 2 * height => EnvironmentMap::Equirectangular,
-        _ => {
-            return Err(wrong(format!(
-                "{width}×{height} texels: must be square (equal-area octahedral) or 2:1 (equirectangular)"
-            )));
-        }
-    };
+    // pbrt-v4's maps are square, those of others show longitude and latitude
+    let map = if width == height { EnvironmentMap::EqualArea } else { EnvironmentMap::Equirectangular };
     if width * height > MOST_TEXELS {
         return Err(wrong(format!("{width}×{height} texels: at most 2^26 are supported")));
     }
     let mut negative = 0;
     let mut texels = Vec::with_capacity(image.radiance.len());
     for (i, texel) in image.radiance.iter().enumerate() {
-        let rgb = texel.map(|x| (f64::from(x) * scale) as f32);
+        let rgb: [f32; 3] = std::array::from_fn(|k| (f64::from(texel[k]) * scale[k]) as f32);
         // texels are sampled in proportion to the sum of their channels
         if !(rgb.iter().sum::<f32>().is_finite() && rgb.iter().all(|&x| x <= MOST_RADIANCE)) {
             return Err(wrong(format!(
-                "texel ({}, {}) is {texel:?}, times {scale}: must be finite, and at most {MOST_RADIANCE:e}",
+                "texel ({}, {}) is {texel:?}, times {scale:?}: must be finite, and at most {MOST_RADIANCE:e}",
                 i % width,
                 i / width
             )));
@@ -216,7 +332,7 @@ fn picture(
         texels.push(rgb.map(|x| x.max(0.0)));
     }
     if negative > 0 {
-        warnings.push(wrong(format!("negative values in {negative} texel(s) are replaced by 0")));
+        notes.warn(wrong(format!("negative values in {negative} texel(s) are replaced by 0")));
     }
     let black = texels.iter().all(|t| *t == [0.0; 3]);
     Ok((!black).then_some(SkyRadiance::Image { width, map, texels }))

@@ -1,8 +1,5 @@
-//! Reads `Material` and `MakeNamedMaterial`.
+//! How surfaces reflect.
 
-use super::lexer::shortened;
-use super::message::Message;
-use super::params::{Params, rounded, shown};
 use crate::texture::Texture;
 
 /// How a surface reflects. All materials are opaque and the same on both sides.
@@ -139,70 +136,4 @@ impl Material {
             Self::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0],
         }
     }
-}
-
-/// Reads the parameters of a material.
-pub(super) fn read(kind: &str, params: &mut Params, warnings: &mut Vec<Message>) -> Result<Material, Message> {
-    match kind {
-        "diffuse" => Ok(Material::Diffuse(colour("reflectance", 0.5, params, warnings)?)),
-        "mirror" => Ok(Material::Mirror(colour("Kr", 0.9, params, warnings)?)),
-        "conductor" => conductor(params),
-        _ => Err(params.error(format!(
-            "material type {:?} is not supported, only \"diffuse\", \"conductor\" and \"mirror\"",
-            shortened(kind)
-        ))),
-    }
-}
-
-/// Reads a reflectance.
-fn colour(name: &str, default: f64, params: &mut Params, warnings: &mut Vec<Message>) -> Result<[f32; 3], Message> {
-    let rgb = params.rgb(name)?.unwrap_or([default; 3]);
-    if let Some(x) = rgb.iter().find(|&&x| x > 1.0) {
-        warnings.push(
-            params.error(format!("{name:?}: {x} is greater than 1: the surface reflects more light than it receives")),
-        );
-    }
-    rounded(rgb).ok_or_else(|| params.error(format!("{name:?}: {rgb:?} is too large for f32")))
-}
-
-/// The greatest reflectance that is converted to an index of refraction: pbrt's limit.
-const MOST_REFLECTANCE: f64 = 0.9999;
-
-fn conductor(params: &mut Params) -> Result<Material, Message> {
-    params.reject(&["displacement", "normalmap"])?;
-    let reflectance = params.rgb("reflectance")?;
-    let (eta, k) = (params.rgb("eta")?, params.rgb("k")?);
-    let (eta, k) = match (reflectance, eta, k) {
-        (None, Some(eta), Some(k)) => (eta, k),
-        // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
-        (Some(r), None, None) => {
-            if let Some(x) = r.iter().find(|&&x| x > 1.0) {
-                return Err(params.error(format!("\"reflectance\": must be at most 1, not {}", shown(*x))));
-            }
-            let r = r.map(|r| r.min(MOST_REFLECTANCE));
-            ([1.0; 3], r.map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
-        }
-        (Some(_), ..) => return Err(params.error("\"reflectance\" cannot be combined with \"eta\" and \"k\"")),
-        _ => {
-            return Err(params.error(
-                "needs \"rgb reflectance\", or both \"rgb eta\" and \"rgb k\": spectra of metals are not supported",
-            ));
-        }
-    };
-    // fourth powers must be finite in f32
-    let bounded = |name: &str, rgb: [f64; 3]| {
-        let too_large = || params.error(format!("{name:?}: {rgb:?} is too large: must be less than 1e9"));
-        rounded(rgb).filter(|c| c.iter().all(|&x| x < 1e9)).ok_or_else(too_large)
-    };
-    let (eta, k) = (bounded("eta", eta)?, bounded("k", k)?);
-    let both = params.float("roughness")?.unwrap_or(0.0);
-    let [u, v] = [params.float("uroughness")?.unwrap_or(both), params.float("vroughness")?.unwrap_or(both)];
-    if u != v {
-        return Err(params.error(format!("roughness {u} × {v}: only isotropic roughness is supported")));
-    }
-    if !(0.0..=1.0).contains(&u) {
-        return Err(params.error(format!("\"roughness\": must be from 0 to 1, not {}", shown(u))));
-    }
-    let alpha = if params.flag("remaproughness")?.unwrap_or(true) { u.sqrt() } else { u };
-    Ok(Material::Conductor { eta, k, alpha: alpha as f32 })
 }

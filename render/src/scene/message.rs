@@ -1,5 +1,6 @@
 //! Messages about the lines of a scene file.
 
+use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
@@ -20,6 +21,36 @@ impl fmt::Display for Message {
             0 => write!(f, "{}: {}", self.file, self.text),
             line => write!(f, "{}:{line}: {}", self.file, self.text),
         }
+    }
+}
+
+/// What a reader has to say about a scene.
+#[derive(Debug, Default)]
+pub(super) struct Notes {
+    /// Warnings in the order of the file.
+    pub(super) warnings: Vec<Message>,
+    /// Those of them that say what stands for something else.
+    pub(super) stand_ins: Vec<Message>,
+    kinds: HashSet<String>,
+}
+
+impl Notes {
+    /// Adds a warning.
+    pub(super) fn warn(&mut self, message: Message) {
+        self.warnings.push(message);
+    }
+    /// Adds a warning, but only the first one of its kind.
+    pub(super) fn warn_once(&mut self, kind: &str, message: impl FnOnce() -> Message) {
+        if self.kinds.insert(kind.to_owned()) {
+            let message = message();
+            self.warnings.push(Message { text: format!("{} (reported once)", message.text), ..message });
+        }
+    }
+    /// Warns that something stands for something else, but only of the first one of its kind.
+    pub(super) fn stand_in(&mut self, kind: &str, message: impl FnOnce() -> Message) {
+        let before = self.warnings.len();
+        self.warn_once(kind, message);
+        self.stand_ins.extend_from_slice(&self.warnings[before..]);
     }
 }
 

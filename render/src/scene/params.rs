@@ -2,6 +2,8 @@
 
 use super::lexer::{Lexer, Token, number, shortened};
 use super::message::{Message, Place};
+use super::spectrum::{self, Named, Samples};
+use std::path::{Path, PathBuf};
 
 /// Far more than any directive has; bounds the linear look-up by name.
 const MOST_PARAMETERS: usize = 100;
@@ -14,9 +16,26 @@ enum Values {
     Texts(Vec<String>),
 }
 
+/// Finds the files that parameters name.
+pub(super) type Resolve<'a> = &'a dyn Fn(&str) -> PathBuf;
+
+/// A colour, which may be given in several ways.
+pub(super) enum Color {
+    /// Linear RGB, none negative.
+    Rgb([f64; 3]),
+    /// A black body of a temperature in kelvins.
+    Blackbody(f64),
+    /// A spectrum.
+    Samples(Samples),
+    /// The name of a spectrum.
+    Named(Named),
+    /// The name of a texture.
+    Texture(String),
+}
+
 /// One parameter and the line of its declaration.
 #[derive(Clone, Debug)]
-struct Param {
+pub(super) struct Param {
     kind: &'static str,
     name: String,
     values: Values,
@@ -46,6 +65,7 @@ fn canonical(kind: &str) -> Option<&'static str> {
         "rgb" | "color" => "rgb",
         "spectrum" => "spectrum",
         "blackbody" => "blackbody",
+        "xyz" => "xyz",
         "bool" => "bool",
         "string" => "string",
         "texture" => "texture",
@@ -222,17 +242,107 @@ impl Params {
         }
     }
 
-    /// One colour: three numbers, none negative.
-    pub(super) fn rgb(&mut self, name: &str) -> Result<Option<[f64; 3]>, Message> {
-        let Some(param) = self.take(name, "rgb")? else { return Ok(None) };
-        let Values::Numbers(numbers) = &param.values else { return Ok(None) };
-        let Ok(rgb) = <[f64; 3]>::try_from(numbers.as_slice()) else {
-            return Err(self.at(&param, format!("expected three numbers, found {}", numbers.len())));
-        };
-        match rgb.iter().find(|&&x| x < 0.0) {
-            Some(x) => Err(self.at(&param, format!("must be at least 0, not {}", shown(*x)))),
-            None => Ok(Some(rgb.map(|x| x + 0.0))), // no −0
+    /// Several `string`s.
+    pub(super) fn texts(&mut self, name: &str) -> Result<Option<Vec<String>>, Message> {
+        Ok(match self.take(name, "string")?.map(|param| param.values) {
+            Some(Values::Texts(texts)) => Some(texts),
+            _ => None,
+        })
+    }
+
+    /// Removes a parameter if it is of one of these types.
+    fn take_any(&mut self, name: &str, kinds: &[&str]) -> Result<Option<Param>, Message> {
+        let Some(i) = self.list.iter().position(|p| p.name == name) else { return Ok(None) };
+        let param = self.list.remove(i);
+        if kinds.contains(&param.kind) {
+            return Ok(Some(param));
         }
+        Err(self.at(&param, format!("type {} is not supported, only {}", param.kind, kinds.join(", "))))
+    }
+
+    /// Numbers of any of these types, whose count must be a multiple of `group`.
+    pub(super) fn numbers_of(&mut self, name: &str, kinds: &[&str], group: usize) -> Result<Option<Vec<f64>>, Message> {
+        match self.list.iter().find(|p| p.name == name && kinds.contains(&p.kind)).map(|param| param.kind) {
+            Some(kind) => self.numbers(name, kind, group),
+            None => self.take_any(name, kinds).map(|_| None),
+        }
+    }
+
+    /// A colour or spectrum, or the name of a texture.
+    pub(super) fn color(&mut self, name: &str, resolve: Resolve<'_>) -> Result<Option<Color>, Message> {
+        let kinds = ["rgb", "spectrum", "blackbody", "xyz", "texture", "float"];
+        let Some(param) = self.take_any(name, &kinds)? else { return Ok(None) };
+        let wrong = |why: String| self.at(&param, why);
+        Ok(Some(match (&param.values, param.kind) {
+            (Values::Numbers(numbers), "blackbody") => match numbers[..] {
+                // the second number of older files is a scale
+                [kelvins, ..] if (200.0..=1e6).contains(&kelvins) && numbers.len() <= 2 => Color::Blackbody(kelvins),
+                _ => return Err(wrong(format!("expected a temperature from 200 to 1e6 K, found {numbers:?}"))),
+            },
+            (Values::Numbers(numbers), "float") => match numbers[..] {
+                [x] if x >= 0.0 => Color::Rgb([x + 0.0; 3]),
+                _ => return Err(wrong(format!("expected one number of at least 0, found {numbers:?}"))),
+            },
+            (Values::Numbers(numbers), kind) => {
+                let Ok(rgb) = <[f64; 3]>::try_from(numbers.as_slice()) else {
+                    return Err(wrong(format!("expected three numbers, found {}", numbers.len())));
+                };
+                if let Some(x) = rgb.iter().find(|&&x| x < 0.0) {
+                    return Err(wrong(format!("must be at least 0, not {}", shown(*x))));
+                }
+                // no −0
+                let rgb = rgb.map(|x| x + 0.0);
+                Color::Rgb(if kind == "xyz" { spectrum::srgb(rgb).map(|x| x.max(0.0)) } else { rgb })
+            }
+            (Values::Texts(texts), "texture") => match &texts[..] {
+                [name] => Color::Texture(name.clone()),
+                _ => return Err(wrong(format!("expected one texture, found {}", texts.len()))),
+            },
+            (Values::Texts(texts), _) => {
+                let numbers: Option<Vec<f64>> = texts.iter().map(|text| text.parse().ok()).collect();
+                match (numbers, &texts[..]) {
+                    (Some(numbers), _) => Color::Samples(Samples::new(&numbers).map_err(wrong)?),
+                    (None, [name]) => match spectrum::named(name) {
+                        Some(named) => Color::Named(named),
+                        None if Path::new(name).extension().is_some() => {
+                            Color::Samples(Samples::read(&resolve(name)).map_err(wrong)?)
+                        }
+                        None => return Err(wrong(format!("no spectrum is called {:?}", shortened(name)))),
+                    },
+                    (None, _) => return Err(wrong("expected a name, or wavelengths and values".to_owned())),
+                }
+            }
+            (Values::Flags(_), _) => return Err(wrong("expected a colour".to_owned())),
+        }))
+    }
+
+    /// The colour of light, in the unit of the parameter; spectra have luminance 1.
+    pub(super) fn light(&mut self, name: &str, resolve: Resolve<'_>) -> Result<Option<[f64; 3]>, Message> {
+        Ok(match self.color(name, resolve)? {
+            None => None,
+            Some(Color::Rgb(rgb)) => Some(rgb),
+            Some(Color::Blackbody(kelvins)) => Some(spectrum::blackbody(kelvins)),
+            Some(Color::Samples(samples)) => Some(samples.illuminant()),
+            Some(Color::Named(Named::Illuminant(rgb))) => Some(rgb),
+            Some(Color::Named(Named::Index(_))) => {
+                return Err(self.error(format!("{name:?}: this spectrum is no light")));
+            }
+            Some(Color::Texture(_)) => return Err(self.error(format!("{name:?}: a light cannot have a texture"))),
+        })
+    }
+
+    /// Adds parameters that are not given, unless there are too many.
+    pub(super) fn default_to(&mut self, others: &[Param]) {
+        for other in others {
+            if !self.has(&other.name) && self.list.len() < MOST_PARAMETERS {
+                self.list.push(other.clone());
+            }
+        }
+    }
+
+    /// The parameters themselves.
+    pub(super) fn into_list(self) -> Vec<Param> {
+        self.list
     }
 
     /// Removes the parameter, of whatever type; returns whether it was given.
@@ -242,17 +352,26 @@ impl Params {
         self.list.len() != before
     }
 
+    /// Gives a number.
+    pub(super) fn set_float(&mut self, name: &str, value: f64) {
+        self.given(name);
+        let line = self.place.line;
+        self.list.push(Param { kind: "float", name: name.to_owned(), values: Values::Numbers(vec![value]), line });
+    }
+
+    /// Whether the parameter is given as a texture.
+    pub(super) fn is_texture(&self, name: &str) -> bool {
+        self.list.iter().any(|p| p.name == name && p.kind == "texture")
+    }
+
+    /// Removes all parameters, so that none of them causes a warning.
+    pub(super) fn ignore_all(&mut self) {
+        self.list.clear();
+    }
+
     /// Whether the parameter is given, of whatever type.
     pub(super) fn has(&self, name: &str) -> bool {
         self.list.iter().any(|p| p.name == name)
-    }
-
-    /// Fails if one of these parameters is given.
-    pub(super) fn reject(&self, names: &[&str]) -> Result<(), Message> {
-        match self.list.iter().find(|p| names.contains(&p.name.as_str())) {
-            Some(param) => Err(self.at(param, "not supported")),
-            None => Ok(()),
-        }
     }
 
     /// A warning for each parameter that was not looked up.

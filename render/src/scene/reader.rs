@@ -1,16 +1,18 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
-use super::builder::{Builder, ShapeAttributes};
+use super::builder::{Builder, Object, ShapeAttributes};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, Emission, FilmSettings, Lens, Scene};
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
-use super::lights::{self, DeltaLight, Environment};
-use super::materials::{self, Material};
+use super::lights::{self, DeltaLight, Environment, Files};
+use super::material_parameters::{self, Context, Finish};
+use super::materials::Material;
 use super::message::{Message, Place, utf8};
-use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
+use super::params::{MOST_RADIANCE, Param, Params, brightness, rounded, shown};
 use super::shapes;
+use super::textures::Textures;
 use super::transform::{Transform, length, scaled};
 use crate::image;
 use crate::limits::{MOST_SAMPLES, is_size};
@@ -27,8 +29,23 @@ const DEEPEST_ATTRIBUTES: usize = 1024;
 struct State {
     ctm: Transform,
     reverse: bool,
-    material: Material,
+    material: Finish,
     emission: Option<Emission>,
+    /// The power of each light, if the scene gives it.
+    power: Option<f64>,
+    /// Parameters of `Attribute`, by what they are for.
+    defaults: Vec<(String, Vec<Param>)>,
+    /// Whether transforms apply only to the end of the exposure, which is not rendered.
+    is_end: bool,
+}
+
+/// The object that is being read.
+struct Open {
+    name: String,
+    place: Place,
+    /// How many states were saved before.
+    depth: usize,
+    before: Builder,
 }
 
 struct Reader<'a> {
@@ -43,7 +60,10 @@ struct Reader<'a> {
     state: State,
     saved: Vec<(State, Place)>,
     systems: HashMap<String, Transform>,
-    named: HashMap<String, Material>,
+    named: HashMap<String, Finish>,
+    textures: Textures,
+    objects: HashMap<String, Object>,
+    open: Option<Open>,
     in_world: bool,
     includes: Includes,
     inputs: RefCell<Vec<PathBuf>>,
@@ -51,8 +71,15 @@ struct Reader<'a> {
 
 /// Reads a whole scene; only a built-in scene may name `builtin:` meshes.
 pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Result<Scene, Message> {
-    let material = Material::Diffuse([0.5; 3]);
-    let state = State { ctm: Transform::IDENTITY, reverse: false, material, emission: None };
+    let state = State {
+        ctm: Transform::IDENTITY,
+        reverse: false,
+        material: Finish::Of(Material::Diffuse([0.5; 3])),
+        emission: None,
+        power: None,
+        defaults: Vec::new(),
+        is_end: false,
+    };
     let mut reader = Reader {
         main_dir: dir,
         is_builtin: matches!(origin, Origin::Builtin),
@@ -66,6 +93,9 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         saved: Vec::new(),
         systems: HashMap::new(),
         named: HashMap::new(),
+        textures: Textures::default(),
+        objects: HashMap::new(),
+        open: None,
         in_world: false,
         includes: Includes::new(origin),
         inputs: RefCell::default(),
@@ -75,6 +105,9 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
 
     let lines = u32::try_from(text.lines().count()).unwrap_or(u32::MAX);
     let end = Place { file: file.clone(), line: lines.max(1) };
+    if let Some(open) = reader.open {
+        return Err(open.place.message("this ObjectBegin is never closed"));
+    }
     if let Some((_, place)) = reader.saved.last() {
         return Err(place.message("this AttributeBegin or TransformBegin is never closed"));
     }
@@ -88,7 +121,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     out.finish();
     let emits = out.shapes.iter().any(|shape| shape.emission.is_some());
     if !emits && reader.delta_lights.is_empty() && reader.environment.is_none() {
-        out.warnings.push(end.message("nothing emits light: the image will be black"));
+        out.notes.warn(end.message("nothing emits light: the image will be black"));
     }
     let name = Path::new(&*file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     Ok(Scene {
@@ -104,7 +137,8 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         shapes: out.shapes.into(),
         delta_lights: reader.delta_lights,
         environment: reader.environment,
-        warnings: out.warnings,
+        warnings: out.notes.warnings,
+        stand_ins: out.notes.stand_ins,
         inputs: reader.inputs.into_inner(),
     })
 }
@@ -124,7 +158,7 @@ impl Reader<'_> {
 
     fn directive(&mut self, word: &str, place: Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
         const OPTIONS: [&str; 7] = ["Camera", "Film", "Sampler", "PixelFilter", "Integrator", "Accelerator", "Option"];
-        const WORLD: [&str; 11] = [
+        const WORLD: [&str; 14] = [
             "AttributeBegin",
             "AttributeEnd",
             "TransformBegin",
@@ -136,6 +170,9 @@ impl Reader<'_> {
             "MakeNamedMaterial",
             "NamedMaterial",
             "Shape",
+            "ObjectBegin",
+            "ObjectEnd",
+            "ObjectInstance",
         ];
         if self.in_world && OPTIONS.contains(&word) {
             return Err(place.message(format!("{word} must come before WorldBegin")));
@@ -157,11 +194,22 @@ impl Reader<'_> {
                 self.state.ctm = *self.systems.get(&name).ok_or_else(unknown)?;
             }
             "ActiveTransform" => match lexer.expect("All, StartTime or EndTime")?.0 {
-                Token::Word("All") => {}
+                Token::Word(which @ ("All" | "StartTime" | "EndTime")) => {
+                    if which != "All" {
+                        let why = "motion becomes a still at its start";
+                        self.out.notes.stand_in("motion", || place.message(format!("ActiveTransform {which}: {why}")));
+                    }
+                    self.state.is_end = which == "EndTime";
+                }
                 other => {
-                    return Err(place.message(format!("ActiveTransform {}: not supported, only All", other.show())));
+                    let wanted = "expected All, StartTime or EndTime";
+                    return Err(place.message(format!("ActiveTransform: {wanted}, found {}", other.show())));
                 }
             },
+            "TransformTimes" => {
+                lexer.number(word)?;
+                lexer.number(word)?;
+            }
             "ReverseOrientation" => self.state.reverse = !self.state.reverse,
             "WorldBegin" => {
                 if self.in_world {
@@ -182,6 +230,80 @@ impl Reader<'_> {
                 None => return Err(place.message(format!("{word} has no matching Begin"))),
             },
             "Include" => self.include(&place, lexer, dir)?,
+            // what an imported file changes ends with it
+            "Import" => {
+                let (state, depth) = (self.state.clone(), self.saved.len());
+                self.include(&place, lexer, dir)?;
+                if self.saved.len() != depth {
+                    return Err(place.message("Import: the file does not close what it opens"));
+                }
+                self.state = state;
+            }
+            "ObjectBegin" => {
+                let name = lexer.text("a name")?;
+                if let Some(open) = &self.open {
+                    let at = open.place.line;
+                    return Err(place.message(format!("ObjectBegin: the one of line {at} is not closed")));
+                }
+                let before = self.out.begin_object();
+                self.open = Some(Open { name, place: place.clone(), depth: self.saved.len(), before });
+                self.saved.push((self.state.clone(), place));
+            }
+            "ObjectEnd" => {
+                let Some(open) = self.open.take() else {
+                    return Err(place.message("ObjectEnd has no matching ObjectBegin"));
+                };
+                match self.saved.pop() {
+                    Some((state, _)) if self.saved.len() == open.depth => self.state = state,
+                    _ => return Err(place.message("ObjectEnd: an AttributeBegin within the object is not closed")),
+                }
+                let object = self.out.end_object(open.before);
+                self.objects.insert(open.name, object);
+            }
+            "ObjectInstance" => {
+                let name = lexer.text("a name")?;
+                if self.open.is_some() {
+                    return Err(place.message("ObjectInstance: objects cannot contain instances"));
+                }
+                let unknown = || place.message(format!("no ObjectBegin {:?} precedes this", shortened(&name)));
+                let object = self.objects.get(&name).ok_or_else(unknown)?;
+                let added = self.out.instance(object, &self.state.ctm);
+                added.map_err(|why| place.message(format!("ObjectInstance {:?}: {why}", shortened(&name))))?;
+                self.out.left_out();
+            }
+            "MediumInterface" => {
+                lexer.text("a medium")?;
+                if let Some(Token::Text(_)) = lexer.peek()? {
+                    lexer.text("a medium")?;
+                }
+                self.out.notes.stand_in("media", || place.message("MediumInterface: media are ignored"));
+            }
+            "MakeNamedMedium" => {
+                let name = lexer.text("a name")?;
+                Params::read(lexer, format!("{word} {:?}", shortened(&name)), place.clone())?;
+                self.out.notes.stand_in("media", || place.message("MakeNamedMedium: media are ignored"));
+            }
+            "Attribute" => {
+                let target = lexer.text("what the attributes are for")?;
+                const TARGETS: [&str; 5] = ["shape", "light", "material", "medium", "texture"];
+                if !TARGETS.contains(&&*target) {
+                    let found = shortened(&target);
+                    return Err(place.message(format!("Attribute {found:?}: only {}", TARGETS.join(", "))));
+                }
+                let params = Params::read(lexer, format!("{word} {target:?}"), place)?;
+                self.state.defaults.insert(0, (target, params.into_list()));
+            }
+            "Texture" => {
+                let (name, value) = (lexer.text("a name")?, lexer.text("a type of value")?);
+                let kind = lexer.text("a type")?;
+                let mut params = Params::read(lexer, format!("{word} {:?}", shortened(&name)), place)?;
+                self.with_defaults("texture", &mut params);
+                let Self { textures, out, .. } = self;
+                let (main, inputs) = (self.main_dir, &self.inputs);
+                let resolve = |name: &str| resolved(main, inputs, name, dir);
+                textures.define(&name, &value, &kind, &mut params, &resolve, &mut out.notes)?;
+                out.notes.warnings.extend(params.finish());
+            }
             "ColorSpace" => {
                 let name = lexer.text("a name")?;
                 if name != "srgb" {
@@ -196,17 +318,13 @@ impl Reader<'_> {
             "NamedMaterial" => {
                 let name = lexer.text("a name")?;
                 let unknown = || place.message(format!("no MakeNamedMaterial {:?} precedes this", shortened(&name)));
-                self.state.material = *self.named.get(&name).ok_or_else(unknown)?;
+                self.state.material = self.named.get(&name).copied().ok_or_else(unknown)?;
             }
             "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
             | "LightSource" | "Material" | "MakeNamedMaterial" | "Shape" => {
                 let kind = lexer.text("a type")?;
                 let params = Params::read(lexer, format!("{word} {:?}", shortened(&kind)), place)?;
                 self.with_params(word, &kind, params, dir)?;
-            }
-            "Texture" | "ObjectBegin" | "ObjectEnd" | "ObjectInstance" | "MediumInterface" | "MakeNamedMedium"
-            | "Attribute" | "Import" | "TransformTimes" => {
-                return Err(place.message(format!("{word} is not supported")));
             }
             _ => return Err(place.message(format!("unknown directive {}", shortened(word)))),
         }
@@ -236,24 +354,50 @@ impl Reader<'_> {
                 self.warn(&params.place, params.error("ignored").text);
                 return Ok(());
             }
-            "Material" => self.state.material = materials::read(kind, &mut params, &mut self.out.warnings)?,
+            "Material" => {
+                self.with_defaults("material", &mut params);
+                self.state.material = self.material(kind, &mut params, dir)?;
+            }
             "MakeNamedMaterial" => {
                 let Some(of) = params.text("type")? else {
                     return Err(params.error("\"string type\" is missing"));
                 };
-                let material = materials::read(&of, &mut params, &mut self.out.warnings)?;
+                let material = self.material(&of, &mut params, dir)?;
                 self.named.insert(kind.into(), material);
             }
-            "AreaLightSource" => self.area_light(kind, &mut params)?,
-            "LightSource" => self.light(kind, &mut params, dir)?,
-            _ => self.shape(kind, &mut params, dir)?,
+            "AreaLightSource" => {
+                self.with_defaults("light", &mut params);
+                self.area_light(kind, &mut params, dir)?;
+            }
+            "LightSource" => {
+                self.with_defaults("light", &mut params);
+                self.light(kind, &mut params, dir)?;
+            }
+            _ => {
+                self.with_defaults("shape", &mut params);
+                self.shape(kind, &mut params, dir)?;
+            }
         }
-        self.out.warnings.extend(params.finish());
+        self.out.notes.warnings.extend(params.finish());
         Ok(())
     }
 
+    /// Adds the parameters of `Attribute`, the newest first.
+    fn with_defaults(&self, target: &str, params: &mut Params) {
+        for (_, list) in self.state.defaults.iter().filter(|(of, _)| of == target) {
+            params.default_to(list);
+        }
+    }
+
+    fn material(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<Finish, Message> {
+        let (main, inputs) = (self.main_dir, &self.inputs);
+        let resolve = |name: &str| resolved(main, inputs, name, dir);
+        let context = Context { textures: &self.textures, named: &self.named, resolve: &resolve };
+        material_parameters::read(kind, params, &context, &mut self.out)
+    }
+
     fn warn(&mut self, place: &Place, text: String) {
-        self.out.warnings.push(place.message(text));
+        self.out.notes.warn(place.message(text));
     }
 
     fn include(&mut self, place: &Place, lexer: &mut Lexer<'_>, dir: &Path) -> Result<(), Message> {
@@ -269,11 +413,7 @@ impl Reader<'_> {
 
     /// Resolves the name of a file to be read, relative to the file that names it, else relative to the main file, as in pbrt.
     fn resolve(&self, name: &str, dir: &Path) -> PathBuf {
-        let near = dir.join(name);
-        let main = self.main_dir.join(name);
-        let path = if !near.exists() && main.exists() { main } else { near };
-        self.inputs.borrow_mut().push(path.clone());
-        path
+        resolved(self.main_dir, &self.inputs, name, dir)
     }
 
     fn transform(&mut self, word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {
@@ -312,6 +452,9 @@ impl Reader<'_> {
             _ => Transform::from_columns(&m).ok_or("not affine: every fourth number must be 0, the last one 1"),
         };
         let made = made.map_err(|why| place.message(format!("{word} {:?}: {why}", &m[..count])))?;
+        if self.state.is_end {
+            return Ok(());
+        }
         self.state.ctm = if word == "Transform" { made } else { self.state.ctm.after(&made) };
         if !self.state.ctm.is_finite() {
             return Err(place.message(format!("{word}: the transform is no longer finite")));
@@ -320,13 +463,45 @@ impl Reader<'_> {
     }
 
     fn camera(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
-        if kind != "perspective" {
-            return Err(params.error("not supported, only \"perspective\""));
-        }
         if self.camera.is_some() {
             return Err(params.error("a second camera: only one is supported"));
         }
-        params.reject(&["screenwindow", "frameaspectratio"])?;
+        let far = match kind {
+            "perspective" => None,
+            "orthographic" => {
+                let why = "becomes a perspective one from a thousand times as far as the image is wide";
+                self.out.notes.stand_in(kind, || params.error(why));
+                Some(1000.0)
+            }
+            "realistic" | "spherical" | "environment" => {
+                self.out.notes.stand_in(kind, || params.error("becomes a perspective one of 50 degrees"));
+                params.ignore_all();
+                params.set_float("fov", 50.0);
+                None
+            }
+            _ => return Err(params.error("not supported, only \"perspective\" and stand-ins for pbrt's others")),
+        };
+        for name in ["shutteropen", "shutterclose", "hither", "yon", "halffov"] {
+            params.given(name);
+        }
+        if params.given("frameaspectratio") {
+            let why = "\"frameaspectratio\" is ignored: pixels are square";
+            self.out.notes.stand_in("frameaspectratio", || params.error(why));
+        }
+        // half of the screen's shorter side, which is 1 for the field of view that is given
+        let screen = match params.numbers("screenwindow", "float", 4)?.as_deref() {
+            None => 1.0,
+            Some(&[left, right, bottom, top]) if left < right && bottom < top => {
+                if left + right != 0.0 || bottom + top != 0.0 {
+                    let why = "\"screenwindow\" is moved to the middle of the image";
+                    self.out.notes.stand_in("screenwindow", || params.error(why));
+                }
+                (right - left).min(top - bottom) / 2.0
+            }
+            Some(numbers) => {
+                return Err(params.error(format!("\"screenwindow\": {numbers:?} is not x0 x1 y0 y1, ascending")));
+            }
+        };
         let radius = params.float("lensradius")?.unwrap_or(0.0);
         if radius < 0.0 {
             return Err(params.error(format!("\"lensradius\": must be at least 0, not {}", shown(radius))));
@@ -335,7 +510,12 @@ impl Reader<'_> {
         if focus <= 0.0 {
             return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
         }
-        let fov = params.float("fov")?.unwrap_or(90.0);
+        let given = params.float("fov")?.unwrap_or(90.0);
+        let fov = match far {
+            None if screen == 1.0 => given,
+            None => 2.0 * libm::atan(screen * libm::tan(given.to_radians() / 2.0)).to_degrees(),
+            Some(far) => 2.0 * libm::atan(1.0 / far).to_degrees(),
+        };
         if !(fov > 0.0 && fov < 180.0) {
             return Err(
                 params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {}", shown(fov)))
@@ -356,8 +536,9 @@ impl Reader<'_> {
                 params.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32"))
             );
         }
+        let back = far.map_or(0.0, |far| -far * screen);
         let camera = CameraSettings {
-            origin: world.shift,
+            origin: world.point([0.0, 0.0, back]),
             forward: axis([0.0, 0.0, 1.0]),
             right: axis([1.0, 0.0, 0.0]),
             up: axis([0.0, 1.0, 0.0]),
@@ -373,8 +554,18 @@ impl Reader<'_> {
     }
 
     fn film(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
-        if kind != "rgb" {
-            return Err(params.error("not supported, only \"rgb\""));
+        if !["rgb", "image", "gbuffer", "spectral"].contains(&kind) {
+            return Err(
+                params.error("not supported, only \"rgb\", and \"gbuffer\" and \"spectral\" as if they were that")
+            );
+        }
+        for name in ["cropwindow", "pixelbounds"] {
+            if params.given(name) {
+                self.warn(
+                    &params.place,
+                    params.error(format!("{name:?} ignored: --crop renders a part of the image")).text,
+                );
+            }
         }
         let width = params.integer("xresolution")?.unwrap_or(1280);
         let height = params.integer("yresolution")?.unwrap_or(720);
@@ -413,30 +604,54 @@ impl Reader<'_> {
     }
 
     fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        let mut warnings = Vec::new();
-        let open = |name: &str| match BUILTIN_IMAGES.iter().find(|(known, _)| self.is_builtin && *known == name) {
+        let Self { out, state, inputs, is_builtin, main_dir, .. } = self;
+        let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
+        let open = |name: &str| match BUILTIN_IMAGES.iter().find(|(known, _)| *is_builtin && *known == name) {
             Some((_, bytes)) => image::decode(Path::new(name), bytes),
-            None => image::read(&self.resolve(name, dir)),
+            None => image::read(&resolve(name)),
         };
-        let source = lights::read(kind, params, &self.state.ctm, &open, &mut warnings)?;
-        self.out.warnings.append(&mut warnings);
-        match source {
+        let files = Files { resolve: &resolve, open: &open };
+        match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
             lights::Source::Delta(light) => self.delta_lights.push(light),
-            lights::Source::Environment(_) if self.environment.is_some() => {
-                return Err(params.error("a second one: only one infinite light is supported"));
-            }
-            lights::Source::Environment(environment) => self.environment = Some(environment),
+            lights::Source::Environment(environment) => match self.environment.take() {
+                None => self.environment = Some(environment),
+                Some(before) => {
+                    let kept = before.clone();
+                    self.environment = before.and(environment).or_else(|| {
+                        out.notes.stand_in("second sky", || params.error("a second image of a sky is ignored"));
+                        Some(kept)
+                    });
+                }
+            },
             lights::Source::Dark => {}
         }
         Ok(())
     }
 
-    fn area_light(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
-        if kind != "diffuse" {
+    fn area_light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
+        if kind != "diffuse" && kind != "area" {
             return Err(params.error("not supported, only \"diffuse\""));
         }
-        params.reject(&["power", "filename"])?;
-        let radiance = params.rgb("L")?.unwrap_or([1.0; 3]);
+        params.given("nsamples");
+        params.given("samples");
+        let Self { out, inputs, main_dir, .. } = self;
+        let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
+        let picture = match params.text("filename")? {
+            Some(name) => {
+                out.notes.stand_in("picture", || params.error("the picture on the light becomes its mean"));
+                let image = image::read(&resolve(&name)).map_err(|error| params.error(error.to_string()))?;
+                let sum = image.radiance.iter().fold([0.0; 3], |sum, rgb| {
+                    std::array::from_fn::<f64, 3, _>(|k| sum[k] + f64::from(rgb[k].max(0.0)))
+                });
+                sum.map(|x| x / image.radiance.len() as f64)
+            }
+            None => [1.0; 3],
+        };
+        let radiance = params.light("L", &resolve)?.unwrap_or(picture);
+        let power = params.float("power")?;
+        if let Some(power) = power.filter(|&power| power <= 0.0) {
+            return Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(power))));
+        }
         let scale = params.float("scale")?.unwrap_or(1.0);
         if scale < 0.0 {
             return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(scale))));
@@ -453,6 +668,7 @@ impl Reader<'_> {
             self.warn(&params.place, params.error("emits nothing").text);
         }
         self.state.emission = (!dark).then_some(Emission { radiance, two_sided });
+        self.state.power = power;
         Ok(())
     }
 
@@ -461,13 +677,42 @@ impl Reader<'_> {
         if det == 0.0 || !det.is_finite() {
             return Err(params.error("its transform is singular"));
         }
+        for name in ["displacement", "emissionfilename", "displacement.edgelength"] {
+            if params.given(name) {
+                self.out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
+            }
+        }
+        let opacity = self.textures.number("alpha", params)?;
+        params.given("shadowalpha");
+        if opacity.as_ref().is_some_and(|opacity| opacity.constant().is_some_and(|[x, ..]| x <= 0.0)) {
+            params.ignore_all();
+            return Ok(());
+        }
+        if opacity.is_some_and(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0)) {
+            self.out.notes.stand_in("alpha", || params.error("\"alpha\": the surface becomes opaque"));
+        }
+        let mut emission = self.state.emission;
+        let material = match self.state.material {
+            Finish::Of(material) => material,
+            Finish::Invisible if emission.is_none() => {
+                params.ignore_all();
+                return Ok(());
+            }
+            Finish::Invisible => Material::Diffuse([0.0; 3]),
+        };
+        if emission.is_some() && self.open.is_some() {
+            self.out
+                .notes
+                .stand_in("light in an object", || params.error("a light in an object emits nothing, as in pbrt"));
+            emission = None;
+        }
         let surface = ShapeAttributes {
             ctm: self.state.ctm,
             flip: self.state.reverse != (det < 0.0),
-            material: self.out.material(self.state.material),
-            emission: self.state.emission,
+            material: self.out.material(material),
+            emission,
+            power: self.state.power,
         };
-        params.reject(&["alpha", "displacement", "emissionfilename"])?;
         match kind {
             "sphere" => shapes::sphere(&mut self.out, &surface, params),
             "trianglemesh" => shapes::triangle_mesh(&mut self.out, &surface, params),
@@ -485,7 +730,22 @@ impl Reader<'_> {
                 let path = self.resolve(&name, dir);
                 shapes::ply_mesh(&mut self.out, &surface, params, &path)
             }
-            _ => Err(params.error("shape not supported, only sphere, trianglemesh, bilinearmesh and plymesh")),
+            "curve" | "cone" | "paraboloid" | "hyperboloid" | "heightfield" | "nurbs" => {
+                self.out.notes.stand_in(kind, || params.error("shapes of this type are left out"));
+                params.ignore_all();
+                Ok(())
+            }
+            _ => Err(params.error(
+                "shape not supported, only sphere, trianglemesh, bilinearmesh, plymesh, loopsubdiv, disk and cylinder",
+            )),
         }
     }
+}
+
+/// Resolves the name of a file to be read, relative to the file that names it, else relative to the main file, as in pbrt.
+fn resolved(main: &Path, inputs: &RefCell<Vec<PathBuf>>, name: &str, dir: &Path) -> PathBuf {
+    let (near, far) = (dir.join(name), main.join(name));
+    let path = if !near.exists() && far.exists() { far } else { near };
+    inputs.borrow_mut().push(path.clone());
+    path
 }

@@ -16,7 +16,7 @@ use std::path::Path;
 fn note_left_out(out: &mut Builder, params: &Params) {
     let count = out.left_out();
     if count > 0 {
-        out.warnings.push(params.error(format!("{count} triangle(s) without area are left out")));
+        out.notes.warn(params.error(format!("{count} triangle(s) without area are left out")));
     }
 }
 
@@ -28,7 +28,7 @@ pub(super) fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut 
     let similar = surface.ctm.similarity();
     let inwards = surface.flip && surface.emission.is_some_and(|emission| !emission.two_sided);
     let whole = low <= -radius && high >= radius && sweep >= 360.0;
-    if let Some(factor) = similar.filter(|_| whole && !inwards && !out.varies(surface.material)) {
+    if let Some(factor) = similar.filter(|_| whole && !inwards && !out.varies(surface.material) && !out.is_object()) {
         let center = surface.place(std::iter::once([0.0; 3])).map_err(|why| params.error(why))?;
         let world_radius = (radius * factor) as f32;
         if !(world_radius > 0.0 && world_radius.is_finite()) {
@@ -38,13 +38,13 @@ pub(super) fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut 
             )));
         }
         let center = center[0].map(|x| x as f32);
-        out.push(surface.material, surface.emission, Geometry::Sphere { center, radius: world_radius });
+        out.add(surface, Geometry::Sphere { center, radius: world_radius });
         return Ok(());
     }
     if !(radius > 0.0) {
         return Err(params.error(format!("\"radius\": must be greater than 0 and finite, not {}", shown(radius))));
     }
-    tessellated(out, params, "a sphere that is partial, stretched, textured or emits inwards");
+    tessellated(out, params, "a sphere that is partial, stretched, textured, in an object or emits inwards");
     let sweep = sweep.clamp(0.0, 360.0).to_radians();
     let angle = |z: f64| libm::acos((z / radius).clamp(-1.0, 1.0));
     let [from, to] = [angle(low.min(high)), angle(low.max(high))];
@@ -91,7 +91,7 @@ fn polygon_share(angle: f64) -> f64 {
 
 /// Warns of a shape that becomes triangles.
 fn tessellated(out: &mut Builder, params: &Params, what: &str) {
-    out.warn_once(what, || params.error(format!("{what} becomes triangles")));
+    out.notes.stand_in(what, || params.error(format!("{what} becomes triangles")));
 }
 
 /// Adds a surface over (s, t) in [0, 1]² as a grid of quads; `at` returns points and outward normals, or 0 for flat ones.
@@ -245,7 +245,7 @@ pub(super) fn ply_mesh(
     let shown = path.display().to_string();
     let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
-    out.warnings.extend(mesh.warnings.iter().map(|text| params.error(text)));
+    mesh.warnings.iter().for_each(|text| out.notes.warn(params.error(text)));
 
     let in_file = |why: String| params.error(format!("{shown}: {why}"));
     let points = surface.place(mesh.points.iter().copied()).map_err(in_file)?;

@@ -1,10 +1,11 @@
 //! Tests of the built-in scenes, transforms and orientation; `faulty` has faulty input, `meshes` has mesh files, `many_lights` has the
-//! scenes of many lights.
+//! scenes of many lights, `own_scenes` what files of others have.
 
 mod faulty;
 mod lights;
 mod many_lights;
 mod meshes;
+mod own_scenes;
 
 use super::*;
 

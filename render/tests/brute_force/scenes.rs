@@ -23,6 +23,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
         delta_lights: Vec::new(),
         environment: None,
         warnings: Vec::new(),
+        stand_ins: Vec::new(),
         inputs: Vec::new(),
     }
 }

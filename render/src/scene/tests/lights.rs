@@ -59,10 +59,8 @@ fn infinite_lights_turn_with_their_transform() {
     // up in world space is z in light space
     let up: [f32; 3] = environment.to_light.map(|row| row[1]);
     assert!(up[0].abs() < 1e-6 && up[1].abs() < 1e-6 && (up[2] - 1.0).abs() < 1e-6, "{up:?}");
-    assert!(
-        error("LightSource \"infinite\"\nLightSource \"infinite\"")
-            .starts_with("a.pbrt:3: LightSource \"infinite\": a second one")
-    );
+    let two = read(&world("LightSource \"infinite\"\nLightSource \"infinite\" \"rgb L\" [1 2 3]"));
+    assert_eq!(two.environment.unwrap().sky, SkyRadiance::Constant([2.0, 3.0, 4.0]));
     let dark = read(&world("LightSource \"infinite\" \"rgb L\" [0 0 0]"));
     assert!(dark.environment.is_none());
     assert_eq!(warnings(&dark).len(), 2, "{:?}", warnings(&dark));
@@ -112,8 +110,7 @@ fn images_of_the_sky() {
     assert!(warnings(&scene)[0].contains("negative values in 1 texel(s)"), "{:?}", warnings(&scene));
 
     for (name, what) in [
-        ("odd.exr", "4×3 texels: must be square"),
-        ("nan.exr", "texel (1, 0) is [NaN, 2.0, 3.0], times 2: must be finite"),
+        ("nan.exr", "texel (1, 0) is [NaN, 2.0, 3.0], times [2.0, 2.0, 2.0]: must be finite"),
         ("text.exr", "not a valid EXR, HDR or PNG image"),
         ("none.exr", "cannot read"),
     ] {
@@ -152,13 +149,12 @@ fn metals_and_mirrors() {
 #[test]
 fn errors_name_line_and_value() {
     for (text, what) in [
-        ("LightSource \"goniometric\"", "not supported, only \"point\""),
-        ("LightSource \"point\" \"float power\" 3", "\"power\": not supported"),
-        ("LightSource \"distant\" \"float illuminance\" 3", "\"illuminance\": not supported"),
-        ("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]", "\"portal\": not supported"),
+        ("LightSource \"laser\"", "not supported, only \"point\""),
+        ("LightSource \"point\" \"float power\" 0", "must be greater than 0, not 0"),
+        ("LightSource \"distant\" \"float illuminance\" -3", "must be greater than 0, not -3"),
         ("LightSource \"point\" \"float scale\" -2", "\"scale\": must be at least 0, not -2"),
         ("LightSource \"point\" \"rgb I\" [1 -3 1]", "\"I\": must be at least 0, not -3"),
-        ("LightSource \"point\" \"blackbody I\" 3000", "type blackbody is not supported, only rgb"),
+        ("LightSource \"point\" \"texture I\" \"a\"", "a light cannot have a texture"),
         ("LightSource \"point\" \"rgb I\" [1e30 0 0] \"float scale\" 1e30", "at most 3.4028235e38 is supported"),
         ("LightSource \"point\" \"point3 from\" [1e39 0 0]", "not finite in f32"),
         ("LightSource \"point\" \"point3 from\" [1 2 3 4 5 6]", "\"from\": expected three numbers, found 6"),
@@ -173,19 +169,14 @@ fn errors_name_line_and_value() {
         ),
         ("Scale 1 2 1 LightSource \"spot\"", "stretches its cone"),
         ("Scale 1 2 1 LightSource \"infinite\"", "rotations, reflections and uniform scales"),
-        ("Material \"conductor\"", "spectra of metals are not supported"),
-        ("Material \"conductor\" \"spectrum eta\" \"metal-Cu-eta\"", "type spectrum is not supported"),
-        ("Material \"conductor\" \"rgb eta\" [1 1 1]", "needs \"rgb reflectance\""),
+        ("Material \"conductor\" \"spectrum eta\" \"metal-Xx-eta\"", "no spectrum is called \"metal-Xx-eta\""),
+        ("Material \"conductor\" \"rgb eta\" [1 1 1]", "needs both \"eta\" and \"k\", or \"reflectance\""),
         ("Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb k\" [1e20 1 1]", "\"k\": [1e20, 1.0, 1.0] is too large"),
         ("Material \"conductor\" \"rgb reflectance\" [1 1 1.5]", "\"reflectance\": must be at most 1, not 1.5"),
         ("Material \"conductor\" \"rgb reflectance\" [1 1 1] \"rgb k\" [1 1 1]", "\"reflectance\" cannot be combined"),
         (
             "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" 1.5",
             "\"roughness\": must be from 0 to 1, not 1.5",
-        ),
-        (
-            "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float uroughness\" .5",
-            "roughness 0.5 × 0: only isotropic",
         ),
     ] {
         let message = error(text);

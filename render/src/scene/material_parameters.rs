@@ -1,0 +1,325 @@
+//! Reads `Material` and `MakeNamedMaterial`.
+
+use super::builder::Builder;
+use super::lexer::shortened;
+use super::materials::{Material, Varying};
+use super::message::Message;
+use super::params::{Params, Resolve, rounded, shown};
+use super::spectrum::{self, Named};
+use super::textures::Textures;
+use crate::texture::Texture;
+use std::collections::HashMap;
+
+/// What a surface is made of, as the state of a scene file holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Finish {
+    /// A material.
+    Of(Material),
+    /// None: rays pass as if there were no surface.
+    Invisible,
+}
+
+/// What a material's parameters refer to.
+pub(super) struct Context<'a> {
+    pub(super) textures: &'a Textures,
+    pub(super) named: &'a HashMap<String, Finish>,
+    pub(super) resolve: Resolve<'a>,
+}
+
+/// The types of materials, for messages.
+const KINDS: &str = "\"diffuse\", \"coateddiffuse\", \"conductor\", \"coatedconductor\", \"dielectric\", \"thindielectric\", \
+    \"diffusetransmission\", \"subsurface\", \"hair\", \"measured\", \"mix\", \"interface\", \"mirror\", and pbrt-v3's \"matte\", \
+    \"plastic\", \"metal\", \"glass\", \"uber\", \"substrate\", \"translucent\", \"disney\", \"fourier\" and \"kdsubsurface\"";
+
+/// Reads the parameters of a material. What direct light on opaque surfaces cannot show becomes a stand-in.
+pub(super) fn read(
+    kind: &str,
+    params: &mut Params,
+    context: &Context<'_>,
+    out: &mut Builder,
+) -> Result<Finish, Message> {
+    for name in ["displacement", "normalmap", "bumpmap"] {
+        if params.given(name) {
+            out.notes.stand_in(name, || params.error(format!("{name:?} is ignored: surfaces are smooth")));
+        }
+    }
+    let reads = Reads { context };
+    let stand_in = |out: &mut Builder, params: &Params, what: &str| {
+        out.notes.stand_in(kind, || params.error(format!("becomes {what}")));
+    };
+    Ok(Finish::Of(match kind {
+        "diffuse" => {
+            params.given("sigma");
+            reads.diffuse(&["reflectance"], 0.5, params, out)?
+        }
+        "matte" => {
+            params.given("sigma");
+            reads.diffuse(&["Kd"], 0.5, params, out)?
+        }
+        "mirror" => Material::Mirror(reads.constant("Kr", 0.9, params, out)?),
+        "conductor" | "metal" => reads.conductor(["eta", "k", "reflectance"], "", params, out)?,
+        "coatedconductor" => {
+            stand_in(out, params, "its conductor without the coat");
+            for name in ["interface.roughness", "interface.uroughness", "interface.vroughness", "interface.eta"] {
+                params.given(name);
+            }
+            reads.coat_is_ignored(params);
+            reads.conductor(["conductor.eta", "conductor.k", "reflectance"], "conductor.", params, out)?
+        }
+        "coateddiffuse" => {
+            reads.coat_is_ignored(params);
+            let base = reads.color(&["reflectance"], 0.5, params, out)?;
+            let eta = reads.eta(&["eta"], params, out)?;
+            reads.coated(base, Texture::number(reflectance_of(eta) as f32), 0.0, params, out)?
+        }
+        "plastic" | "uber" | "substrate" | "translucent" => {
+            if params.given("opacity") | (kind == "translucent") {
+                stand_in(out, params, "opaque");
+            }
+            for name in ["reflect", "transmit", "Kr", "Kt", "index", "eta"] {
+                params.given(name);
+            }
+            let default = if kind == "substrate" { 0.5 } else { 0.25 };
+            let (base, coat) =
+                (reads.color(&["Kd"], default, params, out)?, reads.color(&["Ks"], default, params, out)?);
+            // Ks is a factor of a dielectric's reflectance, or for a substrate this itself
+            let coat = if kind == "substrate" { coat } else { coat.times(Texture::number(0.04)) };
+            reads.coated(base, coat, 0.1, params, out)?
+        }
+        "disney" => {
+            stand_in(out, params, "its base colour, metallic and roughness");
+            let base = reads.color(&["color"], 0.5, params, out)?;
+            let number = |name: &str, default: f32, params: &mut Params| {
+                Ok::<_, Message>(context.textures.number(name, params)?.unwrap_or(Texture::number(default)))
+            };
+            let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
+            params.ignore_all();
+            out.vary(Varying::Metallic { base, metallic, roughness })
+        }
+        "dielectric" | "thindielectric" | "glass" => {
+            stand_in(out, params, "what it reflects: light that passes through it is lost");
+            for name in ["Kr", "Kt"] {
+                params.given(name);
+            }
+            let eta = reads.eta(&["eta", "index"], params, out)?;
+            match reads.alpha("", 0.0, params, out)? {
+                Texture::Constant([alpha, ..]) => {
+                    Material::Conductor { eta: [eta as f32; 3], k: [0.0; 3], alpha: alpha.clamp(0.0, 1.0) }
+                }
+                alpha => {
+                    let specular = Texture::number(reflectance_of(eta) as f32);
+                    out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha })
+                }
+            }
+        }
+        "diffusetransmission" => {
+            stand_in(out, params, "what it reflects: light that passes through it is lost");
+            for name in ["transmittance", "scale"] {
+                params.given(name);
+            }
+            reads.diffuse(&["reflectance"], 0.25, params, out)?
+        }
+        "subsurface" | "kdsubsurface" => {
+            stand_in(out, params, "a coat over a diffuse surface");
+            let base = reads.color(&["reflectance", "Kd"], 0.5, params, out)?;
+            let eta = reads.eta(&["eta"], params, out)?;
+            let made = reads.coated(base, Texture::number(reflectance_of(eta) as f32), 0.0, params, out)?;
+            params.ignore_all();
+            made
+        }
+        "hair" | "measured" | "fourier" => {
+            stand_in(out, params, "diffuse of albedo 0.5");
+            params.ignore_all();
+            Material::Diffuse([0.5; 3])
+        }
+        "mix" => {
+            stand_in(out, params, "the one of its materials that has the greater share");
+            let names = params.texts("materials")?;
+            let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
+            let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
+            let amount = context.textures.color("amount", params, context.resolve, &mut out.notes);
+            let share = match amount {
+                Ok(amount) => amount.map_or(0.5, |amount| amount.mean()[1]),
+                Err(_) => context.textures.number("amount", params)?.map_or(0.5, |amount| amount.mean()[1]),
+            };
+            let [first, second] = &names[..] else {
+                return Err(params.error(format!("needs two \"materials\", not {}", names.len())));
+            };
+            let name = if share > 0.5 { second } else { first };
+            let unknown = || params.error(format!("no MakeNamedMaterial {:?} precedes this", shortened(name)));
+            return context.named.get(name).copied().ok_or_else(unknown);
+        }
+        "interface" | "none" | "" => {
+            params.ignore_all();
+            return Ok(Finish::Invisible);
+        }
+        _ => {
+            let kind = shortened(kind);
+            return Err(params.error(format!("material type {kind:?} is not supported, only {KINDS}")));
+        }
+    }))
+}
+
+/// Reflectance at normal incidence on a smooth dielectric.
+fn reflectance_of(eta: f64) -> f64 {
+    let ratio = (eta - 1.0) / (eta + 1.0);
+    ratio * ratio
+}
+
+/// Reads parameters of materials.
+struct Reads<'a> {
+    context: &'a Context<'a>,
+}
+
+/// The greatest reflectance that is converted to an index of refraction: pbrt's limit.
+const MOST_REFLECTANCE: f64 = 0.9999;
+
+impl Reads<'_> {
+    /// The colour of the first of these names that is given.
+    fn color(&self, names: &[&str], default: f32, params: &mut Params, out: &mut Builder) -> Result<Texture, Message> {
+        let Context { textures, resolve, .. } = self.context;
+        let mut found = None;
+        for name in names {
+            found = found.or(textures.color(name, params, *resolve, &mut out.notes)?);
+        }
+        Ok(found.unwrap_or(Texture::number(default)))
+    }
+    fn diffuse(
+        &self,
+        names: &[&str],
+        default: f32,
+        params: &mut Params,
+        out: &mut Builder,
+    ) -> Result<Material, Message> {
+        let albedo = self.color(names, default, params, out)?;
+        // a constant may exceed 1, which a texture may not
+        Ok(albedo.constant().map_or_else(|| out.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse))
+    }
+    /// A colour that is the same everywhere, or the mean of one that is not.
+    fn constant(&self, name: &str, default: f32, params: &mut Params, out: &mut Builder) -> Result<[f32; 3], Message> {
+        let texture = self.color(&[name], default, params, out)?;
+        if texture.constant().is_none() {
+            out.notes.stand_in(name, || params.error(format!("{name:?} becomes its mean")));
+        }
+        Ok(texture.mean())
+    }
+    /// An index of refraction, the same for all wavelengths.
+    fn eta(&self, names: &[&str], params: &mut Params, out: &mut Builder) -> Result<f64, Message> {
+        let Context { textures, resolve, .. } = self.context;
+        for name in names {
+            if params.is_texture(name) {
+                let texture = textures.number(name, params)?;
+                out.notes.stand_in(name, || params.error(format!("{name:?} becomes its mean")));
+                return Ok(texture.map_or(1.5, |texture| texture.mean()[0].into()));
+            }
+            if let Some(index) = Textures::index(name, params, *resolve)? {
+                if index.iter().all(|x| (1e-3..=1e3).contains(x)) {
+                    return Ok(index[1]);
+                }
+                return Err(params.error(format!("{name:?}: must be from 1e-3 to 1e3, not {}", shown(index[1]))));
+            }
+        }
+        Ok(1.5)
+    }
+    /// Parameters of pbrt's coats without an effect on direct light.
+    fn coat_is_ignored(&self, params: &mut Params) {
+        for name in ["thickness", "albedo", "g", "maxdepth", "nsamples", "interface.thickness"] {
+            params.given(name);
+        }
+    }
+    /// The roughness α, from up to three parameters whose names begin with `prefix`.
+    fn alpha(&self, prefix: &str, default: f32, params: &mut Params, out: &mut Builder) -> Result<Texture, Message> {
+        let textures = self.context.textures;
+        let mut number = |name: &str| textures.number(&format!("{prefix}{name}"), params);
+        let both = number("roughness")?.unwrap_or(Texture::number(default));
+        let [u, v] = [number("uroughness")?.unwrap_or(both.clone()), number("vroughness")?.unwrap_or(both)];
+        for roughness in [&u, &v] {
+            if let Some([x, ..]) = roughness.constant().filter(|[x, ..]| !(0.0..=1.0).contains(x)) {
+                return Err(
+                    params.error(format!("\"{prefix}roughness\": must be from 0 to 1, not {}", shown(x.into())))
+                );
+            }
+        }
+        let remap = params.flag("remaproughness")?.unwrap_or(true);
+        let [u, v] = [u, v].map(|roughness| if remap { roughness.root() } else { roughness });
+        Ok(match (u.constant(), v.constant()) {
+            (Some([a, ..]), Some([b, ..])) if a != b => {
+                out.notes.stand_in("anisotropy", || params.error("anisotropic roughness becomes its geometric mean"));
+                Texture::number((a * b).sqrt())
+            }
+            _ => u,
+        })
+    }
+    /// A rough coat over a diffuse base.
+    fn coated(
+        &self,
+        diffuse: Texture,
+        specular: Texture,
+        roughness: f32,
+        params: &mut Params,
+        out: &mut Builder,
+    ) -> Result<Material, Message> {
+        let alpha = self.alpha("", roughness, params, out)?;
+        if alpha.constant().is_some_and(|[x, ..]| x < Material::LEAST_ALPHA) {
+            out.notes.stand_in("smooth coat", || {
+                params.error(format!("its smooth coat becomes one of roughness α = {}", Material::LEAST_ALPHA))
+            });
+        }
+        Ok(out.vary(Varying::Glossy { diffuse, specular, alpha }))
+    }
+    fn conductor(
+        &self,
+        [eta, k, reflectance]: [&str; 3],
+        prefix: &str,
+        params: &mut Params,
+        out: &mut Builder,
+    ) -> Result<Material, Message> {
+        let Context { textures, resolve, .. } = self.context;
+        let given = textures.color(reflectance, params, *resolve, &mut out.notes)?;
+        let indices = [Textures::index(eta, params, *resolve)?, Textures::index(k, params, *resolve)?];
+        let alpha = self.alpha(prefix, if prefix.is_empty() { 0.0 } else { 0.01 }, params, out)?;
+        let (eta, k) = match (given, indices) {
+            (Some(_), [Some(_), _] | [_, Some(_)]) => {
+                return Err(params.error("\"reflectance\" cannot be combined with \"eta\" and \"k\""));
+            }
+            (Some(color), _) if color.constant().is_none() || alpha.constant().is_none() => {
+                return Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular: color, alpha }));
+            }
+            // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
+            (Some(color), _) => {
+                let r = color.mean().map(f64::from);
+                if let Some(x) = r.iter().find(|&&x| x > 1.0) {
+                    return Err(params.error(format!("\"reflectance\": must be at most 1, not {}", shown(*x))));
+                }
+                ([1.0; 3], r.map(|r| r.min(MOST_REFLECTANCE)).map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
+            }
+            (None, [Some(eta), Some(k)]) => (eta, k),
+            (None, [None, None]) => copper(),
+            (None, _) => return Err(params.error("needs both \"eta\" and \"k\", or \"reflectance\"")),
+        };
+        // fourth powers must be finite in f32
+        let bounded = |name: &str, rgb: [f64; 3]| {
+            let too_large = || params.error(format!("{name:?}: {rgb:?} is too large: must be less than 1e9"));
+            rounded(rgb).filter(|c| c.iter().all(|&x| x < 1e9)).ok_or_else(too_large)
+        };
+        let (eta, k) = (bounded("eta", eta)?, bounded("k", k)?);
+        match alpha.constant() {
+            Some([alpha, ..]) => Ok(Material::Conductor { eta, k, alpha }),
+            None => {
+                // r = ((η − 1)² + k²)/((η + 1)² + k²) at normal incidence
+                let of = |i: usize| ((eta[i] - 1.0).powi(2) + k[i] * k[i]) / ((eta[i] + 1.0).powi(2) + k[i] * k[i]);
+                let specular = Texture::Constant([of(0), of(1), of(2)]);
+                Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha }))
+            }
+        }
+    }
+}
+
+/// pbrt's default conductor.
+fn copper() -> ([f64; 3], [f64; 3]) {
+    let of = |name: &str| match spectrum::named(name) {
+        Some(Named::Index(rgb)) => rgb,
+        _ => unreachable!("a metal has indices"),
+    };
+    (of("metal-Cu-eta"), of("metal-Cu-k"))
+}

@@ -1,0 +1,243 @@
+//! Spectra as linear RGB.
+//!
+//! The renderer works with three channels of linear sRGB. A spectrum becomes a colour by the colour matching functions of CIE 1931, in the
+//! fits of Wyman, Sloan and Shirley (2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", table 1), whose
+//! error is about a hundredth.
+
+use super::params::shown;
+use crate::files::read_file;
+use std::path::Path;
+
+/// CIE 1931's functions at a wavelength in nanometres.
+fn matching(wavelength: f64) -> [f64; 3] {
+    let lobe = |mean: f64, low: f64, high: f64| {
+        let x = (wavelength - mean) * if wavelength < mean { low } else { high };
+        libm::exp(-0.5 * x * x)
+    };
+    [
+        0.362 * lobe(442.0, 0.0624, 0.0374) + 1.056 * lobe(599.8, 0.0264, 0.0323) - 0.065 * lobe(501.1, 0.0490, 0.0382),
+        0.821 * lobe(568.8, 0.0213, 0.0247) + 0.286 * lobe(530.9, 0.0613, 0.0322),
+        1.217 * lobe(437.0, 0.0845, 0.0278) + 0.681 * lobe(459.0, 0.0385, 0.0725),
+    ]
+}
+
+/// Linear sRGB of CIE XYZ (IEC 61966-2-1).
+pub(super) fn srgb([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [
+        3.240_969_94 * x - 1.537_383_18 * y - 0.498_610_76 * z,
+        -0.969_243_64 * x + 1.875_967_5 * y + 0.041_555_06 * z,
+        0.055_630_08 * x - 0.203_976_96 * y + 1.056_971_51 * z,
+    ]
+}
+
+/// Luminance of linear sRGB, as Y of CIE XYZ.
+pub(super) fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    0.212_639 * r + 0.715_168_7 * g + 0.072_192_3 * b
+}
+
+/// XYZ of a spectrum by wavelength, from 360 to 830 nm in steps of 1 nm.
+fn integrated(spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
+    (360..=830).fold([0.0; 3], |sum, nm| {
+        let (wavelength, weights) = (f64::from(nm), matching(f64::from(nm)));
+        let value = spectrum(wavelength);
+        std::array::from_fn(|k| sum[k] + weights[k] * value)
+    })
+}
+
+/// Planck's law, in any unit. Temperatures are in kelvins.
+fn planck(wavelength: f64, temperature: f64) -> f64 {
+    // second radiation constant in nm K; the exponent is about 1.4e7/(λT)
+    let x = 1.438_776_877e7 / (wavelength * temperature);
+    1e14 / (wavelength.powi(5) * libm::expm1(x))
+}
+
+/// The illuminant D65 nearly: a black body of 6504 K.
+fn white(wavelength: f64) -> f64 {
+    planck(wavelength, 6504.0)
+}
+
+/// A spectrum by wavelength and value, in ascending order of wavelengths in nanometres, with straight lines between them.
+#[derive(Clone, Debug)]
+pub(super) struct Samples(Vec<[f64; 2]>);
+
+impl Samples {
+    /// From pairs of a wavelength and a value.
+    pub(super) fn new(numbers: &[f64]) -> Result<Self, String> {
+        if numbers.is_empty() || !numbers.len().is_multiple_of(2) {
+            return Err(format!("a spectrum needs pairs of wavelength and value, not {} numbers", numbers.len()));
+        }
+        let pairs: Vec<[f64; 2]> = numbers.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+        if let Some([_, x]) = pairs.iter().find(|[at, x]| !(x.is_finite() && *x >= 0.0 && at.is_finite())) {
+            return Err(format!("the values of a spectrum must be finite and at least 0, not {}", shown(*x)));
+        }
+        if let Some(two) = pairs.windows(2).find(|two| two[1][0] <= two[0][0]) {
+            return Err(format!("wavelengths must ascend: {} follows {}", shown(two[1][0]), shown(two[0][0])));
+        }
+        Ok(Self(pairs))
+    }
+    /// From a file of lines with a wavelength and a value; `#` begins a comment.
+    pub(super) fn read(path: &Path) -> Result<Self, String> {
+        let shown = path.display().to_string();
+        let bytes = read_file(path).map_err(|error| format!("cannot read {shown:?}: {error}"))?;
+        let text = String::from_utf8_lossy(&bytes);
+        let mut numbers = Vec::new();
+        for (line, text) in text.lines().enumerate() {
+            for word in text.split('#').next().unwrap_or_default().split_whitespace() {
+                let number = word.parse::<f64>().map_err(|_| format!("{shown}:{}: {word:?} is no number", line + 1))?;
+                numbers.push(number);
+            }
+        }
+        Self::new(&numbers).map_err(|why| format!("{shown}: {why}"))
+    }
+    /// The value at a wavelength; beyond the ends it is that of the nearest one.
+    fn at(&self, wavelength: f64) -> f64 {
+        let after = self.0.partition_point(|[at, _]| *at <= wavelength);
+        match (after.checked_sub(1).and_then(|before| self.0.get(before)), self.0.get(after)) {
+            (Some([a, x]), Some([b, y])) => x + (y - x) * (wavelength - a) / (b - a),
+            (Some([_, x]), None) | (None, Some([_, x])) => *x,
+            (None, None) => 0.0,
+        }
+    }
+    /// The colour of a surface with this reflectance, or of any other quantity that is averaged over the wavelengths of each channel.
+    pub(super) fn reflectance(&self) -> [f64; 3] {
+        let (seen, light) = (srgb(integrated(|at| self.at(at) * white(at))), srgb(integrated(white)));
+        std::array::from_fn(|k| (seen[k] / light[k]).max(0.0))
+    }
+    /// The colour of light with this spectrum, of luminance 1: as in pbrt-v4, only its form counts.
+    pub(super) fn illuminant(&self) -> [f64; 3] {
+        normalized(integrated(|at| self.at(at)))
+    }
+}
+
+/// A colour of luminance 1, without what is beyond sRGB's gamut.
+fn normalized(xyz: [f64; 3]) -> [f64; 3] {
+    let rgb = srgb(xyz).map(|x| x.max(0.0));
+    let y = luminance(rgb);
+    if y > 0.0 { rgb.map(|x| x / y) } else { [0.0; 3] }
+}
+
+/// The colour of a black body, of luminance 1.
+pub(super) fn blackbody(kelvins: f64) -> [f64; 3] {
+    normalized(integrated(|at| planck(at, kelvins)))
+}
+
+/// Refractive indices η and k of metals, per channel.
+///
+/// They are what the measurements of Johnson and Christy (1972) and Palik (1985) give for sRGB's channels.
+const METALS: [(&str, [f64; 3], [f64; 3]); 7] = [
+    ("Ag", [0.1553, 0.1167, 0.1383], [4.8284, 3.1224, 2.1470]),
+    ("Al", [1.6575, 0.8804, 0.5212], [9.2239, 6.2695, 4.8370]),
+    ("Au", [0.1431, 0.3750, 1.4425], [3.9832, 2.3857, 1.6032]),
+    ("Cu", [0.2004, 0.9240, 1.1022], [3.9129, 2.4528, 2.1421]),
+    ("CuZn", [0.4440, 0.5270, 1.0940], [3.6950, 2.7650, 1.8290]),
+    ("MgO", [1.7357, 1.7402, 1.7493], [0.0, 0.0, 0.0]),
+    ("TiO2", [2.5839, 2.6640, 2.8583], [0.0, 0.0, 0.0]),
+];
+
+/// Refractive indices of glasses at the sodium line, 589 nm (data sheets of Schott).
+const GLASSES: [(&str, f64); 7] = [
+    ("BK7", 1.5168),
+    ("BAF10", 1.67),
+    ("FK51A", 1.4866),
+    ("LASF9", 1.8503),
+    ("F5", 1.6034),
+    ("SF10", 1.7283),
+    ("SF11", 1.7847),
+];
+
+/// What a named spectrum stands for.
+pub(super) enum Named {
+    /// An index of refraction or an absorption coefficient, per channel.
+    Index([f64; 3]),
+    /// Light of luminance 1.
+    Illuminant([f64; 3]),
+}
+
+/// The spectrum that pbrt-v4 knows by a name.
+pub(super) fn named(name: &str) -> Option<Named> {
+    if let Some(glass) = name.strip_prefix("glass-") {
+        let found = GLASSES.iter().find(|(known, _)| *known == glass)?;
+        return Some(Named::Index([found.1; 3]));
+    }
+    if let Some((metal, which)) = name.strip_prefix("metal-").and_then(|rest| rest.rsplit_once('-')) {
+        let (_, eta, k) = METALS.iter().find(|(known, ..)| *known == metal)?;
+        return match which {
+            "eta" => Some(Named::Index(*eta)),
+            "k" => Some(Named::Index(*k)),
+            _ => None,
+        };
+    }
+    let illuminant = name.strip_prefix("stdillum-").or_else(|| name.strip_prefix("illum-"))?;
+    // correlated colour temperatures of the standard illuminants
+    let kelvins = match illuminant {
+        "A" => 2856.0,
+        "D50" => 5003.0,
+        "D65" | "acesD60" => 6504.0,
+        "F1" => 6430.0,
+        "F2" => 4230.0,
+        "F3" => 3450.0,
+        "F4" => 2940.0,
+        "F5" => 6350.0,
+        "F6" => 4150.0,
+        "F7" => 6500.0,
+        "F8" => 5000.0,
+        "F9" => 4150.0,
+        "F10" => 5000.0,
+        "F11" => 4000.0,
+        "F12" => 3000.0,
+        _ => return None,
+    };
+    let white = matches!(illuminant, "D65" | "acesD60");
+    Some(Named::Illuminant(if white { [1.0; 3] } else { blackbody(kelvins) }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn black_bodies_have_the_colours_of_their_temperatures() {
+        // chromaticities on the Planckian locus (Wyszecki and Stiles 1982), to what the fit allows
+        for (kelvins, x, y) in
+            [(2856.0, 0.4476, 0.4074), (4000.0, 0.3805, 0.3768), (6500.0, 0.3135, 0.3237), (10000.0, 0.2807, 0.2884)]
+        {
+            let xyz = integrated(|at| planck(at, kelvins));
+            let sum: f64 = xyz.iter().sum();
+            assert!((xyz[0] / sum - x).abs() < 4e-3 && (xyz[1] / sum - y).abs() < 4e-3, "{kelvins}: {xyz:?}");
+            assert!((luminance(blackbody(kelvins)) - 1.0).abs() < 1e-12);
+        }
+        let [r, g, b] = blackbody(2700.0);
+        assert!(r > g && g > b && b > 0.0);
+        let near = blackbody(6504.0);
+        assert!(near.iter().all(|x| (x - 1.0).abs() < 0.06), "{near:?}");
+    }
+
+    #[test]
+    fn spectra_become_colours() {
+        let constant = Samples::new(&[400.0, 0.25, 700.0, 0.25]).unwrap().reflectance();
+        assert!(constant.iter().all(|x| (x - 0.25).abs() < 1e-12), "{constant:?}");
+        let [r, g, b] = Samples::new(&[590.0, 0.0, 610.0, 1.0]).unwrap().reflectance();
+        assert!(r > 0.7 && g < 0.2 && b < 0.05, "{r} {g} {b}");
+        let light = Samples::new(&[300.0, 7.0, 900.0, 7.0]).unwrap().illuminant();
+        assert!((luminance(light) - 1.0).abs() < 1e-12 && light.iter().all(|x| (0.9..1.25).contains(x)), "{light:?}");
+        for (numbers, why) in [
+            (&[][..], "needs pairs"),
+            (&[1.0], "needs pairs"),
+            (&[2.0, 1.0, 1.0, 1.0], "must ascend"),
+            (&[1.0, -1.0], "at least 0"),
+            (&[1.0, f64::NAN], "finite"),
+        ] {
+            assert!(Samples::new(numbers).unwrap_err().contains(why), "{numbers:?}");
+        }
+    }
+
+    #[test]
+    fn names_are_those_of_pbrt() {
+        assert!(matches!(named("metal-Cu-k"), Some(Named::Index([r, _, b])) if r > b));
+        assert!(matches!(named("glass-BK7"), Some(Named::Index([r, ..])) if r == 1.5168));
+        assert!(matches!(named("stdillum-D65"), Some(Named::Illuminant([1.0, 1.0, 1.0]))));
+        for unknown in ["metal-Xx-eta", "metal-Cu-q", "glass-", "stdillum-Z", "", "Cu"] {
+            assert!(named(unknown).is_none(), "{unknown}");
+        }
+    }
+}

@@ -1,0 +1,327 @@
+//! What scene files of others have: textures, objects, spectra, powers, and what stands for something else.
+
+use super::*;
+use crate::texture::Texture;
+
+/// A scene with a light, so that the only warnings are those of the text.
+fn lit(text: &str) -> Scene {
+    read(&world(&format!("LightSource \"point\"\n{text}")))
+}
+/// The material of the first triangle or shape.
+fn material(text: &str) -> (Material, Scene) {
+    let scene = lit(&format!("{text}\n{TRIANGLE}"));
+    (scene.materials[scene.triangle_materials[0] as usize], scene)
+}
+/// The material where it varies, at some texture coordinates.
+fn varied(text: &str, uv: [f32; 2]) -> Material {
+    match material(text) {
+        (Material::Varying(index), scene) => scene.varying[index as usize].at(uv),
+        (constant, _) => panic!("{text}: {constant:?} does not vary"),
+    }
+}
+
+#[test]
+fn textures_are_read_and_combined() {
+    let board = "Texture \"b\" \"spectrum\" \"checkerboard\" \"float uscale\" 2 \"float vscale\" 2 \"rgb tex1\" [.1 .2 .3] \"rgb tex2\" [.4 .5 .6]\n";
+    let use_b = "Material \"diffuse\" \"texture reflectance\" \"b\"";
+    assert_eq!(varied(&format!("{board}{use_b}"), [0.1, 0.1]), Material::Diffuse([0.1, 0.2, 0.3]));
+    assert_eq!(varied(&format!("{board}{use_b}"), [0.6, 0.1]), Material::Diffuse([0.4, 0.5, 0.6]));
+    let scaled =
+        format!("{board}Texture \"b\" \"spectrum\" \"scale\" \"texture tex\" \"b\" \"float scale\" 0.5\n{use_b}");
+    assert_eq!(varied(&scaled, [0.6, 0.1]), Material::Diffuse([0.2, 0.25, 0.3]));
+    let mixed = format!(
+        "{board}Texture \"b\" \"spectrum\" \"mix\" \"texture tex1\" \"b\" \"rgb tex2\" [0 0 0] \"float amount\" 0.75\n{use_b}"
+    );
+    assert_eq!(varied(&mixed, [0.6, 0.1]), Material::Diffuse([0.1, 0.125, 0.15]));
+    // a texture that is the same everywhere makes no material that varies
+    let constant = "Texture \"c\" \"spectrum\" \"constant\" \"rgb value\" [.1 .2 .3]\nMaterial \"diffuse\" \"texture reflectance\" \"c\"";
+    assert_eq!(material(constant).0, Material::Diffuse([0.1, 0.2, 0.3]));
+    let rough = "Texture \"r\" \"float\" \"checkerboard\" \"float tex1\" 0.25 \"float tex2\" 1\n\
+        Material \"conductor\" \"spectrum reflectance\" [300 .5 800 .5] \"texture roughness\" \"r\"";
+    let Material::Glossy { diffuse, specular, alpha } = varied(rough, [0.5, 0.5]) else { panic!() };
+    assert!(diffuse == [0.0; 3] && specular.iter().all(|x| (x - 0.5).abs() < 1e-6) && alpha == 0.5);
+    let unknown = lit("Texture \"w\" \"float\" \"windy\" \"float x\" 1\nTexture \"v\" \"float\" \"windy\"");
+    assert_eq!(warnings(&unknown).len(), 1);
+    assert!(unknown.stand_ins[0].text.contains("becomes 0.5 everywhere"), "{:?}", unknown.stand_ins);
+}
+
+#[test]
+fn pictures_are_read_once_and_turned_upright() {
+    let dir = meshes::Scratch::new("textures");
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 1, 2);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.write_header().unwrap().write_image_data(&[255, 0, 0, 7, 0, 255, 51, 9]).unwrap();
+    dir.write("p.png", &png);
+    let text = |options: &str| {
+        format!(
+            "LightSource \"point\"\nTexture \"p\" \"spectrum\" \"imagemap\" \"string filename\" \"p.png\" \"string filter\" \"point\" {options}\n\
+             Texture \"q\" \"spectrum\" \"imagemap\" \"string filename\" \"p.png\"\n\
+             Material \"diffuse\" \"texture reflectance\" \"p\"\n{TRIANGLE}"
+        )
+    };
+    let scene = |options: &str| parse(&world(&text(options)), "a.pbrt", &dir.path).unwrap();
+    let at = |options: &str, uv| scene(options).varying[0].at(uv);
+    // the first row is the upper one, where v is near 1
+    assert_eq!(at("", [0.5, 0.9]), Material::Diffuse([1.0, 0.0, 0.0]));
+    let Material::Diffuse([r, g, b]) = at("", [0.5, 0.1]) else { panic!() };
+    assert!(r == 0.0 && g == 1.0 && (b - 0.0331).abs() < 1e-4, "{b}");
+    assert_eq!(at("\"string encoding\" \"linear\"", [0.5, 0.1]), Material::Diffuse([0.0, 1.0, 0.2]));
+    assert_eq!(at("\"float vdelta\" 0.5", [0.5, 0.1]), Material::Diffuse([1.0, 0.0, 0.0]));
+    assert_eq!(at("\"bool invert\" true", [0.5, 0.9]), Material::Diffuse([0.0, 1.0, 1.0]));
+    let read = scene("");
+    let Varying::Diffuse(Texture::Picture(picture)) = &read.varying[0] else { panic!("{:?}", read.varying) };
+    assert_eq!(std::sync::Arc::strong_count(&picture.texels), 1, "the second texture is not used");
+    assert_eq!(picture.texels.alpha.as_deref(), Some(&[7, 9][..]));
+    assert_eq!(read.inputs.iter().filter(|path| path.ends_with("p.png")).count(), 2);
+}
+
+#[test]
+fn triangles_keep_what_their_materials_need() {
+    let board = "Texture \"b\" \"spectrum\" \"checkerboard\"\nMaterial \"diffuse\" \"texture reflectance\" \"b\"\n";
+    let uv = "\"point2 uv\" [0 0 1 0 0 1]";
+    let mesh =
+        |normals: &str, uv: &str| format!("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] {normals} {uv}\n");
+    let flat = "\"normal N\" [0 0 2 0 0 1 0 0 -3]";
+    let bent = "\"normal N\" [0 0 1 0 1 1 1 0 -1]";
+    // a plain surface keeps neither texture coordinates nor normals that are its own
+    assert!(lit(&mesh(flat, uv)).details.of_triangles.is_empty());
+    let scene = lit(&format!("{}{board}{}{}", mesh("", uv), mesh(flat, uv), mesh(bent, "")));
+    assert_eq!(scene.details.of_triangles, [Details::NONE, 0, 1]);
+    assert_eq!(scene.details.corners[0].uvs, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    assert_eq!(scene.details.corners[0].normals, [[0.0; 3]; 3]);
+    // pbrt's coordinates of a triangle without any; normals are of length 1, and on one side
+    assert_eq!(scene.details.corners[1].uvs, [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    assert_eq!(scene.details.corners[1].normals, [[0.0, 0.0, 1.0], [0.0, half, half], [-half, 0.0, half]]);
+    let later = lit(&format!("{}{}", mesh(bent, ""), mesh("", "")));
+    assert_eq!(later.details.of_triangles, [0, Details::NONE]);
+    // normals turn as planes do, not as points
+    let turned = lit(&format!("Scale 1 1 4\n{}", mesh(bent, "")));
+    let [_, [x, y, z], _] = turned.details.corners[0].normals;
+    assert!(x == 0.0 && (y / z - 4.0).abs() < 1e-6, "{y} {z}");
+}
+
+#[test]
+fn normals_tell_which_side_of_a_light_emits() {
+    let light = |text: &str, n: &str| {
+        let scene = read(&world(&format!(
+            "{text} {LIGHT} Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [{n} {n} {n}]"
+        )));
+        normal(&scene.shapes[0].geometry)[2]
+    };
+    assert_eq!(light("", "0 0 1"), 1.0);
+    assert_eq!(light("", "0 0 -1"), -1.0);
+    assert_eq!(light("ReverseOrientation", "0 0 1"), -1.0);
+    // a mirror image of the plane z = 0 in itself has the mirrored normal
+    assert_eq!(light("Scale 1 1 -1", "0 0 1"), -1.0);
+    assert_eq!(light("Scale -1 1 1", "0 0 1"), 1.0);
+}
+
+#[test]
+fn objects_are_copied() {
+    let object = format!("ObjectBegin \"o\" Translate 1 0 0 {TRIANGLE} ObjectEnd\n");
+    let scene = lit(&format!("{object}{TRIANGLE}"));
+    assert_eq!(scene.triangles.len(), 1, "an object is no part of the scene itself");
+    assert_eq!(scene.triangles[0][0], [0.0; 3], "an object restores the state");
+    let placed = format!(
+        "{object}AttributeBegin Translate 0 5 0 ObjectInstance \"o\" AttributeEnd Scale 2 2 2 ObjectInstance \"o\""
+    );
+    let scene = lit(&placed);
+    assert_eq!(
+        scene.triangles,
+        [[[1.0, 5.0, 0.0], [2.0, 5.0, 0.0], [1.0, 6.0, 0.0]], [[2.0, 0.0, 0.0], [4.0, 0.0, 0.0], [2.0, 2.0, 0.0]]]
+    );
+    // mirrored copies keep the side of their normals
+    let bent = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1 0 1 1 1 0 1]";
+    let mirrored = lit(&format!("ObjectBegin \"o\" {bent} ObjectEnd Scale 1 -1 1 ObjectInstance \"o\""));
+    let [corners] = mirrored.details.corners[..] else { panic!() };
+    assert!(corners.normals.iter().all(|n| n[2] > 0.5) && corners.normals.iter().any(|n| n[1] < -0.5), "{corners:?}");
+    let light = lit(&format!("ObjectBegin \"o\" {LIGHT}{TRIANGLE} ObjectEnd ObjectInstance \"o\""));
+    assert!(light.shapes.is_empty() && light.stand_ins.len() == 1);
+    let sphere = lit("ObjectBegin \"o\" Shape \"sphere\" ObjectEnd ObjectInstance \"o\"");
+    assert!(sphere.triangles.len() > 3000 && sphere.shapes.is_empty());
+}
+
+#[test]
+fn attributes_imports_and_media() {
+    let dir = meshes::Scratch::new("import");
+    dir.write("in.pbrt", format!("Translate 1 0 0 Material \"mirror\" {TRIANGLE}").as_bytes());
+    dir.write("open.pbrt", b"AttributeBegin");
+    let read = |text: &str| parse(&world(&format!("LightSource \"point\" {text}")), "a.pbrt", &dir.path);
+    let scene = read(&format!("Import \"in.pbrt\" {TRIANGLE}")).unwrap();
+    assert_eq!([scene.triangles[0][0][0], scene.triangles[1][0][0]], [1.0, 0.0]);
+    assert!(scene.materials[scene.triangle_materials[1] as usize] == Material::Diffuse([0.5; 3]));
+    assert!(read("Import \"open.pbrt\"").unwrap_err().to_string().contains("does not close what it opens"));
+    let scene = lit(
+        "Attribute \"shape\" \"float radius\" 3 AttributeBegin Attribute \"shape\" \"float radius\" 2 Shape \"sphere\"\n\
+         Shape \"sphere\" \"float radius\" 7 AttributeEnd Shape \"sphere\" MediumInterface \"a\" \"b\" MakeNamedMedium \"a\" \"string type\" \"cloud\"\n\
+         TransformTimes 0 1 ActiveTransform EndTime Translate 9 9 9 ActiveTransform All Shape \"sphere\"",
+    );
+    let radii = scene.shapes.iter().map(|shape| match shape.geometry {
+        Geometry::Sphere { radius, center } => [radius, center[0]],
+        _ => panic!(),
+    });
+    let radii = radii.collect::<Vec<_>>();
+    assert_eq!(radii, [[2.0, 0.0], [7.0, 0.0], [3.0, 0.0], [3.0, 0.0]]);
+    assert_eq!(scene.stand_ins.len(), 2, "{:?}", scene.stand_ins);
+}
+
+#[test]
+fn materials_become_what_direct_light_shows() {
+    let coat = |text: &str| match material(text).0 {
+        Material::Glossy { diffuse, specular, alpha } => (diffuse, specular, alpha),
+        other => panic!("{text}: {other:?}"),
+    };
+    let near = |a: [f32; 3], b: f32| a.iter().all(|x| (x - b).abs() < 1e-6);
+    let (diffuse, specular, alpha) = coat("Material \"coateddiffuse\" \"float roughness\" 0.25");
+    assert!(near(diffuse, 0.5) && near(specular, 0.04) && alpha == 0.5);
+    assert_eq!(coat("Material \"coateddiffuse\"").2, Material::LEAST_ALPHA);
+    let (diffuse, specular, _) = coat("Material \"plastic\" \"rgb Kd\" [.3 .3 .3] \"rgb Ks\" [.5 .5 .5]");
+    assert!(near(diffuse, 0.3) && near(specular, 0.02));
+    let conductor = |text: &str| match material(text).0 {
+        Material::Conductor { eta, k, alpha } => (eta, k, alpha),
+        other => panic!("{text}: {other:?}"),
+    };
+    assert_eq!(conductor("Material \"conductor\"").2, 0.0);
+    assert!(conductor("Material \"conductor\"").1[0] > 3.9);
+    let gold = "\"spectrum conductor.eta\" \"metal-Au-eta\" \"spectrum conductor.k\" \"metal-Au-k\" \"float conductor.roughness\" .25";
+    let (eta, _, alpha) = conductor(&format!("Material \"coatedconductor\" {gold}"));
+    assert!((eta[2] - 1.4425).abs() < 1e-6 && alpha == 0.5);
+    let (eta, k, alpha) = conductor("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" \"float roughness\" 0");
+    assert_eq!((eta, k, alpha), ([1.5168; 3], [0.0; 3], 0.0));
+    assert!(coat("Material \"metal\" \"rgb reflectance\" [1 1 1]\nMaterial \"substrate\"").2 > 0.3);
+    for (text, expected) in [
+        ("Material \"matte\" \"rgb Kd\" [.2 .2 .2]", Material::Diffuse([0.2; 3])),
+        ("Material \"hair\" \"float eumelanin\" 3", Material::Diffuse([0.5; 3])),
+        ("Material \"diffusetransmission\"", Material::Diffuse([0.25; 3])),
+        (
+            "MakeNamedMaterial \"a\" \"string type\" \"mirror\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n\
+             Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" .75",
+            Material::Diffuse([0.5; 3]),
+        ),
+    ] {
+        assert_eq!(material(text).0, expected, "{text}");
+    }
+    // a surface without a material is none, but may emit
+    assert!(lit(&format!("Material \"interface\" {TRIANGLE}")).triangles.is_empty());
+    let emits = lit(&format!("Material \"interface\" {LIGHT}{TRIANGLE}"));
+    assert!(emits.shapes.len() == 1 && emits.materials[emits.shapes[0].material as usize].is_black());
+    assert!(lit("Shape \"sphere\" \"float alpha\" 0").shapes.is_empty());
+    assert_eq!(lit("Shape \"sphere\" \"float alpha\" 0.5").stand_ins.len(), 1);
+}
+
+#[test]
+fn lights_have_the_power_and_the_colour_that_is_asked_for() {
+    let radiance = |light: &str, shape: &str| {
+        read(&world(&format!("AreaLightSource \"diffuse\" {light} {shape}"))).shapes[0].emission.unwrap().radiance
+    };
+    let luminance = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let pi = std::f32::consts::PI;
+    // a triangle of area ½
+    let of = radiance("\"float power\" 10 \"rgb L\" [7 7 7]", TRIANGLE);
+    assert!((luminance(of) * pi * 0.5 - 10.0).abs() < 1e-4, "{of:?}");
+    let both = radiance("\"float power\" 10 \"bool twosided\" true", TRIANGLE);
+    assert!((2.0 * luminance(both) * pi * 0.5 - 10.0).abs() < 1e-4, "{both:?}");
+    let sphere = radiance("\"float power\" 10 \"blackbody L\" 3000", "Shape \"sphere\" \"float radius\" 2");
+    assert!((luminance(sphere) * pi * 16.0 * pi - 10.0).abs() < 1e-3 && sphere[0] > 2.0 * sphere[2], "{sphere:?}");
+    let warm = radiance("\"blackbody L\" 3000 \"float scale\" 5", TRIANGLE);
+    assert!((luminance(warm) - 5.0).abs() < 1e-3, "{warm:?}");
+    assert_eq!(radiance("\"spectrum L\" \"stdillum-D65\"", TRIANGLE), [1.0; 3]);
+    let delta = |text: &str| read(&world(&format!("LightSource {text}"))).delta_lights[0];
+    let DeltaLight::Point { intensity, .. } = delta("\"point\" \"float power\" 100") else { panic!() };
+    assert!((intensity[0] - 100.0 / (4.0 * pi)).abs() < 1e-5);
+    let DeltaLight::Distant { irradiance, .. } = delta("\"distant\" \"float illuminance\" 3 \"rgb L\" [9 9 9]") else {
+        panic!()
+    };
+    assert!(irradiance.iter().all(|x| (x - 3.0).abs() < 1e-5));
+    let DeltaLight::Spot { intensity, cos_outer, .. } = delta("\"spot\" \"float power\" 9 \"float coneangle\" 60")
+    else {
+        panic!()
+    };
+    let (inner, outer) = (55_f32.to_radians().cos(), cos_outer);
+    assert!((intensity[1] * 2.0 * pi * (1.0 - 0.5 * (inner + outer)) - 9.0).abs() < 1e-4);
+    let sky = read(&world("LightSource \"infinite\" \"float illuminance\" 6")).environment.unwrap().sky;
+    let SkyRadiance::Constant([r, ..]) = sky else { panic!() };
+    assert!((r * pi - 6.0).abs() < 1e-5);
+    let stand_ins = read(&world(
+        "LightSource \"goniometric\" LightSource \"projection\" \"float fov\" 40 LightSource \"infinite\" \"point3 portal\" [0 0 0]",
+    ));
+    assert_eq!((stand_ins.delta_lights.len(), stand_ins.stand_ins.len()), (2, 3));
+}
+
+#[test]
+fn other_shapes_become_triangles() {
+    let area = |scene: &Scene| {
+        scene
+            .triangles
+            .iter()
+            .map(|&t| {
+                let n = normal(&Geometry::Triangle(t)).map(f64::from);
+                0.5 * n.iter().map(|x| x * x).sum::<f64>().sqrt()
+            })
+            .sum::<f64>()
+    };
+    let pi = std::f64::consts::PI;
+    for (text, expected, error) in [
+        ("\"disk\" \"float radius\" 2", 4.0 * pi, 1e-6),
+        ("\"disk\" \"float radius\" 2 \"float innerradius\" 1 \"float phimax\" 90", 0.75 * pi, 1e-6),
+        ("\"cylinder\" \"float radius\" 2 \"float zmin\" -1 \"float zmax\" 2", 12.0 * pi, 1e-6),
+        ("\"sphere\" \"float radius\" 2 \"float zmin\" 0", 8.0 * pi, 5e-3),
+        ("\"sphere\" \"float radius\" 2 \"float phimax\" 180", 8.0 * pi, 5e-3),
+    ] {
+        let scene = lit(&format!("Shape {text}"));
+        assert!((area(&scene) / expected - 1.0).abs() < error, "{text}: {} for {expected}", area(&scene));
+        assert!(scene.triangles.len() >= 64 && scene.shapes.is_empty() && scene.stand_ins.len() == 1, "{text}");
+    }
+    // which side emits: outwards, and up for a disk
+    let side = |text: &str| {
+        let scene = read(&world(&format!("{LIGHT} {text}")));
+        scene
+            .shapes
+            .iter()
+            .map(|shape| {
+                let n = normal(&shape.geometry);
+                let Geometry::Triangle(corners) = shape.geometry else { panic!("{:?}", shape.geometry) };
+                let at: [f32; 3] = std::array::from_fn(|k| corners.iter().map(|p| p[k]).sum());
+                (n[0] * at[0] + n[1] * at[1] + n[2] * (at[2] - 3.0)).signum()
+            })
+            .sum::<f32>()
+            / scene.shapes.len() as f32
+    };
+    for (text, expected) in [
+        ("Translate 0 0 1 Scale 1 1 2 Shape \"sphere\" \"float radius\" .5", 1.0),
+        ("Translate 0 0 1 ReverseOrientation Shape \"sphere\" \"float radius\" .5", -1.0),
+        ("Translate 0 0 1 Scale 1 -1 1 ReverseOrientation Shape \"cylinder\" \"float zmin\" -.5", -1.0),
+        ("Translate 0 0 1 Scale 1 -1 1 Shape \"cylinder\" \"float zmin\" -.5", 1.0),
+        ("Translate 0 0 2 Shape \"disk\"", 1.0),
+        ("Translate 0 0 2 ReverseOrientation Shape \"disk\"", -1.0),
+        ("Translate 0 0 2 Scale 1 -1 1 Shape \"disk\"", 1.0),
+    ] {
+        assert_eq!(side(text), expected, "{text}");
+    }
+    let ball = lit("Shape \"loopsubdiv\" \"integer levels\" 2 \"point3 P\" [1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1]\n\
+        \"integer indices\" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]");
+    assert_eq!((ball.triangles.len(), ball.details.corners.len()), (128, 128));
+    assert_eq!(lit("Shape \"curve\" Shape \"curve\" \"float width\" 1").stand_ins.len(), 1);
+    let flat = lit("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 2 0 0] \"integer indices\" [0 1 2 0 1 3]");
+    assert!(flat.triangles.len() == 1 && warnings(&flat)[0].contains("1 triangle(s) without area are left out"));
+}
+
+#[test]
+fn cameras_of_others() {
+    let camera =
+        |text: &str| parse(&format!("{text} WorldBegin LightSource \"point\""), "a.pbrt", Path::new(".")).unwrap();
+    let far = camera("LookAt 0 0 5 0 0 0 0 1 0 Camera \"orthographic\" \"float screenwindow\" [-2 2 -2 2]");
+    let CameraSettings { origin, forward, .. } = far.camera;
+    // a point two units beside the axis in front of the camera is at the edge of the image
+    let edge = far.camera.tan_half(100, 100)[0] * (origin[2] - 5.0);
+    assert!(forward[2] == -1.0 && (edge - 2.0).abs() < 1e-9 && far.stand_ins.len() == 1, "{edge}");
+    let wide = camera("Camera \"perspective\" \"float fov\" 90 \"float screenwindow\" [-.5 .5 -.5 .5]");
+    assert!((wide.camera.tan_half(1, 1)[0] - 0.5).abs() < 1e-12 && wide.stand_ins.is_empty());
+    assert_eq!(
+        camera("Camera \"realistic\" \"string lensfile\" \"x.dat\" \"float aperturediameter\" 1").stand_ins.len(),
+        1
+    );
+    assert_eq!(camera("Film \"gbuffer\" \"float cropwindow\" [0 1 0 1] Camera \"perspective\"").warnings.len(), 1);
+}

@@ -1,0 +1,219 @@
+//! Reads `Texture`, and the parameters of materials that may be textures.
+
+use super::lexer::shortened;
+use super::message::{Message, Notes};
+use super::params::{Color, Params, Resolve, shown};
+use super::spectrum::Named;
+use crate::files::read_file;
+use crate::image::{Encoding, read_texels};
+use crate::texture::{Mapping, Picture, Texels, Texture, Wrap};
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The textures that a scene has named, and the images that it has read.
+#[derive(Debug, Default)]
+pub(super) struct Textures {
+    colors: HashMap<String, Texture>,
+    numbers: HashMap<String, Texture>,
+    images: HashMap<(PathBuf, String), Arc<Texels>>,
+}
+
+impl Textures {
+    /// Reads a `Texture` directive: a texture of colours ("spectrum", "color") or of numbers ("float").
+    pub(super) fn define(
+        &mut self,
+        name: &str,
+        value: &str,
+        kind: &str,
+        params: &mut Params,
+        resolve: Resolve<'_>,
+        notes: &mut Notes,
+    ) -> Result<(), Message> {
+        let is_color = match value {
+            "spectrum" | "color" => true,
+            "float" => false,
+            _ => return Err(params.error(format!("a texture of {:?}: only spectrum and float", shortened(value)))),
+        };
+        let texture = self.read(is_color, kind, params, resolve, notes)?;
+        let map = if is_color { &mut self.colors } else { &mut self.numbers };
+        map.insert(name.to_owned(), texture);
+        Ok(())
+    }
+
+    fn read(
+        &mut self,
+        is_color: bool,
+        kind: &str,
+        params: &mut Params,
+        resolve: Resolve<'_>,
+        notes: &mut Notes,
+    ) -> Result<Texture, Message> {
+        let mut value = |this: &Self, params: &mut Params, name: &str, default: f32| {
+            let found = if is_color { this.color(name, params, resolve, notes)? } else { this.number(name, params)? };
+            Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
+        };
+        Ok(match kind {
+            "constant" => value(self, params, "value", 1.0)?,
+            "scale" => {
+                // older files name two factors
+                let names = if params.has("tex1") || params.has("tex2") { ["tex1", "tex2"] } else { ["tex", "scale"] };
+                let scale = if names[1] == "scale" {
+                    self.number("scale", params)?.unwrap_or(Texture::number(1.0))
+                } else {
+                    value(self, params, "tex2", 1.0)?
+                };
+                value(self, params, names[0], 1.0)?.times(scale)
+            }
+            "mix" => {
+                let (a, b) = (value(self, params, "tex1", 0.0)?, value(self, params, "tex2", 1.0)?);
+                let amount = self.number("amount", params)?.unwrap_or(Texture::number(0.5));
+                Texture::Mix(Arc::new([a, b, amount]))
+            }
+            "checkerboard" => {
+                let (a, b) = (value(self, params, "tex1", 1.0)?, value(self, params, "tex2", 0.0)?);
+                if params.integer("dimension")? == Some(3) {
+                    notes.stand_in("checkerboard", || params.error("in space: becomes its mean"));
+                    Texture::Mix(Arc::new([a, b, Texture::number(0.5)]))
+                } else {
+                    Texture::Checkerboard(Arc::new([a, b]), mapping(params, notes)?)
+                }
+            }
+            "imagemap" => {
+                let texture = self.image(params, resolve, notes)?;
+                if is_color { texture } else { Texture::Channel(Arc::new(texture), 0) }
+            }
+            _ => {
+                params.ignore_all();
+                let what = format!("texture {:?} becomes 0.5 everywhere", shortened(kind));
+                notes.stand_in(&what, || params.error(&what));
+                Texture::number(0.5)
+            }
+        })
+    }
+
+    fn image(&mut self, params: &mut Params, resolve: Resolve<'_>, notes: &mut Notes) -> Result<Texture, Message> {
+        let Some(name) = params.text("filename")? else {
+            return Err(params.error("\"string filename\" is missing"));
+        };
+        let encoding = params.text("encoding")?;
+        let gamma = params.flag("gamma")?;
+        let text = encoding.unwrap_or_else(|| if gamma == Some(false) { "linear" } else { "sRGB" }.to_owned());
+        let wrap = match params.text("wrap")?.as_deref() {
+            None | Some("repeat") => Wrap::Repeat,
+            Some("clamp") => Wrap::Clamp,
+            Some("black") => Wrap::Black,
+            Some("octahedralsphere") => Wrap::Mirror,
+            Some(other) => return Err(params.error(format!("\"wrap\": unknown mode {:?}", shortened(other)))),
+        };
+        let bilinear = params.text("filter")?.as_deref() != Some("point");
+        let _ = (params.float("maxanisotropy")?, params.flag("trilinear")?);
+        let scale = params.float("scale")?.unwrap_or(1.0) as f32;
+        let invert = params.flag("invert")?.unwrap_or(false);
+        // pbrt's (0, 0) is the lower left corner
+        let mapping = mapping(params, notes)?.then(&Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]));
+        let path = resolve(&name);
+        let key = (path.clone(), text.clone());
+        let texels = match self.images.get(&key) {
+            Some(texels) => Arc::clone(texels),
+            None => {
+                let encoding = match text.split_whitespace().collect::<Vec<_>>()[..] {
+                    ["sRGB" | "srgb"] => Encoding::Srgb,
+                    ["linear"] => Encoding::Linear,
+                    ["gamma", gamma] if gamma.parse().is_ok_and(|gamma: f32| gamma > 0.0 && gamma < 100.0) => {
+                        Encoding::Gamma(gamma.parse().unwrap_or(1.0))
+                    }
+                    _ => return Err(params.error(format!("\"encoding\": unknown encoding {:?}", shortened(&text)))),
+                };
+                let failed = |why: String| params.error(format!("{}: {why}", path.display()));
+                let bytes = read_file(&path).map_err(|error| failed(format!("cannot read: {error}")))?;
+                let texels = read_texels(&path, &bytes, encoding).map_err(|error| params.error(error.to_string()))?;
+                let texels = Arc::new(texels);
+                self.images.insert(key, Arc::clone(&texels));
+                texels
+            }
+        };
+        let picture = Texture::Picture(Picture { texels, mapping, wrap: [wrap; 2], bilinear });
+        let scaled = picture.times(Texture::number(scale));
+        Ok(if invert { Texture::Inverse(Arc::new(scaled)) } else { scaled })
+    }
+
+    /// A texture or a constant for a colour between 0 and 1, of a reflectance or an opacity.
+    pub(super) fn color(
+        &self,
+        name: &str,
+        params: &mut Params,
+        resolve: Resolve<'_>,
+        notes: &mut Notes,
+    ) -> Result<Option<Texture>, Message> {
+        let rgb = match params.color(name, resolve)? {
+            None => return Ok(None),
+            Some(Color::Texture(texture)) => {
+                let found = self.colors.get(&texture);
+                let unknown =
+                    || params.error(format!("{name:?}: no spectrum Texture {:?} precedes this", shortened(&texture)));
+                return found.cloned().map(Some).ok_or_else(unknown);
+            }
+            Some(Color::Rgb(rgb)) => rgb,
+            Some(Color::Samples(samples)) => samples.reflectance(),
+            Some(Color::Blackbody(_) | Color::Named(Named::Illuminant(_))) => {
+                return Err(params.error(format!("{name:?}: a light's spectrum is no reflectance")));
+            }
+            Some(Color::Named(Named::Index(rgb))) => rgb,
+        };
+        if let Some(x) = rgb.iter().find(|&&x| x > 1.0) {
+            notes.warn(
+                params.error(format!(
+                    "{name:?}: {x} is greater than 1: the surface reflects more light than it receives"
+                )),
+            );
+        }
+        let rounded = rgb.map(|x| x as f32);
+        if rounded.iter().any(|x| !x.is_finite()) {
+            return Err(params.error(format!("{name:?}: {rgb:?} is too large for f32")));
+        }
+        Ok(Some(Texture::Constant(rounded)))
+    }
+
+    /// A texture or a constant for a number.
+    pub(super) fn number(&self, name: &str, params: &mut Params) -> Result<Option<Texture>, Message> {
+        if !params.is_texture(name) {
+            return Ok(params.float(name)?.map(|x| Texture::number(x as f32)));
+        }
+        let Some(Color::Texture(texture)) = params.color(name, &|_| PathBuf::new())? else { return Ok(None) };
+        let unknown = || params.error(format!("{name:?}: no float Texture {:?} precedes this", shortened(&texture)));
+        self.numbers.get(&texture).cloned().map(Some).ok_or_else(unknown)
+    }
+
+    /// An index of refraction or an absorption coefficient, per channel.
+    pub(super) fn index(name: &str, params: &mut Params, resolve: Resolve<'_>) -> Result<Option<[f64; 3]>, Message> {
+        Ok(match params.color(name, resolve)? {
+            None => None,
+            Some(Color::Rgb(rgb) | Color::Named(Named::Index(rgb))) => Some(rgb),
+            Some(Color::Samples(samples)) => Some(samples.reflectance()),
+            Some(_) => return Err(params.error(format!("{name:?}: this spectrum is no index of refraction"))),
+        })
+    }
+}
+
+/// The mapping of a texture: "uv", or as if it were that.
+fn mapping(params: &mut Params, notes: &mut Notes) -> Result<Mapping, Message> {
+    if let Some(kind) = params.text("mapping")?.filter(|kind| kind != "uv") {
+        for name in ["v1", "v2"] {
+            params.given(name);
+        }
+        let what = format!("mapping {:?} becomes that of u and v", shortened(&kind));
+        notes.stand_in(&what, || params.error(&what));
+    }
+    let mut number = |name: &str, default: f64| {
+        let x = params.float(name)?.unwrap_or(default) as f32;
+        if x.is_finite() {
+            Ok(x)
+        } else {
+            Err(params.error(format!("{name:?}: must be finite in f32, not {}", shown(x.into()))))
+        }
+    };
+    let (us, vs) = (number("uscale", 1.0)?, number("vscale", 1.0)?);
+    let (ud, vd) = (number("udelta", 0.0)?, number("vdelta", 0.0)?);
+    Ok(Mapping([[us, 0.0, ud], [0.0, vs, vd]]))
+}
