@@ -6,7 +6,7 @@ use super::materials::{Material, Varying};
 use super::message::Message;
 use super::params::{Params, Resolve, rounded, shown};
 use super::spectrum::{self, Named};
-use super::textures::Textures;
+use super::textures::{Textures, Value};
 use crate::texture::Texture;
 use std::collections::HashMap;
 
@@ -229,26 +229,31 @@ impl Reads<'_> {
     }
     /// The roughness α, from up to three parameters whose names begin with `prefix`.
     fn alpha(&self, prefix: &str, default: f32, params: &mut Params, out: &mut Builder) -> Result<Texture, Message> {
-        let textures = self.context.textures;
-        let mut number = |name: &str| textures.number(&format!("{prefix}{name}"), params);
-        let both = number("roughness")?.unwrap_or(Texture::number(default));
-        let [u, v] = [number("uroughness")?.unwrap_or(both.clone()), number("vroughness")?.unwrap_or(both)];
-        for roughness in [&u, &v] {
-            if let Some([x, ..]) = roughness.constant().filter(|[x, ..]| !(0.0..=1.0).contains(x)) {
-                return Err(
-                    params.error(format!("\"{prefix}roughness\": must be from 0 to 1, not {}", shown(x.into())))
-                );
+        let names = ["roughness", "uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
+        let varies = names.iter().any(|name| params.is_texture(name));
+        if varies {
+            let mut number = |name: &str| self.context.textures.number(name, params);
+            let both = number(&names[0])?.unwrap_or(Texture::number(default));
+            let [u, v] = [number(&names[1])?.unwrap_or(both.clone()), number(&names[2])?.unwrap_or(both)];
+            if u != v {
+                out.notes.stand_in("anisotropy", || params.error("anisotropic roughness becomes that along u"));
+            }
+            let remap = params.flag("remaproughness")?.unwrap_or(true);
+            return Ok(if remap { u.root() } else { u });
+        }
+        let both = params.float(&names[0])?.unwrap_or(default.into());
+        let [u, v] = [params.float(&names[1])?.unwrap_or(both), params.float(&names[2])?.unwrap_or(both)];
+        for x in [u, v] {
+            if !(0.0..=1.0).contains(&x) {
+                return Err(params.error(format!("\"{prefix}roughness\": must be from 0 to 1, not {}", shown(x))));
             }
         }
         let remap = params.flag("remaproughness")?.unwrap_or(true);
-        let [u, v] = [u, v].map(|roughness| if remap { roughness.root() } else { roughness });
-        Ok(match (u.constant(), v.constant()) {
-            (Some([a, ..]), Some([b, ..])) if a != b => {
-                out.notes.stand_in("anisotropy", || params.error("anisotropic roughness becomes its geometric mean"));
-                Texture::number((a * b).sqrt())
-            }
-            _ => u,
-        })
+        let [u, v] = [u, v].map(|x| if remap { x.sqrt() } else { x });
+        if u != v {
+            out.notes.stand_in("anisotropy", || params.error("anisotropic roughness becomes its geometric mean"));
+        }
+        Ok(Texture::number(if u == v { u } else { (u * v).sqrt() } as f32))
     }
     /// A rough coat over a diffuse base.
     fn coated(
@@ -275,19 +280,22 @@ impl Reads<'_> {
         out: &mut Builder,
     ) -> Result<Material, Message> {
         let Context { textures, resolve, .. } = self.context;
-        let given = textures.color(reflectance, params, *resolve, &mut out.notes)?;
+        let given = textures.color_or_texture(reflectance, params, *resolve, &mut out.notes)?;
         let indices = [Textures::index(eta, params, *resolve)?, Textures::index(k, params, *resolve)?];
         let alpha = self.alpha(prefix, if prefix.is_empty() { 0.0 } else { 0.01 }, params, out)?;
         let (eta, k) = match (given, indices) {
             (Some(_), [Some(_), _] | [_, Some(_)]) => {
                 return Err(params.error("\"reflectance\" cannot be combined with \"eta\" and \"k\""));
             }
-            (Some(color), _) if color.constant().is_none() || alpha.constant().is_none() => {
-                return Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular: color, alpha }));
+            (Some(Value::Varying(specular)), _) => {
+                return Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha }));
+            }
+            (Some(Value::Constant(r)), _) if alpha.constant().is_none() => {
+                let specular = Texture::Constant(r.map(|x| x as f32));
+                return Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha }));
             }
             // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
-            (Some(color), _) => {
-                let r = color.mean().map(f64::from);
+            (Some(Value::Constant(r)), _) => {
                 if let Some(x) = r.iter().find(|&&x| x > 1.0) {
                     return Err(params.error(format!("\"reflectance\": must be at most 1, not {}", shown(*x))));
                 }

@@ -19,6 +19,14 @@ pub(super) struct Textures {
     images: HashMap<(PathBuf, String), Arc<Texels>>,
 }
 
+/// A colour.
+pub(super) enum Value {
+    /// The same everywhere.
+    Constant([f64; 3]),
+    /// One that varies.
+    Varying(Texture),
+}
+
 impl Textures {
     /// Reads a `Texture` directive: a texture of colours ("spectrum", "color") or of numbers ("float").
     pub(super) fn define(
@@ -138,21 +146,25 @@ impl Textures {
         Ok(if invert { Texture::Inverse(Arc::new(scaled)) } else { scaled })
     }
 
-    /// A texture or a constant for a colour between 0 and 1, of a reflectance or an opacity.
-    pub(super) fn color(
+    /// A colour in double precision, or a texture that varies.
+    pub(super) fn color_or_texture(
         &self,
         name: &str,
         params: &mut Params,
         resolve: Resolve<'_>,
         notes: &mut Notes,
-    ) -> Result<Option<Texture>, Message> {
+    ) -> Result<Option<Value>, Message> {
         let rgb = match params.color(name, resolve)? {
             None => return Ok(None),
             Some(Color::Texture(texture)) => {
                 let found = self.colors.get(&texture);
                 let unknown =
                     || params.error(format!("{name:?}: no spectrum Texture {:?} precedes this", shortened(&texture)));
-                return found.cloned().map(Some).ok_or_else(unknown);
+                let texture = found.cloned().ok_or_else(unknown)?;
+                return Ok(Some(match texture.constant() {
+                    Some(rgb) => Value::Constant(rgb.map(f64::from)),
+                    None => Value::Varying(texture),
+                }));
             }
             Some(Color::Rgb(rgb)) => rgb,
             Some(Color::Samples(samples)) => samples.reflectance(),
@@ -168,11 +180,24 @@ impl Textures {
                 )),
             );
         }
-        let rounded = rgb.map(|x| x as f32);
-        if rounded.iter().any(|x| !x.is_finite()) {
+        if rgb.iter().any(|&x| !(x as f32).is_finite()) {
             return Err(params.error(format!("{name:?}: {rgb:?} is too large for f32")));
         }
-        Ok(Some(Texture::Constant(rounded)))
+        Ok(Some(Value::Constant(rgb)))
+    }
+
+    /// A texture or a constant for a colour between 0 and 1, of a reflectance or an opacity.
+    pub(super) fn color(
+        &self,
+        name: &str,
+        params: &mut Params,
+        resolve: Resolve<'_>,
+        notes: &mut Notes,
+    ) -> Result<Option<Texture>, Message> {
+        Ok(self.color_or_texture(name, params, resolve, notes)?.map(|value| match value {
+            Value::Constant(rgb) => Texture::Constant(rgb.map(|x| x as f32)),
+            Value::Varying(texture) => texture,
+        }))
     }
 
     /// A texture or a constant for a number.
