@@ -1,4 +1,4 @@
-//! Reads scene files: the part of the pbrt-v4 format that direct lighting needs.
+//! Reads scene files: glTF 2.0, and the part of the pbrt-v4 format that direct lighting needs.
 //!
 //! An unsupported feature is an error that names file and line; a feature that changes the image little, or only its noise, is a
 //! warning. Coordinates are transformed in f64 and rounded once to f32.
@@ -7,6 +7,7 @@ mod builder;
 mod builtin;
 mod description;
 mod generated;
+mod gltf;
 mod includes;
 mod lexer;
 mod lights;
@@ -96,7 +97,7 @@ pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
     DESCRIBED.split_at(DESCRIBED.len() - MANY_LIGHTS).0
 }
 
-/// Reads the built-in scene of this name, or else the file at this path.
+/// Reads the built-in scene of this name, or else the file at this path: glTF if its name ends in `.gltf` or `.glb`, or else pbrt's format.
 pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
     let path = name_or_path.as_ref();
     if let Some((name, text)) = BUILTIN.iter().find(|(name, _)| path.as_os_str() == *name) {
@@ -105,6 +106,11 @@ pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
     let shown = path.display().to_string();
     let failed = |error| SceneError::Io { path: shown.clone(), error };
     let bytes = read_file(path).map_err(failed)?;
+    if gltf::is_gltf(path, &bytes) {
+        let mut scene = gltf::read(&bytes, &shown, Some(path.parent().unwrap_or(Path::new(""))))?;
+        scene.inputs.push(path.to_owned());
+        return Ok(scene);
+    }
     let text = utf8(&bytes, &Arc::from(&*shown))?;
     let mut scene = reader::read(text, &shown, path.parent().unwrap_or(Path::new("")), Origin::File(path))?;
     scene.inputs.push(path.to_owned());
@@ -141,4 +147,11 @@ fn edits(a: &str, b: &str) -> usize {
 /// Any text gives a scene or an error, with bounded recursion.
 pub fn parse(text: &str, file: &str, dir: &Path) -> Result<Scene, SceneError> {
     Ok(reader::read(text, file, dir, Origin::Text)?)
+}
+
+/// Reads a glTF scene from the bytes of a text or binary file that names no other files. Messages call it `file`.
+///
+/// Any bytes give a scene or an error, with bounded recursion.
+pub fn parse_gltf(bytes: &[u8], file: &str) -> Result<Scene, SceneError> {
+    Ok(gltf::read(bytes, file, None)?)
 }

@@ -1,0 +1,121 @@
+//! Reads glTF 2.0 scene files: JSON text that names other files, or one binary file.
+//!
+//! What the renderer does not have is ignored, with one warning of each kind: textures of normals and occlusion, opacity, vertex colours,
+//! skins, morph targets, animations, points and lines. An extension that the file requires and that is not supported is an error.
+//! Photometric units count as radiometric ones of the same number, as in most renderers.
+
+mod accessors;
+mod cameras;
+mod container;
+mod lights;
+mod materials;
+mod meshes;
+mod nodes;
+mod source;
+#[cfg(test)]
+mod tests;
+
+use super::builder::Builder;
+use super::description::Scene;
+use super::lexer::shortened;
+use super::message::Message;
+use materials::Materials;
+use source::Source;
+use std::path::Path;
+
+/// Extensions that are supported, or change nothing when they are required.
+const SUPPORTED: [&str; 8] = [
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+];
+
+/// Whether bytes or the name of a file are those of glTF.
+pub(super) fn is_gltf(path: &Path, bytes: &[u8]) -> bool {
+    let named = |name: &str| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(name));
+    bytes.starts_with(container::MAGIC) || named("gltf") || named("glb")
+}
+
+/// Reads a scene. Messages call it `file`; it may name files in `folder`, if there is one.
+pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Scene, Message> {
+    let source = Source::new(bytes, file, folder)?;
+    let root = &source.root;
+    for name in &root.extensions_required {
+        if !SUPPORTED.contains(&&**name) {
+            return Err(source.message(format!("requires the extension {:?}, which is not supported", shortened(name))));
+        }
+    }
+    let mut out = Builder::default();
+    let mut materials = Materials::default();
+    let mut delta_lights = Vec::new();
+    let mut camera = None;
+    if !root.animations.is_empty() {
+        out.warn_once("animations", || source.message("animations are ignored"));
+    }
+    for nodes::Placed { index, transform } in nodes::walk(&source)? {
+        let node = &root.nodes[index];
+        if node.skin.is_some() {
+            out.warn_once("skins", || source.message(format!("node {index}: its skin is ignored")));
+        }
+        if let Some(mesh) = node.mesh {
+            meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
+        }
+        if let Some(described) = node.camera
+            && camera.is_none()
+        {
+            camera = cameras::read(&source, described, index, &transform)?;
+            if camera.is_none() {
+                out.warn_once("orthographic", || {
+                    source.message(format!("node {index}: its orthographic camera is ignored"))
+                });
+            }
+        }
+        if let Some(light) = node.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref()) {
+            match lights::read(&source, light.light, index, &transform)? {
+                Some(light) => delta_lights.push(light),
+                None => out.warn_once("dark", || source.message(format!("node {index}: its light emits nothing"))),
+            }
+        }
+    }
+    for name in root.extensions_used.iter().filter(|name| !SUPPORTED.contains(&&***name)) {
+        out.warn_once(&format!("extension {name}"), || {
+            source.message(format!("the extension {:?} is ignored", shortened(name)))
+        });
+    }
+    let left_out = out.left_out();
+    if left_out > 0 {
+        out.warnings.push(source.message(format!("{left_out} triangle(s) without area are left out")));
+    }
+    out.finish();
+    let (camera, film) = camera.unwrap_or_else(|| {
+        let framing = cameras::framing(&out);
+        out.warnings.push(source.message("no perspective camera: one that sees all surfaces stands for it"));
+        framing
+    });
+    let emits = out.shapes.iter().any(|shape| shape.emission.is_some());
+    if !emits && delta_lights.is_empty() {
+        out.warnings.push(source.message("nothing emits light: the image will be black"));
+    }
+    let name = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    Ok(Scene {
+        name: name.unwrap_or_else(|| file.to_owned()),
+        camera,
+        film,
+        pixel_samples: 16,
+        materials: out.materials,
+        triangles: out.triangles,
+        triangle_materials: out.triangle_materials,
+        varying: out.varying,
+        details: out.details.into(),
+        shapes: out.shapes.into(),
+        delta_lights,
+        environment: None,
+        warnings: out.warnings,
+        inputs: source.into_inputs(),
+    })
+}

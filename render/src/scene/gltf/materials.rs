@@ -1,0 +1,373 @@
+//! Reads materials, and the textures and images that they name.
+
+use super::super::builder::Builder;
+use super::super::description::Emission;
+use super::super::lexer::shortened;
+use super::super::materials::Varying;
+use super::super::message::Message;
+use super::super::params::{MOST_RADIANCE, brightness, rounded};
+use super::source::Source;
+use crate::image::{Encoding, read_texels};
+use crate::texture::{Mapping, Picture, Texels, Texture, Wrap};
+use gltf_json::extensions::texture::TextureTransform;
+use gltf_json::material::AlphaMode;
+use gltf_json::texture::{Info, MagFilter, Sampler, WrappingMode};
+use gltf_json::validation::Checked;
+use gltf_json::{Index, material, texture};
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// A material as primitives need it.
+#[derive(Debug)]
+pub(super) struct Surface {
+    /// Index into the materials of the scene.
+    pub(super) material: u32,
+    /// The set of texture coordinates of its textures, if it has any.
+    pub(super) set: Option<u32>,
+    pub(super) glow: Option<Glow>,
+}
+
+/// The light that a material emits.
+#[derive(Debug)]
+pub(super) struct Glow {
+    /// Radiance where the texture is 1; at least one channel is greater than 0.
+    radiance: [f32; 3],
+    /// The texture and its set of texture coordinates.
+    pub(super) texture: Option<(Texture, u32)>,
+    two_sided: bool,
+}
+
+/// Triangles along each edge of those in which an emissive texture is sampled.
+const PARTS: usize = 4;
+
+impl Glow {
+    /// The emission of a triangle with texture coordinates: the mean over its parts. `None` if it is black.
+    pub(super) fn over(&self, uvs: [[f32; 2]; 3]) -> Option<Emission> {
+        let mut sum = [0.0_f64; 3];
+        match &self.texture {
+            None => sum = [(PARTS * PARTS) as f64; 3],
+            Some((texture, _)) => {
+                // the centres of triangles that point up, then of those that point down, in thirds of a part
+                let up = (0..PARTS).flat_map(|i| (0..PARTS - i).map(move |j| (3 * i + 1, 3 * j + 1)));
+                let down = (0..PARTS).flat_map(|i| (1..PARTS - i).map(move |j| (3 * i + 2, 3 * j - 1)));
+                for (i, j) in up.chain(down) {
+                    let [s, t] = [i, j].map(|k| k as f32 / (3 * PARTS) as f32);
+                    let at = |k: usize| uvs[0][k] * (1.0 - s - t) + uvs[1][k] * s + uvs[2][k] * t;
+                    let color = texture.at([at(0), at(1)]);
+                    sum.iter_mut().zip(color).for_each(|(sum, x)| *sum += f64::from(x));
+                }
+            }
+        }
+        let mean = sum.map(|x| x / (PARTS * PARTS) as f64);
+        // floating-point images may hold any numbers
+        let radiance = std::array::from_fn(|k| ((mean[k] * f64::from(self.radiance[k])) as f32).min(MOST_RADIANCE));
+        (radiance != [0.0; 3]).then_some(Emission { radiance, two_sided: self.two_sided })
+    }
+}
+
+/// The materials and images that were read so far.
+#[derive(Debug, Default)]
+pub(super) struct Materials {
+    surfaces: HashMap<Option<usize>, Rc<Surface>>,
+    images: HashMap<(usize, bool), Arc<Texels>>,
+}
+
+/// A number or colour that is computed once if it is constant.
+fn inverse(of: Texture) -> Texture {
+    match of.constant() {
+        Some(color) => Texture::Constant(color.map(|x| (1.0 - x).max(0.0))),
+        None => Texture::Inverse(Arc::new(of)),
+    }
+}
+fn mix(a: Texture, b: Texture, t: Texture) -> Texture {
+    match (a.constant(), b.constant(), t.constant()) {
+        (_, _, Some([0.0, ..])) => a,
+        (_, _, Some([1.0, ..])) => b,
+        (Some(a), Some(b), Some(t)) => Texture::Constant(std::array::from_fn(|k| (1.0 - t[k]) * a[k] + t[k] * b[k])),
+        _ => Texture::Mix(Arc::new([a, b, t])),
+    }
+}
+fn channel(of: Texture, channel: usize) -> Texture {
+    match of.constant() {
+        Some(color) => Texture::number(color[channel]),
+        None => Texture::Channel(Arc::new(of), channel),
+    }
+}
+
+/// What else a material may have, and what its absence changes.
+const IGNORED: [(&str, &str); 10] = [
+    ("KHR_materials_transmission", "is ignored: the surface is opaque"),
+    ("KHR_materials_diffuse_transmission", "is ignored: the surface is opaque"),
+    ("KHR_materials_volume", "is ignored"),
+    ("KHR_materials_volume_scatter", "is ignored"),
+    ("KHR_materials_clearcoat", "is ignored"),
+    ("KHR_materials_sheen", "is ignored"),
+    ("KHR_materials_anisotropy", "is ignored: the surface is isotropic"),
+    ("KHR_materials_iridescence", "is ignored"),
+    ("KHR_materials_dispersion", "is ignored"),
+    ("KHR_materials_variants", "is ignored"),
+];
+
+/// Reads one material.
+struct Reader<'r, 's> {
+    source: &'r Source<'s>,
+    out: &'r mut Builder,
+    images: &'r mut HashMap<(usize, bool), Arc<Texels>>,
+    item: String,
+    set: Option<u32>,
+}
+
+impl Materials {
+    /// The material of this index, or the default one.
+    pub(super) fn surface(
+        &mut self,
+        source: &Source<'_>,
+        out: &mut Builder,
+        index: Option<Index<material::Material>>,
+        user: &str,
+    ) -> Result<Rc<Surface>, Message> {
+        let key = index.map(|index| index.value());
+        if let Some(surface) = self.surfaces.get(&key) {
+            return Ok(surface.clone());
+        }
+        let default = material::Material::default();
+        let material = match index {
+            Some(index) => source.item(&source.root.materials, index, "material", user)?.1,
+            None => &default,
+        };
+        let item = key.map_or("the default material".into(), |key| format!("material {key}"));
+        let mut reader = Reader { source, out, images: &mut self.images, item, set: None };
+        let surface = Rc::new(reader.read(material)?);
+        self.surfaces.insert(key, surface.clone());
+        Ok(surface)
+    }
+}
+
+impl Reader<'_, '_> {
+    fn error(&self, what: &str) -> Message {
+        self.source.message(format!("{}: {what}", self.item))
+    }
+
+    fn warn_once(&mut self, kind: &str, what: &str) {
+        let message = self.error(what);
+        self.out.warn_once(kind, || message);
+    }
+
+    /// Numbers from 0 to 1; others are clamped.
+    fn shares<const N: usize>(&mut self, name: &str, values: [f32; N]) -> [f32; N] {
+        if !values.iter().all(|x| (0.0..=1.0).contains(x)) {
+            let message = self.error(&format!("{name} {values:?} is clamped to 0 to 1"));
+            self.out.warnings.push(message);
+        }
+        values.map(|x| x.clamp(0.0, 1.0))
+    }
+
+    fn read(&mut self, material: &material::Material) -> Result<Surface, Message> {
+        self.warn_of_ignored(material);
+        let extensions = material.extensions.as_ref();
+        if extensions.is_some_and(|all| all.unlit.is_some()) {
+            self.warn_once("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
+        }
+        let varying = match extensions.and_then(|all| all.pbr_specular_glossiness.as_ref()) {
+            Some(glossiness) => {
+                let [r, g, b, _] = self.shares("diffuseFactor", glossiness.diffuse_factor.0);
+                let specular = self.shares("specularFactor", glossiness.specular_factor.0);
+                let [smooth] = self.shares("glossinessFactor", [glossiness.glossiness_factor.0]);
+                let diffuse = self.textured([r, g, b], glossiness.diffuse_texture.as_ref(), Encoding::Srgb)?;
+                let map = glossiness.specular_glossiness_texture.as_ref();
+                if map.is_some() {
+                    self.warn_once(
+                        "glossiness",
+                        "the opacity of its specularGlossinessTexture, glossiness, is ignored",
+                    );
+                }
+                let specular = self.textured(specular, map, Encoding::Srgb)?;
+                let alpha = Texture::number((1.0 - smooth) * (1.0 - smooth));
+                Varying::Glossy { diffuse, specular, alpha }
+            }
+            None => self.metallic(material)?,
+        };
+        let read = self.out.vary(varying);
+        let set = self.set;
+        let glow = self.glow(material)?;
+        Ok(Surface { material: self.out.material(read), set, glow })
+    }
+
+    fn metallic(&mut self, material: &material::Material) -> Result<Varying, Message> {
+        let extensions = material.extensions.as_ref();
+        let surface = &material.pbr_metallic_roughness;
+        let [r, g, b, _] = self.shares("baseColorFactor", surface.base_color_factor.0);
+        let base = self.textured([r, g, b], surface.base_color_texture.as_ref(), Encoding::Srgb)?;
+        if extensions.is_some_and(|all| all.unlit.is_some()) {
+            return Ok(Varying::Diffuse(base));
+        }
+        let [metallic] = self.shares("metallicFactor", [surface.metallic_factor.0]);
+        let [roughness] = self.shares("roughnessFactor", [surface.roughness_factor.0]);
+        let map = surface.metallic_roughness_texture.as_ref();
+        let map = self.textured([1.0; 3], map, Encoding::Linear)?;
+        let metallic = if metallic == 0.0 {
+            Texture::number(0.0)
+        } else {
+            Texture::number(metallic).times(channel(map.clone(), 2))
+        };
+        let roughness = Texture::number(roughness).times(channel(map, 1));
+        let ior = extensions.and_then(|all| all.ior.as_ref()).map_or(1.5, |ior| ior.ior.0);
+        let specular = extensions.and_then(|all| all.specular.as_ref());
+        if ior == 1.5 && specular.is_none() {
+            return Ok(Varying::Metallic { base, metallic, roughness });
+        }
+        if !(ior == 0.0 || ior >= 1.0 && ior.is_finite()) {
+            return Err(self.error(&format!("ior: must be 0, or finite and at least 1, not {ior}")));
+        }
+        let ratio = (ior - 1.0) / (ior + 1.0);
+        let mut at_normal = Texture::number(ratio * ratio);
+        if let Some(specular) = specular {
+            let [factor] = self.shares("specularFactor", [specular.specular_factor.0]);
+            let color = specular.specular_color_factor.0.map(|x| x.max(0.0).min(f32::MAX));
+            if specular.specular_texture.is_some() || specular.specular_color_texture.is_some() {
+                self.warn_once("specular texture", "the textures of its KHR_materials_specular are ignored");
+            }
+            if factor == 0.0 && metallic.constant() == Some([0.0; 3]) {
+                return Ok(Varying::Diffuse(base));
+            }
+            at_normal = Texture::Constant(color.map(|x| (x * ratio * ratio).min(1.0) * factor));
+        }
+        Ok(Varying::Glossy {
+            diffuse: base.clone().times(inverse(metallic.clone())),
+            specular: mix(at_normal, base, metallic),
+            alpha: roughness.clone().times(roughness),
+        })
+    }
+
+    fn glow(&mut self, material: &material::Material) -> Result<Option<Glow>, Message> {
+        let factor = material.emissive_factor.0;
+        let extension = material.extensions.as_ref().and_then(|all| all.emissive_strength.as_ref());
+        let strength = extension.map_or(1.0, |extension| extension.emissive_strength.0);
+        let radiance = factor.map(|x| f64::from(x) * f64::from(strength));
+        let valid = rounded(radiance).filter(|rgb| rgb.iter().all(|x| (0.0..=MOST_RADIANCE).contains(x)));
+        let radiance = valid.ok_or_else(|| {
+            self.error(&format!(
+                "emissiveFactor {factor:?} times emissiveStrength {strength}: must be from 0 to {MOST_RADIANCE:e}"
+            ))
+        })?;
+        if radiance == [0.0; 3] {
+            return Ok(None);
+        }
+        if let Some(text) = brightness(radiance) {
+            let message = self.error(&format!("the radiance {text}"));
+            self.out.warnings.push(message);
+        }
+        let texture = match &material.emissive_texture {
+            None => None,
+            Some(info) => {
+                self.warn_once("emissive texture", "each triangle emits the mean of the emissiveTexture over itself");
+                let (texture, set) = self.picture(info, Encoding::Srgb)?;
+                Some((texture, set))
+            }
+        };
+        Ok(Some(Glow { radiance, texture, two_sided: material.double_sided }))
+    }
+
+    fn warn_of_ignored(&mut self, material: &material::Material) {
+        match material.alpha_mode {
+            Checked::Valid(AlphaMode::Mask) => self.warn_once("mask", "alphaMode MASK: the surface is opaque"),
+            Checked::Valid(AlphaMode::Blend) => self.warn_once("blend", "alphaMode BLEND: the surface is opaque"),
+            Checked::Valid(AlphaMode::Opaque) => {}
+            Checked::Invalid => self.warn_once("alpha", "its alphaMode is unknown: the surface is opaque"),
+        }
+        if material.normal_texture.is_some() {
+            self.warn_once("normal", "its normalTexture is ignored");
+        }
+        if material.occlusion_texture.is_some() {
+            self.warn_once("occlusion", "its occlusionTexture is ignored");
+        }
+        for name in material.extensions.iter().flat_map(|all| all.others.keys()) {
+            let known = IGNORED.iter().find(|(ignored, _)| ignored == name);
+            let what = known.map_or("is not supported and ignored", |(_, what)| what);
+            self.warn_once(&format!("extension {name}"), &format!("{} {what}", shortened(name)));
+        }
+    }
+
+    /// A colour times a texture. The first texture tells the set of texture coordinates for all.
+    fn textured(&mut self, factor: [f32; 3], info: Option<&Info>, encoding: Encoding) -> Result<Texture, Message> {
+        let factor = Texture::Constant(factor);
+        let Some(info) = info else { return Ok(factor) };
+        // black stays black, whatever the texture is
+        if factor.constant() == Some([0.0; 3]) {
+            return Ok(factor);
+        }
+        let (texture, set) = self.picture(info, encoding)?;
+        let first = *self.set.get_or_insert(set);
+        if first != set {
+            self.warn_once("sets", &format!("its textures use several sets of texture coordinates: all use {first}"));
+        }
+        Ok(factor.times(texture))
+    }
+
+    /// A texture, and its set of texture coordinates.
+    fn picture(&mut self, info: &Info, encoding: Encoding) -> Result<(Texture, u32), Message> {
+        let transform = info.extensions.as_ref().and_then(|all| all.texture_transform.as_ref());
+        let set = transform.and_then(|transform| transform.tex_coord).unwrap_or(info.tex_coord);
+        let mapping = match transform {
+            None => Mapping::IDENTITY,
+            Some(transform) => {
+                mapping(transform).ok_or_else(|| self.error("its KHR_texture_transform is not finite"))?
+            }
+        };
+        let source = self.source;
+        let (index, texture) = source.item(&source.root.textures, info.index, "texture", &self.item)?;
+        let item = format!("texture {index}");
+        let default = Sampler::default();
+        let sampler = match texture.sampler {
+            Some(sampler) => source.item(&source.root.samplers, sampler, "sampler", &item)?.1,
+            None => &default,
+        };
+        let wrap = [sampler.wrap_s, sampler.wrap_t].map(|wrap| match wrap {
+            Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+            Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+            Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
+        });
+        let bilinear = sampler.mag_filter != Some(Checked::Valid(MagFilter::Nearest));
+        let texels = self.image(texture, &item, encoding)?;
+        Ok((Texture::Picture(Picture { texels, mapping, wrap, bilinear }), set))
+    }
+
+    fn image(&mut self, texture: &texture::Texture, item: &str, encoding: Encoding) -> Result<Arc<Texels>, Message> {
+        let source = self.source;
+        // the index of no image
+        if texture.source.value() == u32::MAX as usize {
+            let others = texture.extensions.as_ref().and_then(|all| all.others.keys().next());
+            let why = others.map_or(String::new(), |name| {
+                format!(": its only image is that of {}, which is not supported", shortened(name))
+            });
+            return Err(source.message(format!("{item}: has no image{why}")));
+        }
+        let (index, image) = source.item(&source.root.images, texture.source, "image", item)?;
+        let key = (index, encoding == Encoding::Srgb);
+        if let Some(texels) = self.images.get(&key) {
+            return Ok(texels.clone());
+        }
+        let item = format!("image {index}");
+        let texels = match (&image.uri, image.buffer_view) {
+            (Some(uri), _) => {
+                let (path, bytes) = source.open(uri, &item)?;
+                read_texels(&path, &bytes, encoding)
+            }
+            (None, Some(view)) => read_texels(&PathBuf::from(&item), source.view(view, &item)?.bytes, encoding),
+            (None, None) => return Err(source.message(format!("{item}: has neither a URI nor a bufferView"))),
+        };
+        let texels = Arc::new(texels.map_err(|error| source.message(error.to_string()))?);
+        self.images.insert(key, texels.clone());
+        Ok(texels)
+    }
+}
+
+/// The mapping of a `KHR_texture_transform`: a scale, then a turn that is counter-clockwise as v points down, then an offset.
+fn mapping(transform: &TextureTransform) -> Option<Mapping> {
+    let (sin, cos) = libm::sincosf(transform.rotation.0);
+    let ([du, dv], [su, sv]) = (transform.offset.0, transform.scale.0);
+    let rows = [[cos * su, sin * sv, du], [-sin * su, cos * sv, dv]];
+    rows.iter().flatten().all(|x| x.is_finite()).then_some(Mapping(rows))
+}

@@ -1,0 +1,179 @@
+//! Adds the triangles of meshes.
+
+use super::super::builder::{Builder, ShapeAttributes, Vertex};
+use super::super::message::Message;
+use super::super::transform::Transform;
+use super::materials::Materials;
+use super::source::Source;
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::validation::Checked;
+use gltf_json::{Index, mesh};
+
+/// Most triangles of a scene: meshes are repeated for each node that uses them, so that a small file can ask for any number.
+const MOST_TRIANGLES: usize = 1 << 28;
+
+/// Adds a mesh to the scene.
+pub(super) fn add(
+    source: &Source<'_>,
+    materials: &mut Materials,
+    out: &mut Builder,
+    mesh: Index<mesh::Mesh>,
+    node: usize,
+    transform: &Transform,
+) -> Result<(), Message> {
+    let (index, mesh) = source.item(&source.root.meshes, mesh, "mesh", &format!("node {node}"))?;
+    for (number, primitive) in mesh.primitives.iter().enumerate() {
+        let item = format!("mesh {index}, primitive {number}");
+        Adder { source, out, item, node }.primitive(materials, primitive, transform)?;
+    }
+    Ok(())
+}
+
+/// Adds one primitive.
+struct Adder<'r, 's> {
+    source: &'r Source<'s>,
+    out: &'r mut Builder,
+    item: String,
+    node: usize,
+}
+
+impl Adder<'_, '_> {
+    fn error(&self, what: &str) -> Message {
+        self.source.message(format!("{}: {what}", self.item))
+    }
+
+    fn warn_once(&mut self, kind: &str, what: &str) {
+        let message = self.error(what);
+        self.out.warn_once(kind, || message);
+    }
+
+    fn primitive(
+        &mut self,
+        materials: &mut Materials,
+        primitive: &Primitive,
+        transform: &Transform,
+    ) -> Result<(), Message> {
+        let Checked::Valid(mode) = primitive.mode else {
+            return Err(self.error("its mode is unknown"));
+        };
+        if matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) {
+            self.warn_once("lines", &format!("{mode:?} are ignored: only triangles are supported"));
+            return Ok(());
+        }
+        let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
+        let Some(positions) = attribute(Semantic::Positions) else {
+            self.warn_once("positions", "it has no POSITION and is ignored");
+            return Ok(());
+        };
+        if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
+            self.warn_once("targets", "its morph targets are ignored");
+        }
+        if attribute(Semantic::Colors(0)).is_some() {
+            self.warn_once("colors", "its COLOR_0 is ignored");
+        }
+        let surface = materials.surface(self.source, self.out, primitive.material, &self.item)?;
+
+        let positions = self.source.vectors::<3>(positions, &self.item)?;
+        let attributes = ShapeAttributes {
+            ctm: *transform,
+            flip: transform.determinant() < 0.0,
+            material: surface.material,
+            emission: None,
+        };
+        let wide = |v: &[f32; 3]| v.map(f64::from);
+        let points = attributes.place(positions.iter().map(wide)).map_err(|what| self.error(&what))?;
+        drop(positions);
+        let count = points.len();
+        let mut vertices: Vec<Vertex> = points.into_iter().map(|point| Vertex::at(point, [0.0; 2])).collect();
+        if let Some(normals) = attribute(Semantic::Normals) {
+            let normals = self.source.vectors::<3>(normals, &self.item)?;
+            self.same_number("NORMAL", normals.len(), count)?;
+            let normals = attributes.place_normals(normals.iter().map(wide));
+            vertices.iter_mut().zip(normals).for_each(|(vertex, normal)| vertex.normal = normal);
+        }
+        if let Some(uvs) = self.coordinates(primitive, surface.set, count)? {
+            vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv.map(f64::from));
+        }
+        let glow = surface.glow.as_ref();
+        let glowing = glow.and_then(|glow| glow.texture.as_ref()).map(|(_, set)| *set);
+        let glowing = self.coordinates(primitive, glowing, count)?;
+
+        let indices = match primitive.indices {
+            Some(indices) => Some(self.source.integers(indices, &self.item)?),
+            None => None,
+        };
+        if let Some(indices) = &indices
+            && let Some(place) = indices.iter().position(|&index| index as usize >= count)
+        {
+            let index = indices[place];
+            return Err(self.error(&format!("index {place} is {index}, but there are {count} vertices")));
+        }
+        let corners = indices.as_ref().map_or(count, Vec::len);
+        if mode == Mode::Triangles && !corners.is_multiple_of(3) || (1..3).contains(&corners) {
+            self.warn_once(
+                "rest",
+                &format!("{corners} corners make no whole number of triangles: the last are ignored"),
+            );
+        }
+        let triangles = if mode == Mode::Triangles { corners / 3 } else { corners.saturating_sub(2) };
+        if self.out.triangles.len() + self.out.shapes.len() + triangles > MOST_TRIANGLES {
+            let node = self.node;
+            return Err(self.error(&format!("more than 2^28 triangles, with those that node {node} adds")));
+        }
+
+        let mut add = |triangle: usize| {
+            let places = match mode {
+                Mode::TriangleStrip => [triangle, triangle + 1 + triangle % 2, triangle + 2 - triangle % 2],
+                Mode::TriangleFan => [triangle + 1, triangle + 2, 0],
+                _ => [3 * triangle, 3 * triangle + 1, 3 * triangle + 2],
+            };
+            let places = match &indices {
+                Some(indices) => places.map(|place| indices[place] as usize),
+                None => places,
+            };
+            let emission = glow.and_then(|glow| {
+                let uvs = glowing.as_ref().map_or([[0.0; 2]; 3], |uvs| places.map(|place| uvs[place]));
+                glow.over(uvs)
+            });
+            let corners = places.map(|place| vertices[place]);
+            match emission {
+                // the order of the vertices tells which side emits
+                Some(_) => self.out.triangle(
+                    &ShapeAttributes { emission, ..attributes.clone() },
+                    corners.map(|vertex| Vertex { normal: [0.0; 3], ..vertex }),
+                ),
+                None => self.out.triangle(&attributes, corners),
+            }
+        };
+        (0..triangles).for_each(&mut add);
+        Ok(())
+    }
+
+    /// The texture coordinates of a set that a material uses; those that are not finite become 0.
+    fn coordinates(
+        &mut self,
+        primitive: &Primitive,
+        set: Option<u32>,
+        count: usize,
+    ) -> Result<Option<Vec<[f32; 2]>>, Message> {
+        let Some(set) = set else { return Ok(None) };
+        let Some(&uvs) = primitive.attributes.get(&Checked::Valid(Semantic::TexCoords(set))) else {
+            self.warn_once(
+                "uvs",
+                &format!("its material uses TEXCOORD_{set}, which it does not have: 0 stands for it"),
+            );
+            return Ok(None);
+        };
+        let mut uvs = self.source.vectors::<2>(uvs, &self.item)?;
+        self.same_number("TEXCOORD", uvs.len(), count)?;
+        for uv in uvs.iter_mut().filter(|uv| !uv.iter().all(|x| x.is_finite())) {
+            *uv = [0.0; 2];
+        }
+        Ok(Some(uvs))
+    }
+
+    fn same_number(&self, name: &str, found: usize, count: usize) -> Result<(), Message> {
+        let differ = || self.error(&format!("{count} elements of POSITION, but {found} of {name}"));
+        if found == count { Ok(()) } else { Err(differ()) }
+    }
+}

@@ -1,0 +1,447 @@
+//! Tests of the glTF reader: geometry and nodes. `materials` and `views` have the rest of what files describe, `faulty` has faulty files.
+
+mod faulty;
+mod materials;
+mod views;
+
+use super::super::{Details, Scene, SceneError, load, parse_gltf};
+use crate::geometry::Geometry;
+use base64::Engine;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// A file that is put together from parts. All its numbers are in one buffer.
+#[derive(Clone)]
+struct Asset {
+    json: Value,
+    bytes: Vec<u8>,
+}
+
+const TRIANGLE: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+const QUAD: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+const FLOAT: u32 = 5126;
+
+impl Asset {
+    fn new() -> Self {
+        Self { json: json!({"asset": {"version": "2.0"}}), bytes: Vec::new() }
+    }
+
+    /// Adds an item to a list, and returns its index.
+    fn add(&mut self, list: &str, item: Value) -> usize {
+        let list = &mut self.json[list];
+        if list.is_null() {
+            *list = json!([]);
+        }
+        let list = list.as_array_mut().unwrap();
+        list.push(item);
+        list.len() - 1
+    }
+
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        let view = json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()});
+        self.bytes.extend_from_slice(bytes);
+        self.add("bufferViews", view)
+    }
+
+    fn accessor(&mut self, kind: &str, component: u32, count: usize, bytes: &[u8]) -> usize {
+        let view = self.view(bytes);
+        self.add("accessors", json!({"bufferView": view, "componentType": component, "count": count, "type": kind}))
+    }
+
+    fn floats<const N: usize>(&mut self, elements: &[[f32; N]]) -> usize {
+        let bytes: Vec<u8> = elements.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+        self.accessor(["SCALAR", "VEC2", "VEC3", "VEC4"][N - 1], FLOAT, elements.len(), &bytes)
+    }
+
+    fn indices(&mut self, indices: &[u16]) -> usize {
+        let bytes: Vec<u8> = indices.iter().flat_map(|x| x.to_le_bytes()).collect();
+        self.accessor("SCALAR", 5123, indices.len(), &bytes)
+    }
+
+    /// Adds a mesh of one primitive, and a node that has it.
+    fn shown(&mut self, primitive: Value) -> usize {
+        let mesh = self.add("meshes", json!({"primitives": [primitive]}));
+        self.add("nodes", json!({"mesh": mesh}))
+    }
+
+    /// A triangle and its node.
+    fn of_triangle() -> Self {
+        let mut asset = Self::new();
+        let positions = asset.floats(&TRIANGLE);
+        asset.shown(json!({"attributes": {"POSITION": positions}}));
+        asset
+    }
+
+    /// A triangle with this material and a texture coordinate set of its positions.
+    fn of_material(material: Value) -> Self {
+        let mut asset = Self::of_triangle();
+        asset.add("materials", material);
+        let uvs = asset.floats(&TRIANGLE.map(|[x, y, _]| [x, y]));
+        asset.json["meshes"][0]["primitives"][0]["material"] = json!(0);
+        asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+        asset
+    }
+
+    fn text(&self) -> Vec<u8> {
+        let mut json = self.json.clone();
+        if !self.bytes.is_empty() && json["buffers"].is_null() {
+            let data = base64::engine::general_purpose::STANDARD.encode(&self.bytes);
+            let uri = format!("data:application/octet-stream;base64,{data}");
+            json["buffers"] = json!([{"byteLength": self.bytes.len(), "uri": uri}]);
+        }
+        serde_json::to_vec_pretty(&json).unwrap()
+    }
+
+    fn binary(&self) -> Vec<u8> {
+        let mut json = self.json.clone();
+        if !self.bytes.is_empty() && json["buffers"].is_null() {
+            json["buffers"] = json!([{"byteLength": self.bytes.len()}]);
+        }
+        let mut text = serde_json::to_vec(&json).unwrap();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut data = self.bytes.clone();
+        data.resize(data.len().next_multiple_of(4), 0);
+        let mut file = b"glTF\x02\0\0\0".to_vec();
+        let number = |x: usize| (x as u32).to_le_bytes();
+        file.extend(number(28 + text.len() + data.len()));
+        for (chunk, kind) in [(&text, b"JSON"), (&data, b"BIN\0")] {
+            file.extend(number(chunk.len()));
+            file.extend(kind);
+            file.extend(chunk);
+        }
+        file
+    }
+
+    fn read(&self) -> Scene {
+        parse_gltf(&self.text(), "a.gltf").unwrap_or_else(|error| panic!("{error}\n{:#}", self.json))
+    }
+
+    fn error(&self) -> String {
+        match parse_gltf(&self.binary(), "a.glb") {
+            Ok(_) => panic!("no error\n{:#}", self.json),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    /// Warnings, but for those of cameras and darkness.
+    fn warnings(&self) -> Vec<String> {
+        let expected = ["no perspective camera", "nothing emits light"];
+        let warnings = self.read().warnings.into_iter().map(|message| message.to_string());
+        warnings.filter(|text| !expected.iter().any(|expected| text.contains(expected))).collect()
+    }
+}
+
+/// A folder that is removed in the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("etendue-gltf-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+    fn write(&self, name: &str, bytes: &[u8]) -> PathBuf {
+        let path = self.0.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn text_and_binary_files_are_the_same() {
+    let asset = Asset::of_triangle();
+    let scene = asset.read();
+    assert_eq!(scene.triangles, [TRIANGLE]);
+    assert_eq!(scene.name, "a");
+    assert_eq!((scene.triangle_materials.len(), scene.materials.len(), scene.shapes.len()), (1, 1, 0));
+    assert_eq!((scene.film.width, scene.film.height, scene.pixel_samples), (1280, 720, 16));
+    assert!(scene.inputs.is_empty() && scene.details.of_triangles.is_empty());
+    let same = parse_gltf(&asset.binary(), "b.glb").unwrap();
+    assert_eq!((same.triangles, same.name.as_str()), (scene.triangles, "b"));
+    // a byte order mark, as some editors write it
+    let marked = [b"\xef\xbb\xbf", &*asset.text()].concat();
+    assert_eq!(parse_gltf(&marked, "a.gltf").unwrap().triangles, [TRIANGLE]);
+    let warnings: Vec<_> = scene.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        warnings,
+        [
+            "a.gltf: no perspective camera: one that sees all surfaces stands for it",
+            "a.gltf: nothing emits light: the image will be black"
+        ]
+    );
+}
+
+#[test]
+fn other_files_are_read_and_listed() {
+    let folder = Folder::new("files");
+    let mut asset = Asset::of_triangle();
+    folder.write("a buffer.bin", &asset.bytes);
+    asset.json["buffers"] = json!([{"byteLength": asset.bytes.len(), "uri": "a%20buffer.bin"}]);
+    let path = folder.write("Scene.GLTF", &asset.text());
+    let scene = load(&path).unwrap();
+    assert_eq!(scene.triangles, [TRIANGLE]);
+    assert_eq!(scene.name, "Scene");
+    assert_eq!(scene.inputs, [folder.0.join("a buffer.bin"), path]);
+    // the first bytes tell as well
+    let path = folder.write("scene", &Asset::of_triangle().binary());
+    assert_eq!(load(&path).unwrap().triangles, [TRIANGLE]);
+
+    asset.json["buffers"][0]["uri"] = json!("none.bin");
+    let path = folder.write("missing.gltf", &asset.text());
+    let error = load(&path).unwrap_err();
+    assert!(matches!(error, SceneError::At(_)));
+    let shown = error.to_string();
+    assert!(shown.contains("missing.gltf: buffer 0: cannot read ") && shown.contains("none.bin"), "{shown}");
+}
+
+#[test]
+fn lists_strips_and_fans_with_and_without_indices() {
+    let [a, b, c, d] = QUAD;
+    let triangles = |mode: u32, order: Option<&[u16]>| {
+        let mut asset = Asset::new();
+        let positions = asset.floats(&QUAD);
+        let mut primitive = json!({"attributes": {"POSITION": positions}, "mode": mode});
+        if let Some(order) = order {
+            primitive["indices"] = json!(asset.indices(order));
+        }
+        asset.shown(primitive);
+        asset.read().triangles
+    };
+    assert_eq!(triangles(4, Some(&[0, 1, 3, 0, 3, 2])), [[a, b, d], [a, d, c]]);
+    assert_eq!(triangles(4, None), [[a, b, c]]);
+    assert_eq!(triangles(5, None), [[a, b, c], [b, d, c]]);
+    assert_eq!(triangles(5, Some(&[0, 1, 2, 3])), [[a, b, c], [b, d, c]]);
+    assert_eq!(triangles(6, Some(&[0, 1, 3, 2])), [[b, d, a], [d, c, a]]);
+    assert!(triangles(1, None).is_empty() && triangles(0, None).is_empty());
+    assert!(triangles(5, Some(&[0, 1])).is_empty() && triangles(4, Some(&[])).is_empty());
+}
+
+#[test]
+fn indices_of_all_types() {
+    for (component, size) in [(5121, 1), (5123, 2), (5125, 4)] {
+        let mut asset = Asset::new();
+        let positions = asset.floats(&QUAD);
+        let bytes: Vec<u8> = [3_u32, 1, 0].iter().flat_map(|x| x.to_le_bytes()[..size].to_vec()).collect();
+        let indices = asset.accessor("SCALAR", component, 3, &bytes);
+        asset.shown(json!({"attributes": {"POSITION": positions}, "indices": indices}));
+        assert_eq!(asset.read().triangles, [[QUAD[3], QUAD[1], QUAD[0]]]);
+    }
+}
+
+#[test]
+fn vectors_of_all_types() {
+    // components, whether they are normalized, bytes, and what the greatest number stands for
+    let cases: [(u32, bool, &[u8], f32); 8] = [
+        (5120, false, &[127], 127.0),
+        (5120, true, &[127], 1.0),
+        (5121, false, &[255], 255.0),
+        (5121, true, &[255], 1.0),
+        (5122, false, &[0xff, 0x7f], 32_767.0),
+        (5122, true, &[0xff, 0x7f], 1.0),
+        (5123, false, &[0xff, 0xff], 65_535.0),
+        (5123, true, &[0xff, 0xff], 1.0),
+    ];
+    for (component, normalized, one, wanted) in cases {
+        let mut asset = Asset::new();
+        let zero = vec![0; one.len()];
+        // four bytes at least from one vector to the next
+        let vector = |axis: usize| (0..4).flat_map(|k| if k == axis { one } else { &zero[..] }).copied().collect();
+        let bytes: Vec<u8> = [3, 0, 1].iter().flat_map(|&axis| -> Vec<u8> { vector(axis) }).collect();
+        let positions = asset.accessor("VEC3", component, 3, &bytes);
+        asset.json["accessors"][positions]["normalized"] = json!(normalized);
+        asset.json["bufferViews"][0]["byteStride"] = json!(4 * one.len());
+        asset.json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+        asset.shown(json!({"attributes": {"POSITION": positions}}));
+        assert_eq!(asset.read().triangles, [TRIANGLE.map(|p| p.map(|x| x * wanted))], "{component} {normalized}");
+    }
+}
+
+#[test]
+fn interleaved_and_sparse_accessors() {
+    let mut asset = Asset::new();
+    let vertices = TRIANGLE.map(|[x, y, z]| [x, y, z, 0.0, 0.0, 2.0]);
+    let bytes: Vec<u8> = vertices.iter().flatten().flat_map(|x: &f32| x.to_le_bytes()).collect();
+    let positions = asset.accessor("VEC3", FLOAT, 3, &bytes);
+    asset.json["bufferViews"][0]["byteStride"] = json!(24);
+    let mut normals = asset.json["accessors"][0].clone();
+    normals["byteOffset"] = json!(12);
+    let normals = asset.add("accessors", normals);
+    asset.shown(json!({"attributes": {"POSITION": positions, "NORMAL": normals}}));
+    assert_eq!(asset.read().triangles, [TRIANGLE]);
+
+    let values = asset.view(&[3.0_f32, 4.0, 5.0].map(f32::to_le_bytes).concat());
+    let places = asset.view(&[1, 0]);
+    asset.json["accessors"][0]["sparse"] = json!({
+        "count": 1,
+        "indices": {"bufferView": places, "componentType": 5123},
+        "values": {"bufferView": values},
+    });
+    assert_eq!(asset.read().triangles, [[TRIANGLE[0], [3.0, 4.0, 5.0], TRIANGLE[2]]]);
+
+    // zeros with one exception
+    asset.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
+    assert!(asset.read().triangles.is_empty());
+    assert_eq!(asset.warnings(), ["a.gltf: 1 triangle(s) without area are left out"]);
+}
+
+#[test]
+fn normals_make_triangles_smooth() {
+    let smooth = |normals: [[f32; 3]; 3], node: Value| {
+        let mut asset = Asset::of_triangle();
+        let normals = asset.floats(&normals);
+        asset.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normals);
+        asset.json["nodes"][0] = node;
+        asset.read()
+    };
+    let plain = json!({"mesh": 0});
+    let normals = [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.0, 0.6, 0.8]];
+    let scene = smooth(normals, plain.clone());
+    assert_eq!(scene.details.of_triangles, [0]);
+    assert_eq!(scene.details.corners[0].normals, normals);
+    // the normals of a stretched surface are those of the surface
+    let scene = smooth(normals, json!({"mesh": 0, "scale": [2, 1, 1]}));
+    let [x, y, z] = scene.details.corners[0].normals[1];
+    assert!((x / z - 0.375).abs() < 1e-6 && y == 0.0, "{x} {y} {z}");
+    // normals of flat triangles say nothing, and those that are not finite do not count
+    for odd in [0.0, f32::NAN, f32::INFINITY] {
+        let scene = smooth([[0.0, 0.0, 1.0], [odd, 0.0, 0.0], [0.6, 0.0, 0.8]], plain.clone());
+        assert!(scene.details.of_triangles.iter().all(|&index| index == Details::NONE), "{odd}: {:?}", scene.details);
+    }
+}
+
+#[test]
+fn transforms_of_nodes_compose() {
+    let mut asset = Asset::of_triangle();
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    asset.json["nodes"] = json!([
+        {"translation": [10, 0, 0], "children": [1, 2]},
+        {"mesh": 0, "scale": [2, 3, 4], "rotation": [0, 0, half, half]},
+        {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 7, 1]},
+    ]);
+    let scene = asset.read();
+    // scaled, then turned by 90° from x to y, then moved
+    let wanted = [[[10.0, 0.0, 0.0], [10.0, 2.0, 0.0], [7.0, 0.0, 0.0]], TRIANGLE.map(|[x, y, _]| [x + 10.0, y, 7.0])];
+    for (found, wanted) in scene.triangles.iter().flatten().flatten().zip(wanted.iter().flatten().flatten()) {
+        assert!((found - wanted).abs() < 1e-5, "{:?}", scene.triangles);
+    }
+    assert_eq!(scene.triangles.len(), 2);
+}
+
+#[test]
+fn the_default_scene_or_the_first_or_all_nodes() {
+    let mut asset = Asset::of_triangle();
+    asset.json["nodes"] = json!([{"mesh": 0}, {"children": [2]}, {"mesh": 0, "translation": [0, 0, 1]}]);
+    let heights = |asset: &Asset| asset.read().triangles.iter().map(|triangle| triangle[0][2]).collect::<Vec<_>>();
+    assert_eq!(heights(&asset), [0.0, 1.0]);
+    asset.json["scenes"] = json!([{"nodes": [0]}, {"nodes": [1]}]);
+    assert_eq!(heights(&asset), [0.0]);
+    asset.json["scene"] = json!(1);
+    assert_eq!(heights(&asset), [1.0]);
+}
+
+#[test]
+fn mirrored_nodes_flip_what_emits() {
+    let normal = |node: Value| {
+        let mut asset = Asset::of_material(json!({"emissiveFactor": [1, 1, 1]}));
+        // normals do not tell which side is the front
+        let normals = asset.floats(&[[0.0, 0.0, -1.0]; 3]);
+        asset.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normals);
+        asset.json["nodes"][0] = node;
+        let scene = asset.read();
+        let Geometry::Triangle([a, b, c]) = scene.shapes[0].geometry else { panic!("{:?}", scene.shapes) };
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    assert_eq!(normal(json!({"mesh": 0})), 1.0);
+    // a mirrored surface has its front on the same side
+    assert_eq!(normal(json!({"mesh": 0, "scale": [-1, 1, 1]})), 1.0);
+    assert_eq!(normal(json!({"mesh": 0, "scale": [1, 1, -1]})), -1.0);
+    assert_eq!(normal(json!({"mesh": 0, "scale": [-1, -1, 1]})), 1.0);
+    // a node of no height still has its surface
+    assert_eq!(normal(json!({"mesh": 0, "scale": [1, 1, 0]})), 1.0);
+}
+
+#[test]
+fn what_is_ignored_is_reported_once() {
+    let mut asset = Asset::of_triangle();
+    for mode in [0, 1, 2, 3] {
+        asset.shown(json!({"attributes": {"POSITION": 0}, "mode": mode}));
+    }
+    for _ in 0..2 {
+        asset.shown(json!({"attributes": {"POSITION": 0, "COLOR_0": 0}, "targets": [{"POSITION": 0}], "mode": 4}));
+        let node = asset.shown(json!({"attributes": {"_OTHER": 0}}));
+        asset.json["nodes"][node]["skin"] = json!(0);
+    }
+    asset.json["animations"] = json!([{"channels": [], "samplers": []}, {"channels": [], "samplers": []}]);
+    asset.json["extensionsUsed"] = json!(["KHR_xmp_json_ld", "KHR_lights_punctual"]);
+    assert_eq!(
+        asset.warnings(),
+        [
+            "a.gltf: animations are ignored (reported once)",
+            "a.gltf: mesh 1, primitive 0: Points are ignored: only triangles are supported (reported once)",
+            "a.gltf: mesh 5, primitive 0: its morph targets are ignored (reported once)",
+            "a.gltf: mesh 5, primitive 0: its COLOR_0 is ignored (reported once)",
+            "a.gltf: node 6: its skin is ignored (reported once)",
+            "a.gltf: mesh 6, primitive 0: it has no POSITION and is ignored (reported once)",
+            "a.gltf: the extension \"KHR_xmp_json_ld\" is ignored (reported once)",
+        ]
+    );
+    let mut asset = Asset::new();
+    let positions = asset.floats(&QUAD);
+    asset.shown(json!({"attributes": {"POSITION": positions}}));
+    let text = "a.gltf: mesh 0, primitive 0: 4 corners make no whole number of triangles: the last are ignored";
+    assert_eq!(asset.warnings(), [format!("{text} (reported once)")]);
+}
+
+#[test]
+fn extras_may_be_anything() {
+    let mut asset = Asset::of_triangle();
+    for (k, extras) in [json!(1), json!("a"), json!([null]), json!({"a": {"b": []}})].into_iter().enumerate() {
+        let list = ["asset", "nodes", "meshes", "accessors"][k];
+        let item = if k == 0 { &mut asset.json[list] } else { &mut asset.json[list][0] };
+        item["extras"] = extras;
+        item["name"] = json!("a name");
+    }
+    assert_eq!(asset.read().triangles, [TRIANGLE]);
+}
+
+#[test]
+#[ignore = "a measurement: run it alone, with --release --nocapture"]
+fn triangles_per_second() {
+    let side = 2000_u32;
+    for has_normals in [false, true] {
+        let mut asset = Asset::new();
+        let height = |i: u32, j: u32| ((i * 7 + j * 13) % 11) as f32 * 0.01;
+        let all = || (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
+        let points: Vec<_> = all().map(|(i, j)| [i as f32, j as f32, height(i, j)]).collect();
+        let positions = asset.floats(&points);
+        let corners = all().filter(|&(i, j)| i + 1 < side && j + 1 < side).flat_map(|(i, j)| {
+            let at = i * side + j;
+            [at, at + side, at + side + 1, at, at + side + 1, at + 1]
+        });
+        let bytes: Vec<u8> = corners.flat_map(u32::to_le_bytes).collect();
+        let count = bytes.len() / 4;
+        let indices = asset.accessor("SCALAR", 5125, count, &bytes);
+        let mut primitive = json!({"attributes": {"POSITION": positions}, "indices": indices});
+        if has_normals {
+            let normals: Vec<_> = all().map(|(i, j)| [height(j, i), height(i, j), 1.0]).collect();
+            primitive["attributes"]["NORMAL"] = json!(asset.floats(&normals));
+        }
+        asset.shown(primitive);
+        let bytes = asset.binary();
+        for _ in 0..3 {
+            let start = Instant::now();
+            let scene = parse_gltf(&bytes, "a.glb").unwrap();
+            let seconds = start.elapsed().as_secs_f64();
+            let rate = scene.triangles.len() as f64 / seconds / 1e6;
+            println!("normals {has_normals}: {rate:.1} million triangles per second, {} in all", scene.triangles.len());
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! Tests of materials, textures and what emits.
+
+use super::super::super::{Emission, Material, Varying};
+use super::*;
+use crate::image::encode_png;
+use crate::texture::{Texture, Wrap};
+
+/// A picture of 2 × 2 pixels as a data URI: red, green, blue, and grey of 51 (a fifth).
+fn picture() -> String {
+    let pixels = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [51; 3]];
+    let png = encode_png([2, 2], &pixels).unwrap();
+    format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png))
+}
+
+/// A file whose material may use texture 0.
+fn textured(material: Value) -> Asset {
+    let mut asset = Asset::of_material(material);
+    asset.add("images", json!({"uri": picture()}));
+    asset.add("samplers", json!({"magFilter": 9728, "wrapS": 33071, "wrapT": 33648}));
+    asset.add("textures", json!({"source": 0, "sampler": 0}));
+    asset
+}
+
+fn material(asset: &Asset) -> Material {
+    let scene = asset.read();
+    scene.materials[scene.triangle_materials[0] as usize]
+}
+
+fn varying(asset: &Asset) -> Varying {
+    let scene = asset.read();
+    assert_eq!(scene.materials[scene.triangle_materials[0] as usize], Material::Varying(0));
+    scene.varying[0].clone()
+}
+
+fn near(found: [f32; 3], wanted: [f32; 3]) {
+    assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?}, not {wanted:?}");
+}
+
+#[test]
+fn constant_materials() {
+    // white, metallic and rough
+    let Material::Glossy { diffuse, specular, alpha } = material(&Asset::of_triangle()) else { panic!() };
+    assert_eq!((diffuse, specular, alpha), ([0.0; 3], [1.0; 3], 1.0));
+    let surface = json!({"baseColorFactor": [0.2, 0.4, 0.8, 1], "metallicFactor": 0, "roughnessFactor": 0.5});
+    let asset = Asset::of_material(json!({"pbrMetallicRoughness": surface}));
+    let Material::Glossy { diffuse, specular, alpha } = material(&asset) else { panic!() };
+    near(diffuse, [0.2, 0.4, 0.8]);
+    near(specular, [0.04; 3]);
+    assert_eq!(alpha, 0.25);
+    assert_eq!(asset.warnings(), [""; 0]);
+
+    let asset = Asset::of_material(json!({"pbrMetallicRoughness": {"baseColorFactor": [1.5, -1, 0, 1]}}));
+    assert_eq!(asset.warnings(), ["a.gltf: material 0: baseColorFactor [1.5, -1.0, 0.0, 1.0] is clamped to 0 to 1"]);
+    let Material::Glossy { specular, .. } = material(&asset) else { panic!() };
+    assert_eq!(specular, [1.0, 0.0, 0.0]);
+}
+
+#[test]
+fn base_colours_are_srgb_and_products() {
+    let asset = textured(json!({"pbrMetallicRoughness": {
+        "baseColorFactor": [0.5, 1, 0.25, 1], "baseColorTexture": {"index": 0}, "metallicFactor": 0,
+    }}));
+    let Varying::Metallic { base, metallic, roughness } = varying(&asset) else { panic!() };
+    assert_eq!(base.at([0.25, 0.25]), [0.5, 0.0, 0.0]);
+    assert_eq!(base.at([0.75, 0.25]), [0.0, 1.0, 0.0]);
+    assert_eq!(base.at([0.25, 0.75]), [0.0, 0.0, 0.25]);
+    let grey = 0.033_104_767;
+    near(base.at([0.75, 0.75]), [0.5 * grey, grey, 0.25 * grey]);
+    assert_eq!((metallic, roughness), (Texture::number(0.0), Texture::number(1.0)));
+    let Texture::Product(of) = base else { panic!("{base:?}") };
+    let Texture::Picture(picture) = &of[1] else { panic!("{of:?}") };
+    assert_eq!((picture.wrap, picture.bilinear), ([Wrap::Clamp, Wrap::Mirror], false));
+    assert_eq!(asset.read().details.corners[0].uvs, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+}
+
+#[test]
+fn roughness_is_green_and_metal_is_blue() {
+    let asset = textured(json!({"pbrMetallicRoughness": {
+        "metallicRoughnessTexture": {"index": 0}, "metallicFactor": 0.5, "roughnessFactor": 0.5,
+    }}));
+    let Varying::Metallic { base, metallic, roughness } = varying(&asset) else { panic!() };
+    assert_eq!(base, Texture::number(1.0));
+    let at = |u: f32, v: f32| [metallic.at([u, v])[0], roughness.at([u, v])[0]];
+    assert_eq!([at(0.25, 0.25), at(0.75, 0.25), at(0.25, 0.75)], [[0.0, 0.0], [0.0, 0.5], [0.5, 0.0]]);
+    // linear, not sRGB
+    assert!((at(0.75, 0.75)[0] - 0.1).abs() < 1e-6);
+}
+
+#[test]
+fn sets_of_texture_coordinates_and_transforms() {
+    let mut asset = textured(json!({"pbrMetallicRoughness": {"baseColorTexture": {
+        "index": 0, "texCoord": 5, "extensions": {"KHR_texture_transform": {
+            "texCoord": 1, "offset": [0.0, 1.0], "rotation": std::f32::consts::FRAC_PI_2, "scale": [0.5, 0.25],
+        }},
+    }}}));
+    let uvs = [[0.5, 0.5], [1.0, 0.25], [0.0, 0.75]];
+    let set = asset.floats(&uvs);
+    asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(set);
+    let scene = asset.read();
+    assert_eq!(scene.details.corners[0].uvs, uvs);
+    let Varying::Metallic { base: Texture::Picture(picture), .. } = varying(&asset) else { panic!() };
+    // a turn that is counter-clockwise to the eye takes +u to −v, and v to u
+    let rows = picture.mapping.0;
+    let wanted = [[0.0, 0.25, 0.0], [-0.5, 0.0, 1.0]];
+    assert!(rows.iter().flatten().zip(wanted.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-6), "{rows:?}");
+    assert_eq!(asset.warnings(), [""; 0]);
+
+    // the base colour's set is that of all textures
+    let surface = json!({"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0, "texCoord": 1}});
+    let asset = textured(json!({"pbrMetallicRoughness": surface}));
+    let text = "its textures use several sets of texture coordinates: all use 0 (reported once)";
+    assert_eq!(asset.warnings(), [format!("a.gltf: material 0: {text}")]);
+    // a set that is missing, and coordinates that are not finite
+    let mut asset = textured(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}}}));
+    let text = "its material uses TEXCOORD_1, which it does not have: 0 stands for it (reported once)";
+    assert_eq!(asset.warnings(), [format!("a.gltf: mesh 0, primitive 0: {text}")]);
+    let set = asset.floats(&[[f32::NAN, 1.0], [1.0, f32::INFINITY], [0.5, 0.5]]);
+    asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(set);
+    assert_eq!(asset.read().details.corners[0].uvs, [[0.0; 2], [0.0; 2], [0.5; 2]]);
+}
+
+#[test]
+fn images_in_buffers_and_files() {
+    let pixels = [[255, 0, 0], [0, 255, 0]];
+    let png = encode_png([1, 2], &pixels).unwrap();
+    let surface = json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}});
+    let mut asset = Asset::of_material(surface);
+    let view = asset.view(&png);
+    asset.add("images", json!({"bufferView": view, "mimeType": "image/png"}));
+    asset.add("textures", json!({"source": 0}));
+    let colors = |varying: Varying| {
+        let Varying::Metallic { base, .. } = varying else { panic!() };
+        // the default sampler is bilinear and repeats
+        let Texture::Picture(picture) = &base else { panic!() };
+        assert!(picture.bilinear && picture.wrap == [Wrap::Repeat; 2]);
+        [base.at([0.5, 0.25]), base.at([0.5, 0.75])]
+    };
+    assert_eq!(colors(varying(&asset)), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(parse_gltf(&asset.binary(), "a.glb").unwrap().varying.len(), 1);
+
+    let folder = Folder::new("images");
+    let image = folder.write("ä.png", &png);
+    asset.json["images"][0] = json!({"uri": "%C3%A4.png"});
+    let path = folder.write("a.gltf", &asset.text());
+    let scene = load(&path).unwrap();
+    assert_eq!(colors(scene.varying[0].clone()), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(scene.inputs, [image, path]);
+}
+
+#[test]
+fn what_materials_ignore_is_reported_once() {
+    let ignored = json!({
+        "alphaMode": "MASK",
+        "normalTexture": {"index": 0, "scale": 0.5},
+        "occlusionTexture": {"index": 0},
+        "extensions": {
+            "KHR_materials_transmission": {"transmissionFactor": 1},
+            "KHR_materials_clearcoat": {},
+            "ABC_new": {},
+        },
+    });
+    let mut asset = textured(ignored.clone());
+    asset.add("materials", ignored);
+    asset.add("materials", json!({"alphaMode": "BLEND"}));
+    for material in 1..3 {
+        asset.shown(json!({"attributes": {"POSITION": 0}, "material": material}));
+    }
+    asset.json["extensionsUsed"] = json!(["ABC_new", "KHR_materials_clearcoat", "KHR_materials_transmission"]);
+    let wanted = [
+        "alphaMode MASK: the surface is opaque",
+        "its normalTexture is ignored",
+        "its occlusionTexture is ignored",
+        "ABC_new is not supported and ignored",
+        "KHR_materials_clearcoat is ignored",
+        "KHR_materials_transmission is ignored: the surface is opaque",
+    ];
+    let mut wanted = wanted.map(|text| format!("a.gltf: material 0: {text} (reported once)")).to_vec();
+    wanted.push("a.gltf: material 2: alphaMode BLEND: the surface is opaque (reported once)".into());
+    assert_eq!(asset.warnings(), wanted);
+}
+
+#[test]
+fn emitters_have_sides_and_strengths() {
+    let emission = |material: Value| {
+        let scene = Asset::of_material(material).read();
+        assert_eq!(scene.triangles.len() + scene.shapes.len(), 1);
+        scene.shapes.first().map(|shape| shape.emission.unwrap())
+    };
+    let one = emission(json!({"emissiveFactor": [1, 0.5, 0]})).unwrap();
+    assert_eq!(one, Emission { radiance: [1.0, 0.5, 0.0], two_sided: false });
+    let both = emission(json!({
+        "emissiveFactor": [1, 0.5, 0], "doubleSided": true,
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 20}},
+    }));
+    assert_eq!(both, Some(Emission { radiance: [20.0, 10.0, 0.0], two_sided: true }));
+    assert_eq!(emission(json!({"emissiveFactor": [0, 0, 0]})), None);
+    let scene = Asset::of_material(json!({"emissiveFactor": [1, 1, 1]})).read();
+    assert!(!scene.warnings.iter().any(|message| message.text.contains("black")), "{:?}", scene.warnings);
+}
+
+#[test]
+fn emissive_textures_are_averaged_over_triangles() {
+    let mut asset = Asset::new();
+    let positions = asset.floats(&QUAD);
+    // the left half of the image is black, the right one white
+    let uvs = asset.floats(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
+    let indices = asset.indices(&[0, 1, 3, 0, 3, 2]);
+    let primitive = json!({
+        "attributes": {"POSITION": positions, "TEXCOORD_0": uvs}, "indices": indices, "material": 0,
+    });
+    asset.shown(primitive.clone());
+    asset.add("materials", json!({"emissiveFactor": [1, 0.5, 0], "emissiveTexture": {"index": 0}}));
+    let png = encode_png([2, 1], &[[0; 3], [255; 3]]).unwrap();
+    let view = asset.view(&png);
+    asset.add("images", json!({"bufferView": view}));
+    asset.add("samplers", json!({"magFilter": 9728, "wrapS": 33071}));
+    asset.add("textures", json!({"source": 0, "sampler": 0}));
+    let scene = asset.read();
+    let radiance = |k: usize| scene.shapes[k].emission.unwrap().radiance;
+    // three quarters of the lower triangle are in the right half
+    assert_eq!(scene.shapes.len(), 2);
+    assert!((radiance(0)[0] - 0.75).abs() < 0.05 && radiance(0)[1] == 0.5 * radiance(0)[0], "{:?}", radiance(0));
+    assert!((radiance(1)[0] - 0.25).abs() < 0.05 && radiance(1)[2] == 0.0, "{:?}", radiance(1));
+    let text = "each triangle emits the mean of the emissiveTexture over itself (reported once)";
+    assert_eq!(asset.warnings(), [format!("a.gltf: material 0: {text}")]);
+
+    // a triangle of black texels emits nothing
+    let dark = asset.floats(&[[0.0, 0.0], [0.1, 0.0], [0.0, 1.0], [0.2, 1.0]]);
+    asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(dark);
+    let scene = asset.read();
+    assert_eq!((scene.shapes.len(), scene.triangles.len()), (0, 2));
+}
+
+#[test]
+fn unlit_surfaces_are_diffuse() {
+    let asset = Asset::of_material(json!({
+        "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1]}, "extensions": {"KHR_materials_unlit": {}},
+    }));
+    assert_eq!(material(&asset), Material::Diffuse([0.5, 0.25, 1.0]));
+    let text = "KHR_materials_unlit: a diffuse surface of its base colour stands for it (reported once)";
+    assert_eq!(asset.warnings(), [format!("a.gltf: material 0: {text}")]);
+}
+
+#[test]
+fn indices_of_refraction_and_speculars() {
+    let of = |extensions: Value, metallic: f32| {
+        let surface =
+            json!({"metallicFactor": metallic, "roughnessFactor": 0.5, "baseColorFactor": [0.5, 0.5, 0.5, 1]});
+        material(&Asset::of_material(json!({"pbrMetallicRoughness": surface, "extensions": extensions})))
+    };
+    let Material::Glossy { diffuse, specular, alpha } = of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.0) else {
+        panic!()
+    };
+    near(specular, [1.0 / 9.0; 3]);
+    assert_eq!((diffuse, alpha), ([0.5; 3], 0.25));
+    let Material::Glossy { diffuse, specular, .. } = of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.5) else {
+        panic!()
+    };
+    near(diffuse, [0.25; 3]);
+    near(specular, [0.5 / 9.0 + 0.25; 3]);
+    let none = json!({"KHR_materials_specular": {"specularFactor": 0}});
+    assert_eq!(of(none, 0.0), Material::Diffuse([0.5; 3]));
+    let tinted = json!({"KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0, 50]}});
+    let Material::Glossy { specular, .. } = of(tinted, 0.0) else { panic!() };
+    near(specular, [0.02, 0.0, 0.5]);
+    let asset = Asset::of_material(json!({"extensions": {"KHR_materials_ior": {"ior": 0.5}}}));
+    assert_eq!(asset.error(), "a.glb: material 0: ior: must be 0, or finite and at least 1, not 0.5");
+}
+
+#[test]
+fn specular_and_glossiness() {
+    let asset = textured(json!({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseFactor": [0.5, 0.5, 0.5, 1], "diffuseTexture": {"index": 0},
+        "specularFactor": [0.25, 0.5, 1], "glossinessFactor": 0.5,
+    }}}));
+    let Varying::Glossy { diffuse, specular, alpha } = varying(&asset) else { panic!() };
+    assert_eq!(diffuse.at([0.25, 0.25]), [0.5, 0.0, 0.0]);
+    assert_eq!((specular, alpha), (Texture::Constant([0.25, 0.5, 1.0]), Texture::number(0.25)));
+}
+
+#[test]
+fn textures_of_unsupported_extensions() {
+    let mut asset = textured(json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}));
+    asset.json["textures"][0]["extensions"] = json!({"KHR_texture_basisu": {"source": 7}});
+    assert_eq!(asset.read().varying.len(), 1);
+    asset.json["textures"][0].as_object_mut().unwrap().remove("source");
+    let text = "texture 0: has no image: its only image is that of KHR_texture_basisu, which is not supported";
+    assert_eq!(asset.error(), format!("a.glb: {text}"));
+}

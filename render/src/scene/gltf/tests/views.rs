@@ -1,0 +1,155 @@
+//! Tests of cameras and lights.
+
+use super::super::super::{CameraSettings, DeltaLight};
+use super::*;
+
+/// The position of a point in an image, from the top left, by the formula of [`CameraSettings`].
+fn project(camera: &CameraSettings, size: [u32; 2], point: [f64; 3]) -> [f64; 2] {
+    let offset = [0, 1, 2].map(|k| point[k] - camera.origin[k]);
+    let along = |axis: [f64; 3]| axis.iter().zip(offset).map(|(a, b)| a * b).sum::<f64>();
+    let depth = along(camera.forward);
+    assert!(depth > 0.0, "{point:?} is behind {camera:?}");
+    let [x, y] = camera.tan_half(size[0], size[1]);
+    [(along(camera.right) / depth / x + 1.0) / 2.0, (1.0 - along(camera.up) / depth / y) / 2.0]
+}
+
+fn with_camera(perspective: Value, node: Value) -> Asset {
+    let mut asset = Asset::of_triangle();
+    let camera = asset.add("cameras", json!({"type": "perspective", "perspective": perspective}));
+    let node = asset.add("nodes", node);
+    asset.json["nodes"][node]["camera"] = json!(camera);
+    asset
+}
+
+/// The camera of a scene, and the size of its image.
+fn camera(asset: &Asset) -> (CameraSettings, [u32; 2]) {
+    let scene = asset.read();
+    (scene.camera, [scene.film.width, scene.film.height])
+}
+
+fn near(found: [f64; 2], wanted: [f64; 2]) {
+    assert!((found[0] - wanted[0]).abs() < 1e-4 && (found[1] - wanted[1]).abs() < 1e-4, "{found:?}, not {wanted:?}");
+}
+
+#[test]
+fn cameras_look_along_minus_z_and_do_not_mirror() {
+    let right = std::f64::consts::FRAC_PI_2;
+    let asset = with_camera(json!({"yfov": right, "znear": 0.1, "aspectRatio": 2}), json!({"translation": [0, 0, 5]}));
+    let (settings, size) = camera(&asset);
+    assert_eq!(size, [1280, 640]);
+    assert!((settings.fov - 90.0).abs() < 1e-4);
+    near(project(&settings, size, [0.0; 3]), [0.5, 0.5]);
+    // to the right, and up
+    near(project(&settings, size, [5.0, 2.5, 0.0]), [0.75, 0.25]);
+    assert_eq!(asset.warnings(), [""; 0]);
+
+    // a camera that is turned to look along −x has −z to its right; scales of nodes do not matter
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let node = json!({"translation": [5, 0, 0], "rotation": [0, half, 0, half], "scale": [3, 2, 7]});
+    let (settings, size) = camera(&with_camera(json!({"yfov": right, "znear": 0.1}), node));
+    assert_eq!(size, [1280, 720]);
+    near(project(&settings, size, [0.0, 5.0, 0.0]), [0.5, 0.0]);
+    let [x, _] = project(&settings, size, [0.0, 0.0, -5.0]);
+    assert!((x - (0.5 + 0.5 * 720.0 / 1280.0)).abs() < 1e-4, "{x}");
+}
+
+#[test]
+fn the_vertical_angle_of_upright_images_is_kept() {
+    let asset = with_camera(json!({"yfov": 1, "znear": 0.1, "aspectRatio": 0.5}), json!({}));
+    let (settings, size) = camera(&asset);
+    assert_eq!(size, [1280, 2560]);
+    let [_, vertical] = settings.tan_half(size[0], size[1]);
+    assert!((vertical - 0.5_f64.tan()).abs() < 1e-9);
+    // sizes stay possible
+    for (aspect, height) in [(1e-9, 65_536), (1e9, 1)] {
+        let (settings, size) = camera(&with_camera(json!({"yfov": 1, "znear": 1, "aspectRatio": aspect}), json!({})));
+        assert_eq!(size, [1280, height]);
+        assert!((settings.tan_half(size[0], size[1])[1] - 0.5_f64.tan()).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_first_perspective_camera_counts() {
+    let mut asset = with_camera(json!({"yfov": 0.5, "znear": 1}), json!({}));
+    asset.add("cameras", json!({"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}));
+    asset
+        .add("cameras", json!({"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "zfar": 1, "znear": 0}}));
+    asset.json["nodes"] = json!([{"camera": 2}, {"camera": 1}, {"camera": 0}, {"camera": 2}]);
+    assert!((camera(&asset).0.fov.to_radians() - 1.0).abs() < 1e-9);
+    assert_eq!(asset.warnings(), ["a.gltf: node 0: its orthographic camera is ignored (reported once)"]);
+}
+
+#[test]
+fn scenes_without_a_camera_are_framed() {
+    let mut asset = Asset::of_triangle();
+    asset.json["nodes"][0]["translation"] = json!([100, -3, 7]);
+    asset.json["nodes"][0]["scale"] = json!([10, 20, 30]);
+    let (settings, size) = camera(&asset);
+    assert_eq!((size, settings.fov), ([1280, 720], 40.0));
+    let places = [[100.0, -3.0, 7.0], [110.0, -3.0, 7.0], [100.0, 17.0, 7.0]].map(|p| project(&settings, size, p));
+    assert!(places.iter().flatten().all(|x| (0.0..=1.0).contains(x)), "{places:?}");
+    // neither mirrored nor upside down
+    assert!(places[1][0] > places[0][0] && places[2][1] < places[0][1], "{places:?}");
+    near(project(&settings, size, [105.0, 7.0, 7.0]), [0.5, 0.5]);
+    // lights count, and a scene of nothing has some camera
+    let lit = Asset::of_material(json!({"emissiveFactor": [1, 1, 1]})).read();
+    assert!(lit.camera.origin.iter().all(|x| x.abs() < 10.0));
+    let empty = Asset::new().read();
+    assert!(empty.triangles.is_empty() && empty.camera.origin.iter().all(|x| x.is_finite()));
+}
+
+fn light(light: Value, node: Value) -> Asset {
+    let mut asset = Asset::of_triangle();
+    asset.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [light]}});
+    asset.json["extensionsRequired"] = json!(["KHR_lights_punctual"]);
+    let node = asset.add("nodes", node);
+    asset.json["nodes"][node]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
+    asset
+}
+
+#[test]
+fn punctual_lights() {
+    let node = json!({"translation": [1, 2, 3], "scale": [2, 2, 2]});
+    let of = |described: Value| light(described, node.clone()).read().delta_lights;
+    let point = of(json!({"type": "point", "color": [1, 0.5, 0], "intensity": 10, "range": 3}));
+    assert_eq!(point, [DeltaLight::Point { position: [1.0, 2.0, 3.0], intensity: [10.0, 5.0, 0.0] }]);
+    let distant = of(json!({"type": "directional"}));
+    let DeltaLight::Distant { direction, irradiance } = distant[0] else { panic!("{distant:?}") };
+    assert_eq!((direction, irradiance), ([0.0, 0.0, 1.0], [1.0; 3]));
+    let spot = of(json!({"type": "spot", "spot": {"innerConeAngle": 0.5, "outerConeAngle": 1}}));
+    let DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity } = spot[0] else { panic!("{spot:?}") };
+    assert_eq!((position, axis, intensity), ([1.0, 2.0, 3.0], [0.0, 0.0, -1.0], [1.0; 3]));
+    assert!((cos_inner - 0.5_f32.cos()).abs() < 1e-6 && (cos_outer - 1_f32.cos()).abs() < 1e-6);
+    let DeltaLight::Spot { cos_inner, cos_outer, .. } = of(json!({"type": "spot", "spot": {}}))[0] else { panic!() };
+    assert!(cos_inner == 1.0 && (cos_outer - std::f32::consts::FRAC_1_SQRT_2).abs() < 1e-6);
+    // only the direction of a node counts
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let asset = light(json!({"type": "directional"}), json!({"rotation": [-half, 0, 0, half], "scale": [5, 5, 5]}));
+    let DeltaLight::Distant { direction, .. } = asset.read().delta_lights[0] else { panic!() };
+    assert!((direction[1] - 1.0).abs() < 1e-6, "{direction:?}");
+    assert!(asset.read().warnings.iter().all(|message| !message.text.contains("black")));
+}
+
+#[test]
+fn lights_that_are_dark_or_wrong() {
+    let of = |described: Value| light(described, json!({"scale": [0, 0, 0]}));
+    let dark = of(json!({"type": "point", "intensity": 0}));
+    assert!(dark.read().delta_lights.is_empty());
+    assert_eq!(dark.warnings(), ["a.gltf: node 1: its light emits nothing (reported once)"]);
+    let cases = [
+        (json!({"type": "area"}), "light 0: its type is not \"point\", \"spot\" or \"directional\""),
+        (json!({"type": "spot"}), "light 0: a spot light without \"spot\""),
+        (json!({"type": "directional"}), "node 1: its transform leaves its light no direction"),
+        (
+            json!({"type": "point", "intensity": -1}),
+            "light 0: color [1.0, 1.0, 1.0] times intensity -1 must be finite and at least 0",
+        ),
+        (
+            json!({"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.5}}),
+            "light 0: innerConeAngle 1 and outerConeAngle 0.5: must be from 0 to π/2, and the inner one the lesser",
+        ),
+    ];
+    for (described, wanted) in cases {
+        assert_eq!(of(described).error(), format!("a.glb: {wanted}"));
+    }
+}
