@@ -2,7 +2,7 @@
 
 use super::description::{Corners, Details, Emission, Shape};
 use super::materials::{Material, Varying};
-use super::message::{Message, Notes};
+use super::message::Notes;
 use super::params::MOST_RADIANCE;
 use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
@@ -90,11 +90,6 @@ impl Builder {
     /// Whether a material varies over its surface.
     pub(super) fn varies(&self, material: u32) -> bool {
         matches!(self.materials[material as usize], Material::Varying(_))
-    }
-
-    /// Adds a warning, but only the first one of its kind.
-    pub(super) fn warn_once(&mut self, kind: &str, message: impl FnOnce() -> Message) {
-        self.notes.warn_once(kind, message);
     }
 
     /// Begins an object: what is added from now on is not part of the scene. Returns what was added before.

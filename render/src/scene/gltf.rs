@@ -55,12 +55,12 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     let mut delta_lights = Vec::new();
     let mut camera = None;
     if !root.animations.is_empty() {
-        out.warn_once("animations", || source.message("animations are ignored"));
+        out.notes.stand_in("animations", || source.message("animations are ignored"));
     }
     for nodes::Placed { index, transform } in nodes::walk(&source)? {
         let node = &root.nodes[index];
         if node.skin.is_some() {
-            out.warn_once("skins", || source.message(format!("node {index}: its skin is ignored")));
+            out.notes.stand_in("skins", || source.message(format!("node {index}: its skin is ignored")));
         }
         if let Some(mesh) = node.mesh {
             meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
@@ -70,7 +70,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
         {
             camera = cameras::read(&source, described, index, &transform)?;
             if camera.is_none() {
-                out.warn_once("orthographic", || {
+                out.notes.stand_in("orthographic", || {
                     source.message(format!("node {index}: its orthographic camera is ignored"))
                 });
             }
@@ -78,28 +78,30 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
         if let Some(light) = node.extensions.as_ref().and_then(|all| all.khr_lights_punctual.as_ref()) {
             match lights::read(&source, light.light, index, &transform)? {
                 Some(light) => delta_lights.push(light),
-                None => out.warn_once("dark", || source.message(format!("node {index}: its light emits nothing"))),
+                None => {
+                    out.notes.warn_once("dark", || source.message(format!("node {index}: its light emits nothing")))
+                }
             }
         }
     }
     for name in root.extensions_used.iter().filter(|name| !SUPPORTED.contains(&&***name)) {
-        out.warn_once(&format!("extension {name}"), || {
+        out.notes.stand_in(&format!("extension {name}"), || {
             source.message(format!("the extension {:?} is ignored", shortened(name)))
         });
     }
     let left_out = out.left_out();
     if left_out > 0 {
-        out.warnings.push(source.message(format!("{left_out} triangle(s) without area are left out")));
+        out.notes.warn(source.message(format!("{left_out} triangle(s) without area are left out")));
     }
     out.finish();
     let (camera, film) = camera.unwrap_or_else(|| {
         let framing = cameras::framing(&out);
-        out.warnings.push(source.message("no perspective camera: one that sees all surfaces stands for it"));
+        out.notes.warn(source.message("no perspective camera: one that sees all surfaces stands for it"));
         framing
     });
     let emits = out.shapes.iter().any(|shape| shape.emission.is_some());
     if !emits && delta_lights.is_empty() {
-        out.warnings.push(source.message("nothing emits light: the image will be black"));
+        out.notes.warn(source.message("nothing emits light: the image will be black"));
     }
     let name = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     Ok(Scene {
@@ -115,7 +117,8 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
         shapes: out.shapes.into(),
         delta_lights,
         environment: None,
-        warnings: out.warnings,
+        warnings: out.notes.warnings,
+        stand_ins: out.notes.stand_ins,
         inputs: source.into_inputs(),
     })
 }

@@ -150,7 +150,7 @@ fn indexed<const N: usize>(
         }
     }
     if params.given("S") {
-        out.warn_once("S", || params.error("\"S\": ignored: no material is anisotropic"));
+        out.notes.warn_once("S", || params.error("\"S\": ignored: no material is anisotropic"));
     }
     let vertices = vertices(surface, &points, &normals, &uvs);
     let Some(indices) = params.numbers("indices", "integer", N)? else {

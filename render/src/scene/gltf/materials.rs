@@ -150,16 +150,16 @@ impl Reader<'_, '_> {
         self.source.message(format!("{}: {what}", self.item))
     }
 
-    fn warn_once(&mut self, kind: &str, what: &str) {
+    fn stand_in(&mut self, kind: &str, what: &str) {
         let message = self.error(what);
-        self.out.warn_once(kind, || message);
+        self.out.notes.stand_in(kind, || message);
     }
 
     /// Numbers from 0 to 1; others are clamped.
     fn shares<const N: usize>(&mut self, name: &str, values: [f32; N]) -> [f32; N] {
         if !values.iter().all(|x| (0.0..=1.0).contains(x)) {
             let message = self.error(&format!("{name} {values:?} is clamped to 0 to 1"));
-            self.out.warnings.push(message);
+            self.out.notes.warn(message);
         }
         values.map(|x| x.clamp(0.0, 1.0))
     }
@@ -168,7 +168,7 @@ impl Reader<'_, '_> {
         self.warn_of_ignored(material);
         let extensions = material.extensions.as_ref();
         if extensions.is_some_and(|all| all.unlit.is_some()) {
-            self.warn_once("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
+            self.stand_in("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
         }
         let varying = match extensions.and_then(|all| all.pbr_specular_glossiness.as_ref()) {
             Some(glossiness) => {
@@ -178,10 +178,7 @@ impl Reader<'_, '_> {
                 let diffuse = self.textured([r, g, b], glossiness.diffuse_texture.as_ref(), Encoding::Srgb)?;
                 let map = glossiness.specular_glossiness_texture.as_ref();
                 if map.is_some() {
-                    self.warn_once(
-                        "glossiness",
-                        "the opacity of its specularGlossinessTexture, glossiness, is ignored",
-                    );
+                    self.stand_in("glossiness", "the opacity of its specularGlossinessTexture, glossiness, is ignored");
                 }
                 let specular = self.textured(specular, map, Encoding::Srgb)?;
                 let alpha = Texture::number((1.0 - smooth) * (1.0 - smooth));
@@ -227,7 +224,7 @@ impl Reader<'_, '_> {
             let [factor] = self.shares("specularFactor", [specular.specular_factor.0]);
             let color = specular.specular_color_factor.0.map(|x| x.max(0.0).min(f32::MAX));
             if specular.specular_texture.is_some() || specular.specular_color_texture.is_some() {
-                self.warn_once("specular texture", "the textures of its KHR_materials_specular are ignored");
+                self.stand_in("specular texture", "the textures of its KHR_materials_specular are ignored");
             }
             if factor == 0.0 && metallic.constant() == Some([0.0; 3]) {
                 return Ok(Varying::Diffuse(base));
@@ -257,12 +254,12 @@ impl Reader<'_, '_> {
         }
         if let Some(text) = brightness(radiance) {
             let message = self.error(&format!("the radiance {text}"));
-            self.out.warnings.push(message);
+            self.out.notes.warn(message);
         }
         let texture = match &material.emissive_texture {
             None => None,
             Some(info) => {
-                self.warn_once("emissive texture", "each triangle emits the mean of the emissiveTexture over itself");
+                self.stand_in("emissive texture", "each triangle emits the mean of the emissiveTexture over itself");
                 let (texture, set) = self.picture(info, Encoding::Srgb)?;
                 Some((texture, set))
             }
@@ -272,21 +269,21 @@ impl Reader<'_, '_> {
 
     fn warn_of_ignored(&mut self, material: &material::Material) {
         match material.alpha_mode {
-            Checked::Valid(AlphaMode::Mask) => self.warn_once("mask", "alphaMode MASK: the surface is opaque"),
-            Checked::Valid(AlphaMode::Blend) => self.warn_once("blend", "alphaMode BLEND: the surface is opaque"),
+            Checked::Valid(AlphaMode::Mask) => self.stand_in("mask", "alphaMode MASK: the surface is opaque"),
+            Checked::Valid(AlphaMode::Blend) => self.stand_in("blend", "alphaMode BLEND: the surface is opaque"),
             Checked::Valid(AlphaMode::Opaque) => {}
-            Checked::Invalid => self.warn_once("alpha", "its alphaMode is unknown: the surface is opaque"),
+            Checked::Invalid => self.stand_in("alpha", "its alphaMode is unknown: the surface is opaque"),
         }
         if material.normal_texture.is_some() {
-            self.warn_once("normal", "its normalTexture is ignored");
+            self.stand_in("normal", "its normalTexture is ignored");
         }
         if material.occlusion_texture.is_some() {
-            self.warn_once("occlusion", "its occlusionTexture is ignored");
+            self.stand_in("occlusion", "its occlusionTexture is ignored");
         }
         for name in material.extensions.iter().flat_map(|all| all.others.keys()) {
             let known = IGNORED.iter().find(|(ignored, _)| ignored == name);
             let what = known.map_or("is not supported and ignored", |(_, what)| what);
-            self.warn_once(&format!("extension {name}"), &format!("{} {what}", shortened(name)));
+            self.stand_in(&format!("extension {name}"), &format!("{} {what}", shortened(name)));
         }
     }
 
@@ -301,7 +298,7 @@ impl Reader<'_, '_> {
         let (texture, set) = self.picture(info, encoding)?;
         let first = *self.set.get_or_insert(set);
         if first != set {
-            self.warn_once("sets", &format!("its textures use several sets of texture coordinates: all use {first}"));
+            self.stand_in("sets", &format!("its textures use several sets of texture coordinates: all use {first}"));
         }
         Ok(factor.times(texture))
     }

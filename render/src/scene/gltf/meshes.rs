@@ -42,9 +42,9 @@ impl Adder<'_, '_> {
         self.source.message(format!("{}: {what}", self.item))
     }
 
-    fn warn_once(&mut self, kind: &str, what: &str) {
+    fn stand_in(&mut self, kind: &str, what: &str) {
         let message = self.error(what);
-        self.out.warn_once(kind, || message);
+        self.out.notes.stand_in(kind, || message);
     }
 
     fn primitive(
@@ -57,19 +57,19 @@ impl Adder<'_, '_> {
             return Err(self.error("its mode is unknown"));
         };
         if matches!(mode, Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip) {
-            self.warn_once("lines", &format!("{mode:?} are ignored: only triangles are supported"));
+            self.stand_in("lines", &format!("{mode:?} are ignored: only triangles are supported"));
             return Ok(());
         }
         let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
         let Some(positions) = attribute(Semantic::Positions) else {
-            self.warn_once("positions", "it has no POSITION and is ignored");
+            self.stand_in("positions", "it has no POSITION and is ignored");
             return Ok(());
         };
         if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            self.warn_once("targets", "its morph targets are ignored");
+            self.stand_in("targets", "its morph targets are ignored");
         }
         if attribute(Semantic::Colors(0)).is_some() {
-            self.warn_once("colors", "its COLOR_0 is ignored");
+            self.stand_in("colors", "its COLOR_0 is ignored");
         }
         let surface = materials.surface(self.source, self.out, primitive.material, &self.item)?;
 
@@ -79,12 +79,14 @@ impl Adder<'_, '_> {
             flip: transform.determinant() < 0.0,
             material: surface.material,
             emission: None,
+            power: None,
         };
         let wide = |v: &[f32; 3]| v.map(f64::from);
         let points = attributes.place(positions.iter().map(wide)).map_err(|what| self.error(&what))?;
         drop(positions);
         let count = points.len();
-        let mut vertices: Vec<Vertex> = points.into_iter().map(|point| Vertex::at(point, [0.0; 2])).collect();
+        let mut vertices: Vec<Vertex> =
+            points.into_iter().map(|point| Vertex { point, normal: [0.0; 3], uv: [0.0; 2] }).collect();
         if let Some(normals) = attribute(Semantic::Normals) {
             let normals = self.source.vectors::<3>(normals, &self.item)?;
             self.same_number("NORMAL", normals.len(), count)?;
@@ -110,7 +112,7 @@ impl Adder<'_, '_> {
         }
         let corners = indices.as_ref().map_or(count, Vec::len);
         if mode == Mode::Triangles && !corners.is_multiple_of(3) || (1..3).contains(&corners) {
-            self.warn_once(
+            self.stand_in(
                 "rest",
                 &format!("{corners} corners make no whole number of triangles: the last are ignored"),
             );
@@ -158,10 +160,7 @@ impl Adder<'_, '_> {
     ) -> Result<Option<Vec<[f32; 2]>>, Message> {
         let Some(set) = set else { return Ok(None) };
         let Some(&uvs) = primitive.attributes.get(&Checked::Valid(Semantic::TexCoords(set))) else {
-            self.warn_once(
-                "uvs",
-                &format!("its material uses TEXCOORD_{set}, which it does not have: 0 stands for it"),
-            );
+            self.stand_in("uvs", &format!("its material uses TEXCOORD_{set}, which it does not have: 0 stands for it"));
             return Ok(None);
         };
         let mut uvs = self.source.vectors::<2>(uvs, &self.item)?;
