@@ -390,4 +390,45 @@ mod tests {
             }
         }
     }
+
+    /// Sampling a coat agrees with a grid over the hemisphere, its pdf integrates to the fraction of samples above both horizons, and it
+    /// reflects no more light than it receives.
+    #[test]
+    fn coats_integrate() {
+        for (alpha, f0, albedo) in [(0.1_f32, 0.04_f32, 0.5_f32), (0.4, 0.04, 1.0), (1.0, 0.3, 0.2), (0.3, 0.9, 0.0)] {
+            let metal = Metal::new([&[alpha, f0, f0, f0, 0.0, 0.0, 0.0, f32::from_bits(COAT)]; 8]);
+            for (sin, tilt) in [(0.0_f32, 0.0_f32), (0.6, 0.0), (0.6, 0.5), (0.95, 0.3)] {
+                let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
+                let flat = V8::from([0.0, -tilt, (1.0 - tilt * tilt).sqrt()]);
+                let toward = V8::from([-sin, 0.0, -(1.0 - sin * sin).sqrt()]);
+                let bsdf = Bsdf::<true>::new(normal, flat, V8::from([albedo; 3]), toward, Some(metal));
+                let n = 1024_u16;
+                let (mut sampled, mut above, mut grid, mut density) = (0.0, 0.0, 0.0, 0.0);
+                for (i, j) in (0..n).flat_map(|i| (0..n).step_by(8).map(move |j| (i, j))) {
+                    let u = Vec2::new(
+                        X8::splat((f32::from(i) + 0.5) / f32::from(n)),
+                        X8::from_fn(|lane| (f32::from(j) + lane as f32 + 0.5) / f32::from(n)),
+                    );
+                    let Scattered { color, pdf, direction, .. } = bsdf.sample(Technique::Brdf, u);
+                    let uniform: V8 = UniformHemisphere.sample(u);
+                    let at = bsdf.evaluate(uniform);
+                    for lane in 0..8 {
+                        if pdf.lane(lane) > 0.0 {
+                            assert!(direction.dot(flat).lane(lane) > 0.0);
+                            sampled += f64::from(color.x.lane(lane));
+                            above += 1.0;
+                        }
+                        grid += f64::from(at.color.x.lane(lane)) * std::f64::consts::TAU;
+                        density += f64::from(at.pdf.lane(lane)) * std::f64::consts::TAU;
+                    }
+                }
+                let count = f64::from(n) * f64::from(n);
+                let [sampled, above, grid, density] = [sampled, above, grid, density].map(|x| x / count);
+                let which = format!("α {alpha}, F₀ {f0}, albedo {albedo}, sin {sin}, tilt {tilt}");
+                assert!((sampled - grid).abs() < 5e-3, "{which}: {sampled} sampled, {grid} on a grid");
+                assert!((above - density).abs() < 5e-3, "{which}: {above} above, {density} integrated");
+                assert!(sampled > 0.05 && sampled < 1.005, "{which}: {sampled}");
+            }
+        }
+    }
 }

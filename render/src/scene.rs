@@ -1,7 +1,37 @@
 //! Reads scene files: glTF 2.0, and the part of the pbrt-v4 format that direct lighting needs.
 //!
-//! An unsupported feature is an error that names file and line; a feature that changes the image little, or only its noise, is a
-//! warning. Coordinates are transformed in f64 and rounded once to f32.
+//! Coordinates are transformed in f64 and rounded once to f32. What is invalid is an error that names file and line or item. What changes
+//! the image little, or only its noise, is a warning. What direct light on opaque surfaces cannot show becomes something else, with one
+//! warning for each kind, which [`Scene::stand_ins`] has, too:
+//!
+//! | in pbrt files | becomes |
+//! |---|---|
+//! | `diffuse`, `mirror`, `conductor`; v3's `matte`, `metal` | itself; spectra as RGB by CIE 1931 |
+//! | `coateddiffuse`; v3's `plastic`, `uber`, `substrate` | a GGX coat over a diffuse surface; a smooth coat has α = 0.01 |
+//! | `coatedconductor` | its conductor |
+//! | `dielectric`, `thindielectric`, `diffusetransmission`; v3's `glass`, `translucent` | what it reflects |
+//! | `subsurface`; v3's `kdsubsurface` | a coat over a diffuse surface |
+//! | `hair`, `measured`; v3's `fourier` | diffuse of albedo 0.5; v3's `disney` its base colour, metallic and roughness |
+//! | `mix` | the one of its materials with the greater share |
+//! | `interface`, `alpha` 0 | no surface; any other `alpha` is opaque |
+//! | anisotropic roughness | its geometric mean |
+//! | `displacement`, `normalmap` | ignored |
+//! | textures `constant`, `scale`, `mix`, `checkerboard`, `imagemap` | themselves, by u and v; others 0.5; those of lights and spheres their means |
+//! | `trianglemesh`, `plymesh`, `loopsubdiv`, `sphere`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
+//! | other patches, `disk`, `cylinder`, partial, stretched or textured spheres | triangles |
+//! | `curve` and older quadrics | left out |
+//! | `ObjectInstance` | a copy; lights in objects emit nothing, as in pbrt |
+//! | `goniometric`, `projection`, lights with a picture | a point, spot or plain light of the same mean; portals are ignored |
+//! | media, motion | ignored; stills at the start |
+//! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
+//!
+//! | in glTF files | becomes |
+//! |---|---|
+//! | metallic-roughness, specular-glossiness, index of refraction | glTF's GGX over diffuse |
+//! | emissive textures | the mean over each triangle |
+//! | masks, blending, transmission | opaque |
+//! | normal and occlusion maps, vertex colours, skins, morphs, animations | ignored |
+//! | points and lines | left out |
 
 mod builder;
 mod builtin;

@@ -12,7 +12,7 @@ use std::path::Path;
 
 #[derive(Args)]
 pub(crate) struct ImageOptions {
-    /// Name of a built-in scene, or path of a pbrt-v4 file
+    /// Name of a built-in scene, or path of a pbrt-v4 or glTF 2.0 file
     pub(crate) scene: OsString,
     /// Take this many samples per pixel [default: from the scene]
     #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
@@ -41,6 +41,9 @@ pub(crate) struct ImageOptions {
     /// Use this many threads; 0 means one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads)]
     pub(crate) threads: usize,
+    /// Refuse a scene with something that direct light on opaque surfaces cannot show, instead of warning what stands for it
+    #[arg(long)]
+    strict: bool,
 }
 
 /// Parses `--sets`.
@@ -52,6 +55,9 @@ impl ImageOptions {
     /// Reads the scene, prints its warnings, and completes the settings.
     pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
         let scene = scene::load(&self.scene)?;
+        if let Some(stand_in) = scene.stand_ins.first().filter(|_| self.strict) {
+            return Err(format!("--strict: {stand_in}").into());
+        }
         for warning in &scene.warnings {
             say(format_args!("warning: {warning}"));
         }
@@ -104,6 +110,9 @@ impl ImageOptions {
         add("size", self.size.map(|(width, height)| format!("{width}x{height}")));
         add("seed", (self.seed != 0).then(|| self.seed.to_string()));
         add("threads", (self.threads != 0).then(|| self.threads.to_string()));
+        if self.strict {
+            all.push("--strict".into());
+        }
         all
     }
 }

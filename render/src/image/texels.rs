@@ -30,10 +30,12 @@ pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<Texe
         other_texels(path, bytes)?
     } else {
         let picture = decode(path, bytes)?;
+        // no NaN either
+        let finite = |x: f32| if x > 0.0 { x.min(f32::MAX) } else { 0.0 };
         return Ok(Texels {
             width: picture.width,
             height: picture.height,
-            colors: Colors::Float(picture.radiance.iter().map(|rgb| rgb.map(|x| x.max(0.0).min(f32::MAX))).collect()),
+            colors: Colors::Float(picture.radiance.iter().map(|rgb| rgb.map(finite)).collect()),
             alpha: None,
         });
     };

@@ -236,7 +236,8 @@ impl Builder {
         let size = length(u).max(length(v)).max(length(sub(p11, p01))).max(length(sub(p11, p10)));
         let off = length(sub(p11, add(p10, v))) / size;
         let [a, b, c, d] = corners;
-        if !(off > FLATNESS) {
+        // a patch without extent is flat
+        if off.is_nan() || off <= FLATNESS {
             if surface.emission.is_none() {
                 self.triangle(surface, [a, b, d]);
                 return self.triangle(surface, [a, d, c]);

@@ -561,10 +561,7 @@ impl Reader<'_> {
         }
         for name in ["cropwindow", "pixelbounds"] {
             if params.given(name) {
-                self.warn(
-                    &params.place,
-                    params.error(format!("{name:?} ignored: --crop renders a part of the image")).text,
-                );
+                self.warn(&params.place, params.error(format!("{name:?} ignored: the whole image is rendered")).text);
             }
         }
         let width = params.integer("xresolution")?.unwrap_or(1280);

@@ -41,7 +41,7 @@ pub(super) fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut 
         out.add(surface, Geometry::Sphere { center, radius: world_radius });
         return Ok(());
     }
-    if !(radius > 0.0) {
+    if radius.is_nan() || radius <= 0.0 {
         return Err(params.error(format!("\"radius\": must be greater than 0 and finite, not {}", shown(radius))));
     }
     tessellated(out, params, "a sphere that is partial, stretched, textured, in an object or emits inwards");

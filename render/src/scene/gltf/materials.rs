@@ -222,7 +222,7 @@ impl Reader<'_, '_> {
         let mut at_normal = Texture::number(ratio * ratio);
         if let Some(specular) = specular {
             let [factor] = self.shares("specularFactor", [specular.specular_factor.0]);
-            let color = specular.specular_color_factor.0.map(|x| x.max(0.0).min(f32::MAX));
+            let color = specular.specular_color_factor.0.map(|x| if x > 0.0 { x.min(f32::MAX) } else { 0.0 });
             if specular.specular_texture.is_some() || specular.specular_color_texture.is_some() {
                 self.stand_in("specular texture", "the textures of its KHR_materials_specular are ignored");
             }
