@@ -113,10 +113,13 @@ fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettin
         materials: vec![Material::Diffuse([0.5; 3])],
         triangle_materials: vec![0; triangles.len()],
         triangles,
+        varying: Vec::new(),
+        details: Default::default(),
         shapes: shapes.into(),
         delta_lights: Vec::new(),
         environment: None,
         warnings: Vec::new(),
+        stand_ins: Vec::new(),
         inputs: Vec::new(),
     }
 }

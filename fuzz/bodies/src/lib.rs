@@ -8,15 +8,28 @@ mod part;
 pub use c_interface::c_interface;
 pub use certificates::certificates;
 use etendue_render::compare::Comparison;
+use etendue_render::image::Encoding;
+use etendue_render::texture::{Mapping, Picture, Texture, Wrap};
 use etendue_render::{World, image as images, scene};
 pub use part::part;
 use std::path::Path;
 
-/// Any text gives a scene, or an error with file and line, but never a panic; and a scene that was read can be built.
+/// Any text, and any glTF file, gives a scene, or an error with file and line, but never a panic; and a scene that was read can be built.
 pub fn scene(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
-    match scene::parse(&text, "fuzz.pbrt", Path::new("no such folder")) {
-        Ok(scene) => drop(World::new(&scene)),
+    let is_gltf = bytes.starts_with(b"glTF") || text.trim_start().starts_with('{');
+    let read = if is_gltf {
+        scene::parse_gltf(bytes, "fuzz.pbrt")
+    } else {
+        scene::parse(&text, "fuzz.pbrt", Path::new("no such folder"))
+    };
+    match read {
+        Ok(scene) => {
+            assert!(scene.triangles.as_flattened().as_flattened().iter().all(|x| x.is_finite()));
+            assert!(scene.triangle_materials.iter().all(|&k| (k as usize) < scene.materials.len()));
+            assert!([0, scene.triangles.len()].contains(&scene.details.of_triangles.len()));
+            drop(World::new(&scene));
+        }
         Err(error) => assert!(error.to_string().starts_with("fuzz.pbrt:"), "{error}"),
     }
 }
@@ -31,5 +44,21 @@ pub fn image(bytes: &[u8]) {
             }
         }
         Err(error) => assert!(error.to_string().starts_with("fuzz.exr: "), "{error}"),
+    }
+    // textures keep bytes, and may be of other formats
+    for name in ["fuzz.png", "fuzz.tga"] {
+        match images::read_texels(Path::new(name), bytes, Encoding::Srgb) {
+            Ok(texels) => {
+                let texture = Picture {
+                    texels: texels.into(),
+                    mapping: Mapping::IDENTITY,
+                    wrap: [Wrap::Repeat, Wrap::Black],
+                    bilinear: true,
+                };
+                let value = Texture::Picture(texture).at([0.3, -0.6]);
+                assert!(value.iter().all(|x| x.is_finite() && *x >= 0.0), "{value:?}");
+            }
+            Err(error) => assert!(error.to_string().starts_with(&format!("{name}: ")), "{error}"),
+        }
     }
 }
