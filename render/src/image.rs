@@ -5,10 +5,11 @@ mod size;
 mod texels;
 
 pub use exr::prelude::Compression;
-pub use texels::{Encoding, read_texels};
+pub use texels::Encoding;
 
 use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};
+use crate::texture::{Colors, Texels};
 use exr::block::chunk::CompressedBlock;
 use exr::prelude::{ReadChannels, ReadLayers};
 use layers::{Layer, Numbers};
@@ -154,6 +155,20 @@ fn decode_png(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
     let color = |p: &[f32]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
     let radiance = samples.chunks_exact(channels).map(color).collect();
     Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
+}
+
+/// Reads a texture from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`.
+///
+/// # Errors
+/// Fails if the bytes are damaged or of another format, or hold more than 2²⁸ pixels.
+pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<Texels, FileError> {
+    texels::from_bytes(path, bytes, encoding).unwrap_or_else(|| {
+        let picture = decode(path, bytes)?;
+        // no NaN either
+        let finite = |x: f32| if x > 0.0 { x.min(f32::MAX) } else { 0.0 };
+        let colors = Colors::Float(picture.radiance.iter().map(|rgb| rgb.map(finite)).collect());
+        Ok(Texels { width: picture.width, height: picture.height, colors, alpha: None })
+    })
 }
 
 impl From<&Film> for Picture {

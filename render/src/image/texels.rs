@@ -1,6 +1,5 @@
 //! Images as textures: their bytes as they are in the file, which are a quarter of what floating-point numbers take.
 
-use super::decode;
 use super::size::believe;
 use crate::files::{FileError, failed};
 use crate::texture::{Colors, Texels};
@@ -19,26 +18,19 @@ pub enum Encoding {
     Gamma(f32),
 }
 
-/// Reads texels from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`.
-///
-/// # Errors
-/// Fails if the bytes are damaged or of another format, or hold more than 2²⁸ pixels.
-pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<Texels, FileError> {
+/// Texels from the bytes of a PNG, JPEG or TGA file; `None` if the file is of another format.
+pub(super) fn from_bytes(path: &Path, bytes: &[u8], encoding: Encoding) -> Option<Result<Texels, FileError>> {
     let texels = if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
-        png_texels(path, bytes)?
+        png_texels(path, bytes)
     } else if bytes.starts_with(&[0xff, 0xd8, 0xff]) || is_tga(path) {
-        other_texels(path, bytes)?
+        other_texels(path, bytes)
     } else {
-        let picture = decode(path, bytes)?;
-        // no NaN either
-        let finite = |x: f32| if x > 0.0 { x.min(f32::MAX) } else { 0.0 };
-        return Ok(Texels {
-            width: picture.width,
-            height: picture.height,
-            colors: Colors::Float(picture.radiance.iter().map(|rgb| rgb.map(finite)).collect()),
-            alpha: None,
-        });
+        return None;
     };
+    Some(texels.map(|texels| encoded(texels, encoding)))
+}
+
+fn encoded(texels: Texels, encoding: Encoding) -> Texels {
     let colors = match (texels.colors, encoding) {
         (Colors::Srgb(bytes), Encoding::Linear) => Colors::Linear(bytes),
         (Colors::Srgb(bytes), Encoding::Gamma(gamma)) => {
@@ -47,7 +39,7 @@ pub fn read_texels(path: &Path, bytes: &[u8], encoding: Encoding) -> Result<Texe
         }
         (colors, _) => colors,
     };
-    Ok(Texels { colors, ..texels })
+    Texels { colors, ..texels }
 }
 
 fn is_tga(path: &Path) -> bool {

@@ -67,6 +67,11 @@ impl Place {
     }
 }
 
+/// A number as a message shows it: with an exponent if it would take many digits otherwise.
+pub(super) fn shown(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e16).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+}
+
 /// The text of a file, or where it is not UTF-8.
 pub(super) fn utf8<'a>(bytes: &'a [u8], file: &Arc<str>) -> Result<&'a str, Message> {
     let is_wide = [[0xff, 0xfe], [0xfe, 0xff]].iter().any(|mark| bytes.starts_with(mark));

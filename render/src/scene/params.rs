@@ -1,6 +1,7 @@
 //! Reads the parameter lists that follow most directives: `"type name" [ values ]`.
 
 use super::lexer::{Lexer, Token, number, shortened};
+pub(super) use super::message::shown;
 use super::message::{Message, Place};
 use super::spectrum::{self, Named, Samples};
 use std::path::{Path, PathBuf};
@@ -390,11 +391,6 @@ pub(super) fn brightness(rgb: [f32; 3]) -> Option<String> {
     let is_bright = rgb.iter().any(|&x| x > BRIGHT);
     is_bright
         .then(|| format!("{rgb:?} is so bright that variances may overflow: the error of the image may not be known"))
-}
-
-/// A number as a message shows it: with an exponent if it would take many digits otherwise.
-pub(super) fn shown(x: f64) -> String {
-    if x == 0.0 || (1e-4..1e16).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
 /// A colour rounded to f32; `None` if a channel overflows.

@@ -4,7 +4,7 @@
 //! fits of Wyman, Sloan and Shirley (2013, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions", table 1), whose
 //! error is about a hundredth.
 
-use super::params::shown;
+use super::message::shown;
 use crate::files::read_file;
 use std::path::Path;
 

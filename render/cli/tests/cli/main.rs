@@ -244,7 +244,7 @@ fn bad_scenes_are_reported_with_file_and_line() {
     fails_untouched(&folder, &strict, &["--strict: glass.pbrt:5: Material \"dielectric\": becomes what it reflects"]);
     for (name, bytes, what) in [
         ("cut.glb", &b"glTF\x02\0\0\0\xff\0\0\0"[..], "etendue: cut.glb: "),
-        ("text.gltf", b"{", "etendue: text.gltf: "),
+        ("text.gltf", b"{", "etendue: text.gltf:1: not glTF: "),
         ("old.gltf", b"{\"asset\":{\"version\":\"1.0\"}}", "etendue: old.gltf: "),
     ] {
         faulty(&folder, name, bytes, &[what]);
