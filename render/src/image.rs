@@ -9,7 +9,7 @@ pub use texels::Encoding;
 
 use crate::files::{FileError, failed, replace};
 use crate::film::{Film, Pixel};
-use crate::texture::{Colors, Texels};
+use crate::texture::{Colors, Texels, srgb_to_linear};
 use exr::block::chunk::CompressedBlock;
 use exr::prelude::{ReadChannels, ReadLayers};
 use layers::{Layer, Numbers};
@@ -18,6 +18,7 @@ use size::believe;
 use std::fmt;
 use std::io::{BufWriter, Cursor};
 use std::path::Path;
+use texels::{PNG, Rows};
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
@@ -115,8 +116,7 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
     if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
         return decode_exr(bytes, path);
     }
-    // PNG's signature
-    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+    if bytes.starts_with(PNG) {
         return decode_png(bytes, path);
     }
     let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR or PNG image: {error}"));
@@ -131,30 +131,17 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
 
 /// Reads a PNG file of any depth and colour type; transparency is ignored.
 fn decode_png(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
-    let not_one = |error: png::DecodingError| failed(path, format!("not a valid PNG image: {error}"));
-    let mut decoder = png::Decoder::new(Cursor::new(bytes));
-    decoder.set_transformations(png::Transformations::EXPAND);
-    let header = decoder.read_header_info().map_err(not_one)?;
-    let (width, height) = (header.width, header.height);
-    // one bit per pixel at least
-    believe(path, [width.into(), height.into()], 1, bytes.len())?;
-    let mut reader = decoder.read_info().map_err(not_one)?;
-    let size = reader.output_buffer_size().ok_or_else(|| failed(path, "too large"))?;
-    let mut data = vec![0; size];
-    let frame = reader.next_frame(&mut data).map_err(not_one)?;
-    let channels = frame.color_type.samples();
-    let linear = |x: f32| if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) };
-    let samples: Vec<f32> = match frame.bit_depth {
-        png::BitDepth::Sixteen => {
-            let pairs = data[..frame.buffer_size()].chunks_exact(2);
-            pairs.map(|b| linear(f32::from(u16::from_be_bytes([b[0], b[1]])) / 65535.0)).collect()
-        }
-        _ => data[..frame.buffer_size()].iter().map(|&b| linear(f32::from(b) / 255.0)).collect(),
+    let Rows { width, height, channels, is_wide, data } = Rows::of_png(path, bytes, png::Transformations::EXPAND)?;
+    let samples: Vec<f32> = if is_wide {
+        let pairs = data.chunks_exact(2);
+        pairs.map(|b| srgb_to_linear(f64::from(u16::from_be_bytes([b[0], b[1]])) / 65535.0)).collect()
+    } else {
+        data.iter().map(|&b| srgb_to_linear(f64::from(b) / 255.0)).collect()
     };
     // grey, or grey and alpha, have one colour channel
     let color = |p: &[f32]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
     let radiance = samples.chunks_exact(channels).map(color).collect();
-    Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
+    Ok(Picture { width, height, radiance, variance: None })
 }
 
 /// Reads a texture from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`.

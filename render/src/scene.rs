@@ -54,12 +54,13 @@ mod subdivision;
 mod tests;
 mod textures;
 mod transform;
+mod view;
 
 use crate::files::read_file;
 pub use crate::geometry::Geometry;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
-pub use description::{CameraSettings, Corners, Details, Emission, FilmSettings, Lens, Scene, Shape};
-pub use lights::{DeltaLight, Environment, SkyRadiance};
+pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
+pub use lights::{DeltaLight, Emission, Environment, SkyRadiance};
 pub use materials::{Material, Varying};
 pub use message::Message;
 use message::utf8;

@@ -329,8 +329,8 @@ fn mixed<const N: usize>(of: &[[f32; N]; 3], weights: [f32; 3]) -> [f32; N] {
 /// The least cosine between a smooth normal and the direction to the viewer.
 const LEAST_COS: f64 = 0.01;
 
-/// The normal of a smooth surface on the side of the flat normal, turned so far to the viewer that he sees the surface from the front;
-/// `None` if the normals at the corners cancel.
+/// The normal of a smooth surface on the side of the flat normal, turned until its cosine to the viewer is at least [`LEAST_COS`]; `None` if
+/// the normals at the corners cancel.
 fn smooth_normal(normals: &[[f32; 3]; 3], weights: [f32; 3], flat: [f32; 3], direction: [f32; 3]) -> Option<[f32; 3]> {
     let unit = |n: [f64; 3]| {
         let length = dot(n, n).sqrt();

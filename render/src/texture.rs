@@ -45,14 +45,14 @@ impl std::fmt::Debug for Texels {
     }
 }
 
-/// The linear value of each byte of sRGB (IEC 61966-2-1).
-static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|byte| {
-        let x = byte as f64 / 255.0;
-        let linear = if x <= 0.040_45 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) };
-        linear as f32
-    })
-});
+/// The linear value of a number in [0, 1] that sRGB's curve encodes (IEC 61966-2-1).
+#[must_use]
+pub fn srgb_to_linear(x: f64) -> f32 {
+    (if x <= 0.040_45 { x / 12.92 } else { libm::pow((x + 0.055) / 1.055, 2.4) }) as f32
+}
+
+/// The linear value of each byte of sRGB.
+static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|byte| srgb_to_linear(byte as f64 / 255.0)));
 
 impl Texels {
     /// The colour of a texel, linear RGB.
@@ -72,14 +72,6 @@ impl Texels {
             sum.iter_mut().zip(self.color(index)).for_each(|(sum, x)| *sum += f64::from(x));
         }
         sum.map(|x| (x / count as f64) as f32)
-    }
-    /// Bytes of memory.
-    pub fn bytes(&self) -> usize {
-        let per_texel = match self.colors {
-            Colors::Float(_) => 12,
-            _ => 3,
-        };
-        self.width * self.height * (per_texel + usize::from(self.alpha.is_some()))
     }
 }
 
@@ -138,15 +130,46 @@ pub enum Texture {
 }
 
 impl Texture {
+    /// A texture of textures, which is a constant if they are.
+    fn folded(self, is_constant: bool) -> Self {
+        // a constant has the same value everywhere
+        if is_constant { Self::Constant(self.at([0.0; 2])) } else { self }
+    }
     /// The product of two textures.
     #[must_use]
     pub fn times(self, other: Self) -> Self {
         match (&self, &other) {
-            (Self::Constant(a), Self::Constant(b)) => Self::Constant(std::array::from_fn(|k| a[k] * b[k])),
             (Self::Constant([1.0, 1.0, 1.0]), _) => other,
             (_, Self::Constant([1.0, 1.0, 1.0])) => self,
-            _ => Self::Product(Arc::new([self, other])),
+            _ => {
+                let both = self.constant().is_some() && other.constant().is_some();
+                Self::Product(Arc::new([self, other])).folded(both)
+            }
         }
+    }
+    /// (1 − t) a + t b.
+    #[must_use]
+    pub fn mix(a: Self, b: Self, t: Self) -> Self {
+        match t.constant() {
+            Some([0.0, 0.0, 0.0]) => a,
+            Some([1.0, 1.0, 1.0]) => b,
+            _ => {
+                let all = [&a, &b, &t].iter().all(|of| of.constant().is_some());
+                Self::Mix(Arc::new([a, b, t])).folded(all)
+            }
+        }
+    }
+    /// 1 − x, but at least 0.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        let one = self.constant().is_some();
+        Self::Inverse(Arc::new(self)).folded(one)
+    }
+    /// One channel, as a number.
+    #[must_use]
+    pub fn channel(self, channel: usize) -> Self {
+        let one = self.constant().is_some();
+        Self::Channel(Arc::new(self), channel).folded(one)
     }
     /// A number.
     #[must_use]
@@ -156,10 +179,8 @@ impl Texture {
     /// The square root of a number.
     #[must_use]
     pub fn root(self) -> Self {
-        match self {
-            Self::Constant(color) => Self::Constant(color.map(|x| x.max(0.0).sqrt())),
-            other => Self::Root(Arc::new(other)),
-        }
+        let one = self.constant().is_some();
+        Self::Root(Arc::new(self)).folded(one)
     }
     /// The value, if it is the same everywhere.
     #[must_use]
@@ -314,9 +335,16 @@ mod tests {
         assert_eq!(board.mean(), [0.5; 3]);
         let scaled = Texture::Constant([2.0, 3.0, 4.0]).times(board);
         assert_eq!(scaled.at([0.3, 0.1]), [2.0, 3.0, 4.0]);
-        let mix = Texture::Mix(Arc::new([black, white, Texture::number(0.25)]));
-        assert_eq!([mix.at([0.0; 2])[0], mix.mean()[0]], [0.25; 2]);
-        assert_eq!(Texture::Inverse(Arc::new(mix)).at([0.0; 2]), [0.75; 3]);
+        // what is made of constants is one
+        let mix = Texture::mix(black.clone(), white.clone(), Texture::number(0.25));
+        assert_eq!([mix.constant(), mix.clone().inverse().constant()], [Some([0.25; 3]), Some([0.75; 3])]);
+        assert_eq!(mix.root().constant(), Some([0.5; 3]));
+        assert_eq!(Texture::Constant([1.0, 2.0, 3.0]).channel(2).constant(), Some([3.0; 3]));
+        assert_eq!(scaled.clone().channel(1).at([0.3, 0.1]), [3.0; 3]);
+        let mix = Texture::mix(scaled.clone(), black.clone(), Texture::number(0.25));
+        assert_eq!((mix.at([0.3, 0.1]), mix.mean()), ([1.5, 2.25, 3.0], [0.75, 1.125, 1.5]));
+        let [first, second] = [0.0, 1.0].map(|t| Texture::mix(scaled.clone(), black.clone(), Texture::number(t)));
+        assert_eq!((first, second), (scaled, black));
         let turned = Mapping([[0.0, 1.0, 0.0], [-1.0, 0.0, 1.0]]);
         let both = Mapping([[2.0, 0.0, 0.5], [0.0, 3.0, 0.0]]).then(&turned);
         assert_eq!(both.at([0.25, 0.5]), turned.at([1.0, 1.5]));

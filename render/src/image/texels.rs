@@ -7,6 +7,9 @@ use image_files::{DynamicImage, ImageDecoder, ImageReader};
 use std::io::Cursor;
 use std::path::Path;
 
+/// PNG's signature.
+pub(super) const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
+
 /// What the bytes of an image mean; floating-point numbers are linear in any case.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Encoding {
@@ -20,7 +23,7 @@ pub enum Encoding {
 
 /// Texels from the bytes of a PNG, JPEG or TGA file; `None` if the file is of another format.
 pub(super) fn from_bytes(path: &Path, bytes: &[u8], encoding: Encoding) -> Option<Result<Texels, FileError>> {
-    let texels = if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+    let texels = if bytes.starts_with(PNG) {
         png_texels(path, bytes)
     } else if bytes.starts_with(&[0xff, 0xd8, 0xff]) || is_tga(path) {
         other_texels(path, bytes)
@@ -46,7 +49,43 @@ fn is_tga(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
 }
 
-/// Rows of pixels of 1 to 4 bytes: grey, grey and opacity, colours, colours and opacity.
+/// Pixels row by row, as a file has them.
+pub(super) struct Rows {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    /// 1 for grey, 2 for grey and opacity, 3 for colours, 4 for colours and opacity.
+    pub(super) channels: usize,
+    /// Whether a sample has two bytes, the higher one first.
+    pub(super) is_wide: bool,
+    pub(super) data: Vec<u8>,
+}
+
+impl Rows {
+    /// The pixels of a PNG file, after libpng's transformations.
+    pub(super) fn of_png(path: &Path, bytes: &[u8], changes: png::Transformations) -> Result<Self, FileError> {
+        let not_one = |error: png::DecodingError| failed(path, format!("not a valid PNG image: {error}"));
+        let mut decoder = png::Decoder::new(Cursor::new(bytes));
+        decoder.set_transformations(changes);
+        let header = decoder.read_header_info().map_err(not_one)?;
+        let [width, height] = [header.width, header.height];
+        // one bit per pixel at least
+        believe(path, [width.into(), height.into()], 1, bytes.len())?;
+        let mut reader = decoder.read_info().map_err(not_one)?;
+        let size = reader.output_buffer_size().ok_or_else(|| failed(path, "too large"))?;
+        let mut data = vec![0; size];
+        let frame = reader.next_frame(&mut data).map_err(not_one)?;
+        data.truncate(frame.buffer_size());
+        Ok(Self {
+            width: width as usize,
+            height: height as usize,
+            channels: frame.color_type.samples(),
+            is_wide: frame.bit_depth == png::BitDepth::Sixteen,
+            data,
+        })
+    }
+}
+
+/// Texels of pixels of one byte a sample.
 fn from_rows(width: usize, height: usize, channels: usize, bytes: &[u8]) -> Texels {
     let color = |p: &[u8]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
     let has_alpha = channels.is_multiple_of(2);
@@ -59,20 +98,10 @@ fn from_rows(width: usize, height: usize, channels: usize, bytes: &[u8]) -> Texe
 }
 
 fn png_texels(path: &Path, bytes: &[u8]) -> Result<Texels, FileError> {
-    let not_one = |error: png::DecodingError| failed(path, format!("not a valid PNG image: {error}"));
-    let mut decoder = png::Decoder::new(Cursor::new(bytes));
     // sixteen bits lose their lower half
-    decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);
-    let header = decoder.read_header_info().map_err(not_one)?;
-    let (width, height) = (header.width, header.height);
-    // one bit per pixel at least
-    believe(path, [width.into(), height.into()], 1, bytes.len())?;
-    let mut reader = decoder.read_info().map_err(not_one)?;
-    let size = reader.output_buffer_size().ok_or_else(|| failed(path, "too large"))?;
-    let mut data = vec![0; size];
-    let frame = reader.next_frame(&mut data).map_err(not_one)?;
-    let channels = frame.color_type.samples();
-    Ok(from_rows(width as usize, height as usize, channels, &data[..frame.buffer_size()]))
+    let changes = png::Transformations::EXPAND | png::Transformations::STRIP_16;
+    let Rows { width, height, channels, data, .. } = Rows::of_png(path, bytes, changes)?;
+    Ok(from_rows(width, height, channels, &data))
 }
 
 fn other_texels(path: &Path, bytes: &[u8]) -> Result<Texels, FileError> {

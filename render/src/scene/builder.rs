@@ -1,14 +1,16 @@
 //! Collects the surfaces of a scene in world space: checks and orients them, and rounds them once to f32.
 
-use super::description::{Corners, Details, Emission, Shape};
+use super::description::{CameraSettings, Corners, Details, FilmSettings, Scene, Shape};
+use super::lights::{DeltaLight, Emission, Environment};
 use super::materials::{Material, Varying};
-use super::message::Notes;
+use super::message::{Message, Notes};
 use super::params::MOST_RADIANCE;
 use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use crate::geometry::Geometry;
 use std::collections::HashMap;
 use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
 
 /// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
 /// coordinates of six digits pass, a visible bend does not.
@@ -34,6 +36,16 @@ pub(super) struct Builder {
     /// Triangles without area that were left out since the last [`Builder::left_out`].
     left_out: usize,
     is_object: bool,
+}
+
+/// What a scene has besides surfaces.
+pub(super) struct Rest {
+    pub(super) camera: CameraSettings,
+    pub(super) film: FilmSettings,
+    pub(super) pixel_samples: u32,
+    pub(super) delta_lights: Vec<DeltaLight>,
+    pub(super) environment: Option<Environment>,
+    pub(super) inputs: Vec<PathBuf>,
 }
 
 /// What applies to all of a shape.
@@ -124,11 +136,14 @@ impl Builder {
     /// Adds a copy of an object. Fails if there are too many triangles, or if a point is no longer finite.
     pub(super) fn instance(&mut self, object: &Object, ctm: &Transform) -> Result<(), String> {
         let Object(Self { triangles, triangle_materials, details, .. }) = object;
+        let det = ctm.determinant();
+        if det == 0.0 || !det.is_finite() {
+            return Err("its transform is singular".to_owned());
+        }
         if self.triangles.len() + triangles.len() > MOST_TRIANGLES {
             return Err(format!("instances are copies, and give more than {MOST_TRIANGLES} triangles"));
         }
-        let mut surface =
-            ShapeAttributes { ctm: *ctm, flip: ctm.determinant() < 0.0, material: 0, emission: None, power: None };
+        let mut surface = ShapeAttributes { ctm: *ctm, flip: det < 0.0, material: 0, emission: None, power: None };
         for (i, triangle) in triangles.iter().enumerate() {
             surface.material = triangle_materials[i];
             let corners = details.of_triangles.get(i).and_then(|&k| details.corners.get(k as usize));
@@ -148,9 +163,37 @@ impl Builder {
     }
 
     /// Ends the list of triangles.
-    pub(super) fn finish(&mut self) {
+    fn finish(&mut self) {
         if !self.details.of_triangles.is_empty() {
             self.details.of_triangles.resize(self.triangles.len(), Details::NONE);
+        }
+    }
+
+    /// The scene of all that was added, which messages call `file`; `warning` makes a warning about the whole of it.
+    pub(super) fn scene(mut self, file: &str, rest: Rest, warning: impl FnOnce(&str) -> Message) -> Scene {
+        self.finish();
+        let Rest { camera, film, pixel_samples, delta_lights, environment, inputs } = rest;
+        let emits = self.shapes.iter().any(|shape| shape.emission.is_some());
+        if !emits && delta_lights.is_empty() && environment.is_none() {
+            self.notes.warn(warning("nothing emits light: the image will be black"));
+        }
+        let name = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        Scene {
+            name: name.unwrap_or_else(|| file.to_owned()),
+            camera,
+            film,
+            pixel_samples,
+            materials: self.materials,
+            triangles: self.triangles,
+            triangle_materials: self.triangle_materials,
+            varying: self.varying,
+            details: self.details.into(),
+            shapes: self.shapes.into(),
+            delta_lights,
+            environment,
+            warnings: self.notes.warnings,
+            stand_ins: self.notes.stand_ins,
+            inputs,
         }
     }
 
@@ -214,6 +257,10 @@ impl Builder {
 
     /// The corners of a triangle, if anything is to be known of them.
     fn corners(&self, material: u32, vertices: &[Vertex; 3], normal: [f64; 3]) -> Option<Corners> {
+        let has_normals = vertices.iter().all(|vertex| vertex.normal != [0.0; 3]);
+        if !has_normals && !self.varies(material) {
+            return None;
+        }
         let flat = unit(normal)?;
         let normals = vertices.map(|vertex| unit(vertex.normal));
         let smooth = match normals {

@@ -1,6 +1,6 @@
 //! What a scene file describes.
 
-use super::lights::{DeltaLight, Environment};
+use super::lights::{DeltaLight, Emission, Environment};
 use super::materials::{Material, Varying};
 use super::message::Message;
 use crate::geometry::Geometry;
@@ -129,13 +129,4 @@ pub struct Shape {
     pub material: u32,
     /// Emitted light; `None` if the shape is no light.
     pub emission: Option<Emission>,
-}
-
-/// Constant emission of a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Emission {
-    /// Radiance, linear RGB; at least one channel is greater than 0.
-    pub radiance: [f32; 3],
-    /// Whether both sides emit, or only the side of the normal.
-    pub two_sided: bool,
 }

@@ -15,7 +15,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 
-use super::builder::Builder;
+use super::builder::{Builder, Rest};
 use super::description::Scene;
 use super::lexer::shortened;
 use super::message::Message;
@@ -93,32 +93,13 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     if left_out > 0 {
         out.notes.warn(source.message(format!("{left_out} triangle(s) without area are left out")));
     }
-    out.finish();
     let (camera, film) = camera.unwrap_or_else(|| {
         let framing = cameras::framing(&out);
         out.notes.warn(source.message("no perspective camera: one that sees all surfaces stands for it"));
         framing
     });
-    let emits = out.shapes.iter().any(|shape| shape.emission.is_some());
-    if !emits && delta_lights.is_empty() {
-        out.notes.warn(source.message("nothing emits light: the image will be black"));
-    }
-    let name = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    Ok(Scene {
-        name: name.unwrap_or_else(|| file.to_owned()),
-        camera,
-        film,
-        pixel_samples: 16,
-        materials: out.materials,
-        triangles: out.triangles,
-        triangle_materials: out.triangle_materials,
-        varying: out.varying,
-        details: out.details.into(),
-        shapes: out.shapes.into(),
-        delta_lights,
-        environment: None,
-        warnings: out.notes.warnings,
-        stand_ins: out.notes.stand_ins,
-        inputs: source.into_inputs(),
-    })
+    let message = |text: &str| source.message(text);
+    let inputs = source.inputs();
+    let rest = Rest { camera, film, pixel_samples: 16, delta_lights, environment: None, inputs };
+    Ok(out.scene(file, rest, message))
 }

@@ -1,4 +1,4 @@
-//! Reads `LightSource`: lights without a shape.
+//! Reads `LightSource` and `AreaLightSource`.
 
 use super::lexer::shortened;
 use super::message::{Message, Notes};
@@ -41,6 +41,15 @@ pub enum DeltaLight {
         /// Irradiance of a surface that faces the light, linear RGB.
         irradiance: [f32; 3],
     },
+}
+
+/// Constant emission of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Radiance, linear RGB; at least one channel is greater than 0.
+    pub radiance: [f32; 3],
+    /// Whether both sides emit, or only the side of the normal.
+    pub two_sided: bool,
 }
 
 /// Light from infinitely far away in all directions.
@@ -94,9 +103,10 @@ pub(super) fn read(
     files: &Files<'_>,
     notes: &mut Notes,
 ) -> Result<Source, Message> {
-    let file = match params.text("filename")? {
-        Some(file) => Some(file),
-        None => params.text("mapname")?,
+    let has_picture = ["infinite", "goniometric", "projection"].contains(&kind);
+    let file = match if has_picture { params.text("filename")? } else { None } {
+        None if has_picture => params.text("mapname")?,
+        file => file,
     };
     // lights with a picture are plain ones with its mean
     let (kind, file) = match (kind, file) {
@@ -158,12 +168,7 @@ pub(super) fn read(
         }
         file => {
             let mean = match file {
-                Some(file) => {
-                    let image = (files.open)(&file).map_err(|error| params.error(error.to_string()))?;
-                    let sum = image.radiance.iter().map(|rgb| rgb.map(f64::from));
-                    let sum = sum.fold([0.0; 3], |a, b| std::array::from_fn(|k| a[k] + b[k].max(0.0)));
-                    sum.map(|x| x / image.radiance.len() as f64)
-                }
+                Some(file) => mean_of(&file, params, files)?,
                 None => [1.0; 3],
             };
             let given = colour.unwrap_or([1.0; 3]);
@@ -192,6 +197,54 @@ pub(super) fn read(
         notes.warn(params.error("emits nothing"));
     }
     Ok(source)
+}
+
+/// The mean of an image, without what is negative.
+fn mean_of(name: &str, params: &Params, files: &Files<'_>) -> Result<[f64; 3], Message> {
+    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
+    let sum = image.radiance.iter().map(|rgb| rgb.map(f64::from));
+    let sum = sum.fold([0.0; 3], |a, b| std::array::from_fn(|k| a[k] + b[k].max(0.0)));
+    Ok(sum.map(|x| x / image.radiance.len() as f64))
+}
+
+/// Reads an `AreaLightSource`: its emission, unless it is dark, and the power of each light if the scene gives it.
+pub(super) fn area(
+    kind: &str,
+    params: &mut Params,
+    files: &Files<'_>,
+    notes: &mut Notes,
+) -> Result<(Option<Emission>, Option<f64>), Message> {
+    if kind != "diffuse" && kind != "area" {
+        return Err(params.error("not supported, only \"diffuse\""));
+    }
+    params.given("nsamples");
+    params.given("samples");
+    let picture = match params.text("filename")? {
+        Some(name) => {
+            notes.stand_in("picture", || params.error("the picture on the light becomes its mean"));
+            mean_of(&name, params, files)?
+        }
+        None => [1.0; 3],
+    };
+    let radiance = params.light("L", files.resolve)?.unwrap_or(picture);
+    let power = params.float("power")?;
+    if let Some(power) = power.filter(|&power| power <= 0.0) {
+        return Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(power))));
+    }
+    let scale = params.float("scale")?.unwrap_or(1.0);
+    if scale < 0.0 {
+        return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(scale))));
+    }
+    let radiance = radiance.map(|x| x * scale);
+    let two_sided = params.flag("twosided")?.unwrap_or(false);
+    let too_large = || params.error(format!("the radiance {radiance:?}: at most {MOST_RADIANCE:e} is supported"));
+    let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
+    brightness(radiance).into_iter().for_each(|text| notes.warn(params.error(text)));
+    let dark = radiance == [0.0; 3];
+    if dark {
+        notes.warn(params.error("emits nothing"));
+    }
+    Ok(((!dark).then_some(Emission { radiance, two_sided }), power))
 }
 
 /// The power of a spot light of intensity 1 by pbrt's formula, which takes the mean of both cones: an angle in steradians.

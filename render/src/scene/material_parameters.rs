@@ -137,11 +137,13 @@ pub(super) fn read(
             let names = params.texts("materials")?;
             let older = [params.text("namedmaterial1")?, params.text("namedmaterial2")?];
             let names = names.unwrap_or_else(|| older.into_iter().flatten().collect());
-            let amount = context.textures.color("amount", params, context.resolve, &mut out.notes);
-            let share = match amount {
-                Ok(amount) => amount.map_or(0.5, |amount| amount.mean()[1]),
-                Err(_) => context.textures.number("amount", params)?.map_or(0.5, |amount| amount.mean()[1]),
+            // a float in pbrt-v4, a spectrum in v3
+            let amount = if params.is_texture("amount") {
+                context.textures.number("amount", params)?
+            } else {
+                context.textures.color("amount", params, context.resolve, &mut out.notes)?
             };
+            let share = amount.map_or(0.5, |amount| amount.mean()[1]);
             let [first, second] = &names[..] else {
                 return Err(params.error(format!("needs two \"materials\", not {}", names.len())));
             };

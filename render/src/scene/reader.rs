@@ -1,21 +1,21 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
-use super::builder::{Builder, Object, ShapeAttributes};
+use super::builder::{Builder, Object, Rest, ShapeAttributes};
 use super::builtin::BUILTIN_IMAGES;
-use super::description::{CameraSettings, Emission, FilmSettings, Lens, Scene};
+use super::description::{CameraSettings, FilmSettings, Scene};
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
-use super::lights::{self, DeltaLight, Environment, Files};
+use super::lights::{self, DeltaLight, Emission, Environment, Files};
 use super::material_parameters::{self, Context, Finish};
 use super::materials::Material;
 use super::message::{Message, Place, utf8};
-use super::params::{MOST_RADIANCE, Param, Params, brightness, rounded, shown};
+use super::params::{Param, Params};
 use super::shapes;
 use super::textures::Textures;
-use super::transform::{Transform, length, scaled};
+use super::transform::Transform;
+use super::view;
 use crate::image;
-use crate::limits::{MOST_SAMPLES, is_size};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -117,30 +117,15 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     if !reader.in_world {
         return Err(end.message("the scene has no WorldBegin"));
     }
-    let mut out = reader.out;
-    out.finish();
-    let emits = out.shapes.iter().any(|shape| shape.emission.is_some());
-    if !emits && reader.delta_lights.is_empty() && reader.environment.is_none() {
-        out.notes.warn(end.message("nothing emits light: the image will be black"));
-    }
-    let name = Path::new(&*file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    Ok(Scene {
-        name: name.unwrap_or_else(|| file.to_string()),
+    let rest = Rest {
         camera,
         film: reader.film.unwrap_or(FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None }),
         pixel_samples: reader.pixel_samples.unwrap_or(16),
-        materials: out.materials,
-        triangles: out.triangles,
-        triangle_materials: out.triangle_materials,
-        varying: out.varying,
-        details: out.details.into(),
-        shapes: out.shapes.into(),
         delta_lights: reader.delta_lights,
         environment: reader.environment,
-        warnings: out.notes.warnings,
-        stand_ins: out.notes.stand_ins,
         inputs: reader.inputs.into_inner(),
-    })
+    };
+    Ok(reader.out.scene(&file, rest, |text| end.message(text)))
 }
 
 impl Reader<'_> {
@@ -334,8 +319,8 @@ impl Reader<'_> {
     fn with_params(&mut self, word: &str, kind: &str, mut params: Params, dir: &Path) -> Result<(), Message> {
         match word {
             "Camera" => self.camera(kind, &mut params)?,
-            "Film" => self.film(kind, &mut params)?,
-            "Sampler" => self.sampler(kind, &mut params)?,
+            "Film" => self.film = Some(view::film(kind, &mut params, &mut self.out.notes)?),
+            "Sampler" => self.pixel_samples = Some(view::samples(kind, &mut params, &mut self.out.notes)?),
             "PixelFilter" => {
                 let mut half = |name| Ok(params.float(name)?.is_none_or(|radius| radius == 0.5));
                 if !(half("xradius")? & half("yradius")? & (kind == "box")) {
@@ -367,7 +352,11 @@ impl Reader<'_> {
             }
             "AreaLightSource" => {
                 self.with_defaults("light", &mut params);
-                self.area_light(kind, &mut params, dir)?;
+                let (main, inputs) = (self.main_dir, &self.inputs);
+                let resolve = |name: &str| resolved(main, inputs, name, dir);
+                let files = Files { resolve: &resolve, open: &|name| image::read(&resolve(name)) };
+                let area = lights::area(kind, &mut params, &files, &mut self.out.notes)?;
+                (self.state.emission, self.state.power) = area;
             }
             "LightSource" => {
                 self.with_defaults("light", &mut params);
@@ -466,137 +455,9 @@ impl Reader<'_> {
         if self.camera.is_some() {
             return Err(params.error("a second camera: only one is supported"));
         }
-        let far = match kind {
-            "perspective" => None,
-            "orthographic" => {
-                let why = "becomes a perspective one from a thousand times as far as the image is wide";
-                self.out.notes.stand_in(kind, || params.error(why));
-                Some(1000.0)
-            }
-            "realistic" | "spherical" | "environment" => {
-                self.out.notes.stand_in(kind, || params.error("becomes a perspective one of 50 degrees"));
-                params.ignore_all();
-                params.set_float("fov", 50.0);
-                None
-            }
-            _ => return Err(params.error("not supported, only \"perspective\" and stand-ins for pbrt's others")),
-        };
-        for name in ["shutteropen", "shutterclose", "hither", "yon", "halffov"] {
-            params.given(name);
-        }
-        if params.given("frameaspectratio") {
-            let why = "\"frameaspectratio\" is ignored: pixels are square";
-            self.out.notes.stand_in("frameaspectratio", || params.error(why));
-        }
-        // half of the screen's shorter side, which is 1 for the field of view that is given
-        let screen = match params.numbers("screenwindow", "float", 4)?.as_deref() {
-            None => 1.0,
-            Some(&[left, right, bottom, top]) if left < right && bottom < top => {
-                if left + right != 0.0 || bottom + top != 0.0 {
-                    let why = "\"screenwindow\" is moved to the middle of the image";
-                    self.out.notes.stand_in("screenwindow", || params.error(why));
-                }
-                (right - left).min(top - bottom) / 2.0
-            }
-            Some(numbers) => {
-                return Err(params.error(format!("\"screenwindow\": {numbers:?} is not x0 x1 y0 y1, ascending")));
-            }
-        };
-        let radius = params.float("lensradius")?.unwrap_or(0.0);
-        if radius < 0.0 {
-            return Err(params.error(format!("\"lensradius\": must be at least 0, not {}", shown(radius))));
-        }
-        let focus = params.float("focaldistance")?.unwrap_or(1e6);
-        if focus <= 0.0 {
-            return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
-        }
-        let given = params.float("fov")?.unwrap_or(90.0);
-        let fov = match far {
-            None if screen == 1.0 => given,
-            None => 2.0 * libm::atan(screen * libm::tan(given.to_radians() / 2.0)).to_degrees(),
-            Some(far) => 2.0 * libm::atan(1.0 / far).to_degrees(),
-        };
-        if !(fov > 0.0 && fov < 180.0) {
-            return Err(
-                params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {}", shown(fov)))
-            );
-        }
-        let singular = || params.error("its transform is singular");
-        let world = self.state.ctm.inverse().ok_or_else(singular)?;
+        let (camera, world) = view::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
         self.systems.insert("camera".into(), world);
-        let forward = world.vector([0.0, 0.0, 1.0]);
-        let unit = length(forward);
-        let axis = |v: [f64; 3]| scaled(world.vector(v), 1.0 / unit);
-        let lens = (radius > 0.0).then_some(Lens { radius, focus, unit });
-        if let Some(lens) =
-            lens.filter(|l| !((l.radius * unit) as f32).is_normal() || !((l.radius / l.focus) as f32).is_normal())
-        {
-            let Lens { radius, focus, .. } = lens;
-            return Err(
-                params.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32"))
-            );
-        }
-        let back = far.map_or(0.0, |far| -far * screen);
-        let camera = CameraSettings {
-            origin: world.point([0.0, 0.0, back]),
-            forward: axis([0.0, 0.0, 1.0]),
-            right: axis([1.0, 0.0, 0.0]),
-            up: axis([0.0, 1.0, 0.0]),
-            fov,
-            lens,
-        };
-        let mut numbers = camera.forward.iter().chain(&camera.right).chain(&camera.up);
-        if !numbers.all(|x| x.is_finite()) {
-            return Err(singular());
-        }
         self.camera = Some(camera);
-        Ok(())
-    }
-
-    fn film(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
-        if !["rgb", "image", "gbuffer", "spectral"].contains(&kind) {
-            return Err(
-                params.error("not supported, only \"rgb\", and \"gbuffer\" and \"spectral\" as if they were that")
-            );
-        }
-        for name in ["cropwindow", "pixelbounds"] {
-            if params.given(name) {
-                self.warn(&params.place, params.error(format!("{name:?} ignored: the whole image is rendered")).text);
-            }
-        }
-        let width = params.integer("xresolution")?.unwrap_or(1280);
-        let height = params.integer("yresolution")?.unwrap_or(720);
-        // a negative number is a very large one here
-        if !is_size(width as u64, height as u64) {
-            return Err(params
-                .error(format!("{width} × {height} pixels: each side must be 1 to 65536, and the area at most 2^28")));
-        }
-        let diagonal = params.float("diagonal")?.unwrap_or(35.0);
-        if !(1e-2..=1e6).contains(&diagonal) {
-            return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
-        }
-        let filename = params.text("filename")?;
-        self.film = Some(FilmSettings { width: width as u32, height: height as u32, diagonal, filename });
-        Ok(())
-    }
-
-    fn sampler(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
-        let samples = if kind == "stratified" {
-            params.integer("xsamples")?.unwrap_or(4).saturating_mul(params.integer("ysamples")?.unwrap_or(4))
-        } else {
-            params.integer("pixelsamples")?.unwrap_or(16)
-        };
-        let samples = u32::try_from(samples)
-            .ok()
-            .filter(|n| (1..=MOST_SAMPLES).contains(n))
-            .ok_or_else(|| params.error(format!("{samples} samples per pixel: must be from 1 to {MOST_SAMPLES}")))?;
-        if kind != "independent" && kind != "stratified" {
-            self.warn(
-                &params.place,
-                params.error("only the number of samples is used; --sampler chooses the sampler").text,
-            );
-        }
-        self.pixel_samples = Some(samples);
         Ok(())
     }
 
@@ -622,50 +483,6 @@ impl Reader<'_> {
             },
             lights::Source::Dark => {}
         }
-        Ok(())
-    }
-
-    fn area_light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
-        if kind != "diffuse" && kind != "area" {
-            return Err(params.error("not supported, only \"diffuse\""));
-        }
-        params.given("nsamples");
-        params.given("samples");
-        let Self { out, inputs, main_dir, .. } = self;
-        let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
-        let picture = match params.text("filename")? {
-            Some(name) => {
-                out.notes.stand_in("picture", || params.error("the picture on the light becomes its mean"));
-                let image = image::read(&resolve(&name)).map_err(|error| params.error(error.to_string()))?;
-                let sum = image.radiance.iter().fold([0.0; 3], |sum, rgb| {
-                    std::array::from_fn::<f64, 3, _>(|k| sum[k] + f64::from(rgb[k].max(0.0)))
-                });
-                sum.map(|x| x / image.radiance.len() as f64)
-            }
-            None => [1.0; 3],
-        };
-        let radiance = params.light("L", &resolve)?.unwrap_or(picture);
-        let power = params.float("power")?;
-        if let Some(power) = power.filter(|&power| power <= 0.0) {
-            return Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(power))));
-        }
-        let scale = params.float("scale")?.unwrap_or(1.0);
-        if scale < 0.0 {
-            return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(scale))));
-        }
-        let radiance = radiance.map(|x| x * scale);
-        let two_sided = params.flag("twosided")?.unwrap_or(false);
-        let too_large = || params.error(format!("the radiance {radiance:?}: at most {MOST_RADIANCE:e} is supported"));
-        let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
-        if let Some(text) = brightness(radiance) {
-            self.warn(&params.place, params.error(text).text);
-        }
-        let dark = radiance == [0.0; 3];
-        if dark {
-            self.warn(&params.place, params.error("emits nothing").text);
-        }
-        self.state.emission = (!dark).then_some(Emission { radiance, two_sided });
-        self.state.power = power;
         Ok(())
     }
 
@@ -710,32 +527,9 @@ impl Reader<'_> {
             emission,
             power: self.state.power,
         };
-        match kind {
-            "sphere" => shapes::sphere(&mut self.out, &surface, params),
-            "trianglemesh" => shapes::triangle_mesh(&mut self.out, &surface, params),
-            "bilinearmesh" => shapes::bilinear_mesh(&mut self.out, &surface, params),
-            "loopsubdiv" => shapes::loop_mesh(&mut self.out, &surface, params),
-            "disk" => shapes::disk(&mut self.out, &surface, params),
-            "cylinder" => shapes::cylinder(&mut self.out, &surface, params),
-            "plymesh" => {
-                let Some(name) = params.text("filename")? else {
-                    return Err(params.error("\"string filename\" is missing"));
-                };
-                if let Some(name) = name.strip_prefix("builtin:").filter(|_| self.is_builtin) {
-                    return shapes::computed(&mut self.out, &surface, params, name);
-                }
-                let path = self.resolve(&name, dir);
-                shapes::ply_mesh(&mut self.out, &surface, params, &path)
-            }
-            "curve" | "cone" | "paraboloid" | "hyperboloid" | "heightfield" | "nurbs" => {
-                self.out.notes.stand_in(kind, || params.error("shapes of this type are left out"));
-                params.ignore_all();
-                Ok(())
-            }
-            _ => Err(params.error(
-                "shape not supported, only sphere, trianglemesh, bilinearmesh, plymesh, loopsubdiv, disk and cylinder",
-            )),
-        }
+        let Self { out, inputs, main_dir, is_builtin, .. } = self;
+        let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
+        shapes::read(kind, out, &surface, params, &resolve, *is_builtin)
     }
 }
 

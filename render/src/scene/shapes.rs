@@ -1,16 +1,52 @@
 //! Reads shapes: transforms them to world space in f64, and gives them to the builder.
 
 use super::builder::{Builder, ShapeAttributes, Vertex};
-use super::description::Emission;
 use super::generated;
+use super::lights::Emission;
 use super::message::Message;
-use super::params::{Params, shown};
+use super::params::{Params, Resolve, shown};
 use super::ply;
 use super::subdivision;
 use super::transform::Transform;
 use crate::files::read_file;
 use crate::geometry::Geometry;
 use std::path::Path;
+
+/// Reads a `Shape`; only a built-in scene may name `builtin:` meshes.
+pub(super) fn read(
+    kind: &str,
+    out: &mut Builder,
+    surface: &ShapeAttributes,
+    params: &mut Params,
+    resolve: Resolve<'_>,
+    is_builtin: bool,
+) -> Result<(), Message> {
+    match kind {
+        "sphere" => sphere(out, surface, params),
+        "trianglemesh" => triangle_mesh(out, surface, params),
+        "bilinearmesh" => bilinear_mesh(out, surface, params),
+        "loopsubdiv" => loop_mesh(out, surface, params),
+        "disk" => disk(out, surface, params),
+        "cylinder" => cylinder(out, surface, params),
+        "plymesh" => {
+            let Some(name) = params.text("filename")? else {
+                return Err(params.error("\"string filename\" is missing"));
+            };
+            match name.strip_prefix("builtin:").filter(|_| is_builtin) {
+                Some(name) => computed(out, surface, params, name),
+                None => ply_mesh(out, surface, params, &resolve(&name)),
+            }
+        }
+        "curve" | "cone" | "paraboloid" | "hyperboloid" | "heightfield" | "nurbs" => {
+            out.notes.stand_in(kind, || params.error("shapes of this type are left out"));
+            params.ignore_all();
+            Ok(())
+        }
+        _ => Err(params.error(
+            "shape not supported, only sphere, trianglemesh, bilinearmesh, plymesh, loopsubdiv, disk and cylinder",
+        )),
+    }
+}
 
 /// Warns of the triangles of a shape that were left out.
 fn note_left_out(out: &mut Builder, params: &Params) {
@@ -21,7 +57,7 @@ fn note_left_out(out: &mut Builder, params: &Params) {
 }
 
 /// Reads `Shape "sphere"`.
-pub(super) fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let radius = params.float("radius")?.unwrap_or(1.0);
     let [low, high] = [params.float("zmin")?.unwrap_or(-radius), params.float("zmax")?.unwrap_or(radius)];
     let sweep = params.float("phimax")?.unwrap_or(360.0);
@@ -41,9 +77,7 @@ pub(super) fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut 
         out.add(surface, Geometry::Sphere { center, radius: world_radius });
         return Ok(());
     }
-    if radius.is_nan() || radius <= 0.0 {
-        return Err(params.error(format!("\"radius\": must be greater than 0 and finite, not {}", shown(radius))));
-    }
+    check_radius(radius, params)?;
     tessellated(out, params, "a sphere that is partial, stretched, textured, in an object or emits inwards");
     let sweep = sweep.clamp(0.0, 360.0).to_radians();
     let angle = |z: f64| libm::acos((z / radius).clamp(-1.0, 1.0));
@@ -57,10 +91,11 @@ pub(super) fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut 
 }
 
 /// Reads `Shape "disk"`: a regular polygon of 64 sides and the same area, with a hole if it has one.
-pub(super) fn disk(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+fn disk(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let (height, radius) = (params.float("height")?.unwrap_or(0.0), params.float("radius")?.unwrap_or(1.0));
     let inner = params.float("innerradius")?.unwrap_or(0.0);
     let sweep = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0).to_radians();
+    check_radius(radius, params)?;
     tessellated(out, params, "a disk");
     let grown = 1.0 / polygon_share(sweep / 64.0);
     swept(out, surface, params, [64, 1], |s, t| {
@@ -71,10 +106,11 @@ pub(super) fn disk(out: &mut Builder, surface: &ShapeAttributes, params: &mut Pa
 }
 
 /// Reads `Shape "cylinder"`: a prism of 64 sides and the same area.
-pub(super) fn cylinder(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+fn cylinder(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let radius = params.float("radius")?.unwrap_or(1.0);
     let [low, high] = [params.float("zmin")?.unwrap_or(-1.0), params.float("zmax")?.unwrap_or(1.0)];
     let sweep = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0).to_radians();
+    check_radius(radius, params)?;
     tessellated(out, params, "a cylinder");
     let half = sweep / 128.0;
     let grown = half / libm::sin(half).max(f64::MIN_POSITIVE);
@@ -87,6 +123,11 @@ pub(super) fn cylinder(out: &mut Builder, surface: &ShapeAttributes, params: &mu
 /// The square root of the share of a sector that the triangle of its chord covers.
 fn polygon_share(angle: f64) -> f64 {
     if angle > 0.0 { (libm::sin(angle) / angle).sqrt() } else { 1.0 }
+}
+
+fn check_radius(radius: f64, params: &Params) -> Result<(), Message> {
+    let wrong = || params.error(format!("\"radius\": must be greater than 0 and finite, not {}", shown(radius)));
+    if radius > 0.0 { Ok(()) } else { Err(wrong()) }
 }
 
 /// Warns of a shape that becomes triangles.
@@ -196,7 +237,7 @@ fn corners<const N: usize>(vertices: &[Vertex], face: [usize; N], without: Optio
 }
 
 /// Reads `Shape "trianglemesh"`.
-pub(super) fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let own = (!params.has("uv")).then_some(&TRIANGLE_UVS);
     let mesh = indexed::<3>(out, surface, params)?;
     for face in mesh.faces {
@@ -207,7 +248,7 @@ pub(super) fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params
 }
 
 /// Reads `Shape "bilinearmesh"`.
-pub(super) fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let own = (!params.has("uv")).then_some(&PATCH_UVS);
     let mesh = indexed::<4>(out, surface, params)?;
     for face in mesh.faces {
@@ -218,7 +259,7 @@ pub(super) fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params
 }
 
 /// Reads `Shape "loopsubdiv"`: Loop's subdivision of a mesh.
-pub(super) fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let levels = params.integer("levels")?.unwrap_or(3).clamp(0, 10) as usize;
     let mesh = indexed::<3>(out, surface, params)?;
     let points = mesh.vertices.iter().map(|vertex| vertex.point).collect();
@@ -236,12 +277,7 @@ pub(super) fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &m
 }
 
 /// Reads `Shape "plymesh"` from a file.
-pub(super) fn ply_mesh(
-    out: &mut Builder,
-    surface: &ShapeAttributes,
-    params: &mut Params,
-    path: &Path,
-) -> Result<(), Message> {
+fn ply_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params, path: &Path) -> Result<(), Message> {
     let shown = path.display().to_string();
     let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
@@ -275,12 +311,7 @@ pub(super) fn ply_mesh(
 }
 
 /// Adds shapes of a built-in scene that are computed, which need no checks. Each light has its own radiance, times that of the surface.
-pub(super) fn computed(
-    out: &mut Builder,
-    surface: &ShapeAttributes,
-    params: &Params,
-    name: &str,
-) -> Result<(), Message> {
+fn computed(out: &mut Builder, surface: &ShapeAttributes, params: &Params, name: &str) -> Result<(), Message> {
     if surface.ctm != Transform::IDENTITY || surface.flip {
         return Err(params.error(format!("builtin:{name} takes no transform")));
     }

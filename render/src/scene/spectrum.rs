@@ -121,28 +121,30 @@ pub(super) fn blackbody(kelvins: f64) -> [f64; 3] {
     normalized(integrated(|at| planck(at, kelvins)))
 }
 
-/// Refractive indices η and k of metals, per channel.
+/// Refractive indices η and k of metals and crystals, per channel.
 ///
-/// They are what the measurements of Johnson and Christy (1972) and Palik (1985) give for sRGB's channels.
+/// Metals have the figures that are in use for RGB renderers, which come from Johnson and Christy (1972) and Palik (1985) and are not derived
+/// anew here. The crystals have those of Sellmeier's formulas at 611, 549 and 464 nm: Stephens and Malitson (1952) for MgO, and DeVore
+/// (1951) for the ordinary ray in TiO₂.
 const METALS: [(&str, [f64; 3], [f64; 3]); 7] = [
     ("Ag", [0.1553, 0.1167, 0.1383], [4.8284, 3.1224, 2.1470]),
     ("Al", [1.6575, 0.8804, 0.5212], [9.2239, 6.2695, 4.8370]),
     ("Au", [0.1431, 0.3750, 1.4425], [3.9832, 2.3857, 1.6032]),
     ("Cu", [0.2004, 0.9240, 1.1022], [3.9129, 2.4528, 2.1421]),
     ("CuZn", [0.4440, 0.5270, 1.0940], [3.6950, 2.7650, 1.8290]),
-    ("MgO", [1.7357, 1.7402, 1.7493], [0.0, 0.0, 0.0]),
-    ("TiO2", [2.5839, 2.6640, 2.8583], [0.0, 0.0, 0.0]),
+    ("MgO", [1.7360, 1.7406, 1.7502], [0.0, 0.0, 0.0]),
+    ("TiO2", [2.5973, 2.6490, 2.7787], [0.0, 0.0, 0.0]),
 ];
 
-/// Refractive indices of glasses at the sodium line, 589 nm (data sheets of Schott).
+/// Refractive indices of glasses by pbrt-v4's names, at 587.6 nm (data sheets of Schott); its "glass-F5" is SF5, and so on.
 const GLASSES: [(&str, f64); 7] = [
     ("BK7", 1.5168),
     ("BAF10", 1.67),
     ("FK51A", 1.4866),
     ("LASF9", 1.8503),
-    ("F5", 1.6034),
-    ("SF10", 1.7283),
-    ("SF11", 1.7847),
+    ("F5", 1.6727),
+    ("F10", 1.7283),
+    ("F11", 1.7847),
 ];
 
 /// What a named spectrum stands for.

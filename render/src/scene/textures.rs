@@ -76,20 +76,20 @@ impl Textures {
             "mix" => {
                 let (a, b) = (value(self, params, "tex1", 0.0)?, value(self, params, "tex2", 1.0)?);
                 let amount = self.number("amount", params)?.unwrap_or(Texture::number(0.5));
-                Texture::Mix(Arc::new([a, b, amount]))
+                Texture::mix(a, b, amount)
             }
             "checkerboard" => {
                 let (a, b) = (value(self, params, "tex1", 1.0)?, value(self, params, "tex2", 0.0)?);
                 if params.integer("dimension")? == Some(3) {
                     notes.stand_in("checkerboard", || params.error("in space: becomes its mean"));
-                    Texture::Mix(Arc::new([a, b, Texture::number(0.5)]))
+                    Texture::mix(a, b, Texture::number(0.5))
                 } else {
                     Texture::Checkerboard(Arc::new([a, b]), mapping(params, notes)?)
                 }
             }
             "imagemap" => {
                 let texture = self.image(params, resolve, notes)?;
-                if is_color { texture } else { Texture::Channel(Arc::new(texture), 0) }
+                if is_color { texture } else { texture.channel(0) }
             }
             _ => {
                 params.ignore_all();
@@ -143,7 +143,7 @@ impl Textures {
         };
         let picture = Texture::Picture(Picture { texels, mapping, wrap: [wrap; 2], bilinear });
         let scaled = picture.times(Texture::number(scale));
-        Ok(if invert { Texture::Inverse(Arc::new(scaled)) } else { scaled })
+        Ok(if invert { scaled.inverse() } else { scaled })
     }
 
     /// A colour in double precision, or a texture that varies.

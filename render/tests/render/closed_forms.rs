@@ -247,3 +247,116 @@ fn materials_are_not_mixed_up() {
         assert!((mean[k] - albedo / PI).abs() < 0.02 * albedo, "{mean:?}");
     }
 }
+
+type V3 = [f64; 3];
+
+fn dot(a: V3, b: V3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+fn cross(a: V3, b: V3) -> V3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+fn unit(a: V3) -> V3 {
+    let length = dot(a, a).sqrt();
+    a.map(|x| x / length)
+}
+
+/// A triangle around the origin in the plane y = 0, and the weights of its corners there: areas over the whole area.
+const CORNERS: [V3; 3] = [[-3.0, 0.0, 2.0], [1.0, 0.0, -5.0], [4.0, 0.0, 1.0]];
+fn weights() -> V3 {
+    let area = |a: V3, b: V3| cross(a, b)[1];
+    let [a, b, c] = CORNERS;
+    let parts = [area(b, c), area(c, a), area(a, b)];
+    parts.map(|part| part / parts.iter().sum::<f64>())
+}
+fn mesh(parameters: &str) -> String {
+    let points: Vec<_> = CORNERS.iter().flatten().map(f64::to_string).collect();
+    format!("Shape \"trianglemesh\" \"point3 P\" [{}] {parameters}\n", points.join(" "))
+}
+fn sun(to: V3) -> String {
+    let [x, y, z] = to;
+    format!("LightSource \"distant\" \"point3 from\" [{x} {y} {z}] \"point3 to\" [0 0 0]\n")
+}
+
+/// A checkerboard of n × n squares over u shows whether the interpolated u is in an even one: the digits of each corner's weight.
+#[test]
+fn textures_are_where_their_coordinates_say() {
+    for (corner, weight) in weights().into_iter().enumerate() {
+        for n in 2..40 {
+            let uv: Vec<_> = (0..3).map(|k| if k == corner { "1 0.3" } else { "0 0.3" }).collect();
+            let text = format!(
+                "{}Texture \"b\" \"spectrum\" \"checkerboard\" \"float uscale\" {n} \"rgb tex1\" [.8 .5 .2] \"rgb tex2\" [.1 .2 .3]\n\
+                 Material \"diffuse\" \"texture reflectance\" \"b\"\n{}",
+                sun([0.0, 1.0, 0.0]),
+                mesh(&format!("\"point2 uv\" [{}]", uv.join(" ")))
+            );
+            let place = weight * f64::from(n);
+            if (place - place.round()).abs() < 1e-3 {
+                continue;
+            }
+            let albedo = if place.floor() % 2.0 == 0.0 { [0.8, 0.5, 0.2] } else { [0.1, 0.2, 0.3] };
+            let (mean, _) = pixel(&narrow("1 5 2", &text), Technique::Auto, 8);
+            for k in 0..3 {
+                assert!((mean[k] * PI / albedo[k] - 1.0).abs() < 1e-5, "corner {corner}, {n} squares: {mean:?}");
+            }
+        }
+    }
+}
+
+/// Interpolated normals by every technique: the cosine is that of the smooth surface, and no light passes through either surface.
+#[test]
+fn smooth_normals_are_interpolated() {
+    let normals: [V3; 3] = [[0.3, 1.0, 0.1], [-0.4, 1.0, 0.6], [0.2, 1.0, -0.7]];
+    let list: Vec<_> = normals.iter().flatten().map(f64::to_string).collect();
+    let surface = format!(
+        "Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n{}",
+        mesh(&format!("\"normal N\" [{}]", list.join(" ")))
+    );
+    let units = normals.map(unit);
+    let w = weights();
+    let smooth = unit(std::array::from_fn(|k| (0..3).map(|i| w[i] * units[i][k]).sum()));
+    assert!(smooth[1] < 0.999, "{smooth:?}");
+    for to in [[0.0, 1.0, 0.0], [1.0, 1.0, 0.5], [-3.0, 1.0, 1.0]] {
+        let cos = dot(unit(to), smooth);
+        exactly(&narrow("1 5 2", &format!("{}{surface}", sun(to))), [cos; 3]);
+    }
+    // tilted so far that the sun is above one surface alone
+    let tilted = |n: &str| format!("Material \"diffuse\"\n{}", mesh(&format!("\"normal N\" [{n} {n} {n}]")));
+    for (to, n) in [([3.0, -0.2, 0.0], "1 1 0"), ([3.0, 0.2, 0.0], "-1 1 0")] {
+        let up = dot(unit(to), [if n == "1 1 0" { 1.0 } else { -1.0 }, 1.0, 0.0]);
+        assert!((up > 0.0) != (to[1] > 0.0));
+        exactly(&narrow("1 5 2", &format!("{}{}", sun(to), tilted(n))), [0.0; 3]);
+    }
+}
+
+/// A coat over a diffuse surface by every technique, against its formula (glTF 2.0, appendix B) in double precision.
+#[test]
+fn coats_have_their_formula() {
+    let (alpha, f0, albedo) = (0.5_f64, 0.04_f64, [0.8, 0.5, 0.2]);
+    let text = "Material \"coateddiffuse\" \"rgb reflectance\" [.8 .5 .2] \"float roughness\" .25\n";
+    let view = unit([1.0, 5.0, 2.0]);
+    for to in [[-1.0, 5.0, -2.0], [0.0, 1.0, 0.0], [-4.0, 1.0, 0.0]] {
+        let light = unit(to);
+        let half = unit(std::array::from_fn(|k| light[k] + view[k]));
+        let (i, o, h) = (light[1], view[1], half[1]);
+        let distribution = alpha.powi(2) / (PI * (h * h * (alpha.powi(2) - 1.0) + 1.0).powi(2));
+        let lambda = |cos: f64| ((1.0 + alpha.powi(2) * (1.0 / (cos * cos) - 1.0)).sqrt() - 1.0) / 2.0;
+        let shadowing = 1.0 / (1.0 + lambda(i) + lambda(o));
+        let fresnel = f0 + (1.0 - f0) * (1.0 - dot(view, half)).powi(5);
+        let rough = fresnel * distribution * shadowing / (4.0 * i * o);
+        let world = narrow(
+            "1 5 2",
+            &format!("{}{text}{PLANE}", sun(to)).replace("Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n", ""),
+        );
+        for &technique in Technique::value_variants() {
+            let (mean, _) = pixel(&world, technique, 8);
+            for (k, albedo) in albedo.into_iter().enumerate() {
+                let truth = ((1.0 - fresnel) * albedo / PI + rough) * i;
+                assert!(
+                    (mean[k] - truth).abs() <= 3e-5 * truth,
+                    "{technique:?}, {to:?}: {mean:?}, {truth} in channel {k}"
+                );
+            }
+        }
+    }
+}

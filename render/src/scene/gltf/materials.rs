@@ -1,8 +1,8 @@
 //! Reads materials, and the textures and images that they name.
 
 use super::super::builder::Builder;
-use super::super::description::Emission;
 use super::super::lexer::shortened;
+use super::super::lights::Emission;
 use super::super::materials::Varying;
 use super::super::message::Message;
 use super::super::params::{MOST_RADIANCE, brightness, rounded};
@@ -72,28 +72,6 @@ impl Glow {
 pub(super) struct Materials {
     surfaces: HashMap<Option<usize>, Rc<Surface>>,
     images: HashMap<(usize, bool), Arc<Texels>>,
-}
-
-/// A number or colour that is computed once if it is constant.
-fn inverse(of: Texture) -> Texture {
-    match of.constant() {
-        Some(color) => Texture::Constant(color.map(|x| (1.0 - x).max(0.0))),
-        None => Texture::Inverse(Arc::new(of)),
-    }
-}
-fn mix(a: Texture, b: Texture, t: Texture) -> Texture {
-    match (a.constant(), b.constant(), t.constant()) {
-        (_, _, Some([0.0, ..])) => a,
-        (_, _, Some([1.0, ..])) => b,
-        (Some(a), Some(b), Some(t)) => Texture::Constant(std::array::from_fn(|k| (1.0 - t[k]) * a[k] + t[k] * b[k])),
-        _ => Texture::Mix(Arc::new([a, b, t])),
-    }
-}
-fn channel(of: Texture, channel: usize) -> Texture {
-    match of.constant() {
-        Some(color) => Texture::number(color[channel]),
-        None => Texture::Channel(Arc::new(of), channel),
-    }
 }
 
 /// What else a material may have, and what its absence changes.
@@ -207,9 +185,9 @@ impl Reader<'_, '_> {
         let metallic = if metallic == 0.0 {
             Texture::number(0.0)
         } else {
-            Texture::number(metallic).times(channel(map.clone(), 2))
+            Texture::number(metallic).times(map.clone().channel(2))
         };
-        let roughness = Texture::number(roughness).times(channel(map, 1));
+        let roughness = Texture::number(roughness).times(map.channel(1));
         let ior = extensions.and_then(|all| all.ior.as_ref()).map_or(1.5, |ior| ior.ior.0);
         let specular = extensions.and_then(|all| all.specular.as_ref());
         if ior == 1.5 && specular.is_none() {
@@ -232,8 +210,8 @@ impl Reader<'_, '_> {
             at_normal = Texture::Constant(color.map(|x| (x * ratio * ratio).min(1.0) * factor));
         }
         Ok(Varying::Glossy {
-            diffuse: base.clone().times(inverse(metallic.clone())),
-            specular: mix(at_normal, base, metallic),
+            diffuse: base.clone().times(metallic.clone().inverse()),
+            specular: Texture::mix(at_normal, base, metallic),
             alpha: roughness.clone().times(roughness),
         })
     }

@@ -56,8 +56,8 @@ impl<'a> Source<'a> {
     }
 
     /// The other files that were read so far.
-    pub(super) fn into_inputs(self) -> Vec<PathBuf> {
-        self.inputs.into_inner()
+    pub(super) fn inputs(&self) -> Vec<PathBuf> {
+        self.inputs.borrow().clone()
     }
 
     /// A message about an item of the file.

@@ -68,6 +68,7 @@ fn errors_name_line_and_value() {
         ("ObjectEnd", 2, "ObjectEnd has no matching ObjectBegin"),
         ("ObjectBegin \"a\"\nObjectBegin \"b\"", 3, "the one of line 2 is not closed"),
         ("ObjectBegin \"a\" AttributeBegin\nObjectEnd", 3, "an AttributeBegin within the object is not closed"),
+        ("ObjectBegin \"a\" ObjectEnd Scale 1 0 1\nObjectInstance \"a\"", 3, "its transform is singular"),
         ("ObjectInstance \"a\"", 2, "no ObjectBegin \"a\" precedes this"),
         ("ObjectBegin \"a\"\nObjectInstance \"a\"", 3, "objects cannot contain instances"),
         ("ActiveTransform Later", 2, "expected All, StartTime or EndTime, found Later"),
@@ -100,6 +101,8 @@ fn errors_name_line_and_value() {
         ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0 "),
         ("Shape \"sphere\" \"float radius\" -3", 2, "\"radius\": must be greater than 0 and finite, not -3 "),
         ("Translate 1e39 0 0\nShape \"sphere\"", 3, "[1e39, 0.0, 0.0], which is not finite in f32"),
+        ("Shape \"disk\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0"),
+        ("Shape \"cylinder\" \"float radius\" -2", 2, "\"radius\": must be greater than 0 and finite, not -2"),
         // meshes
         ("Shape \"trianglemesh\"", 2, "\"point3 P\" is missing"),
         ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]", 2, "expected a multiple of 3 numbers, found 4"),

@@ -203,6 +203,15 @@ fn materials_become_what_direct_light_shows() {
     ] {
         assert_eq!(material(text).0, expected, "{text}");
     }
+    // the share of a mixture may be a texture of numbers
+    let mixed = |amount: f32| {
+        material(&format!(
+            "Texture \"t\" \"float\" \"constant\" \"float value\" {amount}\nMakeNamedMaterial \"a\" \"string type\" \"mirror\"\n\
+             MakeNamedMaterial \"b\" \"string type\" \"diffuse\" Material \"mix\" \"string materials\" [\"a\" \"b\"] \"texture amount\" \"t\""
+        ))
+        .0
+    };
+    assert_eq!([mixed(0.2), mixed(0.8)], [Material::Mirror([0.9; 3]), Material::Diffuse([0.5; 3])]);
     // a surface without a material is none, but may emit
     assert!(lit(&format!("Material \"interface\" {TRIANGLE}")).triangles.is_empty());
     let emits = lit(&format!("Material \"interface\" {LIGHT}{TRIANGLE}"));
@@ -244,6 +253,9 @@ fn lights_have_the_power_and_the_colour_that_is_asked_for() {
     let sky = read(&world("LightSource \"infinite\" \"float illuminance\" 6")).environment.unwrap().sky;
     let SkyRadiance::Constant([r, ..]) = sky else { panic!() };
     assert!((r * pi - 6.0).abs() < 1e-5);
+    // only some lights have pictures
+    let plain = read(&world("LightSource \"point\" \"string filename\" \"none.exr\""));
+    assert!(plain.stand_ins.is_empty() && warnings(&plain).len() == 1, "{:?}", plain.warnings);
     let stand_ins = read(&world(
         "LightSource \"goniometric\" LightSource \"projection\" \"float fov\" 40 LightSource \"infinite\" \"point3 portal\" [0 0 0]",
     ));

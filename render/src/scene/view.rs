@@ -1,0 +1,142 @@
+//! Reads `Camera`, `Film` and `Sampler`.
+
+use super::description::{CameraSettings, FilmSettings, Lens};
+use super::message::{Message, Notes};
+use super::params::{Params, shown};
+use super::transform::{Transform, length, scaled};
+use crate::limits::{MOST_SAMPLES, is_size};
+
+/// Reads a `Camera`, which looks along +z of camera space, and its transform to world space. `ctm` is the transform from world space.
+pub(super) fn camera(
+    kind: &str,
+    params: &mut Params,
+    ctm: &Transform,
+    notes: &mut Notes,
+) -> Result<(CameraSettings, Transform), Message> {
+    let far = match kind {
+        "perspective" => None,
+        "orthographic" => {
+            let why = "becomes a perspective one from a thousand times as far as the image is wide";
+            notes.stand_in(kind, || params.error(why));
+            Some(1000.0)
+        }
+        "realistic" | "spherical" | "environment" => {
+            notes.stand_in(kind, || params.error("becomes a perspective one of 50 degrees"));
+            params.ignore_all();
+            params.set_float("fov", 50.0);
+            None
+        }
+        _ => return Err(params.error("not supported, only \"perspective\" and stand-ins for pbrt's others")),
+    };
+    for name in ["shutteropen", "shutterclose", "hither", "yon", "halffov"] {
+        params.given(name);
+    }
+    if params.given("frameaspectratio") {
+        let why = "\"frameaspectratio\" is ignored: pixels are square";
+        notes.stand_in("frameaspectratio", || params.error(why));
+    }
+    // half of the screen's shorter side, which is 1 for the field of view that is given
+    let screen = match params.numbers("screenwindow", "float", 4)?.as_deref() {
+        None => 1.0,
+        Some(&[left, right, bottom, top]) if left < right && bottom < top => {
+            if left + right != 0.0 || bottom + top != 0.0 {
+                let why = "\"screenwindow\" is moved to the middle of the image";
+                notes.stand_in("screenwindow", || params.error(why));
+            }
+            (right - left).min(top - bottom) / 2.0
+        }
+        Some(numbers) => {
+            return Err(params.error(format!("\"screenwindow\": {numbers:?} is not x0 x1 y0 y1, ascending")));
+        }
+    };
+    let radius = params.float("lensradius")?.unwrap_or(0.0);
+    if radius < 0.0 {
+        return Err(params.error(format!("\"lensradius\": must be at least 0, not {}", shown(radius))));
+    }
+    let focus = params.float("focaldistance")?.unwrap_or(1e6);
+    if focus <= 0.0 {
+        return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
+    }
+    let given = params.float("fov")?.unwrap_or(90.0);
+    let fov = match far {
+        None if screen == 1.0 => given,
+        None => 2.0 * libm::atan(screen * libm::tan(given.to_radians() / 2.0)).to_degrees(),
+        Some(far) => 2.0 * libm::atan(1.0 / far).to_degrees(),
+    };
+    if !(fov > 0.0 && fov < 180.0) {
+        return Err(
+            params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {}", shown(fov)))
+        );
+    }
+    let singular = || params.error("its transform is singular");
+    let world = ctm.inverse().ok_or_else(singular)?;
+    let forward = world.vector([0.0, 0.0, 1.0]);
+    let unit = length(forward);
+    let axis = |v: [f64; 3]| scaled(world.vector(v), 1.0 / unit);
+    let lens = (radius > 0.0).then_some(Lens { radius, focus, unit });
+    if let Some(lens) =
+        lens.filter(|l| !((l.radius * unit) as f32).is_normal() || !((l.radius / l.focus) as f32).is_normal())
+    {
+        let Lens { radius, focus, .. } = lens;
+        return Err(
+            params.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32"))
+        );
+    }
+    let back = far.map_or(0.0, |far| -far * screen);
+    let camera = CameraSettings {
+        origin: world.point([0.0, 0.0, back]),
+        forward: axis([0.0, 0.0, 1.0]),
+        right: axis([1.0, 0.0, 0.0]),
+        up: axis([0.0, 1.0, 0.0]),
+        fov,
+        lens,
+    };
+    let mut numbers = camera.forward.iter().chain(&camera.right).chain(&camera.up);
+    if !numbers.all(|x| x.is_finite()) {
+        return Err(singular());
+    }
+    Ok((camera, world))
+}
+
+/// Reads a `Film`.
+pub(super) fn film(kind: &str, params: &mut Params, notes: &mut Notes) -> Result<FilmSettings, Message> {
+    if !["rgb", "image", "gbuffer", "spectral"].contains(&kind) {
+        return Err(params.error("not supported, only \"rgb\", and \"gbuffer\" and \"spectral\" as if they were that"));
+    }
+    for name in ["cropwindow", "pixelbounds"] {
+        if params.given(name) {
+            notes.warn(params.error(format!("{name:?} ignored: the whole image is rendered")));
+        }
+    }
+    let width = params.integer("xresolution")?.unwrap_or(1280);
+    let height = params.integer("yresolution")?.unwrap_or(720);
+    // a negative number is a very large one here
+    if !is_size(width as u64, height as u64) {
+        return Err(
+            params.error(format!("{width} × {height} pixels: each side must be 1 to 65536, and the area at most 2^28"))
+        );
+    }
+    let diagonal = params.float("diagonal")?.unwrap_or(35.0);
+    if !(1e-2..=1e6).contains(&diagonal) {
+        return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
+    }
+    let filename = params.text("filename")?;
+    Ok(FilmSettings { width: width as u32, height: height as u32, diagonal, filename })
+}
+
+/// Reads the number of samples per pixel of a `Sampler`.
+pub(super) fn samples(kind: &str, params: &mut Params, notes: &mut Notes) -> Result<u32, Message> {
+    let samples = if kind == "stratified" {
+        params.integer("xsamples")?.unwrap_or(4).saturating_mul(params.integer("ysamples")?.unwrap_or(4))
+    } else {
+        params.integer("pixelsamples")?.unwrap_or(16)
+    };
+    let samples = u32::try_from(samples)
+        .ok()
+        .filter(|n| (1..=MOST_SAMPLES).contains(n))
+        .ok_or_else(|| params.error(format!("{samples} samples per pixel: must be from 1 to {MOST_SAMPLES}")))?;
+    if kind != "independent" && kind != "stratified" {
+        notes.warn(params.error("only the number of samples is used; --sampler chooses the sampler"));
+    }
+    Ok(samples)
+}
