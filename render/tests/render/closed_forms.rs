@@ -320,6 +320,20 @@ fn smooth_normals_are_interpolated() {
         let cos = dot(unit(to), smooth);
         exactly(&narrow("1 5 2", &format!("{}{surface}", sun(to))), [cos; 3]);
     }
+    // whichever way the normals point in the file, and from below
+    let turned: Vec<_> = normals.iter().flatten().map(|x| (-x).to_string()).collect();
+    let turned = surface.replace(&list.join(" "), &turned.join(" "));
+    let to = [1.0, 1.0, 0.5];
+    let cos = dot(unit(to), smooth);
+    exactly(&narrow("1 5 2", &format!("{}{turned}", sun(to))), [cos; 3]);
+    exactly(&narrow("-1 -5 -2", &format!("{}{surface}", sun(to.map(|x| -x)))), [cos; 3]);
+    // a normal that faces away from the viewer is turned until its cosine to him is 0.01
+    let (away, view) = (unit([-1.0, 1.0, 0.0]), unit([5.0, 1.0, 0.0]));
+    let facing = |n: V3| unit(std::array::from_fn(|k| n[k] + (0.01 - dot(n, view)) * view[k]));
+    let steep =
+        format!("Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n{}", mesh("\"normal N\" [-1 1 0 -1 1 0 -1 1 0]"));
+    assert!(dot(away, view) < -0.5);
+    exactly(&narrow("5 1 0", &format!("{}{steep}", sun([0.0, 1.0, 0.0]))), [facing(away)[1]; 3]);
     // tilted so far that the sun is above one surface alone
     let tilted = |n: &str| format!("Material \"diffuse\"\n{}", mesh(&format!("\"normal N\" [{n} {n} {n}]")));
     for (to, n) in [([3.0, -0.2, 0.0], "1 1 0"), ([3.0, 0.2, 0.0], "-1 1 0")] {
@@ -357,6 +371,63 @@ fn coats_have_their_formula() {
                     "{technique:?}, {to:?}: {mean:?}, {truth} in channel {k}"
                 );
             }
+        }
+    }
+}
+
+/// A smooth mirror does not reflect what is below its flat surface.
+#[test]
+fn smooth_mirrors_do_not_see_through_themselves() {
+    let mirror = |n: &str| {
+        let scene =
+            format!("LightSource \"infinite\"\nMaterial \"mirror\"\n{}", mesh(&format!("\"normal N\" [{n} {n} {n}]")));
+        pixel(&narrow("5 1 0", &scene), Technique::Auto, 8).0
+    };
+    // the mirror image of the direction to the viewer, (5, 1, 0), is (−4.47, 2.45, 0) and (−4.95, −1.20, 0) with these normals
+    assert!((mirror(".05 1 0")[0] - 0.9).abs() < 1e-5, "{:?}", mirror(".05 1 0"));
+    assert_eq!(mirror("-.19 .98 0"), [0.0; 3]);
+}
+
+/// Panels over a surface with a smooth normal, by every technique, against sums over the panels in double precision: one that is above
+/// both horizons, and an upright one of which half is below the flat surface, but most of that above the smooth one.
+#[test]
+fn panels_light_smooth_surfaces() {
+    let side = 400;
+    let share = |i: i32| (f64::from(i) + 0.5) / f64::from(side);
+    for (corner, edges, normal) in [
+        ([-2.0, 2.0, -1.0], [[1.0, 0.0, 0.0], [0.0, 0.0, 2.0]], [0.5, 1.0, -0.3]),
+        ([-2.0, -2.0, -1.0], [[0.0, 4.0, 0.0], [0.0, 0.0, 2.0]], [-0.5, 1.0, -0.3]),
+    ] {
+        let across = cross(edges[0], edges[1]);
+        let n = unit(normal);
+        let irradiance = (0..side * side)
+            .map(|i| {
+                let [s, t] = [share(i % side), share(i / side)];
+                let to: V3 = std::array::from_fn(|k| corner[k] + s * edges[0][k] + t * edges[1][k]);
+                let (w, square) = (unit(to), dot(to, to));
+                if w[1] > 0.0 { dot(w, n).max(0.0) * -dot(w, across) / square / f64::from(side * side) } else { 0.0 }
+            })
+            .sum::<f64>()
+            * 5.0;
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[s, t]| {
+            let p: V3 = std::array::from_fn(|k| corner[k] + s * edges[0][k] + t * edges[1][k]);
+            p.map(|x| x.to_string()).join(" ")
+        });
+        let normals = vec![normal.map(|x| x.to_string()).join(" "); 3].join(" ");
+        let scene = format!(
+            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [5 5 5]\n\
+             Shape \"bilinearmesh\" \"point3 P\" [{}] AttributeEnd\nMaterial \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n{}",
+            corners.join(" "),
+            mesh(&format!("\"normal N\" [{normals}]"))
+        );
+        let (world, truth) = (narrow("1 5 2", &scene), irradiance * 0.8 / PI);
+        for &technique in Technique::value_variants() {
+            let (mean, error) = pixel(&world, technique, 4096);
+            assert!(
+                (mean[0] - truth).abs() < 5.0 * error[0] + 1e-4 * truth,
+                "{technique:?}: {mean:?} ± {error:?}, {truth}"
+            );
+            assert!(error[0] < 0.1 * truth, "{technique:?}: {error:?}");
         }
     }
 }

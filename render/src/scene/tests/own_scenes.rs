@@ -337,3 +337,44 @@ fn cameras_of_others() {
     );
     assert_eq!(camera("Film \"gbuffer\" \"float cropwindow\" [0 1 0 1] Camera \"perspective\"").warnings.len(), 1);
 }
+
+#[test]
+fn bent_lights_emit_on_the_side_of_their_order() {
+    let sides = |text: &str| {
+        let patch = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 .5]";
+        let scene = read(&world(&format!("{text} {LIGHT} {patch}")));
+        assert!(scene.shapes.len() > 8, "{}", scene.shapes.len());
+        scene.shapes.iter().map(|shape| normal(&shape.geometry)[2].signum()).sum::<f32>() / scene.shapes.len() as f32
+    };
+    assert_eq!(
+        [sides(""), sides("ReverseOrientation"), sides("Scale 1 -1 1"), sides("Scale 1 1 -1")],
+        [1.0, -1.0, 1.0, -1.0]
+    );
+}
+
+#[test]
+fn skies_have_the_illuminance_that_is_asked_for() {
+    let dir = meshes::Scratch::new("illuminance");
+    // longitude and latitude: 1 above the horizon, 3 below it
+    exr::prelude::write_rgb_file(dir.path.join("s.exr"), 64, 16, |_, y| {
+        if y < 8 { (1.0, 1.0, 1.0) } else { (3.0, 3.0, 3.0_f32) }
+    })
+    .unwrap();
+    let sky = |text: &str| parse(&world(text), "a.pbrt", &dir.path).unwrap().environment.unwrap().sky;
+    let light = "LightSource \"infinite\" \"string filename\" \"s.exr\"";
+    let SkyRadiance::Image { texels, .. } = sky(&format!("{light} \"float illuminance\" 6")) else { panic!() };
+    // the illuminance of a hemisphere of radiance L is πL
+    let above = 6.0 / std::f32::consts::PI;
+    assert!(
+        (texels[0][1] / above - 1.0).abs() < 5e-3 && (texels[1000][1] / texels[0][1] - 3.0).abs() < 1e-5,
+        "{:?}",
+        texels[0]
+    );
+    for both in [
+        format!("{light} LightSource \"infinite\" \"rgb L\" [1 2 4]"),
+        format!("LightSource \"infinite\" \"rgb L\" [1 2 4] {light}"),
+    ] {
+        let SkyRadiance::Image { texels, .. } = sky(&both) else { panic!() };
+        assert_eq!([texels[0], texels[1000]], [[2.0, 3.0, 5.0], [4.0, 5.0, 7.0]]);
+    }
+}
