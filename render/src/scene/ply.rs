@@ -31,8 +31,8 @@ pub(super) struct Face {
     pub(super) corners: usize,
 }
 
-/// A point, a normal and texture coordinates.
-struct Vertex([f64; 8]);
+/// The first N of the numbers of a vertex: a point, a normal and texture coordinates.
+struct Vertex<const N: usize>([f64; N]);
 
 /// Names of the numbers of a vertex. Texture coordinates have several.
 const NUMBERS: [&[&str]; 8] = [
@@ -48,13 +48,13 @@ const NUMBERS: [&[&str]; 8] = [
 
 struct Other;
 
-impl PropertyAccess for Vertex {
+impl<const N: usize> PropertyAccess for Vertex<N> {
     fn new() -> Self {
-        Vertex([f64::NAN; 8])
+        Vertex([f64::NAN; N])
     }
 
     fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        let Some(axis) = NUMBERS.iter().position(|names| names.contains(&name)) else {
+        let Some(axis) = NUMBERS[..N].iter().position(|names| names.contains(&name)) else {
             return PropertyAccessResult::Ignored;
         };
         self.0[axis] = match value {
@@ -123,13 +123,19 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
     for (element, def) in &header.elements {
         match element.as_str() {
             "vertex" => {
-                let vertices = read_element::<Vertex>(name, bytes, &mut reader, def, &header)?;
-                mesh.points = vertices.iter().map(|Vertex([x, y, z, ..])| [*x, *y, *z]).collect();
                 let has = |k: usize| NUMBERS[k].iter().any(|name| def.properties.contains_key(*name));
-                if has(3) && has(4) && has(5) {
+                let [has_normals, has_uvs] = [has(3) && has(4) && has(5), has(6) && has(7)];
+                if !has_normals && !has_uvs {
+                    let vertices = read_element::<Vertex<3>>(name, bytes, &mut reader, def, &header)?;
+                    mesh.points = vertices.into_iter().map(|vertex| vertex.0).collect();
+                    continue;
+                }
+                let vertices = read_element::<Vertex<8>>(name, bytes, &mut reader, def, &header)?;
+                mesh.points = vertices.iter().map(|Vertex([x, y, z, ..])| [*x, *y, *z]).collect();
+                if has_normals {
                     mesh.normals = vertices.iter().map(|Vertex([_, _, _, x, y, z, ..])| [*x, *y, *z]).collect();
                 }
-                if has(6) && has(7) {
+                if has_uvs {
                     mesh.uvs = vertices.iter().map(|Vertex([.., u, v])| [*u, *v]).collect();
                 }
             }

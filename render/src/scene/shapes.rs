@@ -166,7 +166,7 @@ fn swept(
 
 /// A mesh in world space.
 struct Mesh<const N: usize> {
-    vertices: Vec<Vertex>,
+    vertices: Vertices,
     faces: Vec<[usize; N]>,
 }
 
@@ -193,55 +193,59 @@ fn indexed<const N: usize>(
     if params.given("S") {
         out.notes.warn_once("S", || params.error("\"S\": ignored: no material is anisotropic"));
     }
-    let vertices = vertices(surface, &points, &normals, &uvs);
+    let count = points.len();
+    let vertices = Vertices::new(surface, points, normals, uvs);
     let Some(indices) = params.numbers("indices", "integer", N)? else {
-        if points.len() != N {
+        if count != N {
             return Err(params.error(format!("\"indices\" is missing: it is optional only for {N} points")));
         }
         return Ok(Mesh { vertices, faces: vec![std::array::from_fn(|i| i)] });
     };
-    if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i as usize >= points.len()) {
-        return Err(params.error(format!("index {i} is out of range: there are {} points", points.len())));
+    if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i as usize >= count) {
+        return Err(params.error(format!("index {i} is out of range: there are {count} points")));
     }
     let groups = indices.chunks_exact(N).map(|group| std::array::from_fn(|i| group[i] as usize));
     Ok(Mesh { vertices, faces: groups.collect() })
 }
 
-/// Vertices at world points, with normals and texture coordinates of the file, either of which may be missing.
-fn vertices(surface: &ShapeAttributes, points: &[[f64; 3]], normals: &[[f64; 3]], uvs: &[[f64; 2]]) -> Vec<Vertex> {
-    let mut normals = surface.place_normals(normals.iter().copied());
-    // pbrt's ReverseOrientation also reverses normals; what a mirroring transform does to them is no part of it
-    let reversed = surface.flip != (surface.ctm.determinant() < 0.0);
-    let mut next = |at: usize| {
-        let normal = normals.next().unwrap_or([0.0; 3]);
-        let uv = uvs.get(at).copied().filter(|uv| uv.iter().all(|x| x.is_finite())).unwrap_or([0.0; 2]);
-        (if reversed { normal.map(|x| -x) } else { normal }, uv)
-    };
-    let vertex = |(at, &point): (usize, &[f64; 3])| {
-        let (normal, uv) = next(at);
-        Vertex { point, normal, uv }
-    };
-    points.iter().enumerate().map(vertex).collect()
+/// Vertices in world space. Normals and texture coordinates are as many as points, or none.
+struct Vertices {
+    points: Vec<[f64; 3]>,
+    normals: Vec<[f64; 3]>,
+    uvs: Vec<[f64; 2]>,
+}
+
+impl Vertices {
+    /// Vertices at world points, with normals and texture coordinates as the file has them.
+    fn new(surface: &ShapeAttributes, points: Vec<[f64; 3]>, normals: Vec<[f64; 3]>, uvs: Vec<[f64; 2]>) -> Self {
+        // pbrt's ReverseOrientation also reverses normals; what a mirroring transform does to them is no part of it
+        let reversed = surface.flip != (surface.ctm.determinant() < 0.0);
+        let normals = surface.place_normals(normals.into_iter());
+        let normals = normals.map(|n| if reversed { n.map(|x| -x) } else { n }).collect();
+        Self { points, normals, uvs }
+    }
+    /// The corners of a face, with these texture coordinates if the mesh has none.
+    fn corners<const N: usize>(&self, face: [usize; N], without: &[[f64; 2]; N]) -> [Vertex; N] {
+        std::array::from_fn(|k| {
+            let i = face[k];
+            let uv = self.uvs.get(i).copied().filter(|uv| uv.iter().all(|x| x.is_finite()));
+            let uv = uv.unwrap_or(if self.uvs.is_empty() { without[k] } else { [0.0; 2] });
+            Vertex { point: self.points[i], normal: self.normals.get(i).copied().unwrap_or([0.0; 3]), uv }
+        })
+    }
 }
 
 /// The texture coordinates of a face's corners where a mesh has none.
 const TRIANGLE_UVS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+/// In cyclic order.
+const QUAD_UVS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 const PATCH_UVS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-
-/// The corners of a face, with these texture coordinates if the mesh has none.
-fn corners<const N: usize>(vertices: &[Vertex], face: [usize; N], without: Option<&[[f64; 2]; N]>) -> [Vertex; N] {
-    std::array::from_fn(|k| {
-        let vertex = vertices[face[k]];
-        without.map_or(vertex, |uvs| Vertex { uv: uvs[k], ..vertex })
-    })
-}
 
 /// Reads `Shape "trianglemesh"`.
 fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    let own = (!params.has("uv")).then_some(&TRIANGLE_UVS);
     let mesh = indexed::<3>(out, surface, params)?;
     for face in mesh.faces {
-        out.triangle(surface, corners(&mesh.vertices, face, own));
+        out.triangle(surface, mesh.vertices.corners(face, &TRIANGLE_UVS));
     }
     note_left_out(out, params);
     Ok(())
@@ -249,10 +253,9 @@ fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Para
 
 /// Reads `Shape "bilinearmesh"`.
 fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
-    let own = (!params.has("uv")).then_some(&PATCH_UVS);
     let mesh = indexed::<4>(out, surface, params)?;
     for face in mesh.faces {
-        out.patch(surface, corners(&mesh.vertices, face, own));
+        out.patch(surface, mesh.vertices.corners(face, &PATCH_UVS));
     }
     note_left_out(out, params);
     Ok(())
@@ -262,8 +265,7 @@ fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Para
 fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let levels = params.integer("levels")?.unwrap_or(3).clamp(0, 10) as usize;
     let mesh = indexed::<3>(out, surface, params)?;
-    let points = mesh.vertices.iter().map(|vertex| vertex.point).collect();
-    let smooth = subdivision::smooth(points, mesh.faces, levels);
+    let smooth = subdivision::smooth(mesh.vertices.points, mesh.faces, levels);
     let (points, faces, normals) = smooth.map_err(|why| params.error(why))?;
     let side = if surface.flip { -1.0 } else { 1.0 };
     for face in faces {
@@ -281,29 +283,26 @@ fn ply_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params, p
     let shown = path.display().to_string();
     let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
+    drop(bytes);
     mesh.warnings.iter().for_each(|text| out.notes.warn(params.error(text)));
 
     let in_file = |why: String| params.error(format!("{shown}: {why}"));
     let points = surface.place(mesh.points.iter().copied()).map_err(in_file)?;
-    let vertices = vertices(surface, &points, &mesh.normals, &mesh.uvs);
-    let has_uvs = !mesh.uvs.is_empty();
+    let count = points.len();
+    let vertices = Vertices::new(surface, points, mesh.normals, mesh.uvs);
     for (i, face) in mesh.faces.iter().enumerate() {
         let index = |k: usize| {
             let outside = || {
-                in_file(format!(
-                    "face {i}: index {} is out of range: there are {} vertices",
-                    face.indices[k],
-                    points.len()
-                ))
+                in_file(format!("face {i}: index {} is out of range: there are {} vertices", face.indices[k], count))
             };
             let index = usize::try_from(face.indices[k]).map_err(|_| outside())?;
-            if index < points.len() { Ok(index) } else { Err(outside()) }
+            if index < count { Ok(index) } else { Err(outside()) }
         };
         let [a, b, c] = [index(0)?, index(1)?, index(2)?];
         if face.corners == 3 {
-            out.triangle(surface, corners(&vertices, [a, b, c], (!has_uvs).then_some(&TRIANGLE_UVS)));
+            out.triangle(surface, vertices.corners([a, b, c], &TRIANGLE_UVS));
         } else {
-            out.quad(surface, corners(&vertices, [a, b, c, index(3)?], None));
+            out.quad(surface, vertices.corners([a, b, c, index(3)?], &QUAD_UVS));
         }
     }
     note_left_out(out, params);
