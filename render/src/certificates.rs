@@ -98,12 +98,18 @@ impl<'a> Certifier<'a> {
         }
         candidates.clear();
         met.clear();
+        let mut has_holes = false;
         let complete = surfaces.bvh.search(region, stack, NODES, |place| {
             if place == patch.place || place == lamp.shape | SHAPE {
                 return true;
             }
             let candidate = Candidate::new(surfaces, place);
             if candidate.misses(shaft) {
+                return true;
+            }
+            // what has holes may hide the light, or not
+            if place & SHAPE == 0 && surfaces.bvh.is_cut_out(place) {
+                has_holes = true;
                 return true;
             }
             if let Some(body) = bodies.of(place) {
@@ -119,6 +125,7 @@ impl<'a> Certifier<'a> {
             candidates.push(candidate);
             candidates.len() < CANDIDATES
         });
+        let complete = complete && !has_holes;
         met.retain(|met| met.1);
         let mut precision = |behind: &Behind| {
             let form = surfaces.shapes()[lamp.shape as usize].geometry.convex();

@@ -5,7 +5,7 @@ pub mod tree;
 
 use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, bounds_of};
 use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{DeltaLight, Scene, Shape};
 use crate::sky::Sky;
@@ -203,7 +203,12 @@ pub struct Chosen {
 fn squared_radius(scene: &Scene) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let boxes = scene.shapes.iter().map(|shape| shape.geometry.bounds());
-    for [least, most] in scene.triangles.iter().flatten().map(|&p| [p, p]).chain(boxes) {
+    let objects: Vec<_> =
+        scene.objects.iter().map(|range| bounds_of(scene.triangles[range.clone()].as_flattened())).collect();
+    let instances = scene.instances.iter().flat_map(|instance| instance.corners(objects[instance.object as usize]));
+    let own = scene.objects.first().map_or(scene.triangles.len(), |range| range.start);
+    let points = scene.triangles[..own].as_flattened().iter().copied().chain(instances);
+    for [least, most] in points.map(|p| [p, p]).chain(boxes) {
         for k in 0..3 {
             low[k] = low[k].min(f64::from(least[k]));
             high[k] = high[k].max(f64::from(most[k]));

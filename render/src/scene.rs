@@ -13,14 +13,15 @@
 //! | `subsurface`; v3's `kdsubsurface` | a coat over a diffuse surface |
 //! | `hair`, `measured`; v3's `fourier` | diffuse of albedo 0.5; v3's `disney` its base colour, metallic and roughness |
 //! | `mix` | the one of its materials with the greater share |
-//! | `interface`, `alpha` 0 | no surface; any other `alpha` is opaque |
+//! | `interface`, `alpha` 0 | no surface |
+//! | `alpha` | holes: a ray is stopped with this chance; lights are opaque |
 //! | anisotropic roughness | its geometric mean |
 //! | `displacement`, `normalmap` | ignored |
 //! | textures `constant`, `scale`, `mix`, `checkerboard`, `imagemap` | themselves, by u and v; others 0.5; those of lights and spheres their means |
 //! | `trianglemesh`, `plymesh`, `loopsubdiv`, `sphere`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
 //! | other patches, `disk`, `cylinder`, partial, stretched or textured spheres | triangles |
 //! | `curve` and older quadrics | left out |
-//! | `ObjectInstance` | a copy; lights in objects emit nothing, as in pbrt |
+//! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `goniometric`, `projection`, lights with a picture | a point, spot or plain light of the same mean; portals are ignored |
 //! | media, motion | ignored; stills at the start |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
@@ -29,7 +30,9 @@
 //! |---|---|
 //! | metallic-roughness, specular-glossiness, index of refraction | glTF's GGX over diffuse |
 //! | emissive textures | the mean over each triangle |
-//! | masks, blending, transmission | opaque |
+//! | masks, blending | holes, as for `alpha` |
+//! | transmission | opaque |
+//! | meshes of several nodes | instances, or copies in small scenes and of lights |
 //! | normal and occlusion maps, vertex colours, skins, morphs, animations | ignored |
 //! | points and lines | left out |
 
@@ -57,7 +60,7 @@ mod transform;
 mod view;
 
 use crate::files::read_file;
-pub use crate::geometry::Geometry;
+pub use crate::geometry::{Affine, Geometry, Instance};
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
 pub use lights::{DeltaLight, Emission, Environment, SkyRadiance};

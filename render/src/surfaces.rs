@@ -4,11 +4,13 @@ mod points;
 
 use crate::bsdf::{Finish, Metal, PLAIN, albedo, finish};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
+use crate::geometry::Affine;
 use crate::packet::{M8, V8, X8, equal};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
 use etendue::{Mask, Real, Vec3, u32x8};
 pub(crate) use points::{LEAST, LIFT};
 use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The hit points of eight rays.
@@ -43,7 +45,7 @@ pub struct Surfaces {
     /// Albedos of the materials; white for metals and mirrors that are not black.
     albedos: Vec<[f32; 3]>,
     finishes: Vec<Finish>,
-    /// Material of each triangle in tree order; empty if all have the same.
+    /// Material of each triangle in the order of the leaves; empty if all have the same.
     place_materials: Vec<u32>,
     /// Material of all triangles if `place_materials` is empty.
     one_material: u32,
@@ -70,21 +72,34 @@ impl Surfaces {
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        Ok(Self::with(scene, Bvh::new(&scene.triangles, Self::shape_set(scene)?)?))
+        // room for eight-lane loads beyond the last leaf
+        let mut triangles = Vec::with_capacity(scene.triangles.len() + 1);
+        triangles.extend_from_slice(&scene.triangles);
+        Ok(Self::with(scene, Self::bvh(triangles, scene)?))
     }
     /// Like [`Surfaces::new`], but takes the triangles out of the scene and builds the tree in their memory.
     ///
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn from_scene(scene: &mut Scene) -> Result<Self, BuildError> {
-        let shapes = Self::shape_set(scene)?;
-        let bvh = Bvh::taking(std::mem::take(&mut scene.triangles), shapes)?;
-        let surfaces = Self::with(scene, bvh);
+        let triangles = std::mem::take(&mut scene.triangles);
+        let surfaces = Self::with(scene, Self::bvh(triangles, scene)?);
         scene.triangle_materials = Vec::new();
         Ok(surfaces)
     }
-    fn shape_set(scene: &Scene) -> Result<ShapeSet, BuildError> {
-        ShapeSet::new(scene.shapes.iter().map(|shape| &shape.geometry))
+    fn bvh(triangles: Vec<[[f32; 3]; 3]>, scene: &Scene) -> Result<Bvh, BuildError> {
+        let shapes = ShapeSet::new(scene.shapes.iter().map(|shape| &shape.geometry))?;
+        let mut bvh = Bvh::with_instances(triangles, &scene.objects, &scene.instances, shapes)?;
+        if !scene.masks.is_empty() {
+            let masks: Vec<_> = scene.masks.iter().map(|(_, mask)| mask.clone()).collect();
+            let of_material: HashMap<u32, u32> =
+                scene.masks.iter().zip(0..).map(|((of, _), mask)| (*of, mask)).collect();
+            bvh.cut_out(&masks.into(), |triangle| {
+                let mask = *of_material.get(&scene.triangle_materials[triangle as usize])?;
+                Some((mask, scene.details.of(triangle).map_or([[0.0; 2]; 3], |corners| corners.uvs)))
+            });
+        }
+        Ok(bvh)
     }
     fn with(scene: &Scene, bvh: Bvh) -> Self {
         let one = scene.triangle_materials.windows(2).all(|w| w[0] == w[1]);
@@ -183,10 +198,10 @@ impl Surfaces {
         self.albedos[self.mesh_material(place) as usize]
     }
 
-    /// Material of a triangle, by its place in tree order.
+    /// Material of a triangle, by its place.
     #[inline]
     fn mesh_material(&self, place: u32) -> u32 {
-        self.place_materials.get(place as usize).copied().unwrap_or(self.one_material)
+        if self.place_materials.is_empty() { self.one_material } else { self.place_materials[self.bvh.slot(place)] }
     }
 
     /// Calls `f` for each shape that some lanes have hit, with its index, the lanes, the shape and its outward normals at the hits.
@@ -254,8 +269,7 @@ impl Surfaces {
                 continue;
             }
             let material = self.mesh_material(place) as usize;
-            let corners = detail.corners.of_triangles.get(order[place as usize] as usize);
-            let corners = corners.and_then(|&index| detail.corners.corners.get(index as usize));
+            let corners = detail.corners.of(order[self.bvh.slot(place)]);
             let varying = detail.varying[material].as_ref();
             let weights = corners.map(|_| barycentric(self.bvh.corners(place), lane_of(surface.point, lane)));
             let varied = varying.map(|varying| match (corners, weights) {
@@ -266,10 +280,11 @@ impl Surfaces {
             if let Some(varied) = varied {
                 set_lane(&mut surface.albedo, lane, albedo(&varied));
             }
-            if let Some((Corners { normals, .. }, weights)) = corners.zip(weights)
+            if let Some((&Corners { normals, .. }, weights)) = corners.zip(weights)
                 && normals[0] != [0.0; 3]
+                && let normals = self.bvh.to_world(place).map_or(normals, |to_world| moved(normals, to_world))
                 && let Some(n) =
-                    smooth_normal(normals, weights, lane_of(surface.normal, lane), lane_of(direction, lane))
+                    smooth_normal(&normals, weights, lane_of(surface.normal, lane), lane_of(direction, lane))
             {
                 set_lane(&mut surface.normal, lane, n);
                 smooth |= 1 << lane;
@@ -324,6 +339,18 @@ fn barycentric(corners: [f32; 9], p: [f32; 3]) -> [f32; 3] {
 }
 fn mixed<const N: usize>(of: &[[f32; N]; 3], weights: [f32; 3]) -> [f32; N] {
     std::array::from_fn(|k| of[0][k] * weights[0] + of[1][k] * weights[1] + of[2][k] * weights[2])
+}
+
+/// Normals of an instance in world space; those that the map makes 0 stay so.
+fn moved(normals: [[f32; 3]; 3], to_world: &Affine) -> [[f32; 3]; 3] {
+    let rows = to_world.cofactors();
+    normals.map(|n| {
+        let n = Vec3::from(n.map(f64::from));
+        let [x, y, z] = rows.map(|row| row.dot(n));
+        let unit = Vec3::new(x, y, z).normalize();
+        let unit = [unit.x as f32, unit.y as f32, unit.z as f32];
+        if unit.iter().all(|x| x.is_finite()) { unit } else { [0.0; 3] }
+    })
 }
 
 /// The least cosine between a smooth normal and the direction to the viewer.

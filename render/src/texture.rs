@@ -16,7 +16,7 @@ pub enum Wrap {
 }
 
 /// The texels of an image, row by row from the top.
-#[derive(Clone, PartialEq)]
+#[derive(Clone)]
 pub struct Texels {
     /// Columns, at least 1.
     pub width: usize,
@@ -37,6 +37,14 @@ pub enum Colors {
     Linear(Vec<[u8; 3]>),
     /// Linear RGB.
     Float(Vec<[f32; 3]>),
+}
+
+impl PartialEq for Texels {
+    fn eq(&self, other: &Self) -> bool {
+        let parts = |of: &Self| (of.width, of.height);
+        let same = || parts(self) == parts(other) && self.colors == other.colors && self.alpha == other.alpha;
+        std::ptr::eq(self, other) || same()
+    }
 }
 
 impl std::fmt::Debug for Texels {
@@ -64,12 +72,17 @@ impl Texels {
             Colors::Float(colors) => colors[index],
         }
     }
-    /// The mean of all texels, linear RGB.
-    fn mean(&self) -> [f32; 3] {
+    /// The opacity of a texel, as a number.
+    #[inline]
+    fn opacity(&self, index: usize) -> [f32; 3] {
+        [self.alpha.as_ref().map_or(1.0, |alpha| f32::from(alpha[index]) / 255.0); 3]
+    }
+    /// The mean over all texels.
+    fn mean(&self, value: impl Fn(&Self, usize) -> [f32; 3]) -> [f32; 3] {
         let count = self.width * self.height;
         let mut sum = [0.0_f64; 3];
         for index in 0..count {
-            sum.iter_mut().zip(self.color(index)).for_each(|(sum, x)| *sum += f64::from(x));
+            sum.iter_mut().zip(value(self, index)).for_each(|(sum, x)| *sum += f64::from(x));
         }
         sum.map(|x| (x / count as f64) as f32)
     }
@@ -115,6 +128,8 @@ pub enum Texture {
     Constant([f32; 3]),
     /// A picture.
     Picture(Picture),
+    /// The opacity of a picture, as a number; 1 if it has none.
+    Opacity(Picture),
     /// One channel of a texture, as a number.
     Channel(Arc<Texture>, usize),
     /// The products of two textures.
@@ -193,6 +208,7 @@ impl Texture {
         match self {
             Self::Constant(color) => *color,
             Self::Picture(picture) => picture.at(uv),
+            Self::Opacity(picture) => picture.opacity(uv),
             Self::Channel(of, channel) => [of.at(uv)[*channel]; 3],
             Self::Product(of) => {
                 let (a, b) = (of[0].at(uv), of[1].at(uv));
@@ -221,7 +237,8 @@ impl Texture {
         };
         match self {
             Self::Constant(color) => *color,
-            Self::Picture(picture) => picture.texels.mean(),
+            Self::Picture(picture) => picture.texels.mean(Texels::color),
+            Self::Opacity(picture) => picture.texels.mean(Texels::opacity),
             Self::Channel(of, channel) => [of.mean()[*channel]; 3],
             Self::Product(of) => both(of, |a, b| a * b),
             Self::Inverse(of) => of.mean().map(|x| (1.0 - x).max(0.0)),
@@ -233,6 +250,15 @@ impl Texture {
             Self::Checkerboard(of, _) => both(of, |a, b| 0.5 * (a + b)),
         }
     }
+}
+
+/// The opacity of a surface with holes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mask {
+    /// Opacity, a number: 0 is a hole. Other numbers are chances that a ray is stopped.
+    pub opacity: Texture,
+    /// If given, the surface is opaque where the opacity is at least this, and has holes elsewhere.
+    pub least: Option<f32>,
 }
 
 /// The index of a texel along one axis; `None` if it is black.
@@ -267,12 +293,19 @@ impl Picture {
         (low as i64, if self.bilinear { (x - low) as f32 } else { 0.0 })
     }
     fn at(&self, uv: [f32; 2]) -> [f32; 3] {
+        self.interpolated(uv, |index| self.texels.color(index))
+    }
+    fn opacity(&self, uv: [f32; 2]) -> [f32; 3] {
+        self.interpolated(uv, |index| self.texels.opacity(index))
+    }
+    #[inline]
+    fn interpolated(&self, uv: [f32; 2], value: impl Fn(usize) -> [f32; 3]) -> [f32; 3] {
         let [s, t] = self.mapping.at(uv);
         let Texels { width, height, .. } = *self.texels;
         let ((x, fx), (y, fy)) = (self.beside(s, width), self.beside(t, height));
         let texel = |x: i64, y: i64| {
             let place = wrapped(x, width, self.wrap[0]).zip(wrapped(y, height, self.wrap[1]));
-            place.map_or([0.0; 3], |(x, y)| self.texels.color(y * width + x))
+            place.map_or([0.0; 3], |(x, y)| value(y * width + x))
         };
         if !self.bilinear {
             return texel(x, y);
@@ -352,7 +385,7 @@ mod tests {
 
     #[test]
     fn bytes_of_srgb_are_linear_light() {
-        let one = |colors| Texels { width: 1, height: 1, colors, alpha: None }.mean();
+        let one = |colors| Texels { width: 1, height: 1, colors, alpha: None }.mean(Texels::color);
         assert_eq!(one(Colors::Srgb(vec![[0, 255, 255]])), [0.0, 1.0, 1.0]);
         assert!((one(Colors::Srgb(vec![[188; 3]]))[0] - 0.502_886).abs() < 1e-5);
         assert_eq!(one(Colors::Linear(vec![[51; 3]])), [0.2; 3]);

@@ -3,6 +3,7 @@
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8, u32x8};
 use etendue_render::bvh::{Bvh, Hits, NOTHING, Scratch, ShapeSet, Traversal};
+use etendue_render::scene::{Affine, Instance};
 
 type V = [f64; 3];
 
@@ -107,6 +108,100 @@ fn packets_find_what_is_there() {
         }
         assert!((400..2500).contains(&hits), "{hits} of 2560 rays hit at scale {scale}");
     }
+}
+
+/// A rotation about a random axis, after a scale of each axis, one of them mirrored or not, and before a shift.
+fn affine(i: u32, stretch: f64, far: f64) -> Affine {
+    let number = |k: u32| f64::from(random(i, k)[0]);
+    let axis = [number(1), number(2), number(3) + 1e-3];
+    let axis = axis.map(|x| x / dot(axis, axis).sqrt());
+    let (sin, cos) = (3.0 * number(4)).sin_cos();
+    let scale = [5, 6, 7].map(|k| stretch.powf(number(k)) * if i % 3 == k - 5 { -1.0 } else { 1.0 });
+    Affine(std::array::from_fn(|r| {
+        std::array::from_fn(|c| {
+            if c == 3 {
+                return (far * number(8 + r as u32)) as f32;
+            }
+            let cyclic = (c + 3 - r) % 3;
+            let across = [0.0, -axis[(r + 2) % 3], axis[(r + 1) % 3]][cyclic];
+            let same = if r == c { cos } else { 0.0 };
+            ((same + (1.0 - cos) * axis[r] * axis[c] + sin * across) * scale[c]) as f32
+        })
+    }))
+}
+
+/// Instances are hit as copies of their triangles are, bit for bit, and these where double precision finds them.
+#[test]
+fn instances_are_hit_as_copies() {
+    let mut hits = 0;
+    for round in 0..24_u32 {
+        let (stretch, far) = ([1.0, 3.0, 30.0][round as usize % 3], [0.5, 1.5][round as usize / 3 % 2]);
+        let point = |i: u32, k: u32| {
+            let ([x, y], [z, _]) = (random(900 * round + i, 2 * k), random(900 * round + i, 2 * k + 1));
+            [x, y, z]
+        };
+        let triangle = |i: u32| {
+            let center = point(i, 0);
+            [1, 2, 3].map(|k| std::array::from_fn(|a| 0.4 * center[a] + 0.2 * point(i, k)[a]))
+        };
+        let triangles: Vec<[[f32; 3]; 3]> = (0..300).map(triangle).collect();
+        // some of their own, and two objects, the second of which is empty in every fourth round
+        let objects = [100..if round % 4 == 0 { 300 } else { 180 }, if round % 4 == 0 { 300..300 } else { 180..300 }];
+        let instance = |i: u32| Instance { object: i % 2, to_world: affine(50 * round + i, stretch, far) };
+        let instances: Vec<_> = (0..9).map(instance).collect();
+        let mut copies = triangles[..100].to_vec();
+        for Instance { object, to_world } in &instances {
+            let own = &triangles[objects[*object as usize].clone()];
+            copies.extend(own.iter().map(|t| t.map(|p| <[f32; 3]>::from(to_world.point(Vec3::from(p))))));
+        }
+        let build = || {
+            let shapes = ShapeSet::new(std::iter::empty()).unwrap();
+            Bvh::with_instances(triangles.clone(), &objects, &instances, shapes).unwrap()
+        };
+        let (flat, all) = (tree(&copies), build());
+        let ways = [Traversal::Stream, Traversal::Single, Traversal::Exhaustive];
+        let others = ways.map(|way| build().with_traversal(way));
+        for group in 0..8_u32 {
+            let ray = |i: u32| {
+                let (o, d) = (point(group * 64 + i, 5), point(group * 64 + i, 6));
+                let (o, d) = match group % 3 {
+                    0 => ([0.1, 0.2, 4.0], [0.3 * d[0], 0.3 * d[1], -1.0]),
+                    1 => ([o[0], o[1], 3.0], [-0.0, 0.0, -1.0]),
+                    _ => (o, d),
+                };
+                let length = d.iter().map(|x| x * x).sum::<f32>().sqrt();
+                (o, d.map(|x| x / length))
+            };
+            let rays: Vec<_> = (0..64).map(ray).collect();
+            // strong stretches make slivers, whose distances single precision does not know
+            if stretch < 10.0 {
+                hits += check(&copies, &all, &rays, all.reach());
+            }
+            let expected = found(&flat, &rays);
+            let own = found(&all, &rays);
+            for (i, ((distance, place), (wanted, copy))) in own.iter().zip(&expected).enumerate() {
+                assert_eq!(distance, wanted, "ray {i} of group {group} of round {round}");
+                let corners = |bvh: &Bvh, place: u32| (place != NOTHING).then(|| bvh.corners(place));
+                assert_eq!(corners(&all, *place), corners(&flat, *copy), "ray {i} of group {group} of round {round}");
+            }
+            for (which, bvh) in others.iter().enumerate() {
+                assert_eq!(found(bvh, &rays), own, "group {group} of round {round}, way {which}");
+            }
+        }
+    }
+    assert!(hits > 2000, "{hits} of 8,192 rays hit");
+}
+
+/// Distance and place of the nearest hit of each ray.
+fn found(bvh: &Bvh, rays: &[([f32; 3], [f32; 3])]) -> Vec<(f32, u32)> {
+    let axis = |p: usize, a: usize, of: fn(&([f32; 3], [f32; 3])) -> [f32; 3]| {
+        f32x8::from(std::array::from_fn(|i| of(&rays[8 * p + i])[a]))
+    };
+    let lanes = |p: usize, of| Vec3::new(axis(p, 0, of), axis(p, 1, of), axis(p, 2, of));
+    let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, |ray| ray.0), lanes(p, |ray| ray.1))).collect();
+    let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
+    bvh.closest(&packets, &[<f32x8 as Real>::Mask::splat(true); 8], &mut hits, &mut Scratch::default());
+    (0..64).map(|i| (hits[i / 8].distance.lane(i % 8), hits[i / 8].place.to_array()[i % 8])).collect()
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::node::{INNER, Node, Stack, WIDTH, greater, push_in_order, slabs};
 use super::rays::{Hits, Rays, any, common_sign};
-use super::tree::{Primitives, Tree};
+use super::tree::{Primitives, View};
 use crate::packet::{M8, V8, X8, max, min, select};
 use etendue::{Mask, Real};
 
@@ -143,7 +143,7 @@ impl<const COMMON: bool> Packets<'_, COMMON> {
 /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
 /// something instead.
 pub(super) fn packets<const ANY: bool>(
-    tree: &Tree<impl Primitives>,
+    tree: &View<'_, impl Primitives>,
     rays: &[Rays],
     active: &mut [M8],
     frustum: Option<&Frustum>,
@@ -166,7 +166,7 @@ pub(super) fn packets<const ANY: bool>(
 }
 
 fn packets_with<const ANY: bool, const COMMON: bool>(
-    tree: &Tree<impl Primitives>,
+    tree: &View<'_, impl Primitives>,
     packets: &Packets<'_, COMMON>,
     active: &mut [M8],
     hits: &mut [Hits],
@@ -223,7 +223,7 @@ fn packets_with<const ANY: bool, const COMMON: bool>(
 /// Tests the rays that enter a leaf. Returns whether there are any; with `ANY`, whether a packet has no active rays any more.
 #[inline(always)]
 fn visit_leaf<const ANY: bool, const COMMON: bool>(
-    tree: &Tree<impl Primitives>,
+    tree: &View<'_, impl Primitives>,
     packets: &Packets<'_, COMMON>,
     node: &Node,
     slot: usize,

@@ -51,11 +51,18 @@ impl Rays {
     #[inline(always)]
     pub fn new(origin: V8, direction: V8, reach: f32) -> Self {
         let frame = Frame::new(direction);
+        // 2⁻²⁰ of the largest coordinate involved: 16 times the rounding of a vertex relative to the origin
+        let pad = (origin.max_abs() + X8::splat(reach)) * X8::lit(1.0 / 1_048_576.0);
+        let own = Self { origin, direction, frame: [frame.s, frame.t], ..Self::default() };
+        own.entering(origin, direction, pad)
+    }
+    /// The same rays, which enter boxes of another space, where they have this origin and direction and the same distances.
+    /// Boxes are widened by `pad`.
+    #[inline(always)]
+    pub(super) fn entering(&self, origin: V8, direction: V8, pad: X8) -> Self {
         // components below 1e−18 count as 1e−18, with which a ray never reaches the planes across that axis
         let invert = |d: X8| X8::lit(1.0) / max(d.abs(), X8::lit(1e-18)).copysign(d);
         let inverse = Vec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
-        // 2⁻²⁰ of the largest coordinate involved: 16 times the rounding of a vertex relative to the origin
-        let pad = (origin.max_abs() + X8::splat(reach)) * X8::lit(1.0 / 1_048_576.0);
         let plane = |o: V8, pad: X8| {
             Vec3::new(-((o.x + pad) * inverse.x), -((o.y + pad) * inverse.y), -((o.z + pad) * inverse.z))
         };
@@ -63,14 +70,11 @@ impl Rays {
             [direction.x, direction.y, direction.z].map(|d| X8::lit(1.0).copysign(d).lt(X8::lit(0.0)).bits());
         let common = negative.iter().all(|&bits| bits == 0 || bits == 0xff);
         Self {
-            origin,
-            direction,
-            frame: [frame.s, frame.t],
             inverse,
             offset: [plane(origin, pad), plane(origin, -pad)],
             common_sign: common.then(|| negative.map(|bits| bits != 0)),
             pad: pad.to_array().into_iter().fold(0.0, f32::max),
-            from: u32x8::splat(NOTHING),
+            ..*self
         }
     }
     /// The same rays, which begin on these primitives, as in hits. A flat primitive never occludes its own points, and a sphere only those

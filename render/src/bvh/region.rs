@@ -1,7 +1,8 @@
 //! Primitives that may meet a convex region.
 
 use super::node::{Node, WIDTH};
-use super::tree::Tree;
+use super::tree::View;
+use crate::geometry::Affine;
 use crate::packet::{M8, V8, X8, min};
 use etendue::{Mask, Real};
 use std::ops::Range;
@@ -43,6 +44,20 @@ impl Region {
             self.count += 1;
         }
     }
+    /// The region in a space from which a map leads here, for triangles whose coordinates there have magnitudes up to `reach`.
+    pub(super) fn in_space(&self, to_here: &Affine, reach: f32) -> Self {
+        let mut own = Self::new(reach);
+        for space in &self.spaces[..self.count] {
+            let row = |k: usize| f64::from(space.normal[k]);
+            let column = |j: usize| (0..3).map(|k| row(k) * f64::from(to_here.0[k][j])).sum::<f64>();
+            let normal = [0, 1, 2].map(column);
+            // the corners were moved here and rounded: as far as the margin that the half-space has already
+            let limit = f64::from(space.limit) - column(3);
+            let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+            own.push(normal.map(|x| x / length), limit / length);
+        }
+        own
+    }
     /// The lanes where some half-space has none of a convex hull, whose least n·x is `least(n)`. A NaN proves nothing.
     #[inline(always)]
     fn outside(&self, least: impl Fn([f32; 3]) -> X8) -> M8 {
@@ -82,7 +97,7 @@ pub(super) trait Placed {
 /// Calls `visit` with the index of each primitive that may meet the region, until it returns false or `budget` nodes have been visited;
 /// returns whether the search was completed.
 pub(super) fn search(
-    tree: &Tree<impl Placed>,
+    tree: &View<'_, impl Placed>,
     region: &Region,
     stack: &mut Vec<u32>,
     budget: &mut usize,

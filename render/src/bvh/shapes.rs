@@ -192,9 +192,6 @@ impl Primitives for Solids {
         }
         hidden
     }
-    fn bytes(&self) -> usize {
-        size_of_val(&self.solids[..]) + size_of_val(&self.ids[..])
-    }
 }
 
 impl Placed for Solids {

@@ -2,7 +2,7 @@
 
 use super::node::{Node, Stack, push_in_order};
 use super::rays::{Hits, Nearest, Rays, by_octant, each_bit};
-use super::tree::Tree;
+use super::tree::View;
 use crate::packet::{M8, V8, X8, max, min};
 use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
@@ -75,7 +75,7 @@ pub(super) trait Leaves {
 /// Finds the nearest hits of all rays one by one, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that
 /// hit something instead.
 pub(super) fn one_by_one<const ANY: bool>(
-    tree: &Tree<impl Leaves>,
+    tree: &View<'_, impl Leaves>,
     rays: &[Rays],
     active: &mut [M8],
     hits: &mut [Hits],
@@ -92,7 +92,7 @@ pub(super) fn one_by_one<const ANY: bool>(
 /// they are.
 #[inline]
 pub(super) fn trace_lane<const ANY: bool>(
-    tree: &Tree<impl Leaves>,
+    tree: &View<'_, impl Leaves>,
     from: u32,
     rays: &Rays,
     lane: usize,
@@ -111,7 +111,7 @@ pub(super) fn trace_lane<const ANY: bool>(
 }
 
 fn single_ray<const ANY: bool, const OCTANT: usize>(
-    tree: &Tree<impl Leaves>,
+    tree: &View<'_, impl Leaves>,
     from: u32,
     ray: &SingleRay,
     nearest: &mut Nearest,
@@ -176,7 +176,12 @@ fn single_ray<const ANY: bool, const OCTANT: usize>(
 
 /// Tests one ray against a child that is a leaf, as [`Leaves::test_ray`].
 #[inline(always)]
-fn test_child<const ANY: bool>(tree: &Tree<impl Leaves>, leaf: &Child, ray: &SingleRay, nearest: &mut Nearest) -> bool {
+fn test_child<const ANY: bool>(
+    tree: &View<'_, impl Leaves>,
+    leaf: &Child,
+    ray: &SingleRay,
+    nearest: &mut Nearest,
+) -> bool {
     let first = leaf.first as usize;
     tree.primitives.test_ray::<ANY>(first..first + leaf.count as usize, ray, X8::splat(leaf.near), nearest)
 }

@@ -3,7 +3,7 @@
 use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
 use super::rays::{GROUP, Hits, Rays, by_octant, each_bit, octant};
 use super::single_ray::{Child, Leaves, SingleRay, trace_lane};
-use super::tree::{Primitives, Tree};
+use super::tree::{Primitives, View};
 use crate::packet::{M8, X8, max, min, select};
 use etendue::{Mask, Real};
 use wide::i8x32;
@@ -93,7 +93,7 @@ fn bits(active: &[M8]) -> u64 {
 /// Finds the nearest hits of a group of packets, if nearer than those in `hits`. With `ANY`, clears the lanes of `active` that hit
 /// something instead.
 pub(super) fn stream<const ANY: bool>(
-    tree: &Tree<impl Primitives + Leaves>,
+    tree: &View<'_, impl Primitives + Leaves>,
     rays: &[Rays],
     active: &mut [M8],
     hits: &mut [Hits],
@@ -105,7 +105,7 @@ pub(super) fn stream<const ANY: bool>(
 }
 
 fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
-    tree: &Tree<impl Primitives + Leaves>,
+    tree: &View<'_, impl Primitives + Leaves>,
     rays: &[Rays],
     active: &mut [M8],
     hits: &mut [Hits],
@@ -162,7 +162,7 @@ fn stream_in_octant<const ANY: bool, const OCTANT: usize>(
 /// Tests the rays of `among` in a leaf. With `ANY`, returns those that hit something.
 #[inline(always)]
 fn visit_stream_leaf<const ANY: bool>(
-    tree: &Tree<impl Primitives + Leaves>,
+    tree: &View<'_, impl Primitives + Leaves>,
     rays: &[Rays],
     among: u64,
     node: &Node,

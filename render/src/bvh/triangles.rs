@@ -1,12 +1,14 @@
 //! Intersection of one triangle with eight rays, and of one ray with all triangles of a leaf.
 
 use super::build::Costs;
+use super::cutouts::Cutouts;
 use super::double_precision::{NEAR, to_triangle, wide};
 use super::node::{Bounded, Bounds, BuildError, greater, lesser};
-use super::rays::{Hits, NOTHING, Nearest, Rays, each_bit};
+use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE, each_bit};
 use super::region::{Placed, Region};
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
+use crate::geometry::Affine;
 use crate::packet::{M8, V8, X8, equal, max, min, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
@@ -42,6 +44,77 @@ pub(super) struct TriangleLeaves {
     ids: Vec<u32>,
     /// For each triangle, the biased exponent of a distance: hits that are nearer to the origin of a ray are computed in double precision.
     near: Vec<u8>,
+    /// The triangles that have holes, if some do.
+    pub(super) cutouts: Option<Box<Cutouts>>,
+}
+
+/// Where triangles are.
+trait Situation {
+    /// What is added to the index of a triangle to give its place in hits.
+    fn first(&self) -> u32;
+    /// Where a corner of a triangle is.
+    fn corner<R: Real<Scalar = f32>>(&self, corner: Vec3<R>) -> Vec3<R>;
+    /// A bound of the factor by which the distances grow up to which single precision does not suffice.
+    fn size(&self) -> f32;
+    /// The distances up to which single precision does not suffice for these triangles, in some lanes, from their bounds.
+    fn near(&self, bounds: X8, lanes: M8, triangles: [usize; 8]) -> X8;
+}
+
+/// Triangles as they are stored.
+struct InPlace;
+
+impl Situation for InPlace {
+    #[inline(always)]
+    fn first(&self) -> u32 {
+        0
+    }
+    #[inline(always)]
+    fn corner<R: Real<Scalar = f32>>(&self, corner: Vec3<R>) -> Vec3<R> {
+        corner
+    }
+    #[inline(always)]
+    fn size(&self) -> f32 {
+        1.0
+    }
+    #[inline(always)]
+    fn near(&self, bounds: X8, _: M8, _: [usize; 8]) -> X8 {
+        bounds
+    }
+}
+
+/// An instance of triangles. Its corners are moved and rounded, and tested as if they were stored so.
+#[derive(Debug)]
+pub(super) struct Moved<'a> {
+    pub(super) triangles: &'a TriangleLeaves,
+    /// What is added to the index of a triangle to give its place in hits.
+    pub(super) first: u32,
+    pub(super) to_world: &'a Affine,
+    /// A bound of the factor by which the distances grow up to which single precision does not suffice.
+    pub(super) size: f32,
+}
+
+impl Situation for Moved<'_> {
+    #[inline(always)]
+    fn first(&self) -> u32 {
+        self.first
+    }
+    #[inline(always)]
+    fn corner<R: Real<Scalar = f32>>(&self, corner: Vec3<R>) -> Vec3<R> {
+        self.to_world.point(corner)
+    }
+    #[inline(always)]
+    fn size(&self) -> f32 {
+        self.size
+    }
+    #[cold]
+    fn near(&self, mut bounds: X8, lanes: M8, triangles: [usize; 8]) -> X8 {
+        each_bit(lanes.bits(), |lane| {
+            let c = self.triangles.corners(triangles[lane] as u32);
+            let corners = [0, 3, 6].map(|k| self.corner(Vec3::new(c[k], c[k + 1], c[k + 2])).into());
+            bounds.as_mut_array()[lane] = from_exponent(near_exponent(&corners));
+        });
+        bounds
+    }
 }
 
 /// The biased exponent of the distance up to which single precision does not suffice. Rounding moves hits by a fraction of the longest edge,
@@ -96,7 +169,7 @@ impl TriangleLeaves {
             let mut coordinates = triangles.into_flattened().into_flattened();
             // room for eight-lane loads beyond the last leaf
             coordinates.extend([0.0; 8]);
-            Self { coordinates, leaves, ids, near }
+            Self { coordinates, leaves, ids, near, cutouts: None }
         })
     }
     #[inline]
@@ -111,18 +184,21 @@ impl TriangleLeaves {
         &self.ids
     }
     /// The lower rank wins a tie: the caller's index for triangles, a greater rank for shapes, and the least for misses, so that a
-    /// hit exactly at the limit does not count.
-    fn rank(&self, place: u32) -> u64 {
-        match self.ids.get(place as usize) {
-            Some(&id) => u64::from(id) + 1,
+    /// hit exactly at the limit does not count. The places of an instance begin at `first`, and follow each other; an instance of lower
+    /// places wins.
+    fn rank(&self, first: u32, place: u32) -> u64 {
+        match self.ids.get(place.wrapping_sub(first) as usize) {
+            Some(&id) => u64::from(first) + u64::from(id) + 1,
             None if place == NOTHING => 0,
-            None => u64::MAX,
+            None if place & SHAPE != 0 => u64::MAX,
+            None => u64::from(place) + 1,
         }
     }
     /// Lanes of `tie` where the triangle at `place` has a lower rank than the hit in `hits`.
     #[cold]
-    fn goes_first(&self, tie: M8, place: u32, hits: &Hits) -> M8 {
-        let first = (0..8).filter(|&i| tie.lane(i) && self.rank(place) < self.rank(hits.place.as_array()[i]));
+    fn goes_first(&self, tie: M8, first: u32, place: u32, hits: &Hits) -> M8 {
+        let rank = |place: u32| self.rank(first, place);
+        let first = (0..8).filter(|&i| tie.lane(i) && rank(place) < rank(hits.place.as_array()[i]));
         M8::from_bits(first.fold(0, |bits, i| bits | 1 << i))
     }
     /// Corners of one triangle of a leaf, broadcast to all lanes.
@@ -208,15 +284,23 @@ fn undecided<const ANY: bool>(distance: X8, near: X8, limit: X8) -> M8 {
 }
 
 impl TriangleLeaves {
-    /// Computes the distances in these lanes in double precision, to the triangles of `places` there. Returns the lanes that hit something
+    /// Computes the distances in these lanes in double precision, to `triangles` there. Returns the lanes that hit something
     /// ahead.
     #[cold]
     #[inline(never)]
-    fn decide(&self, lanes: u32, places: [u32; 8], origin: V8, direction: V8, distance: &mut X8) -> u32 {
+    fn decide(
+        &self,
+        situation: &impl Situation,
+        lanes: u32,
+        triangles: [usize; 8],
+        origin: V8,
+        direction: V8,
+        distance: &mut X8,
+    ) -> u32 {
         let mut ahead = 0;
         each_bit(lanes, |lane| {
-            let c = self.corners(places[lane]);
-            let corners = [0, 3, 6].map(|k| wide(Vec3::new(c[k], c[k + 1], c[k + 2])));
+            let c = self.corners(triangles[lane] as u32);
+            let corners = [0, 3, 6].map(|k| wide(situation.corner(Vec3::new(c[k], c[k + 1], c[k + 2]))));
             let exact = to_triangle(corners, wide(origin.lane(lane)), wide(direction.lane(lane)));
             if let Some(exact) = exact.filter(|&exact| exact > 0.0) {
                 distance.as_mut_array()[lane] = exact as f32;
@@ -229,10 +313,11 @@ impl TriangleLeaves {
 
 // Distances are at least `near`, where the ray enters the box of the leaf. No traversal cuts a ray shorter than that, so the hit does not
 // depend on the traversal, not even that of a sliver.
-impl Primitives for TriangleLeaves {
-    #[inline]
-    fn test_packet<const ANY: bool>(
+impl TriangleLeaves {
+    #[inline(always)]
+    fn packet<const ANY: bool>(
         &self,
+        situation: &impl Situation,
         leaf: Range<usize>,
         rays: &Rays,
         near: X8,
@@ -244,21 +329,31 @@ impl Primitives for TriangleLeaves {
         let data = &self.coordinates[9 * leaf.start..9 * leaf.end];
         let columns: [&[f32]; 9] = std::array::from_fn(|k| &data[k * count..(k + 1) * count]);
         for index in 0..count {
-            let place = (leaf.start + index) as u32;
-            let projected = project(Self::one(&columns, index), rays.origin, rays.frame);
+            let place = (leaf.start + index) as u32 + situation.first();
+            let corners = Self::one(&columns, index).map(|corner| situation.corner(corner));
+            let projected = project(corners, rays.origin, rays.frame);
             // without a branch on whether any ray hits: it would often be mispredicted, which costs more than the division
             let mut distance = projected.distance(rays.direction);
             let others = active & !equal(rays.from, u32x8::splat(place));
             let mut met = projected.inside & others;
-            let size = X8::splat(from_exponent(self.near[place as usize]));
+            let size = X8::splat(from_exponent(self.near[leaf.start + index]) * situation.size());
             let mut unclear = others & undecided::<ANY>(distance, size, hits.distance);
             if unclear.any() {
-                unclear = unclear & projected.nearly();
-                let ahead = self.decide(unclear.bits(), [place; 8], rays.origin, rays.direction, &mut distance);
+                let triangles = [leaf.start + index; 8];
+                let size = situation.near(size, unclear, triangles);
+                unclear = unclear & undecided::<ANY>(distance, size, hits.distance) & projected.nearly();
+                let lanes = unclear.bits();
+                let ahead = self.decide(situation, lanes, triangles, rays.origin, rays.direction, &mut distance);
                 met = met & !unclear | M8::from_bits(ahead);
             }
             let distance = max(distance, near);
-            let ahead = met & distance.gt(X8::lit(0.0));
+            let mut ahead = met & distance.gt(X8::lit(0.0));
+            if let Some(cutouts) = &self.cutouts {
+                let weights = projected.weights;
+                let lane = |k: usize| (leaf.start + index, place, weights.map(|w| w.lane(k)));
+                let hit = (ahead & distance.le(hits.distance)).bits();
+                ahead = M8::from_bits(cutouts.opaque(hit, rays.origin, rays.direction, lane));
+            }
             let mut nearer = ahead & distance.lt(hits.distance);
             if ANY {
                 hidden = hidden | nearer;
@@ -266,26 +361,26 @@ impl Primitives for TriangleLeaves {
             }
             let tie = ahead & distance.le(hits.distance) & !nearer;
             if tie.any() {
-                nearer = nearer | self.goes_first(tie, place, hits);
+                nearer = nearer | self.goes_first(tie, situation.first(), place, hits);
             }
             hits.distance = select(nearer, distance, hits.distance);
             hits.place = pick(nearer, u32x8::splat(place), hits.place);
         }
         hidden
     }
-    fn bytes(&self) -> usize {
-        size_of_val(&self.coordinates[..])
-            + size_of_val(&self.leaves[..])
-            + size_of_val(&self.ids[..])
-            + size_of_val(&self.near[..])
-    }
-}
-
-impl Leaves for TriangleLeaves {
     #[inline(always)]
-    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
-        let projected = project(self.all(&leaf), ray.origin, ray.frame);
-        let own = 1_u32.checked_shl(ray.from.wrapping_sub(leaf.start as u32)).unwrap_or(0);
+    fn ray<const ANY: bool>(
+        &self,
+        situation: &impl Situation,
+        leaf: Range<usize>,
+        ray: &SingleRay,
+        near: X8,
+        nearest: &mut Nearest,
+    ) -> bool {
+        let corners = self.all(&leaf).map(|corner| situation.corner(corner));
+        let projected = project(corners, ray.origin, ray.frame);
+        let first = leaf.start as u32 + situation.first();
+        let own = 1_u32.checked_shl(ray.from.wrapping_sub(first)).unwrap_or(0);
         let others = ((1 << leaf.len()) - 1) & !own;
         let (mut inside, nearly) = (projected.inside.bits() & others, projected.nearly().bits() & others);
         if nearly == 0 {
@@ -294,29 +389,89 @@ impl Leaves for TriangleLeaves {
         let mut distance = projected.distance(ray.direction);
         let limit = X8::splat(nearest.distance);
         let exponents: [u8; 8] = self.near[leaf.start..leaf.start + 8].try_into().expect("8 exponents");
-        let size = X8::from(exponents.map(from_exponent));
-        let unclear = nearly & undecided::<ANY>(distance, size, limit).bits();
+        let size = X8::from(exponents.map(|exponent| from_exponent(exponent) * situation.size()));
+        let mut unclear = nearly & undecided::<ANY>(distance, size, limit).bits();
         if unclear != 0 {
-            let places = std::array::from_fn(|lane| (leaf.start + lane) as u32);
-            let ahead = self.decide(unclear, places, ray.origin, ray.direction, &mut distance);
+            let triangles = std::array::from_fn(|lane| leaf.start + lane);
+            let size = situation.near(size, M8::from_bits(unclear), triangles);
+            unclear &= undecided::<ANY>(distance, size, limit).bits();
+            let ahead = self.decide(situation, unclear, triangles, ray.origin, ray.direction, &mut distance);
             inside = inside & !unclear | ahead;
         }
         let distance = max(distance, near);
         let ahead = distance.gt(X8::lit(0.0));
+        if let Some(cutouts) = &self.cutouts {
+            let weights = projected.weights;
+            let lane = |k: usize| (leaf.start + k, first + k as u32, weights.map(|w| w.lane(k)));
+            let hit = inside & (ahead & distance.le(limit)).bits();
+            inside = cutouts.opaque(hit, ray.origin, ray.direction, lane);
+        }
         if ANY {
             return inside & (ahead & distance.lt(limit)).bits() != 0;
         }
         each_bit(inside & (ahead & distance.le(limit)).bits(), |lane| {
             let lane = lane & 7;
             let distance = distance.as_array()[lane];
-            let place = (leaf.start + lane) as u32;
-            if distance < nearest.distance
-                || distance == nearest.distance && self.rank(place) < self.rank(nearest.place)
-            {
+            let place = first + lane as u32;
+            let rank = |place: u32| self.rank(situation.first(), place);
+            if distance < nearest.distance || distance == nearest.distance && rank(place) < rank(nearest.place) {
                 *nearest = Nearest { distance, place };
             }
         });
         false
+    }
+}
+
+impl Primitives for TriangleLeaves {
+    #[inline]
+    fn test_packet<const ANY: bool>(
+        &self,
+        leaf: Range<usize>,
+        rays: &Rays,
+        near: X8,
+        active: M8,
+        hits: &mut Hits,
+    ) -> M8 {
+        self.packet::<ANY>(&InPlace, leaf, rays, near, active, hits)
+    }
+}
+
+impl Leaves for TriangleLeaves {
+    #[inline(always)]
+    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
+        self.ray::<ANY>(&InPlace, leaf, ray, near, nearest)
+    }
+}
+
+impl Primitives for Moved<'_> {
+    #[inline]
+    fn test_packet<const ANY: bool>(
+        &self,
+        leaf: Range<usize>,
+        rays: &Rays,
+        near: X8,
+        active: M8,
+        hits: &mut Hits,
+    ) -> M8 {
+        self.triangles.packet::<ANY>(self, leaf, rays, near, active, hits)
+    }
+}
+
+impl Leaves for Moved<'_> {
+    #[inline(always)]
+    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
+        self.triangles.ray::<ANY>(self, leaf, ray, near, nearest)
+    }
+}
+
+impl TriangleLeaves {
+    /// Size in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.coordinates[..])
+            + size_of_val(&self.leaves[..])
+            + size_of_val(&self.ids[..])
+            + size_of_val(&self.near[..])
+            + self.cutouts.as_ref().map_or(0, |cutouts| cutouts.bytes())
     }
 }
 

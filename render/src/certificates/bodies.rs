@@ -58,7 +58,7 @@ pub struct Bodies {
 impl Bodies {
     /// Finds the bodies among the triangles of a mesh that share corners, bit for bit. Finds none in large meshes.
     pub fn new(bvh: &Bvh) -> Self {
-        let count = bvh.order().len();
+        let count = bvh.count();
         let mut found = Self::default();
         if count > SEARCHED {
             return found;
@@ -87,6 +87,9 @@ impl Bodies {
         let mut parts: Vec<_> = parts.into_values().filter(|part| (4..=TRIANGLES).contains(&part.len())).collect();
         parts.sort_unstable();
         for part in parts {
+            if part.iter().any(|&place| bvh.is_cut_out(place)) {
+                continue;
+            }
             let triangles: Vec<_> = part.iter().map(|&place| corners(bvh, place)).collect();
             if let Some(body) = Body::new(&triangles) {
                 found.of_places.resize(count, NOTHING);

@@ -7,9 +7,11 @@ use super::message::{Message, Notes};
 use super::params::MOST_RADIANCE;
 use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
-use crate::geometry::Geometry;
-use std::collections::HashMap;
+use crate::geometry::{Affine, Geometry, Instance, bounds_of};
+use crate::texture::Mask;
+use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
@@ -33,6 +35,10 @@ pub(super) struct Builder {
     pub(super) shapes: Vec<Shape>,
     pub(super) notes: Notes,
     material_index: HashMap<[u32; 8], u32>,
+    /// Materials with holes: for each the index of the one without, and the mask.
+    masks: BTreeMap<u32, (u32, Mask)>,
+    objects: Vec<Object>,
+    instances: Vec<(u32, Transform)>,
     /// Triangles without area that were left out since the last [`Builder::left_out`].
     left_out: usize,
     is_object: bool,
@@ -63,10 +69,18 @@ pub(super) struct ShapeAttributes {
 
 /// Triangles that can be added several times.
 #[derive(Debug)]
-pub(super) struct Object(Builder);
+struct Object {
+    parts: Builder,
+    /// Least and greatest coordinates.
+    bounds: [[f32; 3]; 2],
+    /// Number of instances.
+    uses: usize,
+}
 
-/// Most triangles of a scene, since instances are copies.
-const MOST_TRIANGLES: usize = 1 << 28;
+/// Objects are copied, unless their copies would have more triangles than this: a copy is traced faster, but takes some 100 bytes for each.
+const COPIED: usize = 1 << 20;
+/// Most triangles of a scene, those of all instances counted.
+const MOST_TRIANGLES: usize = (1 << 31) - 1;
 
 /// A corner of a triangle in world space.
 #[derive(Clone, Copy, Debug)]
@@ -76,6 +90,12 @@ pub(super) struct Vertex {
     pub(super) normal: [f64; 3],
     /// Texture coordinates.
     pub(super) uv: [f64; 2],
+}
+
+/// The corners of a box, moved.
+fn corners(bounds: [[f32; 3]; 2], ctm: &Transform) -> [[f64; 3]; 8] {
+    let corner = move |k: usize| std::array::from_fn(|axis| f64::from(bounds[k >> axis & 1][axis]));
+    std::array::from_fn(|k| ctm.point(corner(k)))
 }
 
 fn round(p: [f64; 3]) -> [f32; 3] {
@@ -99,9 +119,21 @@ impl Builder {
         })
     }
 
-    /// Whether a material varies over its surface.
+    /// The index of a material with holes.
+    pub(super) fn masked(&mut self, material: Material, mask: Mask) -> u32 {
+        let whole = self.material(material);
+        let known = self.masks.iter().rev().find(|(_, (other, known))| *other == whole && *known == mask);
+        known.map(|(index, _)| *index).unwrap_or_else(|| {
+            let index = self.materials.len() as u32;
+            self.materials.push(material);
+            self.masks.insert(index, (whole, mask));
+            index
+        })
+    }
+
+    /// Whether texture coordinates matter for a material.
     pub(super) fn varies(&self, material: u32) -> bool {
-        matches!(self.materials[material as usize], Material::Varying(_))
+        matches!(self.materials[material as usize], Material::Varying(_)) || self.masks.contains_key(&material)
     }
 
     /// Begins an object: what is added from now on is not part of the scene. Returns what was added before.
@@ -112,18 +144,22 @@ impl Builder {
         before
     }
 
-    /// Ends an object.
-    pub(super) fn end_object(&mut self, before: Self) -> Object {
-        let mut object = std::mem::replace(self, before);
-        self.share(&mut object);
-        object.finish();
-        Object(object)
+    /// Ends an object, and returns its index.
+    pub(super) fn end_object(&mut self, before: Self) -> u32 {
+        let mut parts = std::mem::replace(self, before);
+        self.share(&mut parts);
+        parts.finish();
+        self.left_out += parts.left_out;
+        let bounds = bounds_of(parts.triangles.as_flattened());
+        self.objects.push(Object { parts, bounds, uses: 0 });
+        (self.objects.len() - 1) as u32
     }
 
     /// Takes what objects and scenes share from another builder.
     fn share(&mut self, from: &mut Self) {
         std::mem::swap(&mut self.materials, &mut from.materials);
         std::mem::swap(&mut self.material_index, &mut from.material_index);
+        std::mem::swap(&mut self.masks, &mut from.masks);
         std::mem::swap(&mut self.varying, &mut from.varying);
         std::mem::swap(&mut self.notes, &mut from.notes);
     }
@@ -133,33 +169,113 @@ impl Builder {
         self.is_object
     }
 
-    /// Adds a copy of an object. Fails if there are too many triangles, or if a point is no longer finite.
-    pub(super) fn instance(&mut self, object: &Object, ctm: &Transform) -> Result<(), String> {
-        let Object(Self { triangles, triangle_materials, details, .. }) = object;
+    /// Number of triangles and shapes, those of all instances counted.
+    pub(super) fn count(&self) -> usize {
+        let instances = self.objects.iter().map(|object| object.uses * object.parts.triangles.len());
+        self.triangles.len() + self.shapes.len() + instances.sum::<usize>()
+    }
+
+    /// Adds an instance of an object. Fails if there are too many triangles, or if a point is no longer finite.
+    pub(super) fn instance(&mut self, index: u32, ctm: &Transform) -> Result<(), String> {
         let det = ctm.determinant();
         if det == 0.0 || !det.is_finite() {
             return Err("its transform is singular".to_owned());
         }
-        if self.triangles.len() + triangles.len() > MOST_TRIANGLES {
-            return Err(format!("instances are copies, and give more than {MOST_TRIANGLES} triangles"));
+        let object = &self.objects[index as usize];
+        if object.parts.triangles.is_empty() {
+            return Ok(());
         }
-        let mut surface = ShapeAttributes { ctm: *ctm, flip: det < 0.0, material: 0, emission: None, power: None };
-        for (i, triangle) in triangles.iter().enumerate() {
-            surface.material = triangle_materials[i];
-            let corners = details.of_triangles.get(i).and_then(|&k| details.corners.get(k as usize));
+        if self.count() + object.parts.triangles.len() > MOST_TRIANGLES {
+            return Err(format!("more than {MOST_TRIANGLES} triangles, those of all instances counted"));
+        }
+        if let Some(corner) = corners(object.bounds, ctm).iter().find(|p| !round(**p).iter().all(|x| x.is_finite())) {
+            return Err(format!("a corner of its box is at {corner:?}, which is not finite in f32"));
+        }
+        self.objects[index as usize].uses += 1;
+        self.instances.push((index, *ctm));
+        Ok(())
+    }
+
+    /// Least and greatest coordinates of all surfaces.
+    pub(super) fn bounds(&self) -> [[f32; 3]; 2] {
+        let of = |(index, ctm): &(u32, Transform)| corners(self.objects[*index as usize].bounds, ctm).map(round);
+        let shapes = self.shapes.iter().flat_map(|shape| shape.geometry.bounds());
+        let instances = self.instances.iter().flat_map(of);
+        let points: Vec<_> = shapes.chain(instances).collect();
+        let ([low, high], own) = (bounds_of(&points), bounds_of(self.triangles.as_flattened()));
+        [std::array::from_fn(|k| low[k].min(own[0][k])), std::array::from_fn(|k| high[k].max(own[1][k]))]
+    }
+
+    /// Copies instances into the scene, or adds the objects that they share; returns the triangles of each object.
+    fn place_objects(&mut self) -> (Vec<Range<usize>>, Vec<Instance>) {
+        let objects = std::mem::take(&mut self.objects);
+        let places = std::mem::take(&mut self.instances);
+        let copies = objects.iter().filter(|object| object.uses > 1);
+        let copied = copies.map(|object| object.uses * object.parts.triangles.len()).sum::<usize>() <= COPIED;
+        // what single precision cannot invert is copied, too
+        let shared = |&(index, ctm): &(u32, Transform)| {
+            let Object { uses, .. } = objects[index as usize];
+            let [a, b, c] = std::array::from_fn(|k| {
+                let [x, y, z] = ctm.linear[k];
+                [x, y, z, ctm.shift[k]].map(|x| x as f32)
+            });
+            let instance = Instance { object: index, to_world: Affine([a, b, c]) };
+            let is_shared = !copied && uses > 1 && instance.to_world.inverse().is_some();
+            is_shared.then_some(instance)
+        };
+        let mut instances = Vec::new();
+        for place in &places {
+            match shared(place) {
+                Some(instance) => instances.push(instance),
+                None => self.copy(&objects[place.0 as usize].parts, &place.1),
+            }
+        }
+        let mut ranges = Vec::new();
+        for (index, Object { parts, .. }) in (0..).zip(objects) {
+            let start = self.triangles.len();
+            if instances.iter().any(|instance| instance.object == index) {
+                self.append(parts);
+            }
+            ranges.push(start..self.triangles.len());
+        }
+        (ranges, instances)
+    }
+
+    /// Adds the triangles of an object as they are.
+    fn append(&mut self, parts: Self) {
+        let before = self.details.corners.len() as u32;
+        let is_detailed = !(self.details.of_triangles.is_empty() && parts.details.of_triangles.is_empty());
+        if is_detailed {
+            self.details.of_triangles.resize(self.triangles.len(), Details::NONE);
+            let of = parts.details.of_triangles.iter();
+            self.details.of_triangles.extend(of.map(|&k| if k == Details::NONE { k } else { k + before }));
+        }
+        self.details.corners.extend(parts.details.corners);
+        self.triangles.extend(parts.triangles);
+        self.triangle_materials.extend(parts.triangle_materials);
+        self.finish();
+    }
+
+    /// Adds a copy of an object.
+    fn copy(&mut self, parts: &Self, ctm: &Transform) {
+        let flip = ctm.determinant() < 0.0;
+        let mut surface = ShapeAttributes { ctm: *ctm, flip, material: 0, emission: None, power: None };
+        for (i, triangle) in (0..).zip(&parts.triangles) {
+            surface.material = parts.triangle_materials[i as usize];
+            let corners = parts.details.of(i);
             let wide = |v: [f32; 3]| v.map(f64::from);
-            let points = surface.place(triangle.iter().map(|p| wide(*p)))?;
             let normals = corners.map_or([[0.0; 3]; 3], |corners| corners.normals);
             let mut normals = surface.place_normals(normals.into_iter().map(wide));
             let vertex = |k: usize| Vertex {
-                point: points[k],
+                point: ctm.point(wide(triangle[k])),
                 normal: normals.next().unwrap_or([0.0; 3]),
                 uv: corners.map_or([0.0; 2], |corners| corners.uvs[k].map(f64::from)),
             };
             let vertices = [0, 1, 2].map(vertex);
             self.triangle(&surface, vertices);
         }
-        Ok(())
+        // edges that a transform flattens are no fault of the file
+        self.left_out();
     }
 
     /// Ends the list of triangles.
@@ -172,6 +288,7 @@ impl Builder {
     /// The scene of all that was added, which messages call `file`; `warning` makes a warning about the whole of it.
     pub(super) fn scene(mut self, file: &str, rest: Rest, warning: impl FnOnce(&str) -> Message) -> Scene {
         self.finish();
+        let (objects, instances) = self.place_objects();
         let Rest { camera, film, pixel_samples, delta_lights, environment, inputs } = rest;
         let emits = self.shapes.iter().any(|shape| shape.emission.is_some());
         if !emits && delta_lights.is_empty() && environment.is_none() {
@@ -186,6 +303,9 @@ impl Builder {
             materials: self.materials,
             triangles: self.triangles,
             triangle_materials: self.triangle_materials,
+            objects,
+            instances,
+            masks: self.masks.into_iter().map(|(material, (_, mask))| (material, mask)).collect(),
             varying: self.varying,
             details: self.details.into(),
             shapes: self.shapes.into(),

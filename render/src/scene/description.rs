@@ -3,7 +3,9 @@
 use super::lights::{DeltaLight, Emission, Environment};
 use super::materials::{Material, Varying};
 use super::message::Message;
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, Instance};
+use crate::texture::Mask;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -20,12 +22,18 @@ pub struct Scene {
     pub pixel_samples: u32,
     /// Materials without duplicates.
     pub materials: Vec<Material>,
-    /// Corners of the triangles that do not emit. The normal is (v1 − v0) × (v2 − v0); no area is zero.
+    /// Corners of the triangles that do not emit. The normal is (v1 − v0) × (v2 − v0); no area is zero. Those of objects follow the others.
     pub triangles: Vec<[[f32; 3]; 3]>,
+    /// The triangles of each object, in the object's space; they follow each other, to the end.
+    pub objects: Vec<Range<usize>>,
+    /// Where objects are.
+    pub instances: Vec<Instance>,
     /// One index into `materials` per triangle.
     pub triangle_materials: Vec<u32>,
     /// Materials that vary over their surfaces.
     pub varying: Vec<Varying>,
+    /// The materials that have holes, in ascending order, and their masks.
+    pub masks: Vec<(u32, Mask)>,
     /// Normals and texture coordinates of triangles that have them.
     pub details: Arc<Details>,
     /// All spheres, and the triangles and parallelograms that emit. What renders the scene shares them.
@@ -54,6 +62,12 @@ pub struct Details {
 impl Details {
     /// The index of no corners.
     pub const NONE: u32 = u32::MAX;
+
+    /// What is known at the corners of a triangle, if anything is.
+    #[inline]
+    pub fn of(&self, triangle: u32) -> Option<&Corners> {
+        self.corners.get(*self.of_triangles.get(triangle as usize)? as usize)
+    }
 }
 
 /// What is known at the corners of a triangle.

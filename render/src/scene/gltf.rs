@@ -1,6 +1,6 @@
 //! Reads glTF 2.0 scene files: JSON text that names other files, or one binary file.
 //!
-//! What the renderer does not have is ignored, with one warning of each kind: textures of normals and occlusion, opacity, vertex colours,
+//! What the renderer does not have is ignored, with one warning of each kind: textures of normals and occlusion, vertex colours,
 //! skins, morph targets, animations, points and lines. An extension that the file requires and that is not supported is an error.
 //! Photometric units count as radiometric ones of the same number, as in most renderers.
 
@@ -19,8 +19,10 @@ use super::builder::{Builder, Rest};
 use super::description::Scene;
 use super::lexer::shortened;
 use super::message::Message;
+use super::transform::Transform;
 use materials::Materials;
 use source::Source;
+use std::collections::HashMap;
 use std::path::Path;
 
 /// Extensions that are supported, or change nothing when they are required.
@@ -57,13 +59,37 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     if !root.animations.is_empty() {
         out.notes.stand_in("animations", || source.message("animations are ignored"));
     }
-    for nodes::Placed { index, transform } in nodes::walk(&source)? {
+    let placed = nodes::walk(&source)?;
+    let mut uses: HashMap<usize, usize> = HashMap::new();
+    for mesh in placed.iter().filter_map(|placed| root.nodes[placed.index].mesh) {
+        *uses.entry(mesh.value()).or_default() += 1;
+    }
+    // meshes that several nodes use, and that emit nothing
+    let mut objects: HashMap<usize, u32> = HashMap::new();
+    for nodes::Placed { index, transform } in placed {
         let node = &root.nodes[index];
         if node.skin.is_some() {
             out.notes.stand_in("skins", || source.message(format!("node {index}: its skin is ignored")));
         }
         if let Some(mesh) = node.mesh {
-            meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
+            let is_shared = uses[&mesh.value()] > 1 && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
+            if !is_shared {
+                meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
+            } else {
+                let object = match objects.get(&mesh.value()) {
+                    Some(&object) => object,
+                    None => {
+                        let before = out.begin_object();
+                        let added = meshes::add(&source, &mut materials, &mut out, mesh, index, &Transform::IDENTITY);
+                        let object = out.end_object(before);
+                        added?;
+                        objects.insert(mesh.value(), object);
+                        object
+                    }
+                };
+                let added = out.instance(object, &transform);
+                added.map_err(|why| source.message(format!("node {index}: {why}")))?;
+            }
         }
         if let Some(described) = node.camera
             && camera.is_none()

@@ -2,7 +2,7 @@
 
 use crate::texture::Texture;
 
-/// How a surface reflects. All materials are opaque and the same on both sides.
+/// How a surface reflects, the same on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Material {
     /// A Lambertian surface with this albedo, linear RGB.

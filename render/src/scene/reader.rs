@@ -1,6 +1,6 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
-use super::builder::{Builder, Object, Rest, ShapeAttributes};
+use super::builder::{Builder, Rest, ShapeAttributes};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
 use super::includes::Includes;
@@ -16,6 +16,7 @@ use super::textures::Textures;
 use super::transform::Transform;
 use super::view;
 use crate::image;
+use crate::texture::Mask;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -62,7 +63,7 @@ struct Reader<'a> {
     systems: HashMap<String, Transform>,
     named: HashMap<String, Finish>,
     textures: Textures,
-    objects: HashMap<String, Object>,
+    objects: HashMap<String, u32>,
     open: Option<Open>,
     in_world: bool,
     includes: Includes,
@@ -252,9 +253,8 @@ impl Reader<'_> {
                 }
                 let unknown = || place.message(format!("no ObjectBegin {:?} precedes this", shortened(&name)));
                 let object = self.objects.get(&name).ok_or_else(unknown)?;
-                let added = self.out.instance(object, &self.state.ctm);
+                let added = self.out.instance(*object, &self.state.ctm);
                 added.map_err(|why| place.message(format!("ObjectInstance {:?}: {why}", shortened(&name))))?;
-                self.out.left_out();
             }
             "MediumInterface" => {
                 lexer.text("a medium")?;
@@ -502,9 +502,7 @@ impl Reader<'_> {
             params.ignore_all();
             return Ok(());
         }
-        if opacity.is_some_and(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0)) {
-            self.out.notes.stand_in("alpha", || params.error("\"alpha\": the surface becomes opaque"));
-        }
+        let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
         let mut emission = self.state.emission;
         let material = match self.state.material {
             Finish::Of(material) => material,
@@ -520,10 +518,17 @@ impl Reader<'_> {
                 .stand_in("light in an object", || params.error("a light in an object emits nothing, as in pbrt"));
             emission = None;
         }
+        let mask = opacity.map(|opacity| Mask { opacity, least: None });
+        if mask.is_some() && emission.is_some() {
+            self.out.notes.stand_in("light with holes", || params.error("\"alpha\": a light becomes opaque"));
+        }
         let surface = ShapeAttributes {
             ctm: self.state.ctm,
             flip: self.state.reverse != (det < 0.0),
-            material: self.out.material(material),
+            material: match mask {
+                Some(mask) if emission.is_none() => self.out.masked(material, mask),
+                _ => self.out.material(material),
+            },
             emission,
             power: self.state.power,
         };

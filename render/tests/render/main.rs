@@ -7,6 +7,7 @@ mod closed_forms;
 mod images;
 mod lens;
 mod lights;
+mod own_scenes;
 mod parts;
 mod references;
 mod sampler;

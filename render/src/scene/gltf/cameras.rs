@@ -5,7 +5,6 @@ use super::super::description::{CameraSettings, FilmSettings};
 use super::super::message::Message;
 use super::super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use super::source::Source;
-use crate::geometry::Geometry;
 use crate::limits::MOST_SIDE;
 use gltf_json::Index;
 use gltf_json::camera::{Camera, Type};
@@ -78,20 +77,7 @@ pub(super) fn read(
 
 /// A camera that sees all surfaces, from above and from the side.
 pub(super) fn framing(out: &Builder) -> (CameraSettings, FilmSettings) {
-    let mut corners = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    let mut include = |points: &[[f32; 3]]| {
-        for (k, x) in points.iter().flat_map(|point| point.iter().enumerate()) {
-            corners[0][k] = corners[0][k].min(f64::from(*x));
-            corners[1][k] = corners[1][k].max(f64::from(*x));
-        }
-    };
-    out.triangles.iter().for_each(|triangle| include(triangle));
-    for shape in &out.shapes {
-        // the reader makes no other shapes
-        if let Geometry::Triangle(triangle) = &shape.geometry {
-            include(triangle);
-        }
-    }
+    let corners = out.bounds().map(|corner| corner.map(f64::from));
     let [low, high] = if corners[0][0] <= corners[1][0] { corners } else { [[-1.0; 3], [1.0; 3]] };
     let center = scaled(add(low, high), 0.5);
     let radius = 0.5 * length(sub(high, low));

@@ -8,7 +8,7 @@ use super::super::message::Message;
 use super::super::params::{MOST_RADIANCE, brightness, rounded};
 use super::source::Source;
 use crate::image::{Encoding, read_texels};
-use crate::texture::{Mapping, Picture, Texels, Texture, Wrap};
+use crate::texture::{Mapping, Mask, Picture, Texels, Texture, Wrap};
 use gltf_json::extensions::texture::TextureTransform;
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::{Info, MagFilter, Sampler, WrappingMode};
@@ -165,9 +165,51 @@ impl Reader<'_, '_> {
             None => self.metallic(material)?,
         };
         let read = self.out.vary(varying);
+        let mask = self.mask(material)?;
         let set = self.set;
         let glow = self.glow(material)?;
-        Ok(Surface { material: self.out.material(read), set, glow })
+        if mask.is_some() && glow.is_some() {
+            self.stand_in("light with holes", "a surface with holes that emits becomes opaque");
+        }
+        let material = match mask {
+            Some(mask) if glow.is_none() => self.out.masked(read, mask),
+            _ => self.out.material(read),
+        };
+        Ok(Surface { material, set, glow })
+    }
+
+    /// The holes of a material, if it has any.
+    fn mask(&mut self, material: &material::Material) -> Result<Option<Mask>, Message> {
+        let least = match material.alpha_mode {
+            // 0.5 is the default
+            Checked::Valid(AlphaMode::Mask) => Some(material.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0)),
+            Checked::Valid(AlphaMode::Blend) => None,
+            _ => return Ok(None),
+        };
+        let glossiness = material.extensions.as_ref().and_then(|all| all.pbr_specular_glossiness.as_ref());
+        let (factor, info) = match glossiness {
+            Some(of) => (of.diffuse_factor.0[3], of.diffuse_texture.as_ref()),
+            None => {
+                let of = &material.pbr_metallic_roughness;
+                (of.base_color_factor.0[3], of.base_color_texture.as_ref())
+            }
+        };
+        let [factor] = self.shares("the opacity", [factor]);
+        let mut opacity = Texture::number(factor);
+        if let Some(info) = info
+            && factor > 0.0
+            && let (Texture::Picture(picture), set) = self.picture(info, Encoding::Srgb)?
+            && picture.texels.alpha.is_some()
+        {
+            self.set.get_or_insert(set);
+            opacity = opacity.times(Texture::Opacity(picture));
+        }
+        let is_whole = match (opacity.constant(), least) {
+            (Some([x, ..]), Some(least)) => x >= least,
+            (Some([x, ..]), None) => x >= 1.0,
+            (None, _) => false,
+        };
+        Ok((!is_whole).then_some(Mask { opacity, least }))
     }
 
     fn metallic(&mut self, material: &material::Material) -> Result<Varying, Message> {
@@ -247,9 +289,7 @@ impl Reader<'_, '_> {
 
     fn warn_of_ignored(&mut self, material: &material::Material) {
         match material.alpha_mode {
-            Checked::Valid(AlphaMode::Mask) => self.stand_in("mask", "alphaMode MASK: the surface is opaque"),
-            Checked::Valid(AlphaMode::Blend) => self.stand_in("blend", "alphaMode BLEND: the surface is opaque"),
-            Checked::Valid(AlphaMode::Opaque) => {}
+            Checked::Valid(_) => {}
             Checked::Invalid => self.stand_in("alpha", "its alphaMode is unknown: the surface is opaque"),
         }
         if material.normal_texture.is_some() {

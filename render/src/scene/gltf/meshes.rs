@@ -9,8 +9,27 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Index, mesh};
 
-/// Most triangles of a scene: meshes are repeated for each node that uses them, so that a small file can ask for any number.
+/// Most triangles of a scene that are no instances: meshes that emit are repeated for each node that uses them, so that a small file can ask
+/// for any number.
 const MOST_TRIANGLES: usize = 1 << 28;
+
+/// Whether a part of a mesh emits light.
+pub(super) fn glows(
+    source: &Source<'_>,
+    materials: &mut Materials,
+    out: &mut Builder,
+    mesh: Index<mesh::Mesh>,
+    node: usize,
+) -> Result<bool, Message> {
+    let (index, mesh) = source.item(&source.root.meshes, mesh, "mesh", &format!("node {node}"))?;
+    for (number, primitive) in mesh.primitives.iter().enumerate() {
+        let item = format!("mesh {index}, primitive {number}");
+        if materials.surface(source, out, primitive.material, &item)?.glow.is_some() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
 
 /// Adds a mesh to the scene.
 pub(super) fn add(
@@ -118,7 +137,7 @@ impl Adder<'_, '_> {
             );
         }
         let triangles = if mode == Mode::Triangles { corners / 3 } else { corners.saturating_sub(2) };
-        if self.out.triangles.len() + self.out.shapes.len() + triangles > MOST_TRIANGLES {
+        if self.out.count() + triangles > MOST_TRIANGLES {
             let node = self.node;
             return Err(self.error(&format!("more than 2^28 triangles, with those that node {node} adds")));
         }

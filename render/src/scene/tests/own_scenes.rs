@@ -77,6 +77,37 @@ fn pictures_are_read_once_and_turned_upright() {
 }
 
 #[test]
+fn alpha_makes_holes() {
+    let texture =
+        "Texture \"a\" \"float\" \"checkerboard\" Texture \"b\" \"float\" \"checkerboard\" \"float uscale\" 3\n";
+    let square = |alpha: &str| {
+        format!(
+            "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2 1 3 2] {alpha}\n"
+        )
+    };
+    let lit = |text: &str| lit(&format!("{texture}{text}"));
+    let all = [
+        "\"texture alpha\" \"a\"",
+        "\"texture alpha\" \"b\"",
+        "\"texture alpha\" \"a\"",
+        "\"float alpha\" .5",
+        "\"float alpha\" 0",
+        "\"float alpha\" 1",
+    ];
+    let scene = lit(&all.map(square).concat());
+    // equal masks of equal materials are one; what is not there is left out
+    assert_eq!((scene.triangles.len(), scene.masks.len(), scene.warnings.len()), (10, 3, 0));
+    let of = |triangle: usize| scene.masks.iter().find(|(material, _)| *material == scene.triangle_materials[triangle]);
+    assert!((0..8).all(|i| of(i).is_some()) && of(8).is_none() && of(0) == of(4) && of(0) != of(2));
+    assert_eq!(of(6).unwrap().1.opacity.constant(), Some([0.5; 3]));
+    assert!((0..8).all(|i| scene.details.of(i).is_some()) && scene.details.of(8).is_none());
+    // a sphere with holes becomes triangles, and a light has none
+    assert!(lit("Shape \"sphere\" \"float alpha\" .5").shapes.is_empty());
+    let lamp = lit(&format!("AreaLightSource \"diffuse\" {}", square("\"float alpha\" .5")));
+    assert!(lamp.masks.is_empty() && lamp.stand_ins.len() == 1, "{:?}", lamp.warnings);
+}
+
+#[test]
 fn triangles_keep_what_their_materials_need() {
     let board = "Texture \"b\" \"spectrum\" \"checkerboard\"\nMaterial \"diffuse\" \"texture reflectance\" \"b\"\n";
     let uv = "\"point2 uv\" [0 0 1 0 0 1]";

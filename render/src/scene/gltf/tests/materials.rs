@@ -3,7 +3,7 @@
 use super::super::super::{Emission, Material, Varying};
 use super::*;
 use crate::image::encode_png;
-use crate::texture::{Texture, Wrap};
+use crate::texture::{Mask, Texture, Wrap};
 
 /// A picture of 2 × 2 pixels as a data URI: red, green, blue, and grey of 51 (a fifth).
 fn picture() -> String {
@@ -148,9 +148,45 @@ fn images_in_buffers_and_files() {
 }
 
 #[test]
+fn opacity_makes_holes() {
+    let mask = |material: Value| {
+        let asset = textured(material);
+        let mut scene = asset.read();
+        assert_eq!(asset.warnings(), [""; 0]);
+        assert_eq!(scene.details.corners.len(), scene.masks.len().max(usize::from(!scene.varying.is_empty())));
+        scene.masks.pop().map(|(material, mask)| {
+            assert_eq!(scene.triangle_materials, [material]);
+            mask
+        })
+    };
+    let of = |mode: &str, alpha: f32| json!({"alphaMode": mode, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, alpha]}});
+    assert_eq!(mask(of("OPAQUE", 0.25)), None);
+    // the default cutoff is 0.5
+    assert_eq!([mask(of("MASK", 0.5)), mask(of("BLEND", 1.0))], [None, None]);
+    let number = |x: f32, least: Option<f32>| Some(Mask { opacity: Texture::number(x), least });
+    assert_eq!(mask(of("MASK", 0.25)), number(0.25, Some(0.5)));
+    assert_eq!(mask(of("BLEND", 0.25)), number(0.25, None));
+
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 2, 1);
+    encoder.set_color(png::ColorType::Rgba);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&[9, 9, 9, 51, 9, 9, 9, 255]).unwrap();
+    writer.finish().unwrap();
+    let uri = format!("data:image/png;base64,{}", base64::engine::general_purpose::STANDARD.encode(png));
+    let texture = json!({"baseColorTexture": {"index": 0}, "baseColorFactor": [1, 1, 1, 0.5]});
+    let mut asset = textured(json!({"alphaMode": "MASK", "alphaCutoff": 0.3, "pbrMetallicRoughness": texture}));
+    asset.json["images"][0]["uri"] = json!(uri);
+    let scene = asset.read();
+    let [(_, mask)] = &scene.masks[..] else { panic!("{:?}", scene.masks) };
+    assert_eq!(mask.least, Some(0.3));
+    let opacities = [0.25, 0.75].map(|u| mask.opacity.at([u, 0.5])[0]);
+    assert!((opacities[0] - 0.1).abs() < 1e-6 && (opacities[1] - 0.5).abs() < 1e-6, "{opacities:?}");
+}
+
+#[test]
 fn what_materials_ignore_is_reported_once() {
     let ignored = json!({
-        "alphaMode": "MASK",
         "normalTexture": {"index": 0, "scale": 0.5},
         "occlusionTexture": {"index": 0},
         "extensions": {
@@ -161,13 +197,12 @@ fn what_materials_ignore_is_reported_once() {
     });
     let mut asset = textured(ignored.clone());
     asset.add("materials", ignored);
-    asset.add("materials", json!({"alphaMode": "BLEND"}));
+    asset.add("materials", json!({"alphaMode": "OTHER"}));
     for material in 1..3 {
         asset.shown(json!({"attributes": {"POSITION": 0}, "material": material}));
     }
     asset.json["extensionsUsed"] = json!(["ABC_new", "KHR_materials_clearcoat", "KHR_materials_transmission"]);
     let wanted = [
-        "alphaMode MASK: the surface is opaque",
         "its normalTexture is ignored",
         "its occlusionTexture is ignored",
         "ABC_new is not supported and ignored",
@@ -175,7 +210,7 @@ fn what_materials_ignore_is_reported_once() {
         "KHR_materials_transmission is ignored: the surface is opaque",
     ];
     let mut wanted = wanted.map(|text| format!("a.gltf: material 0: {text} (reported once)")).to_vec();
-    wanted.push("a.gltf: material 2: alphaMode BLEND: the surface is opaque (reported once)".into());
+    wanted.push("a.gltf: material 2: its alphaMode is unknown: the surface is opaque (reported once)".into());
     assert_eq!(asset.warnings(), wanted);
 }
 

@@ -1,0 +1,122 @@
+//! Triangles with holes: opacity that varies over them.
+
+use super::rays::{NOTHING, each_bit};
+use crate::packet::V8;
+use crate::texture::Mask;
+use std::sync::Arc;
+
+/// The mask of a triangle.
+#[derive(Clone, Copy, Debug)]
+struct Cut {
+    mask: u32,
+    /// Texture coordinates of the corners.
+    uvs: [[f32; 2]; 3],
+}
+
+/// The masks of the triangles of a tree, in leaf order.
+#[derive(Debug)]
+pub(super) struct Cutouts {
+    masks: Arc<[Mask]>,
+    /// For each triangle an index into `cuts`, or [`NOTHING`] for an opaque one.
+    of: Vec<u32>,
+    cuts: Vec<Cut>,
+}
+
+impl Cutouts {
+    /// From the mask and the texture coordinates of each triangle that has one. `None` if none does.
+    pub(super) fn new(
+        masks: &Arc<[Mask]>,
+        triangles: impl Iterator<Item = Option<(u32, [[f32; 2]; 3])>>,
+    ) -> Option<Self> {
+        let mut cuts = Vec::new();
+        let of = triangles.map(|cut| {
+            cut.map_or(NOTHING, |(mask, uvs)| {
+                cuts.push(Cut { mask, uvs });
+                (cuts.len() - 1) as u32
+            })
+        });
+        let of = of.collect();
+        (!cuts.is_empty()).then(|| Self { masks: Arc::clone(masks), of, cuts })
+    }
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&self.of[..]) + size_of_val(&self.cuts[..])
+    }
+    /// Whether a triangle has a mask.
+    pub(super) fn has(&self, triangle: usize) -> bool {
+        self.of[triangle] != NOTHING
+    }
+    /// The lanes of `hit` in which a ray meets what is opaque. `lane` tells of each the triangle, its place in hits, and the weights of
+    /// its corners at the hit, whose sum is not 1.
+    ///
+    /// Where a triangle is partly opaque, a random number decides, which depends on the ray and the place alone (PBR 4th ed., 4.5.1): a
+    /// ray that is traced twice meets the same.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn opaque(
+        &self,
+        hit: u32,
+        origin: V8,
+        direction: V8,
+        lane: impl Fn(usize) -> (usize, u32, [f32; 3]),
+    ) -> u32 {
+        let mut opaque = hit;
+        each_bit(hit, |k| {
+            let (triangle, place, weights) = lane(k);
+            let Some(cut) = self.cuts.get(self.of[triangle] as usize) else { return };
+            let mask = &self.masks[cut.mask as usize];
+            let sum = weights[0] + weights[1] + weights[2];
+            // the weights of slivers may be nothing but rounding error
+            let [_, s, t] = weights.map(|w| (w / sum).clamp(0.0, 1.0)).map(|w| if w.is_nan() { 0.0 } else { w });
+            let at = |axis: usize| {
+                let [a, b, c] = cut.uvs.map(|uv| uv[axis]);
+                a + (b - a) * s + (c - a) * t
+            };
+            let opacity = mask.opacity.at([at(0), at(1)])[0];
+            let stops = match mask.least {
+                Some(least) => opacity >= least,
+                None => number(place, origin.lane(k).into(), direction.lane(k).into()) < opacity,
+            };
+            if !stops {
+                opaque &= !(1 << k);
+            }
+        });
+        opaque
+    }
+}
+
+/// A number in [0, 1) that depends on a ray and a place.
+fn number(place: u32, origin: [f32; 3], direction: [f32; 3]) -> f32 {
+    // the finalizer of MurmurHash3 (Appleby 2011) after each word
+    let mixed = |h: u64, word: u32| {
+        let h = (h ^ u64::from(word)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        (h ^ h >> 33).wrapping_mul(0xc4ce_b9fe_1a85_ec53) ^ h >> 29
+    };
+    let words = origin.into_iter().chain(direction).map(f32::to_bits);
+    let h = words.chain([place]).fold(0x9e37_79b9_7f4a_7c15, mixed);
+    (h >> 40) as f32 / 16_777_216.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_uniform_and_differ_between_places_and_rays() {
+        let count = 20_000;
+        let mut bins = [0; 16];
+        let (mut products, mut last) = (0.0, 0.5);
+        for i in 0..count {
+            // successive floats, as neighbouring samples have them
+            let x = f32::from_bits(0x3f80_0000 + i / 4);
+            let u = number(i % 4, [1.0, 2.0, 3.0], [x, 0.5, 0.25]);
+            bins[(u * 16.0) as usize] += 1;
+            products += f64::from((u - 0.5) * (last - 0.5));
+            last = u;
+        }
+        // four and a half standard deviations
+        let expected = f64::from(count) / 16.0;
+        let worst = bins.iter().map(|&n| (f64::from(n) - expected).abs()).fold(0.0, f64::max);
+        assert!(worst < 4.5 * expected.sqrt(), "{bins:?}");
+        assert!((products / f64::from(count)).abs() < 4.5 / 12.0 / f64::from(count).sqrt(), "{products}");
+    }
+}

@@ -1,0 +1,161 @@
+//! Holes and instances, against closed forms and against scenes without them.
+
+use etendue_render::scene::{Instance, Scene, parse};
+use etendue_render::{Sampler, Settings, Technique, World};
+use std::path::Path;
+use std::sync::Arc;
+
+const LIMIT: f64 = 4.5;
+const TECHNIQUES: [Technique; 4] =
+    [Technique::SolidAngle, Technique::MisPower, Technique::Analytic, Technique::CosineHemisphere];
+
+fn read(text: &str) -> Scene {
+    parse(text, "test.pbrt", Path::new("no such directory")).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+fn settings(technique: Technique, side: u32, spp: u32) -> Settings {
+    Settings { width: side, height: side, spp, technique, depth: 8, sets: 0, sampler: Sampler::Independent, seed: 5 }
+}
+
+/// Mean and standard error of the first channel of the only pixel.
+fn pixel(world: &World, technique: Technique, spp: u32) -> (f64, f64) {
+    let (film, _) = world.render(&settings(technique, 1, spp), &|_| ());
+    (film.pixels[0].mean[0].into(), f64::from(film.pixels[0].variance[0]).sqrt())
+}
+
+/// A view of the origin that is so narrow that a pixel is a point.
+fn narrow(camera: &str, scene: &str) -> World {
+    let view =
+        format!("LookAt {camera} 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{scene}");
+    World::new(&read(&view)).unwrap()
+}
+
+fn square(size: f64, height: f64, parameters: &str) -> String {
+    let (a, h) = (size, height);
+    format!(
+        "Shape \"trianglemesh\" \"point3 P\" [-{a} {h} {a}  {a} {h} {a}  {a} {h} -{a}  -{a} {h} -{a}] \
+         \"point2 uv\" [0 0  1 0  1 1  0 1] \"integer indices\" [0 1 2  0 2 3] {parameters}\n"
+    )
+}
+
+const LAMP: &str = "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] \
+    Shape \"bilinearmesh\" \"point3 P\" [-.5 3 -.5  .5 3 -.5  -.5 3 .5  .5 3 .5] AttributeEnd\n";
+
+/// Veils let through what their opacity leaves, one after another, and whichever technique looks for the light.
+#[test]
+fn veils_dim_what_is_behind() {
+    let floor = square(9.0, 0.0, "");
+    let through = |veils: &str, technique: Technique, camera: &str| {
+        pixel(&narrow(camera, &format!("{LAMP}{floor}{veils}")), technique, 1 << 14)
+    };
+    let (one, two) = (square(2.0, 1.0, "\"float alpha\" .3"), square(2.5, 1.5, "\"float alpha\" .25"));
+    for technique in TECHNIQUES {
+        // from below the veils
+        let (open, error) = through("", technique, "5 .5 0");
+        assert!(open > 0.05 && error < 0.05 * open, "{technique:?}: {open} ± {error}");
+        for (veils, share) in [(one.clone(), 0.7), (format!("{one}{two}"), 0.7 * 0.75)] {
+            let (mean, spread) = through(&veils, technique, "5 .5 0");
+            let error = spread.hypot(share * error);
+            assert!((mean - share * open).abs() < LIMIT * error, "{technique:?}: {mean} of {open}, error {error}");
+        }
+        // from above, the camera sees the veil in 0.3 of its rays, lit by the whole lamp; else the floor, as before
+        let (bare, more) = through(&one.replace(".3", "1"), technique, "0 2.5 .01");
+        let (mean, spread) = through(&one, technique, "0 2.5 .01");
+        let (wanted, error) = (0.3 * bare + 0.7 * 0.7 * open, spread.hypot(0.3 * more).hypot(0.49 * error));
+        assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: {mean} of {wanted}, error {error}");
+    }
+}
+
+/// A board of squares with holes shows, and casts, the pattern of its texture.
+#[test]
+fn boards_have_holes_where_the_texture_says() {
+    let textures = "Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 4 \"float vscale\" 4 \
+        \"float tex1\" 1 \"float tex2\" 0\n";
+    let board = square(2.0, 1.0, "\"texture alpha\" \"holes\"");
+    let sun = "LightSource \"distant\" \"point3 from\" [0 1 0] \"point3 to\" [0 0 0] \"rgb L\" [1 1 1]\n";
+    let (mut solid, mut open) = (0, 0);
+    for i in 0..64 {
+        // u and v of points of the board, none of them next to an edge of its squares
+        let [u, v] = [f64::from(i % 8), f64::from(i / 8)].map(|k| (k + 0.4) / 8.0);
+        let [x, z] = [4.0 * u - 2.0, 2.0 - 4.0 * v];
+        let is_solid = ((4.0 * u).floor() + (4.0 * v).floor()) % 2.0 == 0.0;
+        let scene = format!("{sun}{textures}Translate {} 0 {}\n{}{board}", -x, -z, square(9.0, 0.0, ""));
+        for technique in [Technique::SolidAngle, Technique::Analytic] {
+            // the shadow on the floor, seen from below the board
+            let (shadow, _) = pixel(&narrow("3 .5 0", &scene), technique, 4);
+            assert_eq!(shadow == 0.0, is_solid, "({u}, {v}): {shadow}");
+        }
+        *(if is_solid { &mut solid } else { &mut open }) += 1;
+    }
+    assert_eq!([solid, open], [32, 32]);
+}
+
+/// The same scene without instances.
+fn expanded(scene: &Scene) -> Scene {
+    let mut own = scene.clone();
+    let mut details = (*scene.details).clone();
+    let first = scene.objects[0].start;
+    own.triangles.truncate(first);
+    own.triangle_materials.truncate(first);
+    details.of_triangles.truncate(first);
+    for Instance { object, to_world } in &scene.instances {
+        let rows = to_world.cofactors();
+        for triangle in scene.objects[*object as usize].clone() {
+            own.triangles.push(scene.triangles[triangle].map(|p| to_world.point(p.into()).into()));
+            own.triangle_materials.push(scene.triangle_materials[triangle]);
+            let mut corners = *scene.details.of(triangle as u32).unwrap();
+            corners.normals = corners.normals.map(|n| {
+                let [x, y, z] = rows.map(|row| row.dot(n.map(f64::from).into()));
+                let length = (x * x + y * y + z * z).sqrt();
+                if length > 0.0 { [x, y, z].map(|x| (x / length) as f32) } else { n }
+            });
+            details.of_triangles.push(details.corners.len() as u32);
+            details.corners.push(corners);
+        }
+    }
+    (own.objects, own.instances, own.details) = (Vec::new(), Vec::new(), Arc::new(details));
+    own
+}
+
+/// Objects that have too many triangles to be copied give the image of their copies: smooth and textured ones, turned, stretched and
+/// mirrored, with holes.
+#[test]
+fn instances_look_like_copies() {
+    // an octahedron, six times divided
+    let ball = "Shape \"loopsubdiv\" \"integer levels\" 6 \"point3 P\" [1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1] \
+        \"integer indices\" [0 2 4  2 1 4  1 3 4  3 0 4  2 0 5  1 2 5  3 1 5  0 3 5]";
+    let mut text = format!(
+        "LookAt 0 4 9 0 .5 0 0 1 0 Camera \"perspective\" \"float fov\" 40 WorldBegin\n{LAMP}\
+         Texture \"dots\" \"spectrum\" \"checkerboard\" \"float uscale\" 6 \"float vscale\" 6 \
+           \"rgb tex1\" [.9 .2 .1] \"rgb tex2\" [.1 .3 .8]\n\
+         Texture \"holes\" \"float\" \"checkerboard\" \"float uscale\" 5 \"float vscale\" 3 \"float tex1\" 1 \"float tex2\" 0\n\
+         {}ObjectBegin \"a\" Material \"diffuse\" \"texture reflectance\" \"dots\"\n{ball}\n\
+         Translate 0 1.2 0 {} ObjectEnd\n",
+        square(9.0, 0.0, ""),
+        square(0.8, 0.0, "\"texture alpha\" \"holes\""),
+    );
+    let count = 40;
+    for i in 0..count {
+        let (x, z) = (f64::from(i % 8) - 3.5, f64::from(i / 8) - 2.0);
+        let mirror = if i % 3 == 0 { "Scale -1 1 1" } else { "" };
+        text += &format!(
+            "AttributeBegin Translate {x} {} {z} Rotate {} 1 .3 .2 {mirror} Scale .4 {} .3 ObjectInstance \"a\" AttributeEnd\n",
+            0.3 + 0.02 * f64::from(i),
+            37 * i,
+            0.2 + 0.01 * f64::from(i),
+        );
+    }
+    let scene = read(&text);
+    assert_eq!((scene.instances.len(), scene.objects.len(), scene.triangles.len()), (count as usize, 1, 2 + 32_770));
+    let copies = expanded(&scene);
+    assert_eq!(copies.triangles.len(), 2 + 32_770 * count as usize);
+    let [world, copies] = [&scene, &copies].map(|scene| World::new(scene).unwrap());
+    assert!(world.bytes() * 8 < copies.bytes(), "{} and {} bytes", world.bytes(), copies.bytes());
+    for technique in [Technique::SolidAngle, Technique::MisPower, Technique::Analytic] {
+        let [one, other] = [&world, &copies].map(|world| world.render(&settings(technique, 48, 4), &|_| ()).0);
+        let lit = one.pixels.iter().filter(|pixel| pixel.mean[0] > 0.0).count();
+        assert!(lit > 1000, "{technique:?}: {lit} of 2304 pixels are lit");
+        let differ = one.pixels.iter().zip(&other.pixels).filter(|(a, b)| a.mean != b.mean).count();
+        assert_eq!(differ, 0, "{technique:?}: {differ} of 2304 pixels differ");
+    }
+}
