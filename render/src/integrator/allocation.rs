@@ -24,6 +24,11 @@ impl Weights<'_> {
         let [x0, y0, x1, _] = self.area;
         ((y - y0) * (x1 - x0) + (x - x0)) as usize
     }
+    /// A bit for each light that has some weight in a pixel.
+    pub(super) fn expected(&self, pixel: [u32; 2]) -> u32 {
+        let of = &self.of[self.index(pixel) * self.lights..][..self.lights];
+        of.iter().zip(0..).fold(0, |bits, (&weight, light)| bits | u32::from(weight > 0.0) << light)
+    }
     /// Allocates a block of a pixel, and adds the allocated samples to `before`, the numbers before the block.
     fn allocate(&self, pixel: usize, size: u32, before: &mut [u32; FEW]) -> Allocation {
         Allocation::new(&self.of[pixel * self.lights..][..self.lights], size, before)

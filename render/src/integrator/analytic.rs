@@ -4,15 +4,16 @@
 //! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
 //! or in a mirror is certified as a whole.
 
-use super::settings::TILE;
-use crate::bvh::{GROUP, SHAPE};
-use crate::camera::{Camera, Pinhole};
+use super::settings::{Settings, TILE};
+use crate::bvh::{GROUP, NOTHING, SHAPE};
+use crate::camera::{Camera, CameraSample, Pinhole};
 use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, equal, widen_points};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
-use etendue::{Mask, Real, Vec3, f64x4, u32x8};
+use etendue::{Mask, Real, Vec2, Vec3, f64x4, u32x8};
+use std::cmp::Reverse;
 use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;
 
@@ -20,8 +21,13 @@ use std::ops::Range;
 const SIDES: [u32; 2] = [TILE, 4];
 /// Greatest number of blockers for which the visible part of a light is computed.
 const CLIPPED: usize = 8;
-/// A tile in which this many primitives are looked at first, and nothing is known of any light, asks for no further certificates.
+/// At most so many primitives of a tile are looked at first, those that most of its rays see. If nothing is known of any light at any of
+/// them, the tile asks for no certificates.
 const TRIALS: usize = 4;
+/// At most so many squares of a tile are looked at first for each of these primitives. Lights that they do not decide are sampled.
+const TRIED_SQUARES: usize = 3;
+/// A certificate takes about as long as so many samples.
+const SAMPLES_PER_CERTIFICATE: f64 = 40.0;
 
 /// A light with an area.
 struct AreaLight {
@@ -38,8 +44,10 @@ enum Known {
     Behind(Range<usize>, Range<usize>, Precision),
     /// It is sampled, although its blockers are known.
     Crowded,
-    /// It must be sampled.
+    /// It is sampled, unless a smaller patch decides.
     Nothing,
+    /// It is sampled: smaller patches are not worth asking for.
+    Never,
 }
 
 /// What is known of the lights at a point that the camera sees: numbers of lights.
@@ -81,6 +89,15 @@ struct Entry {
     front: bool,
     /// Index of the certificate of the first light; the others follow.
     first: usize,
+}
+
+/// A primitive that some rays of a tile see.
+struct Seen {
+    place: u32,
+    /// Whether the camera sees it directly.
+    direct: bool,
+    /// The packets and lanes of the rays.
+    lanes: Vec<(usize, usize)>,
 }
 
 /// The places where the paths of a packet end.
@@ -153,6 +170,19 @@ pub(super) struct Analytic<'a> {
     exact: Exact<'a>,
     /// Whether certificates are not worth asking for in this tile.
     hopeless: bool,
+    /// Whether all lights are known at all places of the tile that were looked at.
+    all_known: bool,
+    /// Certificates are asked for on primitives with at least this area over the squared distance from the camera.
+    least: f64,
+    /// The position of the camera.
+    eye: Vec3<f64>,
+    /// What was found for places that were looked at last.
+    worth: (u32, bool),
+}
+
+/// Calls `f` with each lane whose bit is set.
+fn each_bit(bits: u32, f: impl FnMut(usize)) {
+    (0..8).filter(|lane| bits >> lane & 1 != 0).for_each(f);
 }
 
 /// Whether the visible part of a light is worth computing. More blockers take longer than the samples that they save: with 16, `defocus`
@@ -164,9 +194,21 @@ fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
     blockers.len() <= CLIPPED && !(is_ball && blockers.iter().any(spheres))
 }
 
+/// Where the ray through the middle of the image begins, and the solid angle of the pixel there.
+fn middle(camera: &Camera, settings: &Settings) -> (Vec3<f64>, f64) {
+    let middle = |side: u32, more: [f32; 3]| X8::from(std::array::from_fn(|k| side as f32 / 2.0 + more[k.min(2)]));
+    let film = Vec2::new(middle(settings.width, [0.0, 1.0, 0.0]), middle(settings.height, [0.0, 0.0, 1.0]));
+    let (origin, direction) = camera.rays(&CameraSample { film, lens: Vec2::default() });
+    let [middle, across, down] = [0, 1, 2].map(|lane| direction.lane(lane).map(f64::from));
+    (origin.lane(0).map(f64::from), (across - middle).cross(down - middle).length())
+}
+
 impl<'a> Analytic<'a> {
     /// For a scene as a camera sees it. [`begin`](Self::begin) prepares for a tile.
-    pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera) -> Self {
+    pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera, settings: &Settings) -> Self {
+        let count = surfaces.light_shapes().count();
+        let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
+        let (eye, pixel) = middle(camera, settings);
         let light = |shape: &crate::scene::Shape| {
             Some(AreaLight { form: shape.geometry.convex(), radiance: shape.emission?.radiance })
         };
@@ -185,7 +227,42 @@ impl<'a> Analytic<'a> {
             polyhedra: Vec::new(),
             exact: Exact::default(),
             hopeless: false,
+            all_known: false,
+            least: pixels * pixel,
+            eye,
+            worth: (NOTHING, false),
         }
+    }
+
+    /// Whether certificates are worth asking for on a primitive: whether it is so near and so large that, seen from the front, the camera
+    /// would take enough samples of it.
+    fn is_worth(&mut self, place: u32) -> bool {
+        if self.worth.0 != place {
+            let wide = |p: [f32; 3]| Vec3::from(p.map(f64::from));
+            let (area, center) = if place & SHAPE == 0 {
+                let c = self.surfaces.bvh.corners(place);
+                let [a, b, c] = [0, 3, 6].map(|k| wide([c[k], c[k + 1], c[k + 2]]));
+                (0.5 * (b - a).cross(c - a).length(), (a + b + c) * (1.0 / 3.0))
+            } else {
+                let geometry = &self.surfaces.shapes()[(place & !SHAPE) as usize].geometry;
+                let [low, high] = geometry.bounds();
+                // as a camera sees it: a disk, or all of a flat one
+                let seen = if matches!(geometry, Geometry::Sphere { .. }) { 0.25 } else { 1.0 };
+                (geometry.area() * seen, (wide(low) + wide(high)) * 0.5)
+            };
+            self.worth = (place, area >= self.least * (center - self.eye).length_squared());
+        }
+        self.worth.1
+    }
+
+    /// Whether no certificates are asked for in this tile: all lights are sampled.
+    pub(super) const fn is_hopeless(&self) -> bool {
+        self.hopeless
+    }
+
+    /// Whether all lights are known at all places of the tile that were looked at first.
+    pub(super) const fn knows_all(&self) -> bool {
+        self.all_known
     }
 
     /// Forgets the certificates, and prepares for the samples of a tile.
@@ -193,30 +270,86 @@ impl<'a> Analytic<'a> {
         self.squares.iter_mut().flatten().for_each(Vec::clear);
         self.whole.clear();
         self.known.clear();
+        self.known.extend(self.lights.iter().map(|_| Known::Never));
         self.forms.clear();
         self.polyhedra.clear();
         self.exact.polyhedra.clear();
         self.exact.forms.clear();
         self.origin = origin;
-        self.hopeless = false;
+        (self.hopeless, self.all_known) = (false, false);
     }
 
-    /// Asks for the certificates of the first [`TRIALS`] primitives in the lanes of a packet that sees some places in the tile. If nothing is
-    /// known of any light there, no others are asked for. (The places are the same for all samples, so that what is known does not depend
-    /// on which of them a process takes.)
-    pub(super) fn try_out(&mut self, surface: &Surface, places: &Places) {
-        let (mut firsts, mut left) = (Vec::new(), surface.reflects & !places.glossy);
-        while left.any() && firsts.len() < TRIALS {
-            let (first, lanes) = self.find(surface, places, left);
-            left = left & !lanes;
-            if !firsts.contains(&first) {
-                firsts.push(first);
-            }
+    /// Looks at what the rays of some packets see in the tile, each of them in a pixel of its own, and decides whether certificates are worth
+    /// asking for. (The rays are the same for all samples, so that what is known does not depend on which of them a process takes.)
+    pub(super) fn try_out(&mut self, surfaces: &[Surface], places: &[Places; GROUP], pixels: &[[[u32; 2]; 8]; GROUP]) {
+        let mut seen: Vec<Seen> = Vec::new();
+        let mut all = true;
+        for (p, (surface, places)) in surfaces.iter().zip(places).enumerate() {
+            all = all && !(surface.reflects & places.glossy).any();
+            each_bit((surface.reflects & !places.glossy).bits(), |lane| {
+                let (place, direct) = (places.primitives.as_array()[lane], places.direct.lane(lane));
+                match seen.iter_mut().find(|seen| seen.place == place && seen.direct == direct) {
+                    Some(seen) => seen.lanes.push((p, lane)),
+                    None => seen.push(Seen { place, direct, lanes: vec![(p, lane)] }),
+                }
+            });
         }
+        let distinct = seen.len();
+        seen.retain(|seen| self.is_worth(seen.place));
+        all = all && seen.len() == distinct;
+        seen.sort_by_key(|seen| (Reverse(seen.lanes.len()), seen.place));
         let count = self.lights.len();
-        let is_open = |known: &Known| matches!(known, Known::Crowded | Known::Nothing);
-        self.hopeless =
-            firsts.len() == TRIALS && firsts.iter().all(|&first| self.known[first..first + count].iter().all(is_open));
+        let mut some = false;
+        for seen in seen.iter().take(TRIALS) {
+            let (p, lane) = seen.lanes[0];
+            let whole = Places { pixel: None, ..places[p] };
+            let (first, _) = self.find(&surfaces[p], &whole, M8::from_bits(1 << lane));
+            let is_open = |known: &Known| matches!(known, Known::Nothing | Known::Crowded | Known::Never);
+            let decided = |known: &Known| !is_open(known);
+            let mut open: Vec<bool> = self.known[first..first + count].iter().map(is_open).collect();
+            some = some || open.contains(&false);
+            if let Some(pinhole) = self.pinhole.filter(|_| seen.direct && open.contains(&true)) {
+                let mut squares: Vec<u32> = Vec::new();
+                for &(p, lane) in &seen.lanes {
+                    let pixel = pixels[p][lane];
+                    let square = self.square(pixel, 1);
+                    if squares.len() < TRIED_SQUARES && !squares.contains(&square) {
+                        squares.push(square);
+                        let found = self.seen(&pinhole, seen.place, pixel, 1);
+                        open.iter_mut().zip(&self.known[found..]).for_each(|(open, known)| *open &= !decided(known));
+                    }
+                }
+                some = some || open.contains(&false);
+                for (known, open) in self.known[first..].iter_mut().zip(&open).filter(|(_, open)| **open) {
+                    debug_assert!(*open && is_open(known));
+                    *known = Known::Never;
+                }
+            }
+            all = all && !open.contains(&true);
+        }
+        self.hopeless = seen.is_empty() || !some && seen.len() >= TRIALS || !some && !seen.iter().any(|seen| !seen.direct);
+        self.all_known = all && seen.len() <= TRIALS;
+    }
+
+    /// Index of the square of a level that contains a pixel.
+    fn square(&self, pixel: [u32; 2], level: usize) -> u32 {
+        let side = SIDES[level];
+        let [column, row] = [0, 1].map(|k| (pixel[k] - self.origin[k]) / side);
+        row * (TILE / side) + column
+    }
+
+    /// Sets the lanes in which each light must be sampled, seen in these pixels.
+    pub(super) fn open(&mut self, surface: &Surface, places: &Places, pixels: &[[u32; 2]; 8], open: &mut [M8]) {
+        open.fill(surface.reflects & places.glossy);
+        each_bit((surface.reflects & !places.glossy).bits(), |lane| {
+            let places = Places { pixel: Some(pixels[lane]), ..*places };
+            let (first, _) = self.find(surface, &places, M8::from_bits(1 << lane));
+            for (open, known) in open.iter_mut().zip(&self.known[first..]) {
+                if matches!(known, Known::Crowded | Known::Nothing | Known::Never) {
+                    *open = *open | M8::from_bits(1 << lane);
+                }
+            }
+        });
     }
 
     /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
@@ -227,7 +360,9 @@ impl<'a> Analytic<'a> {
         for light in 0..lights.len() {
             let before = larger.map_or(Known::Nothing, |larger| known[larger + light].clone());
             let certificate = match patch {
-                Some(patch) if !matches!(before, Known::Lit(_) | Known::Dark) => certifier.certify(patch, light),
+                Some(patch) if !matches!(before, Known::Lit(_) | Known::Dark | Known::Never) => {
+                    certifier.certify(patch, light)
+                }
                 _ => {
                     known.push(before);
                     continue;
@@ -264,22 +399,25 @@ impl<'a> Analytic<'a> {
     fn seen(&mut self, pinhole: &Pinhole, place: u32, pixel: [u32; 2], level: usize) -> usize {
         let side = SIDES[level];
         let [column, row] = [0, 1].map(|k| (pixel[k] - self.origin[k]) / side);
-        let square = (row * (TILE / side) + column) as usize;
+        let square = self.square(pixel, level) as usize;
         if let Some(entry) = self.squares[level][square].iter().find(|entry| entry.place == place) {
             return entry.first;
         }
         let larger = (level > 0).then(|| self.seen(pinhole, place, pixel, level - 1));
         let count = self.lights.len();
-        let decided = |known: &Known| matches!(known, Known::Lit(_) | Known::Dark);
-        let open = larger.is_none_or(|larger| !self.known[larger..larger + count].iter().all(decided));
-        let first = if open && !self.hopeless {
+        let decided = |known: &Known| matches!(known, Known::Lit(_) | Known::Dark | Known::Never);
+        let open = match larger {
+            Some(larger) => !self.known[larger..larger + count].iter().all(decided),
+            None => true,
+        };
+        let first = if open {
             let [x, y] = [column, row].map(|k| k * side);
             let [x, y] = [self.origin[0] + x, self.origin[1] + y].map(f64::from);
             let pyramid = Pyramid::new(pinhole, [x, y, x + f64::from(side), y + f64::from(side)]);
             let patch = Patch::of(self.surfaces, place, Viewer::Pixels(&pyramid));
             self.certify(patch.as_ref(), larger)
         } else {
-            larger.unwrap_or_else(|| self.certify(None, None))
+            larger.unwrap_or(0)
         };
         self.squares[level][square].push(Entry { place, front: true, first });
         first
@@ -292,7 +430,7 @@ impl<'a> Analytic<'a> {
             return entry.first;
         }
         let viewer = if front { Viewer::Front } else { Viewer::Back };
-        let patch = if self.hopeless { None } else { Patch::of(self.surfaces, place, viewer) };
+        let patch = Patch::of(self.surfaces, place, viewer);
         let first = self.certify(patch.as_ref(), None);
         self.whole.push(Entry { place, front, first });
         first
@@ -317,7 +455,7 @@ impl<'a> Analytic<'a> {
                 Known::Behind(forms, bodies, _) if forms.len() + bodies.len() <= 4 => &mut survey.few,
                 Known::Behind(..) => &mut survey.many,
                 Known::Crowded => &mut survey.crowded,
-                Known::Nothing => &mut survey.unknown,
+                Known::Nothing | Known::Never => &mut survey.unknown,
             } += 1;
         }
         survey
@@ -341,11 +479,15 @@ impl<'a> Analytic<'a> {
         V8::new(x * sum.x, y * sum.y, z * sum.z)
     }
 
-    /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them.
+    /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them. Where nothing is worth asking
+    /// for, it is 0.
     fn find(&mut self, surface: &Surface, places: &Places, lanes: M8) -> (usize, M8) {
         let lane = lanes.bits().trailing_zeros() as usize & 7;
         let place = places.primitives.as_array()[lane];
         let here = lanes & equal(places.primitives, u32x8::splat(place));
+        if !self.is_worth(place) {
+            return (0, here);
+        }
         if let Some(pinhole) = self.pinhole.filter(|_| places.direct.lane(lane)) {
             let (pixel, level) = places.pixel.map_or((self.origin, 0), |pixel| (pixel, SIDES.len() - 1));
             return (self.seen(&pinhole, place, pixel, level), here & places.direct);
@@ -379,23 +521,29 @@ impl<'a> Analytic<'a> {
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let mut parts = [(0, M8::splat(false)); 8];
             let mut count = 0;
+            let mut sampled = surface.reflects & places[p].glossy;
             let mut left = surface.reflects & !places[p].glossy;
             while left.any() {
-                parts[count] = self.find(surface, &places[p], left);
-                left = left & !parts[count].1;
+                let (first, lanes) = self.find(surface, &places[p], left);
+                left = left & !lanes;
+                if first == 0 {
+                    sampled = sampled | lanes;
+                    continue;
+                }
+                parts[count] = (first, lanes);
                 count += 1;
             }
             let mut sum = V8::default();
             for (k, light) in self.lights.iter().enumerate() {
                 let (mut lit, mut lit_exactly) = (M8::splat(false), M8::splat(false));
-                let mut open = surface.reflects & places[p].glossy;
+                let mut open = sampled;
                 let mut part = X8::lit(0.0);
                 for (first, lanes) in &parts[..count] {
                     match &self.known[first + k] {
                         Known::Lit(Precision::Double) => lit_exactly = lit_exactly | *lanes,
                         Known::Lit(_) => lit = lit | *lanes,
                         Known::Dark => {}
-                        Known::Crowded | Known::Nothing => open = open | *lanes,
+                        Known::Crowded | Known::Nothing | Known::Never => open = open | *lanes,
                         Known::Behind(forms, bodies, precision) => {
                             // the other lanes repeat one of these: what is not seen from here does not matter
                             let lane = lanes.bits().trailing_zeros() as usize & 7;

@@ -12,7 +12,7 @@ use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
-use crate::packet::{M8, V8, X8, pick, select};
+use crate::packet::{M8, V8, X8, equal, pick, select};
 use crate::surfaces::{Surface, emitted};
 use crate::technique::Technique;
 use etendue::estimate::technique_pdf;
@@ -30,6 +30,9 @@ enum Which<'a> {
     Chosen(&'a [Allocated<'a, X8>]),
     /// One of those whose lanes are set, for each light and packet.
     Among(&'a [[M8; GROUP]]),
+    /// The one to which the sample is allocated, where its lane is set. Where another light than those that were expected in a packet must
+    /// be sampled, too, one chosen at random.
+    Expected(&'a [Allocated<'a, X8>], &'a [u32; GROUP], &'a [[M8; GROUP]]),
 }
 
 /// Radiance along camera rays.
@@ -37,22 +40,24 @@ enum Which<'a> {
 pub(super) struct Radiance {
     /// Radiance of the lights and the sky that the camera sees.
     pub(super) seen: V8,
-    /// Radiance reflected by surfaces.
+    /// Radiance reflected by surfaces that is computed without samples of lights.
+    pub(super) known: V8,
+    /// Radiance reflected by surfaces, apart from that.
     pub(super) reflected: V8,
 }
 
 impl Radiance {
     pub(super) fn total(&self) -> V8 {
-        self.seen + self.reflected
+        self.seen + self.known + self.reflected
     }
     /// The same radiance where the mask is true, and 0 elsewhere.
     #[inline]
     pub(super) fn keep(&self, mask: M8) -> Self {
-        Self { seen: keep(self.seen, mask), reflected: keep(self.reflected, mask) }
+        Self { seen: keep(self.seen, mask), known: keep(self.known, mask), reflected: keep(self.reflected, mask) }
     }
     #[inline]
     pub(super) fn times(&self, weight: X8) -> Self {
-        Self { seen: self.seen * weight, reflected: self.reflected * weight }
+        Self { seen: self.seen * weight, known: self.known * weight, reflected: self.reflected * weight }
     }
 }
 
@@ -126,7 +131,7 @@ impl<'a> Paths<'a> {
             analytic: settings
                 .technique
                 .is_analytic(scene.lights.only_few_areas())
-                .then(|| Analytic::new(&scene.surfaces, &scene.bodies, camera)),
+                .then(|| Analytic::new(&scene.surfaces, &scene.bodies, camera, settings)),
             radiance: Box::default(),
             unknown: vec![[M8::splat(false); GROUP]; FEW],
         }
@@ -143,23 +148,38 @@ impl<'a> Paths<'a> {
         self.rays[0][packet] = self.scene.surfaces.bvh.rays(origin, direction);
     }
 
-    /// Follows the rays that have been started. Returns the surfaces at their ends, which reflect but whose emission does not count.
-    pub(super) fn surfaces(&mut self, active: &[M8]) -> &[Surface] {
+    /// Follows the rays that have been started.
+    pub(super) fn surfaces(&mut self, active: &[M8]) {
         if self.scene.surfaces.is_plain {
             self.follow::<false>(active);
         } else {
             self.follow::<true>(active);
         }
-        &self.surfaces[..active.len()]
     }
 
-    /// Tries certificates where the rays of the first packet that has been started end.
-    pub(super) fn try_out(&mut self) {
-        self.surfaces(&[M8::splat(true)]);
-        self.note_glossy(1);
+    /// The surfaces at the ends of the rays that have been followed, which reflect but whose emission does not count.
+    pub(super) fn ends(&self, count: usize) -> &[Surface] {
+        &self.surfaces[..count]
+    }
+
+    /// Looks at the ends of the rays that have been started, each of them in one of these pixels, to decide where certificates are worth
+    /// asking for.
+    pub(super) fn try_out(&mut self, pixels: &[[[u32; 2]; 8]; GROUP]) {
+        self.surfaces(&[M8::splat(true); GROUP]);
+        self.note_glossy(GROUP);
         if let Some(analytic) = &mut self.analytic {
-            self.places[0].pixel = None;
-            analytic.try_out(&self.surfaces[0], &self.places[0]);
+            analytic.try_out(&self.surfaces[..], &self.places, pixels);
+        }
+    }
+
+    /// Sets the lanes in which each light must be sampled at the ends of the rays of some packets, which have been followed, in these
+    /// pixels.
+    pub(super) fn open(&mut self, pixels: &[[[u32; 2]; 8]; GROUP], count: usize, open: &mut [Vec<M8>; GROUP]) {
+        self.note_glossy(count);
+        let Self { analytic, surfaces, places, .. } = self;
+        let Some(analytic) = analytic else { return };
+        for p in 0..count {
+            analytic.open(&surfaces[p], &places[p], &pixels[p], &mut open[p]);
         }
     }
 
@@ -188,39 +208,54 @@ impl<'a> Paths<'a> {
         }
     }
 
-    /// Radiance along the rays that have been started. `allocated` is empty, or allocates each sample to a light.
+    /// Radiance along the rays that have been started. `allocated` is empty, or allocates each sample to a light; a bit of `expected` is set for
+    /// each light that is worth samples in a packet, then.
     pub(super) fn radiance(
         &mut self,
         active: &[M8],
         numbers: &Numbers,
         allocated: &[Allocated<'_, X8>],
+        expected: &[u32; GROUP],
     ) -> &mut [Radiance] {
         for active in active {
             self.count.camera += u64::from(active.bits().count_ones());
         }
         // what a scene does not need is not compiled in
         if self.scene.surfaces.is_plain {
-            self.gather::<false>(active, numbers, allocated);
+            self.gather::<false>(active, numbers, allocated, expected);
         } else {
-            self.gather::<true>(active, numbers, allocated);
+            self.gather::<true>(active, numbers, allocated, expected);
         }
         &mut self.radiance[..active.len()]
     }
 
-    fn gather<const METAL: bool>(&mut self, active: &[M8], numbers: &Numbers, allocated: &[Allocated<'_, X8>]) {
+    fn gather<const METAL: bool>(
+        &mut self,
+        active: &[M8],
+        numbers: &Numbers,
+        allocated: &[Allocated<'_, X8>],
+        expected: &[u32; GROUP],
+    ) {
         self.follow::<METAL>(active);
+        let count = active.len();
+        let (mut known, mut reflected) = ([V8::default(); GROUP], [V8::default(); GROUP]);
         if self.scene.lights.is_empty() {
             self.radiance.iter_mut().for_each(|radiance| radiance.reflected = V8::default());
             return;
         }
-        let count = active.len();
-        let mut reflected = [V8::default(); GROUP];
         let lights = self.sampled();
-        self.note_glossy(count);
-        if let Some(analytic) = &mut self.analytic {
+        if self.analytic.is_some() {
+            self.note_glossy(count);
+        }
+        if let Some(analytic) = self.analytic.as_mut().filter(|analytic| !analytic.is_hopeless()) {
             let mut unknown = std::mem::take(&mut self.unknown);
-            if analytic.gather(&self.surfaces[..count], &self.places, &mut reflected, &mut unknown) {
-                self.by_light::<METAL>(lights, &Which::Among(&unknown), count, numbers, &mut reflected);
+            if analytic.gather(&self.surfaces[..count], &self.places, &mut known, &mut unknown) {
+                let which = if allocated.is_empty() {
+                    Which::Among(&unknown)
+                } else {
+                    Which::Expected(allocated, expected, &unknown)
+                };
+                self.by_light::<METAL>(lights, &which, count, numbers, &mut reflected);
             }
             self.unknown = unknown;
         } else if let Some(each) = lights.each() {
@@ -236,8 +271,8 @@ impl<'a> Paths<'a> {
             self.by_surface::<METAL>(count, surface, allocated, &mut reflected);
         }
         for p in 0..count {
-            let reflected = reflected[p];
-            self.radiance[p].reflected = if METAL { product(self.ends[p].throughput, reflected) } else { reflected };
+            let through = |part: V8| if METAL { product(self.ends[p].throughput, part) } else { part };
+            (self.radiance[p].known, self.radiance[p].reflected) = (through(known[p]), through(reflected[p]));
         }
     }
 
@@ -336,13 +371,35 @@ impl<'a> Paths<'a> {
                     Some(allocated) => allocated.choose(number),
                     None => lights.choose(surface.point, surface.normal, [number, second]),
                 },
-                Which::Among(open) => match lights.contributions(surface.point, surface.normal) {
-                    Some(near) => near.only(|light| open[light][p]).choose(number),
-                    None => {
-                        lanes = lanes & open[0][p];
-                        Choice { index: u32x8::splat(0), pmf: one, u: number }
+                Which::Among(open) => among(lights, surface, open, p, number, &mut lanes),
+                Which::Expected(allocated, expected, open) => {
+                    let count = lights.len();
+                    let is_stray = |light: &usize| expected[p] >> light & 1 == 0;
+                    let none = M8::splat(false);
+                    let stray = (0..count).filter(is_stray).fold(none, |stray, light| stray | open[light][p]);
+                    let choice = allocated[p].choose(number);
+                    let mut own = none;
+                    let mut left = lanes & !stray;
+                    while left.any() {
+                        let light = choice.index.as_array()[left.bits().trailing_zeros() as usize & 7];
+                        let same = left & equal(choice.index, u32x8::splat(light));
+                        own = own | same & open[light as usize][p];
+                        left = left & !same;
                     }
-                },
+                    if stray.any() {
+                        let mut others = lanes & stray;
+                        let other = among(lights, surface, open, p, number, &mut others);
+                        lanes = own | others;
+                        Choice {
+                            index: pick(stray, other.index, choice.index),
+                            pmf: select(stray, other.pmf, choice.pmf),
+                            u: select(stray, other.u, choice.u),
+                        }
+                    } else {
+                        lanes = own;
+                        choice
+                    }
+                }
             };
             if numbers.choice.is_none() {
                 u.x = choice.u;
@@ -459,6 +516,25 @@ impl<'a> Paths<'a> {
         bvh.occluded(rays, &mut lit[..count], &limit[..count], &target[..count], &mut self.scratch);
         for p in 0..count {
             reflected[p] += keep(found[p], lit[p]);
+        }
+    }
+}
+
+/// Chooses one of the lights whose lanes are set in a packet, for each of them.
+#[inline]
+fn among(
+    lights: &Lights,
+    surface: &Surface,
+    open: &[[M8; GROUP]],
+    packet: usize,
+    number: X8,
+    lanes: &mut M8,
+) -> Choice<X8> {
+    match lights.contributions(surface.point, surface.normal) {
+        Some(near) => near.only(|light| open[light][packet]).choose(number),
+        None => {
+            *lanes = *lanes & open[0][packet];
+            Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u: number }
         }
     }
 }

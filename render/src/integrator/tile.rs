@@ -99,6 +99,7 @@ impl<'a> TileRenderer<'a> {
         let Settings { spp, .. } = *self.settings;
         let span = if self.source.span() == 0 { spp } else { self.source.span() };
         let whole = span.is_multiple_of(8);
+        self.begin(area);
         let weights = if whole { self.weights(area, span) } else { None };
         let of_set = |_, set: u32| [range.start, range.end].map(|at| at.saturating_sub(set * span).min(span));
         self.samples(area, whole, [span; 2], spp / span, weights.as_ref(), sum, of_set)
@@ -113,33 +114,30 @@ impl<'a> TileRenderer<'a> {
         weights: Option<&Weights<'_>>,
         range: impl Fn([u32; 2]) -> [u32; 2],
     ) -> Vec<Statistics> {
+        self.begin(area);
         let found = if weights.is_none() { self.weights(area, 8 * pilot) } else { None };
         let weights = weights.or(found.as_ref());
-        let sum = StatisticsSum::new(weights.map_or(0, |weights| weights.lights));
+        // where the lights of a tile are known, no sample is allocated
+        let allocated = if self.allocates(8 * pilot) { self.scene.lights.few().unwrap_or(0) } else { 0 };
+        let sum = StatisticsSum::new(weights.map_or(allocated, |weights| weights.lights));
         self.samples(area, true, [0, 8 * pilot], sets, weights, sum, |pixel, _| range(pixel).map(|packet| 8 * packet))
     }
 
-    /// Prepares for the pixels of a tile.
-    pub(super) fn begin(&mut self, [x0, y0, ..]: Area) {
-        if let Some(analytic) = &mut self.paths.analytic {
-            analytic.begin([x0, y0]);
+    /// Prepares for the pixels of a tile: looks at an 8 × 8 grid of places in it, to decide where certificates are worth asking for.
+    pub(super) fn begin(&mut self, [x0, y0, x1, y1]: Area) {
+        let Some(analytic) = &mut self.paths.analytic else { return };
+        analytic.begin([x0, y0]);
+        let place = |start: u32, end: u32, k: usize| start as f32 + (end - start) as f32 * (2 * k + 1) as f32 / 16.0;
+        let mut pixels = [[[0; 2]; 8]; GROUP];
+        for (row, pixels) in pixels.iter_mut().enumerate() {
+            let y = place(y0, y1, row);
+            let x: [f32; 8] = std::array::from_fn(|lane| place(x0, x1, lane));
+            *pixels = x.map(|x| [(x as u32).min(x1 - 1), (y as u32).min(y1 - 1)]);
+            let film = Vec2::new(X8::from(x), X8::splat(y));
+            self.paths.start(row, self.camera.rays(&CameraSample { film, lens: Vec2::default() }));
         }
-    }
-
-    /// Tries certificates at eight places in a tile.
-    pub(super) fn try_out(&mut self, [x0, y0, x1, y1]: Area) {
-        if self.paths.analytic.is_none() {
-            return;
-        }
-        let place = |start: u32, end: u32, step: u32| {
-            let middle = |lane: usize| (lane as u32 * step % 8 * 2 + 1) as f32 / 16.0;
-            X8::from(std::array::from_fn(|lane| start as f32 + (end - start) as f32 * middle(lane)))
-        };
-        // one in each row and column of an 8 × 8 grid
-        let film = Vec2::new(place(x0, x1, 1), place(y0, y1, 5));
-        self.paths.start(0, self.camera.rays(&CameraSample { film, lens: Vec2::default() }));
-        self.paths.try_out();
-        self.paths.count.corner += 8;
+        self.paths.try_out(&pixels);
+        self.paths.count.corner += 64;
     }
 
     /// Starts the ray through the middle of a pixel and of the lens.
@@ -187,8 +185,6 @@ impl<'a> TileRenderer<'a> {
         range: impl Fn([u32; 2], u32) -> [u32; 2],
     ) -> Vec<A::Output> {
         let [x0, y0, x1, _] = area;
-        self.begin(area);
-        self.try_out(area);
         let pixels = z_order(area);
         let mut runs = pixels.iter().flat_map(|&pixel| {
             let range = &range;
@@ -209,6 +205,7 @@ impl<'a> TileRenderer<'a> {
             packets.clear();
             pieces.clear();
             places.clear();
+            let mut expected = [0; GROUP];
             blocks.forget();
             while packets.len() < GROUP
                 && let Some(first) = run
@@ -220,6 +217,7 @@ impl<'a> TileRenderer<'a> {
                     continue;
                 }
                 if let Some(weights) = weights {
+                    expected[packets.len()] = weights.expected(first.pixel);
                     places.push(blocks.find(weights, first.pixel, first.next));
                 }
                 packets.push(packet);
@@ -231,7 +229,7 @@ impl<'a> TileRenderer<'a> {
             let all = |first: &(usize, u32)| std::array::from_fn(|p| at(places.get(p).unwrap_or(first)));
             let allocated: Option<[Allocated<'_, X8>; GROUP]> = places.first().map(all);
             let allocated = allocated.as_ref().map_or(&[][..], |all| &all[..places.len()]);
-            let radiance = self.radiance(&packets, allocated);
+            let radiance = self.radiance(&packets, allocated, &expected);
             for piece in pieces.drain(..) {
                 let kept = piece.kept();
                 let TilePiece { packet, lanes, run } = piece;
@@ -244,7 +242,7 @@ impl<'a> TileRenderer<'a> {
                     sum.begin(run.set, first);
                 }
                 if whole && kept.len() == 8 {
-                    sum.push_packet(radiance.total(), radiance.seen, allocated.get(packet));
+                    sum.push_packet(radiance.total(), radiance.seen + radiance.known, allocated.get(packet));
                 } else {
                     let total = radiance.total();
                     kept.clone().for_each(|lane| sum.push(total.lane(lane).into()));
@@ -309,7 +307,12 @@ impl<'a> TileRenderer<'a> {
     }
 
     /// Measured values of the samples of a group of packets. `allocated` is empty, or allocates each sample to a light.
-    fn radiance(&mut self, packets: &[Packet], allocated: &[Allocated<'_, X8>]) -> &[Radiance] {
+    fn radiance(
+        &mut self,
+        packets: &[Packet],
+        allocated: &[Allocated<'_, X8>],
+        expected: &[u32; GROUP],
+    ) -> &[Radiance] {
         let Self { source, paths, camera, settings, .. } = self;
         let lights = paths.sampled();
         // delta lights alone need no point on the light
@@ -345,7 +348,7 @@ impl<'a> TileRenderer<'a> {
             paths.start(p, camera.rays(&samples[p]));
             active[p] = packet.active;
         }
-        let radiance = paths.radiance(&active[..packets.len()], &numbers, allocated);
+        let radiance = paths.radiance(&active[..packets.len()], &numbers, allocated, expected);
         for (radiance, sample) in radiance.iter_mut().zip(&samples) {
             if let Some(open) = camera.open(sample) {
                 *radiance = radiance.keep(open);
@@ -357,19 +360,26 @@ impl<'a> TileRenderer<'a> {
         radiance
     }
 
+    /// Whether samples can be allocated to lights in blocks of `size` samples.
+    fn allocates(&self, size: u32) -> bool {
+        let Some(lights) = self.scene.lights.few() else { return false };
+        // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
+        let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
+        fits && !self.settings.technique.finds_lights() && self.source.allocates()
+    }
+
     /// Weights of the lights by their possible contributions at the corners of the pixels of an area, seen through the middle of the
     /// lens; `None` if lights are chosen at random, or if there are too many for blocks of `size` samples.
     fn weights(&mut self, area: Area, size: u32) -> Option<Weights<'static>> {
         let lights = self.scene.lights.few()?;
-        // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
-        let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
-        if !fits || self.paths.analytic.is_some() || self.settings.technique.finds_lights() || !self.source.allocates()
-        {
+        if !self.allocates(size) || self.paths.analytic.as_ref().is_some_and(|analytic| analytic.knows_all()) {
             return None;
         }
+        let is_asked = self.paths.analytic.as_ref().is_some_and(|analytic| !analytic.is_hopeless());
         let [x0, y0, x1, y1] = area;
         let (across, down) = ((x1 - x0 + 1) as usize, (y1 - y0 + 1) as usize);
         let mut corners = vec![0.0; across * down * lights];
+        let mut open: [Vec<M8>; GROUP] = std::array::from_fn(|_| vec![M8::splat(true); lights]);
         for start in (0..across * down).step_by(8 * GROUP) {
             let count = (across * down - start).div_ceil(8).min(GROUP);
             let place = |p: usize, lane: usize| (start + 8 * p + lane).min(across * down - 1);
@@ -379,11 +389,16 @@ impl<'a> TileRenderer<'a> {
                 let sample = CameraSample { film: Vec2::new(x, y), lens: Vec2::default() };
                 self.paths.start(p, self.camera.rays(&sample));
             }
-            let surfaces = self.paths.surfaces(&[M8::splat(true); GROUP][..count]);
-            for (p, surface) in surfaces.iter().enumerate() {
+            self.paths.surfaces(&[M8::splat(true); GROUP][..count]);
+            if is_asked {
+                let pixel = |i: usize| [(x0 + (i % across) as u32).min(x1 - 1), (y0 + (i / across) as u32).min(y1 - 1)];
+                let pixels = std::array::from_fn(|p| std::array::from_fn(|lane| pixel(place(p, lane))));
+                self.paths.open(&pixels, count, &mut open);
+            }
+            for (p, surface) in self.paths.ends(count).iter().enumerate() {
                 let Some(parts) = self.scene.lights.contributions(surface.point, surface.normal) else { continue };
                 for (k, part) in parts.weights().enumerate() {
-                    let part = part.keep(surface.reflects).to_array();
+                    let part = part.keep(surface.reflects & open[p][k]).to_array();
                     for (lane, part) in part.into_iter().enumerate() {
                         corners[place(p, lane) * lights + k] = part;
                     }

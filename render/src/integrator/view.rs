@@ -122,7 +122,6 @@ impl View<'_> {
             || self.renderer(),
             |renderer, area| {
                 renderer.begin(area);
-                renderer.try_out(area);
                 let [x0, y0, x1, y1] = area;
                 let quarters = |a: u32, b: u32| [(3 * a + b) / 4, (a + 3 * b) / 4];
                 let pixels = quarters(y0, y1).into_iter().flat_map(|y| quarters(x0, x1).map(|x| [x, y]));
@@ -142,7 +141,6 @@ impl View<'_> {
         let (surveys, _) = self.by(Technique::Analytic).tiles(whole, &|renderer, [x0, y0, x1, y1]| {
             let pixels: Vec<_> = (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).collect();
             renderer.begin([x0, y0, x1, y1]);
-            renderer.try_out([x0, y0, x1, y1]);
             renderer.survey(&pixels)
         });
         surveys
