@@ -1,6 +1,7 @@
 //! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and image crates.
 
 pub mod layers;
+mod pfm;
 mod size;
 mod texels;
 
@@ -119,7 +120,10 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
     if bytes.starts_with(PNG) {
         return decode_png(bytes, path);
     }
-    let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR or PNG image: {error}"));
+    if let Some(picture) = pfm::decode(path, bytes) {
+        return picture;
+    }
+    let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR, PFM or PNG image: {error}"));
     let decoder = image_files::codecs::hdr::HdrDecoder::new(Cursor::new(bytes)).map_err(|error| not_one(&error))?;
     let [width, height] = [decoder.metadata().width, decoder.metadata().height];
     // a run of equal pixels takes few bytes

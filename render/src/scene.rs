@@ -59,7 +59,7 @@ mod textures;
 mod transform;
 mod view;
 
-use crate::files::read_file;
+use crate::files::read_unpacked;
 pub use crate::geometry::{Affine, Geometry, Instance};
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
@@ -139,7 +139,7 @@ pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
     }
     let shown = path.display().to_string();
     let failed = |error| SceneError::Io { path: shown.clone(), error };
-    let bytes = read_file(path).map_err(failed)?;
+    let bytes = read_unpacked(path).map_err(failed)?;
     if gltf::is_gltf(path, &bytes) {
         let mut scene = gltf::read(&bytes, &shown, Some(path.parent().unwrap_or(Path::new(""))))?;
         scene.inputs.push(path.to_owned());

@@ -198,7 +198,8 @@ impl Session<'_> {
 /// A fraction as a percentage with three digits.
 fn percent(x: f64) -> String {
     let x = 100.0 * x;
-    let digits = (2 - x.log10().floor() as i32).clamp(0, 8) as usize;
+    // 0 has no logarithm
+    let digits = (2.0 - x.log10().floor()).clamp(0.0, 8.0) as usize;
     format!("{x:.digits$} %")
 }
 

@@ -327,7 +327,8 @@ impl<'a> Analytic<'a> {
             }
             all = all && !open.contains(&true);
         }
-        self.hopeless = seen.is_empty() || !some && seen.len() >= TRIALS || !some && !seen.iter().any(|seen| !seen.direct);
+        self.hopeless =
+            seen.is_empty() || !some && seen.len() >= TRIALS || !some && !seen.iter().any(|seen| !seen.direct);
         self.all_known = all && seen.len() <= TRIALS;
     }
 

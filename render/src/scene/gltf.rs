@@ -48,7 +48,8 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     let source = Source::new(bytes, file, folder)?;
     let root = &source.root;
     for name in &root.extensions_required {
-        if !SUPPORTED.contains(&&**name) {
+        // what is ignored where it is optional is ignored with the same warning here
+        if !SUPPORTED.contains(&&**name) && !materials::is_ignored(name) {
             return Err(source.message(format!("requires the extension {:?}, which is not supported", shortened(name))));
         }
     }

@@ -1,7 +1,7 @@
 //! The files of a scene that are being read, each included by a line of the one before.
 
 use super::message::{Message, Place};
-use crate::files::{is_same, read_file};
+use crate::files::{is_same, read_unpacked};
 use std::path::{Path, PathBuf};
 
 /// Greatest depth of nested `Include`s, and greatest number of included files.
@@ -53,7 +53,7 @@ impl Includes {
         if self.count > MOST {
             return Err(place.message(format!("Include {shown:?}: more than {MOST} files in all")));
         }
-        read_file(path).map_err(|error| place.message(format!("Include: cannot read {shown:?}: {error}")))
+        read_unpacked(path).map_err(|error| place.message(format!("Include: cannot read {shown:?}: {error}")))
     }
 
     /// Ends the file that was opened last.

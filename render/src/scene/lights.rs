@@ -151,12 +151,10 @@ pub(super) fn read(
         return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
     }
     let source = match file {
-        Some(_) if colour.is_some() && kind == "infinite" => {
-            // pbrt-v3 multiplies both
-            return Err(params.error("\"filename\" and \"L\" cannot be combined"));
-        }
         Some(file) if kind == "infinite" => {
             let to_light = turned(params, ctm)?;
+            // pbrt-v3 multiplies both, and pbrt-v4 refuses them
+            let scale = colour.map_or(scale, |colour| std::array::from_fn(|k| scale[k] * colour[k]));
             let picture = picture(params, &file, files.open, scale, notes)?.map(|sky| match wanted {
                 Some(wanted) => illuminating(sky, wanted),
                 None => sky,

@@ -17,6 +17,8 @@ pub(super) enum Finish {
     Of(Material),
     /// None: rays pass as if there were no surface.
     Invisible,
+    /// A named material that is not defined yet, by its index among those names.
+    Awaited(usize),
 }
 
 /// What a material's parameters refer to.
@@ -246,10 +248,14 @@ impl Reads<'_> {
         let both = params.float(&names[0])?.unwrap_or(default.into());
         let [u, v] = [params.float(&names[1])?.unwrap_or(both), params.float(&names[2])?.unwrap_or(both)];
         for x in [u, v] {
-            if !(0.0..=1.0).contains(&x) {
+            if x.is_nan() || x < 0.0 {
                 return Err(params.error(format!("\"{prefix}roughness\": must be from 0 to 1, not {}", shown(x))));
             }
+            if x > 1.0 {
+                out.notes.warn(params.error(format!("\"{prefix}roughness\": {} counts as 1", shown(x))));
+            }
         }
+        let [u, v] = [u, v].map(|x| x.min(1.0));
         let remap = params.flag("remaproughness")?.unwrap_or(true);
         let [u, v] = [u, v].map(|x| if remap { x.sqrt() } else { x });
         if u != v {
@@ -303,9 +309,8 @@ impl Reads<'_> {
                 }
                 ([1.0; 3], r.map(|r| r.min(MOST_REFLECTANCE)).map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
             }
-            (None, [Some(eta), Some(k)]) => (eta, k),
-            (None, [None, None]) => copper(),
-            (None, _) => return Err(params.error("needs both \"eta\" and \"k\", or \"reflectance\"")),
+            // one of them alone goes with copper's other one, as in pbrt
+            (None, [eta, k]) => (eta.unwrap_or(copper().0), k.unwrap_or(copper().1)),
         };
         // fourth powers must be finite in f32
         let bounded = |name: &str, rgb: [f64; 3]| {

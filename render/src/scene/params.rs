@@ -51,6 +51,8 @@ pub(super) struct Params {
     /// The line of the directive.
     pub(super) place: Place,
     list: Vec<Param>,
+    /// Warnings of parameters that are given twice.
+    repeated: Vec<Message>,
 }
 
 /// The canonical name of a parameter type.
@@ -109,13 +111,16 @@ impl Values {
 impl Params {
     /// Reads the parameters that follow the directive `owner`.
     pub(super) fn read(lexer: &mut Lexer<'_>, owner: String, place: Place) -> Result<Self, Message> {
-        let mut params = Params { owner, place, list: Vec::new() };
+        let mut params = Params { owner, place, list: Vec::new(), repeated: Vec::new() };
         while let Some(Token::Text(_)) = lexer.peek()? {
             let param = Self::read_one(lexer, &params.owner)?;
-            let duplicate = params.list.iter().any(|p| p.name == param.name);
-            if duplicate || params.list.len() == MOST_PARAMETERS {
-                let why = if duplicate { "given twice" } else { "too many parameters" };
+            if params.list.len() == MOST_PARAMETERS {
+                let why = "too many parameters";
                 return Err(lexer.place(param.line).message(format!("{}: {:?}: {why}", params.owner, param.name)));
+            }
+            // as in pbrt, the last one counts
+            if params.given(&param.name) {
+                params.repeated.push(params.at(&param, "given twice: this one counts"));
             }
             params.list.push(param);
         }
@@ -365,6 +370,13 @@ impl Params {
         self.list.iter().any(|p| p.name == name && p.kind == "texture")
     }
 
+    /// Gives a parameter another name, unless it is given by that, too.
+    pub(super) fn rename(&mut self, from: &str, to: &str) {
+        if !self.has(to) {
+            self.list.iter_mut().filter(|param| param.name == from).for_each(|param| param.name = to.to_owned());
+        }
+    }
+
     /// Removes all parameters, so that none of them causes a warning.
     pub(super) fn ignore_all(&mut self) {
         self.list.clear();
@@ -377,7 +389,8 @@ impl Params {
 
     /// A warning for each parameter that was not looked up.
     pub(super) fn finish(self) -> Vec<Message> {
-        self.list.iter().map(|param| self.at(param, "ignored")).collect()
+        let ignored = self.list.iter().map(|param| self.at(param, "ignored"));
+        self.repeated.iter().cloned().chain(ignored).collect()
     }
 }
 

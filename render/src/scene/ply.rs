@@ -147,7 +147,12 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
         }
     }
     if let Some(i) = mesh.faces.iter().position(|face| !(3..=4).contains(&face.corners)) {
-        return Err(format!("{name}: face {i} has {} corners, only 3 or 4 are supported", mesh.faces[i].corners));
+        let (corners, before) = (mesh.faces[i].corners, mesh.faces.len());
+        mesh.faces.retain(|face| (3..=4).contains(&face.corners));
+        let count = before - mesh.faces.len();
+        mesh.warnings.push(format!(
+            "{name}: face {i} has {corners} corners: {count} face(s) of other than 3 or 4 are left out, as in pbrt"
+        ));
     }
     let rest = *reader.get_ref();
     if !rest.iter().all(u8::is_ascii_whitespace) {

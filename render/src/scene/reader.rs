@@ -16,7 +16,7 @@ use super::textures::Textures;
 use super::transform::Transform;
 use super::view;
 use crate::image;
-use crate::texture::Mask;
+use crate::texture::{Mask, Texture};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -62,6 +62,8 @@ struct Reader<'a> {
     saved: Vec<(State, Place)>,
     systems: HashMap<String, Transform>,
     named: HashMap<String, Finish>,
+    /// Names of materials that did not exist when they were asked for.
+    awaited: Vec<(String, Place)>,
     textures: Textures,
     objects: HashMap<String, u32>,
     open: Option<Open>,
@@ -94,6 +96,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         saved: Vec::new(),
         systems: HashMap::new(),
         named: HashMap::new(),
+        awaited: Vec::new(),
         textures: Textures::default(),
         objects: HashMap::new(),
         open: None,
@@ -302,9 +305,17 @@ impl Reader<'_> {
             }
             "NamedMaterial" => {
                 let name = lexer.text("a name")?;
-                let unknown = || place.message(format!("no MakeNamedMaterial {:?} precedes this", shortened(&name)));
-                self.state.material = self.named.get(&name).copied().ok_or_else(unknown)?;
+                self.state.material = match self.named.get(&name) {
+                    Some(material) => *material,
+                    // it may follow, as long as it precedes the shapes
+                    None => {
+                        self.awaited.push((name, place));
+                        Finish::Awaited(self.awaited.len() - 1)
+                    }
+                };
             }
+            // pbrt-v3 has it at the end
+            "WorldEnd" if self.in_world => {}
             "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
             | "LightSource" | "Material" | "MakeNamedMaterial" | "Shape" => {
                 let kind = lexer.text("a type")?;
@@ -453,7 +464,7 @@ impl Reader<'_> {
 
     fn camera(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
         if self.camera.is_some() {
-            return Err(params.error("a second camera: only one is supported"));
+            self.out.notes.warn(params.error("a second camera: the last one counts"));
         }
         let (camera, world) = view::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
         self.systems.insert("camera".into(), world);
@@ -498,19 +509,29 @@ impl Reader<'_> {
         }
         let opacity = self.textures.number("alpha", params)?;
         params.given("shadowalpha");
-        if opacity.as_ref().is_some_and(|opacity| opacity.constant().is_some_and(|[x, ..]| x <= 0.0)) {
+        let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
+        if opacity.as_ref().is_some_and(is_absent) && self.state.emission.is_none() {
             params.ignore_all();
             return Ok(());
         }
         let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
         let mut emission = self.state.emission;
-        let material = match self.state.material {
+        let mut finish = self.state.material;
+        if let Finish::Awaited(index) = finish {
+            let (name, place) = &self.awaited[index];
+            let unknown = || place.message(format!("no MakeNamedMaterial {:?} precedes its shapes", shortened(name)));
+            finish = *self.named.get(name).ok_or_else(unknown)?;
+            self.state.material = finish;
+        }
+        let material = match finish {
             Finish::Of(material) => material,
-            Finish::Invisible if emission.is_none() => {
+            Finish::Invisible | Finish::Awaited(_) => {
+                if emission.is_some() {
+                    self.out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
+                }
                 params.ignore_all();
                 return Ok(());
             }
-            Finish::Invisible => Material::Diffuse([0.0; 3]),
         };
         if emission.is_some() && self.open.is_some() {
             self.out
@@ -520,7 +541,7 @@ impl Reader<'_> {
         }
         let mask = opacity.map(|opacity| Mask { opacity, least: None });
         if mask.is_some() && emission.is_some() {
-            self.out.notes.stand_in("light with holes", || params.error("\"alpha\": a light becomes opaque"));
+            self.out.notes.stand_in("light with holes", || params.error("\"alpha\": a light is seen, and opaque"));
         }
         let surface = ShapeAttributes {
             ctm: self.state.ctm,

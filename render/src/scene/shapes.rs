@@ -8,7 +8,7 @@ use super::params::{Params, Resolve, shown};
 use super::ply;
 use super::subdivision;
 use super::transform::Transform;
-use crate::files::read_file;
+use crate::files::read_unpacked;
 use crate::geometry::Geometry;
 use std::path::Path;
 
@@ -183,7 +183,9 @@ fn indexed<const N: usize>(
     let points = surface.place(points).map_err(|why| params.error(why))?;
     let normals = params.numbers("N", "normal", 3)?.unwrap_or_default();
     let normals: Vec<_> = normals.chunks_exact(3).map(|n| [n[0], n[1], n[2]]).collect();
-    let uvs = params.numbers("uv", "point2", 2)?.unwrap_or_default();
+    // older files have other names and types
+    params.rename("st", "uv");
+    let uvs = params.numbers_of("uv", &["point2", "vector2", "float"], 2)?.unwrap_or_default();
     let uvs: Vec<_> = uvs.chunks_exact(2).map(|uv| [uv[0], uv[1]]).collect();
     for (name, count) in [("N", normals.len()), ("uv", uvs.len())] {
         if count != 0 && count != points.len() {
@@ -263,6 +265,7 @@ fn bilinear_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Para
 
 /// Reads `Shape "loopsubdiv"`: Loop's subdivision of a mesh.
 fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
+    params.rename("nlevels", "levels");
     let levels = params.integer("levels")?.unwrap_or(3).clamp(0, 10) as usize;
     let mesh = indexed::<3>(out, surface, params)?;
     let smooth = subdivision::smooth(mesh.vertices.points, mesh.faces, levels);
@@ -281,7 +284,7 @@ fn loop_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) 
 /// Reads `Shape "plymesh"` from a file.
 fn ply_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params, path: &Path) -> Result<(), Message> {
     let shown = path.display().to_string();
-    let bytes = read_file(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
+    let bytes = read_unpacked(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
     drop(bytes);
     mesh.warnings.iter().for_each(|text| out.notes.warn(params.error(text)));

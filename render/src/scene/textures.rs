@@ -207,7 +207,9 @@ impl Textures {
         }
         let Some(Color::Texture(texture)) = params.color(name, &|_| PathBuf::new())? else { return Ok(None) };
         let unknown = || params.error(format!("{name:?}: no float Texture {:?} precedes this", shortened(&texture)));
-        self.numbers.get(&texture).cloned().map(Some).ok_or_else(unknown)
+        // older files have colours as numbers
+        let color = || self.colors.get(&texture).map(|color| color.clone().channel(0));
+        self.numbers.get(&texture).cloned().or_else(color).map(Some).ok_or_else(unknown)
     }
 
     /// An index of refraction or an absorption coefficient, per channel.

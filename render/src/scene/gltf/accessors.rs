@@ -132,8 +132,8 @@ impl Source<'_> {
                 let (bytes, stride) = self.range(view, offset, count, size, &item)?;
                 bytes.chunks(stride).map(&element).collect()
             }
-            None if accessor.sparse.is_some() => vec![element(&[0; 16]); count],
-            None => return Err(self.message(format!("{item}: has no bufferView"))),
+            // zeros, as the specification says
+            None => vec![element(&[0; 16]); count],
         };
         let Some(sparse) = &accessor.sparse else { return Ok(elements) };
         let Checked::Valid(kind) = sparse.indices.component_type else {

@@ -1,6 +1,7 @@
 //! Takes glTF files apart: the JSON text and the binary chunk.
 
 use gltf_json::Root;
+use serde_json::Value;
 
 /// The first bytes of a binary file.
 pub(super) const MAGIC: &[u8] = b"glTF";
@@ -52,7 +53,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, (usize, String)> {
     };
     let unsupported = |version: &str| (0, format!("glTF of version {version:?}: only 2 is supported"));
     let is_two = |version: &str| version.split('.').next() == Some("2");
-    match gltf_json::deserialize::from_slice::<Root>(json) {
+    let read = gltf_json::deserialize::from_slice::<Root>(json);
+    match read.or_else(|error| lenient(json).ok_or(error)) {
         Ok(root) if is_two(&root.asset.version) => Ok(root),
         Ok(root) => Err(unsupported(&root.asset.version)),
         Err(error) => Err(match version_of().filter(|version| !is_two(version)) {
@@ -65,4 +67,29 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, (usize, String)> {
             }
         }),
     }
+}
+
+/// Reads JSON that the reader takes for invalid though it is not: a scene without nodes, an animation of no node, whole numbers with a
+/// fraction of zeros.
+fn lenient(json: &[u8]) -> Option<Root> {
+    let mut value: Value = serde_json::from_slice(json).ok()?;
+    value.as_object_mut()?.remove("animations");
+    for scene in value.get_mut("scenes").and_then(Value::as_array_mut).into_iter().flatten() {
+        scene.as_object_mut()?.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
+    }
+    let mut rest = vec![&mut value];
+    while let Some(value) = rest.pop() {
+        match value {
+            Value::Array(list) => rest.extend(list),
+            Value::Object(map) => rest.extend(map.values_mut()),
+            Value::Number(number) => {
+                let whole = number.as_f64().filter(|x| number.is_f64() && x.fract() == 0.0 && (0.0..=9e15).contains(x));
+                if let Some(x) = whole {
+                    *value = Value::from(x as u64);
+                }
+            }
+            _ => {}
+        }
+    }
+    serde_json::from_value(value).ok()
 }

@@ -88,6 +88,11 @@ const IGNORED: [(&str, &str); 10] = [
     ("KHR_materials_variants", "is ignored"),
 ];
 
+/// Whether an extension is one of those that a material may have and that are ignored.
+pub(super) fn is_ignored(name: &str) -> bool {
+    IGNORED.iter().any(|(ignored, _)| *ignored == name)
+}
+
 /// Reads one material.
 struct Reader<'r, 's> {
     source: &'r Source<'s>,

@@ -335,6 +335,25 @@ fn transforms_of_nodes_compose() {
     assert_eq!(scene.triangles.len(), 2);
 }
 
+/// What the specification allows, and the reader of JSON does not expect.
+#[test]
+fn rare_files_are_read() {
+    let mut asset = Asset::of_triangle();
+    asset.json["scenes"] = json!([{"name": "empty"}]);
+    asset.json["scene"] = json!(0);
+    assert!(asset.read().triangles.is_empty());
+    let mut asset = Asset::of_triangle();
+    asset.json["animations"] = json!([{"channels": [{"sampler": 0, "target": {"path": "pointer"}}], "samplers": []}]);
+    assert_eq!(asset.read().triangles, [TRIANGLE]);
+    let mut asset = Asset::of_triangle();
+    asset.json["accessors"][0]["count"] = json!(3.0);
+    assert_eq!(asset.read().triangles, [TRIANGLE]);
+    // an accessor without a view is zeros
+    let mut asset = Asset::of_triangle();
+    asset.json["accessors"][0].as_object_mut().unwrap().remove("bufferView");
+    assert!(asset.read().triangles.is_empty());
+}
+
 #[test]
 fn the_default_scene_or_the_first_or_all_nodes() {
     let mut asset = Asset::of_triangle();
