@@ -21,9 +21,9 @@ pub enum Technique {
     MisBalance,
     /// Solid-angle and brdf, combined by the power heuristic
     MisPower,
-    /// Exact where geometry tells what occludes a light; elsewhere by solid angle
+    /// Exact where geometry tells what occludes a light; elsewhere by solid angle, and on rough surfaces as mis-power
     Analytic,
-    /// Analytic if that decides enough of the scene; else mis-power with rough metals, and solid-angle without
+    /// Mis-power with rough surfaces; else analytic with up to 32 lights that all have an area, and no lens; else solid-angle
     Auto,
 }
 

@@ -140,7 +140,8 @@ fn allot(parts: &[Statistics], width: u32, sets: u32, effort: &Effort) -> (Vec<u
     } else {
         // the error of each light falls with its own samples: the least Σ cᵢ nᵢ^−1.5 over the lights is (Σ cᵢ^0.4)^2.5 n^−1.5
         let mut of = vec![0.0; parts.len() * lights];
-        for k in 0..lights {
+        // where all light is known, no light has pairs
+        for k in (0..lights).filter(|&k| parts.iter().any(|part| part.pairs[k] != 0)) {
             let spread: Vec<_> = parts.iter().map(|part| f64::from(part.spread[k])).collect();
             let pairs: Vec<_> = parts.iter().map(|part| f64::from(part.pairs[k])).collect();
             for (of, mean) in of.chunks_mut(lights).zip(mean_around(&spread, &pairs, columns)) {

@@ -14,6 +14,7 @@ use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Mask, Real, Vec2, Vec3, f64x4, u32x8};
 use std::cmp::Reverse;
+use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;
 
@@ -26,8 +27,10 @@ const CLIPPED: usize = 8;
 const TRIALS: usize = 4;
 /// At most so many squares of a tile are looked at first for each of these primitives. Lights that they do not decide are sampled.
 const TRIED_SQUARES: usize = 3;
+/// At most so many surfaces are remembered that are certified as a whole.
+const MOST_WHOLE: usize = 1 << 16;
 /// A certificate takes about as long as so many samples.
-const SAMPLES_PER_CERTIFICATE: f64 = 40.0;
+const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 
 /// A light with an area.
 struct AreaLight {
@@ -85,8 +88,6 @@ impl Survey {
 #[derive(Debug)]
 struct Entry {
     place: u32,
-    /// The side from which a surface is seen that is certified as a whole.
-    front: bool,
     /// Index of the certificate of the first light; the others follow.
     first: usize,
 }
@@ -160,9 +161,9 @@ pub(super) struct Analytic<'a> {
     pinhole: Option<Pinhole>,
     /// The first pixel of the tile.
     origin: [u32; 2],
-    /// The certificates in each square of each level, row by row, and those of whole surfaces.
+    /// The certificates in each square of each level, row by row, and those of whole surfaces seen from their front or back.
     squares: [Vec<Vec<Entry>>; SIDES.len()],
-    whole: Vec<Entry>,
+    whole: HashMap<(u32, bool), usize>,
     known: Vec<Known>,
     forms: Vec<Convex<f32>>,
     polyhedra: Vec<Polyhedron<'a, f32>>,
@@ -221,7 +222,7 @@ impl<'a> Analytic<'a> {
             pinhole: if let Camera::Pinhole(pinhole) = camera { Some(*pinhole) } else { None },
             origin: [0; 2],
             squares: SIDES.map(|side| (0..(TILE / side).pow(2)).map(|_| Vec::new()).collect()),
-            whole: Vec::new(),
+            whole: HashMap::new(),
             known: Vec::new(),
             forms: Vec::new(),
             polyhedra: Vec::new(),
@@ -265,8 +266,14 @@ impl<'a> Analytic<'a> {
         self.all_known
     }
 
-    /// Forgets the certificates, and prepares for the samples of a tile.
+    /// Prepares for the samples of a tile.
     pub(super) fn begin(&mut self, origin: [u32; 2]) {
+        self.origin = origin;
+        (self.hopeless, self.all_known) = (false, false);
+        // through a lens, surfaces are certified as a whole, and stay so
+        if self.pinhole.is_none() && (1..MOST_WHOLE).contains(&self.whole.len()) {
+            return;
+        }
         self.squares.iter_mut().flatten().for_each(Vec::clear);
         self.whole.clear();
         self.known.clear();
@@ -275,8 +282,6 @@ impl<'a> Analytic<'a> {
         self.polyhedra.clear();
         self.exact.polyhedra.clear();
         self.exact.forms.clear();
-        self.origin = origin;
-        (self.hopeless, self.all_known) = (false, false);
     }
 
     /// Looks at what the rays of some packets see in the tile, each of them in a pixel of its own, and decides whether certificates are worth
@@ -420,20 +425,19 @@ impl<'a> Analytic<'a> {
         } else {
             larger.unwrap_or(0)
         };
-        self.squares[level][square].push(Entry { place, front: true, first });
+        self.squares[level][square].push(Entry { place, first });
         first
     }
 
     /// Index of the certificates for one side of a whole primitive.
     fn all(&mut self, place: u32, front: bool) -> usize {
-        let same = |entry: &&Entry| entry.place == place && entry.front == front;
-        if let Some(entry) = self.whole.iter().find(same) {
-            return entry.first;
+        if let Some(&first) = self.whole.get(&(place, front)) {
+            return first;
         }
         let viewer = if front { Viewer::Front } else { Viewer::Back };
         let patch = Patch::of(self.surfaces, place, viewer);
         let first = self.certify(patch.as_ref(), None);
-        self.whole.push(Entry { place, front, first });
+        self.whole.insert((place, front), first);
         first
     }
 

@@ -15,7 +15,7 @@ use crate::lights::{LightPmf, Lights};
 use crate::packet::{M8, V8, X8, equal, pick, select};
 use crate::surfaces::{Surface, emitted};
 use crate::technique::Technique;
-use etendue::estimate::technique_pdf;
+use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::occlusion::SPARED;
 use etendue::select::{Allocated, Choice, FEW, LightChoice};
 use etendue::{Mask, Real, Vec2, u32x8};
@@ -203,9 +203,19 @@ impl<'a> Paths<'a> {
     fn note_glossy(&mut self, count: usize) {
         if !self.scene.surfaces.is_plain {
             for (place, end) in self.places[..count].iter_mut().zip(&*self.ends) {
-                place.glossy = end.smooth | end.metal.map_or(M8::splat(false), |metal| metal.rough());
+                place.glossy = end.smooth | end.rough();
             }
         }
+    }
+
+    /// Whether light and BSDF are combined on rough surfaces only.
+    pub(super) fn is_mixed(&self) -> bool {
+        self.analytic.is_some() && self.scene.surfaces.has_rough()
+    }
+
+    /// How samples of a light and of the BSDF are combined, if they are anywhere.
+    fn heuristic(&self) -> Option<Heuristic> {
+        if self.is_mixed() { Some(Heuristic::POWER) } else { self.technique.heuristic() }
     }
 
     /// Radiance along the rays that have been started. `allocated` is empty, or allocates each sample to a light; a bit of `expected` is set for
@@ -353,7 +363,7 @@ impl<'a> Paths<'a> {
         reflected: &mut [V8; GROUP],
     ) {
         let measure = self.technique.measure();
-        let heuristic = self.technique.heuristic();
+        let (heuristic, is_mixed) = (self.heuristic(), self.is_mixed());
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
         let mut lit = [M8::splat(false); GROUP];
         let mut limit = [zero; GROUP];
@@ -376,7 +386,9 @@ impl<'a> Paths<'a> {
                     let count = lights.len();
                     let is_stray = |light: &usize| expected[p] >> light & 1 == 0;
                     let none = M8::splat(false);
-                    let stray = (0..count).filter(is_stray).fold(none, |stray, light| stray | open[light][p]);
+                    // on rough surfaces the BSDF finds what is unexpected
+                    let own = if METAL { !ends[p].rough() } else { M8::splat(true) };
+                    let stray = own & (0..count).filter(is_stray).fold(none, |stray, light| stray | open[light][p]);
                     let choice = allocated[p].choose(number);
                     let mut own = none;
                     let mut left = lanes & !stray;
@@ -413,7 +425,10 @@ impl<'a> Paths<'a> {
             let pdf = select(lit[p], sample.pdf * choice.pmf, one);
             let factor = match heuristic {
                 None => factor,
-                Some(by) => factor * by.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0],
+                Some(by) => {
+                    let weight = by.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0];
+                    factor * if is_mixed { select(ends[p].rough(), weight, one) } else { weight }
+                }
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[1][p] = scene.surfaces.bvh.rays(surface.point, sample.direction).leaving(places[p].primitives);
@@ -433,7 +448,7 @@ impl<'a> Paths<'a> {
         reflected: &mut [V8; GROUP],
     ) {
         let (scene, world) = (self.scene, &self.scene.surfaces);
-        let heuristic = self.technique.heuristic();
+        let (heuristic, is_mixed) = (self.heuristic(), self.is_mixed());
         let (zero, one, infinite) = (X8::lit(0.0), X8::lit(1.0), X8::lit(f64::INFINITY));
         let mut lit = [M8::splat(false); GROUP];
         let mut hits = [Hits::none(infinite); GROUP];
@@ -448,6 +463,9 @@ impl<'a> Paths<'a> {
             own[p] = select(some, pdf, one);
             (found[p], factors[p]) = (color, factor);
             lit[p] = surface.reflects & some;
+            if is_mixed {
+                lit[p] = lit[p] & ends[p].rough();
+            }
             self.count.shadow += u64::from(lit[p].bits().count_ones());
             rays[1][p] = world.bvh.rays(surface.point, direction).leaving(places[p].primitives);
         }
@@ -544,6 +562,11 @@ impl End {
     fn start() -> Self {
         let zero = V8::default();
         Self { direction: zero, metal: None, smooth: M8::splat(false), flat: zero, throughput: zero }
+    }
+    /// Lanes of rough metals and of coats.
+    #[inline]
+    fn rough(&self) -> M8 {
+        self.metal.map_or(M8::splat(false), |metal| metal.rough())
     }
     /// Ends the paths of these lanes at a surface.
     #[inline]

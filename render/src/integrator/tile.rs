@@ -322,10 +322,11 @@ impl<'a> TileRenderer<'a> {
             pairs.iter_mut().zip(packets).for_each(|(pair, packet)| *pair = source.pair(packet, dimension));
             pairs
         };
+        let is_combined = settings.technique.heuristic().is_some() || paths.is_mixed();
         let mut numbers = Numbers {
             light: [Vec2::default(); GROUP],
             choice: lights.many().then(|| own(CHOICE)),
-            surface: (point && settings.technique.heuristic().is_some()).then(|| own(SURFACE)),
+            surface: (point && is_combined).then(|| own(SURFACE)),
         };
         let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];
         let mut active = [M8::splat(false); GROUP];

@@ -9,7 +9,7 @@ use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use crate::geometry::{Affine, Geometry, Instance, bounds_of};
 use crate::texture::Mask;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -37,6 +37,8 @@ pub(super) struct Builder {
     material_index: HashMap<[u32; 8], u32>,
     /// Materials with holes: for each the index of the one without, and the mask.
     masks: BTreeMap<u32, (u32, Mask)>,
+    /// Materials that are not known yet.
+    promised: HashSet<u32>,
     objects: Vec<Object>,
     instances: Vec<(u32, Transform)>,
     /// Triangles without area that were left out since the last [`Builder::left_out`].
@@ -131,9 +133,24 @@ impl Builder {
         })
     }
 
-    /// Whether texture coordinates matter for a material.
+    /// The index of a material that is not known yet.
+    pub(super) fn promised(&mut self) -> u32 {
+        let index = self.materials.len() as u32;
+        self.materials.push(Material::Diffuse([0.5; 3]));
+        self.promised.insert(index);
+        index
+    }
+
+    /// Gives a promised material.
+    pub(super) fn keep_promise(&mut self, index: u32, material: Material) {
+        self.materials[index as usize] = material;
+    }
+
+    /// Whether texture coordinates matter for a material, or may.
     pub(super) fn varies(&self, material: u32) -> bool {
-        matches!(self.materials[material as usize], Material::Varying(_)) || self.masks.contains_key(&material)
+        matches!(self.materials[material as usize], Material::Varying(_))
+            || self.masks.contains_key(&material)
+            || self.promised.contains(&material)
     }
 
     /// Begins an object: what is added from now on is not part of the scene. Returns what was added before.
@@ -160,6 +177,7 @@ impl Builder {
         std::mem::swap(&mut self.materials, &mut from.materials);
         std::mem::swap(&mut self.material_index, &mut from.material_index);
         std::mem::swap(&mut self.masks, &mut from.masks);
+        std::mem::swap(&mut self.promised, &mut from.promised);
         std::mem::swap(&mut self.varying, &mut from.varying);
         std::mem::swap(&mut self.notes, &mut from.notes);
     }

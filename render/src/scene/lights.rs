@@ -132,15 +132,7 @@ pub(super) fn read(
         notes.stand_in("portal", || params.error("\"portal\" is ignored: light comes from everywhere"));
     }
     // older files scale by a colour
-    let scale = params.numbers_of("scale", &["float", "rgb"], 1)?.unwrap_or_else(|| vec![1.0]);
-    let scale: [f64; 3] = match scale[..] {
-        [x] => [x; 3],
-        [r, g, b] => [r, g, b],
-        _ => return Err(params.error(format!("\"scale\": expected one number, found {}", scale.len()))),
-    };
-    if let Some(x) = scale.iter().find(|&&x| x < 0.0) {
-        return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(*x))));
-    }
+    let scale = scale(params)?;
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
     let colour = params.light(name, files.resolve)?;
     let wanted = match kind {
@@ -229,11 +221,8 @@ pub(super) fn area(
     if let Some(power) = power.filter(|&power| power <= 0.0) {
         return Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(power))));
     }
-    let scale = params.float("scale")?.unwrap_or(1.0);
-    if scale < 0.0 {
-        return Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(scale))));
-    }
-    let radiance = radiance.map(|x| x * scale);
+    let scale = scale(params)?;
+    let radiance: [f64; 3] = std::array::from_fn(|k| radiance[k] * scale[k]);
     let two_sided = params.flag("twosided")?.unwrap_or(false);
     let too_large = || params.error(format!("the radiance {radiance:?}: at most {MOST_RADIANCE:e} is supported"));
     let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
@@ -243,6 +232,20 @@ pub(super) fn area(
         notes.warn(params.error("emits nothing"));
     }
     Ok(((!dark).then_some(Emission { radiance, two_sided }), power))
+}
+
+/// The factor of a light; older files have one for each channel.
+fn scale(params: &mut Params) -> Result<[f64; 3], Message> {
+    let scale = params.numbers_of("scale", &["float", "rgb"], 1)?.unwrap_or_else(|| vec![1.0]);
+    let scale: [f64; 3] = match scale[..] {
+        [x] => [x; 3],
+        [r, g, b] => [r, g, b],
+        _ => return Err(params.error(format!("\"scale\": expected one number, found {}", scale.len()))),
+    };
+    match scale.iter().find(|&&x| x < 0.0) {
+        Some(x) => Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(*x)))),
+        None => Ok(scale),
+    }
 }
 
 /// The power of a spot light of intensity 1 by pbrt's formula, which takes the mean of both cones: an angle in steradians.

@@ -49,6 +49,20 @@ struct Open {
     before: Builder,
 }
 
+/// A material that is named before it is defined.
+struct Awaited {
+    name: String,
+    place: Place,
+    /// Its index, if a shape uses it.
+    material: Option<u32>,
+}
+
+impl Awaited {
+    fn material(&mut self, out: &mut Builder) -> u32 {
+        *self.material.get_or_insert_with(|| out.promised())
+    }
+}
+
 struct Reader<'a> {
     main_dir: &'a Path,
     is_builtin: bool,
@@ -62,8 +76,8 @@ struct Reader<'a> {
     saved: Vec<(State, Place)>,
     systems: HashMap<String, Transform>,
     named: HashMap<String, Finish>,
-    /// Names of materials that did not exist when they were asked for.
-    awaited: Vec<(String, Place)>,
+    /// Materials that did not exist when they were asked for.
+    awaited: Vec<Awaited>,
     textures: Textures,
     objects: HashMap<String, u32>,
     open: Option<Open>,
@@ -114,6 +128,16 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     }
     if let Some((_, place)) = reader.saved.last() {
         return Err(place.message("this AttributeBegin or TransformBegin is never closed"));
+    }
+    for Awaited { name, place, material } in std::mem::take(&mut reader.awaited) {
+        let Some(index) = material else { continue };
+        match reader.named.get(&name) {
+            Some(Finish::Of(material)) => reader.out.keep_promise(index, *material),
+            Some(_) => {
+                return Err(place.message(format!("{:?} is no surface: define it before its shapes", shortened(&name))));
+            }
+            None => return Err(place.message(format!("no MakeNamedMaterial defines {:?}", shortened(&name)))),
+        }
     }
     let Some(camera) = reader.camera else {
         return Err(end.message("the scene has no Camera"));
@@ -218,7 +242,15 @@ impl Reader<'_> {
                 Some((state, _)) => self.state = state,
                 None => return Err(place.message(format!("{word} has no matching Begin"))),
             },
-            "Include" => self.include(&place, lexer, dir)?,
+            "Include" => {
+                self.include(&place, lexer, dir)?;
+                // parameters of the last directive of the file, such as a medium, may go on after it
+                if let Some(Token::Text(_)) = lexer.peek()? {
+                    let params = Params::read(lexer, word.to_owned(), place)?;
+                    let message = || params.error("the parameters that follow it are ignored");
+                    self.out.notes.stand_in("parameters", message);
+                }
+            }
             // what an imported file changes ends with it
             "Import" => {
                 let (state, depth) = (self.state.clone(), self.saved.len());
@@ -307,15 +339,21 @@ impl Reader<'_> {
                 let name = lexer.text("a name")?;
                 self.state.material = match self.named.get(&name) {
                     Some(material) => *material,
-                    // it may follow, as long as it precedes the shapes
+                    // it may follow
                     None => {
-                        self.awaited.push((name, place));
+                        self.awaited.push(Awaited { name, place, material: None });
                         Finish::Awaited(self.awaited.len() - 1)
                     }
                 };
             }
             // pbrt-v3 has it at the end
             "WorldEnd" if self.in_world => {}
+            // pbrt-v2 has these instead of Integrator
+            "SurfaceIntegrator" | "VolumeIntegrator" | "Renderer" => {
+                lexer.text("a type")?;
+                Params::read(lexer, word.to_owned(), place.clone())?;
+                self.warn(&place, format!("{word}: only direct light is rendered"));
+            }
             "Camera" | "Film" | "Sampler" | "PixelFilter" | "Integrator" | "Accelerator" | "AreaLightSource"
             | "LightSource" | "Material" | "MakeNamedMaterial" | "Shape" => {
                 let kind = lexer.text("a type")?;
@@ -517,15 +555,18 @@ impl Reader<'_> {
         let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
         let mut emission = self.state.emission;
         let mut finish = self.state.material;
+        let mut awaited = None;
         if let Finish::Awaited(index) = finish {
-            let (name, place) = &self.awaited[index];
-            let unknown = || place.message(format!("no MakeNamedMaterial {:?} precedes its shapes", shortened(name)));
-            finish = *self.named.get(name).ok_or_else(unknown)?;
-            self.state.material = finish;
+            match self.named.get(&self.awaited[index].name) {
+                Some(named) => finish = *named,
+                None => awaited = Some(self.awaited[index].material(&mut self.out)),
+            }
         }
         let material = match finish {
             Finish::Of(material) => material,
-            Finish::Invisible | Finish::Awaited(_) => {
+            // until it is known
+            Finish::Awaited(_) => Material::Diffuse([0.5; 3]),
+            Finish::Invisible => {
                 if emission.is_some() {
                     self.out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
                 }
@@ -546,8 +587,9 @@ impl Reader<'_> {
         let surface = ShapeAttributes {
             ctm: self.state.ctm,
             flip: self.state.reverse != (det < 0.0),
-            material: match mask {
-                Some(mask) if emission.is_none() => self.out.masked(material, mask),
+            material: match (awaited, mask) {
+                (Some(material), _) => material,
+                (None, Some(mask)) if emission.is_none() => self.out.masked(material, mask),
                 _ => self.out.material(material),
             },
             emission,

@@ -108,7 +108,7 @@ fn knows_its_variance() {
     }
 }
 
-/// `auto` computes lights where that pays, and leaves rough metals, fine meshes and delta lights to samples.
+/// `auto` leaves rough metals, lenses and delta lights to samples.
 #[test]
 fn auto_chooses() {
     let settings = Settings { width: 256, height: 256, technique: Technique::Auto, ..SETTINGS };
@@ -118,7 +118,7 @@ fn auto_chooses() {
         ("quads", Technique::Analytic),
         ("cornell-box", Technique::Analytic),
         ("mirror-room", Technique::Analytic),
-        ("terrain", Technique::SolidAngle),
+        ("terrain", Technique::Analytic),
         ("defocus", Technique::SolidAngle),
         ("delta-lights", Technique::SolidAngle),
         ("plates", Technique::MisPower),

@@ -45,7 +45,7 @@ fn errors_name_line_and_value() {
         ("WorldBegin", 2, "a second WorldBegin"),
         ("Film \"rgb\"", 2, "Film must come before WorldBegin"),
         ("CoordSysTransform \"x\"", 2, "undefined CoordinateSystem \"x\""),
-        ("NamedMaterial \"x\"\nShape \"sphere\"", 2, "no MakeNamedMaterial \"x\" precedes its shapes"),
+        ("NamedMaterial \"x\"\nShape \"sphere\"", 2, "no MakeNamedMaterial defines \"x\""),
         ("Rotate 30 0 0 0", 2, "the axis must not be zero"),
         ("LookAt 0 0 0 0 1 0 0 1 0", 2, "do not define a view"),
         ("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]", 2, "not affine"),

@@ -92,12 +92,24 @@ fn odd_and_older_files() {
     // a name may precede what it names
     let later = lit(&format!("NamedMaterial \"a\" MakeNamedMaterial \"a\" \"string type\" \"mirror\" {TRIANGLE}"));
     assert_eq!(later.materials[later.triangle_materials[0] as usize], Material::Mirror([0.9; 3]));
+    let last = lit(&format!(
+        "NamedMaterial \"a\" {TRIANGLE} Texture \"c\" \"spectrum\" \"checkerboard\" \
+         MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"texture reflectance\" \"c\""
+    ));
+    assert_eq!(last.materials[last.triangle_materials[0] as usize], Material::Varying(0));
+    assert!(last.details.of(0).is_some());
     let (rough, scene) = material("Material \"conductor\" \"float roughness\" 5.8");
     assert!(matches!(rough, Material::Conductor { alpha: 1.0, .. }) && warnings(&scene)[0].contains("5.8 counts as 1"));
     // copper has what is missing
     let Material::Conductor { eta, k, .. } = material("Material \"conductor\" \"rgb eta\" [1 2 3]").0 else { panic!() };
     let Material::Conductor { k: copper, .. } = material("Material \"conductor\"").0 else { panic!() };
     assert_eq!((eta, k), ([1.0, 2.0, 3.0], copper));
+    let older = read(&format!(
+        "SurfaceIntegrator \"path\" \"integer maxdepth\" 5\n{}",
+        world("AreaLightSource \"area\" \"rgb scale\" [1 2 3] Shape \"sphere\"")
+    ));
+    assert_eq!(older.shapes[0].emission.unwrap().radiance, [1.0, 2.0, 3.0]);
+    assert!(warnings(&older).iter().any(|text| text.contains("only direct light")));
     // a light that rays pass
     let passed = lit(&format!("Material \"interface\" AreaLightSource \"diffuse\" {TRIANGLE}"));
     assert!(passed.shapes.is_empty() && warnings(&passed)[0].contains("emits nothing"));
