@@ -126,11 +126,11 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
                 let has = |k: usize| NUMBERS[k].iter().any(|name| def.properties.contains_key(*name));
                 let [has_normals, has_uvs] = [has(3) && has(4) && has(5), has(6) && has(7)];
                 if !has_normals && !has_uvs {
-                    let vertices = read_element::<Vertex<3>>(name, bytes, &mut reader, def, &header)?;
+                    let vertices = vertices::<3>(name, bytes, &mut reader, def, &header)?;
                     mesh.points = vertices.into_iter().map(|vertex| vertex.0).collect();
                     continue;
                 }
-                let vertices = read_element::<Vertex<8>>(name, bytes, &mut reader, def, &header)?;
+                let vertices = vertices::<8>(name, bytes, &mut reader, def, &header)?;
                 mesh.points = vertices.iter().map(|Vertex([x, y, z, ..])| [*x, *y, *z]).collect();
                 if has_normals {
                     mesh.normals = vertices.iter().map(|Vertex([_, _, _, x, y, z, ..])| [*x, *y, *z]).collect();
@@ -139,7 +139,10 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
                     mesh.uvs = vertices.iter().map(|Vertex([.., u, v])| [*u, *v]).collect();
                 }
             }
-            "face" => mesh.faces = read_element::<Face>(name, bytes, &mut reader, def, &header)?,
+            "face" => match plain_faces(def, &header, reader.get_ref()) {
+                Some((faces, rest)) => (mesh.faces, reader) = (faces, Reader::new(rest)),
+                None => mesh.faces = read_element::<Face>(name, bytes, &mut reader, def, &header)?,
+            },
             _ => {
                 read_element::<Other>(name, bytes, &mut reader, def, &header)?;
                 mesh.warnings.push(format!("{name}: element {element:?} ignored"));
@@ -159,6 +162,73 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
         mesh.warnings.push(format!("{name}: {} bytes after the last element ignored", rest.len()));
     }
     Ok(mesh)
+}
+
+/// The vertices of a binary file whose numbers are all in single precision, as most files have them, and the bytes after them. The reader
+/// for any layout takes several times as long.
+fn plain_vertices<'a, const N: usize>(
+    def: &ElementDef,
+    header: &Header,
+    bytes: &'a [u8],
+) -> Option<(Vec<Vertex<N>>, &'a [u8])> {
+    let is_plain = def.properties.values().all(|of| of.data_type == PropertyType::Scalar(ScalarType::Float));
+    if header.encoding != Encoding::BinaryLittleEndian || !is_plain {
+        return None;
+    }
+    let names: Vec<&str> = def.properties.keys().map(String::as_str).collect();
+    // a later name of the same number counts
+    let place = |k: usize| names.iter().rposition(|name| NUMBERS[k].contains(name));
+    let places: [Option<usize>; N] = std::array::from_fn(place);
+    let size = 4 * names.len();
+    let (own, rest) = bytes.split_at_checked(def.count.checked_mul(size)?)?;
+    let number = |row: &[u8], k: usize| {
+        let bytes = row[4 * k..].first_chunk().copied().unwrap_or_default();
+        f64::from(f32::from_le_bytes(bytes))
+    };
+    let vertex = |row: &[u8]| Vertex(places.map(|place| place.map_or(f64::NAN, |k| number(row, k))));
+    Some((own.chunks_exact(size).map(vertex).collect(), rest))
+}
+
+/// The faces of a binary file that consist of one list of 32-bit indices each, and the bytes after them.
+fn plain_faces<'a>(def: &ElementDef, header: &Header, mut bytes: &'a [u8]) -> Option<(Vec<Face>, &'a [u8])> {
+    let mut types = def.properties.values().map(|of| &of.data_type);
+    let (Some(PropertyType::List(counts, item)), None) = (types.next(), types.next()) else { return None };
+    let is_plain = *counts == ScalarType::UChar && matches!(item, ScalarType::Int | ScalarType::UInt);
+    if header.encoding != Encoding::BinaryLittleEndian || !is_plain {
+        return None;
+    }
+    let is_signed = *item == ScalarType::Int;
+    let mut faces = Vec::with_capacity(def.count);
+    for _ in 0..def.count {
+        let (&count, rest) = bytes.split_first()?;
+        let corners = usize::from(count);
+        let (list, rest) = rest.split_at_checked(4 * corners)?;
+        let mut face = Face { indices: [-1; 4], corners };
+        for (to, from) in face.indices.iter_mut().zip(list.chunks_exact(4)) {
+            let index = u32::from_le_bytes(from.first_chunk().copied().unwrap_or_default());
+            *to = if is_signed { i64::from(index as i32) } else { i64::from(index) };
+        }
+        faces.push(face);
+        bytes = rest;
+    }
+    Some((faces, bytes))
+}
+
+/// Reads vertices of any layout.
+fn vertices<const N: usize>(
+    name: &str,
+    bytes: &[u8],
+    reader: &mut Reader<&[u8]>,
+    def: &ElementDef,
+    header: &Header,
+) -> Result<Vec<Vertex<N>>, String> {
+    match plain_vertices(def, header, reader.get_ref()) {
+        Some((vertices, rest)) => {
+            *reader = Reader::new(rest);
+            Ok(vertices)
+        }
+        None => read_element(name, bytes, reader, def, header),
+    }
 }
 
 fn read_element<E: PropertyAccess>(
