@@ -192,12 +192,14 @@ fn instances_are_hit_as_copies() {
     assert!(hits > 2000, "{hits} of 8,192 rays hit");
 }
 
+/// Origin and direction.
+type Ray = ([f32; 3], [f32; 3]);
+
 /// Distance and place of the nearest hit of each ray.
-fn found(bvh: &Bvh, rays: &[([f32; 3], [f32; 3])]) -> Vec<(f32, u32)> {
-    let axis = |p: usize, a: usize, of: fn(&([f32; 3], [f32; 3])) -> [f32; 3]| {
-        f32x8::from(std::array::from_fn(|i| of(&rays[8 * p + i])[a]))
-    };
-    let lanes = |p: usize, of| Vec3::new(axis(p, 0, of), axis(p, 1, of), axis(p, 2, of));
+fn found(bvh: &Bvh, rays: &[Ray]) -> Vec<(f32, u32)> {
+    let axis =
+        |p: usize, a: usize, of: fn(&Ray) -> [f32; 3]| f32x8::from(std::array::from_fn(|i| of(&rays[8 * p + i])[a]));
+    let lanes = |p: usize, of: fn(&Ray) -> [f32; 3]| Vec3::new(axis(p, 0, of), axis(p, 1, of), axis(p, 2, of));
     let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, |ray| ray.0), lanes(p, |ray| ray.1))).collect();
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
     bvh.closest(&packets, &[<f32x8 as Real>::Mask::splat(true); 8], &mut hits, &mut Scratch::default());
