@@ -120,8 +120,8 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
     if bytes.starts_with(PNG) {
         return decode_png(bytes, path);
     }
-    if let Some(picture) = pfm::decode(path, bytes) {
-        return picture;
+    if let Some(image) = pfm::decode(path, bytes) {
+        return image.map(|(width, height, radiance)| Picture { width, height, radiance, variance: None });
     }
     let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid EXR, HDR, PFM or PNG image: {error}"));
     let decoder = image_files::codecs::hdr::HdrDecoder::new(Cursor::new(bytes)).map_err(|error| not_one(&error))?;

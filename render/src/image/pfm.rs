@@ -1,12 +1,14 @@
 //! Portable float maps: text that tells the size, then numbers in single precision, row by row from the bottom.
 
-use super::Picture;
 use super::size::believe;
 use crate::files::{FileError, failed};
 use std::path::Path;
 
+/// An image: its width, its height, and its pixels, row by row from the top.
+type Image = (usize, usize, Vec<[f32; 3]>);
+
 /// Decodes the bytes of a file that messages call `path`; `None` if they are of another format.
-pub(super) fn decode(path: &Path, bytes: &[u8]) -> Option<Result<Picture, FileError>> {
+pub(super) fn decode(path: &Path, bytes: &[u8]) -> Option<Result<Image, FileError>> {
     let channels = match bytes.get(..3)? {
         [b'P', b'F', c] if c.is_ascii_whitespace() => 3,
         [b'P', b'f', c] if c.is_ascii_whitespace() => 1,
@@ -15,7 +17,7 @@ pub(super) fn decode(path: &Path, bytes: &[u8]) -> Option<Result<Picture, FileEr
     Some(decode_channels(path, &bytes[2..], channels))
 }
 
-fn decode_channels(path: &Path, bytes: &[u8], channels: usize) -> Result<Picture, FileError> {
+fn decode_channels(path: &Path, bytes: &[u8], channels: usize) -> Result<Image, FileError> {
     let mut at = 0;
     let mut word = || {
         let is_space = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_whitespace);
@@ -55,7 +57,7 @@ fn decode_channels(path: &Path, bytes: &[u8], channels: usize) -> Result<Picture
     };
     let rows = data.chunks_exact(4 * channels * width).rev();
     let radiance = rows.flat_map(|row| row.chunks_exact(4 * channels).map(pixel)).collect();
-    Ok(Picture { width, height, radiance, variance: None })
+    Ok((width, height, radiance))
 }
 
 /// The beginning of a word.
@@ -78,11 +80,11 @@ mod tests {
         for (header, little, factor) in [("PF\n2 2\n-1.0\n", true, 1.0), ("PF 2 2 2\n", false, 2.0)] {
             let picture = decode(Path::new("a.pfm"), &file(header, &numbers, little)).unwrap().unwrap();
             let wanted = [[6.0, 7.0, 8.0], [9.0, 10.0, 11.0], [0.0, 1.0, 2.0], [3.0, 4.0, 5.0]];
-            assert_eq!((picture.width, picture.height), (2, 2));
-            assert_eq!(picture.radiance, wanted.map(|rgb: [f32; 3]| rgb.map(|x| factor * x)));
+            assert_eq!((picture.0, picture.1), (2, 2));
+            assert_eq!(picture.2, wanted.map(|rgb: [f32; 3]| rgb.map(|x| factor * x)));
         }
         let grey = decode(Path::new("a.pfm"), &file("Pf\n1 2\n-1\n", &[3.0, 4.0], true)).unwrap().unwrap();
-        assert_eq!(grey.radiance, [[4.0; 3], [3.0; 3]]);
+        assert_eq!(grey.2, [[4.0; 3], [3.0; 3]]);
         assert!(decode(Path::new("a.pfm"), b"P6 1 1 255\n").is_none());
     }
 
