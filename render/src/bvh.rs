@@ -6,8 +6,9 @@
 //! hits therefore depends neither on the other rays of its group nor on the traversal, bit for bit.
 //!
 //! Files import one way, from the last of this list to the first: `double_precision`, `rays`, `node`, `build`, `parallel_build`, `tree`, then the
-//! traversals `frustum`, `single_ray`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them. Each traversal is one body for closest and
-//! any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are the shapes that do not occlude.
+//! traversals `frustum`, `single_ray`, `stream`, `region`, then the primitives `cutouts`, `triangles`, `shapes`, and `instances` of them.
+//! Each traversal is one body for closest and any hit (`ANY`). For any hit, the distances in [`Hits`] are the limits, and their places are
+//! the shapes that do not occlude.
 //!
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
@@ -43,6 +44,7 @@ pub use shapes::ShapeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use tree::Tree;
+use triangles::{InPlace, Situated};
 
 /// Scratch memory for traversals, to be reused.
 #[derive(Debug, Default)]
@@ -199,7 +201,8 @@ impl Bvh {
             }
         }
         let Scratch { frustum: stack, stream, instances: visits } = scratch;
-        let tree = self.triangles.view();
+        let triangles = Situated { triangles: self.triangles.primitives(), situation: InPlace };
+        let tree = self.triangles.over(&triangles);
         match (&frustum, self.traversal) {
             (Some(_), _) => frustum::packets::<ANY>(&tree, rays, active, frustum.as_ref(), hits, stack),
             (None, Traversal::Single) => {

@@ -46,6 +46,16 @@ pub fn pick(mask: M8, yes: u32x8, no: u32x8) -> u32x8 {
     select(mask, X8::from_bits(yes), X8::from_bits(no)).to_bits()
 }
 
+/// Calls `f` with the index of each set bit.
+#[inline(always)]
+pub fn each_bit(bits: impl Into<u64>, mut f: impl FnMut(usize)) {
+    let mut bits = bits.into();
+    while bits != 0 {
+        f(bits.trailing_zeros() as usize & 63);
+        bits &= bits - 1;
+    }
+}
+
 /// The numbers in double precision: those of the first four lanes, and those of the others.
 #[inline(always)]
 pub fn widen(x: X8) -> [f64x4; 2] {

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Names of built-in scenes, or paths of pbrt-v4 files [default: all built-in scenes of few lights]
+    /// Names of built-in scenes, or paths of pbrt-v4 or glTF files [default: all built-in scenes of few lights]
     scenes: Vec<OsString>,
     /// Take this many samples per pixel
     #[arg(long, default_value_t = 64, value_parser = whole::<u32>(2..=MOST_SAMPLES.into()))]

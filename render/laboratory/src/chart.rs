@@ -37,7 +37,7 @@ use summary::{Summary, Way};
 /// Options of `etendue chart`.
 #[derive(Args, Clone, Debug)]
 pub struct Options {
-    /// Names of built-in scenes, or paths of pbrt-v4 files
+    /// Names of built-in scenes, or paths of pbrt-v4 or glTF files
     #[arg(default_values_os_t = ["quads", "sphere-light", "triangle-light"].map(OsString::from))]
     pub scenes: Vec<OsString>,
     /// Folder for the report; measurements it already holds are not repeated

@@ -1,7 +1,7 @@
 //! Triangles with holes: opacity that varies over them.
 
-use super::rays::{NOTHING, each_bit};
-use crate::packet::V8;
+use super::rays::NOTHING;
+use crate::packet::{V8, each_bit};
 use crate::texture::Mask;
 use std::sync::Arc;
 
@@ -50,7 +50,6 @@ impl Cutouts {
     ///
     /// Where a triangle is partly opaque, a random number decides, which depends on the ray and the place alone (PBR 4th ed., 4.5.1): a
     /// ray that is traced twice meets the same.
-    #[cold]
     #[inline(never)]
     pub(super) fn opaque(
         &self,

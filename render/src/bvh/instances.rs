@@ -10,7 +10,7 @@ use super::rays::{Hits, Rays};
 use super::region::{Placed, Region, search};
 use super::stream::{Scratch, stream};
 use super::tree::Tree;
-use super::triangles::{Moved, TriangleLeaves};
+use super::triangles::{Moved, Situated, TriangleLeaves};
 use crate::geometry::{Affine, Instance, bounds_of};
 use crate::packet::{M8, X8, select};
 use etendue::{Mask, Real};
@@ -69,29 +69,31 @@ pub(super) struct Found<'a> {
 }
 
 impl Instances {
-    /// `first` is the place of the first triangle of the instances. Instances of objects without triangles are left out.
+    /// `first` is the place of the first triangle of the instances. Instances of objects without triangles, and those whose map is singular,
+    /// are left out.
     pub(super) fn new(
         objects: Vec<Object>,
         instances: &[Instance],
         first: usize,
         reach: f32,
     ) -> Result<Self, BuildError> {
-        let is_some = |instance: &&Instance| objects[instance.object as usize].triangles.count() > 0;
-        let instances: Vec<_> = instances.iter().filter(is_some).collect();
-        let bounds = instances
-            .iter()
-            .map(|instance| bounds_of(&instance.corners(objects[instance.object as usize].triangles.bounds())));
+        let of = |instance: &Instance| &objects[instance.object as usize].triangles;
+        let some = |instance: &Instance| {
+            let to_object = instance.to_world.inverse().filter(|_| of(instance).count() > 0);
+            to_object.map(|to_object| (*instance, to_object))
+        };
+        let instances: Vec<_> = instances.iter().filter_map(some).collect();
+        let bounds = instances.iter().map(|(instance, _)| bounds_of(&instance.corners(of(instance).bounds())));
         let mut order = Vec::new();
         let over = Tree::build(bounds.collect(), COSTS, |_| (), |_, ids, _| order = ids)?;
         let mut end = first;
         let placements = order.into_iter().map(|index| {
-            let Instance { object, to_world } = *instances[index as usize];
+            let (Instance { object, to_world }, to_object) = instances[index as usize];
             let first = end as u32;
             end += objects[object as usize].triangles.count();
             // as the longest edge, and more where the map makes slivers; distances are rounded up to powers of two
             let (greatest, det) = (to_world.greatest() * 2.0 * SQRT_3, to_world.determinant().abs());
             let size = (greatest * (greatest.powi(3) / det).clamp(1.0, 1e30)) as f32;
-            let to_object = to_world.inverse().unwrap_or(to_world);
             Placement { object, first, to_world, to_object, size }
         });
         let placements = placements.collect();
@@ -178,7 +180,7 @@ impl Instances {
         }
     }
     /// The rays of a packet as they enter the boxes of an instance, and its triangles.
-    fn enter<'a>(&'a self, placement: &'a Placement, rays: &Rays) -> (Rays, Moved<'a>) {
+    fn enter<'a>(&'a self, placement: &'a Placement, rays: &Rays) -> (Rays, Situated<'a, Moved<'a>>) {
         let Placement { first, ref to_world, ref to_object, size, .. } = *placement;
         let triangles = &self.objects[placement.object as usize].triangles;
         let (origin, direction) = (to_object.point(rays.origin), to_object.vector(rays.direction));
@@ -186,7 +188,7 @@ impl Instances {
         let outside = (rays.origin.max_abs() + X8::splat(self.reach)) * X8::splat(2.0 * to_object.greatest() as f32);
         let inside = origin.max_abs() + X8::splat(triangles.reach());
         let pad = (outside + inside) * X8::lit(1.0 / 1_048_576.0);
-        let moved = Moved { triangles: triangles.primitives(), first, to_world, size };
+        let moved = Situated { triangles: triangles.primitives(), situation: Moved { first, to_world, size } };
         (rays.entering(origin, direction, pad), moved)
     }
     /// As of [`search`](super::region::search), with the places of triangles of instances.

@@ -159,16 +159,6 @@ macro_rules! by_octant {
 }
 pub(super) use by_octant;
 
-/// Calls `f` with the index of each set bit.
-#[inline(always)]
-pub(super) fn each_bit(bits: impl Into<u64>, mut f: impl FnMut(usize)) {
-    let mut bits = bits.into();
-    while bits != 0 {
-        f(bits.trailing_zeros() as usize & 63);
-        bits &= bits - 1;
-    }
-}
-
 /// Whether a ray of the group is active.
 #[inline]
 pub(super) fn any(active: &[M8]) -> bool {

@@ -3,11 +3,11 @@
 use super::build::Costs;
 use super::double_precision::{NEAR, to_sphere, wide as exact};
 use super::node::BuildError;
-use super::rays::{Hits, Rays, SHAPE, each_bit};
+use super::rays::{Hits, Rays, SHAPE};
 use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
 use crate::geometry::Geometry;
-use crate::packet::{M8, V8, X8, equal, max, pick, select};
+use crate::packet::{M8, V8, X8, each_bit, equal, max, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
 

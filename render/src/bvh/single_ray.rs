@@ -1,9 +1,9 @@
 //! Single-ray traversal: tests all children of a node at once, and all triangles of a leaf at once.
 
 use super::node::{Node, Stack, push_in_order};
-use super::rays::{Hits, Nearest, Rays, by_octant, each_bit};
+use super::rays::{Hits, Nearest, Rays, by_octant};
 use super::tree::View;
-use crate::packet::{M8, V8, X8, max, min};
+use crate::packet::{M8, V8, X8, each_bit, max, min};
 use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
 

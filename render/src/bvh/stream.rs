@@ -1,10 +1,10 @@
 //! Stream traversal: the rays of a group visit each node together, once, with the rays that enter it.
 
 use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
-use super::rays::{GROUP, Hits, Rays, by_octant, each_bit, octant};
+use super::rays::{GROUP, Hits, Rays, by_octant, octant};
 use super::single_ray::{Child, Leaves, SingleRay, trace_lane};
 use super::tree::{Primitives, View};
-use crate::packet::{M8, X8, max, min, select};
+use crate::packet::{M8, X8, each_bit, max, min, select};
 use etendue::{Mask, Real};
 use wide::i8x32;
 

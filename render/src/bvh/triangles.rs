@@ -4,12 +4,12 @@ use super::build::Costs;
 use super::cutouts::Cutouts;
 use super::double_precision::{NEAR, to_triangle, wide};
 use super::node::{Bounded, Bounds, BuildError, greater, lesser};
-use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE, each_bit};
+use super::rays::{Hits, NOTHING, Nearest, Rays, SHAPE};
 use super::region::{Placed, Region};
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
 use crate::geometry::Affine;
-use crate::packet::{M8, V8, X8, equal, max, min, pick, select};
+use crate::packet::{M8, V8, X8, each_bit, equal, max, min, pick, select};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::Range;
 
@@ -49,7 +49,7 @@ pub(super) struct TriangleLeaves {
 }
 
 /// Where triangles are.
-trait Situation {
+pub(super) trait Situation {
     /// What is added to the index of a triangle to give its place in hits.
     fn first(&self) -> u32;
     /// Where a corner of a triangle is.
@@ -57,11 +57,18 @@ trait Situation {
     /// A bound of the factor by which the distances grow up to which single precision does not suffice.
     fn size(&self) -> f32;
     /// The distances up to which single precision does not suffice for these triangles, in some lanes, from their bounds.
-    fn near(&self, bounds: X8, lanes: M8, triangles: [usize; 8]) -> X8;
+    fn near(&self, stored: &TriangleLeaves, bounds: X8, lanes: M8, triangles: [usize; 8]) -> X8;
+}
+
+/// Triangles where they are.
+#[derive(Debug)]
+pub(super) struct Situated<'a, S> {
+    pub(super) triangles: &'a TriangleLeaves,
+    pub(super) situation: S,
 }
 
 /// Triangles as they are stored.
-struct InPlace;
+pub(super) struct InPlace;
 
 impl Situation for InPlace {
     #[inline(always)]
@@ -77,7 +84,7 @@ impl Situation for InPlace {
         1.0
     }
     #[inline(always)]
-    fn near(&self, bounds: X8, _: M8, _: [usize; 8]) -> X8 {
+    fn near(&self, _: &TriangleLeaves, bounds: X8, _: M8, _: [usize; 8]) -> X8 {
         bounds
     }
 }
@@ -85,7 +92,6 @@ impl Situation for InPlace {
 /// An instance of triangles. Its corners are moved and rounded, and tested as if they were stored so.
 #[derive(Debug)]
 pub(super) struct Moved<'a> {
-    pub(super) triangles: &'a TriangleLeaves,
     /// What is added to the index of a triangle to give its place in hits.
     pub(super) first: u32,
     pub(super) to_world: &'a Affine,
@@ -107,9 +113,9 @@ impl Situation for Moved<'_> {
         self.size
     }
     #[cold]
-    fn near(&self, mut bounds: X8, lanes: M8, triangles: [usize; 8]) -> X8 {
+    fn near(&self, stored: &TriangleLeaves, mut bounds: X8, lanes: M8, triangles: [usize; 8]) -> X8 {
         each_bit(lanes.bits(), |lane| {
-            let c = self.triangles.corners(triangles[lane] as u32);
+            let c = stored.corners(triangles[lane] as u32);
             let corners = [0, 3, 6].map(|k| self.corner(Vec3::new(c[k], c[k + 1], c[k + 2])).into());
             bounds.as_mut_array()[lane] = from_exponent(near_exponent(&corners));
         });
@@ -340,7 +346,7 @@ impl TriangleLeaves {
             let mut unclear = others & undecided::<ANY>(distance, size, hits.distance);
             if unclear.any() {
                 let triangles = [leaf.start + index; 8];
-                let size = situation.near(size, unclear, triangles);
+                let size = situation.near(self, size, unclear, triangles);
                 unclear = unclear & undecided::<ANY>(distance, size, hits.distance) & projected.nearly();
                 let lanes = unclear.bits();
                 let ahead = self.decide(situation, lanes, triangles, rays.origin, rays.direction, &mut distance);
@@ -393,7 +399,7 @@ impl TriangleLeaves {
         let mut unclear = nearly & undecided::<ANY>(distance, size, limit).bits();
         if unclear != 0 {
             let triangles = std::array::from_fn(|lane| leaf.start + lane);
-            let size = situation.near(size, M8::from_bits(unclear), triangles);
+            let size = situation.near(self, size, M8::from_bits(unclear), triangles);
             unclear &= undecided::<ANY>(distance, size, limit).bits();
             let ahead = self.decide(situation, unclear, triangles, ray.origin, ray.direction, &mut distance);
             inside = inside & !unclear | ahead;
@@ -422,7 +428,7 @@ impl TriangleLeaves {
     }
 }
 
-impl Primitives for TriangleLeaves {
+impl<S: Situation> Primitives for Situated<'_, S> {
     #[inline]
     fn test_packet<const ANY: bool>(
         &self,
@@ -432,35 +438,14 @@ impl Primitives for TriangleLeaves {
         active: M8,
         hits: &mut Hits,
     ) -> M8 {
-        self.packet::<ANY>(&InPlace, leaf, rays, near, active, hits)
+        self.triangles.packet::<ANY>(&self.situation, leaf, rays, near, active, hits)
     }
 }
 
-impl Leaves for TriangleLeaves {
+impl<S: Situation> Leaves for Situated<'_, S> {
     #[inline(always)]
     fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
-        self.ray::<ANY>(&InPlace, leaf, ray, near, nearest)
-    }
-}
-
-impl Primitives for Moved<'_> {
-    #[inline]
-    fn test_packet<const ANY: bool>(
-        &self,
-        leaf: Range<usize>,
-        rays: &Rays,
-        near: X8,
-        active: M8,
-        hits: &mut Hits,
-    ) -> M8 {
-        self.triangles.packet::<ANY>(self, leaf, rays, near, active, hits)
-    }
-}
-
-impl Leaves for Moved<'_> {
-    #[inline(always)]
-    fn test_ray<const ANY: bool>(&self, leaf: Range<usize>, ray: &SingleRay, near: X8, nearest: &mut Nearest) -> bool {
-        self.triangles.ray::<ANY>(self, leaf, ray, near, nearest)
+        self.triangles.ray::<ANY>(&self.situation, leaf, ray, near, nearest)
     }
 }
 

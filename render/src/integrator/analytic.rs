@@ -9,7 +9,7 @@ use crate::bvh::{GROUP, NOTHING, SHAPE};
 use crate::camera::{Camera, CameraSample, Pinhole};
 use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
-use crate::packet::{M8, V8, X8, equal, widen_points};
+use crate::packet::{M8, V8, X8, each_bit, equal, widen_points};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Mask, Real, Vec2, Vec3, f64x4, u32x8};
@@ -29,7 +29,9 @@ const TRIALS: usize = 4;
 const TRIED_SQUARES: usize = 3;
 /// At most so many surfaces are remembered that are certified as a whole.
 const MOST_WHOLE: usize = 1 << 16;
-/// A certificate takes about as long as so many samples.
+/// A certificate of a light is asked for where so many samples or more see the primitive, if it faces the camera. A certificate takes as
+/// long as some tens of samples, and most are in vain: with 40, `etendue render terrain --technique analytic --spp 64 --size 256x256
+/// --threads 1` takes 1.6 times as long as by `solid-angle`, and with 160 1.1 times.
 const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 
 /// A light with an area.
@@ -51,6 +53,13 @@ enum Known {
     Nothing,
     /// It is sampled: smaller patches are not worth asking for.
     Never,
+}
+
+impl Known {
+    /// Whether the light must be sampled.
+    const fn is_open(&self) -> bool {
+        matches!(self, Self::Crowded | Self::Nothing | Self::Never)
+    }
 }
 
 /// What is known of the lights at a point that the camera sees: numbers of lights.
@@ -181,11 +190,6 @@ pub(super) struct Analytic<'a> {
     worth: (u32, bool),
 }
 
-/// Calls `f` with each lane whose bit is set.
-fn each_bit(bits: u32, f: impl FnMut(usize)) {
-    (0..8).filter(|lane| bits >> lane & 1 != 0).for_each(f);
-}
-
 /// Whether the visible part of a light is worth computing. More blockers take longer than the samples that they save: with 16, `defocus`
 /// takes twice as long as with 8, for 0.99 times the error, and `cornell-box` and `mirror-room` gain nothing. Two spheres that overlap
 /// have no closed form.
@@ -309,9 +313,7 @@ impl<'a> Analytic<'a> {
             let (p, lane) = seen.lanes[0];
             let whole = Places { pixel: None, ..places[p] };
             let (first, _) = self.find(&surfaces[p], &whole, M8::from_bits(1 << lane));
-            let is_open = |known: &Known| matches!(known, Known::Nothing | Known::Crowded | Known::Never);
-            let decided = |known: &Known| !is_open(known);
-            let mut open: Vec<bool> = self.known[first..first + count].iter().map(is_open).collect();
+            let mut open: Vec<bool> = self.known[first..first + count].iter().map(Known::is_open).collect();
             some = some || open.contains(&false);
             if let Some(pinhole) = self.pinhole.filter(|_| seen.direct && open.contains(&true)) {
                 let mut squares: Vec<u32> = Vec::new();
@@ -321,19 +323,19 @@ impl<'a> Analytic<'a> {
                     if squares.len() < TRIED_SQUARES && !squares.contains(&square) {
                         squares.push(square);
                         let found = self.seen(&pinhole, seen.place, pixel, 1);
-                        open.iter_mut().zip(&self.known[found..]).for_each(|(open, known)| *open &= !decided(known));
+                        open.iter_mut().zip(&self.known[found..]).for_each(|(open, known)| *open &= known.is_open());
                     }
                 }
                 some = some || open.contains(&false);
-                for (known, open) in self.known[first..].iter_mut().zip(&open).filter(|(_, open)| **open) {
-                    debug_assert!(*open && is_open(known));
+                for (known, _) in self.known[first..].iter_mut().zip(&open).filter(|(_, open)| **open) {
                     *known = Known::Never;
                 }
             }
             all = all && !open.contains(&true);
         }
-        self.hopeless =
-            seen.is_empty() || !some && seen.len() >= TRIALS || !some && !seen.iter().any(|seen| !seen.direct);
+        // what is seen in mirrors was not looked at in squares
+        let is_tried = seen.len() >= TRIALS || seen.iter().all(|seen| seen.direct);
+        self.hopeless = seen.is_empty() || !some && is_tried;
         self.all_known = all && seen.len() <= TRIALS;
     }
 
@@ -351,7 +353,7 @@ impl<'a> Analytic<'a> {
             let places = Places { pixel: Some(pixels[lane]), ..*places };
             let (first, _) = self.find(surface, &places, M8::from_bits(1 << lane));
             for (open, known) in open.iter_mut().zip(&self.known[first..]) {
-                if matches!(known, Known::Crowded | Known::Nothing | Known::Never) {
+                if known.is_open() {
                     *open = *open | M8::from_bits(1 << lane);
                 }
             }

@@ -84,7 +84,8 @@ impl View<'_> {
     /// The technique for [`Technique::Auto`].
     ///
     /// Rough surfaces are sampled anyway, and through a lens most of the error is that of the image's edges: closed forms then take time that
-    /// they do not save (twice on `defocus` and 1.4 times on `plates`, for the same error).
+    /// they do not save. (By `etendue render SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`, and 1.4
+    /// times as long on `plates`, for the same error.)
     fn choose(&self) -> Technique {
         let scene = &self.world.scene;
         if scene.lights.only_few_areas() && !scene.surfaces.has_rough() && !self.camera.has_lens() {

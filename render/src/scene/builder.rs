@@ -79,7 +79,7 @@ struct Object {
     uses: usize,
 }
 
-/// Objects are copied, unless their copies would have more triangles than this: a copy is traced faster, but takes some 100 bytes for each.
+/// Objects are copied, unless their copies would have more triangles than this: copies are traced faster, but take memory.
 const COPIED: usize = 1 << 20;
 /// Most triangles of a scene, those of all instances counted.
 const MOST_TRIANGLES: usize = (1 << 31) - 1;

@@ -310,7 +310,10 @@ impl Reads<'_> {
                 ([1.0; 3], r.map(|r| r.min(MOST_REFLECTANCE)).map(|r| 2.0 * (r / (1.0 - r)).sqrt()))
             }
             // one of them alone goes with copper's other one, as in pbrt
-            (None, [eta, k]) => (eta.unwrap_or(copper().0), k.unwrap_or(copper().1)),
+            (None, [eta, k]) => {
+                let copper = copper();
+                (eta.unwrap_or(copper.0), k.unwrap_or(copper.1))
+            }
         };
         // fourth powers must be finite in f32
         let bounded = |name: &str, rgb: [f64; 3]| {
