@@ -47,6 +47,7 @@ mod lights;
 mod material_parameters;
 mod materials;
 mod message;
+mod named_materials;
 mod params;
 mod ply;
 mod reader;

@@ -8,8 +8,8 @@ use super::params::MOST_RADIANCE;
 use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use crate::geometry::{Affine, Geometry, Instance, bounds_of};
-use crate::texture::Mask;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use crate::texture::{Mask, Texture};
+use std::collections::{BTreeMap, HashMap};
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -37,8 +37,6 @@ pub(super) struct Builder {
     material_index: HashMap<[u32; 8], u32>,
     /// Materials with holes: for each the index of the one without, and the mask.
     masks: BTreeMap<u32, (u32, Mask)>,
-    /// Materials that are not known yet.
-    promised: HashSet<u32>,
     objects: Vec<Object>,
     instances: Vec<(u32, Transform)>,
     /// Triangles without area that were left out since the last [`Builder::left_out`].
@@ -133,24 +131,20 @@ impl Builder {
         })
     }
 
-    /// The index of a material that is not known yet.
-    pub(super) fn promised(&mut self) -> u32 {
-        let index = self.materials.len() as u32;
-        self.materials.push(Material::Diffuse([0.5; 3]));
-        self.promised.insert(index);
-        index
+    /// A material that stands for one that is not known yet.
+    pub(super) fn promise(&mut self) -> Material {
+        self.varying.push(Varying::Diffuse(Texture::number(0.5)));
+        Material::Varying((self.varying.len() - 1) as u32)
     }
 
-    /// Gives a promised material.
-    pub(super) fn keep_promise(&mut self, index: u32, material: Material) {
-        self.materials[index as usize] = material;
+    /// Puts a material where a promise stands for it.
+    pub(super) fn keep(&mut self, promise: Material, material: Material) {
+        self.materials.iter_mut().filter(|other| **other == promise).for_each(|other| *other = material);
     }
 
-    /// Whether texture coordinates matter for a material, or may.
+    /// Whether texture coordinates matter for a material.
     pub(super) fn varies(&self, material: u32) -> bool {
-        matches!(self.materials[material as usize], Material::Varying(_))
-            || self.masks.contains_key(&material)
-            || self.promised.contains(&material)
+        matches!(self.materials[material as usize], Material::Varying(_)) || self.masks.contains_key(&material)
     }
 
     /// Begins an object: what is added from now on is not part of the scene. Returns what was added before.
@@ -177,7 +171,6 @@ impl Builder {
         std::mem::swap(&mut self.materials, &mut from.materials);
         std::mem::swap(&mut self.material_index, &mut from.material_index);
         std::mem::swap(&mut self.masks, &mut from.masks);
-        std::mem::swap(&mut self.promised, &mut from.promised);
         std::mem::swap(&mut self.varying, &mut from.varying);
         std::mem::swap(&mut self.notes, &mut from.notes);
     }

@@ -8,7 +8,6 @@ use super::params::{Params, Resolve, rounded, shown};
 use super::spectrum::{self, Named};
 use super::textures::{Textures, Value};
 use crate::texture::Texture;
-use std::collections::HashMap;
 
 /// What a surface is made of, as the state of a scene file holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +23,7 @@ pub(super) enum Finish {
 /// What a material's parameters refer to.
 pub(super) struct Context<'a> {
     pub(super) textures: &'a Textures,
-    pub(super) named: &'a HashMap<String, Finish>,
+    pub(super) named: &'a dyn Fn(&str) -> Option<Finish>,
     pub(super) resolve: Resolve<'a>,
 }
 
@@ -151,7 +150,7 @@ pub(super) fn read(
             };
             let name = if share > 0.5 { second } else { first };
             let unknown = || params.error(format!("no MakeNamedMaterial {:?} precedes this", shortened(name)));
-            return context.named.get(name).copied().ok_or_else(unknown);
+            return (context.named)(name).ok_or_else(unknown);
         }
         "interface" | "none" | "" => {
             params.ignore_all();

@@ -10,6 +10,7 @@ use super::lights::{self, DeltaLight, Emission, Environment, Files};
 use super::material_parameters::{self, Context, Finish};
 use super::materials::Material;
 use super::message::{Message, Place, utf8};
+use super::named_materials::NamedMaterials;
 use super::params::{Param, Params};
 use super::shapes;
 use super::textures::Textures;
@@ -49,20 +50,6 @@ struct Open {
     before: Builder,
 }
 
-/// A material that is named before it is defined.
-struct Awaited {
-    name: String,
-    place: Place,
-    /// Its index, if a shape uses it.
-    material: Option<u32>,
-}
-
-impl Awaited {
-    fn material(&mut self, out: &mut Builder) -> u32 {
-        *self.material.get_or_insert_with(|| out.promised())
-    }
-}
-
 struct Reader<'a> {
     main_dir: &'a Path,
     is_builtin: bool,
@@ -75,9 +62,7 @@ struct Reader<'a> {
     state: State,
     saved: Vec<(State, Place)>,
     systems: HashMap<String, Transform>,
-    named: HashMap<String, Finish>,
-    /// Materials that did not exist when they were asked for.
-    awaited: Vec<Awaited>,
+    named: NamedMaterials,
     textures: Textures,
     objects: HashMap<String, u32>,
     open: Option<Open>,
@@ -109,8 +94,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         state,
         saved: Vec::new(),
         systems: HashMap::new(),
-        named: HashMap::new(),
-        awaited: Vec::new(),
+        named: NamedMaterials::default(),
         textures: Textures::default(),
         objects: HashMap::new(),
         open: None,
@@ -129,16 +113,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
     if let Some((_, place)) = reader.saved.last() {
         return Err(place.message("this AttributeBegin or TransformBegin is never closed"));
     }
-    for Awaited { name, place, material } in std::mem::take(&mut reader.awaited) {
-        let Some(index) = material else { continue };
-        match reader.named.get(&name) {
-            Some(Finish::Of(material)) => reader.out.keep_promise(index, *material),
-            Some(_) => {
-                return Err(place.message(format!("{:?} is no surface: define it before its shapes", shortened(&name))));
-            }
-            None => return Err(place.message(format!("no MakeNamedMaterial defines {:?}", shortened(&name)))),
-        }
-    }
+    reader.named.keep_promises(&mut reader.out)?;
     let Some(camera) = reader.camera else {
         return Err(end.message("the scene has no Camera"));
     };
@@ -337,14 +312,7 @@ impl Reader<'_> {
             }
             "NamedMaterial" => {
                 let name = lexer.text("a name")?;
-                self.state.material = match self.named.get(&name) {
-                    Some(material) => *material,
-                    // it may follow
-                    None => {
-                        self.awaited.push(Awaited { name, place, material: None });
-                        Finish::Awaited(self.awaited.len() - 1)
-                    }
-                };
+                self.state.material = self.named.named(name, place);
             }
             // pbrt-v3 has it at the end
             "WorldEnd" if self.in_world => {}
@@ -397,7 +365,7 @@ impl Reader<'_> {
                     return Err(params.error("\"string type\" is missing"));
                 };
                 let material = self.material(&of, &mut params, dir)?;
-                self.named.insert(kind.into(), material);
+                self.named.define(kind.into(), material);
             }
             "AreaLightSource" => {
                 self.with_defaults("light", &mut params);
@@ -430,7 +398,7 @@ impl Reader<'_> {
     fn material(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<Finish, Message> {
         let (main, inputs) = (self.main_dir, &self.inputs);
         let resolve = |name: &str| resolved(main, inputs, name, dir);
-        let context = Context { textures: &self.textures, named: &self.named, resolve: &resolve };
+        let context = Context { textures: &self.textures, named: &|name| self.named.get(name), resolve: &resolve };
         material_parameters::read(kind, params, &context, &mut self.out)
     }
 
@@ -554,25 +522,12 @@ impl Reader<'_> {
         }
         let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
         let mut emission = self.state.emission;
-        let mut finish = self.state.material;
-        let mut awaited = None;
-        if let Finish::Awaited(index) = finish {
-            match self.named.get(&self.awaited[index].name) {
-                Some(named) => finish = *named,
-                None => awaited = Some(self.awaited[index].material(&mut self.out)),
+        let Some(material) = self.named.of_shape(self.state.material, &mut self.out) else {
+            if emission.is_some() {
+                self.out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
             }
-        }
-        let material = match finish {
-            Finish::Of(material) => material,
-            // until it is known
-            Finish::Awaited(_) => Material::Diffuse([0.5; 3]),
-            Finish::Invisible => {
-                if emission.is_some() {
-                    self.out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
-                }
-                params.ignore_all();
-                return Ok(());
-            }
+            params.ignore_all();
+            return Ok(());
         };
         if emission.is_some() && self.open.is_some() {
             self.out
@@ -587,9 +542,8 @@ impl Reader<'_> {
         let surface = ShapeAttributes {
             ctm: self.state.ctm,
             flip: self.state.reverse != (det < 0.0),
-            material: match (awaited, mask) {
-                (Some(material), _) => material,
-                (None, Some(mask)) if emission.is_none() => self.out.masked(material, mask),
+            material: match mask {
+                Some(mask) if emission.is_none() => self.out.masked(material, mask),
                 _ => self.out.material(material),
             },
             emission,

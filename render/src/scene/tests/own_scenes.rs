@@ -96,8 +96,19 @@ fn odd_and_older_files() {
         "NamedMaterial \"a\" {TRIANGLE} Texture \"c\" \"spectrum\" \"checkerboard\" \
          MakeNamedMaterial \"a\" \"string type\" \"diffuse\" \"texture reflectance\" \"c\""
     ));
-    assert_eq!(last.materials[last.triangle_materials[0] as usize], Material::Varying(0));
+    assert!(matches!(last.materials[last.triangle_materials[0] as usize], Material::Varying(1)));
     assert!(last.details.of(0).is_some());
+    // with and without holes
+    let holes = TRIANGLE.trim_end().to_owned() + " \"float alpha\" .5";
+    let both =
+        lit(&format!("NamedMaterial \"a\" {holes} {TRIANGLE} MakeNamedMaterial \"a\" \"string type\" \"mirror\""));
+    let of = |i: usize| {
+        (
+            both.materials[both.triangle_materials[i] as usize],
+            both.masks.iter().any(|(k, _)| *k == both.triangle_materials[i]),
+        )
+    };
+    assert_eq!([of(0), of(1)], [(Material::Mirror([0.9; 3]), true), (Material::Mirror([0.9; 3]), false)]);
     let (rough, scene) = material("Material \"conductor\" \"float roughness\" 5.8");
     assert!(matches!(rough, Material::Conductor { alpha: 1.0, .. }) && warnings(&scene)[0].contains("5.8 counts as 1"));
     // copper has what is missing
