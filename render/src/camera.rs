@@ -11,7 +11,7 @@ pub use vignetting::{Barrel, Pupil};
 use crate::packet::{M8, V8, X8};
 use crate::scene::CameraSettings;
 use etendue::warp::ConcentricDisk;
-use etendue::{Real, Vec2, Warp, u32x8};
+use etendue::{Real, Vec2, Vec3, Warp, u32x8};
 
 /// Where eight rays pass the film and the lens. It is drawn once for each sample, and the camera and the sensor both read it.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +71,14 @@ impl Camera {
             Self::Barrel(_, barrel) => Some(barrel.open(film.x, film.y, *lens)),
             Self::Pupil(pupil) => Some(pupil.open(film.x, film.y)),
         }
+    }
+    /// Where the ray through the middle of the image begins, and the solid angle of the pixel there.
+    pub fn middle(&self, width: u32, height: u32) -> (Vec3<f64>, f64) {
+        let middle = |side: u32, more: [f32; 3]| X8::from(std::array::from_fn(|k| side as f32 / 2.0 + more[k.min(2)]));
+        let film = Vec2::new(middle(width, [0.0, 1.0, 0.0]), middle(height, [0.0, 0.0, 1.0]));
+        let (origin, direction) = self.rays(&CameraSample { film, lens: Vec2::default() });
+        let [middle, across, down] = [0, 1, 2].map(|lane| direction.lane(lane).map(f64::from));
+        (origin.lane(0).map(f64::from), (across - middle).cross(down - middle).length())
     }
     /// Whether samples have a point on the lens.
     pub const fn has_lens(&self) -> bool {

@@ -3,10 +3,12 @@
 mod adaptive;
 mod allocation;
 mod analytic;
+mod choice;
 mod paths;
 mod prepared;
 mod settings;
 mod tile;
+mod trial;
 mod view;
 mod world;
 

@@ -58,6 +58,7 @@ mod subdivision;
 mod tests;
 mod textures;
 mod transform;
+mod transform_directives;
 mod view;
 
 use crate::files::read_unpacked;

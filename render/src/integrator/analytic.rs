@@ -6,14 +6,13 @@
 
 use super::settings::{Settings, TILE};
 use crate::bvh::{GROUP, NOTHING, SHAPE};
-use crate::camera::{Camera, CameraSample, Pinhole};
+use crate::camera::{Camera, Pinhole};
 use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
 use crate::packet::{M8, V8, X8, each_bit, equal, widen_points};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
-use etendue::{Mask, Real, Vec2, Vec3, f64x4, u32x8};
-use std::cmp::Reverse;
+use etendue::{Mask, Real, Vec3, f64x4, u32x8};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;
@@ -22,11 +21,6 @@ use std::ops::Range;
 const SIDES: [u32; 2] = [TILE, 4];
 /// Greatest number of blockers for which the visible part of a light is computed.
 const CLIPPED: usize = 8;
-/// At most so many primitives of a tile are looked at first, those that most of its rays see. If nothing is known of any light at any of
-/// them, the tile asks for no certificates.
-const TRIALS: usize = 4;
-/// At most so many squares of a tile are looked at first for each of these primitives. Lights that they do not decide are sampled.
-const TRIED_SQUARES: usize = 3;
 /// At most so many surfaces are remembered that are certified as a whole.
 const MOST_WHOLE: usize = 1 << 16;
 /// A certificate of a light is asked for where so many samples or more see the primitive, if it faces the camera. A certificate takes as
@@ -35,14 +29,14 @@ const MOST_WHOLE: usize = 1 << 16;
 const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 
 /// A light with an area.
-struct AreaLight {
+pub(super) struct AreaLight {
     form: Convex<f32>,
     radiance: [f32; 3],
 }
 
 /// What is known of a light, as seen from a part of a surface. What it contributes is computed in a precision that suffices there.
 #[derive(Clone, Debug, PartialEq)]
-enum Known {
+pub(super) enum Known {
     Lit(Precision),
     Dark,
     /// Only these forms and bodies can occlude it.
@@ -57,7 +51,7 @@ enum Known {
 
 impl Known {
     /// Whether the light must be sampled.
-    const fn is_open(&self) -> bool {
+    pub(super) const fn is_open(&self) -> bool {
         matches!(self, Self::Crowded | Self::Nothing | Self::Never)
     }
 }
@@ -99,15 +93,6 @@ struct Entry {
     place: u32,
     /// Index of the certificate of the first light; the others follow.
     first: usize,
-}
-
-/// A primitive that some rays of a tile see.
-struct Seen {
-    place: u32,
-    /// Whether the camera sees it directly.
-    direct: bool,
-    /// The packets and lanes of the rays.
-    lanes: Vec<(usize, usize)>,
 }
 
 /// The places where the paths of a packet end.
@@ -163,25 +148,25 @@ impl Exact<'_> {
 pub(super) struct Analytic<'a> {
     surfaces: &'a Surfaces,
     bodies: &'a Bodies,
-    lights: Vec<AreaLight>,
+    pub(super) lights: Vec<AreaLight>,
     certifier: Certifier<'a>,
     occlusion: Box<Occlusion<X8>>,
     /// The camera, if it is a pinhole.
-    pinhole: Option<Pinhole>,
+    pub(super) pinhole: Option<Pinhole>,
     /// The first pixel of the tile.
     origin: [u32; 2],
     /// The certificates in each square of each level, row by row, and those of whole surfaces seen from their front or back.
     squares: [Vec<Vec<Entry>>; SIDES.len()],
     whole: HashMap<(u32, bool), usize>,
-    known: Vec<Known>,
+    pub(super) known: Vec<Known>,
     forms: Vec<Convex<f32>>,
     polyhedra: Vec<Polyhedron<'a, f32>>,
     /// The same in double precision.
     exact: Exact<'a>,
     /// Whether certificates are not worth asking for in this tile.
-    hopeless: bool,
+    pub(super) hopeless: bool,
     /// Whether all lights are known at all places of the tile that were looked at.
-    all_known: bool,
+    pub(super) all_known: bool,
     /// Certificates are asked for on primitives with at least this area over the squared distance from the camera.
     least: f64,
     /// The position of the camera.
@@ -199,21 +184,12 @@ fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
     blockers.len() <= CLIPPED && !(is_ball && blockers.iter().any(spheres))
 }
 
-/// Where the ray through the middle of the image begins, and the solid angle of the pixel there.
-fn middle(camera: &Camera, settings: &Settings) -> (Vec3<f64>, f64) {
-    let middle = |side: u32, more: [f32; 3]| X8::from(std::array::from_fn(|k| side as f32 / 2.0 + more[k.min(2)]));
-    let film = Vec2::new(middle(settings.width, [0.0, 1.0, 0.0]), middle(settings.height, [0.0, 0.0, 1.0]));
-    let (origin, direction) = camera.rays(&CameraSample { film, lens: Vec2::default() });
-    let [middle, across, down] = [0, 1, 2].map(|lane| direction.lane(lane).map(f64::from));
-    (origin.lane(0).map(f64::from), (across - middle).cross(down - middle).length())
-}
-
 impl<'a> Analytic<'a> {
     /// For a scene as a camera sees it. [`begin`](Self::begin) prepares for a tile.
     pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera, settings: &Settings) -> Self {
         let count = surfaces.light_shapes().count();
         let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
-        let (eye, pixel) = middle(camera, settings);
+        let (eye, pixel) = camera.middle(settings.width, settings.height);
         let light = |shape: &crate::scene::Shape| {
             Some(AreaLight { form: shape.geometry.convex(), radiance: shape.emission?.radiance })
         };
@@ -241,7 +217,7 @@ impl<'a> Analytic<'a> {
 
     /// Whether certificates are worth asking for on a primitive: whether it is so near and so large that, seen from the front, the camera
     /// would take enough samples of it.
-    fn is_worth(&mut self, place: u32) -> bool {
+    pub(super) fn is_worth(&mut self, place: u32) -> bool {
         if self.worth.0 != place {
             let wide = |p: [f32; 3]| Vec3::from(p.map(f64::from));
             let (area, center) = if place & SHAPE == 0 {
@@ -288,59 +264,8 @@ impl<'a> Analytic<'a> {
         self.exact.forms.clear();
     }
 
-    /// Looks at what the rays of some packets see in the tile, each of them in a pixel of its own, and decides whether certificates are worth
-    /// asking for. (The rays are the same for all samples, so that what is known does not depend on which of them a process takes.)
-    pub(super) fn try_out(&mut self, surfaces: &[Surface], places: &[Places; GROUP], pixels: &[[[u32; 2]; 8]; GROUP]) {
-        let mut seen: Vec<Seen> = Vec::new();
-        let mut all = true;
-        for (p, (surface, places)) in surfaces.iter().zip(places).enumerate() {
-            all = all && !(surface.reflects & places.glossy).any();
-            each_bit((surface.reflects & !places.glossy).bits(), |lane| {
-                let (place, direct) = (places.primitives.as_array()[lane], places.direct.lane(lane));
-                match seen.iter_mut().find(|seen| seen.place == place && seen.direct == direct) {
-                    Some(seen) => seen.lanes.push((p, lane)),
-                    None => seen.push(Seen { place, direct, lanes: vec![(p, lane)] }),
-                }
-            });
-        }
-        let distinct = seen.len();
-        seen.retain(|seen| self.is_worth(seen.place));
-        all = all && seen.len() == distinct;
-        seen.sort_by_key(|seen| (Reverse(seen.lanes.len()), seen.place));
-        let count = self.lights.len();
-        let mut some = false;
-        for seen in seen.iter().take(TRIALS) {
-            let (p, lane) = seen.lanes[0];
-            let whole = Places { pixel: None, ..places[p] };
-            let (first, _) = self.find(&surfaces[p], &whole, M8::from_bits(1 << lane));
-            let mut open: Vec<bool> = self.known[first..first + count].iter().map(Known::is_open).collect();
-            some = some || open.contains(&false);
-            if let Some(pinhole) = self.pinhole.filter(|_| seen.direct && open.contains(&true)) {
-                let mut squares: Vec<u32> = Vec::new();
-                for &(p, lane) in &seen.lanes {
-                    let pixel = pixels[p][lane];
-                    let square = self.square(pixel, 1);
-                    if squares.len() < TRIED_SQUARES && !squares.contains(&square) {
-                        squares.push(square);
-                        let found = self.seen(&pinhole, seen.place, pixel, 1);
-                        open.iter_mut().zip(&self.known[found..]).for_each(|(open, known)| *open &= known.is_open());
-                    }
-                }
-                some = some || open.contains(&false);
-                for (known, _) in self.known[first..].iter_mut().zip(&open).filter(|(_, open)| **open) {
-                    *known = Known::Never;
-                }
-            }
-            all = all && !open.contains(&true);
-        }
-        // what is seen in mirrors was not looked at in squares
-        let is_tried = seen.len() >= TRIALS || seen.iter().all(|seen| seen.direct);
-        self.hopeless = seen.is_empty() || !some && is_tried;
-        self.all_known = all && seen.len() <= TRIALS;
-    }
-
     /// Index of the square of a level that contains a pixel.
-    fn square(&self, pixel: [u32; 2], level: usize) -> u32 {
+    pub(super) fn square(&self, pixel: [u32; 2], level: usize) -> u32 {
         let side = SIDES[level];
         let [column, row] = [0, 1].map(|k| (pixel[k] - self.origin[k]) / side);
         row * (TILE / side) + column
@@ -404,7 +329,7 @@ impl<'a> Analytic<'a> {
     }
 
     /// Index of the certificates for what the square of a level that contains the pixel sees of a primitive.
-    fn seen(&mut self, pinhole: &Pinhole, place: u32, pixel: [u32; 2], level: usize) -> usize {
+    pub(super) fn seen(&mut self, pinhole: &Pinhole, place: u32, pixel: [u32; 2], level: usize) -> usize {
         let side = SIDES[level];
         let [column, row] = [0, 1].map(|k| (pixel[k] - self.origin[k]) / side);
         let square = self.square(pixel, level) as usize;
@@ -488,7 +413,7 @@ impl<'a> Analytic<'a> {
 
     /// Index of the certificates for the surface of the first of these lanes, and the lanes that have them. Where nothing is worth asking
     /// for, it is 0.
-    fn find(&mut self, surface: &Surface, places: &Places, lanes: M8) -> (usize, M8) {
+    pub(super) fn find(&mut self, surface: &Surface, places: &Places, lanes: M8) -> (usize, M8) {
         let lane = lanes.bits().trailing_zeros() as usize & 7;
         let place = places.primitives.as_array()[lane];
         let here = lanes & equal(places.primitives, u32x8::splat(place));

@@ -6,34 +6,23 @@
 //! as long among three thousand balls.)
 
 use super::analytic::{Analytic, Places, Survey};
+use super::choice::Which;
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
-use crate::packet::{M8, V8, X8, equal, pick, select};
+use crate::packet::{M8, V8, X8, pick, select};
 use crate::surfaces::{Surface, emitted};
 use crate::technique::Technique;
 use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::occlusion::SPARED;
-use etendue::select::{Allocated, Choice, FEW, LightChoice};
+use etendue::select::{Allocated, FEW};
 use etendue::{Mask, Real, Vec2, u32x8};
 
 /// Fraction of the distance to a light that a shadow ray covers: it stops short, so that surfaces touching the light do not occlude it.
 const COVERED: f64 = 1.0 - SPARED;
-
-/// Which light is sampled.
-enum Which<'a> {
-    Given(u32),
-    /// The one to which the sample is allocated, or one chosen at random if that is empty.
-    Chosen(&'a [Allocated<'a, X8>]),
-    /// One of those whose lanes are set, for each light and packet.
-    Among(&'a [[M8; GROUP]]),
-    /// The one to which the sample is allocated, where its lane is set. Where another light than those that were expected in a packet must
-    /// be sampled, too, one chosen at random.
-    Expected(&'a [Allocated<'a, X8>], &'a [u32; GROUP], &'a [[M8; GROUP]]),
-}
 
 /// Radiance along camera rays.
 #[derive(Clone, Copy, Default)]
@@ -374,45 +363,8 @@ impl<'a> Paths<'a> {
             let bsdf = bsdf::<METAL>(surface, &ends[p]);
             let mut u = numbers.light[p];
             let [number, second] = numbers.choice.map_or([u.x, zero], |choice| [choice[p].x, choice[p].y]);
-            let mut lanes = surface.reflects;
-            let choice = match which {
-                Which::Given(light) => Choice { index: u32x8::splat(*light), pmf: one, u: number },
-                Which::Chosen(allocated) => match allocated.get(p) {
-                    Some(allocated) => allocated.choose(number),
-                    None => lights.choose(surface.point, surface.normal, [number, second]),
-                },
-                Which::Among(open) => among(lights, surface, open, p, number, &mut lanes),
-                Which::Expected(allocated, expected, open) => {
-                    let count = lights.len();
-                    let is_stray = |light: &usize| expected[p] >> light & 1 == 0;
-                    let none = M8::splat(false);
-                    // on rough surfaces the BSDF finds what is unexpected
-                    let own = if METAL { !ends[p].rough() } else { M8::splat(true) };
-                    let stray = own & (0..count).filter(is_stray).fold(none, |stray, light| stray | open[light][p]);
-                    let choice = allocated[p].choose(number);
-                    let mut own = none;
-                    let mut left = lanes & !stray;
-                    while left.any() {
-                        let light = choice.index.as_array()[left.bits().trailing_zeros() as usize & 7];
-                        let same = left & equal(choice.index, u32x8::splat(light));
-                        own = own | same & open[light as usize][p];
-                        left = left & !same;
-                    }
-                    if stray.any() {
-                        let mut others = lanes & stray;
-                        let other = among(lights, surface, open, p, number, &mut others);
-                        lanes = own | others;
-                        Choice {
-                            index: pick(stray, other.index, choice.index),
-                            pmf: select(stray, other.pmf, choice.pmf),
-                            u: select(stray, other.u, choice.u),
-                        }
-                    } else {
-                        lanes = own;
-                        choice
-                    }
-                }
-            };
+            let rough = if METAL { ends[p].rough() } else { M8::splat(false) };
+            let (choice, lanes) = which.choose(lights, surface, rough, p, [number, second]);
             if numbers.choice.is_none() {
                 u.x = choice.u;
             }
@@ -427,7 +379,7 @@ impl<'a> Paths<'a> {
                 None => factor,
                 Some(by) => {
                     let weight = by.weights([technique_pdf(one, pdf, sample.delta), surface_pdf])[0];
-                    factor * if is_mixed { select(ends[p].rough(), weight, one) } else { weight }
+                    factor * if is_mixed { select(rough, weight, one) } else { weight }
                 }
             };
             self.count.shadow += u64::from(lit[p].bits().count_ones());
@@ -534,25 +486,6 @@ impl<'a> Paths<'a> {
         bvh.occluded(rays, &mut lit[..count], &limit[..count], &target[..count], &mut self.scratch);
         for p in 0..count {
             reflected[p] += keep(found[p], lit[p]);
-        }
-    }
-}
-
-/// Chooses one of the lights whose lanes are set in a packet, for each of them.
-#[inline]
-fn among(
-    lights: &Lights,
-    surface: &Surface,
-    open: &[[M8; GROUP]],
-    packet: usize,
-    number: X8,
-    lanes: &mut M8,
-) -> Choice<X8> {
-    match lights.contributions(surface.point, surface.normal) {
-        Some(near) => near.only(|light| open[light][packet]).choose(number),
-        None => {
-            *lanes = *lanes & open[0][packet];
-            Choice { index: u32x8::splat(0), pmf: X8::lit(1.0), u: number }
         }
     }
 }

@@ -15,6 +15,7 @@ use super::params::{Param, Params};
 use super::shapes;
 use super::textures::Textures;
 use super::transform::Transform;
+use super::transform_directives;
 use super::view;
 use crate::image;
 use crate::texture::{Mask, Texture};
@@ -423,41 +424,7 @@ impl Reader<'_> {
     }
 
     fn transform(&mut self, word: &str, place: &Place, lexer: &mut Lexer<'_>) -> Result<(), Message> {
-        let matrix = word == "Transform" || word == "ConcatTransform";
-        let count = match word {
-            "LookAt" => 9,
-            "Rotate" => 4,
-            "Translate" | "Scale" => 3,
-            _ => 16,
-        };
-        let bracket = |lexer: &mut Lexer<'_>, wanted: Token<'_>| {
-            let (found, line) = lexer.expect(&wanted.show())?;
-            let wrong =
-                || lexer.place(line).message(format!("{word}: expected {}, found {}", wanted.show(), found.show()));
-            if found == wanted { Ok(()) } else { Err(wrong()) }
-        };
-        if matrix {
-            bracket(lexer, Token::Open)?;
-        }
-        let mut m = [0.0; 16];
-        for x in &mut m[..count] {
-            *x = lexer.number(word)?;
-        }
-        if matrix {
-            bracket(lexer, Token::Close)?;
-        }
-
-        let three = |i: usize| [m[i], m[i + 1], m[i + 2]];
-        let made = match word {
-            "Translate" => Ok(Transform::translate(three(0))),
-            "Scale" => Ok(Transform::scale(three(0))),
-            "Rotate" => Transform::rotate(m[0], three(1)).ok_or("the axis must not be zero"),
-            "LookAt" => {
-                Transform::look_at(three(0), three(3), three(6)).ok_or("eye, target and up do not define a view")
-            }
-            _ => Transform::from_columns(&m).ok_or("not affine: every fourth number must be 0, the last one 1"),
-        };
-        let made = made.map_err(|why| place.message(format!("{word} {:?}: {why}", &m[..count])))?;
+        let made = transform_directives::read(word, place, lexer)?;
         if self.state.is_end {
             return Ok(());
         }
