@@ -66,6 +66,52 @@ fn veils_dim_what_is_behind() {
     }
 }
 
+/// Beside rough surfaces, `analytic` combines light and BSDF on these alone: under a light so large that each has a great weight, all
+/// floors have the brightness that the BSDF finds by chance.
+#[test]
+fn only_rough_surfaces_combine_light_and_bsdf() {
+    let lamp = LAMP.replace("-.5 3 -.5  .5 3 -.5  -.5 3 .5  .5 3 .5", "-6 1 -6  6 1 -6  -6 1 6  6 1 6");
+    assert_ne!(lamp, LAMP);
+    let ball =
+        "AttributeBegin Translate 40 0 0 Material \"conductor\" \"float roughness\" .3 Shape \"sphere\" AttributeEnd\n";
+    let bent = "\"normal N\" [-.1 1 0  .1 1 0  .1 1 0  -.1 1 0]";
+    for (material, parameters) in [
+        ("\"diffuse\"", ""),
+        ("\"diffuse\"", bent),
+        ("\"conductor\" \"float roughness\" .5", ""),
+        ("\"coateddiffuse\" \"float roughness\" .3", bent),
+    ] {
+        let world = narrow("2 .6 0", &format!("{lamp}{ball}Material {material}\n{}", square(9.0, 0.0, parameters)));
+        let (truth, more) = pixel(&world, Technique::Brdf, 1 << 14);
+        assert!(truth > 0.1, "{material}: {truth}");
+        for technique in [Technique::Analytic, Technique::MisPower] {
+            let (mean, error) = pixel(&world, technique, 1 << 14);
+            let error = error.hypot(more).max(2e-4 * truth);
+            assert!((mean - truth).abs() < LIMIT * error, "{technique:?} {material}: {mean}, {truth} ± {error}");
+            assert!(error < 0.01 * truth, "{technique:?} {material}: {error} of {truth}");
+        }
+    }
+}
+
+/// A box with holes is no body that certificates know: light passes both of its walls by chance.
+#[test]
+fn boxes_with_holes_are_no_bodies() {
+    let floor = square(9.0, 0.0, "");
+    let corners =
+        (0..8).map(|k| format!("{} {} {} ", (k & 1) * 4 - 2, 1.0 + f64::from(k >> 1 & 1) * 0.5, (k >> 2) * 4 - 2));
+    let cage = format!(
+        "Shape \"trianglemesh\" \"point3 P\" [{}] \"float alpha\" .4 \"integer indices\" \
+         [0 1 3 0 3 2  4 6 7 4 7 5  0 4 5 0 5 1  2 3 7 2 7 6  0 2 6 0 6 4  1 5 7 1 7 3]",
+        corners.collect::<String>(),
+    );
+    for technique in TECHNIQUES {
+        let [(open, more), (mean, error)] =
+            ["", &cage].map(|cage| pixel(&narrow("5 .5 0", &format!("{LAMP}{floor}{cage}")), technique, 1 << 14));
+        let (wanted, error) = (0.36 * open, error.hypot(0.36 * more));
+        assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: {mean} of {wanted}, error {error}");
+    }
+}
+
 /// A board of squares with holes shows, and casts, the pattern of its texture.
 #[test]
 fn boards_have_holes_where_the_texture_says() {

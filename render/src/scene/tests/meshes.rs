@@ -100,6 +100,36 @@ fn all_encodings_give_the_same_triangles() {
     assert!(warnings(&scene)[0].contains("element \"edge\" ignored"));
 }
 
+/// Binary files in single precision are decoded here, others by the reader for any layout: both find the same, whatever the order.
+#[test]
+fn plain_layouts_are_read_as_others() {
+    let names = ["nz", "v", "x", "weight", "ny", "z", "nx", "u", "y"];
+    let read = |format: &str, list: &str, big: bool| {
+        let properties = names.map(|name| format!("property float {name}\n")).concat();
+        let faces = format!("element face 2\nproperty list {list} vertex_indices\nend_header\n");
+        let mut bytes = format!("ply\nformat {format} 1.0\nelement vertex 5\n{properties}{faces}").into_bytes();
+        let word = |bits: u32| if big { bits.to_be_bytes() } else { bits.to_le_bytes() };
+        for k in 0..5_u32 {
+            // all numbers differ
+            let numbers = names.iter().zip(0..).map(|(_, j)| word(((9 * k + j) as f32 * 0.37).sin().to_bits()));
+            bytes.extend(numbers.flatten());
+        }
+        for face in FACES {
+            bytes.push(face.len() as u8);
+            face.iter().for_each(|&i| bytes.extend(word(i)));
+        }
+        ply::read("m.ply", &bytes).unwrap()
+    };
+    let wanted = read("binary_big_endian", "uchar int", true);
+    assert!(wanted.normals.len() == 5 && wanted.uvs.len() == 5 && wanted.faces[0].corners == 4);
+    for list in ["uchar int", "uchar uint"] {
+        let found = read("binary_little_endian", list, false);
+        assert_eq!((&found.points, &found.normals, &found.uvs), (&wanted.points, &wanted.normals, &wanted.uvs));
+        let faces = |mesh: &ply::Mesh| mesh.faces.iter().map(|face| (face.corners, face.indices)).collect::<Vec<_>>();
+        assert_eq!(faces(&found), faces(&wanted));
+    }
+}
+
 #[test]
 fn quads_are_split_only_if_planar_and_convex() {
     let with = |x: &str| String::from_utf8(ascii()).unwrap().replace("2 1 0 7", x).into_bytes();
