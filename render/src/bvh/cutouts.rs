@@ -98,6 +98,7 @@ fn number(place: u32, origin: [f32; 3], direction: [f32; 3]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::{Mapping, Texture};
 
     #[test]
     fn numbers_are_uniform_and_differ_between_places_and_rays() {
@@ -117,5 +118,24 @@ mod tests {
         let worst = bins.iter().map(|&n| (f64::from(n) - expected).abs()).fold(0.0, f64::max);
         assert!(worst < 4.5 * expected.sqrt(), "{bins:?}");
         assert!((products / f64::from(count)).abs() < 4.5 / 12.0 / f64::from(count).sqrt(), "{products}");
+    }
+
+    #[test]
+    fn cutoffs_stop_what_reaches_them() {
+        let picture = Texture::Checkerboard(
+            Arc::new([0.5, 0.25].map(Texture::number)),
+            Mapping([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+        );
+        let mask = |least: f32| Mask { opacity: picture.clone(), least: Some(least) };
+        let masks: Arc<[Mask]> = [0.5, 0.51, 0.25, 0.0].map(mask).into();
+        let uvs = [[0.5, 0.5], [1.5, 0.5], [0.5, 0.5]];
+        let cutouts = Cutouts::new(&masks, (0..5).map(|mask| (mask < 4).then_some((mask, uvs)))).unwrap();
+        // at the first corner, the second, and on either side of their middle; a sliver has no weights
+        let weights = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [2.1, 1.9, 0.0], [-1.9, -2.1, 0.0], [0.0; 3]];
+        let stopped = |triangle: usize| {
+            cutouts.opaque(0b11111, V8::default(), V8::default(), |k| (triangle, triangle as u32, weights[k]))
+        };
+        assert_eq!([0, 1, 2, 3, 4].map(stopped), [0b10101, 0, 0b11111, 0b11111, 0b11111]);
+        assert_eq!([3, 4].map(|triangle| cutouts.has(triangle)), [true, false]);
     }
 }
