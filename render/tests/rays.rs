@@ -135,7 +135,7 @@ fn affine(i: u32, stretch: f64, far: f64) -> Affine {
 fn instances_are_hit_as_copies() {
     let mut hits = 0;
     for round in 0..24_u32 {
-        let (stretch, far) = ([1.0, 3.0, 30.0][round as usize % 3], [0.5, 1.5][round as usize / 3 % 2]);
+        let (stretch, far) = ([1.0, 3.0, 30.0][round as usize % 3], [0.5, 1.5, 400.0][round as usize / 3 % 3]);
         let point = |i: u32, k: u32| {
             let ([x, y], [z, _]) = (random(900 * round + i, 2 * k), random(900 * round + i, 2 * k + 1));
             [x, y, z]
@@ -164,7 +164,14 @@ fn instances_are_hit_as_copies() {
         for group in 0..8_u32 {
             let ray = |i: u32| {
                 let (o, d) = (point(group * 64 + i, 5), point(group * 64 + i, 6));
-                let (o, d) = match group % 3 {
+                let (o, d) = match group % 4 {
+                    // past a corner of a triangle, at the edge of the boxes around it
+                    3 => {
+                        let which = (random(i, group)[0].abs() * copies.len() as f32) as usize;
+                        let [a, b, c] = copies[which.min(copies.len() - 1)];
+                        let near: [f32; 3] = std::array::from_fn(|k| 0.998 * a[k] + 0.001 * (b[k] + c[k]));
+                        (std::array::from_fn(|k| near[k] - 2.0 * d[k]), d)
+                    }
                     0 => ([0.1, 0.2, 4.0], [0.3 * d[0], 0.3 * d[1], -1.0]),
                     1 => ([o[0], o[1], 3.0], [-0.0, 0.0, -1.0]),
                     _ => (o, d),
