@@ -89,10 +89,13 @@ impl Bvh {
     /// # Errors
     /// Fails if there are more than 2³¹ − 1 triangles.
     pub fn new(triangles: &[[[f32; 3]; 3]], shapes: ShapeSet) -> Result<Self, BuildError> {
-        // room for eight-lane loads beyond the last leaf
+        Self::taking(Self::with_room(triangles), shapes)
+    }
+    /// A copy of triangles with room for eight-lane loads beyond the last leaf.
+    pub(crate) fn with_room(triangles: &[[[f32; 3]; 3]]) -> Vec<[[f32; 3]; 3]> {
         let mut own = Vec::with_capacity(triangles.len() + 1);
         own.extend_from_slice(triangles);
-        Self::taking(own, shapes)
+        own
     }
     /// Like [`Bvh::new`], but builds in the memory of the triangles. Beyond the finished tree, this takes the memory of a few
     /// thousand triangles.

@@ -72,10 +72,7 @@ impl Surfaces {
     /// # Errors
     /// Fails if there are more primitives than a tree can index.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        // room for eight-lane loads beyond the last leaf
-        let mut triangles = Vec::with_capacity(scene.triangles.len() + 1);
-        triangles.extend_from_slice(&scene.triangles);
-        Ok(Self::with(scene, Self::bvh(triangles, scene)?))
+        Ok(Self::with(scene, Self::bvh(Bvh::with_room(&scene.triangles), scene)?))
     }
     /// Like [`Surfaces::new`], but takes the triangles out of the scene and builds the tree in their memory.
     ///

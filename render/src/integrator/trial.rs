@@ -12,6 +12,7 @@ use std::cmp::Reverse;
 const TRIALS: usize = 4;
 /// At most so many squares of a tile are looked at first for each of these primitives. Lights that they do not decide are sampled.
 const TRIED_SQUARES: usize = 3;
+
 /// A primitive that some rays of a tile see.
 struct Seen {
     place: u32,
