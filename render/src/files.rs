@@ -11,6 +11,13 @@ pub struct FileError {
     what: String,
 }
 
+impl FileError {
+    /// What is wrong with the file, without its path.
+    pub fn what(&self) -> &str {
+        &self.what
+    }
+}
+
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.path.display(), self.what)

@@ -34,24 +34,32 @@ pub struct Frame {
 /// The build of this program.
 pub const BUILD: &str = env!("ETENDUE_BUILD");
 
+/// Hash of the files of a scene, in hexadecimal digits; of its name if it is built in.
+///
+/// # Errors
+/// Fails if a file of the scene cannot be read again.
+pub fn digest(scene: &Scene) -> Result<String, FileError> {
+    let mut hash = Xxh3::new();
+    hash.update(scene.name.as_bytes());
+    for file in &scene.inputs {
+        let bytes = read_file(file).map_err(|error| failed(file, format!("cannot read it again: {error}")))?;
+        hash.update(&(bytes.len() as u64).to_le_bytes());
+        hash.update(&bytes);
+    }
+    Ok(format!("{:032x}", hash.digest128()))
+}
+
 impl Frame {
     /// The frame that this program renders.
     ///
     /// # Errors
     /// Fails if a file of the scene cannot be read again.
     pub fn new(scene: &Scene, settings: Settings, sensor: Sensor) -> Result<Self, FileError> {
-        let mut hash = Xxh3::new();
-        hash.update(scene.name.as_bytes());
-        for file in &scene.inputs {
-            let bytes = read_file(file).map_err(|error| failed(file, format!("cannot read it again: {error}")))?;
-            hash.update(&(bytes.len() as u64).to_le_bytes());
-            hash.update(&bytes);
-        }
         let size = [settings.width, settings.height];
         let exposure = Exposure::new(sensor, &scene.camera, scene.film.diagonal, size);
         Ok(Self {
             scene: scene.name.clone(),
-            digest: format!("{:032x}", hash.digest128()),
+            digest: digest(scene)?,
             settings,
             sensor,
             lens: scene.camera.lens.is_some(),

@@ -59,10 +59,12 @@ mod tests;
 mod textures;
 mod transform;
 mod transform_directives;
+mod vertices;
 mod view;
 
 use crate::files::read_unpacked;
 pub use crate::geometry::{Affine, Geometry, Instance};
+use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
 pub use lights::{DeltaLight, Emission, Environment, SkyRadiance};
@@ -135,22 +137,54 @@ pub fn builtin_of_few_lights() -> &'static [(&'static str, &'static str)] {
 
 /// Reads the built-in scene of this name, or else the file at this path: glTF if its name ends in `.gltf` or `.glb`, or else pbrt's format.
 pub fn load(name_or_path: impl AsRef<Path>) -> Result<Scene, SceneError> {
-    let path = name_or_path.as_ref();
+    load_any(name_or_path.as_ref()).map(|(scene, _)| scene)
+}
+
+/// Like [`load`], with the image at the path `sky` as the light from infinitely far away, instead of what the scene has.
+///
+/// A square image maps to directions by pbrt-v4's equal-area map, any other by longitude and latitude. In a glTF file +y is up, and the
+/// middle of the image is at +x, as Khronos's sample viewer has it; elsewhere the image is where `LightSource "infinite"` without a
+/// transform puts it, with +z up.
+pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> Result<Scene, SceneError> {
+    let (mut scene, is_gltf) = load_any(name_or_path.as_ref())?;
+    let path = sky.as_ref();
+    let shown = path.display().to_string();
+    let message = |text: String| Message { file: shown.clone(), line: 0, text };
+    let image = image::read(path).map_err(|error| message(error.what().to_owned()))?;
+    let (sky, warning) = lights::sky_of(&image, "the sky", [1.0; 3]).map_err(message)?;
+    scene.warnings.extend(warning.map(message));
+    if sky.is_some() {
+        scene.warnings.retain(|warning| !warning.text.starts_with(builder::DARK));
+    } else {
+        scene.warnings.push(message("the sky is black".to_owned()));
+    }
+    let to_light = match is_gltf {
+        true => [[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+        false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    };
+    scene.environment = sky.map(|sky| Environment { to_light, sky });
+    scene.inputs.push(path.to_owned());
+    Ok(scene)
+}
+
+/// Reads a scene, and tells whether it is a glTF file.
+fn load_any(path: &Path) -> Result<(Scene, bool), SceneError> {
     if let Some((name, text)) = BUILTIN.iter().find(|(name, _)| path.as_os_str() == *name) {
-        return Ok(reader::read(text, &format!("{name}.pbrt"), Path::new("."), Origin::Builtin)?);
+        let scene = reader::read(text, &format!("{name}.pbrt"), Path::new("."), Origin::Builtin)?;
+        return Ok((scene, false));
     }
     let shown = path.display().to_string();
     let failed = |error| SceneError::Io { path: shown.clone(), error };
     let bytes = read_unpacked(path).map_err(failed)?;
-    if gltf::is_gltf(path, &bytes) {
-        let mut scene = gltf::read(&bytes, &shown, Some(path.parent().unwrap_or(Path::new(""))))?;
-        scene.inputs.push(path.to_owned());
-        return Ok(scene);
-    }
-    let text = utf8(&bytes, &Arc::from(&*shown))?;
-    let mut scene = reader::read(text, &shown, path.parent().unwrap_or(Path::new("")), Origin::File(path))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let is_gltf = gltf::is_gltf(path, &bytes);
+    let mut scene = if is_gltf {
+        gltf::read(&bytes, &shown, Some(folder))?
+    } else {
+        reader::read(utf8(&bytes, &Arc::from(&*shown))?, &shown, folder, Origin::File(path))?
+    };
     scene.inputs.push(path.to_owned());
-    Ok(scene)
+    Ok((scene, is_gltf))
 }
 
 /// The built-in scene whose name is the fewest letters away from `name`, if it is at most two letters or, as in "quads.pbrt", an

@@ -8,7 +8,7 @@ use etendue_render::scene::{self, Scene};
 use etendue_render::{Sampler, Sensor, Settings, Technique};
 use std::error::Error;
 use std::ffi::{OsStr, OsString};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub(crate) struct ImageOptions {
@@ -41,6 +41,9 @@ pub(crate) struct ImageOptions {
     /// Use this many threads; 0 means one per core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = threads)]
     pub(crate) threads: usize,
+    /// Light the scene by this image of a sky (EXR, HDR, PFM or PNG), instead of its own sky
+    #[arg(long, value_name = "FILE")]
+    environment: Option<PathBuf>,
     /// Refuse a scene with something that direct light on opaque surfaces cannot show, instead of warning what stands for it
     #[arg(long)]
     strict: bool,
@@ -54,7 +57,10 @@ fn sets(text: &str) -> Result<u32, String> {
 impl ImageOptions {
     /// Reads the scene, prints its warnings, and completes the settings.
     pub(crate) fn load(&self) -> Result<(Scene, Settings), Box<dyn Error>> {
-        let scene = scene::load(&self.scene)?;
+        let scene = match &self.environment {
+            Some(sky) => scene::load_with_sky(&self.scene, sky),
+            None => scene::load(&self.scene),
+        }?;
         if let Some(stand_in) = scene.stand_ins.first().filter(|_| self.strict) {
             return Err(format!("--strict: {stand_in}").into());
         }
@@ -110,6 +116,9 @@ impl ImageOptions {
         add("size", self.size.map(|(width, height)| format!("{width}x{height}")));
         add("seed", (self.seed != 0).then(|| self.seed.to_string()));
         add("threads", (self.threads != 0).then(|| self.threads.to_string()));
+        if let Some(sky) = &self.environment {
+            all.extend(["--environment".into(), sky.into()]);
+        }
         if self.strict {
             all.push("--strict".into());
         }

@@ -20,7 +20,7 @@ use clap::{Args, ValueEnum};
 use etendue_render::files;
 use etendue_render::limits::MOST_SAMPLES;
 use etendue_render::options::{name, out, size, threads, whole};
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World, frame, scene};
 use indicatif::{ProgressBar, ProgressStyle};
 use measure::{ChartedScene, Key, Plan, Table, inapplicable};
 pub use outcome::Outcome;
@@ -55,6 +55,9 @@ pub struct Options {
     /// Number of images per measurement, with different seeds [default: 5]
     #[arg(long, value_parser = whole::<u32>(1..=10_000))]
     pub replicates: Option<u32>,
+    /// Light the scenes by this image of a sky (EXR, HDR, PFM or PNG), instead of their own skies
+    #[arg(long, value_name = "FILE")]
+    pub environment: Option<PathBuf>,
     /// Reference image [default: the built-in one of the scene, or else one rendered now]
     #[arg(long, value_name = "EXR")]
     pub reference: Option<PathBuf>,
@@ -146,7 +149,10 @@ struct Prepared {
 
 /// Loads a scene and its reference.
 fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepared, Box<dyn Error>> {
-    let scene = scene::load(path)?;
+    let scene = match &options.environment {
+        Some(sky) => scene::load_with_sky(path, sky),
+        None => scene::load(path),
+    }?;
     let name = &*path.to_string_lossy();
     let mut notes: Vec<String> = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
     let (width, height) = options.size.unwrap_or_else(|| {
@@ -156,7 +162,7 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
     let size = [width, height];
     let world = World::new(&scene)?;
     let is_builtin = scene::builtin().iter().any(|(builtin, _)| *builtin == name);
-    let own = if is_builtin && options.reference_spp.is_none() {
+    let own = if is_builtin && options.reference_spp.is_none() && options.environment.is_none() {
         Reference::builtin(name).and_then(|r| r.shrunk(size).ok())
     } else {
         None
@@ -174,8 +180,9 @@ fn prepare(options: &Options, path: &OsStr, circumstances: &str) -> Result<Prepa
         reference
     };
     let mut bytes = Vec::new();
-    // all settings of the scene as text; the mesh as bytes
-    write!(bytes, "{:?}{:?}{:?}{circumstances}{}", scene.camera, scene.materials, scene.shapes, options.seed)?;
+    // what a built-in scene computes is in no file: its settings as text, its mesh as bytes
+    let files = frame::digest(&scene)?;
+    write!(bytes, "{files}{:?}{:?}{:?}{circumstances}{}", scene.camera, scene.materials, scene.shapes, options.seed)?;
     bytes.extend(scene.triangles.iter().flatten().flatten().flat_map(|x| x.to_le_bytes()));
     bytes.extend(scene.triangle_materials.iter().flat_map(|x| x.to_le_bytes()));
     bytes.extend(size.iter().flat_map(|x| x.to_le_bytes()));

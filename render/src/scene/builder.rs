@@ -7,6 +7,7 @@ use super::message::{Message, Notes};
 use super::params::MOST_RADIANCE;
 use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
+use super::vertices::{Vertex, Vertices};
 use crate::geometry::{Affine, Geometry, Instance, bounds_of};
 use crate::texture::{Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
@@ -77,20 +78,13 @@ struct Object {
     uses: usize,
 }
 
+/// How the warning of a scene without lights begins.
+pub(super) const DARK: &str = "nothing emits light";
+
 /// Objects are copied, unless their copies would have more triangles than this: copies are traced faster, but take memory.
 const COPIED: usize = 1 << 20;
 /// Most triangles of a scene, those of all instances counted.
 const MOST_TRIANGLES: usize = (1 << 31) - 1;
-
-/// A corner of a triangle in world space.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Vertex {
-    pub(super) point: [f64; 3],
-    /// Normal of any length; 0 if there is none.
-    pub(super) normal: [f64; 3],
-    /// Texture coordinates.
-    pub(super) uv: [f64; 2],
-}
 
 /// The corners of a box, moved.
 fn corners(bounds: [[f32; 3]; 2], ctm: &Transform) -> [[f64; 3]; 8] {
@@ -98,8 +92,9 @@ fn corners(bounds: [[f32; 3]; 2], ctm: &Transform) -> [[f64; 3]; 8] {
     std::array::from_fn(|k| ctm.point(corner(k)))
 }
 
-fn round(p: [f64; 3]) -> [f32; 3] {
-    p.map(|x| x as f32)
+#[inline(always)]
+fn round([x, y, z]: [f64; 3]) -> [f32; 3] {
+    [x as f32, y as f32, z as f32]
 }
 
 impl Builder {
@@ -303,7 +298,7 @@ impl Builder {
         let Rest { camera, film, pixel_samples, delta_lights, environment, inputs } = rest;
         let emits = self.shapes.iter().any(|shape| shape.emission.is_some());
         if !emits && delta_lights.is_empty() && environment.is_none() {
-            self.notes.warn(warning("nothing emits light: the image will be black"));
+            self.notes.warn(warning(&format!("{DARK}: the image will be black; --environment FILE adds a sky")));
         }
         let name = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
         Scene {
@@ -354,57 +349,82 @@ impl Builder {
         self.push(surface.material, emission, geometry);
     }
 
+    /// Makes room for the triangles of a mesh.
+    pub(super) fn reserve(&mut self, surface: &ShapeAttributes, count: usize) {
+        if surface.emission.is_none() {
+            self.triangles.reserve(count);
+            self.triangle_materials.reserve(count);
+        }
+    }
+
     /// The number of triangles without area that were left out since the last call.
     pub(super) fn left_out(&mut self) -> usize {
         std::mem::take(&mut self.left_out)
     }
 
     /// Adds a triangle, unless it has no area. Normals tell which side of a light emits.
-    pub(super) fn triangle(&mut self, surface: &ShapeAttributes, [a, b, c]: [Vertex; 3]) {
-        let mut vertices = if surface.flip { [a, c, b] } else { [a, b, c] };
-        let normal_of = |vertices: &[Vertex; 3]| {
-            let [a, b, c] = vertices.map(|vertex| round(vertex.point).map(f64::from));
-            cross(sub(b, a), sub(c, a))
-        };
-        let normal = normal_of(&vertices);
-        if normal == [0.0; 3] {
+    pub(super) fn triangle(&mut self, surface: &ShapeAttributes, corners: [Vertex; 3]) {
+        self.add_triangle(surface, |k| corners[k].point, |k| corners[k].normal, |k| corners[k].uv);
+    }
+
+    /// Adds a triangle of a mesh, like [`Builder::triangle`], with these texture coordinates if the mesh has none.
+    #[inline]
+    pub(super) fn face(
+        &mut self,
+        surface: &ShapeAttributes,
+        mesh: &Vertices,
+        face: [usize; 3],
+        without: &[[f64; 2]; 3],
+    ) {
+        let uv = |k: usize| mesh.uv(face[k], without[k]);
+        self.add_triangle(surface, |k| mesh.points[face[k]], |k| mesh.normal(face[k]), uv);
+    }
+
+    /// Adds a triangle whose corners 0, 1 and 2 have these points, normals and texture coordinates.
+    #[inline(always)]
+    fn add_triangle(
+        &mut self,
+        surface: &ShapeAttributes,
+        point: impl Fn(usize) -> [f64; 3],
+        normal: impl Fn(usize) -> [f64; 3],
+        uv: impl Fn(usize) -> [f64; 2],
+    ) {
+        // spelt out, since the compiler calls the closures of arrays' `map` one by one
+        let [j, k] = if surface.flip { [2, 1] } else { [1, 2] };
+        let corners = [round(point(0)), round(point(j)), round(point(k))];
+        let wide = |[x, y, z]: [f32; 3]| [f64::from(x), f64::from(y), f64::from(z)];
+        let [a, b, c] = [wide(corners[0]), wide(corners[1]), wide(corners[2])];
+        let flat = cross(sub(b, a), sub(c, a));
+        if flat == [0.0; 3] {
             self.left_out += 1;
             return;
         }
-        let given = vertices.iter().fold([0.0; 3], |sum, vertex| add(sum, vertex.normal));
+        let normals = [normal(0), normal(j), normal(k)];
         if surface.emission.is_some() {
-            if dot(normal, given) < 0.0 {
-                vertices.swap(1, 2);
-            }
-        } else if let Some(corners) = self.corners(surface.material, &vertices, normal) {
+            let [a, b, c] = corners;
+            let given = normals.into_iter().fold([0.0; 3], add);
+            let corners = if dot(flat, given) < 0.0 { [a, c, b] } else { corners };
+            return self.add(surface, Geometry::Triangle(corners));
+        }
+        let has_normals = normals.iter().all(|n| *n != [0.0; 3]);
+        let least = FLAT * length(flat);
+        let is_smooth = has_normals && normals.iter().any(|n| dot(*n, flat).abs() < least);
+        if is_smooth || self.varies(surface.material) {
+            // on the side of the first one
+            let side = |n: [f64; 3]| round(if dot(n, normals[0]) < 0.0 { scaled(n, -1.0) } else { n });
+            let smooth = [side(normals[0]), side(normals[1]), side(normals[2])];
+            let single = |[u, v]: [f64; 2]| [u as f32, v as f32];
             self.details.of_triangles.resize(self.triangles.len(), Details::NONE);
             self.details.of_triangles.push(self.details.corners.len() as u32);
-            self.details.corners.push(corners);
+            self.details.corners.push(Corners {
+                normals: if is_smooth { smooth } else { [[0.0; 3]; 3] },
+                uvs: [single(uv(0)), single(uv(j)), single(uv(k))],
+            });
         } else if !self.details.of_triangles.is_empty() {
             self.details.of_triangles.push(Details::NONE);
         }
-        self.add(surface, Geometry::Triangle(vertices.map(|vertex| round(vertex.point))));
-    }
-
-    /// The corners of a triangle, if anything is to be known of them.
-    fn corners(&self, material: u32, vertices: &[Vertex; 3], normal: [f64; 3]) -> Option<Corners> {
-        let has_normals = vertices.iter().all(|vertex| vertex.normal != [0.0; 3]);
-        if !has_normals && !self.varies(material) {
-            return None;
-        }
-        let flat = unit(normal)?;
-        let normals = vertices.map(|vertex| unit(vertex.normal));
-        let smooth = match normals {
-            [Some(a), Some(b), Some(c)] if [a, b, c].iter().any(|n| dot(*n, flat).abs() < FLAT) => {
-                // on the side of the first one
-                Some([a, b, c].map(|n| if dot(n, a) < 0.0 { scaled(n, -1.0) } else { n }))
-            }
-            _ => None,
-        };
-        (smooth.is_some() || self.varies(material)).then(|| Corners {
-            normals: smooth.map_or([[0.0; 3]; 3], |normals| normals.map(round)),
-            uvs: vertices.map(|vertex| vertex.uv.map(|x| x as f32)),
-        })
+        self.triangles.push(corners);
+        self.triangle_materials.push(surface.material);
     }
 
     /// Adds a bilinear patch with corners p00, p10, p01, p11: a parallelogram, or triangles that are near to it.
@@ -451,7 +471,7 @@ impl Builder {
             let uv = mix(&|vertex| [vertex.uv[0], vertex.uv[1], 0.0]);
             Vertex {
                 point: mix(&|vertex| vertex.point),
-                normal: if given == [0.0; 3] { own } else { given },
+                normal: unit(if given == [0.0; 3] { own } else { given }).unwrap_or([0.0; 3]),
                 uv: [uv[0], uv[1]],
             }
         };
@@ -492,14 +512,15 @@ impl ShapeAttributes {
             let shown = if p.iter().all(|x| x.is_finite()) { world } else { p };
             finite.then_some(world).ok_or_else(|| format!("vertex {i} is at {shown:?}, which is not finite in f32"))
         };
-        points.enumerate().map(place).collect()
+        let mut placed = Vec::with_capacity(points.size_hint().0);
+        for point in points.enumerate().map(place) {
+            placed.push(point?);
+        }
+        Ok(placed)
     }
 
     /// Transforms normals to world space, where they are on the side that the transformed surface has; those that are not finite become 0.
-    pub(super) fn place_normals<'a>(
-        &self,
-        normals: impl Iterator<Item = [f64; 3]> + 'a,
-    ) -> impl Iterator<Item = [f64; 3]> + 'a {
+    pub(super) fn place_normals(&self, normals: impl Iterator<Item = [f64; 3]>) -> impl Iterator<Item = [f64; 3]> {
         // the inverse transpose, but for its length: the rows are cross products of the others
         let [a, b, c] = self.ctm.linear;
         let sign = if self.ctm.determinant() < 0.0 { -1.0 } else { 1.0 };

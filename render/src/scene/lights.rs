@@ -363,12 +363,23 @@ fn picture(
     notes: &mut Notes,
 ) -> Result<Option<SkyRadiance>, Message> {
     let image = open(name).map_err(|error| params.error(error.to_string()))?;
+    let (sky, warning) = sky_of(&image, name, scale).map_err(|what| params.error(what))?;
+    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
+    Ok(sky)
+}
+
+/// The sky that an image shows, unless it is black, and a warning if some of it is negative.
+pub(super) fn sky_of(
+    image: &Picture,
+    name: &str,
+    scale: [f64; 3],
+) -> Result<(Option<SkyRadiance>, Option<String>), String> {
     let (width, height) = (image.width, image.height);
-    let wrong = |what: String| params.error(format!("{}: {what}", shortened(name)));
+    let told = |what: String| format!("{}: {what}", shortened(name));
     // pbrt-v4's maps are square, those of others show longitude and latitude
     let map = if width == height { EnvironmentMap::EqualArea } else { EnvironmentMap::Equirectangular };
     if width * height > MOST_TEXELS {
-        return Err(wrong(format!("{width}×{height} texels: at most 2^26 are supported")));
+        return Err(told(format!("{width}×{height} texels: at most 2^26 are supported")));
     }
     let mut negative = 0;
     let mut texels = Vec::with_capacity(image.radiance.len());
@@ -376,7 +387,7 @@ fn picture(
         let rgb: [f32; 3] = std::array::from_fn(|k| (f64::from(texel[k]) * scale[k]) as f32);
         // texels are sampled in proportion to the sum of their channels
         if !(rgb.iter().sum::<f32>().is_finite() && rgb.iter().all(|&x| x <= MOST_RADIANCE)) {
-            return Err(wrong(format!(
+            return Err(told(format!(
                 "texel ({}, {}) is {texel:?}, times {scale:?}: must be finite, and at most {MOST_RADIANCE:e}",
                 i % width,
                 i / width
@@ -385,9 +396,7 @@ fn picture(
         negative += usize::from(rgb.iter().any(|&x| x < 0.0));
         texels.push(rgb.map(|x| x.max(0.0)));
     }
-    if negative > 0 {
-        notes.warn(wrong(format!("negative values in {negative} texel(s) are replaced by 0")));
-    }
+    let warning = (negative > 0).then(|| told(format!("negative values in {negative} texel(s) are replaced by 0")));
     let black = texels.iter().all(|t| *t == [0.0; 3]);
-    Ok((!black).then_some(SkyRadiance::Image { width, map, texels }))
+    Ok(((!black).then_some(SkyRadiance::Image { width, map, texels }), warning))
 }

@@ -9,21 +9,127 @@ use std::io::ErrorKind;
 
 /// The contents of a mesh file.
 #[derive(Debug)]
-pub(super) struct Mesh {
-    /// Vertices in the order of the file; coordinates may be NaN or infinite.
-    pub(super) points: Vec<[f64; 3]>,
-    /// Faces in the order of the file, with unchecked indices.
-    pub(super) faces: Vec<Face>,
-    /// Normals of the vertices, of any length; none if the file has none.
-    pub(super) normals: Vec<[f64; 3]>,
-    /// Texture coordinates of the vertices; none if the file has none.
-    pub(super) uvs: Vec<[f64; 2]>,
+pub(super) struct Mesh<'a> {
+    /// Vertices in the order of the file; numbers may be NaN or infinite.
+    pub(super) vertices: Vertices<'a>,
+    /// Whether the vertices have normals, of any length.
+    pub(super) has_normals: bool,
+    /// Whether the vertices have texture coordinates.
+    pub(super) has_uvs: bool,
+    /// Triangles and quads in the order of the file, with unchecked indices.
+    pub(super) faces: Faces<'a>,
     /// Warnings about ignored parts of the file.
     pub(super) warnings: Vec<String>,
 }
 
-/// A triangle or a quad.
+/// The numbers of vertices: a point, a normal and texture coordinates. Those that the file lacks are NaN.
 #[derive(Debug)]
+pub(super) enum Vertices<'a> {
+    /// Rows of a binary file, each of `size` bytes, and where in them each number is.
+    Plain { bytes: &'a [u8], size: usize, places: [Option<Place>; 8] },
+    /// Numbers that were read one by one.
+    Read(Vec<Vertex>),
+}
+
+/// Where a number is in a row: the bytes before it, and its type.
+type Place = (usize, ScalarType);
+
+impl Vertices<'_> {
+    /// Number of vertices.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Plain { bytes, size, .. } => bytes.len() / size,
+            Self::Read(vertices) => vertices.len(),
+        }
+    }
+
+    /// `N` numbers of each vertex, from number `first` on.
+    pub(super) fn numbers<const N: usize>(&self, first: usize) -> impl ExactSizeIterator<Item = [f64; N]> + '_ {
+        (0..self.len()).map(move |i| match self {
+            Self::Plain { bytes, size, places } => {
+                let row = &bytes[i * size..(i + 1) * size];
+                std::array::from_fn(|k| places[first + k].as_ref().map_or(f64::NAN, |place| number(row, place)))
+            }
+            Self::Read(vertices) => std::array::from_fn(|k| vertices[i].0[first + k]),
+        })
+    }
+}
+
+/// The little-endian number at a place in a row.
+#[inline(always)]
+fn number(row: &[u8], &(start, ref of): &Place) -> f64 {
+    macro_rules! read {
+        ($type:ty) => {
+            f64::from(<$type>::from_le_bytes(row[start..].first_chunk().copied().unwrap_or_default()))
+        };
+    }
+    match of {
+        ScalarType::Float => read!(f32),
+        ScalarType::Double => read!(f64),
+        ScalarType::Char => read!(i8),
+        ScalarType::UChar => read!(u8),
+        ScalarType::Short => read!(i16),
+        ScalarType::UShort => read!(u16),
+        ScalarType::Int => read!(i32),
+        ScalarType::UInt => read!(u32),
+    }
+}
+
+/// Bytes of a number.
+fn size_of(of: &ScalarType) -> usize {
+    match of {
+        ScalarType::Char | ScalarType::UChar => 1,
+        ScalarType::Short | ScalarType::UShort => 2,
+        ScalarType::Int | ScalarType::UInt | ScalarType::Float => 4,
+        ScalarType::Double => 8,
+    }
+}
+
+/// Triangles and quads.
+#[derive(Debug)]
+pub(super) enum Faces<'a> {
+    /// This many lists of 32-bit indices in a binary file, each after its length in a byte.
+    Plain { bytes: &'a [u8], count: usize, is_signed: bool },
+    /// Faces that were read one by one.
+    Read(Vec<Face>),
+}
+
+impl Faces<'_> {
+    /// Number of faces.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Plain { count, .. } => *count,
+            Self::Read(faces) => faces.len(),
+        }
+    }
+
+    /// The faces, those of other than 3 or 4 corners, too.
+    fn all(&self) -> impl Iterator<Item = Face> + '_ {
+        let mut at = 0;
+        (0..self.len()).map(move |i| match self {
+            Self::Plain { bytes, is_signed, .. } => {
+                let corners = usize::from(bytes[at]);
+                let list = &bytes[at + 1..at + 1 + 4 * corners];
+                at += 1 + 4 * corners;
+                let mut indices = [-1; 4];
+                for (to, from) in indices.iter_mut().zip(list.chunks_exact(4)) {
+                    let index = u32::from_le_bytes(from.first_chunk().copied().unwrap_or_default());
+                    *to = if *is_signed { i64::from(index as i32) } else { i64::from(index) };
+                }
+                Face { indices, corners }
+            }
+            Self::Read(faces) => faces[i],
+        })
+    }
+
+    /// The triangles and quads, with their places among all faces.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, Face)> + '_ {
+        self.all().enumerate().filter(|(_, face)| face.is_supported())
+    }
+}
+
+/// A triangle or a quad.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
     /// Vertex indices in cyclic order; a triangle leaves the last one unused.
     pub(super) indices: [i64; 4],
@@ -31,8 +137,9 @@ pub(super) struct Face {
     pub(super) corners: usize,
 }
 
-/// The first N of the numbers of a vertex: a point, a normal and texture coordinates.
-struct Vertex<const N: usize>([f64; N]);
+/// The numbers of a vertex: a point, a normal and texture coordinates.
+#[derive(Debug)]
+pub(super) struct Vertex([f64; 8]);
 
 /// Names of the numbers of a vertex. Texture coordinates have several.
 const NUMBERS: [&[&str]; 8] = [
@@ -48,13 +155,13 @@ const NUMBERS: [&[&str]; 8] = [
 
 struct Other;
 
-impl<const N: usize> PropertyAccess for Vertex<N> {
+impl PropertyAccess for Vertex {
     fn new() -> Self {
-        Vertex([f64::NAN; N])
+        Vertex([f64::NAN; 8])
     }
 
     fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        let Some(axis) = NUMBERS[..N].iter().position(|names| names.contains(&name)) else {
+        let Some(axis) = NUMBERS.iter().position(|names| names.contains(&name)) else {
             return PropertyAccessResult::Ignored;
         };
         self.0[axis] = match value {
@@ -101,6 +208,10 @@ impl PropertyAccess for Other {
 }
 
 impl Face {
+    fn is_supported(&self) -> bool {
+        (3..=4).contains(&self.corners)
+    }
+
     fn fill<T: Copy + Into<i64>>(&mut self, list: &[T]) {
         self.corners = list.len();
         self.indices.iter_mut().zip(list).for_each(|(to, &from)| *to = from.into());
@@ -112,36 +223,27 @@ fn is_index_list(name: &str) -> bool {
 }
 
 /// Reads a file that messages call `name`. An error starts with `name:line:` or `name: byte n:`.
-pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
+pub(super) fn read<'a>(name: &str, bytes: &'a [u8]) -> Result<Mesh<'a>, String> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Other>::new().read_header(&mut reader);
     let header = header.map_err(|error| describe_header(name, bytes, &error))?;
     check_header(&header, bytes, reader.get_ref().len()).map_err(|why| format!("{name}: header: {why}"))?;
 
-    let mut mesh =
-        Mesh { points: Vec::new(), faces: Vec::new(), normals: Vec::new(), uvs: Vec::new(), warnings: Vec::new() };
+    let (none, no_faces) = (Vertices::Read(Vec::new()), Faces::Read(Vec::new()));
+    let mut mesh = Mesh { vertices: none, has_normals: false, has_uvs: false, faces: no_faces, warnings: Vec::new() };
     for (element, def) in &header.elements {
         match element.as_str() {
             "vertex" => {
                 let has = |k: usize| NUMBERS[k].iter().any(|name| def.properties.contains_key(*name));
-                let [has_normals, has_uvs] = [has(3) && has(4) && has(5), has(6) && has(7)];
-                if !has_normals && !has_uvs {
-                    let vertices = vertices::<3>(name, bytes, &mut reader, def, &header)?;
-                    mesh.points = vertices.into_iter().map(|vertex| vertex.0).collect();
-                    continue;
-                }
-                let vertices = vertices::<8>(name, bytes, &mut reader, def, &header)?;
-                mesh.points = vertices.iter().map(|Vertex([x, y, z, ..])| [*x, *y, *z]).collect();
-                if has_normals {
-                    mesh.normals = vertices.iter().map(|Vertex([_, _, _, x, y, z, ..])| [*x, *y, *z]).collect();
-                }
-                if has_uvs {
-                    mesh.uvs = vertices.iter().map(|Vertex([.., u, v])| [*u, *v]).collect();
+                (mesh.has_normals, mesh.has_uvs) = (has(3) && has(4) && has(5), has(6) && has(7));
+                match plain_vertices(def, &header, reader.get_ref()) {
+                    Some((vertices, rest)) => (mesh.vertices, reader) = (vertices, Reader::new(rest)),
+                    None => mesh.vertices = Vertices::Read(read_element(name, bytes, &mut reader, def, &header)?),
                 }
             }
             "face" => match plain_faces(def, &header, reader.get_ref()) {
                 Some((faces, rest)) => (mesh.faces, reader) = (faces, Reader::new(rest)),
-                None => mesh.faces = read_element::<Face>(name, bytes, &mut reader, def, &header)?,
+                None => mesh.faces = Faces::Read(read_element(name, bytes, &mut reader, def, &header)?),
             },
             _ => {
                 read_element::<Other>(name, bytes, &mut reader, def, &header)?;
@@ -149,10 +251,9 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
             }
         }
     }
-    if let Some(i) = mesh.faces.iter().position(|face| !(3..=4).contains(&face.corners)) {
-        let (corners, before) = (mesh.faces[i].corners, mesh.faces.len());
-        mesh.faces.retain(|face| (3..=4).contains(&face.corners));
-        let count = before - mesh.faces.len();
+    let others = || mesh.faces.all().enumerate().filter(|(_, face)| !face.is_supported());
+    if let Some((i, Face { corners, .. })) = others().next() {
+        let count = others().count();
         mesh.warnings.push(format!(
             "{name}: face {i} has {corners} corners: {count} face(s) of other than 3 or 4 are left out, as in pbrt"
         ));
@@ -164,71 +265,39 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-/// The vertices of a binary file whose numbers are all in single precision, as most files have them, and the bytes after them. The reader
-/// for any layout takes several times as long.
-fn plain_vertices<'a, const N: usize>(
-    def: &ElementDef,
-    header: &Header,
-    bytes: &'a [u8],
-) -> Option<(Vec<Vertex<N>>, &'a [u8])> {
-    let is_plain = def.properties.values().all(|of| of.data_type == PropertyType::Scalar(ScalarType::Float));
-    if header.encoding != Encoding::BinaryLittleEndian || !is_plain {
+/// The vertices of a binary file that have no lists, as most files have them, and the bytes after them. The reader for any layout takes
+/// several times as long.
+fn plain_vertices<'a>(def: &ElementDef, header: &Header, bytes: &'a [u8]) -> Option<(Vertices<'a>, &'a [u8])> {
+    if header.encoding != Encoding::BinaryLittleEndian {
         return None;
     }
-    let names: Vec<&str> = def.properties.keys().map(String::as_str).collect();
-    // a later name of the same number counts
-    let place = |k: usize| names.iter().rposition(|name| NUMBERS[k].contains(name));
-    let places: [Option<usize>; N] = std::array::from_fn(place);
-    let size = 4 * names.len();
-    let (own, rest) = bytes.split_at_checked(def.count.checked_mul(size)?)?;
-    let number = |row: &[u8], k: usize| {
-        let bytes = row[4 * k..].first_chunk().copied().unwrap_or_default();
-        f64::from(f32::from_le_bytes(bytes))
-    };
-    let vertex = |row: &[u8]| Vertex(places.map(|place| place.map_or(f64::NAN, |k| number(row, k))));
-    Some((own.chunks_exact(size).map(vertex).collect(), rest))
+    let (mut size, mut places) = (0, [const { None }; 8]);
+    for (name, property) in &def.properties {
+        let PropertyType::Scalar(of) = &property.data_type else { return None };
+        // a later name of the same number counts
+        if let Some(k) = NUMBERS.iter().position(|names| names.contains(&name.as_str())) {
+            places[k] = Some((size, of.clone()));
+        }
+        size += size_of(of);
+    }
+    let (bytes, rest) = bytes.split_at_checked(def.count.checked_mul(size)?)?;
+    Some((Vertices::Plain { bytes, size, places }, rest))
 }
 
 /// The faces of a binary file that consist of one list of 32-bit indices each, and the bytes after them.
-fn plain_faces<'a>(def: &ElementDef, header: &Header, mut bytes: &'a [u8]) -> Option<(Vec<Face>, &'a [u8])> {
+fn plain_faces<'a>(def: &ElementDef, header: &Header, bytes: &'a [u8]) -> Option<(Faces<'a>, &'a [u8])> {
     let mut types = def.properties.values().map(|of| &of.data_type);
     let (Some(PropertyType::List(counts, item)), None) = (types.next(), types.next()) else { return None };
     let is_plain = *counts == ScalarType::UChar && matches!(item, ScalarType::Int | ScalarType::UInt);
     if header.encoding != Encoding::BinaryLittleEndian || !is_plain {
         return None;
     }
-    let is_signed = *item == ScalarType::Int;
-    let mut faces = Vec::with_capacity(def.count);
+    let mut end = 0_usize;
     for _ in 0..def.count {
-        let (&count, rest) = bytes.split_first()?;
-        let corners = usize::from(count);
-        let (list, rest) = rest.split_at_checked(4 * corners)?;
-        let mut face = Face { indices: [-1; 4], corners };
-        for (to, from) in face.indices.iter_mut().zip(list.chunks_exact(4)) {
-            let index = u32::from_le_bytes(from.first_chunk().copied().unwrap_or_default());
-            *to = if is_signed { i64::from(index as i32) } else { i64::from(index) };
-        }
-        faces.push(face);
-        bytes = rest;
+        end += 1 + 4 * usize::from(*bytes.get(end)?);
     }
-    Some((faces, bytes))
-}
-
-/// Reads vertices of any layout.
-fn vertices<const N: usize>(
-    name: &str,
-    bytes: &[u8],
-    reader: &mut Reader<&[u8]>,
-    def: &ElementDef,
-    header: &Header,
-) -> Result<Vec<Vertex<N>>, String> {
-    match plain_vertices(def, header, reader.get_ref()) {
-        Some((vertices, rest)) => {
-            *reader = Reader::new(rest);
-            Ok(vertices)
-        }
-        None => read_element(name, bytes, reader, def, header),
-    }
+    let (bytes, rest) = bytes.split_at_checked(end)?;
+    Some((Faces::Plain { bytes, count: def.count, is_signed: *item == ScalarType::Int }, rest))
 }
 
 fn read_element<E: PropertyAccess>(

@@ -1,6 +1,6 @@
 //! Reads shapes: transforms them to world space in f64, and gives them to the builder.
 
-use super::builder::{Builder, ShapeAttributes, Vertex};
+use super::builder::{Builder, ShapeAttributes};
 use super::generated;
 use super::lights::Emission;
 use super::message::Message;
@@ -8,6 +8,7 @@ use super::params::{Params, Resolve, shown};
 use super::ply;
 use super::subdivision;
 use super::transform::Transform;
+use super::vertices::{Vertex, Vertices};
 use crate::files::read_unpacked;
 use crate::geometry::Geometry;
 use std::path::Path;
@@ -196,7 +197,7 @@ fn indexed<const N: usize>(
         out.notes.warn_once("S", || params.error("\"S\": ignored: no material is anisotropic"));
     }
     let count = points.len();
-    let vertices = Vertices::new(surface, points, normals, uvs);
+    let vertices = Vertices::new(points, placed_normals(surface, normals.into_iter()).collect(), uvs);
     let Some(indices) = params.numbers("indices", "integer", N)? else {
         if count != N {
             return Err(params.error(format!("\"indices\" is missing: it is optional only for {N} points")));
@@ -210,31 +211,14 @@ fn indexed<const N: usize>(
     Ok(Mesh { vertices, faces: groups.collect() })
 }
 
-/// Vertices in world space. Normals and texture coordinates are as many as points, or none.
-struct Vertices {
-    points: Vec<[f64; 3]>,
-    normals: Vec<[f64; 3]>,
-    uvs: Vec<[f64; 2]>,
-}
-
-impl Vertices {
-    /// Vertices at world points, with normals and texture coordinates as the file has them.
-    fn new(surface: &ShapeAttributes, points: Vec<[f64; 3]>, normals: Vec<[f64; 3]>, uvs: Vec<[f64; 2]>) -> Self {
-        // pbrt's ReverseOrientation also reverses normals; what a mirroring transform does to them is no part of it
-        let reversed = surface.flip != (surface.ctm.determinant() < 0.0);
-        let normals = surface.place_normals(normals.into_iter());
-        let normals = normals.map(|n| if reversed { n.map(|x| -x) } else { n }).collect();
-        Self { points, normals, uvs }
-    }
-    /// The corners of a face, with these texture coordinates if the mesh has none.
-    fn corners<const N: usize>(&self, face: [usize; N], without: &[[f64; 2]; N]) -> [Vertex; N] {
-        std::array::from_fn(|k| {
-            let i = face[k];
-            let uv = self.uvs.get(i).copied().filter(|uv| uv.iter().all(|x| x.is_finite()));
-            let uv = uv.unwrap_or(if self.uvs.is_empty() { without[k] } else { [0.0; 2] });
-            Vertex { point: self.points[i], normal: self.normals.get(i).copied().unwrap_or([0.0; 3]), uv }
-        })
-    }
+/// Normals in world space, on the side that the file means.
+fn placed_normals(
+    surface: &ShapeAttributes,
+    normals: impl Iterator<Item = [f64; 3]>,
+) -> impl Iterator<Item = [f64; 3]> {
+    // pbrt's ReverseOrientation also reverses normals; what a mirroring transform does to them is no part of it
+    let reversed = surface.flip != (surface.ctm.determinant() < 0.0);
+    surface.place_normals(normals).map(move |n| if reversed { n.map(|x| -x) } else { n })
 }
 
 /// The texture coordinates of a face's corners where a mesh has none.
@@ -247,7 +231,7 @@ const PATCH_UVS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]
 fn triangle_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Result<(), Message> {
     let mesh = indexed::<3>(out, surface, params)?;
     for face in mesh.faces {
-        out.triangle(surface, mesh.vertices.corners(face, &TRIANGLE_UVS));
+        out.face(surface, &mesh.vertices, face, &TRIANGLE_UVS);
     }
     note_left_out(out, params);
     Ok(())
@@ -286,24 +270,28 @@ fn ply_mesh(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params, p
     let shown = path.display().to_string();
     let bytes = read_unpacked(path).map_err(|error| params.error(format!("cannot read {shown:?}: {error}")))?;
     let mesh = ply::read(&shown, &bytes).map_err(|why| params.error(why))?;
-    drop(bytes);
     mesh.warnings.iter().for_each(|text| out.notes.warn(params.error(text)));
 
     let in_file = |why: String| params.error(format!("{shown}: {why}"));
-    let points = surface.place(mesh.points.iter().copied()).map_err(in_file)?;
+    let points = surface.place(mesh.vertices.numbers::<3>(0)).map_err(in_file)?;
     let count = points.len();
-    let vertices = Vertices::new(surface, points, mesh.normals, mesh.uvs);
-    for (i, face) in mesh.faces.iter().enumerate() {
+    let normals = match mesh.has_normals {
+        true => placed_normals(surface, mesh.vertices.numbers::<3>(3)).collect(),
+        false => Vec::new(),
+    };
+    let uvs = if mesh.has_uvs { mesh.vertices.numbers::<2>(6).collect() } else { Vec::new() };
+    let vertices = Vertices::new(points, normals, uvs);
+    out.reserve(surface, mesh.faces.len());
+    for (i, face) in mesh.faces.iter() {
         let index = |k: usize| {
-            let outside = || {
-                in_file(format!("face {i}: index {} is out of range: there are {} vertices", face.indices[k], count))
-            };
-            let index = usize::try_from(face.indices[k]).map_err(|_| outside())?;
-            if index < count { Ok(index) } else { Err(outside()) }
+            let index = usize::try_from(face.indices[k]).ok().filter(|&index| index < count);
+            index.ok_or_else(|| {
+                in_file(format!("face {i}: index {} is out of range: there are {count} vertices", face.indices[k]))
+            })
         };
         let [a, b, c] = [index(0)?, index(1)?, index(2)?];
         if face.corners == 3 {
-            out.triangle(surface, vertices.corners([a, b, c], &TRIANGLE_UVS));
+            out.face(surface, &vertices, [a, b, c], &TRIANGLE_UVS);
         } else {
             out.quad(surface, vertices.corners([a, b, c, index(3)?], &QUAD_UVS));
         }

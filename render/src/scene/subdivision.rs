@@ -1,12 +1,12 @@
 //! Loop's subdivision surfaces.
 
-use super::transform::{add, cross, scaled, sub};
+use super::transform::{add, cross, scaled, sub, unit};
 use std::collections::HashMap;
 
 /// Most triangles that a mesh may have in the end.
 const MOST: usize = 1 << 26;
 
-/// Points, faces, and normals at the points on the side of the faces' order.
+/// Points, faces, and normals at the points on the side of the faces' order, of length 1 or 0.
 pub(super) type Smooth = (Vec<[f64; 3]>, Vec<[usize; 3]>, Vec<[f64; 3]>);
 
 /// What surrounds the vertices of a mesh.
@@ -128,6 +128,7 @@ pub(super) fn smooth(mut points: Vec<[f64; 3]>, mut faces: Vec<[usize; 3]>, leve
         let normal = cross(sub(b, a), sub(c, a));
         face.iter().for_each(|&i| normals[i] = add(normals[i], normal));
     }
+    normals.iter_mut().for_each(|n| *n = unit(*n).unwrap_or([0.0; 3]));
     Ok((limit, faces, normals))
 }
 

@@ -108,7 +108,8 @@ impl Transform {
 
     /// The image of a vector.
     pub(super) fn vector(&self, v: [f64; 3]) -> [f64; 3] {
-        self.linear.map(|row| dot(row, v))
+        let [x, y, z] = self.linear;
+        [dot(x, v), dot(y, v), dot(z, v)]
     }
 
     /// The determinant of the linear part: negative if the map swaps handedness.

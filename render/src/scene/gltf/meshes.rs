@@ -1,8 +1,9 @@
 //! Adds the triangles of meshes.
 
-use super::super::builder::{Builder, ShapeAttributes, Vertex};
+use super::super::builder::{Builder, ShapeAttributes};
 use super::super::message::Message;
 use super::super::transform::Transform;
+use super::super::vertices::{Vertex, Vertices};
 use super::materials::Materials;
 use super::source::Source;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
@@ -104,17 +105,15 @@ impl Adder<'_, '_> {
         let points = attributes.place(positions.iter().map(wide)).map_err(|what| self.error(&what))?;
         drop(positions);
         let count = points.len();
-        let mut vertices: Vec<Vertex> =
-            points.into_iter().map(|point| Vertex { point, normal: [0.0; 3], uv: [0.0; 2] }).collect();
-        if let Some(normals) = attribute(Semantic::Normals) {
-            let normals = self.source.vectors::<3>(normals, &self.item)?;
-            self.same_number("NORMAL", normals.len(), count)?;
-            let normals = attributes.place_normals(normals.iter().map(wide));
-            vertices.iter_mut().zip(normals).for_each(|(vertex, normal)| vertex.normal = normal);
+        let mut normals = Vec::new();
+        if let Some(accessor) = attribute(Semantic::Normals) {
+            let given = self.source.vectors::<3>(accessor, &self.item)?;
+            self.same_number("NORMAL", given.len(), count)?;
+            normals.extend(attributes.place_normals(given.iter().map(wide)));
         }
-        if let Some(uvs) = self.coordinates(primitive, surface.set, count)? {
-            vertices.iter_mut().zip(uvs).for_each(|(vertex, uv)| vertex.uv = uv.map(f64::from));
-        }
+        let uvs = self.coordinates(primitive, surface.set, count)?;
+        let uvs = uvs.iter().flatten().map(|uv| uv.map(f64::from)).collect();
+        let vertices = Vertices::new(points, normals, uvs);
         let glow = surface.glow.as_ref();
         let glowing = glow.and_then(|glow| glow.texture.as_ref()).map(|(_, set)| *set);
         let glowing = self.coordinates(primitive, glowing, count)?;
@@ -142,6 +141,7 @@ impl Adder<'_, '_> {
             return Err(self.error(&format!("more than 2^28 triangles, with those that node {node} adds")));
         }
 
+        self.out.reserve(&attributes, triangles);
         let mut add = |triangle: usize| {
             let places = match mode {
                 Mode::TriangleStrip => [triangle, triangle + 1 + triangle % 2, triangle + 2 - triangle % 2],
@@ -156,14 +156,16 @@ impl Adder<'_, '_> {
                 let uvs = glowing.as_ref().map_or([[0.0; 2]; 3], |uvs| places.map(|place| uvs[place]));
                 glow.over(uvs)
             });
-            let corners = places.map(|place| vertices[place]);
             match emission {
                 // the order of the vertices tells which side emits
-                Some(_) => self.out.triangle(
-                    &ShapeAttributes { emission, ..attributes.clone() },
-                    corners.map(|vertex| Vertex { normal: [0.0; 3], ..vertex }),
-                ),
-                None => self.out.triangle(&attributes, corners),
+                Some(_) => {
+                    let corners = vertices.corners(places, &[[0.0; 2]; 3]);
+                    self.out.triangle(
+                        &ShapeAttributes { emission, ..attributes.clone() },
+                        corners.map(|vertex| Vertex { normal: [0.0; 3], ..vertex }),
+                    );
+                }
+                None => self.out.face(&attributes, &vertices, places, &[[0.0; 2]; 3]),
             }
         };
         (0..triangles).for_each(&mut add);

@@ -9,7 +9,6 @@ use crate::geometry::Geometry;
 use base64::Engine;
 use serde_json::{Value, json};
 use std::path::PathBuf;
-use std::time::Instant;
 
 /// A file that is put together from parts. All its numbers are in one buffer.
 #[derive(Clone)]
@@ -174,7 +173,7 @@ fn text_and_binary_files_are_the_same() {
         warnings,
         [
             "a.gltf: no perspective camera: one that sees all surfaces stands for it",
-            "a.gltf: nothing emits light: the image will be black"
+            "a.gltf: nothing emits light: the image will be black; --environment FILE adds a sky"
         ]
     );
 }
@@ -429,38 +428,4 @@ fn extras_may_be_anything() {
         item["name"] = json!("a name");
     }
     assert_eq!(asset.read().triangles, [TRIANGLE]);
-}
-
-#[test]
-#[ignore = "a measurement: run it alone, with --release --nocapture"]
-fn triangles_per_second() {
-    let side = 2000_u32;
-    for has_normals in [false, true] {
-        let mut asset = Asset::new();
-        let height = |i: u32, j: u32| ((i * 7 + j * 13) % 11) as f32 * 0.01;
-        let all = || (0..side).flat_map(|i| (0..side).map(move |j| (i, j)));
-        let points: Vec<_> = all().map(|(i, j)| [i as f32, j as f32, height(i, j)]).collect();
-        let positions = asset.floats(&points);
-        let corners = all().filter(|&(i, j)| i + 1 < side && j + 1 < side).flat_map(|(i, j)| {
-            let at = i * side + j;
-            [at, at + side, at + side + 1, at, at + side + 1, at + 1]
-        });
-        let bytes: Vec<u8> = corners.flat_map(u32::to_le_bytes).collect();
-        let count = bytes.len() / 4;
-        let indices = asset.accessor("SCALAR", 5125, count, &bytes);
-        let mut primitive = json!({"attributes": {"POSITION": positions}, "indices": indices});
-        if has_normals {
-            let normals: Vec<_> = all().map(|(i, j)| [height(j, i), height(i, j), 1.0]).collect();
-            primitive["attributes"]["NORMAL"] = json!(asset.floats(&normals));
-        }
-        asset.shown(primitive);
-        let bytes = asset.binary();
-        for _ in 0..3 {
-            let start = Instant::now();
-            let scene = parse_gltf(&bytes, "a.glb").unwrap();
-            let seconds = start.elapsed().as_secs_f64();
-            let rate = scene.triangles.len() as f64 / seconds / 1e6;
-            println!("normals {has_normals}: {rate:.1} million triangles per second, {} in all", scene.triangles.len());
-        }
-    }
 }

@@ -100,33 +100,58 @@ fn all_encodings_give_the_same_triangles() {
     assert!(warnings(&scene)[0].contains("element \"edge\" ignored"));
 }
 
-/// Binary files in single precision are decoded here, others by the reader for any layout: both find the same, whatever the order.
+/// Most binary files are decoded here, others by the reader for any layout: both find the same, whatever the order and the types.
 #[test]
 fn plain_layouts_are_read_as_others() {
-    let names = ["nz", "v", "x", "weight", "ny", "z", "nx", "u", "y"];
+    let columns = [
+        ("nz", "float"),
+        ("v", "char"),
+        ("x", "double"),
+        ("weight", "uchar"),
+        ("ny", "short"),
+        ("z", "float"),
+        ("nx", "ushort"),
+        ("u", "int"),
+        ("y", "uint"),
+    ];
     let read = |format: &str, list: &str, big: bool| {
-        let properties = names.map(|name| format!("property float {name}\n")).concat();
+        let properties = columns.map(|(name, kind)| format!("property {kind} {name}\n")).concat();
         let faces = format!("element face 2\nproperty list {list} vertex_indices\nend_header\n");
         let mut bytes = format!("ply\nformat {format} 1.0\nelement vertex 5\n{properties}{faces}").into_bytes();
-        let word = |bits: u32| if big { bits.to_be_bytes() } else { bits.to_le_bytes() };
-        for k in 0..5_u32 {
+        let mut push = |mut number: Vec<u8>| {
+            if big {
+                number.reverse();
+            }
+            bytes.extend(number);
+        };
+        for (k, (j, (_, kind))) in (0..5_u32).flat_map(|k| columns.iter().enumerate().map(move |at| (k, at))) {
             // all numbers differ
-            let numbers = names.iter().zip(0..).map(|(_, j)| word(((9 * k + j) as f32 * 0.37).sin().to_bits()));
-            bytes.extend(numbers.flatten());
+            let x = f64::from(9 * k + j as u32).sin() * 100.0;
+            push(match *kind {
+                "char" => (x as i8).to_le_bytes().into(),
+                "uchar" => vec![x.abs() as u8],
+                "short" => (x as i16 * 300).to_le_bytes().into(),
+                "ushort" => (x.abs() as u16 * 600).to_le_bytes().into(),
+                "int" => (x as i32 * 1_000_000).to_le_bytes().into(),
+                "uint" => (x.abs() as u32 * 30_000_000).to_le_bytes().into(),
+                "double" => x.to_le_bytes().into(),
+                _ => (x as f32).to_le_bytes().into(),
+            });
         }
         for face in FACES {
-            bytes.push(face.len() as u8);
-            face.iter().for_each(|&i| bytes.extend(word(i)));
+            push(vec![face.len() as u8]);
+            face.iter().for_each(|&i| push(i.to_le_bytes().into()));
         }
-        ply::read("m.ply", &bytes).unwrap()
+        let mesh = ply::read("m.ply", &bytes).unwrap();
+        assert!(mesh.has_normals && mesh.has_uvs && mesh.warnings.is_empty());
+        let faces: Vec<_> = mesh.faces.iter().map(|(place, face)| (place, face.corners, face.indices)).collect();
+        (mesh.vertices.numbers::<8>(0).collect::<Vec<_>>(), mesh.vertices.numbers::<2>(6).collect::<Vec<_>>(), faces)
     };
     let wanted = read("binary_big_endian", "uchar int", true);
-    assert!(wanted.normals.len() == 5 && wanted.uvs.len() == 5 && wanted.faces[0].corners == 4);
+    assert!(wanted.0.len() == 5 && wanted.2.len() == 2 && wanted.2[0].1 == 4);
+    assert!(wanted.0.as_flattened().iter().all(|x| x.is_finite()) && wanted.1[3] == wanted.0[3][6..]);
     for list in ["uchar int", "uchar uint"] {
-        let found = read("binary_little_endian", list, false);
-        assert_eq!((&found.points, &found.normals, &found.uvs), (&wanted.points, &wanted.normals, &wanted.uvs));
-        let faces = |mesh: &ply::Mesh| mesh.faces.iter().map(|face| (face.corners, face.indices)).collect::<Vec<_>>();
-        assert_eq!(faces(&found), faces(&wanted));
+        assert_eq!(read("binary_little_endian", list, false), wanted);
     }
 }
 

@@ -1,7 +1,9 @@
 //! Tests of cameras and lights.
 
-use super::super::super::{CameraSettings, DeltaLight};
+use super::super::super::{CameraSettings, DeltaLight, load_with_sky};
 use super::*;
+use crate::sky::Sky;
+use std::path::Path;
 
 /// The position of a point in an image, from the top left, by the formula of [`CameraSettings`].
 fn project(camera: &CameraSettings, size: [u32; 2], point: [f64; 3]) -> [f64; 2] {
@@ -152,4 +154,43 @@ fn lights_that_are_dark_or_wrong() {
     for (described, wanted) in cases {
         assert_eq!(of(described).error(), format!("a.glb: {wanted}"));
     }
+}
+
+/// The right half of the image of a sky is where +z is, with +y up; the warning of a scene without lights goes.
+#[test]
+fn a_sky_is_added() {
+    let folder = Folder::new("sky");
+    let asset = Asset::of_triangle();
+    let scene = folder.write("a.gltf", &asset.text());
+    // a PFM image has its lowest row first
+    let texels: [f32; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+    let mut image = b"Pf\n4 2\n-1.0\n".to_vec();
+    image.extend(texels.iter().flat_map(|x| x.to_le_bytes()));
+    let sky = folder.write("sky.pfm", &image);
+    let loaded = load_with_sky(&scene, &sky).unwrap();
+    assert!(loaded.warnings.iter().all(|warning| !warning.text.contains("emits")), "{:?}", loaded.warnings);
+    assert!(loaded.inputs.contains(&sky) && loaded.inputs.contains(&scene));
+    let seen = Sky::new(loaded.environment.as_ref().unwrap());
+    let at = |direction: [f32; 3]| seen.radiance(direction.into()).x.to_array()[0];
+    // the columns begin at −x, and go on over −z, +x and +z
+    let columns = [[-1.0, -0.5], [1.0, -0.5], [1.0, 0.5], [-1.0, 0.5]];
+    let found = [-1.0, 1.0].map(|y| columns.map(|[x, z]| at([x, y, z])));
+    assert_eq!(found.as_flattened(), texels);
+
+    // in a pbrt file +z is up
+    let plain = folder.write("a.pbrt", b"Camera \"perspective\" WorldBegin LightSource \"infinite\"");
+    let loaded = load_with_sky(&plain, &sky).unwrap();
+    assert!(loaded.warnings.is_empty());
+    let seen = Sky::new(loaded.environment.as_ref().unwrap());
+    let up = seen.radiance([0.1, 0.1, 1.0].into()).x.to_array()[0];
+    assert_eq!(up, texels[4]);
+
+    let failed = |path: &Path| load_with_sky(&plain, path).unwrap_err().to_string();
+    let missing = folder.0.join("none.exr");
+    assert!(failed(&missing).starts_with(&format!("{}: cannot read", missing.display())), "{}", failed(&missing));
+    let text = failed(&plain);
+    assert!(text.starts_with(&format!("{}: not a valid", plain.display())), "{text}");
+    image[12..16].copy_from_slice(&f32::NAN.to_le_bytes());
+    let text = failed(&folder.write("nan.pfm", &image));
+    assert!(text.contains("texel (0, 1)") && text.contains("NaN"), "{text}");
 }
