@@ -20,6 +20,12 @@ use std::ops::Range;
 /// The squared error of a light with contribution c falls about as c² n^−1.5. For a given Σn the sum is least with n ∝ c^0.8.
 const POWER: f32 = 0.8;
 
+/// So many lights may take all samples of a block.
+const FREE: usize = 8;
+/// The same where certificates are asked for: most of these lights are known, and their samples would be wasted. Twelve bunnies under eight
+/// lights, 64 samples in four sets: an error of 1.6 % with 4, 3.5 % with 8.
+const FREE_IF_ASKED: usize = 4;
+
 /// Renders tiles, and keeps the scratch memory for it.
 pub(super) struct TileRenderer<'a> {
     scene: &'a PreparedScene,
@@ -365,7 +371,9 @@ impl<'a> TileRenderer<'a> {
     fn allocates(&self, size: u32) -> bool {
         let Some(lights) = self.scene.lights.few() else { return false };
         // each light takes at least one sample, worth it or not: for many lights, these are limited to half of the samples
-        let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= 8 || size as usize >= 2 * lights);
+        let is_asked = self.paths.analytic.as_ref().is_some_and(|analytic| !analytic.is_hopeless());
+        let free = if is_asked { FREE_IF_ASKED } else { FREE };
+        let fits = size.is_power_of_two() && size.is_multiple_of(8) && (lights <= free || size as usize >= 2 * lights);
         fits && !self.settings.technique.finds_lights() && self.source.allocates()
     }
 

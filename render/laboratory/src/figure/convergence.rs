@@ -30,6 +30,7 @@ impl Studio<'_> {
         reference_spp: Option<u32>,
     ) -> Result<Outcome, Box<dyn Error>> {
         let options = chart::Options {
+            environment: None,
             scenes: scenes.iter().map(|s| (*s).into()).collect(),
             output: self.output.join(folder),
             techniques,

@@ -1,0 +1,297 @@
+"""Compares the renderer with Mitsuba 3 on meshes with textures under ten lights and more, at equal time on one core.
+
+    pip install mitsuba numpy OpenEXR              # and LLVM, which DRJIT_LIBLLVM_PATH names
+    cargo build --release
+    python3 benches/peers/beside_mitsuba.py target/release/etendue FOLDER [--bunny bunny.ply] [--only pots]
+
+writes scenes for both programs to FOLDER, renders a reference of each by Mitsuba, and prints two tables: how far the means of the two
+programs are apart, in standard errors, and the error and time of each. Seconds are those of rendering alone, medians of 5; errors are
+root mean squares over the pixels relative to the mean of the reference, less the error of the reference itself. The last column is the
+mean squared error of Mitsuba's best sampler in the time that ours took, from its own row by error² ∝ 1/time, over ours.
+"""
+import argparse, json, math, os, statistics, subprocess, sys, time
+
+arguments = argparse.ArgumentParser()
+arguments.add_argument('binary')
+arguments.add_argument('folder')
+arguments.add_argument('--bunny', help='a PLY mesh of a bunny, 0.15 units high: adds the scene of twelve of them')
+arguments.add_argument('--only', help='render only this scene')
+arguments.add_argument('--size', type=int, default=256)
+arguments.add_argument('--spp', default='16,64,256')
+arguments.add_argument('--reference', type=int, default=4096, help='samples per pixel of the reference')
+arguments.add_argument('--core', default='1')
+OPTIONS = arguments.parse_args()
+os.sched_setaffinity(0, {int(OPTIONS.core)})
+SIZE = OPTIONS.size
+
+import numpy as np
+import OpenEXR  # Mitsuba's own reader waits for ever on one thread
+import drjit as dr
+import mitsuba as mi
+
+mi.set_variant('llvm_ad_rgb')
+mi.set_log_level(mi.LogLevel.Error)
+dr.set_thread_count(1)
+T = mi.ScalarTransform4f
+
+
+def write_mesh(path, points, faces, normals=None, uvs=None):
+    columns, names = [points], 'xyz'
+    names = ['x', 'y', 'z']
+    if normals is not None:
+        columns.append(normals)
+        names += ['nx', 'ny', 'nz']
+    if uvs is not None:
+        columns.append(uvs)
+        names += ['u', 'v']
+    rows = np.concatenate(columns, axis=1).astype('<f4')
+    lists = np.empty(len(faces), np.dtype([('n', 'u1'), ('i', '<i4', 3)]))
+    lists['n'], lists['i'] = 3, faces
+    header = ['ply', 'format binary_little_endian 1.0', f'element vertex {len(rows)}']
+    header += [f'property float {name}' for name in names]
+    header += [f'element face {len(faces)}', 'property list uchar int vertex_indices', 'end_header']
+    with open(path, 'wb') as file:
+        file.write(('\n'.join(header) + '\n').encode())
+        file.write(rows.tobytes())
+        file.write(lists.tobytes())
+
+
+def grid(columns, rows):
+    """(s, t) of the vertices of a grid over the unit square, and its triangles."""
+    s, t = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
+    at = np.arange((columns + 1) * (rows + 1)).reshape(rows + 1, columns + 1)
+    a, b, c, d = at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]
+    faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
+    return s.ravel(), t.ravel(), faces
+
+
+def pot(kind):
+    """A pot turned about the axis of z, with normals and texture coordinates."""
+    s, t, faces = grid(128, 64)
+    radius = 0.35 + 0.12 * np.sin(2 * math.pi * (t * (1 + kind % 3) + 0.3 * kind)) * (1 - 0.5 * t)
+    slope = np.gradient(radius.reshape(65, 129), axis=0).ravel() * 64
+    angle = 2 * math.pi * s
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), t], 1)
+    normals = np.stack([np.cos(angle), np.sin(angle), -slope], 1)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    return points, faces, normals, np.stack([3 * s, t], 1)
+
+
+def dunes():
+    s, t, faces = grid(400, 400)
+    x, y = 12 * s - 6, 12 * t - 6
+    z = 0.35 * np.sin(1.3 * x + 0.7 * np.sin(y)) + 0.2 * np.cos(2.1 * y + 0.5 * x) + 0.03 * np.sin(11 * x) * np.sin(9 * y)
+    return np.stack([x, y, z], 1), faces, None, np.stack([6 * s, 6 * t], 1)
+
+
+def texture(path, seed):
+    """Rings and stripes of a soft kind, with no texel as bright as white."""
+    x, y = np.meshgrid(np.arange(512) / 512, np.arange(512) / 512)
+    rings = np.sin(2 * math.pi * (5 * x + 0.3 * np.sin(2 * math.pi * (y + 0.1 * seed)))) * 0.5 + 0.5
+    spots = ((np.floor(8 * x) + np.floor(8 * y)) % 2)
+    rgb = np.stack([0.35 + 0.5 * rings, 0.3 + 0.4 * rings * (0.6 + 0.4 * spots), 0.25 + 0.3 * spots], -1)
+    mi.Bitmap((rgb * 255).astype(np.uint8)).write(path)
+
+
+class Scene:
+    """A scene for both programs. Lights are parallelograms that emit downwards, or spheres."""
+
+    def __init__(self, name, camera, target, fov):
+        self.name, self.count = name, 0
+        self.pbrt = ['Scale -1 1 1', f'LookAt {camera[0]} {camera[1]} {camera[2]}  {target[0]} {target[1]} {target[2]}  0 0 1',
+                     f'Camera "perspective" "float fov" {fov}',
+                     f'Film "rgb" "integer xresolution" {SIZE} "integer yresolution" {SIZE}', 'WorldBegin']
+        film = dict(type='hdrfilm', width=SIZE, height=SIZE, rfilter=dict(type='box'), pixel_format='rgb')
+        sensor = dict(type='perspective', fov=fov, film=film,
+                      to_world=T().look_at(origin=camera, target=target, up=[0, 0, 1]))
+        self.mitsuba = dict(type='scene', sensor=sensor, integrator=dict(type='path', max_depth=2))
+
+    def add(self, what):
+        self.count += 1
+        self.mitsuba[f'shape{self.count}'] = what
+
+    def mesh(self, file, triangles, at, scale, turn, picture=None, colour=(0.6, 0.6, 0.6)):
+        if picture:
+            self.pbrt.append(f'Texture "{picture}" "spectrum" "imagemap" "string filename" "{picture}"')
+            material = f'Material "diffuse" "texture reflectance" "{picture}"'
+            # pbrt's images begin at the top, where v is 1
+            reflectance = dict(type='bitmap', filename=os.path.join(OPTIONS.folder, picture), to_uv=mi.ScalarTransform3f().scale([1, -1]))
+        else:
+            material = f'Material "diffuse" "rgb reflectance" [{colour[0]} {colour[1]} {colour[2]}]'
+            reflectance = dict(type='rgb', value=list(colour))
+        self.pbrt.append(f'AttributeBegin {material} Translate {at[0]} {at[1]} {at[2]} Rotate {turn} 0 0 1 '
+                         f'Scale {scale} {scale} {scale} Shape "plymesh" "string filename" "{file}" AttributeEnd')
+        move = T().translate(list(at)).rotate([0, 0, 1], turn).scale(scale)
+        bsdf = dict(type='twosided', bsdf=dict(type='diffuse', reflectance=reflectance))
+        self.add(dict(type='ply', filename=os.path.join(OPTIONS.folder, file), to_world=move, bsdf=bsdf))
+        self.triangles = getattr(self, 'triangles', 0) + triangles
+
+    def lamp(self, corner, u, v, radiance):
+        p = [corner, np.add(corner, u), np.add(corner, v), np.add(np.add(corner, u), v)]
+        numbers = ' '.join(f'{x:.9g}' for point in p for x in point)
+        emit = f'AreaLightSource "diffuse" "rgb L" [{radiance[0]} {radiance[1]} {radiance[2]}]'
+        self.pbrt.append(f'AttributeBegin Material "diffuse" "rgb reflectance" [0 0 0] {emit} '
+                         f'Shape "bilinearmesh" "point3 P" [{numbers}] AttributeEnd')
+        matrix = np.eye(4)
+        u, v = np.asarray(u, float), np.asarray(v, float)
+        matrix[:3, 0], matrix[:3, 1], matrix[:3, 3] = u / 2, v / 2, np.asarray(corner) + u / 2 + v / 2
+        normal = np.cross(u, v)
+        matrix[:3, 2] = normal / np.linalg.norm(normal)
+        self.add(dict(type='rectangle', to_world=T(matrix), bsdf=dict(type='diffuse', reflectance=dict(type='rgb', value=0.0)),
+                      emitter=dict(type='area', radiance=dict(type='rgb', value=list(radiance)))))
+
+    def ball(self, center, radius, radiance):
+        emit = f'AreaLightSource "diffuse" "rgb L" [{radiance[0]} {radiance[1]} {radiance[2]}]'
+        self.pbrt.append(f'AttributeBegin Material "diffuse" "rgb reflectance" [0 0 0] {emit} Translate {center[0]} {center[1]} '
+                         f'{center[2]} Shape "sphere" "float radius" {radius} AttributeEnd')
+        self.add(dict(type='sphere', center=list(center), radius=radius,
+                      bsdf=dict(type='diffuse', reflectance=dict(type='rgb', value=0.0)),
+                      emitter=dict(type='area', radiance=dict(type='rgb', value=list(radiance)))))
+
+    def write(self):
+        path = os.path.join(OPTIONS.folder, self.name + '.pbrt')
+        with open(path, 'w') as file:
+            file.write('\n'.join(self.pbrt) + '\n')
+        return path
+
+
+def floor(scene, half, picture=None):
+    points = np.array([[-half, -half, 0], [half, -half, 0], [half, half, 0], [-half, half, 0]], float)
+    uvs = np.array([[0, 0], [half, 0], [half, half], [0, half]], float)
+    write_mesh(os.path.join(OPTIONS.folder, f'floor{half}.ply'), points, [[0, 1, 2], [0, 2, 3]], None, uvs)
+    scene.mesh(f'floor{half}.ply', 2, (0, 0, 0), 1, 0, picture, (0.7, 0.7, 0.7))
+
+
+def lamps(scene, rows, columns, height, size, strength):
+    for i in range(rows):
+        for j in range(columns):
+            at = (3.0 * (i - (rows - 1) / 2), 2.2 * (j - (columns - 1) / 2), height + 0.3 * ((i + 2 * j) % 3))
+            grow = size * (0.5 + 0.25 * ((3 * i + j) % 4))
+            hue = [strength * (1 + 0.5 * math.cos(2.1 * k + i + j)) / grow ** 2 for k in range(3)]
+            # the second edge points backwards, so that the normal points down
+            scene.lamp(at, (grow, 0, 0), (0, -grow, 0.2 * grow), hue)
+
+
+def scenes():
+    for k in range(2):
+        texture(os.path.join(OPTIONS.folder, f'rings{k}.png'), k)
+    if OPTIONS.bunny:
+        mesh = mi.load_dict(dict(type='ply', filename=OPTIONS.bunny))
+        points = np.array(mesh.vertex_positions_buffer()).reshape(-1, 3)[:, [0, 2, 1]] * [1, -1, 1]
+        faces = np.array(mesh.faces_buffer()).reshape(-1, 3)
+        low, high = points.min(0), points.max(0)
+        points = (points - [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]]) / (high[2] - low[2])
+        normals = np.zeros_like(points)
+        for corner in range(3):
+            a, b, c = (points[faces[:, k]] for k in range(3))
+            np.add.at(normals, faces[:, corner], np.cross(b - a, c - a))
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+        write_mesh(os.path.join(OPTIONS.folder, 'bunny.ply'), points, faces, normals)
+        scene = Scene('bunnies', (0, -7, 4), (0, 0, 0.4), 42)
+        floor(scene, 20)
+        for k in range(12):
+            scene.mesh('bunny.ply', len(faces), (1.5 * (k % 4) - 2.25, 1.5 * (k // 4) - 1.5, 0), 1, 37 * k)
+        lamps(scene, 2, 5, 3.0, 0.8, 2.0)
+        yield scene
+    scene = Scene('pots', (0, -7, 4), (0, 0, 0.4), 42)
+    floor(scene, 20, 'rings0.png')
+    for k in range(4):
+        points, faces, normals, uvs = pot(k)
+        write_mesh(os.path.join(OPTIONS.folder, f'pot{k}.ply'), points, faces, normals, uvs)
+    for k in range(20):
+        at = (1.2 * (k % 5) - 2.4, 1.1 * (k // 5) - 1.6, 0)
+        scene.mesh(f'pot{k % 4}.ply', len(faces), at, 0.9, 50 * k, 'rings1.png' if k % 3 else None)
+    lamps(scene, 2, 5, 3.0, 0.8, 2.0)
+    yield scene
+    scene = Scene('dunes', (0, -8, 4), (0, 0, 0), 45)
+    points, faces, normals, uvs = dunes()
+    write_mesh(os.path.join(OPTIONS.folder, 'dunes.ply'), points, faces, normals, uvs)
+    scene.mesh('dunes.ply', len(faces), (0, 0, 0), 1, 0, 'rings0.png')
+    lamps(scene, 2, 5, 2.0, 0.7, 1.0)
+    for k in range(4):
+        scene.ball((2.4 * k - 3.6, 1.0 - (k % 2) * 3, 0.9), 0.12, (30, 25, 20))
+    yield scene
+
+
+def mitsuba_image(scene, spp, sampler, integrator, seed):
+    """An image and the seconds that it took."""
+    made = mi.load_dict(dict(type=sampler, sample_count=spp))
+    sensor = scene.sensors()[0]
+    sensor.set_sampler(made) if hasattr(sensor, 'set_sampler') else None
+    start = time.perf_counter()
+    image = mi.render(scene, sensor=sensor, integrator=integrator, spp=spp, seed=seed)
+    dr.eval(image)
+    dr.sync_thread()
+    return np.array(image), time.perf_counter() - start
+
+
+def moments(images):
+    """Mean of images of independent seeds, and the variance of that mean."""
+    images = np.stack(images)
+    return images.mean(0), images.var(0, ddof=1) / len(images)
+
+
+def ours(path, spp, seed, repeat, technique='auto', sampler=None):
+    out = os.path.join(OPTIONS.folder, 'ours.exr')
+    command = [OPTIONS.binary, 'render', path, '-o', out, '--size', f'{SIZE}x{SIZE}', '--spp', str(spp), '--threads', '1',
+               '--seed', str(seed), '--repeat', str(repeat), '--technique', technique, '--json']
+    command += ['--sampler', sampler] if sampler else []
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(done.stderr)
+    said = json.loads(done.stdout)
+    channels = OpenEXR.File(out, separate_channels=True).channels()
+    image = np.stack([channels[name].pixels for name in 'RGB'], -1).astype(np.float64)
+    return image, said
+
+
+def main():
+    os.makedirs(OPTIONS.folder, exist_ok=True)
+    table = []
+    print('| scene | triangles | lights | samples of the references | greatest abs z of the 3 means | pixels of abs z > 4 |')
+    print('|---|---|---|---|---|---|')
+    for scene in scenes():
+        if OPTIONS.only and scene.name != OPTIONS.only:
+            continue
+        path = scene.write()
+        loaded = {s: mi.load_dict({**scene.mitsuba, 'sensor': {**scene.mitsuba['sensor'], 'sampler': dict(type=s)}})
+                  for s in ['independent', 'multijitter', 'ldsampler', 'orthogonal']}
+        integrators = {'path, depth 2': mi.load_dict(dict(type='path', max_depth=2)),
+                       'direct, lights only': mi.load_dict(dict(type='direct', emitter_samples=1, bsdf_samples=0))}
+        parts, each = 16, max(OPTIONS.reference // 16, 1)
+        direct = integrators['direct, lights only']
+        reference, variance = moments([mitsuba_image(loaded['independent'], each, 'independent', direct, 100 + k)[0]
+                                       for k in range(parts)])
+        # another technique with independent samples, for which the standard error is plain
+        own, own_variance = moments([ours(path, each, 200 + k, 1, 'solid-angle', 'independent')[0] for k in range(parts)])
+        spread = np.sqrt(variance.mean((0, 1)) + own_variance.mean((0, 1))) / SIZE
+        z = (own.mean((0, 1)) - reference.mean((0, 1))) / spread
+        pixels = (own - reference) / np.sqrt(variance + own_variance + 1e-20)
+        many = np.mean(np.abs(pixels) > 4)
+        lights = sum(1 for shape in scene.mitsuba.values() if isinstance(shape, dict) and 'emitter' in shape)
+        print(f'| {scene.name} | {scene.triangles:,} | {lights} | {parts * each} each | {np.abs(z).max():.2f} | {many:.5f} |', flush=True)
+        noise, level = variance.mean(), reference.mean()
+        mse = lambda image: max(float(((image - reference) ** 2).mean() - noise), 1e-30)
+        for spp in map(int, OPTIONS.spp.split(',')):
+            image, said = ours(path, spp, 1, 5)
+            error, seconds = [mse(image)], statistics.median(said['seconds']['render'])
+            error += [mse(ours(path, spp, seed, 1)[0]) for seed in [2, 3]]
+            error, best = float(np.mean(error)), None
+            for sampler in ['multijitter', 'ldsampler', 'orthogonal', 'independent']:
+                for name, integrator in integrators.items():
+                    mitsuba_image(loaded[sampler], spp, sampler, integrator, 1)
+                    runs = [mitsuba_image(loaded[sampler], spp, sampler, integrator, 2 + k) for k in range(5)]
+                    error_of = float(np.mean([mse(image) for image, _ in runs]))
+                    took = statistics.median(t for _, t in runs)
+                    if best is None or error_of * took < best[0] * best[1]:
+                        best = (error_of, took, f'{sampler}, {name}')
+            table.append((scene.name, spp, seconds, error, best, level))
+    print('\n| scene | samples | ours: seconds | error | Mitsuba: seconds | error | by | efficiency, ours over Mitsuba\'s |')
+    print('|---|---|---|---|---|---|---|---|')
+    for name, spp, seconds, error, (other, took, by), level in table:
+        percent = lambda mse: f'{100 * math.sqrt(mse) / level:.3f} %'
+        ratio = other * took / (error * seconds)
+        print(f'| {name} | {spp} | {seconds:.2f} | {percent(error)} | {took:.2f} | {percent(other)} | {by} | {ratio:.1f} |')
+
+
+main()
