@@ -16,7 +16,7 @@ use super::shapes;
 use super::textures::Textures;
 use super::transform::Transform;
 use super::transform_directives;
-use super::view;
+use super::view::{self, Window};
 use crate::image;
 use crate::texture::{Mask, Texture};
 use std::cell::RefCell;
@@ -55,7 +55,7 @@ struct Reader<'a> {
     main_dir: &'a Path,
     is_builtin: bool,
     camera: Option<CameraSettings>,
-    film: Option<FilmSettings>,
+    film: Option<(FilmSettings, Option<Window>)>,
     pixel_samples: Option<u32>,
     delta_lights: Vec<DeltaLight>,
     environment: Option<Environment>,
@@ -115,15 +115,20 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         return Err(place.message("this AttributeBegin or TransformBegin is never closed"));
     }
     reader.named.keep_promises(&mut reader.out)?;
-    let Some(camera) = reader.camera else {
+    let Some(mut camera) = reader.camera else {
         return Err(end.message("the scene has no Camera"));
     };
     if !reader.in_world {
         return Err(end.message("the scene has no WorldBegin"));
     }
+    let whole = FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None };
+    let (mut film, window) = reader.film.unwrap_or((whole, None));
+    if let Some(window) = window {
+        window.apply(&mut camera, &mut film, &mut reader.out.notes);
+    }
     let rest = Rest {
         camera,
-        film: reader.film.unwrap_or(FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None }),
+        film,
         pixel_samples: reader.pixel_samples.unwrap_or(16),
         delta_lights: reader.delta_lights,
         environment: reader.environment,
@@ -337,7 +342,7 @@ impl Reader<'_> {
     fn with_params(&mut self, word: &str, kind: &str, mut params: Params, dir: &Path) -> Result<(), Message> {
         match word {
             "Camera" => self.camera(kind, &mut params)?,
-            "Film" => self.film = Some(view::film(kind, &mut params, &mut self.out.notes)?),
+            "Film" => self.film = Some(view::film(kind, &mut params)?),
             "Sampler" => self.pixel_samples = Some(view::samples(kind, &mut params, &mut self.out.notes)?),
             "PixelFilter" => {
                 let mut half = |name| Ok(params.float(name)?.is_none_or(|radius| radius == 0.5));

@@ -3,7 +3,8 @@
 use super::description::{CameraSettings, FilmSettings, Lens};
 use super::message::{Message, Notes};
 use super::params::{Params, shown};
-use super::transform::{Transform, length, scaled};
+use super::transform::{Transform, add, length, scaled};
+use crate::area::Area;
 use crate::limits::{MOST_SAMPLES, is_size};
 
 /// Reads a `Camera`, which looks along +z of camera space, and its transform to world space. `ctm` is the transform from world space.
@@ -99,14 +100,9 @@ pub(super) fn camera(
 }
 
 /// Reads a `Film`.
-pub(super) fn film(kind: &str, params: &mut Params, notes: &mut Notes) -> Result<FilmSettings, Message> {
+pub(super) fn film(kind: &str, params: &mut Params) -> Result<(FilmSettings, Option<Window>), Message> {
     if !["rgb", "image", "gbuffer", "spectral"].contains(&kind) {
         return Err(params.error("not supported, only \"rgb\", and \"gbuffer\" and \"spectral\" as if they were that"));
-    }
-    for name in ["cropwindow", "pixelbounds"] {
-        if params.given(name) {
-            notes.warn(params.error(format!("{name:?} ignored: the whole image is rendered")));
-        }
     }
     let width = params.integer("xresolution")?.unwrap_or(1280);
     let height = params.integer("yresolution")?.unwrap_or(720);
@@ -121,7 +117,69 @@ pub(super) fn film(kind: &str, params: &mut Params, notes: &mut Notes) -> Result
         return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
     }
     let filename = params.text("filename")?;
-    Ok(FilmSettings { width: width as u32, height: height as u32, diagonal, filename })
+    let full = [width as u32, height as u32];
+    let Some([x0, y0, x1, y1]) = window(params, full)?.filter(|area| *area != [0, 0, full[0], full[1]]) else {
+        return Ok((FilmSettings { width: full[0], height: full[1], diagonal, filename }, None));
+    };
+    let lens = params.error("only a part of the image is asked for, but the camera has a lens: the whole is rendered");
+    let [width, height] = [x1 - x0, y1 - y0];
+    let part = f64::from(width).hypot(height.into()) / f64::from(full[0]).hypot(full[1].into());
+    let film = FilmSettings { width, height, diagonal: diagonal * part, filename };
+    Ok((film, Some(Window { full, diagonal, area: [x0, y0, x1, y1], lens })))
+}
+
+/// The pixels [x0, y0, x1, y1) of an image that are rendered, if the file gives them.
+fn window(params: &mut Params, [width, height]: [u32; 2]) -> Result<Option<Area>, Message> {
+    let crop = params.numbers("cropwindow", "float", 4)?;
+    let pixels = params.numbers("pixelbounds", "integer", 4)?;
+    let (name, [x0, x1, y0, y1]) = match (crop.as_deref(), pixels.as_deref()) {
+        (Some(&[x0, x1, y0, y1]), _) => {
+            let at = |a: f64, side: u32| (a.clamp(0.0, 1.0) * f64::from(side)).ceil();
+            let [x, y] =
+                [[x0.min(x1), x0.max(x1)].map(|a| at(a, width)), [y0.min(y1), y0.max(y1)].map(|a| at(a, height))];
+            ("cropwindow", [x[0], x[1], y[0], y[1]])
+        }
+        (None, Some(&[x0, x1, y0, y1])) => ("pixelbounds", [x0, x1, y0, y1]),
+        (None, None) => return Ok(None),
+        _ => return Err(params.error("\"cropwindow\" and \"pixelbounds\" are four numbers each")),
+    };
+    let [x0, x1] = [x0, x1].map(|x| x.clamp(0.0, width.into()) as u32);
+    let [y0, y1] = [y0, y1].map(|y| y.clamp(0.0, height.into()) as u32);
+    if x0 >= x1 || y0 >= y1 {
+        return Err(params.error(format!("{name:?}: no pixel of {width} × {height} is in it")));
+    }
+    Ok(Some([x0, y0, x1, y1]))
+}
+
+/// The part of an image that is rendered.
+pub(super) struct Window {
+    /// Size of the whole image in pixels, and its diagonal in millimetres.
+    full: [u32; 2],
+    diagonal: f64,
+    area: Area,
+    /// The warning for cameras with a lens.
+    lens: Message,
+}
+
+impl Window {
+    /// Makes a pinhole camera see only this part of its image. For a camera with a lens, the film becomes a whole one.
+    pub(super) fn apply(self, camera: &mut CameraSettings, film: &mut FilmSettings, notes: &mut Notes) {
+        let [width, height] = self.full;
+        if camera.lens.is_some() {
+            (film.width, film.height, film.diagonal) = (width, height, self.diagonal);
+            return notes.warn(self.lens);
+        }
+        let [x0, y0, x1, y1] = self.area.map(f64::from);
+        let [kx, ky] = camera.tan_half(width, height);
+        let [w, h] = self.full.map(f64::from);
+        // towards the middle of the part, which is beside the camera's axis
+        let [across, up] = [kx * ((x0 + x1) / w - 1.0), ky * (1.0 - (y0 + y1) / h)];
+        let middle = add(camera.forward, add(scaled(camera.right, across), scaled(camera.up, up)));
+        let far = length(middle);
+        camera.forward = scaled(middle, 1.0 / far);
+        let shorter = (kx * (x1 - x0) / w).min(ky * (y1 - y0) / h);
+        camera.fov = 2.0 * libm::atan(shorter / far).to_degrees();
+    }
 }
 
 /// Reads the number of samples per pixel of a `Sampler`.
