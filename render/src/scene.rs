@@ -24,6 +24,7 @@
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `goniometric`, `projection`, lights with a picture | a point, spot or plain light of the same mean; portals are ignored |
 //! | media, motion | ignored; stills at the start |
+//! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
 //!
 //! | in glTF files | becomes |
@@ -32,7 +33,7 @@
 //! | emissive textures | the mean over each triangle |
 //! | masks, blending | holes, as for `alpha` |
 //! | transmission | opaque |
-//! | meshes of several nodes | instances, or copies in small scenes and of lights |
+//! | meshes of several nodes, `EXT_mesh_gpu_instancing` | instances, or copies in small scenes and of lights |
 //! | normal and occlusion maps, vertex colours, skins, morphs, animations | ignored |
 //! | points and lines | left out |
 

@@ -26,7 +26,8 @@ use std::collections::HashMap;
 use std::path::Path;
 
 /// Extensions that are supported, or change nothing when they are required.
-const SUPPORTED: [&str; 8] = [
+const SUPPORTED: [&str; 9] = [
+    nodes::INSTANCING,
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
@@ -62,35 +63,43 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     }
     let placed = nodes::walk(&source)?;
     let mut uses: HashMap<usize, usize> = HashMap::new();
-    for mesh in placed.iter().filter_map(|placed| root.nodes[placed.index].mesh) {
-        *uses.entry(mesh.value()).or_default() += 1;
+    let mut copies = HashMap::new();
+    for placed in &placed {
+        if let Some(mesh) = root.nodes[placed.index].mesh {
+            let own = nodes::copies(&source, placed.index)?;
+            *uses.entry(mesh.value()).or_default() += own.len();
+            copies.insert(placed.index, own);
+        }
     }
-    // meshes that several nodes use, and that emit nothing
+    // meshes that are placed several times, and that emit nothing
     let mut objects: HashMap<usize, u32> = HashMap::new();
     for nodes::Placed { index, transform } in placed {
         let node = &root.nodes[index];
         if node.skin.is_some() {
             out.notes.stand_in("skins", || source.message(format!("node {index}: its skin is ignored")));
         }
-        if let Some(mesh) = node.mesh {
+        for copy in copies.get(&index).into_iter().flatten() {
+            let Some(mesh) = node.mesh else { continue };
+            let transform = transform.after(copy);
             let is_shared = uses[&mesh.value()] > 1 && !meshes::glows(&source, &mut materials, &mut out, mesh, index)?;
-            if !is_shared {
+            // no instance is flat
+            if !is_shared || transform.determinant() == 0.0 {
                 meshes::add(&source, &mut materials, &mut out, mesh, index, &transform)?;
-            } else {
-                let object = match objects.get(&mesh.value()) {
-                    Some(&object) => object,
-                    None => {
-                        let before = out.begin_object();
-                        let added = meshes::add(&source, &mut materials, &mut out, mesh, index, &Transform::IDENTITY);
-                        let object = out.end_object(before);
-                        added?;
-                        objects.insert(mesh.value(), object);
-                        object
-                    }
-                };
-                let added = out.instance(object, &transform);
-                added.map_err(|why| source.message(format!("node {index}: {why}")))?;
+                continue;
             }
+            let object = match objects.get(&mesh.value()) {
+                Some(&object) => object,
+                None => {
+                    let before = out.begin_object();
+                    let added = meshes::add(&source, &mut materials, &mut out, mesh, index, &Transform::IDENTITY);
+                    let object = out.end_object(before);
+                    added?;
+                    objects.insert(mesh.value(), object);
+                    object
+                }
+            };
+            let added = out.instance(object, &transform);
+            added.map_err(|why| source.message(format!("node {index}: {why}")))?;
         }
         if let Some(described) = node.camera
             && camera.is_none()

@@ -3,10 +3,14 @@
 use super::super::message::Message;
 use super::super::transform::Transform;
 use super::source::Source;
+use gltf_json::Index;
 use gltf_json::scene::Node;
 
 /// Greatest depth of the node tree.
 const DEEPEST: usize = 1024;
+
+/// The extension of nodes that place a mesh several times.
+pub(super) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
 
 /// A node of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +75,39 @@ pub(super) fn walk(source: &Source<'_>) -> Result<Vec<Placed>, Message> {
     Ok(placed)
 }
 
+/// Where a node places its mesh, relative to itself: several times, if it says so by `EXT_mesh_gpu_instancing`.
+pub(super) fn copies(source: &Source<'_>, index: usize) -> Result<Vec<Transform>, Message> {
+    let extensions = source.root.nodes[index].extensions.as_ref();
+    let Some(described) = extensions.and_then(|all| all.others.get(INSTANCING)) else {
+        return Ok(vec![Transform::IDENTITY]);
+    };
+    let item = format!("node {index}, {INSTANCING}");
+    let accessor = |name: &str| match described.get("attributes").and_then(|all| all.get(name)) {
+        None => Ok(None),
+        Some(value) => {
+            let number = value.as_u64().and_then(|number| u32::try_from(number).ok());
+            let wrong = || source.message(format!("{item}: {name:?} is no index of an accessor: {value}"));
+            Ok(Some(Index::new(number.ok_or_else(wrong)?)))
+        }
+    };
+    let shifts = accessor("TRANSLATION")?.map(|at| source.vectors::<3>(at, &item)).transpose()?;
+    let rotations = accessor("ROTATION")?.map(|at| source.vectors::<4>(at, &item)).transpose()?;
+    let scales = accessor("SCALE")?.map(|at| source.vectors::<3>(at, &item)).transpose()?;
+    let counts = [shifts.as_ref().map(Vec::len), rotations.as_ref().map(Vec::len), scales.as_ref().map(Vec::len)];
+    let count = counts.into_iter().flatten().max().unwrap_or(0);
+    if counts.into_iter().flatten().any(|other| other != count) {
+        return Err(source.message(format!("{item}: its attributes are of different lengths")));
+    }
+    let copy = |k: usize| {
+        let [shift, scale] = [(&shifts, 0.0), (&scales, 1.0)].map(|(all, x)| all.as_ref().map_or([x; 3], |all| all[k]));
+        let rotation = rotations.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |all| all[k]);
+        let copy = moved(shift, rotation, scale).map_err(|what| source.message(format!("{item}, {k}: {what}")))?;
+        let finite = copy.is_finite().then_some(copy);
+        finite.ok_or_else(|| source.message(format!("{item}, {k}: its transform is not finite")))
+    };
+    (0..count).map(copy).collect()
+}
+
 /// A node and those above it.
 fn ancestors(parents: &[Option<usize>], from: usize) -> impl Iterator<Item = usize> + '_ {
     std::iter::successors(Some(from), |&node| parents[node].filter(|&above| above != node))
@@ -85,8 +122,14 @@ fn local(node: &Node) -> Result<Transform, String> {
             format!("its matrix is not affine: the last row is {last:?}")
         });
     }
-    let shift = node.translation.unwrap_or([0.0; 3]).map(f64::from);
-    let [x, y, z, w] = node.rotation.unwrap_or_default().0.map(f64::from);
+    let rotation = node.rotation.unwrap_or_default().0;
+    moved(node.translation.unwrap_or([0.0; 3]), rotation, node.scale.unwrap_or([1.0; 3]))
+}
+
+/// A scale, then a rotation by a quaternion, then a translation.
+fn moved(translation: [f32; 3], rotation: [f32; 4], scale: [f32; 3]) -> Result<Transform, String> {
+    let shift = translation.map(f64::from);
+    let [x, y, z, w] = rotation.map(f64::from);
     let square = x * x + y * y + z * z + w * w;
     if !(square.is_finite() && square > 0.0) {
         return Err(format!("its rotation {:?} is no quaternion", [x, y, z, w]));
@@ -98,7 +141,6 @@ fn local(node: &Node) -> Result<Transform, String> {
         [s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w)],
         [s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y)],
     ];
-    let scale = node.scale.unwrap_or([1.0; 3]).map(f64::from);
-    let linear = rows.map(|row| std::array::from_fn(|j| row[j] * scale[j]));
+    let linear = rows.map(|row| std::array::from_fn(|j| row[j] * f64::from(scale[j])));
     Ok(Transform { linear, shift })
 }
