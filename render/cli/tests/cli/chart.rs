@@ -200,6 +200,7 @@ fn an_interrupted_run_leaves_a_report() {
 
 fn options(output: &Path, scene: &str) -> Options {
     Options {
+        environment: None,
         scenes: vec![scene.into()],
         output: output.to_owned(),
         techniques: vec![Technique::Area, Technique::SolidAngle],

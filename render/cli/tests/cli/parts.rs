@@ -50,6 +50,27 @@ fn a_plan_makes_the_image_of_a_single_process() {
     }
 }
 
+/// The tasks of a plan are lit by the same sky; one that cannot be read stops all before anything is written.
+#[test]
+fn a_plan_keeps_the_sky() {
+    let folder = Folder::new();
+    let mut sky = b"PF\n2 1\n-1.0\n".to_vec();
+    sky.extend([1.0_f32, 0.5, 0.25, 0.0, 0.0, 0.125].iter().flat_map(|x| x.to_le_bytes()));
+    fs::write(folder.path("a sky.pfm"), &sky).unwrap();
+    let image = ["quads", "--size", "32x16", "--spp", "8", "--environment", "a sky.pfm"];
+    folder.succeed(&[&["render"], &image[..], &["-o", "lit.exr"]].concat());
+    folder.succeed(&["render", "quads", "--size", "32x16", "--spp", "8", "-o", "plain.exr"]);
+    let text = folder.succeed(&[&["plan"], &image[..], &["--tasks", "2", "-o", "whole.exr"]].concat());
+    let shell = Command::new("sh").current_dir(&folder.0).arg("-ec").arg(&text).output().unwrap();
+    assert!(shell.status.success() && shell.stderr.is_empty(), "{text}\n{shell:?}");
+    let read = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert!(read("lit.exr") == read("whole.exr") && read("lit.exr") != read("plain.exr"));
+    let names = folder.names();
+    let error = folder.fail(&["render", "quads", "--environment", "none.exr", "-o", "new.exr"]);
+    assert!(error.contains("none.exr: cannot read"), "{error}");
+    assert_eq!(folder.names(), names);
+}
+
 #[test]
 fn parts_that_are_killed_repeated_or_damaged_lose_nothing() {
     let folder = Folder::new();
