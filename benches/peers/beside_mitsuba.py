@@ -213,7 +213,7 @@ def scenes():
         floor(scene, 20)
         for k in range(12):
             scene.mesh('bunny.ply', len(faces), (1.5 * (k % 4) - 2.25, 1.5 * (k // 4) - 1.5, 0), 1, 37 * k)
-        lamps(scene, 2, 5, 3.0, 0.8, 2.0)
+        lamps(scene, 2, 5, 3.0, 0.8, 40.0)
         yield scene
     scene = Scene('pots', (0, -7, 4), (0, 0, 0.4), 42)
     floor(scene, 20, 'rings0.png')
@@ -223,7 +223,7 @@ def scenes():
     for k in range(20):
         at = (1.2 * (k % 5) - 2.4, 1.1 * (k // 5) - 1.6, 0)
         scene.mesh(f'pot{k % 4}.ply', len(faces), at, 0.9, 50 * k, 'rings1.png' if k % 3 else None)
-    lamps(scene, 2, 5, 3.0, 0.8, 2.0)
+    lamps(scene, 2, 5, 3.0, 0.8, 40.0)
     yield scene
     scene = Scene('dunes', (0, -8, 4), (0, 0, 0), 45)
     points, faces, normals, uvs = dunes()
@@ -257,7 +257,7 @@ def grove():
     # few, since Mitsuba compiles code for each; but too many triangles to be copied
     places = [(6 * a - 3, 4 * b - 2, 0.6 + 0.6 * c, 360 * d) for a, b, c, d in random.random((60, 4))]
     scene.grove('bush.ply', 'leaf.png', len(faces), places)
-    lamps(scene, 2, 5, 3.0, 0.8, 2.0)
+    lamps(scene, 2, 5, 3.0, 0.8, 40.0)
     return scene
 
 
