@@ -52,6 +52,7 @@ mod named_materials;
 mod params;
 mod ply;
 mod reader;
+mod shape_attributes;
 mod shapes;
 mod spectrum;
 mod subdivision;

@@ -22,8 +22,8 @@ const POWER: f32 = 0.8;
 
 /// So many lights may take all samples of a block.
 const FREE: usize = 8;
-/// The same where certificates are asked for: most of these lights are known, and their samples would be wasted. Twelve bunnies under eight
-/// lights, 64 samples in four sets: an error of 1.6 % with 4, 3.5 % with 8.
+/// The same where certificates are asked for: most of these lights are known, and their samples would be wasted. The test
+/// `known_lights_take_no_samples_from_others` prints 1.0 times the variance with 4, and 32 times with 8.
 const FREE_IF_ASKED: usize = 4;
 
 /// Renders tiles, and keeps the scratch memory for it.

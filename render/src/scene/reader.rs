@@ -1,6 +1,6 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
-use super::builder::{Builder, Rest, ShapeAttributes};
+use super::builder::{Builder, Rest};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
 use super::includes::Includes;
@@ -12,6 +12,7 @@ use super::materials::Material;
 use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
 use super::params::{Param, Params};
+use super::shape_attributes::ShapeAttributes;
 use super::shapes;
 use super::textures::Textures;
 use super::transform::Transform;

@@ -1,11 +1,12 @@
 //! Reads shapes: transforms them to world space in f64, and gives them to the builder.
 
-use super::builder::{Builder, ShapeAttributes};
+use super::builder::Builder;
 use super::generated;
 use super::lights::Emission;
 use super::message::Message;
 use super::params::{Params, Resolve, shown};
 use super::ply;
+use super::shape_attributes::ShapeAttributes;
 use super::subdivision;
 use super::transform::Transform;
 use super::vertices::{Vertex, Vertices};

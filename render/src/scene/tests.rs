@@ -1,6 +1,7 @@
 //! Tests of the built-in scenes, transforms and orientation; `faulty` has faulty input, `meshes` has mesh files, `many_lights` has the
 //! scenes of many lights, `own_scenes` what files of others have.
 
+mod cameras;
 mod faulty;
 mod lights;
 mod many_lights;

@@ -161,3 +161,47 @@ fn the_error_of_closed_forms_is_bounded() {
         assert_eq!(world.view(&Settings { technique: Technique::SolidAngle, ..SETTINGS }).systematic(), 0.0);
     }
 }
+
+/// Samples go to the light of which nothing is known, not to the seven that are: its noise is that of a scene where it is alone.
+#[test]
+fn known_lights_take_no_samples_from_others() {
+    let light = |x: f64, y: f64, rgb: &str| {
+        format!(
+            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [{rgb}] \
+             Shape \"bilinearmesh\" \"point3 P\" [{x} {y} 2  {x} {} 2  {} {y} 2  {} {} 2] AttributeEnd\n",
+            y + 0.2,
+            x + 0.2,
+            x + 0.2,
+            y + 0.2
+        )
+    };
+    // leaves before the first light
+    let leaf = |k: u32| {
+        let (x, y) = (0.6 + 0.1 * f64::from(k % 10), -0.5 + 0.1 * f64::from(k / 10));
+        format!("{x} {y} 1.5  {} {y} 1.5  {x} {} 1.52 ", x + 0.06, y + 0.06)
+    };
+    let leaves: String = (0..100).map(leaf).collect();
+    let corners: String = (0..300).map(|k| format!("{k} ")).collect();
+    let world = |known: usize| {
+        let others: String = (0..known).map(|k| light(-1.8 + 0.1 * k as f64, -1.8 + 0.5 * k as f64, "9 9 9")).collect();
+        let text = format!(
+            "LookAt 0 0 3  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 50\nWorldBegin\n{}{others}\
+             Shape \"trianglemesh\" \"point3 P\" [{leaves}] \"integer indices\" [{corners}]\n\
+             Shape \"bilinearmesh\" \"point3 P\" [-3 -3 0  3 -3 0  -3 3 0  3 3 0]\n",
+            light(1.0, 0.0, "30 30 30")
+        );
+        World::new(&scene::parse(&text, "a.pbrt", Path::new("")).unwrap()).unwrap()
+    };
+    let noise = |known: usize| {
+        let world = world(known);
+        let settings = Settings { sampler: Sampler::Adaptive, ..SETTINGS };
+        let variance = |seed: u64| {
+            let film = render(&world, &Settings { seed, ..settings }).0;
+            film.pixels.iter().map(|p| f64::from(p.variance[1])).sum::<f64>()
+        };
+        (0..cases(2, 8)).map(variance).sum::<f64>() / cases(2, 8) as f64
+    };
+    let ratio = noise(7) / noise(0);
+    println!("{ratio:.2} times the variance");
+    assert!(ratio < 1.5, "{ratio}");
+}

@@ -1,7 +1,8 @@
 //! Adds the triangles of meshes.
 
-use super::super::builder::{Builder, ShapeAttributes};
+use super::super::builder::Builder;
 use super::super::message::Message;
+use super::super::shape_attributes::ShapeAttributes;
 use super::super::transform::Transform;
 use super::super::vertices::{Vertex, Vertices};
 use super::materials::Materials;

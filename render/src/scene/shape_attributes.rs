@@ -1,0 +1,43 @@
+//! What a scene file says of all of a shape, and how that moves it to world space.
+
+use super::lights::Emission;
+use super::transform::{Transform, cross, dot, scaled, unit};
+
+/// What applies to all of a shape.
+#[derive(Clone, Debug)]
+pub(super) struct ShapeAttributes {
+    /// To world space.
+    pub(super) ctm: Transform,
+    /// Whether the normal opposes the order of the transformed vertices.
+    pub(super) flip: bool,
+    pub(super) material: u32,
+    pub(super) emission: Option<Emission>,
+    /// If given, the power of each emitting triangle, sphere or parallelogram; only the colour of `emission` then counts.
+    pub(super) power: Option<f64>,
+}
+
+impl ShapeAttributes {
+    /// Transforms points to world space; fails if one is not finite in f32.
+    pub(super) fn place(&self, points: impl Iterator<Item = [f64; 3]>) -> Result<Vec<[f64; 3]>, String> {
+        let place = |(i, p): (usize, [f64; 3])| {
+            let world = self.ctm.point(p);
+            let finite = world.map(|x| x as f32).iter().all(|x| x.is_finite());
+            let shown = if p.iter().all(|x| x.is_finite()) { world } else { p };
+            finite.then_some(world).ok_or_else(|| format!("vertex {i} is at {shown:?}, which is not finite in f32"))
+        };
+        let mut placed = Vec::with_capacity(points.size_hint().0);
+        for point in points.enumerate().map(place) {
+            placed.push(point?);
+        }
+        Ok(placed)
+    }
+
+    /// Transforms normals to world space, where they are on the side that the transformed surface has; those that are not finite become 0.
+    pub(super) fn place_normals(&self, normals: impl Iterator<Item = [f64; 3]>) -> impl Iterator<Item = [f64; 3]> {
+        // the inverse transpose, but for its length: the rows are cross products of the others
+        let [a, b, c] = self.ctm.linear;
+        let sign = if self.ctm.determinant() < 0.0 { -1.0 } else { 1.0 };
+        let rows = [cross(b, c), cross(c, a), cross(a, b)].map(|row| scaled(row, sign));
+        normals.map(move |n| unit(rows.map(|row| dot(row, n))).unwrap_or([0.0; 3]))
+    }
+}
