@@ -1,5 +1,6 @@
 //! Mesh files in all three encodings, and malformed files.
 
+use super::super::vertices::Vertices;
 use super::*;
 use std::fs;
 use std::path::PathBuf;
@@ -153,6 +154,22 @@ fn plain_layouts_are_read_as_others() {
     for list in ["uchar int", "uchar uint"] {
         assert_eq!(read("binary_little_endian", list, false), wanted);
     }
+}
+
+/// A negative index is shown as the file has it, and texture coordinates that are no numbers are 0.
+#[test]
+fn numbers_out_of_range() {
+    let mut bytes = b"ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+        property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        .to_vec();
+    bytes.extend([0; 12]);
+    bytes.push(3);
+    bytes.extend([-1_i32; 3].iter().flat_map(|i| i.to_le_bytes()));
+    let error = load_mesh(&bytes, "").unwrap_err().to_string();
+    assert!(error.contains("face 0: index -1 is out of range: there are 1 vertices"), "{error}");
+    let uvs = vec![[f64::NAN, 1.0], [0.5, f64::INFINITY], [0.25, 0.75]];
+    let vertices = Vertices::new(vec![[0.0; 3]; 3], Vec::new(), uvs);
+    assert_eq!([0, 1, 2].map(|k| vertices.uv(k, [9.0; 2])), [[0.0; 2], [0.0; 2], [0.25, 0.75]]);
 }
 
 #[test]
