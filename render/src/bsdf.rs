@@ -1,15 +1,16 @@
 //! BSDFs in packets: diffuse surfaces, perfect mirrors, rough metals, and rough coats over diffuse surfaces.
 
 use crate::packet::{M8, V8, X8, equal, max, min, select};
-use crate::scene::Material;
+use crate::scene::{Material, Roughness};
 use crate::technique::Technique;
 use etendue::warp::{CosineHemisphere, GgxVisibleNormals, UniformHemisphere};
 use etendue::{Frame, Mask, Real, Vec2, Warp, u32x8};
 
 const INV_PI: f64 = std::f64::consts::FRAC_1_PI;
 
-/// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α, η (3), k (3), kind (bits). A mirror
-/// has its reflectance in place of η, and k = 0; a coat its reflectance at normal incidence.
+/// The eight numbers of a material, so that one transposition gathers eight lanes: roughness α along, η (3), k (3), roughness α across. A
+/// mirror has its reflectance in place of η, and k = 0; a coat its reflectance at normal incidence. The three low bits of the last number
+/// are the kind, and those of the first are 0, so that a roughness that is the same in all directions stays so.
 pub type Finish = [f32; 8];
 
 // kind 0 is diffuse
@@ -17,21 +18,24 @@ const MIRROR: u32 = 1;
 const METAL: u32 = 2;
 const ROUGH: u32 = 3;
 const COAT: u32 = 4;
+const KIND: u32 = 7;
 
 /// The record of a diffuse surface, with an arbitrary valid roughness.
-pub const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+pub const PLAIN: Finish = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// The record of a material; of a varying one it is that of a diffuse surface, since its own depends on the place.
 pub fn finish(material: &Material) -> Finish {
-    let kind = |kind| f32::from_bits(kind);
+    let of = |kind, Roughness { along, across, .. }, [a, b, c]: [f32; 3], [x, y, z]: [f32; 3]| {
+        let [along, across] = [along, across].map(|alpha| alpha.to_bits() & !KIND);
+        [f32::from_bits(along), a, b, c, x, y, z, f32::from_bits(across | kind)]
+    };
+    let smooth = Roughness::from(1.0);
     match *material {
         Material::Diffuse(_) | Material::Varying(_) => PLAIN,
-        Material::Glossy { specular: [r, g, b], alpha, .. } => [alpha, r, g, b, 0.0, 0.0, 0.0, kind(COAT)],
-        Material::Mirror([r, g, b]) => [1.0, r, g, b, 0.0, 0.0, 0.0, kind(MIRROR)],
-        Material::Conductor { eta: [a, b, c], k: [x, y, z], alpha } if alpha > 0.0 => {
-            [alpha, a, b, c, x, y, z, kind(ROUGH)]
-        }
-        Material::Conductor { eta: [a, b, c], k: [x, y, z], .. } => [1.0, a, b, c, x, y, z, kind(METAL)],
+        Material::Glossy { specular, roughness, .. } => of(COAT, roughness, specular, [0.0; 3]),
+        Material::Mirror(reflectance) => of(MIRROR, smooth, reflectance, [0.0; 3]),
+        Material::Conductor { eta, k, .. } if material.is_mirror() => of(METAL, smooth, eta, k),
+        Material::Conductor { eta, k, roughness } => of(ROUGH, roughness, eta, k),
     }
 }
 
@@ -47,7 +51,10 @@ pub fn albedo(material: &Material) -> [f32; 3] {
 /// Parameters of the metal or coat in each lane.
 #[derive(Clone, Copy)]
 pub struct Metal {
-    alpha: X8,
+    /// Roughness along and across.
+    alpha: [X8; 2],
+    /// The direction in which the surface has its roughness along, of any length, if that differs from the one across in any lane.
+    grain: Option<V8>,
     eta: V8,
     k: V8,
     kind: u32x8,
@@ -58,13 +65,27 @@ impl Metal {
     #[inline]
     pub fn new(rows: [&Finish; 8]) -> Self {
         let r = X8::transpose(rows.map(|r| X8::from(&r[..])));
-        Self { alpha: r[0], eta: V8::new(r[1], r[2], r[3]), k: V8::new(r[4], r[5], r[6]), kind: r[7].to_bits() }
+        let (last, kind) = (r[7].to_bits(), u32x8::splat(KIND));
+        Self {
+            alpha: [r[0], X8::from_bits(last & !kind)],
+            grain: None,
+            eta: V8::new(r[1], r[2], r[3]),
+            k: V8::new(r[4], r[5], r[6]),
+            kind: last & kind,
+        }
+    }
+    /// Gives rough surfaces the direction of their roughness.
+    #[inline]
+    pub fn along(self, grain: V8) -> Self {
+        Self { grain: Some(grain), ..self }
     }
     /// `yes` where the mask is true, `no` elsewhere.
     #[inline]
     pub fn select(mask: M8, yes: &Self, no: &Self) -> Self {
+        let grain = |metal: &Self| metal.grain.unwrap_or_default();
         Self {
-            alpha: select(mask, yes.alpha, no.alpha),
+            alpha: std::array::from_fn(|i| select(mask, yes.alpha[i], no.alpha[i])),
+            grain: (yes.grain.is_some() || no.grain.is_some()).then(|| V8::blend(mask, grain(yes), grain(no))),
             eta: V8::blend(mask, yes.eta, no.eta),
             k: V8::blend(mask, yes.k, no.k),
             kind: crate::packet::pick(mask, yes.kind, no.kind),
@@ -195,7 +216,7 @@ impl<const METAL: bool> Bsdf<METAL> {
     #[inline(always)]
     pub fn new(normal: V8, flat: V8, albedo: V8, direction: V8, metal: Option<Metal>) -> Self {
         let rough = metal.filter(|metal| METAL && metal.rough().any()).map(|metal| {
-            let frame = Frame::new(normal);
+            let frame = metal.grain.map_or_else(|| Frame::new(normal), |grain| about(normal, grain));
             let view = frame.to_local(-direction);
             let lanes = metal.coats();
             let coats = lanes.any().then(|| Coats { lanes, share: coat_share(metal.schlick(view.z), albedo) });
@@ -221,11 +242,11 @@ impl<const METAL: bool> Bsdf<METAL> {
             return Evaluated { color: value, factor: one, pdf };
         };
         let local = frame.to_local(w);
-        let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
+        let normals = GgxVisibleNormals::new(metal.alpha[0], metal.alpha[1], *view);
         let m = (local + *view).normalize();
         let density = normals.reflected_pdf(m).keep(above);
         // f cosθ = F D G₂/(4 cosθᵢ) and the pdf is D G₁/(4 cosθᵢ), so their quotient is F G₂/G₁
-        let share = density * shadowing(metal.alpha, view.z, local.z);
+        let share = density * shadowing(metal.alpha, *view, local);
         let cos = view.dot(m);
         let mut color = V8::blend(*lanes, metal.fresnel(cos) * share, value);
         let mut density = select(*lanes, density, pdf);
@@ -243,7 +264,7 @@ impl<const METAL: bool> Bsdf<METAL> {
     #[inline(always)]
     pub fn sample(&self, technique: Technique, u: Vec2<X8>) -> Scattered {
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
-        let frame = Frame::new(self.normal);
+        let frame = self.rough.as_ref().map_or_else(|| Frame::new(self.normal), |rough| rough.frame);
         let uniform = technique == Technique::UniformHemisphere;
         let mut local: V8 = if uniform { UniformHemisphere.sample(u) } else { CosineHemisphere.sample(u) };
         let by_cosine = uniform || technique == Technique::CosineHemisphere;
@@ -257,7 +278,7 @@ impl<const METAL: bool> Bsdf<METAL> {
             return Scattered { direction: frame.to_world(local), color: self.albedo, factor, pdf };
         }
         if let Some(Rough { lanes, metal, view, coats, .. }) = self.rough.as_ref().filter(|_| !by_cosine) {
-            let normals = GgxVisibleNormals::new(metal.alpha, metal.alpha, *view);
+            let normals = GgxVisibleNormals::new(metal.alpha[0], metal.alpha[1], *view);
             let (mut by_normals, mut u) = (*lanes, u);
             if let Some(Coats { lanes, share }) = coats {
                 let first = u.x.lt(*share);
@@ -295,19 +316,30 @@ fn coat_share(reflectance: V8, albedo: V8) -> X8 {
     select(below.gt(X8::lit(0.0)), min(max(share, X8::lit(0.1)), X8::lit(0.9)), X8::lit(1.0))
 }
 
-/// G₂/G₁ of the height-correlated Smith masking-shadowing function (Heitz 2014, equation 99): (1 + Λᵢ)/(1 + Λᵢ + Λₒ), where
-/// 1 + 2Λ = √(1 + α²tan²θ), computed without division by a cosine.
+/// The frame about the normals whose first axis is the projection of these directions, or any where that is 0.
 #[inline]
-fn shadowing(alpha: X8, cos_i: X8, cos_o: X8) -> X8 {
-    let one = X8::lit(1.0);
-    let root = |cos: X8| {
-        let square = cos * cos;
-        (alpha * alpha).mul_add(one - square, square).sqrt()
+fn about(normal: V8, along: V8) -> Frame<X8> {
+    let any = Frame::new(normal);
+    let across = normal.cross(along);
+    let square = across.length_squared();
+    // a direction that nearly is the normal has no projection worth the name
+    let some = square.gt(X8::lit(1e-12) * along.length_squared());
+    let t = V8::blend(some, across * (X8::lit(1.0) / select(some, square, X8::lit(1.0)).sqrt()), any.t);
+    Frame { s: V8::blend(some, t.cross(normal), any.s), t, n: normal }
+}
+
+/// G₂/G₁ of the height-correlated Smith masking-shadowing function (Heitz 2014, equations 86 and 99): (1 + Λᵢ)/(1 + Λᵢ + Λₒ), where
+/// 1 + 2Λ = √(1 + (αx²x² + αy²y²)/z²), computed without division by a cosine z.
+#[inline]
+fn shadowing(alpha: [X8; 2], i: V8, o: V8) -> X8 {
+    let root = |w: V8| {
+        let (x, y) = (alpha[0] * w.x, alpha[1] * w.y);
+        x.mul_add(x, y.mul_add(y, w.z * w.z)).sqrt()
     };
-    let (i, o) = (root(cos_i), root(cos_o));
-    let denominator = i.mul_add(cos_o, o * cos_i);
+    let (root_i, root_o) = (root(i), root(o));
+    let denominator = root_i.mul_add(o.z, root_o * i.z);
     let some = denominator.gt(X8::lit(0.0));
-    (cos_o * (i + cos_i) / select(some, denominator, one)).keep(some)
+    (o.z * (root_i + i.z) / select(some, denominator, X8::lit(1.0))).keep(some)
 }
 
 #[cfg(test)]
@@ -354,8 +386,11 @@ mod tests {
     /// fraction of samples above the horizon.
     #[test]
     fn rough_metal_integrates() {
-        for alpha in [0.1_f32, 0.4, 1.0] {
-            let metal = Metal::new([&[alpha, 0.2, 1.0, 1.1, 3.9, 2.4, 2.1, f32::from_bits(ROUGH)]; 8]);
+        for (along, across) in [(0.1_f32, 0.1_f32), (0.4, 0.4), (1.0, 1.0), (0.1, 0.5), (0.9, 0.3)] {
+            let alpha = format!("{along} and {across}");
+            let roughness = Roughness { along, across, turn: 0.0 };
+            let metal = Material::Conductor { eta: [0.2, 1.0, 1.1], k: [3.9, 2.4, 2.1], roughness };
+            let metal = Metal::new([&finish(&metal); 8]).along(V8::from([0.6, 0.8, 5.0]));
             for sin in [0.0_f32, 0.6, 0.95] {
                 let cos = (1.0 - sin * sin).sqrt();
                 let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
@@ -396,7 +431,8 @@ mod tests {
     #[test]
     fn coats_integrate() {
         for (alpha, f0, albedo) in [(0.1_f32, 0.04_f32, 0.5_f32), (0.4, 0.04, 1.0), (1.0, 0.3, 0.2), (0.3, 0.9, 0.0)] {
-            let metal = Metal::new([&[alpha, f0, f0, f0, 0.0, 0.0, 0.0, f32::from_bits(COAT)]; 8]);
+            let coat = Material::Glossy { diffuse: [albedo; 3], specular: [f0; 3], roughness: alpha.into() };
+            let metal = Metal::new([&finish(&coat); 8]);
             for (sin, tilt) in [(0.0_f32, 0.0_f32), (0.6, 0.0), (0.6, 0.5), (0.95, 0.3)] {
                 let normal = V8::new(X8::lit(0.0), X8::lit(0.0), X8::lit(1.0));
                 let flat = V8::from([0.0, -tilt, (1.0 - tilt * tilt).sqrt()]);

@@ -15,7 +15,7 @@
 //! | `mix` | the one of its materials with the greater share |
 //! | `interface`, `alpha` 0 | no surface |
 //! | `alpha` | holes: a ray is stopped with this chance; lights are opaque |
-//! | anisotropic roughness | its geometric mean |
+//! | anisotropic roughness | itself, by the direction of growing u; of lights its geometric mean; tangents `S` are ignored |
 //! | `displacement`, `normalmap` | ignored |
 //! | textures `constant`, `scale`, `mix`, `checkerboard`, `imagemap` | themselves, by u and v; others 0.5; those of lights and spheres their means |
 //! | `trianglemesh`, `plymesh`, `loopsubdiv`, `sphere`, parallelograms of `bilinearmesh` | themselves, with interpolated normals |
@@ -70,7 +70,7 @@ use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
 pub use lights::{DeltaLight, Emission, Environment, SkyRadiance};
-pub use materials::{Material, Varying};
+pub use materials::{Material, Roughness, Varying};
 pub use message::Message;
 use message::utf8;
 use reader::Origin;

@@ -62,6 +62,8 @@ pub struct Surfaces {
 #[derive(Debug)]
 struct Detail {
     corners: Arc<Details>,
+    /// The materials; the means of those that vary.
+    materials: Vec<Material>,
     /// For each material the one that varies, if it does.
     varying: Vec<Option<Varying>>,
 }
@@ -120,9 +122,9 @@ impl Surfaces {
             shapes: Arc::clone(&scene.shapes),
             bvh,
             albedos: means.iter().map(albedo).collect(),
-            finishes: means.iter().map(finish).collect(),
+            finishes: means.iter().map(|material| finish(&material.isotropic())).collect(),
             reflect: means.iter().map(|material| !material.is_black()).collect(),
-            detail: detailed.then(|| Detail { corners: Arc::clone(&scene.details), varying }),
+            detail: detailed.then(|| Detail { corners: Arc::clone(&scene.details), materials: means, varying }),
             place_materials,
             one_material: scene.triangle_materials.first().copied().unwrap_or(0),
         }
@@ -258,7 +260,7 @@ impl Surfaces {
     #[inline(never)]
     fn detailed(&self, detail: &Detail, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) -> (Metal, M8) {
         let (places, order) = (hits.place.as_array(), self.bvh.order());
-        let (mut finishes, mut smooth) = ([PLAIN; 8], 0);
+        let (mut finishes, mut smooth, mut grain) = ([PLAIN; 8], 0, None);
         for (lane, own) in finishes.iter_mut().enumerate().filter(|(lane, _)| lanes.lane(*lane)) {
             let place = places[lane];
             if place & SHAPE != 0 {
@@ -273,7 +275,14 @@ impl Surfaces {
                 (Some(corners), Some(weights)) => varying.at(mixed(&corners.uvs, weights)),
                 _ => varying.at([0.0; 2]),
             });
-            *own = varied.as_ref().map_or(self.finishes[material], finish);
+            let here = varied.unwrap_or(detail.materials[material]);
+            *own = finish(&here);
+            if let Some(roughness) = here.roughness().filter(|roughness| !roughness.is_isotropic())
+                && let Some(corners) = corners
+            {
+                let along = along_u(self.bvh.corners(place), &corners.uvs, roughness.turn);
+                set_lane(grain.get_or_insert_default(), lane, along);
+            }
             if let Some(varied) = varied {
                 set_lane(&mut surface.albedo, lane, albedo(&varied));
             }
@@ -287,7 +296,8 @@ impl Surfaces {
                 smooth |= 1 << lane;
             }
         }
-        (Metal::new(finishes.each_ref()), M8::from_bits(smooth))
+        let metal = Metal::new(finishes.each_ref());
+        (grain.map_or(metal, |grain| metal.along(grain)), M8::from_bits(smooth))
     }
 
     /// Materials at the hit points of these lanes; of a material that varies, it is the mean.
@@ -336,6 +346,30 @@ fn barycentric(corners: [f32; 9], p: [f32; 3]) -> [f32; 3] {
 }
 fn mixed<const N: usize>(of: &[[f32; N]; 3], weights: [f32; 3]) -> [f32; N] {
     std::array::from_fn(|k| of[0][k] * weights[0] + of[1][k] * weights[1] + of[2][k] * weights[2])
+}
+
+/// The direction of growing u on a triangle, turned by this angle in radians towards falling v; 0 where the texture coordinates have no
+/// direction.
+fn along_u(corners: [f32; 9], uvs: &[[f32; 2]; 3], turn: f32) -> [f32; 3] {
+    let edge = |i: usize| {
+        let p: [f64; 3] = std::array::from_fn(|k| f64::from(corners[3 * i + k]) - f64::from(corners[k]));
+        let uv: [f64; 2] = std::array::from_fn(|k| f64::from(uvs[i][k]) - f64::from(uvs[0][k]));
+        (p, uv)
+    };
+    let ((p, [a, b]), (q, [c, d])) = (edge(1), edge(2));
+    // ∂p/∂u and ∂p/∂v, but for a common factor, whose sign counts where they are combined
+    let sign = (a * d - b * c).signum();
+    let by_u: [f64; 3] = std::array::from_fn(|k| sign * (d * p[k] - b * q[k]));
+    let by_v: [f64; 3] = std::array::from_fn(|k| sign * (a * q[k] - c * p[k]));
+    let unit = |v: [f64; 3]| {
+        let length = dot(v, v).sqrt();
+        v.map(|x| if length > 0.0 { x / length } else { 0.0 })
+    };
+    let along = unit(by_u);
+    let slant = dot(by_v, along);
+    let across = unit(std::array::from_fn(|k| slant * along[k] - by_v[k]));
+    let (sin, cos) = libm::sincos(turn.into());
+    std::array::from_fn(|k| (cos * along[k] + sin * across[k]) as f32)
 }
 
 /// Normals of an instance in world space; those that the map makes 0 stay so.

@@ -36,7 +36,7 @@ pub(super) struct Builder {
     pub(super) details: Details,
     pub(super) shapes: Vec<Shape>,
     pub(super) notes: Notes,
-    material_index: HashMap<[u32; 8], u32>,
+    material_index: HashMap<[u32; 10], u32>,
     /// Materials with holes: for each the index of the one without, and the mask.
     masks: BTreeMap<u32, (u32, Mask)>,
     objects: Vec<Object>,
@@ -127,7 +127,10 @@ impl Builder {
 
     /// Whether texture coordinates matter for a material.
     pub(super) fn varies(&self, material: u32) -> bool {
-        matches!(self.materials[material as usize], Material::Varying(_)) || self.masks.contains_key(&material)
+        let of = &self.materials[material as usize];
+        matches!(of, Material::Varying(_))
+            || of.roughness().is_some_and(|roughness| !roughness.is_isotropic())
+            || self.masks.contains_key(&material)
     }
 
     /// Begins an object: what is added from now on is not part of the scene. Returns what was added before.

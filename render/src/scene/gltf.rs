@@ -50,7 +50,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     let root = &source.root;
     for name in &root.extensions_required {
         // what is ignored where it is optional is ignored with the same warning here
-        if !SUPPORTED.contains(&&**name) && !materials::is_ignored(name) {
+        if !SUPPORTED.contains(&&**name) && !materials::is_ignored(name) && name != materials::ANISOTROPY {
             return Err(source.message(format!("requires the extension {:?}, which is not supported", shortened(name))));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use super::lexer::shortened;
-use super::materials::{Material, Varying};
+use super::materials::{Material, Roughness, Varying};
 use super::message::Message;
 use super::params::{Params, Resolve, rounded, shown};
 use super::spectrum::{self, Named};
@@ -103,14 +103,10 @@ pub(super) fn read(
                 params.given(name);
             }
             let eta = reads.eta(&["eta", "index"], params, out)?;
-            match reads.alpha("", 0.0, params, out)? {
-                Texture::Constant([alpha, ..]) => {
-                    Material::Conductor { eta: [eta as f32; 3], k: [0.0; 3], alpha: alpha.clamp(0.0, 1.0) }
-                }
-                alpha => {
-                    let specular = Texture::number(reflectance_of(eta) as f32);
-                    out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha })
-                }
+            let roughness = reads.roughness("", 0.0, params, out)?;
+            match constant(&roughness) {
+                Some(roughness) => Material::Conductor { eta: [eta as f32; 3], k: [0.0; 3], roughness },
+                None => reads.metal(Texture::number(reflectance_of(eta) as f32), roughness, out),
             }
         }
         "diffusetransmission" => {
@@ -230,23 +226,26 @@ impl Reads<'_> {
             params.given(name);
         }
     }
-    /// The roughness α, from up to three parameters whose names begin with `prefix`.
-    fn alpha(&self, prefix: &str, default: f32, params: &mut Params, out: &mut Builder) -> Result<Texture, Message> {
+    /// The roughness α along u and across, from up to three parameters whose names begin with `prefix`.
+    fn roughness(
+        &self,
+        prefix: &str,
+        default: f32,
+        params: &mut Params,
+        out: &mut Builder,
+    ) -> Result<[Texture; 2], Message> {
         let names = ["roughness", "uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         let varies = names.iter().any(|name| params.is_texture(name));
         if varies {
             let mut number = |name: &str| self.context.textures.number(name, params);
             let both = number(&names[0])?.unwrap_or(Texture::number(default));
-            let [u, v] = [number(&names[1])?.unwrap_or(both.clone()), number(&names[2])?.unwrap_or(both)];
-            if u != v {
-                out.notes.stand_in("anisotropy", || params.error("anisotropic roughness becomes that along u"));
-            }
+            let each = [number(&names[1])?.unwrap_or(both.clone()), number(&names[2])?.unwrap_or(both)];
             let remap = params.flag("remaproughness")?.unwrap_or(true);
-            return Ok(if remap { u.root() } else { u });
+            return Ok(each.map(|texture| if remap { texture.root() } else { texture }));
         }
         let both = params.float(&names[0])?.unwrap_or(default.into());
-        let [u, v] = [params.float(&names[1])?.unwrap_or(both), params.float(&names[2])?.unwrap_or(both)];
-        for x in [u, v] {
+        let each = [params.float(&names[1])?.unwrap_or(both), params.float(&names[2])?.unwrap_or(both)];
+        for x in each {
             if x.is_nan() || x < 0.0 {
                 return Err(params.error(format!("\"{prefix}roughness\": must be from 0 to 1, not {}", shown(x))));
             }
@@ -254,13 +253,8 @@ impl Reads<'_> {
                 out.notes.warn(params.error(format!("\"{prefix}roughness\": {} counts as 1", shown(x))));
             }
         }
-        let [u, v] = [u, v].map(|x| x.min(1.0));
         let remap = params.flag("remaproughness")?.unwrap_or(true);
-        let [u, v] = [u, v].map(|x| if remap { x.sqrt() } else { x });
-        if u != v {
-            out.notes.stand_in("anisotropy", || params.error("anisotropic roughness becomes its geometric mean"));
-        }
-        Ok(Texture::number(if u == v { u } else { (u * v).sqrt() } as f32))
+        Ok(each.map(|x| x.min(1.0)).map(|x| Texture::number(if remap { x.sqrt() } else { x } as f32)))
     }
     /// A rough coat over a diffuse base.
     fn coated(
@@ -271,13 +265,13 @@ impl Reads<'_> {
         params: &mut Params,
         out: &mut Builder,
     ) -> Result<Material, Message> {
-        let alpha = self.alpha("", roughness, params, out)?;
-        if alpha.constant().is_some_and(|[x, ..]| x < Material::LEAST_ALPHA) {
+        let roughness = self.roughness("", roughness, params, out)?;
+        if roughness.iter().any(|alpha| alpha.constant().is_some_and(|[x, ..]| x < Roughness::LEAST)) {
             out.notes.stand_in("smooth coat", || {
-                params.error(format!("its smooth coat becomes one of roughness α = {}", Material::LEAST_ALPHA))
+                params.error(format!("its smooth coat becomes one of roughness α = {}", Roughness::LEAST))
             });
         }
-        Ok(out.vary(Varying::Glossy { diffuse, specular, alpha }))
+        Ok(out.vary(Varying::Glossy { diffuse, specular, roughness, turn: 0.0 }))
     }
     fn conductor(
         &self,
@@ -289,17 +283,16 @@ impl Reads<'_> {
         let Context { textures, resolve, .. } = self.context;
         let given = textures.color_or_texture(reflectance, params, *resolve, &mut out.notes)?;
         let indices = [Textures::index(eta, params, *resolve)?, Textures::index(k, params, *resolve)?];
-        let alpha = self.alpha(prefix, if prefix.is_empty() { 0.0 } else { 0.01 }, params, out)?;
+        let roughness = self.roughness(prefix, if prefix.is_empty() { 0.0 } else { 0.01 }, params, out)?;
         let (eta, k) = match (given, indices) {
             (Some(_), [Some(_), _] | [_, Some(_)]) => {
                 return Err(params.error("\"reflectance\" cannot be combined with \"eta\" and \"k\""));
             }
             (Some(Value::Varying(specular)), _) => {
-                return Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha }));
+                return Ok(self.metal(specular, roughness, out));
             }
-            (Some(Value::Constant(r)), _) if alpha.constant().is_none() => {
-                let specular = Texture::Constant(r.map(|x| x as f32));
-                return Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha }));
+            (Some(Value::Constant(r)), _) if constant(&roughness).is_none() => {
+                return Ok(self.metal(Texture::Constant(r.map(|x| x as f32)), roughness, out));
             }
             // the k with this reflectance at normal incidence and eta = 1: r = k²/(k² + 4)
             (Some(Value::Constant(r)), _) => {
@@ -320,17 +313,30 @@ impl Reads<'_> {
             rounded(rgb).filter(|c| c.iter().all(|&x| x < 1e9)).ok_or_else(too_large)
         };
         let (eta, k) = (bounded("eta", eta)?, bounded("k", k)?);
-        match alpha.constant() {
-            Some([alpha, ..]) => Ok(Material::Conductor { eta, k, alpha }),
+        match constant(&roughness) {
+            Some(roughness) => Ok(Material::Conductor { eta, k, roughness }),
             None => {
                 // r = ((η − 1)² + k²)/((η + 1)² + k²) at normal incidence
                 let of = |i: usize| ((eta[i] - 1.0).powi(2) + k[i] * k[i]) / ((eta[i] + 1.0).powi(2) + k[i] * k[i]);
-                let specular = Texture::Constant([of(0), of(1), of(2)]);
-                Ok(out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, alpha }))
+                Ok(self.metal(Texture::Constant([of(0), of(1), of(2)]), roughness, out))
             }
         }
     }
+    /// A rough metal with this reflectance at normal incidence.
+    fn metal(&self, specular: Texture, roughness: [Texture; 2], out: &mut Builder) -> Material {
+        out.vary(Varying::Glossy { diffuse: Texture::number(0.0), specular, roughness, turn: 0.0 })
+    }
 }
+
+/// A metal's roughness that does not vary: smooth in both directions or in none.
+fn constant([along, across]: &[Texture; 2]) -> Option<Roughness> {
+    let [along, across] = [along.constant()?[0], across.constant()?[0]].map(|x| x.clamp(0.0, 1.0));
+    let least = if along == across { 0.0 } else { LEAST_OF_METAL };
+    Some(Roughness { along: along.max(least), across: across.max(least), turn: 0.0 })
+}
+
+/// The least roughness in one direction of a metal that is rougher in the other, as in pbrt.
+const LEAST_OF_METAL: f32 = 1e-4;
 
 /// pbrt's default conductor.
 fn copper() -> ([f64; 3], [f64; 3]) {

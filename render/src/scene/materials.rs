@@ -15,8 +15,8 @@ pub enum Material {
         eta: [f32; 3],
         /// Imaginary part of the index, per channel: the absorption coefficient.
         k: [f32; 3],
-        /// Roughness α of the GGX distribution; 0 is a perfect mirror.
-        alpha: f32,
+        /// Roughness of the GGX distribution; 0 in both directions is a perfect mirror.
+        roughness: Roughness,
     },
     /// A rough surface over a diffuse one: f = (1 − F) diffuse/π + F D G₂/(4 cosθᵢ cosθₒ), with the GGX distribution and Schlick's
     /// F = F₀ + (1 − F₀)(1 − cosθₕ)⁵ (glTF 2.0, appendix B).
@@ -25,11 +25,46 @@ pub enum Material {
         diffuse: [f32; 3],
         /// Reflectance F₀ of the rough part at normal incidence, linear RGB.
         specular: [f32; 3],
-        /// Roughness α of the GGX distribution, at least [`Material::LEAST_ALPHA`].
-        alpha: f32,
+        /// Roughness of the GGX distribution, at least [`Roughness::LEAST`] in both directions.
+        roughness: Roughness,
     },
     /// The material of this index in [`Scene::varying`](super::Scene::varying), which varies over the surface.
     Varying(u32),
+}
+
+/// Roughness α of a GGX distribution, which may differ by direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roughness {
+    /// α in the direction `turn`, 0 to 1.
+    pub along: f32,
+    /// α at right angles to it, 0 to 1.
+    pub across: f32,
+    /// The direction, in radians: 0 is that of growing u, and π/2 is at right angles to it on the side of falling v. Surfaces without
+    /// texture coordinates choose a direction.
+    pub turn: f32,
+}
+
+impl Roughness {
+    /// The least roughness of [`Material::Glossy`]: a smooth coat is that of this roughness.
+    pub const LEAST: f32 = 0.01;
+
+    /// Whether it is the same in all directions.
+    #[must_use]
+    pub const fn is_isotropic(self) -> bool {
+        self.along == self.across
+    }
+    /// The geometric mean in all directions.
+    #[must_use]
+    pub fn mean(self) -> Self {
+        if self.is_isotropic() { self.along.into() } else { (self.along * self.across).sqrt().into() }
+    }
+}
+
+impl From<f32> for Roughness {
+    /// The same roughness in all directions.
+    fn from(alpha: f32) -> Self {
+        Self { along: alpha, across: alpha, turn: 0.0 }
+    }
 }
 
 /// A material whose numbers vary over the surface. Shapes that are not triangles have its mean.
@@ -43,8 +78,10 @@ pub enum Varying {
         diffuse: Texture,
         /// Reflectance of the rough part at normal incidence.
         specular: Texture,
-        /// Roughness α.
-        alpha: Texture,
+        /// Roughness α in the direction `turn`, and at right angles to it.
+        roughness: [Texture; 2],
+        /// As [`Roughness::turn`], in radians.
+        turn: f32,
     },
     /// [`Material::Glossy`] by glTF's parameters.
     Metallic {
@@ -77,9 +114,9 @@ impl Varying {
     #[must_use]
     pub fn constant(&self) -> Option<Material> {
         let textures = match self {
-            Self::Diffuse(albedo) => [albedo; 3],
-            Self::Glossy { diffuse, specular, alpha } => [diffuse, specular, alpha],
-            Self::Metallic { base, metallic, roughness } => [base, metallic, roughness],
+            Self::Diffuse(albedo) => [albedo; 4],
+            Self::Glossy { diffuse, specular, roughness: [along, across], .. } => [diffuse, specular, along, across],
+            Self::Metallic { base, metallic, roughness } => [base, metallic, roughness, roughness],
         };
         textures.iter().all(|texture| texture.constant().is_some()).then(|| self.mean())
     }
@@ -87,18 +124,20 @@ impl Varying {
         // textures may hold any numbers
         let share = |x: f32| x.clamp(0.0, 1.0);
         let color = |texture: &Texture| value(texture).map(share);
-        let alpha = |x: f32| share(x).max(Material::LEAST_ALPHA);
+        let alpha = |x: f32| share(x).max(Roughness::LEAST);
         match self {
             Self::Diffuse(albedo) => Material::Diffuse(color(albedo)),
-            Self::Glossy { diffuse, specular, alpha: rough } => {
-                Material::Glossy { diffuse: color(diffuse), specular: color(specular), alpha: alpha(value(rough)[0]) }
+            Self::Glossy { diffuse, specular, roughness, turn } => {
+                let [along, across] = roughness.each_ref().map(|texture| alpha(value(texture)[0]));
+                let roughness = Roughness { along, across, turn: *turn };
+                Material::Glossy { diffuse: color(diffuse), specular: color(specular), roughness }
             }
             Self::Metallic { base, metallic, roughness } => {
                 let (base, metallic, roughness) = (color(base), share(value(metallic)[0]), share(value(roughness)[0]));
                 Material::Glossy {
                     diffuse: base.map(|x| x * (1.0 - metallic)),
                     specular: base.map(|x| 0.04 + (x - 0.04) * metallic),
-                    alpha: alpha(roughness * roughness),
+                    roughness: alpha(roughness * roughness).into(),
                 }
             }
         }
@@ -106,34 +145,48 @@ impl Varying {
 }
 
 impl Material {
-    /// The least roughness α of [`Material::Glossy`]: a smooth coat is that of this roughness.
-    pub const LEAST_ALPHA: f32 = 0.01;
-
     /// Whether the material reflects nothing at all.
     pub fn is_black(&self) -> bool {
         matches!(self, Self::Diffuse(c) | Self::Mirror(c) if *c == [0.0; 3])
     }
     /// Whether the material is a perfect mirror.
     pub fn is_mirror(&self) -> bool {
-        matches!(self, Self::Mirror(_) | Self::Conductor { alpha: 0.0, .. })
+        matches!(self, Self::Mirror(_) | Self::Conductor { roughness: Roughness { along: 0.0, across: 0.0, .. }, .. })
+    }
+    /// The roughness of a rough surface or coat.
+    #[must_use]
+    pub fn roughness(&self) -> Option<Roughness> {
+        match *self {
+            Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } => Some(roughness),
+            _ => None,
+        }
     }
     /// Whether the material reflects more in some directions than a diffuse one, but is no mirror. Of varying ones [`Varying`] knows.
     pub fn is_glossy(&self) -> bool {
         matches!(self, Self::Conductor { .. } | Self::Glossy { .. }) && !self.is_mirror()
     }
+    /// The material with the mean of its roughness in all directions.
+    #[must_use]
+    pub fn isotropic(mut self) -> Self {
+        if let Self::Conductor { roughness, .. } | Self::Glossy { roughness, .. } = &mut self {
+            *roughness = roughness.mean();
+        }
+        self
+    }
     /// A key for hashing: equal materials have equal words.
-    pub(super) fn words(&self) -> [u32; 8] {
-        let of = |kind: u32, a: [f32; 3], b: [f32; 3], c: f32| {
+    pub(super) fn words(&self) -> [u32; 10] {
+        let of = |kind: u32, a: [f32; 3], b: [f32; 3], Roughness { along, across, turn }: Roughness| {
             let [x, y, z] = a.map(f32::to_bits);
             let [u, v, w] = b.map(f32::to_bits);
-            [kind, x, y, z, u, v, w, c.to_bits()]
+            [kind, x, y, z, u, v, w, along.to_bits(), across.to_bits(), turn.to_bits()]
         };
+        let none = Roughness::from(0.0);
         match *self {
-            Self::Diffuse(albedo) => of(0, albedo, [0.0; 3], 0.0),
-            Self::Mirror(reflectance) => of(1, reflectance, [0.0; 3], 0.0),
-            Self::Conductor { eta, k, alpha } => of(2, eta, k, alpha),
-            Self::Glossy { diffuse, specular, alpha } => of(3, diffuse, specular, alpha),
-            Self::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0],
+            Self::Diffuse(albedo) => of(0, albedo, [0.0; 3], none),
+            Self::Mirror(reflectance) => of(1, reflectance, [0.0; 3], none),
+            Self::Conductor { eta, k, roughness } => of(2, eta, k, roughness),
+            Self::Glossy { diffuse, specular, roughness } => of(3, diffuse, specular, roughness),
+            Self::Varying(index) => [4, index, 0, 0, 0, 0, 0, 0, 0, 0],
         }
     }
 }

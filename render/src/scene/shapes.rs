@@ -195,7 +195,7 @@ fn indexed<const N: usize>(
         }
     }
     if params.given("S") {
-        out.notes.warn_once("S", || params.error("\"S\": ignored: no material is anisotropic"));
+        out.notes.warn_once("S", || params.error("\"S\": ignored: the direction of roughness is that of u"));
     }
     let count = points.len();
     let vertices = Vertices::new(points, placed_normals(surface, normals.into_iter()).collect(), uvs);

@@ -343,32 +343,59 @@ fn smooth_normals_are_interpolated() {
     }
 }
 
-/// A coat over a diffuse surface by every technique, against its formula (glTF 2.0, appendix B) in double precision.
+/// A coat over a diffuse surface by every technique, against its formula (glTF 2.0, appendix B; Heitz 2014, equations 85, 86 and 99) in
+/// double precision: with the same roughness in all directions, and with one that differs along u and across.
 #[test]
 fn coats_have_their_formula() {
-    let (alpha, f0, albedo) = (0.5_f64, 0.04_f64, [0.8, 0.5, 0.2]);
-    let text = "Material \"coateddiffuse\" \"rgb reflectance\" [.8 .5 .2] \"float roughness\" .25\n";
+    // u and v are linear in x and z, with ∂p/∂u along (1, 0, −1)
+    let corners = [[-9.0, 9.0], [9.0, 9.0], [0.0, -9.0]];
+    let uv = corners.map(|[x, z]| format!("{} {}", x + 0.3 * z, x + z)).join(" ");
+    let skewed = format!("Shape \"trianglemesh\" \"point3 P\" [-9 0 9 9 0 9 0 0 -9] \"point2 uv\" [{uv}]\n");
+    let plane = PLANE.split_once('\n').unwrap().1;
+    let diagonal = unit([1.0, 0.0, -1.0]);
+    for (shape, along, [a, b]) in [
+        (plane, [1.0, 0.0, 0.0], [0.5_f64, 0.5_f64]),
+        (plane, [1.0, 0.0, 0.0], [0.3, 0.6]),
+        (&*skewed, diagonal, [0.7, 0.2]),
+    ] {
+        coat_has_its_formula(shape, along, [a, b]);
+    }
+}
+
+fn coat_has_its_formula(shape: &str, along: V3, [a, b]: [f64; 2]) {
+    let (f0, albedo) = (0.04_f64, [0.8, 0.5, 0.2]);
+    let text = format!(
+        "Material \"coateddiffuse\" \"rgb reflectance\" [.8 .5 .2] \"float uroughness\" {} \"float vroughness\" {}\n",
+        a * a,
+        b * b
+    );
     let view = unit([1.0, 5.0, 2.0]);
-    for to in [[-1.0, 5.0, -2.0], [0.0, 1.0, 0.0], [-4.0, 1.0, 0.0]] {
+    for to in [[-1.0, 5.0, -2.0], [0.0, 1.0, 0.0], [-4.0, 1.0, 0.0], [0.5, 1.0, 3.0]] {
         let light = unit(to);
         let half = unit(std::array::from_fn(|k| light[k] + view[k]));
-        let (i, o, h) = (light[1], view[1], half[1]);
-        let distribution = alpha.powi(2) / (PI * (h * h * (alpha.powi(2) - 1.0) + 1.0).powi(2));
-        let lambda = |cos: f64| ((1.0 + alpha.powi(2) * (1.0 / (cos * cos) - 1.0)).sqrt() - 1.0) / 2.0;
-        let shadowing = 1.0 / (1.0 + lambda(i) + lambda(o));
+        let (i, o) = (light[1], view[1]);
+        // squares of the components along and across
+        let squares = |w: V3| {
+            let u = dot(w, along);
+            [u * u, w[0] * w[0] + w[2] * w[2] - u * u]
+        };
+        let [u, v] = squares(half);
+        let distribution = 1.0 / (PI * a * b * (u / (a * a) + v / (b * b) + half[1] * half[1]).powi(2));
+        let lambda = |w: V3| {
+            let [u, v] = squares(w);
+            ((1.0 + (a * a * u + b * b * v) / (w[1] * w[1])).sqrt() - 1.0) / 2.0
+        };
+        let shadowing = 1.0 / (1.0 + lambda(light) + lambda(view));
         let fresnel = f0 + (1.0 - f0) * (1.0 - dot(view, half)).powi(5);
         let rough = fresnel * distribution * shadowing / (4.0 * i * o);
-        let world = narrow(
-            "1 5 2",
-            &format!("{}{text}{PLANE}", sun(to)).replace("Material \"diffuse\" \"rgb reflectance\" [.8 .5 .2]\n", ""),
-        );
+        let world = narrow("1 5 2", &format!("{}{text}{shape}", sun(to)));
         for &technique in Technique::value_variants() {
             let (mean, _) = pixel(&world, technique, 8);
             for (k, albedo) in albedo.into_iter().enumerate() {
                 let truth = ((1.0 - fresnel) * albedo / PI + rough) * i;
                 assert!(
                     (mean[k] - truth).abs() <= 3e-5 * truth,
-                    "{technique:?}, {to:?}: {mean:?}, {truth} in channel {k}"
+                    "{technique:?}, α {a} and {b}, {to:?}: {mean:?}, {truth} in channel {k}"
                 );
             }
         }

@@ -13,8 +13,8 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
     let finish = |index: u32| match scene.materials[index as usize] {
         Material::Diffuse(albedo) => Finish::Diffuse(albedo[CHANNEL].into()),
         Material::Mirror(reflectance) => Finish::Mirror(reflectance[CHANNEL].into()),
-        Material::Conductor { eta, k, alpha } => {
-            Finish::Metal { eta: eta[CHANNEL].into(), k: k[CHANNEL].into(), alpha: alpha.into() }
+        Material::Conductor { eta, k, roughness } => {
+            Finish::Metal { eta: eta[CHANNEL].into(), k: k[CHANNEL].into(), alpha: roughness.along.into() }
         }
         Material::Glossy { .. } | Material::Varying(_) => unreachable!("no such material is drawn"),
     };

@@ -75,18 +75,20 @@ pub(super) struct Materials {
 }
 
 /// What else a material may have, and what its absence changes.
-const IGNORED: [(&str, &str); 10] = [
+const IGNORED: [(&str, &str); 9] = [
     ("KHR_materials_transmission", "is ignored: the surface is opaque"),
     ("KHR_materials_diffuse_transmission", "is ignored: the surface is opaque"),
     ("KHR_materials_volume", "is ignored"),
     ("KHR_materials_volume_scatter", "is ignored"),
     ("KHR_materials_clearcoat", "is ignored"),
     ("KHR_materials_sheen", "is ignored"),
-    ("KHR_materials_anisotropy", "is ignored: the surface is isotropic"),
     ("KHR_materials_iridescence", "is ignored"),
     ("KHR_materials_dispersion", "is ignored"),
     ("KHR_materials_variants", "is ignored"),
 ];
+
+/// The extension of anisotropic materials.
+pub(super) const ANISOTROPY: &str = "KHR_materials_anisotropy";
 
 /// Whether an extension is one of those that a material may have and that are ignored.
 pub(super) fn is_ignored(name: &str) -> bool {
@@ -165,7 +167,7 @@ impl Reader<'_, '_> {
                 }
                 let specular = self.textured(specular, map, Encoding::Srgb)?;
                 let alpha = Texture::number((1.0 - smooth) * (1.0 - smooth));
-                Varying::Glossy { diffuse, specular, alpha }
+                Varying::Glossy { diffuse, specular, roughness: [alpha.clone(), alpha], turn: 0.0 }
             }
             None => self.metallic(material)?,
         };
@@ -237,7 +239,8 @@ impl Reader<'_, '_> {
         let roughness = Texture::number(roughness).times(map.channel(1));
         let ior = extensions.and_then(|all| all.ior.as_ref()).map_or(1.5, |ior| ior.ior.0);
         let specular = extensions.and_then(|all| all.specular.as_ref());
-        if ior == 1.5 && specular.is_none() {
+        let grain = self.grain(material)?;
+        if ior == 1.5 && specular.is_none() && grain.is_none() {
             return Ok(Varying::Metallic { base, metallic, roughness });
         }
         if !(ior == 0.0 || ior >= 1.0 && ior.is_finite()) {
@@ -256,11 +259,34 @@ impl Reader<'_, '_> {
             }
             at_normal = Texture::Constant(color.map(|x| (x * ratio * ratio).min(1.0) * factor));
         }
+        let alpha = roughness.clone().times(roughness);
+        let (strength, turn) = grain.unwrap_or((0.0, 0.0));
+        let along = match strength {
+            0.0 => alpha.clone(),
+            _ => Texture::mix(alpha.clone(), Texture::number(1.0), Texture::number(strength * strength)),
+        };
         Ok(Varying::Glossy {
             diffuse: base.clone().times(metallic.clone().inverse()),
             specular: Texture::mix(at_normal, base, metallic),
-            alpha: roughness.clone().times(roughness),
+            roughness: [along, alpha],
+            turn,
         })
+    }
+
+    /// Strength and rotation in radians of an anisotropic material.
+    fn grain(&mut self, material: &material::Material) -> Result<Option<(f32, f32)>, Message> {
+        let extensions = material.extensions.as_ref();
+        let Some(of) = extensions.and_then(|all| all.others.get(ANISOTROPY)) else { return Ok(None) };
+        let number = |name: &str| match of.get(name).map_or(Some(0.0), serde_json::Value::as_f64) {
+            Some(x) if (x as f32).is_finite() => Ok(x as f32),
+            _ => Err(self.error(&format!("{ANISOTROPY}: {name}: must be a finite number"))),
+        };
+        let (strength, turn) = (number("anisotropyStrength")?, number("anisotropyRotation")?);
+        let [strength] = self.shares("anisotropyStrength", [strength]);
+        if of.get("anisotropyTexture").is_some() {
+            self.stand_in("anisotropy texture", &format!("the texture of its {ANISOTROPY} is ignored"));
+        }
+        Ok((strength > 0.0).then_some((strength, turn)))
     }
 
     fn glow(&mut self, material: &material::Material) -> Result<Option<Glow>, Message> {
@@ -304,6 +330,9 @@ impl Reader<'_, '_> {
             self.stand_in("occlusion", "its occlusionTexture is ignored");
         }
         for name in material.extensions.iter().flat_map(|all| all.others.keys()) {
+            if name == ANISOTROPY {
+                continue;
+            }
             let known = IGNORED.iter().find(|(ignored, _)| ignored == name);
             let what = known.map_or("is not supported and ignored", |(_, what)| what);
             self.stand_in(&format!("extension {name}"), &format!("{} {what}", shortened(name)));

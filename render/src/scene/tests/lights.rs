@@ -130,15 +130,26 @@ fn metals_and_mirrors() {
     };
     assert_eq!(material("Material \"mirror\""), Material::Mirror([0.9; 3]));
     let gold = "Material \"conductor\" \"rgb eta\" [0.1 0.4 1.4] \"rgb k\" [4 2 1.5] \"float roughness\" 0.25";
-    let metal = |alpha| Material::Conductor { eta: [0.1, 0.4, 1.4], k: [4.0, 2.0, 1.5], alpha };
-    assert_eq!(material(gold), metal(0.5));
-    assert_eq!(material(&format!("{gold} \"bool remaproughness\" false")), metal(0.25));
-    assert!(metal(0.5).is_glossy() && metal(0.0).is_mirror() && !metal(0.5).is_mirror());
+    let metal = |along, across| {
+        let roughness = Roughness { along, across, turn: 0.0 };
+        Material::Conductor { eta: [0.1, 0.4, 1.4], k: [4.0, 2.0, 1.5], roughness }
+    };
+    assert_eq!(material(gold), metal(0.5, 0.5));
+    assert_eq!(material(&format!("{gold} \"bool remaproughness\" false")), metal(0.25, 0.25));
+    assert_eq!(material(&format!("{gold} \"float vroughness\" 0.04")), metal(0.5, 0.2));
+    // smooth in one direction alone is as smooth there as numbers allow
+    assert_eq!(material(&format!("{gold} \"float uroughness\" 0")), metal(1e-4, 0.5));
+    assert!(metal(0.5, 0.5).is_glossy() && metal(0.0, 0.0).is_mirror() && !metal(0.5, 0.5).is_mirror());
+    assert!(metal(0.0, 0.5).is_glossy() && !metal(0.0, 0.5).is_mirror());
     // reflectance ½ at normal incidence: k² = 4
     let half = material("Material \"conductor\" \"rgb reflectance\" [0.5 0 1]");
-    let Material::Conductor { eta, k, alpha } = half else { panic!("{half:?}") };
+    let Material::Conductor { eta, k, roughness } = half else { panic!("{half:?}") };
     assert!(
-        eta == [1.0; 3] && (k[0] - 2.0).abs() < 1e-6 && k[1] == 0.0 && (k[2] - 199.99).abs() < 1e-2 && alpha == 0.0
+        eta == [1.0; 3]
+            && (k[0] - 2.0).abs() < 1e-6
+            && k[1] == 0.0
+            && (k[2] - 199.99).abs() < 1e-2
+            && roughness == 0.0.into()
     );
     let named = "MakeNamedMaterial \"m\" \"string type\" \"mirror\" \"rgb Kr\" [.5 .5 .5]\nNamedMaterial \"m\"";
     assert_eq!(material(named), Material::Mirror([0.5; 3]));

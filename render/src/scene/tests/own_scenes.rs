@@ -38,8 +38,8 @@ fn textures_are_read_and_combined() {
     assert_eq!(material(constant).0, Material::Diffuse([0.1, 0.2, 0.3]));
     let rough = "Texture \"r\" \"float\" \"checkerboard\" \"float tex1\" 0.25 \"float tex2\" 1\n\
         Material \"conductor\" \"spectrum reflectance\" [300 .5 800 .5] \"texture roughness\" \"r\"";
-    let Material::Glossy { diffuse, specular, alpha } = varied(rough, [0.5, 0.5]) else { panic!() };
-    assert!(diffuse == [0.0; 3] && specular.iter().all(|x| (x - 0.5).abs() < 1e-6) && alpha == 0.5);
+    let Material::Glossy { diffuse, specular, roughness } = varied(rough, [0.5, 0.5]) else { panic!() };
+    assert!(diffuse == [0.0; 3] && specular.iter().all(|x| (x - 0.5).abs() < 1e-6) && roughness == 0.5.into());
     let unknown = lit("Texture \"w\" \"float\" \"windy\" \"float x\" 1\nTexture \"v\" \"float\" \"windy\"");
     assert_eq!(warnings(&unknown).len(), 1);
     assert!(unknown.stand_ins[0].text.contains("becomes 0.5 everywhere"), "{:?}", unknown.stand_ins);
@@ -110,7 +110,10 @@ fn odd_and_older_files() {
     };
     assert_eq!([of(0), of(1)], [(Material::Mirror([0.9; 3]), true), (Material::Mirror([0.9; 3]), false)]);
     let (rough, scene) = material("Material \"conductor\" \"float roughness\" 5.8");
-    assert!(matches!(rough, Material::Conductor { alpha: 1.0, .. }) && warnings(&scene)[0].contains("5.8 counts as 1"));
+    assert!(
+        matches!(rough, Material::Conductor { roughness: Roughness { along: 1.0, across: 1.0, .. }, .. })
+            && warnings(&scene)[0].contains("5.8 counts as 1")
+    );
     // copper has what is missing
     let Material::Conductor { eta, k, .. } = material("Material \"conductor\" \"rgb eta\" [1 2 3]").0 else { panic!() };
     let Material::Conductor { k: copper, .. } = material("Material \"conductor\"").0 else { panic!() };
@@ -266,27 +269,27 @@ fn attributes_imports_and_media() {
 #[test]
 fn materials_become_what_direct_light_shows() {
     let coat = |text: &str| match material(text).0 {
-        Material::Glossy { diffuse, specular, alpha } => (diffuse, specular, alpha),
+        Material::Glossy { diffuse, specular, roughness } => (diffuse, specular, roughness),
         other => panic!("{text}: {other:?}"),
     };
     let near = |a: [f32; 3], b: f32| a.iter().all(|x| (x - b).abs() < 1e-6);
-    let (diffuse, specular, alpha) = coat("Material \"coateddiffuse\" \"float roughness\" 0.25");
-    assert!(near(diffuse, 0.5) && near(specular, 0.04) && alpha == 0.5);
-    assert_eq!(coat("Material \"coateddiffuse\"").2, Material::LEAST_ALPHA);
+    let (diffuse, specular, roughness) = coat("Material \"coateddiffuse\" \"float roughness\" 0.25");
+    assert!(near(diffuse, 0.5) && near(specular, 0.04) && roughness == 0.5.into());
+    assert_eq!(coat("Material \"coateddiffuse\"").2, Roughness::LEAST.into());
     let (diffuse, specular, _) = coat("Material \"plastic\" \"rgb Kd\" [.3 .3 .3] \"rgb Ks\" [.5 .5 .5]");
     assert!(near(diffuse, 0.3) && near(specular, 0.02));
     let conductor = |text: &str| match material(text).0 {
-        Material::Conductor { eta, k, alpha } => (eta, k, alpha),
+        Material::Conductor { eta, k, roughness } => (eta, k, roughness),
         other => panic!("{text}: {other:?}"),
     };
-    assert_eq!(conductor("Material \"conductor\"").2, 0.0);
+    assert_eq!(conductor("Material \"conductor\"").2, 0.0.into());
     assert!(conductor("Material \"conductor\"").1[0] > 3.9);
     let gold = "\"spectrum conductor.eta\" \"metal-Au-eta\" \"spectrum conductor.k\" \"metal-Au-k\" \"float conductor.roughness\" .25";
-    let (eta, _, alpha) = conductor(&format!("Material \"coatedconductor\" {gold}"));
-    assert!((eta[2] - 1.4425).abs() < 1e-6 && alpha == 0.5);
-    let (eta, k, alpha) = conductor("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" \"float roughness\" 0");
-    assert_eq!((eta, k, alpha), ([1.5168; 3], [0.0; 3], 0.0));
-    assert!(coat("Material \"metal\" \"rgb reflectance\" [1 1 1]\nMaterial \"substrate\"").2 > 0.3);
+    let (eta, _, roughness) = conductor(&format!("Material \"coatedconductor\" {gold}"));
+    assert!((eta[2] - 1.4425).abs() < 1e-6 && roughness == 0.5.into());
+    let (eta, k, roughness) = conductor("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" \"float roughness\" 0");
+    assert_eq!((eta, k, roughness), ([1.5168; 3], [0.0; 3], 0.0.into()));
+    assert!(coat("Material \"metal\" \"rgb reflectance\" [1 1 1]\nMaterial \"substrate\"").2.along > 0.3);
     for (text, expected) in [
         ("Material \"matte\" \"rgb Kd\" [.2 .2 .2]", Material::Diffuse([0.2; 3])),
         ("Material \"hair\" \"float eumelanin\" 3", Material::Diffuse([0.5; 3])),

@@ -1,6 +1,6 @@
 //! Tests of materials, textures and what emits.
 
-use super::super::super::{Emission, Material, Varying};
+use super::super::super::{Emission, Material, Roughness, Varying};
 use super::*;
 use crate::image::encode_png;
 use crate::texture::{Mask, Texture, Wrap};
@@ -39,14 +39,14 @@ fn near(found: [f32; 3], wanted: [f32; 3]) {
 #[test]
 fn constant_materials() {
     // white, metallic and rough
-    let Material::Glossy { diffuse, specular, alpha } = material(&Asset::of_triangle()) else { panic!() };
-    assert_eq!((diffuse, specular, alpha), ([0.0; 3], [1.0; 3], 1.0));
+    let Material::Glossy { diffuse, specular, roughness } = material(&Asset::of_triangle()) else { panic!() };
+    assert_eq!((diffuse, specular, roughness), ([0.0; 3], [1.0; 3], 1.0.into()));
     let surface = json!({"baseColorFactor": [0.2, 0.4, 0.8, 1], "metallicFactor": 0, "roughnessFactor": 0.5});
     let asset = Asset::of_material(json!({"pbrMetallicRoughness": surface}));
-    let Material::Glossy { diffuse, specular, alpha } = material(&asset) else { panic!() };
+    let Material::Glossy { diffuse, specular, roughness } = material(&asset) else { panic!() };
     near(diffuse, [0.2, 0.4, 0.8]);
     near(specular, [0.04; 3]);
-    assert_eq!(alpha, 0.25);
+    assert_eq!(roughness, 0.25.into());
     assert_eq!(asset.warnings(), [""; 0]);
 
     let asset = Asset::of_material(json!({"pbrMetallicRoughness": {"baseColorFactor": [1.5, -1, 0, 1]}}));
@@ -283,11 +283,11 @@ fn indices_of_refraction_and_speculars() {
             json!({"metallicFactor": metallic, "roughnessFactor": 0.5, "baseColorFactor": [0.5, 0.5, 0.5, 1]});
         material(&Asset::of_material(json!({"pbrMetallicRoughness": surface, "extensions": extensions})))
     };
-    let Material::Glossy { diffuse, specular, alpha } = of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.0) else {
+    let Material::Glossy { diffuse, specular, roughness } = of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.0) else {
         panic!()
     };
     near(specular, [1.0 / 9.0; 3]);
-    assert_eq!((diffuse, alpha), ([0.5; 3], 0.25));
+    assert_eq!((diffuse, roughness), ([0.5; 3], 0.25.into()));
     let Material::Glossy { diffuse, specular, .. } = of(json!({"KHR_materials_ior": {"ior": 2.0}}), 0.5) else {
         panic!()
     };
@@ -303,14 +303,47 @@ fn indices_of_refraction_and_speculars() {
 }
 
 #[test]
+fn anisotropic_roughness() {
+    let of = |extension: Value| {
+        let surface = json!({"metallicFactor": 0.5, "roughnessFactor": 0.5, "baseColorFactor": [0.5, 0.5, 0.5, 1]});
+        let extensions = json!({"KHR_materials_anisotropy": extension});
+        let mut asset = Asset::of_material(json!({"pbrMetallicRoughness": surface, "extensions": extensions}));
+        asset.json["extensionsRequired"] = json!(["KHR_materials_anisotropy"]);
+        asset
+    };
+    let brushed = of(json!({"anisotropyStrength": 0.5, "anisotropyRotation": 0.75}));
+    let scene = brushed.read();
+    let Material::Glossy { diffuse, specular, roughness } = scene.materials[scene.triangle_materials[0] as usize]
+    else {
+        panic!()
+    };
+    near(diffuse, [0.25; 3]);
+    near(specular, [0.27; 3]);
+    // 0.25 + (1 − 0.25) · 0.5²
+    assert_eq!(roughness, Roughness { along: 0.4375, across: 0.25, turn: 0.75 });
+    assert_eq!(brushed.warnings(), [""; 0]);
+    assert!(scene.details.of(0).is_some(), "the direction depends on the texture coordinates");
+    // without strength it is as without the extension
+    let Material::Glossy { roughness, .. } = material(&of(json!({"anisotropyRotation": 1}))) else { panic!() };
+    assert_eq!(roughness, 0.25.into());
+    let text = of(json!({"anisotropyStrength": "0.5"})).error();
+    assert_eq!(text, "a.glb: material 0: KHR_materials_anisotropy: anisotropyStrength: must be a finite number");
+    let mapped = of(json!({"anisotropyStrength": 1, "anisotropyTexture": {"index": 0}})).warnings();
+    assert!(mapped[0].contains("the texture of its KHR_materials_anisotropy is ignored"), "{mapped:?}");
+}
+
+#[test]
 fn specular_and_glossiness() {
     let asset = textured(json!({"extensions": {"KHR_materials_pbrSpecularGlossiness": {
         "diffuseFactor": [0.5, 0.5, 0.5, 1], "diffuseTexture": {"index": 0},
         "specularFactor": [0.25, 0.5, 1], "glossinessFactor": 0.5,
     }}}));
-    let Varying::Glossy { diffuse, specular, alpha } = varying(&asset) else { panic!() };
+    let Varying::Glossy { diffuse, specular, roughness: [along, across], turn: 0.0 } = varying(&asset) else {
+        panic!()
+    };
     assert_eq!(diffuse.at([0.25, 0.25]), [0.5, 0.0, 0.0]);
-    assert_eq!((specular, alpha), (Texture::Constant([0.25, 0.5, 1.0]), Texture::number(0.25)));
+    assert_eq!(specular, Texture::Constant([0.25, 0.5, 1.0]));
+    assert_eq!([along, across], [0.25; 2].map(Texture::number));
 }
 
 #[test]
