@@ -47,6 +47,21 @@ pub const LENS: u32 = 3;
 /// The pair for a direction sampled from the surface's BSDF, in addition to a point on the light.
 pub const SURFACE: u32 = 4;
 
+/// How many of the pairs have names.
+const PAIRS: usize = 5;
+
+/// Which pairs of each sample are replaced by others of the same distribution; see [`World::redraw`](crate::World::redraw).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Redrawn([bool; PAIRS]);
+
+impl Redrawn {
+    /// All pairs with names but these.
+    #[must_use]
+    pub fn all_but(kept: &[u32]) -> Self {
+        Self(std::array::from_fn(|pair| !kept.contains(&(pair as u32))))
+    }
+}
+
 /// Eight samples to be taken.
 #[derive(Clone, Copy, Debug)]
 pub struct Packet {
@@ -162,6 +177,8 @@ pub struct Source {
     /// Distance of the first indices of two successive replicates, less `span`.
     gap: u32x8,
     width: u32x8,
+    /// The pairs of a Sobol set that have names.
+    pairs: [u32; PAIRS],
 }
 
 /// Index of a pair in a joint point. The lens comes before the choice of a light, which few scenes need.
@@ -204,7 +221,21 @@ impl Source {
             }
         };
         let span = if sampler == Sampler::Independent { 0 } else { span };
-        Self { set, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width) }
+        let pairs = std::array::from_fn(|pair| pair as u32);
+        Self { set, span, gap: u32x8::splat(stride.saturating_sub(span)), width: u32x8::splat(width), pairs }
+    }
+    /// The same numbers, but for these pairs of [`Sampler::Sobol`] and [`Sampler::Adaptive`], which are others.
+    #[must_use]
+    pub fn redrawn(mut self, Redrawn(redrawn): Redrawn) -> Self {
+        for (pair, redrawn) in self.pairs.iter_mut().zip(redrawn) {
+            *pair += if redrawn { 0x100 } else { 0 };
+        }
+        self
+    }
+    /// The number of a pair in a Sobol set.
+    #[inline(always)]
+    fn numbered(&self, pair: u32) -> u32 {
+        self.pairs.get(pair as usize).copied().unwrap_or(pair)
     }
     /// Samples in a replicate; 0 if each sample is a replicate.
     #[must_use]
@@ -231,7 +262,7 @@ impl Source {
         let pixel = packet.y * self.width + packet.x;
         let key = pixel * u32x8::splat(4) + packet.replicate + light * u32x8::splat(0x9e37_79b9);
         match &self.set {
-            Set::Sobol(set) => [self.pair(packet, FILM), set.pair(key, sample, LIGHT)],
+            Set::Sobol(set) => [self.pair(packet, FILM), set.pair(key, sample, self.numbered(LIGHT))],
             _ => self.film_and_light(packet),
         }
     }
@@ -252,7 +283,7 @@ impl Source {
             Set::Latin(set) => set.pair(pixel, packet.sample, dimension),
             Set::Sobol(set) => {
                 let (key, index) = sobol();
-                set.pair(key, index, dimension)
+                set.pair(key, index, self.numbered(dimension))
             }
             Set::Sobol4d(set) => {
                 let (key, index) = sobol();

@@ -11,7 +11,7 @@ use crate::bvh::GROUP;
 use crate::camera::{Camera, CameraSample};
 use crate::film::Accumulator;
 use crate::packet::{M8, X8};
-use crate::sampler::{CHOICE, FILM, LENS, Packet, SURFACE, Source};
+use crate::sampler::{CHOICE, FILM, LENS, Packet, Redrawn, SURFACE, Source};
 use crate::sensor::Exposure;
 use etendue::select::Allocated;
 use etendue::{Mask, Real, Vec2, u32x8};
@@ -82,6 +82,7 @@ impl<'a> TileRenderer<'a> {
         settings: &'a Settings,
         camera: Camera,
         exposure: Option<Exposure>,
+        redrawn: Redrawn,
     ) -> Self {
         let Settings { sampler, seed, spp, sets, width, .. } = *settings;
         Self {
@@ -90,7 +91,7 @@ impl<'a> TileRenderer<'a> {
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
-            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width),
+            source: Source::new(sampler, seed, spp, sets, camera.has_lens(), width).redrawn(redrawn),
             paths: Paths::new(scene, settings, &camera),
         }
     }

@@ -246,7 +246,8 @@ impl View<'_> {
 
     fn renderer(&self) -> TileRenderer<'_> {
         let Settings { width, height, .. } = self.settings;
-        TileRenderer::new(&self.world.scene, &self.settings, self.camera, self.world.exposure(width, height))
+        let (World { scene, redrawn, .. }, exposure) = (self.world, self.world.exposure(width, height));
+        TileRenderer::new(scene, &self.settings, self.camera, exposure, *redrawn)
     }
 
     /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.

@@ -2,6 +2,7 @@
 
 use super::prepared::PreparedScene;
 use crate::bvh::BuildError;
+use crate::sampler::Redrawn;
 use crate::scene::{CameraSettings, Scene};
 use crate::sensor::{Exposure, Sensor};
 
@@ -13,6 +14,7 @@ pub struct World {
     /// Diagonal of the film in millimetres.
     diagonal: f64,
     sensor: Sensor,
+    pub(super) redrawn: Redrawn,
 }
 
 impl World {
@@ -33,7 +35,8 @@ impl World {
     }
 
     fn with(prepared: PreparedScene, scene: &Scene) -> Self {
-        Self { scene: prepared, camera: scene.camera.clone(), diagonal: scene.film.diagonal, sensor: Sensor::default() }
+        let (camera, diagonal) = (scene.camera.clone(), scene.film.diagonal);
+        Self { scene: prepared, camera, diagonal, sensor: Sensor::default(), redrawn: Redrawn::default() }
     }
 
     /// Size of the trees and their primitives in bytes.
@@ -45,6 +48,13 @@ impl World {
     #[must_use]
     pub fn with_sensor(self, sensor: Sensor) -> Self {
         Self { sensor, ..self }
+    }
+
+    /// From now on, samples have other numbers in these pairs, and the same as before in the rest. The covariance of the images before and
+    /// after is the part of the variance that the rest alone causes. Only [`Sampler::Sobol`](crate::Sampler::Sobol) and
+    /// [`Sampler::Adaptive`](crate::Sampler::Adaptive) draw numbers anew.
+    pub fn redraw(&mut self, redrawn: Redrawn) {
+        self.redrawn = redrawn;
     }
 
     /// The weights of radiance in an image of this size; `None` if the sensor measures radiance itself.
