@@ -145,13 +145,25 @@ impl Sampler {
     pub fn has_sets(self) -> bool {
         self != Self::Independent
     }
-    /// Independent sets of samples per pixel if `asked` sets are requested (0: as few as give a variance, if any number does).
+    /// Whether pixels have one set each, but for some that have a second one, from which the variance of all is known: if no number of sets
+    /// is asked for.
+    #[must_use]
+    pub fn checks(self, asked: u32) -> bool {
+        self == Self::Adaptive && asked == 0
+    }
+    /// Independent sets of samples per pixel, at the most, if `asked` sets are requested (0: as few as give a variance, if any number does).
     #[must_use]
     pub fn sets(self, spp: u32, asked: u32, lens: bool) -> u32 {
         match self {
             _ if asked != 0 && self != Self::Stratified4d => asked,
             Self::Stratified4d => joint_replicates(spp, dimensions(lens), asked).unwrap_or(replicates(spp)),
-            Self::Adaptive => [4, 2].into_iter().find(|sets| spp >= FEWEST * sets).unwrap_or(1),
+            Self::Adaptive => {
+                if spp >= FEWEST {
+                    2
+                } else {
+                    1
+                }
+            }
             _ => replicates(spp),
         }
     }

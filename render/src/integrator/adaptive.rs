@@ -28,18 +28,75 @@ const WEIGHT_OUTERMOST: f64 = 0.003;
 /// Numbers of samples per set of a pixel, in packets of eight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
+    /// The most sets of a pixel.
+    pub(super) sets: u32,
     /// Packets of the pilot in each set.
     pub(super) pilot: u32,
     /// Mean number of packets per set over the pixels.
-    pub(super) packets: f64,
+    packets: f64,
+    checks: Option<Checks>,
 }
 
 impl Effort {
-    pub(super) fn new(spp: u32, sets: u32) -> Self {
-        let packets = f64::from(spp) / f64::from(8 * sets);
+    pub(super) fn new(settings: &Settings, lens: bool) -> Self {
+        let &Settings { spp, sampler, sets: asked, .. } = settings;
+        let sets = sampler.sets(spp, asked, lens);
+        let checks = if sampler.checks(asked) { Checks::new(settings) } else { None };
+        let mean_sets = checks.map_or(f64::from(sets), |checks| 1.0 + f64::from(checks.side * checks.side).recip());
+        let packets = f64::from(spp) / (8.0 * mean_sets);
         // the greatest power of two up to a quarter, but 2 packets if there are 4 or more: eight points miss too much
         let pilot = greatest_power(packets / 4.0).max(if packets < 4.0 { 1.0 } else { 2.0 });
-        Self { pilot: pilot as u32, packets }
+        Self { sets, pilot: pilot as u32, packets, checks }
+    }
+    /// Whether a pixel has a set.
+    pub(super) fn has(&self, pixel: [u32; 2], set: u32) -> bool {
+        self.sets(pixel) > set
+    }
+    /// The sets of a pixel.
+    fn sets(&self, pixel: [u32; 2]) -> u32 {
+        match self.checks {
+            Some(checks) => 1 + u32::from(checks.is_at(pixel)),
+            None => self.sets,
+        }
+    }
+}
+
+/// The pixels that have a second set, one of each square of pixels, at random.
+///
+/// The differences of their two sets tell by how much the variances differ from what the pilot lets expect, in each tile of the image. So the
+/// other pixels need only one set, whose error is less than that of two sets with as many samples together.
+#[derive(Clone, Copy, Debug)]
+struct Checks {
+    seed: u64,
+    /// Side of the squares in pixels.
+    side: u32,
+    size: [u32; 2],
+}
+
+impl Checks {
+    /// At least so many pixels are checked.
+    const FEWEST: u32 = 256;
+
+    /// `None` if all pixels are needed.
+    fn new(&Settings { width, height, seed, .. }: &Settings) -> Option<Self> {
+        let cells = |side: u32| u64::from(width / side) * u64::from(height / side);
+        let side = [4, 2].into_iter().find(|&side| cells(side) >= Self::FEWEST.into())?;
+        Some(Self { seed, side, size: [width, height] })
+    }
+    fn is_at(&self, pixel: [u32; 2]) -> bool {
+        let Self { seed, side, size } = *self;
+        let [column, row] = pixel.map(|at| u64::from(at / side));
+        let mut bits = seed ^ (row << 32 | column).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        // the output function of SplitMix64 (Steele, Lea and Flood 2014)
+        bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        bits ^= bits >> 31;
+        (0..2).all(|axis| {
+            let first = pixel[axis] / side * side;
+            // the last squares of a row or column may be narrower
+            let width = side.min(size[axis] - first);
+            pixel[axis] - first == (bits >> (32 * axis)) as u32 % width
+        })
     }
 }
 
@@ -50,12 +107,12 @@ pub struct Statistics {
     pub sums: [[f64; 3]; 4],
     /// Packets in each set.
     pub packets: u32,
-    /// Variance of the means of four samples each, summed over the channels; for allocated samples, of what the camera sees directly. For
-    /// samples allocated to more than `APART` lights, the sum of squared differences of successive samples.
+    /// Variance of the means of four samples each, summed over the channels; for samples that are allocated to at most `APART` lights, of
+    /// what the camera sees directly.
     pub variance: f64,
     /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
     pub lights: usize,
-    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light.
+    /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, per set.
     pub spread: [f32; APART],
     /// Number of these pairs per set.
     pub pairs: [u32; APART],
@@ -74,6 +131,8 @@ pub struct Allotment {
     pub lights: usize,
     /// The weight of each light at each pixel.
     pub weights: Vec<f32>,
+    /// [`Statistics::square`] of the pilot.
+    pub squares: Vec<f32>,
     /// Samples per set of each light in the pilot.
     pub begun: Vec<[u32; APART]>,
     /// Sum of each set of the pilot.
@@ -87,16 +146,16 @@ impl Allotment {
     /// Panics if the pilot is not one of the image's size.
     #[must_use]
     pub fn new(settings: &Settings, lens: bool, pilot: &[Statistics]) -> Self {
-        let &Settings { width, height, spp, .. } = settings;
+        let &Settings { width, height, .. } = settings;
         assert_eq!(pilot.len(), width as usize * height as usize);
-        let sets = settings.sampler.sets(spp, settings.sets, lens);
-        let (packets, weights) = allot(pilot, width, sets, &Effort::new(spp, sets));
-        let (lights, of) = weights.map_or((0, Vec::new()), |weights| weights);
+        let (packets, weights) = allot(pilot, width, &Effort::new(settings, lens));
+        let (lights, of) = weights.unwrap_or_default();
         Self {
             area: [0, 0, width, height],
             packets,
             lights,
             weights: of,
+            squares: pilot.iter().map(|pixel| pixel.square() as f32).collect(),
             begun: pilot.iter().map(|pixel| pixel.taken).collect(),
             sums: pilot.iter().map(|pixel| pixel.sums).collect(),
         }
@@ -109,6 +168,7 @@ impl Allotment {
             packets: crop(&self.packets, self.area, area, 1),
             lights: self.lights,
             weights: crop(&self.weights, self.area, area, self.lights),
+            squares: crop(&self.squares, self.area, area, 1),
             begun: crop(&self.begun, self.area, area, 1),
             sums: crop(&self.sums, self.area, area, 1),
         }
@@ -118,20 +178,66 @@ impl Allotment {
         let Self { lights, weights, area, begun, .. } = self;
         (*lights > 0).then(|| Weights { lights: *lights, of: weights.into(), area: *area, begun })
     }
-    /// The pixel of this index, with the samples after those of the pilot.
-    pub(super) fn finish(&self, index: usize, rest: &Statistics, sets: u32) -> Pixel {
-        let count = 8 * self.packets[index];
-        let both = |(a, b): (&[f64; 3], &[f64; 3])| {
-            let sum = std::array::from_fn(|k| a[k] + b[k]);
-            (count, Moments { sum, ..Moments::default() })
+    /// The pixels of a tile, from `rest`, the samples after those of the pilot.
+    pub(super) fn finish(&self, tile: Area, rest: &[Statistics], effort: &Effort) -> Vec<Pixel> {
+        let ([left, top, right, _], [x0, y0, x1, y1]) = (self.area, tile);
+        let places = || (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y]));
+        let index = |[x, y]: [u32; 2]| ((y - top) * (right - left) + (x - left)) as usize;
+        let pixel = |(place, rest): ([u32; 2], &Statistics)| {
+            let count = 8 * self.packets[index(place)];
+            let both = |(a, b): (&[f64; 3], &[f64; 3])| {
+                let sum = std::array::from_fn(|k| a[k] + b[k]);
+                (count, Moments { sum, ..Moments::default() })
+            };
+            let sets = effort.sets(place) as usize;
+            Pixel::of_sets(self.sums[index(place)].iter().zip(&rest.sums).take(sets).map(both), false)
         };
-        Pixel::of_sets(self.sums[index].iter().zip(&rest.sums).take(sets as usize).map(both), false)
+        let mut pixels: Vec<Pixel> = places().zip(rest).map(pixel).collect();
+        if effort.checks.is_none() {
+            return pixels;
+        }
+        // by their spread, the variances of sets of n samples are as c n^−1.5; by which factor, the tile's pixels of two sets tell
+        let by_spread = |(place, rest): ([u32; 2], &Statistics)| {
+            let [before, after] = [effort.pilot, rest.packets].map(f64::from);
+            let pilot = f64::from(self.squares[index(place)]);
+            (before * pilot + after * rest.square()) / (before + after) * pow(before + after, -1.5)
+        };
+        let by_spread: Vec<f64> = places().zip(rest).map(by_spread).collect();
+        let (mut count, mut expected, mut found) = (0.0, 0.0, [0.0; 3]);
+        for ((_, pixel), by_spread) in
+            places().zip(&pixels).zip(&by_spread).filter(|((place, _), _)| effort.sets(*place) > 1)
+        {
+            count += 1.0;
+            expected += by_spread;
+            // that of the mean of two sets is half as much
+            found.iter_mut().zip(pixel.variance).for_each(|(sum, variance)| *sum += 2.0 * f64::from(variance));
+        }
+        for ((place, pixel), by_spread) in places().zip(&mut pixels).zip(by_spread) {
+            // where nothing is expected, variance is taken to be the same everywhere
+            let of_set = if expected > 0.0 { by_spread / expected } else { 1.0 / count };
+            pixel.variance = found.map(|found| (found * of_set / f64::from(effort.sets(place))) as f32);
+        }
+        pixels
+    }
+}
+
+impl Statistics {
+    /// The squared difference of two successive samples, or what has the same effect: a set of n samples has a variance that is about
+    /// proportional to this and to n^−1.5. It has the same mean for any number of sets.
+    fn square(&self) -> f64 {
+        let samples = f64::from(8 * self.packets);
+        let of_light = |k: usize| match (self.pairs[k], self.taken[k]) {
+            (0, _) | (_, 0) => 0.0,
+            (pairs, taken) => f64::from(self.spread[k]) / f64::from(pairs) * pow(f64::from(taken) / samples, -1.5),
+        };
+        // a difference of two samples has 16 times the variance of the mean of four
+        16.0 * self.variance + (0..self.lights).map(of_light).sum::<f64>()
     }
 }
 
 /// Packets per set for each pixel, from the variance of the pilot; and the number of lights and their weights, if samples are allocated to
 /// at most `APART` lights.
-fn allot(parts: &[Statistics], width: u32, sets: u32, effort: &Effort) -> (Vec<u32>, Option<(usize, Vec<f32>)>) {
+fn allot(parts: &[Statistics], width: u32, effort: &Effort) -> (Vec<u32>, Option<(usize, Vec<f32>)>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let mut weights = None;
     let wanted: Vec<f64> = if lights == 0 {
@@ -149,7 +255,7 @@ fn allot(parts: &[Statistics], width: u32, sets: u32, effort: &Effort) -> (Vec<u
             }
         }
         // the error of what the camera sees directly falls with all samples
-        let seen: Vec<_> = parts.iter().map(|part| 16.0 * f64::from(sets) * part.variance).collect();
+        let seen: Vec<_> = parts.iter().map(|part| 16.0 * part.variance).collect();
         let reflected = of.chunks(lights).map(|each| each.iter().map(|&w| f64::from(w)).sum::<f64>());
         let both = |(w, seen): (f64, f64)| pow(pow(w, 1.0 / POWER) + seen, POWER);
         let sums = reflected.zip(mean_around(&seen, &vec![1.0; parts.len()], columns)).map(both).collect();
@@ -286,17 +392,16 @@ impl Accumulator for StatisticsSum {
         for (sum, (block, Sum(set))) in part.sums.iter_mut().zip(sets) {
             (*sum, part.packets) = (*set, block.count / 8);
         }
-        let sets = sets.len();
+        let sets = sets.len().max(1) as u32;
         all.clear();
         part.variance = self.halves.iter().map(|b| b.variance()).sum();
-        if self.lights > APART {
-            // in the unit of the other sum: a difference of two samples has 16 times the variance of the mean of four
-            part.variance = self.between + part.variance * 16.0 * f64::from(4 * part.packets) * sets as f64;
+        if self.lights > APART && part.packets > 0 {
+            // a difference of two samples has 16 times the variance of the mean of four
+            part.variance += self.between / f64::from(16 * 4 * part.packets * sets);
         }
         if (1..=APART).contains(&self.lights) {
             part.lights = self.lights;
-            part.spread = self.spread.map(|spread| spread as f32);
-            let sets = sets.max(1) as u32;
+            part.spread = self.spread.map(|spread| (spread / f64::from(sets)) as f32);
             part.pairs = self.pairs.map(|pairs| pairs / sets);
             part.taken = self.samples.map(|samples| samples / sets);
         }

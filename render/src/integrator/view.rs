@@ -152,7 +152,6 @@ impl View<'_> {
         let (settings, camera) = (&self.settings, &self.camera);
         let is_adaptive = settings.sampler == Sampler::Adaptive;
         assert!(settings.is_of_tiles(area));
-        let (sets, Effort { pilot, .. }) = self.effort();
         match samples {
             Samples::All if is_adaptive => {
                 assert_eq!(area, settings.whole(), "a pilot allots samples to the whole image");
@@ -184,33 +183,28 @@ impl View<'_> {
             }
             Samples::Rest(allotment) => {
                 assert!(is_adaptive && area == allotment.area);
-                let weights = allotment.weights();
+                let (weights, effort) = (allotment.weights(), self.effort());
                 let [left, top, right, _] = area;
-                let index = |x: u32, y: u32| ((y - top) * (right - left) + (x - left)) as usize;
-                let (pixels, rays) = self.tiles(area, &|renderer, area| {
-                    let range = |[x, y]: [u32; 2]| [pilot, allotment.packets[index(x, y)]];
-                    let rest = renderer.parts(area, [pilot, sets], weights.as_ref(), range);
+                let index = |[x, y]: [u32; 2]| ((y - top) * (right - left) + (x - left)) as usize;
+                let (pixels, rays) = self.tiles(area, &|renderer, tile| {
+                    let range = |pixel: [u32; 2]| [effort.pilot, allotment.packets[index(pixel)]];
+                    let rest = renderer.parts(tile, &effort, weights.as_ref(), range);
                     progress(rest.len() as u64);
-                    let [x0, y0, x1, y1] = area;
-                    let places = (y0..y1).flat_map(|y| (x0..x1).map(move |x| (x, y)));
-                    places.zip(&rest).map(|((x, y), rest)| allotment.finish(index(x, y), rest, sets)).collect()
+                    allotment.finish(tile, &rest, &effort)
                 });
                 (Content::Pixels(pixels), rays)
             }
         }
     }
 
-    /// Sets of each pixel, and the effort of adaptive sampling.
-    fn effort(&self) -> (u32, Effort) {
-        let Settings { spp, sampler, sets, .. } = self.settings;
-        let sets = sampler.sets(spp, sets, self.camera.has_lens());
-        (sets, Effort::new(spp, sets))
+    fn effort(&self) -> Effort {
+        Effort::new(&self.settings, self.camera.has_lens())
     }
 
     fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {
-        let (sets, Effort { pilot, .. }) = self.effort();
+        let effort = self.effort();
         self.tiles(area, &|renderer, area| {
-            let parts = renderer.parts(area, [pilot, sets], None, |_| [0, pilot]);
+            let parts = renderer.parts(area, &effort, None, |_| [0, effort.pilot]);
             progress(parts.len() as u64);
             parts
         })

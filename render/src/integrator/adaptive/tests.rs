@@ -1,6 +1,8 @@
 //! Numbers of samples, weights of lights and variances, by definition.
 
 use super::*;
+use crate::sampler::Sampler;
+use crate::technique::Technique;
 use etendue::select::Allocation;
 
 const WIDTH: usize = 17;
@@ -43,9 +45,16 @@ fn the_pilot_is_a_quarter_in_a_power_of_two() {
             .into_iter()
             .chain([(256, 4, 2, 8.0), (504, 1, 8, 63.0), (512, 1, 16, 64.0), (520, 1, 16, 65.0)])
     {
-        let effort = Effort::new(spp, sets);
+        let effort = Effort::new(&settings([8, 8], spp, sets), false);
         assert_eq!((effort.pilot, effort.packets), (pilot, packets), "{spp} samples in {sets} sets");
     }
+}
+fn settings([width, height]: [u32; 2], spp: u32, sets: u32) -> Settings {
+    let (technique, sampler) = (Technique::SolidAngle, Sampler::Adaptive);
+    Settings { width, height, spp, technique, depth: 8, sampler, sets, seed: 5 }
+}
+fn effort(sets: u32, pilot: u32, packets: f64) -> Effort {
+    Effort { sets, pilot, packets, checks: None }
 }
 
 fn pilot(variance: impl Fn(usize) -> f64) -> Vec<Statistics> {
@@ -57,14 +66,14 @@ fn average(packets: &[u32]) -> f64 {
 
 #[test]
 fn equal_variance_gets_equal_numbers() {
-    let effort = Effort { pilot: 2, packets: 16.0 };
+    let effort = effort(1, 2, 16.0);
     for variance in [0.0, 3.0] {
-        let (packets, weights) = allot(&pilot(|_| variance), WIDTH as u32, 1, &effort);
+        let (packets, weights) = allot(&pilot(|_| variance), WIDTH as u32, &effort);
         assert!(packets.iter().all(|&n| n == 16), "{packets:?}");
         assert!(weights.is_none());
     }
     // without variance, never less than the pilot
-    let (packets, _) = allot(&pilot(|_| 0.0), WIDTH as u32, 1, &Effort { pilot: 2, packets: 1.3 });
+    let (packets, _) = allot(&pilot(|_| 0.0), WIDTH as u32, &self::effort(1, 2, 1.3));
     assert!(packets.iter().all(|&n| n == 2));
 }
 /// Two halves of a large image, whose variances have a ratio of 32: the numbers have that of 32^0.4 = 4.
@@ -74,7 +83,7 @@ fn numbers_follow_the_variance_around() {
     let part =
         |i: usize| Statistics { variance: if i % side < side / 2 { 1.0 } else { 32.0 }, ..Statistics::default() };
     let parts: Vec<_> = (0..side * side).map(part).collect();
-    let (packets, _) = allot(&parts, side as u32, 1, &Effort { pilot: 2, packets: 100.0 });
+    let (packets, _) = allot(&parts, side as u32, &self::effort(1, 2, 100.0));
     assert!((average(&packets) / 100.0 - 1.0).abs() < 0.02, "{}", average(&packets));
     // away from the border by more than the far neighbours
     let columns = |from: usize, to: usize| -> Vec<u32> {
@@ -84,7 +93,7 @@ fn numbers_follow_the_variance_around() {
     assert!((ratio / 4.0 - 1.0).abs() < 0.03, "{ratio}");
     assert!(packets.iter().all(|&n| n.is_power_of_two()));
     // and the pilot is the least
-    let (packets, _) = allot(&parts, side as u32, 1, &Effort { pilot: 64, packets: 100.0 });
+    let (packets, _) = allot(&parts, side as u32, &self::effort(1, 64, 100.0));
     assert!(packets.chunks(side).all(|row| row[..25].iter().all(|&n| n == 64)));
     assert!((average(&packets) / 100.0 - 1.0).abs() < 0.02, "{}", average(&packets));
 }
@@ -101,7 +110,7 @@ fn lights_are_weighted_by_their_spread() {
     let side = 64;
     let (sets, seen) = (2, (15.0_f64.powf(2.5) - 5.0_f64.powf(2.5)) / 32.0);
     let parts: Vec<_> = (0..side * side).map(|i| part(if i % side < side / 2 { 0.0 } else { seen })).collect();
-    let (packets, weights) = allot(&parts, side as u32, sets, &Effort { pilot: 2, packets: 100.0 });
+    let (packets, weights) = allot(&parts, side as u32, &effort(sets, 2, 100.0));
     let (lights, weights) = weights.unwrap();
     assert_eq!(lights, 3);
     for own in weights.chunks(3) {
