@@ -8,6 +8,13 @@ use std::ops::AddAssign;
 /// Side of the square of pixels that a thread renders at a time.
 pub(super) const TILE: u32 = 16;
 
+/// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.
+pub(super) fn tiles([left, top, right, bottom]: Area) -> impl Iterator<Item = Area> {
+    let from = |start: u32, end: u32| (start..end).step_by(TILE as usize);
+    from(top, bottom)
+        .flat_map(move |y| from(left, right).map(move |x| [x, y, (x + TILE).min(right), (y + TILE).min(bottom)]))
+}
+
 /// Everything an image depends on besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {

@@ -112,14 +112,14 @@ impl<'a> TileRenderer<'a> {
         self.samples(area, whole, [span; 2], spp / span, weights.as_ref(), sum, of_set)
     }
 
-    /// Renders packets `from` to `to` of each set of the pixels of an area, row by row; `range` returns them for a pixel. Samples are allocated
-    /// to the lights by `weights` if given, otherwise by the corners of the pixels.
+    /// Renders packets `from` to `to` of each set of the pixels of an area, row by row; `range` returns them. Samples are allocated to
+    /// the lights by `weights` if given, otherwise by the corners of the pixels.
     pub(super) fn parts(
         &mut self,
         area: Area,
         effort: &Effort,
         weights: Option<&Weights<'_>>,
-        range: impl Fn([u32; 2]) -> [u32; 2],
+        range: impl Fn([u32; 2], u32) -> [u32; 2],
     ) -> Vec<Statistics> {
         let &Effort { pilot, sets, .. } = effort;
         self.begin(area);
@@ -128,7 +128,7 @@ impl<'a> TileRenderer<'a> {
         // where the lights of a tile are known, no sample is allocated
         let allocated = if self.allocates(8 * pilot) { self.scene.lights.few().unwrap_or(0) } else { 0 };
         let sum = StatisticsSum::new(weights.map_or(allocated, |weights| weights.lights));
-        let range = |pixel, set| if effort.has(pixel, set) { range(pixel).map(|packet| 8 * packet) } else { [0; 2] };
+        let range = |pixel, set| range(pixel, set).map(|packet| 8 * packet);
         self.samples(area, true, [0, 8 * pilot], sets, weights, sum, range)
     }
 

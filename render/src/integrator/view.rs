@@ -2,11 +2,11 @@
 
 use super::adaptive::{Allotment, Effort, Statistics};
 use super::analytic::Survey;
-use super::settings::{RayCount, Settings, TILE};
+use super::settings::{RayCount, Settings, tiles};
 use super::tile::TileRenderer;
 use super::world::World;
-use crate::area;
-use crate::area::Area;
+
+use crate::area::{self, Area};
 use crate::camera::Camera;
 use crate::film::{BlockSum, Film, Pixel, PixelSum};
 use crate::sampler::Sampler;
@@ -105,9 +105,9 @@ impl View<'_> {
             return 0.0;
         }
         // an odd number, so that not all are in the same columns
-        let apart = areas(self.settings.whole()).len().div_ceil(BOUNDED) | 1;
-        let tiles = areas(self.settings.whole()).step_by(apart);
-        let tiles = tiles.map_init(
+        let apart = tiles(self.settings.whole()).count().div_ceil(BOUNDED) | 1;
+        let tiles: Vec<Area> = tiles(self.settings.whole()).step_by(apart).collect();
+        let tiles = tiles.into_par_iter().map_init(
             || self.renderer(),
             |renderer, area| {
                 renderer.begin(area);
@@ -184,11 +184,20 @@ impl View<'_> {
             Samples::Rest(allotment) => {
                 assert!(is_adaptive && area == allotment.area);
                 let (weights, effort) = (allotment.weights(), self.effort());
-                let [left, top, right, _] = area;
-                let index = |[x, y]: [u32; 2]| ((y - top) * (right - left) + (x - left)) as usize;
+                let pilot = effort.pilot;
                 let (pixels, rays) = self.tiles(area, &|renderer, tile| {
-                    let range = |pixel: [u32; 2]| [effort.pilot, allotment.packets[index(pixel)]];
-                    let rest = renderer.parts(tile, &effort, weights.as_ref(), range);
+                    let is_one_more = |pixel: [u32; 2], set: u32| set == effort.common() && allotment.is_checked(pixel);
+                    let has = |pixel, set: u32| set < effort.common() || is_one_more(pixel, set);
+                    let all = |pixel| [pilot, allotment.packets_at(pixel)];
+                    let range = |pixel, set| if has(pixel, set) { all(pixel) } else { [0; 2] };
+                    let mut rest = renderer.parts(tile, &effort, weights.as_ref(), range);
+                    if effort.common() < effort.sets {
+                        let range = |pixel, set| if is_one_more(pixel, set) { [0, pilot] } else { [0; 2] };
+                        let begun = renderer.parts(tile, &effort, None, range);
+                        for (rest, begun) in rest.iter_mut().zip(&begun) {
+                            rest.add_set(effort.common(), begun);
+                        }
+                    }
                     progress(rest.len() as u64);
                     allotment.finish(tile, &rest, &effort)
                 });
@@ -204,7 +213,8 @@ impl View<'_> {
     fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {
         let effort = self.effort();
         self.tiles(area, &|renderer, area| {
-            let parts = renderer.parts(area, &effort, None, |_| [0, effort.pilot]);
+            let range = |_, set| if set < effort.common() { [0, effort.pilot] } else { [0; 2] };
+            let parts = renderer.parts(area, &effort, None, range);
             progress(parts.len() as u64);
             parts
         })
@@ -250,7 +260,9 @@ impl View<'_> {
         area: Area,
         of: &(dyn Fn(&mut TileRenderer, Area) -> Vec<T> + Sync),
     ) -> (Vec<T>, RayCount) {
-        let rendered: Vec<_> = areas(area)
+        let rendered: Vec<_> = tiles(area)
+            .collect::<Vec<_>>()
+            .into_par_iter()
             .map_init(
                 || self.renderer(),
                 |renderer, area| {
@@ -267,15 +279,4 @@ impl View<'_> {
         }
         (pixels, rays)
     }
-}
-
-/// The area [x0, y0, x1, y1) of each tile of an area that consists of tiles.
-fn areas([left, top, right, bottom]: Area) -> impl IndexedParallelIterator<Item = Area> + use<> {
-    let columns = (right - left).div_ceil(TILE);
-    let tiles = columns as usize * (bottom - top).div_ceil(TILE) as usize;
-    (0..tiles).into_par_iter().map(move |tile| {
-        let x = left + (tile as u32 % columns) * TILE;
-        let y = top + (tile as u32 / columns) * TILE;
-        [x, y, (x + TILE).min(right), (y + TILE).min(bottom)]
-    })
 }
