@@ -14,6 +14,11 @@ pub fn count(area: Area) -> usize {
     across * down
 }
 
+/// The columns and rows of the pixels of an area, row by row.
+pub fn pixels([x0, y0, x1, y1]: Area) -> impl Iterator<Item = [u32; 2]> {
+    (y0..y1).flat_map(move |y| (x0..x1).map(move |x| [x, y]))
+}
+
 /// The values of the pixels of `part`, out of those of an area that contains it, which has `each` values for a pixel.
 pub fn crop<T: Clone>(values: &[T], area: Area, part: Area, each: usize) -> Vec<T> {
     let (width, [across, down]) = (size(area)[0], size(part));

@@ -3,6 +3,7 @@
 mod adaptive;
 mod allocation;
 mod analytic;
+mod checks;
 mod choice;
 mod paths;
 mod prepared;

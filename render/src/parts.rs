@@ -156,13 +156,12 @@ fn to_layer(frame: &Frame, piece: Piece) -> Layer {
             planes.extend(lights("taken", count, &|k| Numbers::U32(all.clone().map(|p| p.taken[k]).collect())));
         }
         Content::Allotment(allotment) => {
-            let Allotment { packets, lights: count, weights, squares, chances, begun, sums, .. } = &allotment;
+            let Allotment { packets, lights: count, weights, squares, begun, sums, .. } = &allotment;
             for (set, (k, channel)) in (0..sets).flat_map(|set| RGB.into_iter().enumerate().map(move |c| (set, c))) {
                 split(&mut planes, &format!("sum.set{set}.{channel}"), &|| sums.iter().map(|s| s[set][k]).collect());
             }
             planes.push(("packets".into(), Numbers::U32(packets.clone())));
             planes.push(("squares".into(), Numbers::F32(squares.clone())));
-            planes.push(("chances".into(), Numbers::F32(chances.clone())));
             let weight = |k: usize| weights.iter().skip(k).step_by(*count).copied().collect();
             planes.extend(lights("weight", *count, &|k| Numbers::F32(weight(k))));
             planes.extend(lights("taken", *count, &|k| Numbers::U32(begun.iter().map(|taken| taken[k]).collect())));
@@ -279,7 +278,6 @@ fn from_layer(frame: &Frame, kind: &PieceKind, layer: Layer) -> Option<Piece> {
                 lights,
                 weights: weights.iter().flat_map(|weights| weights[..lights].iter().copied()).collect(),
                 squares: found.f32("squares")?,
-                chances: found.f32("chances")?,
                 begun: found.lights("taken", lights, count, Found::u32)?,
                 sums: found.sums(sets, count)?,
             })

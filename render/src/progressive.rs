@@ -9,7 +9,7 @@ use crate::claim::{Claim, why_unknown};
 use crate::film::Film;
 use crate::integrator::{RayCount, Settings, World};
 use crate::limits::MOST_SAMPLES;
-use crate::sampler::{Sampler, default_sampler, reports_variance};
+use crate::sampler::{Sampler, default_sampler, mixed, reports_variance};
 use std::time::Instant;
 
 /// When an image is finished: as soon as one of these is reached.
@@ -246,15 +246,12 @@ fn decide(
     at_most(counts, next)
 }
 
-/// A seed for each pass, that of the first being the seed itself: the output function of SplitMix64 (Steele, Lea and Flood 2014).
+/// A seed for each pass, that of the first being the seed itself: SplitMix64 (Steele, Lea and Flood 2014).
 fn seed(seed: u64, pass: u64) -> u64 {
     if pass == 0 {
         return seed;
     }
-    let mut z = seed.wrapping_add(pass.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
+    mixed(seed.wrapping_add(pass.wrapping_mul(0x9e37_79b9_7f4a_7c15)))
 }
 
 /// Moves the mean towards a pass that has this share of all weights.

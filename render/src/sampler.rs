@@ -91,6 +91,13 @@ const fn replicates(spp: u32) -> u32 {
 /// Fewest samples of a pixel in each replicate of [`Sampler::Adaptive`]: a packet of 8 for the pilot, and one more.
 const FEWEST: u32 = 16;
 
+/// Mixes bits: the output function of SplitMix64 (Steele, Lea and Flood 2014).
+pub(crate) const fn mixed(mut bits: u64) -> u64 {
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^ (bits >> 31)
+}
+
 /// The side of the greatest grid of `dimensions` with at most `count` cells.
 fn side(count: u32, dimensions: u32) -> u32 {
     (1..).take_while(|&n: &u32| n.checked_pow(dimensions).is_some_and(|cells| cells <= count)).last().unwrap_or(1)
@@ -145,25 +152,18 @@ impl Sampler {
     pub fn has_sets(self) -> bool {
         self != Self::Independent
     }
-    /// Whether pixels have one set each, but for some that have a second one, from which the variance of all is known: if no number of sets
-    /// is asked for.
+    /// Whether second sets of some pixels tell the variance of all: if no number of sets is asked for.
     #[must_use]
     pub fn checks(self, asked: u32) -> bool {
         self == Self::Adaptive && asked == 0
     }
-    /// Independent sets of samples per pixel, at the most, if `asked` sets are requested (0: as few as give a variance, if any number does).
+    /// Independent sets of samples per pixel if `asked` sets are requested (0: as few as give a variance, if any number does).
     #[must_use]
     pub fn sets(self, spp: u32, asked: u32, lens: bool) -> u32 {
         match self {
             _ if asked != 0 && self != Self::Stratified4d => asked,
             Self::Stratified4d => joint_replicates(spp, dimensions(lens), asked).unwrap_or(replicates(spp)),
-            Self::Adaptive => {
-                if spp >= FEWEST {
-                    2
-                } else {
-                    1
-                }
-            }
+            Self::Adaptive => 1,
             _ => replicates(spp),
         }
     }
@@ -321,7 +321,7 @@ pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bo
     match sampler {
         // each of its samples is a set
         Sampler::Independent => spp > 1,
-        _ => sampler.sets(spp, sets, lens) > 1,
+        _ => sampler.checks(sets) || sampler.sets(spp, sets, lens) > 1,
     }
 }
 

@@ -5,7 +5,8 @@
 //! that a pixel has in the sum over all pixels.
 
 use super::allocation::{APART, Weights};
-use super::settings::{Settings, tiles};
+use super::checks;
+use super::settings::Settings;
 use crate::area::{self, Area, crop};
 use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::{V8, X8};
@@ -25,40 +26,28 @@ const NEAR: usize = 2;
 const OUTERMOST: usize = 6;
 const WEIGHT_OUTERMOST: f64 = 0.003;
 
-/// The share of the samples that is spent on second sets, and the number of pixels that should have one in small images.
-const CHECKED: f64 = 1.0 / 12.0;
-const FEWEST_CHECKED: f64 = 256.0;
-/// The least chance of a pixel to have a second set, and how many pixels of a tile should have one at the least.
-const LEAST_CHANCE: f64 = 1.0 / 64.0;
-const FEWEST_OF_TILE: f64 = 2.0;
-
 /// Numbers of samples per set of a pixel, in packets of eight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
-    /// The most sets of a pixel.
+    /// Sets of a pixel.
     pub(super) sets: u32,
     /// Packets of the pilot in each set.
     pub(super) pilot: u32,
     /// Mean number of packets per set over the pixels.
     packets: f64,
-    /// If pixels have one set, but for some that have a second one: the samples of these relative to those of all others.
-    checked: Option<f64>,
+    /// The samples of [checks](super::checks) relative to those of the image; 0 if the sets tell the variance.
+    pub(super) checks: f64,
 }
 
 impl Effort {
     pub(super) fn new(settings: &Settings, lens: bool) -> Self {
-        let &Settings { width, height, spp, sampler, sets: asked, .. } = settings;
+        let &Settings { spp, sampler, sets: asked, .. } = settings;
         let sets = sampler.sets(spp, asked, lens);
-        let pixels = f64::from(width) * f64::from(height);
-        let checked = sampler.checks(asked).then(|| (FEWEST_CHECKED / pixels).clamp(CHECKED, 1.0));
-        let packets = f64::from(spp) / (8.0 * checked.map_or(f64::from(sets), |checked| 1.0 + checked));
+        let checks = if sampler.checks(asked) { checks::share(settings.whole()) } else { 0.0 };
+        let packets = f64::from(spp) / (8.0 * f64::from(sets) * (1.0 + checks));
         // the greatest power of two up to a quarter, but 2 packets if there are 4 or more: eight points miss too much
         let pilot = greatest_power(packets / 4.0).max(if packets < 4.0 { 1.0 } else { 2.0 });
-        Self { sets, pilot: pilot as u32, packets, checked }
-    }
-    /// Sets that all pixels have.
-    pub(super) const fn common(&self) -> u32 {
-        if self.checked.is_some() { 1 } else { self.sets }
+        Self { sets, pilot: pilot as u32, packets, checks }
     }
 }
 
@@ -95,8 +84,6 @@ pub struct Allotment {
     pub weights: Vec<f32>,
     /// [`Statistics::square`] of the pilot.
     pub squares: Vec<f32>,
-    /// The chance with which a pixel was chosen to have one set more than others; 0 if it was not.
-    pub chances: Vec<f32>,
     /// Samples per set of each light in the pilot.
     pub begun: Vec<[u32; APART]>,
     /// Sum of each set of the pilot.
@@ -112,19 +99,14 @@ impl Allotment {
     pub fn new(settings: &Settings, lens: bool, pilot: &[Statistics]) -> Self {
         let &Settings { width, height, .. } = settings;
         assert_eq!(pilot.len(), width as usize * height as usize);
-        let effort = Effort::new(settings, lens);
-        let Shares { packets, expected, weights } = allot(pilot, width, &effort);
+        let (packets, weights) = allot(pilot, width, &Effort::new(settings, lens));
         let (lights, of) = weights.unwrap_or_default();
-        let chances = effort
-            .checked
-            .map_or_else(|| vec![0.0; pilot.len()], |checked| choose(settings, &packets, &expected, checked));
         Self {
             area: [0, 0, width, height],
             packets,
             lights,
             weights: of,
             squares: pilot.iter().map(|pixel| pixel.square() as f32).collect(),
-            chances,
             begun: pilot.iter().map(|pixel| pixel.taken).collect(),
             sums: pilot.iter().map(|pixel| pixel.sums).collect(),
         }
@@ -138,7 +120,6 @@ impl Allotment {
             lights: self.lights,
             weights: crop(&self.weights, self.area, area, self.lights),
             squares: crop(&self.squares, self.area, area, 1),
-            chances: crop(&self.chances, self.area, area, 1),
             begun: crop(&self.begun, self.area, area, 1),
             sums: crop(&self.sums, self.area, area, 1),
         }
@@ -156,147 +137,53 @@ impl Allotment {
     pub(super) fn packets_at(&self, pixel: [u32; 2]) -> u32 {
         self.packets[self.index(pixel)]
     }
-    /// Whether a pixel has one set more than others.
-    pub(super) fn is_checked(&self, pixel: [u32; 2]) -> bool {
-        self.chances[self.index(pixel)] > 0.0
-    }
     /// The pixels of a tile, from `rest`, the samples after those of the pilot.
-    ///
-    /// Where pixels have one set, their variances are estimated by the spread of their samples, as c n^−1.5, but for a factor. Those of the
-    /// tile's pixels that have a second set tell the factor, each with a weight of 1/chance, as in the ratio estimator of surveys (Cochran
-    /// 1977, Sampling Techniques, chapters 6 and 9A): so its mean is right whatever the spread.
-    pub(super) fn finish(&self, tile: Area, rest: &[Statistics], effort: &Effort) -> Vec<Pixel> {
-        let [x0, y0, x1, y1] = tile;
-        let places = || (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).map(|place| self.index(place));
-        let sets = |index: usize| effort.common() + u32::from(self.chances[index] > 0.0);
-        let pixel = |(index, rest): (usize, &Statistics)| {
+    pub(super) fn finish(&self, tile: Area, rest: &[Statistics], sets: u32) -> Vec<Pixel> {
+        let of = |(pixel, rest): ([u32; 2], &Statistics)| {
+            let index = self.index(pixel);
             let count = 8 * self.packets[index];
             let both = |(a, b): (&[f64; 3], &[f64; 3])| {
                 let sum = std::array::from_fn(|k| a[k] + b[k]);
                 (count, Moments { sum, ..Moments::default() })
             };
-            Pixel::of_sets(self.sums[index].iter().zip(&rest.sums).take(sets(index) as usize).map(both), false)
+            Pixel::of_sets(self.sums[index].iter().zip(&rest.sums).take(sets as usize).map(both), false)
         };
-        let mut pixels: Vec<Pixel> = places().zip(rest).map(pixel).collect();
-        if effort.checked.is_none() {
-            return pixels;
-        }
-        let by_spread = |(index, rest): (usize, &Statistics)| {
-            let [before, after] = [effort.pilot, rest.packets].map(f64::from);
-            let pilot = f64::from(self.squares[index]);
-            (before * pilot + after * rest.square()) / (before + after) * pow(before + after, -1.5)
+        area::pixels(tile).zip(rest).map(of).collect()
+    }
+    /// The variance of one set of each pixel of a tile by the spread of its samples, but for a common factor. `rest` are the samples after
+    /// those of the `pilot`, so many packets.
+    pub(super) fn by_spread(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
+        let of = |(pixel, rest): ([u32; 2], &Statistics)| {
+            let [before, after] = [pilot, rest.packets].map(f64::from);
+            let square = before * f64::from(self.squares[self.index(pixel)]) + after * rest.square();
+            square / (before + after) * fall(before + after)
         };
-        let by_spread: Vec<f64> = places().zip(rest).map(by_spread).collect();
-        let (mut count, mut expected, mut found) = (0.0, 0.0, [0.0; 3]);
-        for ((index, pixel), by_spread) in places().zip(&pixels).zip(&by_spread) {
-            let chance = f64::from(self.chances[index]);
-            if chance > 0.0 {
-                count += chance.recip();
-                expected += by_spread / chance;
-                // that of the mean of two sets is half as much
-                found.iter_mut().zip(pixel.variance).for_each(|(sum, of)| *sum += 2.0 * f64::from(of) / chance);
-            }
-        }
-        for ((index, pixel), by_spread) in places().zip(&mut pixels).zip(by_spread) {
-            // where nothing is expected, variance is taken to be the same everywhere
-            let of_set = if expected > 0.0 { by_spread / expected } else { 1.0 / count };
-            pixel.variance = found.map(|found| (found * of_set / f64::from(sets(index))) as f32);
-        }
-        pixels
+        area::pixels(tile).zip(rest).map(of).collect()
     }
-}
-
-/// Chooses the pixels that have a second set, and returns their chances, or 0 for those that are not chosen. The chance is about
-/// proportional to the variance that is expected over the root of the number of samples, so that the sum of all variances is known best.
-fn choose(settings: &Settings, packets: &[u32], expected: &[f64], checked: f64) -> Vec<f32> {
-    let whole = settings.whole();
-    let wanted: Vec<f64> = expected.iter().zip(packets).map(|(variance, n)| variance / f64::from(*n).sqrt()).collect();
-    let least = |area: Area| LEAST_CHANCE.max(FEWEST_OF_TILE / area::count(area) as f64).min(1.0);
-    let mut chances = vec![0.0; packets.len()];
-    let mut set = |scale: f64| {
-        let mut spent = 0.0;
-        for area in tiles(whole) {
-            for index in indices(area, settings.width) {
-                chances[index] = (wanted[index] * scale).clamp(least(area), 1.0);
-                spent += chances[index] * f64::from(packets[index]);
-            }
-        }
-        spent
-    };
-    let all = checked * packets.iter().copied().map(f64::from).sum::<f64>();
-    let most = wanted.iter().fold(0.0_f64, |most, &x| most.max(x));
-    if most > 0.0 {
-        let (mut low, mut high) = (0.0, most.recip());
-        while set(high) < all && high.is_finite() {
-            high *= 2.0;
-        }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if set(middle) < all { low = middle } else { high = middle }
-        }
-        set(low);
-    } else {
-        chances.fill(checked);
-    }
-    let mut chosen = vec![0.0; packets.len()];
-    for area in tiles(whole) {
-        // systematic sampling: one pixel at each step of 1 in the sum of chances
-        let mut next = share(settings.seed, area);
-        let mut sum = 0.0;
-        for index in indices(area, settings.width) {
-            sum += chances[index];
-            if sum > next {
-                next += 1.0;
-                chosen[index] = chances[index] as f32;
-            }
-        }
-    }
-    chosen
-}
-
-/// The indices of the pixels of an area, in an image of this width.
-fn indices([x0, y0, x1, y1]: Area, width: u32) -> impl Iterator<Item = usize> {
-    (y0..y1).flat_map(move |y| (x0..x1).map(move |x| y as usize * width as usize + x as usize))
-}
-
-/// A number in [0, 1) for each tile: the output function of SplitMix64 (Steele, Lea and Flood 2014).
-fn share(seed: u64, [x, y, ..]: Area) -> f64 {
-    let mut bits = seed ^ (u64::from(y) << 32 | u64::from(x)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    bits = (bits ^ bits >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((bits ^ bits >> 31) >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// What [`allot`] finds.
-struct Shares {
-    /// Packets per set of each pixel.
-    packets: Vec<u32>,
-    /// The variance of a set of each pixel by the pilot's samples around it, but for a common factor.
-    expected: Vec<f64>,
-    /// The number of lights and their weights, if samples are allocated to at most `APART` lights.
-    weights: Option<(usize, Vec<f32>)>,
 }
 
 impl Statistics {
-    /// Adds the sums of a set of which `other` is.
-    pub(super) fn add_set(&mut self, set: u32, other: &Self) {
-        self.sums[set as usize].iter_mut().zip(other.sums[0]).for_each(|(sum, of)| *sum += of);
-    }
     /// The squared difference of two successive samples, or what has the same effect: a set of n samples has a variance that is about
-    /// proportional to this and to n^−1.5. It has the same mean for any number of sets.
+    /// proportional to this and to n^−1.5.
     fn square(&self) -> f64 {
         let samples = f64::from(8 * self.packets);
         let of_light = |k: usize| match (self.pairs[k], self.taken[k]) {
             (0, _) | (_, 0) => 0.0,
-            (pairs, taken) => f64::from(self.spread[k]) / f64::from(pairs) * pow(f64::from(taken) / samples, -1.5),
+            (pairs, taken) => f64::from(self.spread[k]) / f64::from(pairs) * fall(f64::from(taken) / samples),
         };
         // a difference of two samples has 16 times the variance of the mean of four
         16.0 * self.variance + (0..self.lights).map(of_light).sum::<f64>()
     }
 }
 
-/// Shares the samples among the pixels by the variance of the pilot.
-fn allot(parts: &[Statistics], width: u32, effort: &Effort) -> Shares {
+/// n^−1.5
+fn fall(n: f64) -> f64 {
+    (n * n.sqrt()).recip()
+}
+
+/// Packets per set for each pixel, from the variance of the pilot; and the number of lights and their weights, if samples are allocated to
+/// at most `APART` lights.
+fn allot(parts: &[Statistics], width: u32, effort: &Effort) -> (Vec<u32>, Option<(usize, Vec<f32>)>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let mut weights = None;
     let wanted: Vec<f64> = if lights == 0 {
@@ -326,8 +213,7 @@ fn allot(parts: &[Statistics], width: u32, effort: &Effort) -> Shares {
     let most = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
     if most <= 0.0 {
         // no variance anywhere: the same number for all pixels
-        let packets = vec![(effort.packets.round() as u32).max(effort.pilot); parts.len()];
-        return Shares { packets, expected: vec![0.0; parts.len()], weights };
+        return (vec![(effort.packets.round() as u32).max(effort.pilot); parts.len()], weights);
     }
     let (mut low, mut high) = (0.0, total / most);
     while spent(high) < total {
@@ -344,10 +230,7 @@ fn allot(parts: &[Statistics], width: u32, effort: &Effort) -> Shares {
         let up = (turn as f64 / (1_u64 << 53) as f64) < packets / below - 1.0;
         (if up { 2.0 * below } else { below }) as u32
     };
-    let packets: Vec<u32> = wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect();
-    // c n^−1.5, with c in relation to the greatest
-    let variance = |(w, n): (&f64, &u32)| pow(w / most, 1.0 / POWER) * pow(f64::from(*n), -1.5);
-    Shares { expected: wanted.iter().zip(&packets).map(variance).collect(), packets, weights }
+    (wanted.iter().enumerate().map(|(i, w)| rounded(i, (w * low).max(pilot))).collect(), weights)
 }
 
 /// The greatest power of two that is no more than a positive normal number.

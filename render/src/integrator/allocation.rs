@@ -24,6 +24,10 @@ impl Weights<'_> {
         let [x0, y0, x1, _] = self.area;
         ((y - y0) * (x1 - x0) + (x - x0)) as usize
     }
+    /// The same weights for sets of which no block is done.
+    pub(super) fn from_the_start(&self) -> Weights<'_> {
+        Weights { lights: self.lights, of: Cow::Borrowed(&self.of), area: self.area, begun: &[] }
+    }
     /// A bit for each light that has some weight in a pixel.
     pub(super) fn expected(&self, pixel: [u32; 2]) -> u32 {
         let of = &self.of[self.index(pixel) * self.lights..][..self.lights];

@@ -1,6 +1,6 @@
 //! Renders the samples of a square of pixels.
 
-use super::adaptive::{Effort, Statistics, StatisticsSum};
+use super::adaptive::{Statistics, StatisticsSum};
 use super::allocation::{Blocks, Weights};
 use super::analytic::Survey;
 use super::paths::{Numbers, Paths, Radiance};
@@ -112,24 +112,23 @@ impl<'a> TileRenderer<'a> {
         self.samples(area, whole, [span; 2], spp / span, weights.as_ref(), sum, of_set)
     }
 
-    /// Renders packets `from` to `to` of each set of the pixels of an area, row by row; `range` returns them. Samples are allocated to
-    /// the lights by `weights` if given, otherwise by the corners of the pixels.
+    /// Renders packets `from` to `to` of each of the `sets` of pixels of a tile, row by row; `range` returns them for a pixel. Samples are
+    /// allocated to the lights by `weights` if given, otherwise by the corners of the pixels. The tile must have [begun](Self::begin).
     pub(super) fn parts(
         &mut self,
         area: Area,
-        effort: &Effort,
+        pilot: u32,
+        sets: Range<u32>,
         weights: Option<&Weights<'_>>,
-        range: impl Fn([u32; 2], u32) -> [u32; 2],
+        range: impl Fn([u32; 2]) -> [u32; 2],
     ) -> Vec<Statistics> {
-        let &Effort { pilot, sets, .. } = effort;
-        self.begin(area);
         let found = if weights.is_none() { self.weights(area, 8 * pilot) } else { None };
         let weights = weights.or(found.as_ref());
         // where the lights of a tile are known, no sample is allocated
         let allocated = if self.allocates(8 * pilot) { self.scene.lights.few().unwrap_or(0) } else { 0 };
         let sum = StatisticsSum::new(weights.map_or(allocated, |weights| weights.lights));
-        let range = |pixel, set| range(pixel, set).map(|packet| 8 * packet);
-        self.samples(area, true, [0, 8 * pilot], sets, weights, sum, range)
+        let range = |pixel, set| if sets.contains(&set) { range(pixel).map(|packet| 8 * packet) } else { [0; 2] };
+        self.samples(area, true, [0, 8 * pilot], sets.end, weights, sum, range)
     }
 
     /// Prepares for the pixels of a tile: looks at an 8 × 8 grid of places in it, to decide where certificates are worth asking for.

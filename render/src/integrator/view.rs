@@ -1,7 +1,9 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
 use super::adaptive::{Allotment, Effort, Statistics};
+use super::allocation::Weights;
 use super::analytic::Survey;
+use super::checks::Checks;
 use super::settings::{RayCount, Settings, tiles};
 use super::tile::TileRenderer;
 use super::world::World;
@@ -183,23 +185,11 @@ impl View<'_> {
             }
             Samples::Rest(allotment) => {
                 assert!(is_adaptive && area == allotment.area);
-                let (weights, effort) = (allotment.weights(), self.effort());
-                let pilot = effort.pilot;
+                let weights = allotment.weights();
                 let (pixels, rays) = self.tiles(area, &|renderer, tile| {
-                    let is_one_more = |pixel: [u32; 2], set: u32| set == effort.common() && allotment.is_checked(pixel);
-                    let has = |pixel, set: u32| set < effort.common() || is_one_more(pixel, set);
-                    let all = |pixel| [pilot, allotment.packets_at(pixel)];
-                    let range = |pixel, set| if has(pixel, set) { all(pixel) } else { [0; 2] };
-                    let mut rest = renderer.parts(tile, &effort, weights.as_ref(), range);
-                    if effort.common() < effort.sets {
-                        let range = |pixel, set| if is_one_more(pixel, set) { [0, pilot] } else { [0; 2] };
-                        let begun = renderer.parts(tile, &effort, None, range);
-                        for (rest, begun) in rest.iter_mut().zip(&begun) {
-                            rest.add_set(effort.common(), begun);
-                        }
-                    }
-                    progress(rest.len() as u64);
-                    allotment.finish(tile, &rest, &effort)
+                    let pixels = self.rest(renderer, tile, allotment, weights.as_ref());
+                    progress(pixels.len() as u64);
+                    pixels
                 });
                 (Content::Pixels(pixels), rays)
             }
@@ -211,13 +201,40 @@ impl View<'_> {
     }
 
     fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {
-        let effort = self.effort();
+        let Effort { sets, pilot, .. } = self.effort();
         self.tiles(area, &|renderer, area| {
-            let range = |_, set| if set < effort.common() { [0, effort.pilot] } else { [0; 2] };
-            let parts = renderer.parts(area, &effort, None, range);
+            renderer.begin(area);
+            let parts = renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot]);
             progress(parts.len() as u64);
             parts
         })
+    }
+
+    /// The pixels of a tile with the samples after the pilot.
+    fn rest(
+        &self,
+        renderer: &mut TileRenderer,
+        tile: Area,
+        allotment: &Allotment,
+        weights: Option<&Weights<'_>>,
+    ) -> Vec<Pixel> {
+        let Effort { sets, pilot, checks, .. } = self.effort();
+        renderer.begin(tile);
+        let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, allotment.packets_at(pixel)]);
+        let mut pixels = allotment.finish(tile, &rest, sets);
+        if checks > 0.0 {
+            let by_spread = allotment.by_spread(tile, &rest, pilot);
+            let packets: Vec<u32> = area::pixels(tile).map(|pixel| allotment.packets_at(pixel)).collect();
+            let checks = Checks::new(tile, &by_spread, &packets, checks, self.settings.seed);
+            // their first samples are allocated by the pilot, too, which makes little difference
+            let weights = weights.map(Weights::from_the_start);
+            let range = |pixel| [0, if checks.contains(pixel) { allotment.packets_at(pixel) } else { 0 }];
+            let second = renderer.parts(tile, pilot, sets..sets + 1, weights.as_ref(), range);
+            let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));
+            let second: Vec<_> = second.iter().zip(&packets).map(mean).collect();
+            checks.judge(&mut pixels, &by_spread, &second);
+        }
+        pixels
     }
 
     /// The same number of samples for each pixel.
