@@ -1,6 +1,6 @@
 //! Attacks the renderer with random scenes: renders each by several techniques and by the oracle, and shrinks those on which they differ.
 //!
-//! [`regimes`] has the scenes, [`draft`] their parts and their text, [`bridge`] what the oracle gets of them, [`judge`] the comparison,
+//! [`regimes`] has the scenes, [`draft`] their parts and their text, [`skin`] what varies over them, [`bridge`] what the oracle gets of them, [`judge`] the comparison,
 //! [`shrink`] the fewest parts that still differ, [`report`] what is printed, [`claims`] whether images tell their error, and [`defects`] the scenes on which the renderer was wrong once.
 
 pub mod bridge;
@@ -13,3 +13,4 @@ pub mod random;
 pub mod regimes;
 pub mod report;
 pub mod shrink;
+pub mod skin;

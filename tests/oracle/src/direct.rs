@@ -2,21 +2,24 @@
 //!
 //! A point of a flat body is never hidden by that body, nor by one in the same plane; a sphere hides nothing from its outside, and from
 //! its inside what is outside. Flat lights emit on the side of their normal, unless they are two-sided. Lights occlude. All surfaces
-//! reflect on both of their sides. The rest is exact, up to the rounding of f64: closed forms over what blockers leave of a light, at
+//! reflect on both of their sides. A smooth surface receives only light that is above both its flat triangle and its own normal's horizon.
+//! What has holes lets a part of each ray pass, all of which are followed to the light and to the camera. The rest is exact, up to the rounding of f64: closed forms over what blockers leave of a light, at
 //! points that sample the pixel and the lens.
 
 mod light;
 mod metal;
+mod pattern;
 mod random;
 mod scene;
 
-pub use scene::{Body, Emission, Finish, Form, Lens, View};
+pub use pattern::{Beyond, Pattern, Picture, Place};
+pub use scene::{Body, Detail, Emission, Finish, Form, Lens, Opacity, View};
 
 use crate::vectors::{V3, along, dot, sub, unit};
 use light::{Receiver, Seen};
 use metal::{brdf, fresnel};
 use random::Random;
-use scene::{Prepared, closest};
+use scene::{Hit, Prepared, hits};
 
 /// How much to compute.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +34,8 @@ pub struct Effort {
     pub depth: usize,
     /// Seed of the random numbers.
     pub seed: u64,
-    /// Moves points that reflect off their surface, by this fraction of the greatest coordinate of the point and of the ray's origin: 0, or
-    /// the error of the points of another renderer, to find what comes of it.
+    /// Moves points that reflect off their surface, by this fraction of the greatest coordinate of the point and of the ray's origin, and
+    /// positions in pictures: 0, or the error of another renderer's, to find what comes of it.
     pub lift: f64,
     /// The end of the way from a point to a light, as a fraction of it, that is never occluded: surfaces flush with a light do not hide it.
     /// [`SPARED`], or more, to find what comes of it.
@@ -59,7 +62,7 @@ pub struct Block {
 /// Renders the blocks of `side` × `side` pixels of an image, row by row from the top left; the last ones of a row or column may be smaller.
 #[must_use]
 pub fn render(bodies: &[Body], view: &View, side: usize, effort: &Effort) -> Vec<Block> {
-    let bodies: Vec<Prepared> = bodies.iter().map(|body| Prepared::new(*body)).collect();
+    let bodies: Vec<Prepared> = bodies.iter().map(|body| Prepared::new(body.clone())).collect();
     let lights = (0..bodies.len()).filter(|&i| bodies[i].body.emission.is_some()).collect();
     let tracer = Tracer { bodies, lights, effort };
     let [columns, rows] = view.size.map(|size| size.div_ceil(side));
@@ -110,51 +113,58 @@ impl Tracer<'_> {
             let film = [at(0, i % side, random), at(1, i / side, random)];
             let lens = if view.lens.is_some() { random.disk() } else { [0.0; 2] };
             let (origin, direction) = view.ray(film, lens);
-            let [seen, all, most] = self.radiance(origin, unit(direction), random);
+            let [seen, all, most] = self.radiance([origin, unit(direction)], None, 0, random);
             sum = [sum[0] + seen, sum[1] + all];
             greatest = greatest.max(most);
         }
         let [seen, all] = sum.map(|x| x / (side * side) as f64);
         [seen, all, greatest]
     }
-    fn radiance(&self, mut origin: V3, mut direction: V3, random: &mut Random) -> [f64; 3] {
-        let (mut sum, mut throughput, mut own) = (0.0, 1.0, None);
-        for depth in 0..=self.effort.depth {
-            let Some(hit) = closest(&self.bodies, origin, direction, own) else { break };
-            let Prepared { body, normal, .. } = self.bodies[hit.index];
-            let mut point = along(origin, direction, hit.t);
-            let outward = match body.form {
-                Form::Sphere { center, radius } => {
-                    let outward = unit(sub(point, center));
-                    point = along(center, outward, radius);
-                    outward
-                }
-                Form::Flat { .. } => normal,
-            };
-            let front = dot(outward, direction) < 0.0;
-            if let Some(emission) = body.emission.filter(|emission| front || emission.two_sided) {
-                sum += throughput * emission.radiance;
-            }
-            let normal = if front { outward } else { outward.map(|x| -x) };
-            let cos = -dot(normal, direction);
-            let greatest = point.iter().chain(&origin).fold(0.0, |m: f64, x| m.max(x.abs()));
-            point = along(point, normal, self.effort.lift * greatest);
-            let reflectance = match body.finish {
-                Finish::Mirror(reflectance) => reflectance,
-                Finish::Metal { eta, k, alpha: 0.0 } => fresnel(cos, eta, k),
-                _ => {
-                    let receiver = Receiver { point, normal, own: hit.index };
-                    return self.reflected(body.finish, receiver, direction, random).map(|x| sum + throughput * x);
-                }
-            };
-            if depth == self.effort.depth || reflectance == 0.0 {
-                break;
-            }
-            throughput *= reflectance;
-            direction = unit(along(direction, normal, 2.0 * cos));
-            (origin, own) = (point, Some(hit.index));
+    /// The radiance that comes along a ray from its origin, on the body `own` if on any, after so many mirrors.
+    fn radiance(&self, ray: [V3; 2], own: Option<usize>, depth: usize, random: &mut Random) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (hit, chance) in hits(&self.bodies, ray[0], ray[1], own, self.effort.lift) {
+            let [seen, all, greatest] = self.leaving(hit, ray, depth, random);
+            sum = [sum[0] + chance * seen, sum[1] + chance * all, sum[2].max(greatest)];
         }
-        [sum; 3]
+        sum
+    }
+    /// The radiance that leaves a body against a ray.
+    fn leaving(&self, hit: Hit, [origin, direction]: [V3; 2], depth: usize, random: &mut Random) -> [f64; 3] {
+        let met = &self.bodies[hit.index];
+        let mut point = along(origin, direction, hit.t);
+        let outward = match met.body.form {
+            Form::Sphere { center, radius } => {
+                let outward = unit(sub(point, center));
+                point = along(center, outward, radius);
+                outward
+            }
+            Form::Flat { .. } => met.normal,
+        };
+        let front = dot(outward, direction) < 0.0;
+        let emission = met.body.emission.filter(|emission| front || emission.two_sided);
+        let own = emission.map_or(0.0, |emission| emission.radiance);
+        let flat = if front { outward } else { outward.map(|x| -x) };
+        let smooth = met.smooth(point, flat, direction);
+        let normal = smooth.unwrap_or(flat);
+        let finish = met.finish(point, self.effort.lift);
+        let cos = -dot(normal, direction);
+        let greatest = point.iter().chain(&origin).fold(0.0, |m: f64, x| m.max(x.abs()));
+        point = along(point, flat, self.effort.lift * greatest);
+        let reflectance = match finish {
+            Finish::Mirror(reflectance) => reflectance,
+            Finish::Metal { eta, k, alpha: 0.0 } => fresnel(cos, eta, k),
+            _ => {
+                let receiver = Receiver { point, normal, flat, own: hit.index };
+                return self.reflected(finish, receiver, direction, random).map(|x| own + x);
+            }
+        };
+        let mirrored = unit(along(direction, normal, 2.0 * cos));
+        // the mirror image of a smooth normal may be below the triangle
+        if depth == self.effort.depth || reflectance == 0.0 || dot(mirrored, flat) <= 0.0 {
+            return [own; 3];
+        }
+        self.radiance([point, mirrored], Some(hit.index), depth + 1, random).map(|x| own + reflectance * x)
     }
     /// The light that a surface reflects, with and without what hides the lights, and the greatest value of one sample of a light.
     fn reflected(&self, finish: Finish, at: Receiver, direction: V3, random: &mut Random) -> [f64; 3] {
@@ -164,24 +174,27 @@ impl Tracer<'_> {
         }
         let toward = direction.map(|x| -x);
         for &light in &self.lights {
-            let Some(seen) = Seen::new(&self.bodies, at, light, self.effort.spared) else { continue };
+            let Some(seen) = Seen::new(&self.bodies, at, light, [self.effort.spared, self.effort.lift]) else {
+                continue;
+            };
             let radiance = self.bodies[light].body.emission.map_or(0.0, |emission| emission.radiance);
             let count = self.effort.points;
             let [left, all, most] = match finish {
-                Finish::Metal { eta, k, alpha } => {
+                Finish::Metal { .. } | Finish::Coat { .. } => {
                     let mut parts = [0.0; 3];
                     for point in seen.points(4 * count, random) {
-                        let reflected = brdf(toward, unit(point.to), at.normal, [eta, k, alpha]);
+                        let reflected = brdf(finish, toward, unit(point.to), at.normal);
                         let part = point.weight * reflected;
                         parts[1] += part;
-                        parts[0] += if seen.is_visible(point.to) { part } else { 0.0 };
+                        parts[0] += part * seen.transmittance(point.to);
                         parts[2] = parts[2].max(seen.most * reflected);
                     }
                     parts
                 }
                 Finish::Diffuse(albedo) | Finish::Mirror(albedo) => {
                     let factor = albedo * core::f64::consts::FRAC_1_PI;
-                    [seen.visible(count, random), seen.all, seen.most].map(|x| x * factor)
+                    let [left, all] = seen.both(count, random);
+                    [left, all, seen.most].map(|x| x * factor)
                 }
             };
             sum = [sum[0] + radiance * left, sum[1] + radiance * all, sum[2].max(radiance * most)];
@@ -214,7 +227,7 @@ mod tests {
                 .into_iter()
                 .map(|form| {
                     let emission = Some(Emission { radiance: 1.0, two_sided: true });
-                    Prepared::new(Body { form, finish: Finish::Diffuse(0.5), emission })
+                    Prepared::new(Body { form, finish: Finish::Diffuse(0.5), emission, detail: None })
                 })
                 .collect();
             // on one of the bodies, or nowhere
@@ -235,8 +248,8 @@ mod tests {
                     }
                 }
             }
-            let receiver = Receiver { point: at, normal, own };
-            let Some(seen) = Seen::new(&bodies, receiver, 0, SPARED) else { continue };
+            let receiver = Receiver { point: at, normal, flat: normal, own };
+            let Some(seen) = Seen::new(&bodies, receiver, 0, [SPARED, 0.0]) else { continue };
             let exact = seen.visible(10_000, &mut random);
             let mean = seen.sampled(10_000, &mut random);
             // a light at the horizon is small, and its points few

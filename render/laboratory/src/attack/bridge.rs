@@ -1,11 +1,78 @@
 //! A scene as the oracle takes it: the numbers that the renderer keeps, in f64.
 
-use etendue_oracle::direct::{Body, Emission, Finish, Form, Lens, View};
-use etendue_oracle::{sub, wide};
-use etendue_render::scene::{CameraSettings, Geometry, Material, Scene};
+use etendue_oracle::direct::{Beyond, Body, Detail, Emission, Finish, Form, Lens, Opacity, Pattern, Picture, View};
+use etendue_oracle::{V3, basis, cross, dot, sub, unit, wide};
+use etendue_render::scene::{CameraSettings, Geometry, Instance, Material, Scene, Varying};
+use etendue_render::texture::{self, Colors, Mapping, Texture, Wrap};
+use std::collections::HashMap;
+use std::sync::Arc;
 
 /// The channel that is compared.
 pub(super) const CHANNEL: usize = 1;
+
+/// A map from the space of an object to that of the world.
+#[derive(Clone, Copy)]
+struct Map([[f64; 4]; 3]);
+
+impl Map {
+    fn of(instance: &Instance) -> Self {
+        Self(instance.to_world.0.map(|row| row.map(f64::from)))
+    }
+    /// Where a point is, as the renderer defines it: each product is added in single precision, that of x last.
+    fn point(&self, p: V3) -> V3 {
+        self.0.map(|[a, b, c, d]| {
+            let sum = [(c, p[2]), (b, p[1]), (a, p[0])]
+                .into_iter()
+                .fold(d as f32, |sum, (a, x)| (a as f32).mul_add(x as f32, sum));
+            f64::from(sum)
+        })
+    }
+    fn vector(&self, v: V3) -> V3 {
+        self.0.map(|[a, b, c, _]| dot([a, b, c], v))
+    }
+    /// A vector along the normal of a plane that had the normal `n`: across the images of two vectors within the plane.
+    fn normal(&self, n: V3) -> V3 {
+        let (s, t) = basis(n);
+        cross(self.vector(s), self.vector(t))
+    }
+}
+
+/// The channel of a texture.
+fn pattern(texture: &Texture, channel: usize) -> Pattern {
+    let both = |of: &[Texture; 2]| Box::new([pattern(&of[0], channel), pattern(&of[1], channel)]);
+    match texture {
+        Texture::Constant(color) => Pattern::Constant(color[channel].into()),
+        Texture::Picture(picture) => Pattern::Picture(pixels(picture, channel)),
+        Texture::Channel(of, channel) => pattern(of, *channel),
+        Texture::Product(of) => Pattern::Product(both(of)),
+        Texture::Inverse(of) => Pattern::Inverse(Box::new(pattern(of, channel))),
+        Texture::Mix(of) => Pattern::Mix(Box::new([0, 1, 2].map(|k| pattern(&of[k], channel)))),
+        Texture::Checkerboard(of, mapping) => Pattern::Board(both(of), place(mapping)),
+        Texture::Opacity(_) | Texture::Root(_) => unreachable!("no such texture is drawn"),
+    }
+}
+
+fn place(mapping: &Mapping) -> [[f64; 3]; 2] {
+    mapping.0.map(|row| row.map(f64::from))
+}
+
+fn pixels(picture: &texture::Picture, channel: usize) -> Picture {
+    let texture::Picture { texels, mapping, wrap, bilinear } = picture;
+    let Colors::Float(colors) = &texels.colors else { unreachable!("no other picture is drawn") };
+    let beyond = |wrap| match wrap {
+        Wrap::Repeat => Beyond::Repeats,
+        Wrap::Mirror => Beyond::Mirrors,
+        Wrap::Clamp => Beyond::Stays,
+        Wrap::Black => Beyond::Ends,
+    };
+    Picture {
+        size: [texels.width, texels.height],
+        texels: colors.iter().map(|color| color[channel].into()).collect(),
+        place: place(mapping),
+        beyond: wrap.map(beyond),
+        is_smooth: *bilinear,
+    }
+}
 
 /// The bodies of a scene.
 #[must_use]
@@ -16,18 +83,59 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         Material::Conductor { eta, k, roughness } => {
             Finish::Metal { eta: eta[CHANNEL].into(), k: k[CHANNEL].into(), alpha: roughness.along.into() }
         }
-        Material::Glossy { .. } | Material::Varying(_) => unreachable!("no such material is drawn"),
+        Material::Glossy { diffuse, specular, alpha } => {
+            Finish::Coat { albedo: diffuse[CHANNEL].into(), reflectance: specular[CHANNEL].into(), alpha: alpha.into() }
+        }
+        // its albedo is among the details
+        Material::Varying(of) => match &scene.varying[of as usize] {
+            Varying::Diffuse(_) => Finish::Diffuse(0.0),
+            Varying::Glossy { specular: Texture::Constant(specular), alpha: Texture::Constant(alpha), .. } => {
+                Finish::Coat { albedo: 0.0, reflectance: specular[CHANNEL].into(), alpha: alpha[0].into() }
+            }
+            _ => unreachable!("no such material is drawn"),
+        },
     };
-    let triangle = |corners: [[f32; 3]; 3]| {
-        let [corner, b, c] = corners.map(wide);
-        Form::Flat { corner, edges: [sub(b, corner), sub(c, corner)], is_triangle: true }
+    let albedos = scene.varying.iter().map(|varying| match varying {
+        Varying::Diffuse(albedo) | Varying::Glossy { diffuse: albedo, .. } => Arc::new(pattern(albedo, CHANNEL)),
+        Varying::Metallic { .. } => unreachable!("no such material is drawn"),
+    });
+    let albedos: Vec<Arc<Pattern>> = albedos.collect();
+    let opacity = |mask: &texture::Mask| Opacity {
+        chance: Arc::new(pattern(&mask.opacity, 0)),
+        least: mask.least.map(f64::from),
     };
-    let meshes = scene.triangles.iter().zip(&scene.triangle_materials);
-    let meshes = meshes.map(|(t, material)| Body { form: triangle(*t), finish: finish(*material), emission: None });
+    let opacities: HashMap<u32, Opacity> = scene.masks.iter().map(|(of, mask)| (*of, opacity(mask))).collect();
+    let triangle =
+        |[corner, b, c]: [V3; 3]| Form::Flat { corner, edges: [sub(b, corner), sub(c, corner)], is_triangle: true };
+    let mesh = |index: usize, map: Option<&Map>| {
+        let material = scene.triangle_materials[index];
+        let corners = scene.triangles[index].map(wide);
+        let known = scene.details.of(index as u32);
+        let albedo = match scene.materials[material as usize] {
+            Material::Varying(of) => Some(Arc::clone(&albedos[of as usize])),
+            _ => None,
+        };
+        let opacity = opacities.get(&material).cloned();
+        let detail = (known.is_some() || albedo.is_some() || opacity.is_some()).then(|| {
+            let normals = known.map_or([[0.0; 3]; 3], |known| known.normals.map(wide));
+            let moved = |n: V3| if n == [0.0; 3] { n } else { unit(map.map_or(n, |map| map.normal(n))) };
+            let uvs = known.map_or([[0.0; 2]; 3], |known| known.uvs.map(|uv| uv.map(f64::from)));
+            Arc::new(Detail { uvs, normals: normals.map(moved), albedo, opacity })
+        });
+        let form = triangle(corners.map(|p| map.map_or(p, |map| map.point(p))));
+        Body { form, finish: finish(material), emission: None, detail }
+    };
+    let own = scene.objects.first().map_or(scene.triangles.len(), |range| range.start);
+    let instances = scene.instances.iter().flat_map(|instance| {
+        let map = Map::of(instance);
+        scene.objects[instance.object as usize].clone().map(move |index| (index, Some(map)))
+    });
+    let meshes = (0..own).map(|index| (index, None)).chain(instances);
+    let meshes = meshes.map(|(index, map)| mesh(index, map.as_ref()));
     let shapes = scene.shapes.iter().map(|shape| Body {
         form: match shape.geometry {
             Geometry::Sphere { center, radius } => Form::Sphere { center: wide(center), radius: radius.into() },
-            Geometry::Triangle(corners) => triangle(corners),
+            Geometry::Triangle(corners) => triangle(corners.map(wide)),
             Geometry::Parallelogram { p, u, v } => {
                 Form::Flat { corner: wide(p), edges: [wide(u), wide(v)], is_triangle: false }
             }
@@ -36,8 +144,14 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         emission: shape
             .emission
             .map(|emission| Emission { radiance: emission.radiance[CHANNEL].into(), two_sided: emission.two_sided }),
+        detail: None,
     });
-    meshes.chain(shapes).collect()
+    meshes.chain(shapes).filter(has_area).collect()
+}
+
+/// Whether a body is not a triangle that a map has flattened.
+fn has_area(body: &Body) -> bool {
+    !matches!(body.form, Form::Flat { edges: [u, v], .. } if cross(u, v) == [0.0; 3])
 }
 
 /// The camera of a scene for an image of this size, with its numbers rounded to f32 as the renderer keeps them.

@@ -1,6 +1,6 @@
 //! Forms that scenes are built from.
 
-use super::draft::{Draft, Form, Look, Part, V3};
+use super::draft::{Draft, Form, Look, Map, Part, V3};
 use super::random::Random;
 use etendue_oracle::{along, basis, cross, dot, length, sub, unit};
 
@@ -112,6 +112,23 @@ pub(super) fn placed(solid: &Solid, half: V3, axes: &[V3; 3], center: V3) -> Sol
     solid.iter().map(|face| face.iter().map(|v| place(*v)).collect()).collect()
 }
 
+/// The map of a point to `center` plus its coordinates, times these factors, along the axes.
+pub(super) fn map(axes: &[V3; 3], factors: V3, center: V3) -> Map {
+    let row = |k: usize| [0, 1, 2].map(|axis| axes[axis][k] * factors[axis]);
+    [0, 1, 2].map(|k| {
+        let [a, b, c] = row(k);
+        [a, b, c, center[k]]
+    })
+}
+
+/// First one map, then the other.
+pub(super) fn then(first: &Map, second: &Map) -> Map {
+    second.map(|row| {
+        let shift = |axis: usize| if axis == 3 { row[3] } else { 0.0 };
+        [0, 1, 2, 3].map(|axis| shift(axis) + (0..3).map(|k| row[k] * first[k][axis]).sum::<f64>())
+    })
+}
+
 /// The triangles of a solid; those without an area in f32 are left out.
 pub(super) fn triangles(solid: &Solid) -> Vec<Triangle> {
     let fan = |face: &Vec<V3>| (2..face.len()).map(|k| [face[0], face[k - 1], face[k]]).collect::<Vec<_>>();
@@ -216,7 +233,7 @@ pub(super) fn stage(random: &mut Random) -> Draft {
     let size = random.between(0.3, 2.0);
     let look = look([0.0, 0.3, 0.0], random.between(3.0, 5.0), random);
     let parts = vec![floor(2.0, random), lamp(center, [0.0; 3], size, random)];
-    Draft { name: String::new(), look, parts }
+    Draft { name: String::new(), look, parts, is_shared: false }
 }
 
 /// Whether a light appears so small in the image that some images have a sample of it and others have not.

@@ -47,7 +47,7 @@ fn ground(half: f64) -> Part {
 }
 
 fn draft(name: &str, look: Look, parts: Vec<Part>) -> Draft {
-    Draft { name: name.to_owned(), look, parts }
+    Draft { name: name.to_owned(), look, parts, is_shared: false }
 }
 
 /// A floor in a sphere of radius 1, below a light outside of it.

@@ -1,5 +1,6 @@
 //! A scene to attack with: parts that can be left out one by one, and their text.
 
+use super::skin::{Number, Picture, Skin};
 use std::fmt::{self, Display, Formatter};
 
 /// A vector or point in f64; text rounds it to f32.
@@ -19,6 +20,15 @@ pub enum Finish {
         /// Imaginary part of the index of refraction.
         k: f32,
         /// Roughness α of the GGX distribution; 0 is a perfect mirror.
+        alpha: f32,
+    },
+    /// A coat over a Lambertian surface.
+    Coat {
+        /// Albedo of the surface.
+        albedo: f32,
+        /// Reflectance of the coat at normal incidence.
+        reflectance: f32,
+        /// Roughness α of the coat.
         alpha: f32,
     },
 }
@@ -52,7 +62,14 @@ pub struct Part {
     pub finish: Finish,
     /// What it emits, if it is a light.
     pub glow: Option<Glow>,
+    /// What varies over a mesh.
+    pub skin: Skin,
+    /// If there are some, the maps that place copies of a mesh, which is nowhere else.
+    pub copies: Vec<Map>,
 }
+
+/// A map to world space: the rows of the linear part, each followed by its part of the shift. Text rounds it to f32.
+pub type Map = [[f64; 4]; 3];
 
 /// Where a scene is seen from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,32 +95,42 @@ pub struct Draft {
     pub look: Look,
     /// What is in it.
     pub parts: Vec<Part>,
+    /// Whether copies share their triangles, as they do in scenes that are read only if they have very many of them.
+    pub is_shared: bool,
 }
 
 impl Part {
+    fn new(form: Form, albedo: f32, glow: Option<Glow>) -> Self {
+        Self { form, finish: Finish::Diffuse(albedo), glow, skin: Skin::default(), copies: Vec::new() }
+    }
     /// Triangles that reflect.
     #[must_use]
-    pub const fn mesh(triangles: Vec<[V3; 3]>, albedo: f32) -> Self {
-        Self { form: Form::Mesh(triangles), finish: Finish::Diffuse(albedo), glow: None }
+    pub fn mesh(triangles: Vec<[V3; 3]>, albedo: f32) -> Self {
+        Self::new(Form::Mesh(triangles), albedo, None)
     }
     /// A sphere that reflects.
     #[must_use]
-    pub const fn ball(center: V3, radius: f64, albedo: f32) -> Self {
-        Self { form: Form::Sphere(center, radius), finish: Finish::Diffuse(albedo), glow: None }
+    pub fn ball(center: V3, radius: f64, albedo: f32) -> Self {
+        Self::new(Form::Sphere(center, radius), albedo, None)
     }
     /// A light, which reflects nothing.
     #[must_use]
-    pub const fn light(form: Form, radiance: f32, two_sided: bool) -> Self {
-        Self { form, finish: Finish::Diffuse(0.0), glow: Some(Glow { radiance, two_sided }) }
+    pub fn light(form: Form, radiance: f32, two_sided: bool) -> Self {
+        Self::new(form, 0.0, Some(Glow { radiance, two_sided }))
     }
     /// Number of primitives.
     #[must_use]
     pub fn size(&self) -> usize {
-        if let Form::Mesh(triangles) = &self.form { triangles.len() } else { 1 }
+        if let Form::Mesh(triangles) = &self.form { triangles.len() * self.copies.len().max(1) } else { 1 }
     }
 }
 
 impl Form {
+    /// The triangles of a mesh.
+    #[must_use]
+    pub fn triangles(&self) -> &[[V3; 3]] {
+        if let Self::Mesh(triangles) = self { triangles } else { &[] }
+    }
     /// The points that define the form, a sphere's being its centre, moved by `place`, and the edges and radii turned by `turn`.
     pub fn moved(&mut self, place: impl Fn(V3) -> V3, turn: impl Fn(V3) -> V3) {
         match self {
@@ -120,23 +147,19 @@ impl Draft {
     pub fn size(&self) -> usize {
         self.parts.iter().map(Part::size).sum()
     }
+    /// The pictures that the text names.
+    pub fn pictures(&self) -> impl Iterator<Item = &Picture> {
+        self.parts.iter().flat_map(|part| part.skin.pictures())
+    }
     /// Moves everything.
     pub fn shift(&mut self, by: V3) {
         let place = |p: V3| std::array::from_fn(|k| p[k] + by[k]);
-        self.parts.iter_mut().for_each(|part| part.form.moved(place, |v| v));
+        let whole = self.parts.iter_mut().filter(|part| part.copies.is_empty());
+        whole.for_each(|part| part.form.moved(place, |v| v));
+        for map in self.parts.iter_mut().flat_map(|part| &mut part.copies) {
+            map.iter_mut().zip(by).for_each(|(row, by)| row[3] += by);
+        }
         (self.look.eye, self.look.target) = (place(self.look.eye), place(self.look.target));
-    }
-}
-
-/// A number as f32, with as many digits as it has.
-struct Number(f64);
-
-impl Display for Number {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let short = format!("{:?}", self.0 as f32);
-        // the parser reads f64
-        let same = short.parse::<f64>().is_ok_and(|x| (x as f32).to_bits() == (self.0 as f32).to_bits());
-        if same { f.write_str(&short) } else { write!(f, "{:?}", f64::from(self.0 as f32)) }
     }
 }
 
@@ -148,31 +171,68 @@ fn points(f: &mut Formatter<'_>, points: &[V3]) -> fmt::Result {
     Ok(())
 }
 
-impl Display for Finish {
+impl Finish {
+    /// The finish with an albedo that is the texture of this name, if it has one.
+    const fn with<'a>(&'a self, texture: Option<&'a str>) -> Textured<'a> {
+        Textured(self, texture)
+    }
+}
+
+/// A finish, and the name of the texture of its albedo.
+struct Textured<'a>(&'a Finish, Option<&'a str>);
+
+impl Display for Textured<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let number = |x: f32| Number(x.into());
-        match *self {
-            Self::Diffuse(a) => write!(f, "Material \"diffuse\" \"rgb reflectance\" [ {0} {0} {0} ]", number(a)),
-            Self::Mirror(a) => write!(f, "Material \"mirror\" \"rgb Kr\" [ {0} {0} {0} ]", number(a)),
-            Self::Metal { eta, k, alpha } => write!(
+        let albedo = |f: &mut Formatter<'_>, name: &str, x: f32| match self.1 {
+            Some(texture) => write!(f, "\"texture {name}\" \"{texture}\""),
+            None => write!(f, "\"rgb {name}\" [ {0} {0} {0} ]", number(x)),
+        };
+        write!(f, "Material ")?;
+        match *self.0 {
+            Finish::Diffuse(a) => {
+                write!(f, "\"diffuse\" ")?;
+                albedo(f, "reflectance", a)
+            }
+            Finish::Mirror(a) => write!(f, "\"mirror\" \"rgb Kr\" [ {0} {0} {0} ]", number(a)),
+            Finish::Metal { eta, k, alpha } => write!(
                 f,
-                "Material \"conductor\" \"rgb eta\" [ {0} {0} {0} ] \"rgb k\" [ {1} {1} {1} ]
+                "\"conductor\" \"rgb eta\" [ {0} {0} {0} ] \"rgb k\" [ {1} {1} {1} ]
   \"float roughness\" {2} \"bool remaproughness\" false",
                 number(eta),
                 number(k),
                 number(alpha)
             ),
+            Finish::Coat { albedo: a, reflectance, alpha } => {
+                write!(f, "\"substrate\" ")?;
+                albedo(f, "Kd", a)?;
+                let (reflectance, alpha) = (number(reflectance), number(alpha));
+                write!(f, " \"rgb Ks\" [ {reflectance} {reflectance} {reflectance} ]")?;
+                write!(f, " \"float roughness\" {alpha} \"bool remaproughness\" false")
+            }
         }
     }
 }
 
-impl Display for Part {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "AttributeBegin\n  {}", self.finish)?;
+impl Part {
+    /// What is before the shape: the finish, what varies of it, and the light.
+    fn header(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        if let Some(albedo) = &self.skin.albedo {
+            write!(f, "{}", albedo.named("albedo", true))?;
+        }
+        write!(f, "  {}", self.finish.with(self.skin.albedo.as_ref().map(|_| "albedo")))?;
+        writeln!(f)?;
+        if let Some(opacity) = &self.skin.opacity {
+            write!(f, "{}", opacity.named("opacity", false))?;
+        }
         if let Some(Glow { radiance, two_sided }) = self.glow {
             write!(f, "  AreaLightSource \"diffuse\" \"rgb L\" [ {0} {0} {0} ]", Number(radiance.into()))?;
             writeln!(f, "{}", if two_sided { " \"bool twosided\" true" } else { "" })?;
         }
+        Ok(())
+    }
+    /// The shape.
+    fn shape(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match &self.form {
             Form::Mesh(triangles) => {
                 write!(f, "  Shape \"trianglemesh\" \"point3 P\" [")?;
@@ -183,6 +243,21 @@ impl Display for Part {
                 write!(f, "]\n    \"integer indices\" [")?;
                 (0..3 * triangles.len()).try_for_each(|i| write!(f, " {i}"))?;
                 writeln!(f, " ]")?;
+                if let Some(uv) = self.skin.uv {
+                    write!(f, "    \"point2 uv\" [")?;
+                    for [u, v] in triangles.as_flattened().iter().map(|p| uv.at(*p)) {
+                        write!(f, " {} {} ", Number(u), Number(v))?;
+                    }
+                    writeln!(f, "]")?;
+                }
+                if let Some(bend) = self.skin.bend {
+                    write!(f, "    \"normal N\" [")?;
+                    triangles.iter().try_for_each(|corners| points(f, &bend.normals(*corners)))?;
+                    writeln!(f, "]")?;
+                }
+                if self.skin.opacity.is_some() {
+                    writeln!(f, "    \"texture alpha\" \"opacity\"")?;
+                }
             }
             Form::Sphere(center, radius) => {
                 write!(f, "  Translate ")?;
@@ -200,7 +275,31 @@ impl Display for Part {
                 writeln!(f, "]")?;
             }
         }
-        writeln!(f, "AttributeEnd")
+        Ok(())
+    }
+}
+
+impl Display for Part {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [begin, end] = if self.copies.is_empty() {
+            ["AttributeBegin", "AttributeEnd"]
+        } else {
+            ["ObjectBegin \"o\"", "ObjectEnd"]
+        };
+        writeln!(f, "{begin}")?;
+        self.header(f)?;
+        self.shape(f)?;
+        writeln!(f, "{end}")?;
+        for map in &self.copies {
+            write!(f, "AttributeBegin\n  Transform [")?;
+            // column by column
+            for axis in 0..4 {
+                map.iter().try_for_each(|row| write!(f, " {}", Number(row[axis])))?;
+                write!(f, " {} ", if axis == 3 { 1 } else { 0 })?;
+            }
+            writeln!(f, "]\n  ObjectInstance \"o\"\nAttributeEnd")?;
+        }
+        Ok(())
     }
 }
 

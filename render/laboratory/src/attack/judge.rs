@@ -1,13 +1,14 @@
 //! Compares images of a scene with the oracle's, block by block.
 
 use super::bridge::{CHANNEL, bodies, view};
-use super::draft::Draft;
+use super::draft::{Draft, Map, Part};
 use etendue::occlusion::SPARED;
 use etendue_oracle::direct::{self, Block};
 use etendue_render::film::Film;
-use etendue_render::scene::{self, Scene};
+use etendue_render::scene::{self, Affine, Instance, Scene};
 use etendue_render::{Sampler, Settings, Technique, World};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How precisely a scene is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,12 +101,55 @@ impl Verdict {
     }
 }
 
-/// Reads the text of a draft, exactly as a scene file.
+/// Reads the text of a draft, exactly as a scene file, with its pictures.
 ///
 /// # Errors
 /// Fails if a triangle has no area in f32, or the like.
 pub fn read(draft: &Draft) -> Result<Scene, String> {
-    parse(&draft.to_string())
+    if !draft.is_shared {
+        return with_pictures(draft);
+    }
+    // what is copied behind all else, and once
+    let (copied, mut parts): (Vec<Part>, Vec<Part>) =
+        draft.parts.iter().cloned().partition(|part| !part.copies.is_empty());
+    parts.extend(copied.iter().map(|part| Part { copies: Vec::new(), ..part.clone() }));
+    let mut scene = with_pictures(&Draft { parts, ..draft.clone() })?;
+    let mut end = scene.triangles.len() - copied.iter().map(|part| part.form.triangles().len()).sum::<usize>();
+    for (object, part) in (0..).zip(&copied) {
+        let start = end;
+        end += part.form.triangles().len();
+        scene.objects.push(start..end);
+        let narrow = |map: &Map| Affine(map.map(|row| row.map(|x| x as f32)));
+        scene.instances.extend(part.copies.iter().map(|map| Instance { object, to_world: narrow(map) }));
+    }
+    Ok(scene)
+}
+
+fn with_pictures(draft: &Draft) -> Result<Scene, String> {
+    let folder = Folder::new().map_err(|error| error.to_string())?;
+    for picture in draft.pictures() {
+        std::fs::write(folder.0.join(picture.name()), picture.bytes()).map_err(|error| error.to_string())?;
+    }
+    scene::parse(&draft.to_string(), "attack.pbrt", &folder.0).map_err(|error| error.to_string())
+}
+
+/// A folder for pictures, which is removed when it is dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> std::io::Result<Self> {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("etendue-attack-{}-{count}", std::process::id()));
+        std::fs::create_dir_all(&path)?;
+        Ok(Self(path))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
 }
 
 /// Reads the text of a scene file.

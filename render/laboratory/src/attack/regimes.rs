@@ -2,6 +2,7 @@
 
 mod bodies;
 mod lights;
+mod others;
 mod places;
 
 use super::build::{has_area, has_speck};
@@ -23,7 +24,7 @@ const fn regime(name: &'static str, about: &'static str, make: fn(&mut Random) -
 }
 
 /// All regimes.
-pub const REGIMES: [Regime; 24] = [
+pub const REGIMES: [Regime; 33] = [
     regime("thin", "closed sheets with thicknesses of 1e-5 to 1e-2 of their size", bodies::thin),
     regime("chamfered", "boxes with corners cut off at 1e-7 to 1e-1 of their size", bodies::chamfered),
     regime("open", "bodies that lack triangles", bodies::open),
@@ -48,6 +49,15 @@ pub const REGIMES: [Regime; 24] = [
     regime("sun-and-lamp", "a sun at 1e2 to 1e6 with a lamp beside the bodies", lights::sun_and_lamp),
     regime("lampshade", "screens close to far sphere lights", lights::lampshade),
     regime("flush", "lamps flush with a ceiling, or just below or above it", lights::flush),
+    regime("copies", "scenes of the regimes above whose meshes are instances in the same places", others::copies),
+    regime("instances", "instances that are turned, mirrored, stretched, and on the floor", others::instanced),
+    regime("odd-units", "instances of objects with units of 1e-4 to 1e4, far from their origins", others::odd_units),
+    regime("holes", "screens and bodies with holes and veils", others::holes),
+    regime("punched", "scenes of the regimes above with holes in meshes", others::punched),
+    regime("painted", "scenes of the regimes above with textures on meshes", others::painted),
+    regime("smooth", "scenes of the regimes above with normals of smooth surfaces", others::smooth),
+    regime("coats", "rough coats over diffuse surfaces, some of them textured or smooth", others::coated),
+    regime("everything", "instances with holes, textures and normals of smooth surfaces", others::everything),
 ];
 
 /// The regime of this name.

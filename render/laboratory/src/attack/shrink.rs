@@ -1,11 +1,13 @@
 //! Finds the fewest parts and triangles of a scene that still fail.
 
 use super::draft::{Draft, Form};
+use super::skin::Skin;
 
 /// Greatest number of scenes that are tried.
 const MOST: usize = 400;
 
-/// Leaves out what the failure does not need: the lens, parts, halves of meshes, and triangles; and shortens numbers.
+/// Leaves out what the failure does not need: the lens, parts, what varies over them, copies, halves of meshes, and triangles; and shortens
+/// numbers.
 #[must_use]
 pub fn shrink(draft: &Draft, fails: impl Fn(&Draft) -> bool) -> Draft {
     let mut best = draft.clone();
@@ -23,12 +25,37 @@ pub fn shrink(draft: &Draft, fails: impl Fn(&Draft) -> bool) -> Draft {
         candidate.look.lens = None;
         accept(&mut best, candidate);
     }
+    if best.is_shared {
+        let candidate = Draft { is_shared: false, ..best.clone() };
+        accept(&mut best, candidate);
+    }
     loop {
         let before = best.size();
         for index in (0..best.parts.len()).rev() {
             let mut candidate = best.clone();
             candidate.parts.remove(index);
             accept(&mut best, candidate);
+        }
+        for index in 0..best.parts.len() {
+            let bare: [fn(&mut Skin); 4] = [
+                |skin| skin.albedo = None,
+                |skin| skin.opacity = None,
+                |skin| skin.bend = None,
+                |skin| *skin = Skin::default(),
+            ];
+            for bare in bare {
+                let mut candidate = best.clone();
+                bare(&mut candidate.parts[index].skin);
+                accept(&mut best, candidate);
+            }
+            // the last copy stays, since the triangles are elsewhere without it
+            for copy in (0..best.parts[index].copies.len()).rev() {
+                if best.parts[index].copies.len() > 1 {
+                    let mut candidate = best.clone();
+                    candidate.parts[index].copies.remove(copy);
+                    accept(&mut best, candidate);
+                }
+            }
         }
         for index in 0..best.parts.len() {
             let Form::Mesh(all) = &best.parts[index].form else { continue };

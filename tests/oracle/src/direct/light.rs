@@ -13,8 +13,10 @@ use core::f64::consts::{PI, TAU};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Receiver {
     pub(super) point: V3,
-    /// Unit normal on the side of the viewer.
+    /// Unit normal on the side of the viewer, of a smooth surface its own.
     pub(super) normal: V3,
+    /// Unit normal of the flat form on that side.
+    pub(super) flat: V3,
     /// The body that it is on.
     pub(super) own: usize,
 }
@@ -26,7 +28,11 @@ pub(super) struct Seen<'a> {
     light: usize,
     /// The end of a way to the light, as a fraction of it, that is never occluded.
     spared: f64,
+    /// The fraction by which positions in pictures are moved.
+    lift: f64,
     outline: Outline,
+    /// Whether closed forms know of the horizons: a sphere light is not cut by that of the flat form.
+    is_whole: bool,
     /// Projected solid angle without blockers.
     pub(super) all: f64,
     /// The greatest value of one sample of the whole light, also below the horizon, uniform by solid angle or by area: the cosine over the pdf.
@@ -64,14 +70,15 @@ const LATTICE: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 
 impl<'a> Seen<'a> {
     /// A light, if it emits towards the point, and is above its horizon.
-    pub(super) fn new(bodies: &'a [Prepared], at: Receiver, light: usize, spared: f64) -> Option<Self> {
-        let Prepared { body, normal, .. } = bodies[light];
+    pub(super) fn new(bodies: &'a [Prepared], at: Receiver, light: usize, [spared, lift]: [f64; 2]) -> Option<Self> {
+        let Prepared { body, normal, .. } = &bodies[light];
+        let (normal, is_smooth) = (*normal, at.normal != at.flat);
         let two_sided = body.emission?.two_sided;
         let outline = match body.form {
             Form::Sphere { center, radius } => {
                 let c = sub(center, at.point);
                 let distance = length(c);
-                if light == at.own || distance <= radius || dot(c, at.normal) <= -radius {
+                if light == at.own || distance <= radius || dot(c, at.normal) <= -radius || dot(c, at.flat) <= -radius {
                     return None;
                 }
                 Outline::Sphere(c, radius, unit(c), (distance - radius) * (distance + radius) / distance)
@@ -85,7 +92,10 @@ impl<'a> Seen<'a> {
                 if height < 0.0 && !two_sided {
                     return None;
                 }
-                let above = clipped(&corners[..count], at.normal, 0.0);
+                let mut above = clipped(&corners[..count], at.normal, 0.0);
+                if is_smooth {
+                    above = clipped(&above, at.flat, 0.0);
+                }
                 if above.is_empty() {
                     return None;
                 }
@@ -119,7 +129,20 @@ impl<'a> Seen<'a> {
                 above.iter().map(value).fold(0.0, f64::max)
             }
         };
-        (all > 0.0).then_some(Self { bodies, at, light, spared, outline, all, most })
+        let is_whole = match &outline {
+            Outline::Flat(..) => true,
+            Outline::Sphere(c, radius, ..) => !is_smooth || dot(*c, at.flat) >= *radius,
+        };
+        (all > 0.0).then_some(Self { bodies, at, light, spared, lift, outline, is_whole, all, most })
+    }
+    /// [`all`](Self::all) and the part of it that is visible, less what the horizon of the flat form hides of a sphere light.
+    pub(super) fn both(&self, count: usize, random: &mut Random) -> [f64; 2] {
+        if self.is_whole {
+            return [self.visible(count, random), self.all];
+        }
+        let points = self.points(count, random);
+        let left = points.iter().map(|point| point.weight * self.transmittance(point.to)).sum();
+        [left, points.iter().map(|point| point.weight).sum()]
     }
     /// The part of [`all`](Self::all) that is visible; `count` points decide where closed forms do not.
     pub(super) fn visible(&self, count: usize, random: &mut Random) -> f64 {
@@ -181,7 +204,7 @@ impl<'a> Seen<'a> {
     }
     pub(super) fn sampled(&self, count: usize, random: &mut Random) -> f64 {
         let points = self.points(count, random);
-        points.iter().filter(|point| self.is_visible(point.to)).map(|point| point.weight).sum()
+        points.iter().map(|point| point.weight * self.transmittance(point.to)).sum()
     }
     /// Points of the light, each with the part of it for which it stands.
     pub(super) fn points(&self, count: usize, random: &mut Random) -> Vec<Point> {
@@ -234,20 +257,27 @@ impl<'a> Seen<'a> {
                     let b = distance * (1.0 - less);
                     let half = (radius * radius - (distance * across).powi(2)).max(0.0).sqrt();
                     let near = (distance - radius) * (distance + radius) / (b + half);
-                    let cos = dot(direction, self.at.normal).max(0.0);
+                    let is_above = dot(direction, self.at.flat) > 0.0;
+                    let cos = if is_above { dot(direction, self.at.normal).max(0.0) } else { 0.0 };
                     points.push(Point { to: direction.map(|x| x * near), weight: cos * each });
                 }
                 points
             }
         }
     }
-    /// Whether nothing is on the way to a point of the light.
-    pub(super) fn is_visible(&self, to: V3) -> bool {
-        let blocks = |(index, body): (usize, &Prepared)| {
-            index != self.light
-                && body.meets(self.at.point, to, index == self.at.own).is_some_and(|t| t < 1.0 - self.spared)
-        };
-        !self.bodies.iter().enumerate().any(blocks)
+    /// The part of a ray to a point of the light that nothing on the way stops.
+    pub(super) fn transmittance(&self, to: V3) -> f64 {
+        let mut left = 1.0;
+        for (index, body) in self.bodies.iter().enumerate().filter(|(index, _)| *index != self.light) {
+            let met = body.meets(self.at.point, to, index == self.at.own).filter(|&t| t < 1.0 - self.spared);
+            if let Some(t) = met {
+                left *= 1.0 - body.opacity(along(self.at.point, to, t), self.lift);
+            }
+            if left == 0.0 {
+                break;
+            }
+        }
+        left
     }
     fn between(&self) -> Between {
         let mut shapes = Vec::new();
@@ -277,7 +307,7 @@ impl<'a> Seen<'a> {
                     }
                     let (corners, count) = body.body.form.corners(self.at.point);
                     if self.may_hide(&corners[..count], 0.0, Some(body.normal)) {
-                        if self.is_crossed(&corners[..count], body.normal) {
+                        if body.has_holes() || self.is_crossed(&corners[..count], body.normal) {
                             return Between::Segments;
                         }
                         shapes.push(Shape::Polygon(corners[..count].to_vec()));

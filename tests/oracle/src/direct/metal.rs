@@ -1,5 +1,6 @@
-//! Reflection of metals.
+//! Reflection of metals and coats.
 
+use super::scene::Finish;
 use crate::vectors::{V3, dot, sub, unit};
 use core::f64::consts::PI;
 
@@ -13,9 +14,23 @@ pub(super) fn fresnel(cos: f64, eta: f64, k: f64) -> f64 {
     0.5 * (ratio(cos, 0.0) + ratio((eta * eta - k * k) * cos, 2.0 * eta * k * cos))
 }
 
-/// The BRDF of a rough metal between unit vectors towards the viewer and the light, on the side of the unit normal `n`.
-pub(super) fn brdf(view: V3, light: V3, n: V3, [eta, k, alpha]: [f64; 3]) -> f64 {
+/// The BRDF between unit vectors towards the viewer and the light, on the side of the unit normal `n`; 0 of a mirror.
+pub(super) fn brdf(finish: Finish, view: V3, light: V3, n: V3) -> f64 {
     let half = unit(sub(view, light.map(|x| -x)));
+    let cos = dot(view, half);
+    match finish {
+        Finish::Diffuse(albedo) => albedo / PI,
+        Finish::Mirror(_) => 0.0,
+        Finish::Metal { eta, k, alpha } => fresnel(cos, eta, k) * microfacets(view, light, half, n, alpha),
+        Finish::Coat { albedo, reflectance, alpha } => {
+            let part = reflectance + (1.0 - reflectance) * (1.0 - cos).powi(5);
+            part * microfacets(view, light, half, n, alpha) + (1.0 - part) * albedo / PI
+        }
+    }
+}
+
+/// The BRDF of microfacets that reflect all light.
+fn microfacets(view: V3, light: V3, half: V3, n: V3, alpha: f64) -> f64 {
     let (i, o, m) = (dot(view, n), dot(light, n), dot(half, n));
     if i <= 0.0 || o <= 0.0 || m <= 0.0 {
         return 0.0;
@@ -24,5 +39,5 @@ pub(super) fn brdf(view: V3, light: V3, n: V3, [eta, k, alpha]: [f64; 3]) -> f64
     let density = squared / (PI * (m * m * (squared - 1.0) + 1.0).powi(2));
     // 4 cosθᵢ cosθₒ/G₂ = 2 (cosθₒ √(α² + (1 − α²) cos²θᵢ) + cosθᵢ √(α² + (1 − α²) cos²θₒ))
     let root = |cos: f64| (squared + (1.0 - squared) * cos * cos).sqrt();
-    fresnel(dot(view, half), eta, k) * density / (2.0 * (o * root(i) + i * root(o)))
+    density / (2.0 * (o * root(i) + i * root(o)))
 }

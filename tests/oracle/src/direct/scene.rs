@@ -1,6 +1,8 @@
 //! What is rendered: shapes with their reflection and emission, and the rays of a camera. All of it is plain data.
 
+use super::pattern::Pattern;
 use crate::vectors::{V3, along, cross, dot, length, sub, unit};
+use std::sync::Arc;
 
 /// The form of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +41,15 @@ pub enum Finish {
         /// Roughness α; 0 is a perfect mirror.
         alpha: f64,
     },
+    /// Such microfacets, with Schlick's reflectance F, over a Lambertian surface, which has the part 1 − F of its own reflection.
+    Coat {
+        /// Albedo of the Lambertian surface.
+        albedo: f64,
+        /// Reflectance of the microfacets at normal incidence.
+        reflectance: f64,
+        /// Roughness α, greater than 0.
+        alpha: f64,
+    },
 }
 
 /// Constant emission of a surface.
@@ -50,8 +61,32 @@ pub struct Emission {
     pub two_sided: bool,
 }
 
+/// What varies over a triangle. Its corners are that of [`Form::Flat`] and the ends of both edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Detail {
+    /// Texture coordinates of the corners.
+    pub uvs: [[f64; 2]; 3],
+    /// Normals at the corners, of any length and on the same side, of the smooth surface for which the triangle stands; 0 if it is flat.
+    /// Between them the normal is linear; it is turned to the side from which the triangle is seen, and then, by adding a part of the
+    /// direction to the viewer, until its cosine to that is 1/100 of the unit normal's length before.
+    pub normals: [V3; 3],
+    /// The albedo, if it varies; what is beyond \[0, 1\] counts as 0 or 1.
+    pub albedo: Option<Arc<Pattern>>,
+    /// The chance that a ray which meets the triangle is stopped, if that is less than 1 somewhere.
+    pub opacity: Option<Opacity>,
+}
+
+/// The opacity of a surface with holes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opacity {
+    /// The chance that a ray is stopped; more than 1 is 1, and less than 0 is 0.
+    pub chance: Arc<Pattern>,
+    /// If given, rays are stopped where `chance` is at least this, and nowhere else.
+    pub least: Option<f64>,
+}
+
 /// A shape with its surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Form and position.
     pub form: Form,
@@ -59,6 +94,8 @@ pub struct Body {
     pub finish: Finish,
     /// What it emits, if it is a light.
     pub emission: Option<Emission>,
+    /// What varies, if it is a triangle over which something does.
+    pub detail: Option<Arc<Detail>>,
 }
 
 /// A camera: the ray through position (x, y) in pixels, from the top left, has direction `corner + across·x + down·y`.
@@ -111,7 +148,7 @@ impl Form {
 }
 
 /// A body with what the tests of rays need.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Prepared {
     pub(super) body: Body,
     /// Unit normal of a flat form.
@@ -130,6 +167,11 @@ pub(super) struct Hit {
     pub(super) t: f64,
 }
 
+/// Normals that are shorter than this cancel each other.
+const SHORTEST: f64 = 1e-6;
+/// The cosine between a smooth normal and the direction to the viewer below which the normal is turned.
+const STEEPEST: f64 = 0.01;
+
 /// Distances from a plane below this fraction of the coordinates are rounding.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
@@ -147,6 +189,53 @@ impl Prepared {
                 Self { body, normal: unit(area), dual, reach: greatest(corner) + greatest(u) + greatest(v) }
             }
         }
+    }
+    /// Coordinates along the edges of a point in the plane of a flat form.
+    fn coordinates(&self, p: V3) -> [f64; 2] {
+        let Form::Flat { corner, .. } = self.body.form else { return [0.0; 2] };
+        self.dual.map(|w| dot(w, sub(p, corner)))
+    }
+    /// Texture coordinates at a point, both of which are off by the fraction `lift` of the greatest coordinates.
+    fn uv(&self, detail: &Detail, p: V3, lift: f64) -> [f64; 2] {
+        let ([s, t], [a, b, c]) = (self.coordinates(p), detail.uvs);
+        let off = lift * p.iter().fold(self.reach, |m, x| m.max(x.abs()));
+        let [s, t] = [s + off * length(self.dual[0]), t + off * length(self.dual[1])];
+        let greatest = |k: usize| a[k].abs().max(b[k].abs()).max(c[k].abs());
+        [0, 1].map(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]) + lift * greatest(k))
+    }
+    /// Whether some rays may pass through.
+    pub(super) fn has_holes(&self) -> bool {
+        self.body.detail.as_ref().is_some_and(|detail| detail.opacity.is_some())
+    }
+    /// The chance that a ray which meets the body at a point is stopped, with positions in pictures moved by the fraction `lift`.
+    pub(super) fn opacity(&self, p: V3, lift: f64) -> f64 {
+        let Some(detail) = &self.body.detail else { return 1.0 };
+        let Some(Opacity { chance, least }) = &detail.opacity else { return 1.0 };
+        let chance = chance.at(self.uv(detail, p, lift), lift);
+        least.map_or(chance.clamp(0.0, 1.0), |least| if chance >= least { 1.0 } else { 0.0 })
+    }
+    /// How the body reflects at a point.
+    pub(super) fn finish(&self, p: V3, lift: f64) -> Finish {
+        let Some(detail) = &self.body.detail else { return self.body.finish };
+        let Some(albedo) = &detail.albedo else { return self.body.finish };
+        let albedo = albedo.at(self.uv(detail, p, lift), lift).clamp(0.0, 1.0);
+        match self.body.finish {
+            Finish::Coat { reflectance, alpha, .. } => Finish::Coat { albedo, reflectance, alpha },
+            _ => Finish::Diffuse(albedo),
+        }
+    }
+    /// The normal of the smooth surface at a point, seen along `direction` on the side of the unit normal `flat`; `None` on a flat one.
+    pub(super) fn smooth(&self, p: V3, flat: V3, direction: V3) -> Option<V3> {
+        let normals = self.body.detail.as_ref()?.normals;
+        let [s, t] = self.coordinates(p);
+        let mixed = along(along(normals[0].map(|x| x * (1.0 - s - t)), normals[1], s), normals[2], t);
+        if length(mixed) <= SHORTEST {
+            return None;
+        }
+        let sign = if dot(mixed, flat) < 0.0 { -1.0 } else { 1.0 };
+        let normal = unit(mixed).map(|x| x * sign);
+        let lack = STEEPEST + dot(normal, direction);
+        Some(if lack > 0.0 { unit(along(normal, direction, -lack)) } else { normal })
     }
     /// Whether a point is in the plane of a flat form, up to rounding.
     pub(super) fn is_level(&self, x: V3) -> bool {
@@ -192,13 +281,30 @@ impl Prepared {
     }
 }
 
-/// The first body along a ray that starts on the body `own`, if on any.
-pub(super) fn closest(bodies: &[Prepared], o: V3, d: V3, own: Option<usize>) -> Option<Hit> {
+/// What a ray that starts on the body `own`, if on any, may hit: bodies with holes that are nearer than the first without, and that.
+/// Each has the chance that the ray comes there and is stopped.
+pub(super) fn hits(bodies: &[Prepared], o: V3, d: V3, own: Option<usize>, lift: f64) -> Vec<(Hit, f64)> {
     let mut first: Option<Hit> = None;
+    let mut found = Vec::new();
     for (index, body) in bodies.iter().enumerate() {
-        if let Some(t) = body.meets(o, d, own == Some(index)).filter(|&t| first.is_none_or(|hit| t < hit.t)) {
+        let Some(t) = body.meets(o, d, own == Some(index)) else { continue };
+        if body.has_holes() {
+            found.push(Hit { index, t });
+        } else if first.is_none_or(|hit| t < hit.t) {
             first = Some(Hit { index, t });
         }
     }
-    first
+    if let Some(first) = first {
+        found.retain(|hit| hit.t < first.t);
+        found.push(first);
+    }
+    found.sort_by(|a, b| a.t.total_cmp(&b.t));
+    let mut left = 1.0;
+    let chance = |hit: &Hit| {
+        let stopped = left * bodies[hit.index].opacity(along(o, d, hit.t), lift);
+        left -= stopped;
+        stopped
+    };
+    let chances: Vec<f64> = found.iter().map(chance).collect();
+    found.into_iter().zip(chances).filter(|(_, chance)| *chance > 0.0).collect()
 }

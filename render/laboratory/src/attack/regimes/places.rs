@@ -56,7 +56,7 @@ fn enclosed(shell: Part, outside: f64, random: &mut Random) -> Draft {
     let lens = random.one_in(3).then(|| [random.between(0.01, 0.1), random.between(0.5, 1.0)]);
     let eye = eye.map(|x| f64::from(x as f32));
     let look = Look { eye, target: [0.0, y, 0.0], up: [0.0, 1.0, 0.0], fov: random.between(40.0, 90.0), lens };
-    Draft { name: String::new(), look, parts }
+    Draft { name: String::new(), look, parts, is_shared: false }
 }
 
 pub(super) fn in_sphere(random: &mut Random) -> Draft {
@@ -168,7 +168,7 @@ pub(super) fn lens(random: &mut Random) -> Draft {
 }
 
 /// A stage with lights that are large enough to be reflected.
-fn bright(random: &mut Random) -> Draft {
+pub(super) fn bright(random: &mut Random) -> Draft {
     let mut draft = stage(random);
     let center: V3 = overhead(3.0, random);
     let form = match random.below(2) {
@@ -193,7 +193,7 @@ pub(super) fn mirrors(random: &mut Random) -> Draft {
             let u = [1.5 * libm::cos(angle), 0.0, 1.5 * libm::sin(angle)];
             Form::Mesh(quad([-0.5 * u[0], 0.0, -0.5 * u[2]], u, [0.1, 1.2, 0.0]))
         };
-        draft.parts.push(Part { form, finish, glow: None });
+        draft.parts.push(Part { form, finish, ..Part::mesh(Vec::new(), 0.0) });
     }
     draft
 }
