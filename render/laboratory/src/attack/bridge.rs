@@ -83,15 +83,19 @@ pub fn bodies(scene: &Scene) -> Vec<Body> {
         Material::Conductor { eta, k, roughness } => {
             Finish::Metal { eta: eta[CHANNEL].into(), k: k[CHANNEL].into(), alpha: roughness.along.into() }
         }
-        Material::Glossy { diffuse, specular, alpha } => {
-            Finish::Coat { albedo: diffuse[CHANNEL].into(), reflectance: specular[CHANNEL].into(), alpha: alpha.into() }
-        }
+        Material::Glossy { diffuse, specular, roughness } => Finish::Coat {
+            albedo: diffuse[CHANNEL].into(),
+            reflectance: specular[CHANNEL].into(),
+            alpha: roughness.along.into(),
+        },
         // its albedo is among the details
         Material::Varying(of) => match &scene.varying[of as usize] {
             Varying::Diffuse(_) => Finish::Diffuse(0.0),
-            Varying::Glossy { specular: Texture::Constant(specular), alpha: Texture::Constant(alpha), .. } => {
-                Finish::Coat { albedo: 0.0, reflectance: specular[CHANNEL].into(), alpha: alpha[0].into() }
-            }
+            Varying::Glossy {
+                specular: Texture::Constant(specular),
+                roughness: [Texture::Constant([alpha, ..]), _],
+                ..
+            } => Finish::Coat { albedo: 0.0, reflectance: specular[CHANNEL].into(), alpha: (*alpha).into() },
             _ => unreachable!("no such material is drawn"),
         },
     };
