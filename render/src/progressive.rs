@@ -309,7 +309,8 @@ mod tests {
         let of = |sampler, sets, lens| plan(sampler, sets, lens, Some(0.1));
         assert_eq!(of(Sampler::Sobol, 0, false).unwrap()[..3], [2, 4, 8]);
         assert_eq!(of(Sampler::Sobol, 4, false).unwrap()[..2], [4, 8]);
-        assert_eq!(of(Sampler::Adaptive, 0, false).unwrap()[..2], [32, 64]);
+        assert_eq!(of(Sampler::Adaptive, 0, false).unwrap()[..2], [16, 32]);
+        assert_eq!(of(Sampler::Adaptive, 2, false).unwrap()[..2], [32, 64]);
         assert_eq!(of(Sampler::Adaptive, 4, false).unwrap()[0], 64);
         assert_eq!(of(Sampler::Stratified4d, 0, false).unwrap()[..6], [2, 4, 32, 64, 162, 324]);
         assert_eq!(of(Sampler::Stratified4d, 0, true).unwrap()[..4], [2, 4, 128, 256]);

@@ -336,7 +336,7 @@ mod tests {
                 assert!(reports_variance(default_sampler(spp, 0, lens), spp, 0, lens), "{spp}");
             }
         }
-        let chosen = [1, 2, 3, 16, 31, 32, 33, 64].map(|spp| default_sampler(spp, 0, false));
+        let chosen = [1, 2, 3, 14, 15, 16, 33, 64].map(|spp| default_sampler(spp, 0, false));
         use Sampler::{Adaptive, Independent, Sobol};
         assert_eq!(chosen, [Independent, Sobol, Independent, Sobol, Independent, Adaptive, Adaptive, Adaptive]);
         assert_eq!([8, 16].map(|spp| default_sampler(spp, 1, false)), [Sobol, Adaptive]);

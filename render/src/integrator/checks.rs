@@ -94,3 +94,76 @@ impl Checks {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TILE: Area = [16, 32, 32, 48];
+
+    /// Numbers in [0, 1) by index.
+    fn random(index: u64) -> f64 {
+        (mixed(index.wrapping_mul(0x9e37_79b9_7f4a_7c15)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Second sets have their share of the samples, in any tile, and pixels of greater variance are chosen more often.
+    #[test]
+    fn pixels_are_chosen_by_their_spread() {
+        let packets: Vec<u32> = (0..256).map(|i| 1 << (i % 4)).collect();
+        let by_spread: Vec<f64> = (0..256).map(|i| if i < 64 { 1.0 } else { 0.02 }).collect();
+        let (mut spent, mut chosen) = (0.0, [0.0; 2]);
+        for seed in 0..400 {
+            let checks = Checks::new(TILE, &by_spread, &packets, 0.125, seed);
+            for (i, pixel) in area::pixels(TILE).enumerate().filter(|(_, pixel)| checks.contains(*pixel)) {
+                assert!(pixel[0] >= 16 && pixel[1] >= 32);
+                spent += f64::from(packets[i]);
+                chosen[usize::from(i >= 64)] += 1.0;
+            }
+        }
+        let all = packets.iter().copied().map(f64::from).sum::<f64>() * 400.0;
+        assert!((spent / all - 0.125).abs() < 0.004, "{}", spent / all);
+        assert!(chosen[0] / 64.0 > 5.0 * chosen[1] / 192.0, "{chosen:?}");
+        // nothing is known: a share of them; a narrow tile: two at the least
+        let even = |area: Area, share| {
+            let count = area::count(area);
+            let checks = Checks::new(area, &vec![0.0; count], &vec![4; count], share, 3);
+            area::pixels(area).filter(|pixel| checks.contains(*pixel)).count()
+        };
+        assert!((31..=33).contains(&even(TILE, 0.125)), "{}", even(TILE, 0.125));
+        assert!((1..=3).contains(&even([0, 0, 1, 16], 0.01)));
+        assert_eq!([even([0, 0, 1, 1], 0.1), even(TILE, 1.0)], [1, 256]);
+    }
+
+    /// The sum of the variances is right in the mean, whether the spread knows them or not, and all of them where it does.
+    #[test]
+    fn variances_are_right_in_the_mean() {
+        let truth: Vec<f64> = (0..256).map(|i| if i % 16 == 3 { 9.0 } else { 0.25 + random(i) }).collect();
+        let unrelated: Vec<f64> = (0..256).map(|i| 0.2 + random(1000 + i)).collect();
+        let known: Vec<f64> = truth.iter().map(|x| 7.0 * x).collect();
+        for by_spread in [&known, &unrelated, &vec![0.0; 256]] {
+            let (seeds, mut sums) = (4000, vec![0.0; 256]);
+            for seed in 0..seeds {
+                // of two values ±σ, differences are 0 or 2σ, each half of the time
+                let value = |i: usize, set: u64| {
+                    let sign = if random(seed << 20 | set << 10 | i as u64) < 0.5 { 1.0 } else { -1.0 };
+                    (sign * truth[i].sqrt()) as f32
+                };
+                let pixel = |i| Pixel { mean: [value(i, 1), 0.0, 2.0 * value(i, 1)], variance: [0.0; 3], samples: 8 };
+                let mut pixels: Vec<Pixel> = (0..256).map(pixel).collect();
+                let second: Vec<[f64; 3]> =
+                    (0..256).map(|i| [value(i, 2), 0.0, 2.0 * value(i, 2)].map(f64::from)).collect();
+                Checks::new(TILE, by_spread, &[2; 256], 0.25, seed).judge(&mut pixels, by_spread, &second);
+                for (sum, pixel) in sums.iter_mut().zip(&pixels) {
+                    assert!(pixel.variance[1] == 0.0 && (pixel.variance[2] - 4.0 * pixel.variance[0]).abs() < 1e-4);
+                    *sum += f64::from(pixel.variance[0]) / seeds as f64;
+                }
+            }
+            let ratio = sums.iter().sum::<f64>() / truth.iter().sum::<f64>();
+            assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+            if std::ptr::eq(by_spread, &known) {
+                let worst = sums.iter().zip(&truth).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+                assert!(worst < 0.02, "{worst}");
+            }
+        }
+    }
+}

@@ -25,7 +25,7 @@ fn render(world: &World, settings: &Settings) -> (Film, RayCount) {
     world.render(settings, &|_| ())
 }
 
-/// The mean number of samples is the requested one. Each set of a pixel has a power of two of packets, at least those of the pilot.
+/// The mean number of samples is the requested one, with those of second sets that only tell the variance. Each set of a pixel has a power of two of packets, at least those of the pilot.
 #[test]
 fn samples_are_counted() {
     for (name, spp, sets, pilot) in [
@@ -35,21 +35,69 @@ fn samples_are_counted() {
         ("quads", 16, 1, 8),
         ("mirror-room", 100, 2, 16),
         ("defocus", 32, 0, 8),
+        ("defocus", 16, 0, 8),
     ] {
         let world = world(name);
         let (film, rays) = render(&world, &Settings { spp, sets, ..SETTINGS });
-        let sets = if sets == 0 { [4, 2].into_iter().find(|n| spp >= 16 * n).unwrap_or(1) } else { sets };
         let taken: u64 = film.pixels.iter().map(|p| u64::from(p.samples)).sum();
-        assert_eq!(rays.camera, taken, "{name}");
-        let share = taken as f64 / (f64::from(spp) * film.pixels.len() as f64);
+        // of 96 × 80 pixels, 1,024 have a second set
+        let second = if sets == 0 { 1024.0 / (96.0 * 80.0) } else { 0.0 };
+        let checked = rays.camera as f64 / taken as f64 - 1.0;
+        assert!((checked - second).abs() <= 0.02 * second, "{name}: {checked} more samples for the variance");
+        let has_variance = sets != 1;
+        let sets = sets.max(1);
+        let share = rays.camera as f64 / (f64::from(spp) * film.pixels.len() as f64);
         assert!((share - 1.0).abs() < 0.02, "{name}, {spp} samples: {share} of the requested number");
         for pixel in &film.pixels {
             let packets = pixel.samples / (8 * sets);
             assert!(packets.is_power_of_two() && packets * 8 >= pilot, "{name}: {} samples", pixel.samples);
-            assert!(pixel.variance.iter().all(|v| v.is_finite() == (sets > 1)), "{name}: {pixel:?}");
+            assert!(pixel.variance.iter().all(|v| v.is_finite() == has_variance), "{name}: {pixel:?}");
         }
         let most = film.pixels.iter().map(|p| p.samples).max().unwrap();
         assert!(most >= 2 * spp, "{name}: at most {most} samples");
+    }
+}
+
+/// What images of one set claim of their variance, against the variance over seeds: of the whole image, and of its quarters.
+#[test]
+fn one_set_tells_its_variance() {
+    for (name, technique, spp) in [
+        ("plates", Technique::MisPower, 64),
+        ("sphere-light", Technique::SolidAngle, 64),
+        ("quads", Technique::Analytic, 64),
+        ("terrain", Technique::Area, 16),
+        ("city", Technique::Auto, 32),
+        ("defocus", Technique::SolidAngle, 256),
+    ]
+    .into_iter()
+    .take(cases(3, 6))
+    {
+        let world = world(name);
+        let settings = Settings { width: 64, height: 64, spp, technique, sets: 0, ..SETTINGS };
+        let count = cases(24, 200);
+        let films: Vec<Film> = (0..count).map(|seed| render(&world, &Settings { seed, ..settings }).0).collect();
+        let mut sums = [[0.0; 2]; 5];
+        for i in 0..64 * 64 {
+            let quarter = 1 + (i % 64) / 32 + (i / 2048) * 2;
+            for k in 0..3 {
+                let values = || films.iter().map(|film| f64::from(film.pixels[i].mean[k]));
+                let mean = values().sum::<f64>() / f64::from(count as u32);
+                let found = values().map(|x| (x - mean).powi(2)).sum::<f64>() / f64::from(count as u32 - 1);
+                let claimed = films.iter().map(|film| f64::from(film.pixels[i].variance[k])).sum::<f64>();
+                for area in [0, quarter] {
+                    sums[area][0] += found;
+                    sums[area][1] += claimed / f64::from(count as u32);
+                }
+            }
+        }
+        let ratios = sums.map(|[found, claimed]| (claimed / found).sqrt());
+        println!("{name}: claimed error over that found {:.3}, in quarters {:.3?}", ratios[0], &ratios[1..]);
+        let slack = cases(0.15, 0.06);
+        assert!((ratios[0] - 1.0).abs() < slack, "{name}: {ratios:?}");
+        // quarters without noise have nothing to claim
+        for (ratio, [found, _]) in ratios.iter().zip(sums).filter(|(_, of)| of[0] > 0.01 * sums[0][0]) {
+            assert!((ratio - 1.0).abs() < cases(0.3, 0.15), "{name}: {ratios:?}, a quarter of variance {found}");
+        }
     }
 }
 

@@ -54,7 +54,7 @@ fn settings([width, height]: [u32; 2], spp: u32, sets: u32) -> Settings {
     Settings { width, height, spp, technique, depth: 8, sampler, sets, seed: 5 }
 }
 fn effort(sets: u32, pilot: u32, packets: f64) -> Effort {
-    Effort { sets, pilot, packets, checks: None }
+    Effort { sets, pilot, packets, checks: 0.0 }
 }
 
 fn pilot(variance: impl Fn(usize) -> f64) -> Vec<Statistics> {
@@ -108,7 +108,7 @@ fn lights_are_weighted_by_their_spread() {
     // mean squares of 32, 1 and 0: weights of 4, 1 and 0, (4 + 1)^2.5 = 55.9
     let part = |seen: f64| Statistics { lights: 3, spread, pairs, variance: seen, ..Statistics::default() };
     let side = 64;
-    let (sets, seen) = (2, (15.0_f64.powf(2.5) - 5.0_f64.powf(2.5)) / 32.0);
+    let (sets, seen) = (2, (15.0_f64.powf(2.5) - 5.0_f64.powf(2.5)) / 16.0);
     let parts: Vec<_> = (0..side * side).map(|i| part(if i % side < side / 2 { 0.0 } else { seen })).collect();
     let (packets, weights) = allot(&parts, side as u32, &effort(sets, 2, 100.0));
     let (lights, weights) = weights.unwrap();
@@ -188,12 +188,12 @@ fn spreads_are_of_pairs_of_one_light() {
     let found = sum.finish();
     assert_eq!(found.lights, 2);
     for k in 0..2 {
-        assert_eq!(f64::from(found.spread[k]), 2.0 * expected[k][0], "light {k}");
+        assert_eq!(f64::from(found.spread[k]), expected[k][0], "light {k}");
         assert_eq!([found.pairs[k], found.taken[k]], [expected[k][1] as u32, counts[k]], "light {k}");
     }
     // four means: 3, 5, 3, 5
     assert!((found.variance - 4.0 / 3.0).abs() < 1e-14, "{}", found.variance);
-    // among more lights than are kept apart: the squares of all pairs, and the variance in their unit
+    // among more lights than are kept apart: the mean square of four pairs of each set, in the unit of the variance, and this
     let mut sum = StatisticsSum::new(APART + 1);
     for set in 0..2 {
         sum.begin(set, 0);
@@ -206,6 +206,6 @@ fn spreads_are_of_pairs_of_one_light() {
         .sum();
     let found = sum.finish();
     assert_eq!(found.lights, 0);
-    let all = 2.0 * squares + 4.0 / 3.0 * 16.0 * 8.0;
+    let all = squares / (4.0 * 16.0) + 4.0 / 3.0;
     assert!((found.variance / all - 1.0).abs() < 1e-14, "{} {all}", found.variance);
 }
