@@ -5,7 +5,8 @@
 //! distributed in all of its dimensions together.
 //!
 //! The samples of a well-distributed set are not independent, so their spread does not measure the error. A pixel therefore
-//! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means.
+//! consists of a few independent *replicates* of the set, and its variance is that of the mean of their means. Pixels of the sampler
+//! `adaptive` can have one set, since second sets of some pixels tell the variances of all.
 
 use crate::packet::{M8, X8};
 use etendue::sequence::{
@@ -88,7 +89,7 @@ const fn replicates(spp: u32) -> u32 {
     }
 }
 
-/// Fewest samples of a pixel in each replicate of [`Sampler::Adaptive`]: a packet of 8 for the pilot, and one more.
+/// Fewest samples of a pixel in each set of [`Sampler::Adaptive`]: a packet of 8 for the pilot, and one more.
 const FEWEST: u32 = 16;
 
 /// Mixes bits: the output function of SplitMix64 (Steele, Lea and Flood 2014).
@@ -307,8 +308,8 @@ impl Source {
 }
 
 /// The best sampler that still reports the variance of `spp` samples in `sets` sets (see
-/// [`Settings::sets`](crate::Settings::sets)): [`Sampler::Adaptive`] from two sets of 16 samples on, else [`Sampler::Sobol`] for an even number of samples,
-/// else [`Sampler::Independent`]. If one set is asked for, nobody asks for a variance, and a net has the least error.
+/// [`Settings::sets`](crate::Settings::sets)): [`Sampler::Adaptive`] from 16 samples in each set on, else [`Sampler::Sobol`] for an even number
+/// of samples, else [`Sampler::Independent`]. If one set is asked for, nobody asks for a variance.
 #[must_use]
 pub fn default_sampler(spp: u32, sets: u32, lens: bool) -> Sampler {
     let fits = |s: &Sampler| s.check(spp, sets, lens).is_ok() && (sets == 1 || reports_variance(*s, spp, sets, lens));

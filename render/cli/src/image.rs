@@ -23,13 +23,13 @@ pub(crate) struct ImageOptions {
     /// Follow a camera ray through at most this many perfect mirrors
     #[arg(long, value_name = "N", default_value_t = Settings::DEPTH, value_parser = whole::<u32>(0..=1024))]
     depth: u32,
-    /// Generate the random numbers by this sampler [default: adaptive from 32 samples on, else sobol, or independent for odd numbers]
+    /// Generate the random numbers by this sampler [default: adaptive from 16 samples on, else sobol, or independent for odd numbers]
     #[arg(long, value_enum)]
     pub(crate) sampler: Option<Sampler>,
     /// Measure this quantity; irradiance and power need a camera with a lens
     #[arg(long, value_enum, default_value = "radiance")]
     pub(crate) sensor: Sensor,
-    /// Split the samples of a pixel into this many independent sets: with 1 the error is least, but not known [default: 2 or 4, if the number of samples allows]
+    /// Split the samples of a pixel into this many independent sets: with 1 the error is not known [default: 2 or 4, if the number of samples allows; with adaptive one, and a second one in some pixels]
     #[arg(long, value_name = "1|2|4", value_parser = sets)]
     sets: Option<u32>,
     /// Render an image of this size in pixels [default: from the scene]

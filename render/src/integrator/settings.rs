@@ -31,7 +31,8 @@ pub struct Settings {
     /// How to generate the random numbers.
     pub sampler: Sampler,
     /// Independent sets of samples per pixel: 1, 2 or 4, or 0 for as few as give a variance, see [`Sampler::sets`]. The variance of
-    /// a pixel is that of the means of its sets; with 1 set it is infinite.
+    /// a pixel is that of the means of its sets; with 1 set it is infinite. With 0, pixels of [`Sampler::Adaptive`] have one set, and second
+    /// sets of some of them tell the variances of all, see [`Sampler::checks`].
     pub sets: u32,
     /// Seed of the random numbers; different seeds give independent images.
     pub seed: u64,
