@@ -348,8 +348,8 @@ fn mixed<const N: usize>(of: &[[f32; N]; 3], weights: [f32; 3]) -> [f32; N] {
     std::array::from_fn(|k| of[0][k] * weights[0] + of[1][k] * weights[1] + of[2][k] * weights[2])
 }
 
-/// The direction of growing u on a triangle, turned by this angle in radians towards falling v; 0 where the texture coordinates have no
-/// direction.
+/// The direction along which u varies and v does not on a triangle, turned by this angle in radians towards falling v; 0 where both do not
+/// vary.
 fn along_u(corners: [f32; 9], uvs: &[[f32; 2]; 3], turn: f32) -> [f32; 3] {
     let edge = |i: usize| {
         let p: [f64; 3] = std::array::from_fn(|k| f64::from(corners[3 * i + k]) - f64::from(corners[k]));
@@ -412,4 +412,33 @@ pub fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(
     let emission = shape.emission?;
     let front = outward.dot(direction).lt(X8::lit(0.0));
     Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// u grows to the right and v downwards, seen from the front; or to the left, as in a mirror; or along other edges.
+    #[test]
+    fn directions_follow_the_texture_coordinates() {
+        let corners = [0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, -3.0, 0.0];
+        let near = |found: [f32; 3], [x, y]: [f32; 2]| {
+            assert!((found[0] - x).abs() < 1e-6 && (found[1] - y).abs() < 1e-6 && found[2] == 0.0, "{found:?}");
+        };
+        let (right, turned) = (std::f32::consts::FRAC_PI_2, std::f32::consts::FRAC_PI_6);
+        for (uvs, turn, along) in [
+            ([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0]], 0.0, [1.0, 0.0]),
+            // towards falling v, whatever the length of either edge
+            ([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0]], right, [0.0, 1.0]),
+            ([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0]], turned, [0.75_f32.sqrt(), 0.5]),
+            ([[0.5, 0.0], [0.0, 0.0], [0.5, 1.0]], 0.0, [-1.0, 0.0]),
+            ([[0.5, 0.0], [0.0, 0.0], [0.5, 1.0]], right, [0.0, 1.0]),
+            ([[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]], 0.0, [0.0, -1.0]),
+            // v alone varies
+            ([[0.0, 0.0], [0.0, 1.0], [0.0, 2.0]], 0.0, [0.8, 0.6]),
+            ([[0.3, 0.7]; 3], 0.0, [0.0, 0.0]),
+        ] {
+            near(along_u(corners, &uvs, turn), along);
+        }
+    }
 }

@@ -26,6 +26,10 @@ const NEAR: usize = 2;
 const OUTERMOST: usize = 6;
 const WEIGHT_OUTERMOST: f64 = 0.003;
 
+/// The weight of the neighbours of a pixel where its variance is estimated by the spread of samples. (With 0, `triangle-light` claimed 0.89
+/// of its error, since the pixels that miss an edge were hardly ever judged.)
+const BESIDE: f64 = 0.3;
+
 /// Numbers of samples per set of a pixel, in packets of eight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Effort {
@@ -150,15 +154,19 @@ impl Allotment {
         };
         area::pixels(tile).zip(rest).map(of).collect()
     }
-    /// The variance of one set of each pixel of a tile by the spread of its samples, but for a common factor. `rest` are the samples after
-    /// those of the `pilot`, so many packets.
+    /// The variance of one set of each pixel of a tile by the spread of its samples and of those of the pixels beside it, whose edges it may
+    /// have missed, but for a common factor. `rest` are the samples after those of the `pilot`, so many packets.
     pub(super) fn by_spread(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
         let of = |(pixel, rest): ([u32; 2], &Statistics)| {
             let [before, after] = [pilot, rest.packets].map(f64::from);
-            let square = before * f64::from(self.squares[self.index(pixel)]) + after * rest.square();
-            square / (before + after) * fall(before + after)
+            (before * f64::from(self.squares[self.index(pixel)]) + after * rest.square()) / (before + after)
         };
-        area::pixels(tile).zip(rest).map(of).collect()
+        let squares: Vec<f64> = area::pixels(tile).zip(rest).map(of).collect();
+        let around = mean_around(&squares, &vec![1.0; squares.len()], (tile[2] - tile[0]) as usize);
+        let both = |((own, around), pixel): ((f64, f64), [u32; 2])| {
+            (own + BESIDE * around) * fall(self.packets_at(pixel).into())
+        };
+        squares.into_iter().zip(around).zip(area::pixels(tile)).map(both).collect()
     }
 }
 

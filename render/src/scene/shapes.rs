@@ -66,7 +66,9 @@ fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> 
     let similar = surface.ctm.similarity();
     let inwards = surface.flip && surface.emission.is_some_and(|emission| !emission.two_sided);
     let whole = low <= -radius && high >= radius && sweep >= 360.0;
-    if let Some(factor) = similar.filter(|_| whole && !inwards && !out.varies(surface.material) && !out.is_object()) {
+    // what emits reflects by the means of its material
+    let varies = surface.emission.is_none() && out.varies(surface.material);
+    if let Some(factor) = similar.filter(|_| whole && !inwards && !varies && !out.is_object()) {
         let center = surface.place(std::iter::once([0.0; 3])).map_err(|why| params.error(why))?;
         let world_radius = (radius * factor) as f32;
         if !(world_radius > 0.0 && world_radius.is_finite()) {

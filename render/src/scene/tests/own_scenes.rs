@@ -315,6 +315,13 @@ fn materials_become_what_direct_light_shows() {
     assert!(lit(&format!("Material \"interface\" {TRIANGLE}")).triangles.is_empty());
     assert!(lit("Shape \"sphere\" \"float alpha\" 0").shapes.is_empty());
     assert_eq!(lit("Shape \"sphere\" \"float alpha\" 0.5").stand_ins.len(), 1);
+    // a sphere knows no direction of roughness: it becomes triangles with texture coordinates, unless it emits
+    let brushed = "Material \"conductor\" \"float uroughness\" .25 \"float vroughness\" .04\n";
+    let sphere = lit(&format!("{brushed}Shape \"sphere\""));
+    let roughness = Roughness { along: 0.5, across: 0.2, turn: 0.0 };
+    assert!(sphere.shapes.is_empty() && sphere.details.of(0).is_some());
+    assert_eq!(sphere.materials[sphere.triangle_materials[0] as usize].roughness(), Some(roughness));
+    assert_eq!(lit(&format!("{brushed}AreaLightSource \"diffuse\" Shape \"sphere\"")).shapes.len(), 1);
 }
 
 #[test]
