@@ -1,0 +1,63 @@
+//! Light sampling in shading languages and in C: sources that the routines of [`etendue`] write of themselves.
+//!
+//! Every routine of the core is written once over the trait [`Real`](etendue::Real). [`Number`] implements that trait by recording what is
+//! computed: a routine that runs on it leaves a [`Graph`] of its operations, and [`Language::write`] prints this in a language. There is no
+//! second body of any routine, and no second list: [`every_technique`] and [`every_warp`] go through those of the core.
+//!
+//! ```
+//! use etendue_shader::{Language, Selection};
+//! let selection = Selection { lights: vec!["sphere_by_solid_angle".into()], ..Selection::default() };
+//! let source = Language::C.write(&selection.module(), "Written by an example.").unwrap();
+//! let source = String::from_utf8(source).unwrap();
+//! assert!(source.contains("EtendueLightSample etendue_sphere_by_solid_angle_sample("));
+//! ```
+//!
+//! The program does the same: `etendue-shader --language cuda --lights triangle,sphere -o etendue.cuh`.
+//!
+//! # What is written
+//! For each light by each technique a struct of the light, a struct of what is prepared for a shading point, and the functions `prepare`,
+//! `sample`, `pdf`, `hit`, `invert`, and one for what the technique is uniform over; for each warp `sample`, `pdf` and `invert`.
+//! [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
+//! no function uses, none that is constant, and none twice.
+//!
+//! Equal operations are there once. A value that is used more than once is a variable, the others are parts of expressions. Constants are
+//! decimal numbers that every compiler reads as the same bits.
+//!
+//! # Branches
+//! In the core, `if mask.any()` marks a path that few calls need. A recorded mask is neither all true nor all false, as in a packet whose
+//! lanes differ, so that both sides are recorded, and the graph keeps the condition. [`plan`] then puts into an `if` whatever is used
+//! only where the condition holds. Loops of the core have constant bounds; they are written out, each step inside of the `if` of those
+//! before.
+//!
+//! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
+//! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that: they are not here.
+//!
+//! # Which bits
+//! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; a test compares them for
+//! every function. The shading languages promise less: the beginning of each file says what.
+mod graph;
+mod language;
+mod layout;
+mod list;
+mod module;
+mod number;
+mod plan;
+mod print;
+mod record;
+mod selection;
+mod translate;
+mod wanted;
+
+pub use graph::{Call, Condition, Graph, Id, Kind, Node, Op};
+pub use language::Language;
+pub use list::{
+    Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, every_technique, every_warp,
+};
+pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
+pub use number::{Inner, Number, Truth, Word, record};
+pub use plan::{Plan, Step, plan};
+pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
+pub use record::{add_calls, add_technique, add_warp, snake};
+pub use selection::{Selection, lights, technique_name, warps};
+pub use translate::{Checked, Target};
+pub use wanted::{Part, SampleField, Wanted};

@@ -1,0 +1,228 @@
+//! Modules as text.
+
+mod ascii;
+mod c;
+mod dialect;
+mod wgsl;
+
+pub use c::C;
+pub use dialect::Dialect;
+pub use wgsl::Wgsl;
+
+use crate::graph::{Condition, Id, Kind, Node, Op};
+use crate::module::{Access, Function, Leaf, Module, Type};
+use crate::plan::{Plan, Step, plan};
+pub(crate) use ascii::comment;
+use core::fmt::Write;
+use dialect::{Expression, Level};
+use std::collections::BTreeSet;
+
+/// `some_name` as `SomeName`.
+fn pascal(name: &str) -> String {
+    let word = |word: &str| {
+        let mut letters = word.chars();
+        letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>()).unwrap_or_default()
+    };
+    name.split('_').map(word).collect()
+}
+/// The name of a struct.
+#[must_use]
+pub fn struct_name(name: &str) -> String {
+    format!("Etendue{}", pascal(name))
+}
+/// The name of a function.
+#[must_use]
+pub fn function_name(name: &str) -> String {
+    format!("etendue_{name}")
+}
+
+/// A module in a language. `how` says how the file was made.
+pub fn print(module: &Module, language: &impl Dialect, how: &str) -> String {
+    let mut text = language.begin(how);
+    for of in &module.structs {
+        text += &comment(&of.doc, "");
+        text += &language.open_struct(&struct_name(&of.name));
+        for field in &of.fields {
+            text += &comment(&field.doc, "    ");
+            text += &language.field(language.leaf(field.leaf), &field.name);
+        }
+        text += &language.close_struct(&struct_name(&of.name));
+        text += "\n";
+    }
+    for function in &module.functions {
+        text += &comment(&function.doc, "");
+        text += &Printer::new(module, function, language).function();
+        text += "\n";
+    }
+    text + &language.end()
+}
+
+struct Printer<'a, D> {
+    module: &'a Module,
+    function: &'a Function,
+    language: &'a D,
+    plan: Plan,
+    /// The numbers of variables, in the order of their declarations.
+    names: Vec<Option<u32>>,
+    declared: u32,
+}
+
+impl<'a, D: Dialect> Printer<'a, D> {
+    fn new(module: &'a Module, function: &'a Function, language: &'a D) -> Self {
+        let names = vec![None; function.graph.nodes().len()];
+        Self { module, function, language, plan: plan(function), names, declared: 0 }
+    }
+    fn type_name(&self, of: Type) -> String {
+        match of {
+            Type::Leaf(leaf) => self.language.leaf(leaf).to_owned(),
+            Type::Struct(index) => struct_name(&self.module.structs[index].name),
+        }
+    }
+    fn leaf_of(&self, id: Id) -> Leaf {
+        match self.function.graph.kind(id) {
+            Kind::Real => Leaf::Real,
+            Kind::Truth => Leaf::Truth,
+            Kind::Word => Leaf::Word,
+            Kind::Pair => Leaf::Vec2,
+        }
+    }
+    fn name(&self, id: Id) -> String {
+        let letter = match self.function.graph.kind(id) {
+            Kind::Real => 'x',
+            Kind::Truth => 'b',
+            Kind::Word => 'k',
+            Kind::Pair => 'v',
+        };
+        let number = self.names[id as usize].unwrap_or_else(|| {
+            panic!("{}: node {id} is used before it is declared", self.function.name);
+        });
+        format!("{letter}{number}")
+    }
+    fn declare(&mut self, id: Id) -> String {
+        self.declared += 1;
+        self.names[id as usize] = Some(self.declared);
+        self.name(id)
+    }
+    fn input(&self, index: u32) -> String {
+        let Access { parameter, field, axis } = self.function.inputs[index as usize];
+        let parameter = &self.function.parameters[parameter];
+        let mut text = parameter.name.clone();
+        if let (Type::Struct(of), Some(field)) = (parameter.of, field) {
+            text += ".";
+            text += &self.module.structs[of].fields[field].name;
+        }
+        if let Some(axis) = axis {
+            text += [".x", ".y", ".z"][axis];
+        }
+        text
+    }
+    /// A variable, a constant or an expression.
+    fn value(&self, id: Id) -> Expression {
+        let node = self.function.graph.node(id);
+        match node.op {
+            _ if self.plan.variables[id as usize] => Expression::atom(self.name(id)),
+            Op::Input(_, index) => Expression::atom(self.input(index)),
+            Op::Real(bits) => self.language.real(f32::from_bits(bits)),
+            Op::Truth(value) => Expression::atom(value.to_string()),
+            Op::Word(value) => Expression::atom(self.language.word(value)),
+            _ => self.expression(node),
+        }
+    }
+    fn expression(&self, node: Node) -> Expression {
+        let all: Vec<Expression> = node.operands().iter().map(|&id| self.value(id)).collect();
+        let call = |name: &str| {
+            let all: Vec<&str> = all.iter().map(|operand| operand.text.as_str()).collect();
+            Expression::atom(format!("{name}({})", all.join(", ")))
+        };
+        let binary = |token: &str, level: Level| Expression::binary(&all[0], token, &all[1], level);
+        // of truth values, parentheses tell more than precedence
+        let apart = |token: &str| Expression::apart(&all[0], token, &all[1]);
+        match node.op {
+            Op::Add | Op::WordAdd => binary("+", Level::Sum),
+            Op::Sub | Op::WordSub => binary("-", Level::Sum),
+            Op::Mul | Op::WordMul => binary("*", Level::Product),
+            Op::Div => binary("/", Level::Product),
+            Op::Neg => Expression::prefix("-", &all[0]),
+            Op::Not => Expression::prefix("!", &all[0]),
+            Op::Less => apart("<"),
+            Op::LessEqual => apart("<="),
+            Op::And => Expression::chain(&all[0], self.language.and(), &all[1], Level::And),
+            Op::Or => Expression::chain(&all[0], self.language.or(), &all[1], Level::Or),
+            Op::Xor => apart("!="),
+            Op::WordAnd => apart("&"),
+            Op::WordOr => apart("|"),
+            Op::WordXor => apart("^"),
+            Op::WordShl(bits) => Expression::apart(&all[0], "<<", &Expression::atom(self.language.word(bits))),
+            Op::WordShr(bits) => Expression::apart(&all[0], ">>", &Expression::atom(self.language.word(bits))),
+            Op::WordAny => Expression::apart(&all[0], "!=", &Expression::atom(self.language.word(0))),
+            Op::Select => self.language.select(&all[0], &all[1], &all[2]),
+            Op::Part(k) => Expression::atom(format!("{}{}", all[0].text, [".x", ".y"][k as usize])),
+            Op::Call(called) => call(&function_name(called.name())),
+            op => call(self.language.function(op)),
+        }
+    }
+    fn condition(&self, Condition { mask, holds }: Condition) -> String {
+        let value = self.value(mask);
+        if holds { value.text } else { Expression::prefix("!", &value).text }
+    }
+    fn steps(&mut self, steps: &[Step], indent: usize, text: &mut String) {
+        let margin = "    ".repeat(indent);
+        for step in steps {
+            let line = match *step {
+                Step::Let(id) => {
+                    let value = self.expression(self.function.graph.node(id)).text;
+                    let name = self.declare(id);
+                    self.language.constant(self.leaf_of(id), &name, &value)
+                }
+                Step::Declare(id) => {
+                    let name = self.declare(id);
+                    self.language.variable(self.leaf_of(id), &name)
+                }
+                Step::Assign(id) => {
+                    format!("{} = {};", self.name(id), self.expression(self.function.graph.node(id)).text)
+                }
+                Step::If(condition, ref inner) => {
+                    let _ = writeln!(text, "{margin}if ({}) {{", self.condition(condition));
+                    self.steps(inner, indent + 1, text);
+                    "}".into()
+                }
+            };
+            let _ = writeln!(text, "{margin}{line}");
+        }
+    }
+    fn function(mut self) -> String {
+        let parameters = self.function.parameters.iter();
+        let parameters: Vec<_> =
+            parameters.map(|of| self.language.parameter(&self.type_name(of.of), &of.name)).collect();
+        let result = self.type_name(self.function.result);
+        let name = function_name(&self.function.name);
+        let mut text = self.language.open_function(&result, &name, &parameters.join(", "));
+        let used: BTreeSet<usize> =
+            self.function.used_inputs().into_iter().map(|k| self.function.inputs[k as usize].parameter).collect();
+        let parameters = self.function.parameters.iter().enumerate();
+        for (_, parameter) in parameters.filter(|(k, _)| !used.contains(k)) {
+            if let Some(line) = self.language.unused(&parameter.name) {
+                let _ = writeln!(text, "    {line}");
+            }
+        }
+        let steps = core::mem::take(&mut self.plan.steps);
+        self.steps(&steps, 1, &mut text);
+        let values: Vec<String> = self.function.outputs.iter().map(|&id| self.value(id).text).collect();
+        if let Type::Leaf(Leaf::Real | Leaf::Truth | Leaf::Word) = self.function.result {
+            let _ = writeln!(text, "    return {};", values[0]);
+        } else {
+            let _ = writeln!(text, "    {}", self.language.result(&result));
+            for ((field, axis), value) in self.module.parts(self.function.result).into_iter().zip(values) {
+                let mut place = "result".to_owned();
+                if let (Type::Struct(of), Some(field)) = (self.function.result, field) {
+                    place += ".";
+                    place += &self.module.structs[of].fields[field].name;
+                }
+                place += axis.map_or("", |axis| [".x", ".y", ".z"][axis]);
+                let _ = writeln!(text, "    {place} = {value};");
+            }
+            text += "    return result;\n";
+        }
+        text + "}\n"
+    }
+}
