@@ -1,7 +1,7 @@
 //! The record of a routine: a graph of operations, each of which is there once.
 
 use etendue::Real;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A node of a graph.
 pub type Id = u32;
@@ -17,6 +17,8 @@ pub enum Kind {
     Word,
     /// Two numbers.
     Pair,
+    /// The variables of a loop.
+    Loop,
 }
 
 /// A function of the core that sources call, where other operations are written out.
@@ -44,7 +46,8 @@ impl Call {
             Self::SinCosTurns => "sin_cos_turns",
             Self::SinCosQuarters => "sin_cos_quarters",
             Self::Acos => "acos",
-            Self::Atan2 => "atan2",
+            // no digit at the end, after which translators put a mark
+            Self::Atan2 => "angle",
             Self::AtanEighth => "atan_eighth",
             Self::Cbrt => "cbrt",
         }
@@ -141,6 +144,12 @@ pub enum Op {
     Call(Call),
     /// One number of a pair, 0 or 1.
     Part(u32),
+    /// A variable of a loop, inside of it: the loop and the variable, by their indices.
+    LoopVariable(Kind, u32, u32),
+    /// A loop, by its index.
+    Loop(u32),
+    /// What a variable of a loop is after it, by its index.
+    LoopResult(Kind, u32),
 }
 
 /// An operation with its operands.
@@ -158,20 +167,45 @@ impl Node {
         operands[..of.len()].copy_from_slice(of);
         Self { op, operands, count: of.len() as u8 }
     }
-    /// The operands.
-    #[must_use]
-    pub fn operands(&self) -> &[Id] {
-        &self.operands[..usize::from(self.count)]
-    }
     /// True for constants.
     #[must_use]
     pub fn is_constant(&self) -> bool {
         matches!(self.op, Op::Real(_) | Op::Truth(_) | Op::Word(_))
     }
-    /// True for constants and inputs.
+    /// True for what has a name or a value without being computed: constants, inputs, and variables of a loop inside of it.
     #[must_use]
     pub fn is_leaf(&self) -> bool {
-        self.is_constant() || matches!(self.op, Op::Input(..))
+        self.is_constant() || matches!(self.op, Op::Input(..) | Op::LoopVariable(..))
+    }
+}
+
+/// A loop: its variables, and what computes the next value of each from those of all.
+#[derive(Clone, Debug)]
+pub struct Loop {
+    /// How often it repeats at most.
+    pub most: usize,
+    /// The variables inside of the loop.
+    pub variables: Vec<Id>,
+    /// How many of them, at the end, are masks: it repeats while any is true.
+    pub masks: usize,
+    /// Their next values.
+    pub next: Vec<Id>,
+    /// The nodes that are computed anew each time.
+    pub body: Vec<Id>,
+    /// Their first values, and the nodes outside of the loop that the body uses.
+    operands: Vec<Id>,
+}
+
+impl Loop {
+    /// The first values of the variables.
+    #[must_use]
+    pub fn first(&self) -> &[Id] {
+        &self.operands[..self.variables.len()]
+    }
+    /// The nodes outside of the loop that its body uses.
+    #[must_use]
+    pub fn captured(&self) -> &[Id] {
+        &self.operands[self.variables.len()..]
     }
 }
 
@@ -182,6 +216,9 @@ pub struct Graph {
     kinds: Vec<Kind>,
     places: HashMap<Node, Id>,
     tested: HashSet<Condition>,
+    loops: Vec<Loop>,
+    /// The first node that may be in the body of the loop that is being recorded.
+    open: Option<usize>,
 }
 
 /// That a truth value is so.
@@ -200,7 +237,14 @@ pub(crate) const ONE_MINUS_EPSILON: Id = 1;
 
 impl Default for Graph {
     fn default() -> Self {
-        let mut this = Self { nodes: Vec::new(), kinds: Vec::new(), places: HashMap::new(), tested: HashSet::new() };
+        let mut this = Self {
+            nodes: Vec::new(),
+            kinds: Vec::new(),
+            places: HashMap::new(),
+            tested: HashSet::new(),
+            loops: Vec::new(),
+            open: None,
+        };
         assert_eq!([0.0, f32::ONE_MINUS_EPSILON].map(|x| this.real(x)), [ZERO, ONE_MINUS_EPSILON]);
         this
     }
@@ -216,6 +260,57 @@ impl Graph {
     #[must_use]
     pub fn node(&self, id: Id) -> Node {
         self.nodes[id as usize]
+    }
+    /// The nodes that a node is computed from.
+    #[must_use]
+    pub fn operands(&self, id: Id) -> &[Id] {
+        let node = &self.nodes[id as usize];
+        match node.op {
+            Op::Loop(index) => &self.loops[index as usize].operands,
+            _ => &node.operands[..usize::from(node.count)],
+        }
+    }
+    /// The loop of a node.
+    #[must_use]
+    pub fn as_loop(&self, id: Id) -> Option<&Loop> {
+        if let Op::Loop(index) = self.node(id).op { Some(&self.loops[index as usize]) } else { None }
+    }
+    /// Begins to record a loop, and returns its variables: numbers, then masks.
+    pub fn begin_loop(&mut self, numbers: usize, masks: usize) -> Vec<Id> {
+        assert!(self.open.is_none(), "a loop inside of a loop cannot be recorded");
+        self.open = Some(self.nodes.len());
+        let kind = |k| if k < numbers { Kind::Real } else { Kind::Truth };
+        let index = self.loops.len() as u32;
+        (0..numbers + masks)
+            .map(|k| self.place(Node::new(Op::LoopVariable(kind(k), index, k as u32), &[]), kind(k)))
+            .collect()
+    }
+    /// Ends it, and returns what the variables are after it, given their first and next values.
+    pub fn end_loop(&mut self, most: usize, variables: Vec<Id>, masks: usize, first: &[Id], next: Vec<Id>) -> Vec<Id> {
+        let begin = self.open.take().expect("a loop ends that has begun");
+        let mut varies: HashSet<Id> = variables.iter().copied().collect();
+        for id in begin as Id..self.nodes.len() as Id {
+            if self.operands(id).iter().any(|operand| varies.contains(operand)) {
+                varies.insert(id);
+            }
+        }
+        let (mut body, mut captured, mut open) = (BTreeSet::new(), BTreeSet::new(), next.clone());
+        while let Some(id) = open.pop() {
+            let node = self.node(id);
+            if !varies.contains(&id) {
+                if !node.is_constant() {
+                    captured.insert(id);
+                }
+            } else if !node.is_leaf() && body.insert(id) {
+                open.extend(self.operands(id));
+            }
+        }
+        let operands = first.iter().copied().chain(captured).collect();
+        let kinds: Vec<Kind> = variables.iter().map(|&id| self.kind(id)).collect();
+        self.loops.push(Loop { most, variables, masks, next, body: body.into_iter().collect(), operands });
+        let node = self.place(Node::new(Op::Loop(self.loops.len() as u32 - 1), &[]), Kind::Loop);
+        let results = kinds.into_iter().enumerate();
+        results.map(|(k, kind)| self.place(Node::new(Op::LoopResult(kind, k as u32), &[node]), kind)).collect()
     }
     /// What a node is.
     #[must_use]
@@ -421,14 +516,23 @@ impl Graph {
             },
             Op::Select => {
                 let c = of[2];
+                // what is selected by the same mask again
+                let arm = |this: &Self, id: Id, k: usize| {
+                    let node = this.node(id);
+                    (node.op == Op::Select && node.operands[0] == a).then_some(node.operands[k])
+                };
                 match self.truth(a) {
                     Some(true) => Some(b),
                     Some(false) => Some(c),
                     None if b == c => Some(b),
-                    None => (self.node(a).op == Op::Not).then(|| {
+                    None if self.node(a).op == Op::Not => {
                         let mask = self.node(a).operands[0];
-                        self.add(Op::Select, &[mask, c, b])
-                    }),
+                        Some(self.add(Op::Select, &[mask, c, b]))
+                    }
+                    None => match (arm(self, b, 1), arm(self, c, 2)) {
+                        (None, None) => None,
+                        (yes, no) => Some(self.add(Op::Select, &[a, yes.unwrap_or(b), no.unwrap_or(c)])),
+                    },
                 }
             }
             _ => None,

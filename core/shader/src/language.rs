@@ -3,6 +3,7 @@
 use crate::module::Module;
 use crate::print::{C, Wgsl, comment, function_name, print};
 use crate::translate::{Checked, Target};
+use std::collections::HashMap;
 
 /// A language in which sources are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,7 +97,7 @@ impl Language {
             // the translator writes a product and a sum
             Self::GlslEs => " This language has no fused multiply-add: double-word arithmetic keeps fewer digits.",
             Self::Hlsl => {
-                " The language has no fused multiply-add of single precision: double-word arithmetic keeps fewer digits."
+                " The language does not promise that `mad` rounds once: where it rounds twice, double-word arithmetic keeps fewer digits."
             }
             _ => " Turn fast math off: it would reorder operations.",
         };
@@ -111,14 +112,19 @@ impl Language {
     }
 }
 
+/// The name of the function that a line begins, if it does.
+fn defined(line: &str) -> Option<&str> {
+    if line.starts_with([' ', '}']) { None } else { line.split_once('(')?.0.rsplit(' ').next() }
+}
+
 /// The text of the translator, which drops comments, with those of the functions.
 fn commented(module: &Module, text: &str) -> String {
+    let docs: HashMap<String, &str> =
+        module.functions.iter().map(|function| (function_name(&function.name), &*function.doc)).collect();
     let mut all = String::new();
     for line in text.lines() {
-        let is_first = !line.starts_with([' ', '}']);
-        let begins = |name: &str| is_first && line.contains(&format!(" {}(", function_name(name)));
-        if let Some(function) = module.functions.iter().find(|function| begins(&function.name)) {
-            all += &comment(&function.doc, "");
+        if let Some(doc) = defined(line).and_then(|name| docs.get(name)) {
+            all += &comment(doc, "");
         }
         all += line;
         all.push('\n');

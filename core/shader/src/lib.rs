@@ -45,10 +45,11 @@ mod plan;
 mod print;
 mod record;
 mod selection;
+mod tools;
 mod translate;
 mod wanted;
 
-pub use graph::{Call, Condition, Graph, Id, Kind, Node, Op};
+pub use graph::{Call, Condition, Graph, Id, Kind, Loop, Node, Op};
 pub use language::Language;
 pub use list::{
     Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, every_technique, every_warp,
@@ -59,5 +60,6 @@ pub use plan::{Plan, Step, plan};
 pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
 pub use record::{add_calls, add_technique, add_warp, snake};
 pub use selection::{Selection, lights, technique_name, warps};
+pub use tools::{add_tool, tools};
 pub use translate::{Checked, Target};
 pub use wanted::{Part, SampleField, Wanted};

@@ -2,7 +2,7 @@
 
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Parser};
-use etendue_shader::{Language, Part, SampleField, Selection, Wanted, lights, warps};
+use etendue_shader::{Language, Part, SampleField, Selection, Wanted, lights, tools, warps};
 use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -21,7 +21,10 @@ struct Options {
     /// Warps, with commas between
     #[arg(long, group = "what", value_delimiter = ',', value_parser = PossibleValuesParser::new(warp_names()), hide_possible_values = true)]
     warps: Vec<String>,
-    /// Functions of each of them, besides the preparation [default: all]
+    /// Sequences of random numbers and weights of combined techniques, with commas between
+    #[arg(long, group = "what", value_delimiter = ',', value_parser = PossibleValuesParser::new(tool_names()))]
+    tools: Vec<String>,
+    /// Functions of each light and warp, besides the preparation [default: all]
     #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(Part::ALL.iter().map(|part| part.name())))]
     functions: Vec<String>,
     /// Fields of the samples of lights [default: all]
@@ -36,6 +39,9 @@ struct Options {
 fn light_names() -> Vec<&'static str> {
     let lights = lights().into_iter().flat_map(|(light, techniques)| [vec![light], techniques].concat());
     std::iter::once("all").chain(lights.map(|name| &*name.leak())).collect()
+}
+fn tool_names() -> Vec<&'static str> {
+    std::iter::once("all").chain(tools().iter().copied()).collect()
 }
 fn warp_names() -> Vec<&'static str> {
     std::iter::once("all").chain(warps().into_iter().map(|name| &*name.leak())).collect()
@@ -55,9 +61,13 @@ impl Options {
     /// The command that writes the same file.
     fn command(&self) -> String {
         let mut command = format!("etendue-shader --language {}", self.language);
-        for (option, names) in
-            [("lights", &self.lights), ("warps", &self.warps), ("functions", &self.functions), ("fields", &self.fields)]
-        {
+        for (option, names) in [
+            ("lights", &self.lights),
+            ("warps", &self.warps),
+            ("tools", &self.tools),
+            ("functions", &self.functions),
+            ("fields", &self.fields),
+        ] {
             if !names.is_empty() {
                 command += &format!(" --{option} {}", names.join(","));
             }
@@ -67,7 +77,8 @@ impl Options {
     fn run(&self) -> Result<(), String> {
         let language = Language::ALL.into_iter().find(|language| language.name() == self.language);
         let language = language.expect("clap has refused all others");
-        let selection = Selection { lights: self.lights.clone(), warps: self.warps.clone(), wanted: self.wanted() };
+        let (lights, warps, tools) = (self.lights.clone(), self.warps.clone(), self.tools.clone());
+        let selection = Selection { lights, warps, tools, wanted: self.wanted() };
         let bytes = language.write(&selection.module(), &format!("Written by `{}`.", self.command()))?;
         match &self.output {
             Some(path) => fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display())),

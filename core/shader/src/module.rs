@@ -115,12 +115,11 @@ impl Function {
     #[must_use]
     pub fn live(&self) -> Vec<bool> {
         let mut live = vec![false; self.graph.nodes().len()];
-        for &id in &self.outputs {
-            live[id as usize] = true;
-        }
-        for (id, node) in self.graph.nodes().iter().enumerate().rev() {
-            if live[id] {
-                node.operands().iter().for_each(|&operand| live[operand as usize] = true);
+        let mut open = self.outputs.clone();
+        while let Some(id) = open.pop() {
+            if !core::mem::replace(&mut live[id as usize], true) {
+                open.extend(self.graph.operands(id));
+                open.extend(self.graph.as_loop(id).into_iter().flat_map(|of| &of.body));
             }
         }
         live

@@ -280,6 +280,35 @@ macro_rules! real {
             fn inverse_cbrt_estimate(self) -> Self {
                 Self(add(Op::InverseCbrtEstimate, &[self.0]))
             }
+            fn where_any<const N: usize>(
+                mask: Truth,
+                none: [Self; N],
+                some: impl FnOnce() -> [Self; N],
+            ) -> [Self; N] {
+                if !mask.any() {
+                    return none;
+                }
+                let some = some();
+                core::array::from_fn(|k| Self::blend(mask, some[k], none[k]))
+            }
+            fn iterate<const N: usize, const M: usize>(
+                most: usize,
+                numbers: [Self; N],
+                going: [Truth; M],
+                mut step: impl FnMut([Self; N], [Truth; M]) -> ([Self; N], [Truth; M]),
+            ) -> [Self; N] {
+                let variables = with(|graph| graph.begin_loop(N, M));
+                // one mask is true wherever the loop goes on
+                let inside = |k: usize| if M == 1 { Truth::splat(true) } else { Truth(variables[N + k]) };
+                let (next, next_going) =
+                    step(core::array::from_fn(|k| Self(variables[k])), core::array::from_fn(inside));
+                let ids = |numbers: [Self; N], masks: [Truth; M]| -> Vec<Id> {
+                    numbers.map(Self::id).into_iter().chain(masks.map(Truth::id)).collect()
+                };
+                let (first, next) = (ids(numbers, going), ids(next, next_going));
+                let results = with(|graph| graph.end_loop(most, variables, M, &first, next));
+                core::array::from_fn(|k| Self(results[k]))
+            }
             $($functions)*
         }
     };

@@ -18,8 +18,14 @@ pub enum Step {
     Declare(Id),
     /// A declared variable gets the value of a node.
     Assign(Id),
+    /// A new variable for a node that selects: at first what it is without the branch below, the value of a node or `false`.
+    Default(Id, Option<Id>),
+    /// It gets the value of another node, which the branch computes.
+    Choose(Id, Id),
     /// A branch.
     If(Condition, Vec<Step>),
+    /// A loop, after its variables got their first values.
+    Loop(Id, Vec<Step>),
 }
 
 /// A function as statements.
@@ -36,49 +42,72 @@ const LONGEST: usize = 6;
 
 type Conditions = Vec<Condition>;
 
+/// Plans the statements of a function outside of its loops, or of the body of one loop.
 struct Planner<'a> {
     function: &'a Function,
-    live: Vec<bool>,
+    /// The nodes that are planned here.
+    here: Vec<bool>,
+    /// What other statements need of them.
+    outputs: &'a [Id],
+    /// Nodes outside of a loop that its body may name.
+    captured: &'a [Id],
     /// The conditions under which each node is needed, outer ones first.
     needs: Vec<Conditions>,
     variables: Vec<bool>,
+    /// The nodes that each node is an operand of.
+    users: Vec<Vec<Id>>,
+    /// The nodes that must be variables, because they are named otherwise than as operands.
+    forced: Vec<bool>,
 }
 
 impl<'a> Planner<'a> {
-    fn new(function: &'a Function) -> Self {
-        let (live, count) = (function.live(), function.graph.nodes().len());
-        let mut this = Self { function, live, needs: vec![Vec::new(); count], variables: vec![false; count] };
+    fn new(function: &'a Function, here: Vec<bool>, outputs: &'a [Id], captured: &'a [Id]) -> Self {
+        let count = here.len();
+        let (needs, variables) = (vec![Vec::new(); count], vec![false; count]);
+        let (users, forced) = (vec![Vec::new(); count], vec![false; count]);
+        let mut this = Self { function, here, outputs, captured, needs, variables, users, forced };
         this.find_needs();
         this.find_variables();
         this
+    }
+    /// The nodes that are planned here and must be computed first.
+    fn operands(&self, id: Id) -> impl Iterator<Item = Id> {
+        self.function.graph.operands(id).iter().copied().filter(|&operand| self.here[operand as usize])
+    }
+    fn all(&self) -> impl DoubleEndedIterator<Item = Id> {
+        (0..self.here.len() as Id).filter(|&id| self.here[id as usize])
     }
     /// The tested conditions that hold if a mask is so.
     fn implied(&self, mask: Id, holds: bool, all: &mut Conditions) {
         let graph = &self.function.graph;
         let condition = graph.condition(mask, holds);
-        if graph.tested().contains(&condition) && !all.contains(&condition) {
+        let node = graph.node(condition.mask);
+        let known = self.here[condition.mask as usize] || node.is_leaf() || self.captured.contains(&condition.mask);
+        if known && graph.tested().contains(&condition) && !all.contains(&condition) {
             all.push(condition);
         }
-        let node = graph.node(condition.mask);
         if node.op == (if condition.holds { Op::And } else { Op::Or }) {
-            node.operands().iter().for_each(|&operand| self.implied(operand, condition.holds, all));
+            graph.operands(condition.mask).iter().for_each(|&operand| self.implied(operand, condition.holds, all));
         }
     }
     fn find_needs(&mut self) {
         let graph = &self.function.graph;
         let mut needs: Vec<Option<Conditions>> = vec![None; graph.nodes().len()];
-        for &id in &self.function.outputs {
+        for &id in self.outputs {
             needs[id as usize] = Some(Vec::new());
         }
-        for (id, node) in graph.nodes().iter().enumerate().rev() {
-            let Some(need) = needs[id].clone() else { continue };
-            for (k, &operand) in node.operands().iter().enumerate() {
+        for id in self.all().rev() {
+            let Some(need) = needs[id as usize].clone() else {
+                assert!(graph.node(id).is_leaf(), "only constants are of no use outside of loops");
+                continue;
+            };
+            let (op, operands) = (graph.node(id).op, graph.operands(id));
+            for (k, &operand) in operands.iter().enumerate().filter(|(_, operand)| self.here[**operand as usize]) {
                 let mut under = need.clone();
-                let first = node.operands()[0];
-                match (node.op, k) {
-                    (Op::Select, 1 | 2) => self.implied(first, k == 1, &mut under),
+                match (op, k) {
+                    (Op::Select, 1 | 2) => self.implied(operands[0], k == 1, &mut under),
                     // the second operand does not matter where the first one decides
-                    (Op::And | Op::Or, 1) => self.implied(first, node.op == Op::And, &mut under),
+                    (Op::And | Op::Or, 1) => self.implied(operands[0], op == Op::And, &mut under),
                     _ => {}
                 }
                 match &mut needs[operand as usize] {
@@ -99,32 +128,37 @@ impl<'a> Planner<'a> {
         let graph = &self.function.graph;
         let mut users: Vec<Vec<Id>> = vec![Vec::new(); graph.nodes().len()];
         let mut forced = vec![false; graph.nodes().len()];
-        for (id, node) in graph.nodes().iter().enumerate().filter(|(id, _)| self.live[*id]) {
-            node.operands().iter().for_each(|&operand| users[operand as usize].push(id as Id));
-            self.needs[id].iter().for_each(|condition| forced[condition.mask as usize] = true);
+        for id in self.all() {
+            self.operands(id).for_each(|operand| users[operand as usize].push(id));
+            self.needs[id as usize].iter().for_each(|condition| forced[condition.mask as usize] = true);
+            let captured = graph.as_loop(id).into_iter().flat_map(|of| of.captured());
+            captured.for_each(|&used| forced[used as usize] = true);
         }
-        self.function.outputs.iter().for_each(|&id| forced[id as usize] = true);
+        self.outputs.iter().for_each(|&id| forced[id as usize] = true);
         let mut sizes = vec![0; graph.nodes().len()];
-        for (id, node) in graph.nodes().iter().enumerate().filter(|(id, _)| self.live[*id]) {
-            if node.is_leaf() {
+        for id in 0..self.here.len() {
+            let op = graph.node(id as Id).op;
+            if !self.here[id] || graph.node(id as Id).is_leaf() {
                 continue;
             }
-            let inside = node.operands().iter().filter(|&&operand| !self.variables[operand as usize]);
-            sizes[id] = 1 + inside.map(|&operand| sizes[operand as usize]).sum::<usize>();
-            let small = sizes[id] == 1 && matches!(node.op, Op::Neg | Op::Not) || matches!(node.op, Op::Part(_));
+            let inside = self.operands(id as Id).filter(|&operand| !self.variables[operand as usize]);
+            sizes[id] = 1 + inside.map(|operand| sizes[operand as usize]).sum::<usize>();
+            let small =
+                sizes[id] == 1 && matches!(op, Op::Neg | Op::Not) || matches!(op, Op::Part(_) | Op::LoopResult(..));
             let once = users[id].len() == 1 && self.needs[users[id][0] as usize] == self.needs[id];
-            let is_pair = graph.kind(id as Id) == Kind::Pair;
-            self.variables[id] = is_pair || forced[id] || !small && (!once || sizes[id] > LONGEST);
+            let several = matches!(graph.kind(id as Id), Kind::Pair | Kind::Loop);
+            self.variables[id] = several || forced[id] || !small && (!once || sizes[id] > LONGEST);
         }
+        (self.users, self.forced) = (users, forced);
     }
     /// The variables that an expression uses.
     fn uses(&self, id: Id) -> Vec<Id> {
-        let (mut all, mut open) = (Vec::new(), self.function.graph.node(id).operands().to_vec());
+        let (mut all, mut open) = (Vec::new(), self.operands(id).collect::<Vec<_>>());
         while let Some(operand) = open.pop() {
             if self.variables[operand as usize] {
                 all.push(operand);
             } else {
-                open.extend(self.function.graph.node(operand).operands());
+                open.extend(self.operands(operand));
             }
         }
         all
@@ -162,10 +196,12 @@ struct Scheduler<'a> {
     waiting: HashMap<Id, Vec<Id>>,
     blocks: Vec<Block>,
     block_of: HashMap<Id, usize>,
+    /// The statements of loops.
+    bodies: HashMap<Id, Vec<Step>>,
 }
 
 impl<'a> Scheduler<'a> {
-    fn new(planner: &'a Planner<'a>) -> Self {
+    fn new(planner: &'a Planner<'a>, bodies: HashMap<Id, Vec<Step>>) -> Self {
         let root = Block { parent: 0, condition: None, items: Vec::new() };
         let mut this = Self {
             planner,
@@ -175,9 +211,9 @@ impl<'a> Scheduler<'a> {
             waiting: HashMap::new(),
             blocks: vec![root],
             block_of: HashMap::new(),
+            bodies,
         };
-        let all = (0..planner.variables.len() as Id).filter(|&id| planner.live[id as usize]);
-        for id in all.filter(|&id| planner.variables[id as usize]) {
+        for id in planner.all().filter(|&id| planner.variables[id as usize]) {
             let need = &planner.needs[id as usize];
             let region = this.region(need);
             this.region_of.insert(id, region);
@@ -282,7 +318,7 @@ impl<'a> Scheduler<'a> {
             let condition = block.condition.expect("only the first block has no condition");
             widen(condition.mask, block.parent, &mut homes);
         }
-        self.planner.function.outputs.iter().for_each(|&id| widen(id, 0, &mut homes));
+        self.planner.outputs.iter().for_each(|&id| widen(id, 0, &mut homes));
         // those that are declared before a branch
         let mut before: HashMap<usize, BTreeSet<Id>> = HashMap::new();
         for (&id, &home) in &homes {
@@ -306,8 +342,11 @@ impl<'a> Scheduler<'a> {
         let mut steps = Vec::new();
         for item in &self.blocks[block].items {
             match *item {
-                Item::Variable(id) if homes[&id] == block => steps.push(Step::Let(id)),
-                Item::Variable(id) => steps.push(Step::Assign(id)),
+                Item::Variable(id) => {
+                    let here = homes[&id] == block;
+                    steps.push(if here { Step::Let(id) } else { Step::Assign(id) });
+                    steps.extend(self.bodies.get(&id).map(|body| Step::Loop(id, body.clone())));
+                }
                 Item::Block(inner) => {
                     steps.extend(before.get(&inner).into_iter().flatten().map(|&id| Step::Declare(id)));
                     let condition = self.blocks[inner].condition.expect("only the first block has no condition");
@@ -315,14 +354,96 @@ impl<'a> Scheduler<'a> {
                 }
             }
         }
+        self.merge(&mut steps);
         steps
     }
+    /// A variable that a branch computes and that is selected after it where the branch was taken, and used nowhere else, becomes the result
+    /// of the selection, which has the other value before the branch.
+    fn merge(&self, steps: &mut Vec<Step>) {
+        let graph = &self.planner.function.graph;
+        for at in 0..steps.len() {
+            let Step::Declare(value) = steps[at] else { continue };
+            let ([user], false) = (&self.planner.users[value as usize][..], self.planner.forced[value as usize]) else {
+                continue;
+            };
+            let Some(end) = steps[at..].iter().position(|step| *step == Step::Let(*user)).map(|k| at + k) else {
+                continue;
+            };
+            let branch = steps[at..end]
+                .iter()
+                .position(|step| matches!(step, Step::If(_, inner) if inner.contains(&Step::Assign(value))));
+            let Some(branch) = branch.map(|k| at + k) else { continue };
+            let Step::If(condition, inner) = &mut steps[branch] else { panic!("it is a branch") };
+            let operands = graph.operands(*user);
+            let other = match graph.node(*user).op {
+                Op::Select if graph.condition(operands[0], true) == *condition && operands[1] == value => {
+                    Some(operands[2])
+                }
+                Op::Select if graph.condition(operands[0], false) == *condition && operands[2] == value => {
+                    Some(operands[1])
+                }
+                Op::And if graph.condition(operands[0], true) == *condition && operands[1] == value => None,
+                _ => continue,
+            };
+            inner
+                .iter_mut()
+                .filter(|step| **step == Step::Assign(value))
+                .for_each(|step| *step = Step::Choose(*user, value));
+            // the other value must be known before the branch
+            let mut used = other.map_or_else(Vec::new, |id| {
+                if self.planner.variables[id as usize] { vec![id] } else { self.planner.uses(id) }
+            });
+            used.retain(|id| self.planner.here[*id as usize]);
+            let later = |id: &Id| {
+                steps[at..end].iter().any(
+                    |step| matches!(step, Step::Let(here) | Step::Declare(here) | Step::Default(here, _) if here == id),
+                )
+            };
+            if used.iter().any(later) {
+                let Step::If(_, inner) = &mut steps[branch] else { panic!("it is a branch") };
+                inner
+                    .iter_mut()
+                    .filter(|step| **step == Step::Choose(*user, value))
+                    .for_each(|step| *step = Step::Assign(value));
+                continue;
+            }
+            steps[at] = Step::Default(*user, other);
+            steps.remove(end);
+            // later statements move up by one
+            self.merge(steps);
+            return;
+        }
+    }
+}
+
+/// Plans the statements for some nodes, and notes which nodes are variables.
+fn steps(function: &Function, here: Vec<bool>, outputs: &[Id], captured: &[Id], variables: &mut [bool]) -> Vec<Step> {
+    let mut bodies = HashMap::new();
+    for id in (0..here.len()).filter(|&id| here[id]) {
+        if let Some(of) = function.graph.as_loop(id as Id) {
+            let mut body = vec![false; here.len()];
+            of.body.iter().for_each(|&id| body[id as usize] = true);
+            bodies.insert(id as Id, steps(function, body, &of.next, of.captured(), variables));
+        }
+    }
+    let planner = Planner::new(function, here, outputs, captured);
+    let steps = Scheduler::new(&planner, bodies).steps();
+    variables.iter_mut().zip(&planner.variables).for_each(|(all, here)| *all |= here);
+    steps
 }
 
 /// Plans a function.
 #[must_use]
 pub fn plan(function: &Function) -> Plan {
-    let planner = Planner::new(function);
-    let steps = Scheduler::new(&planner).steps();
-    Plan { steps, variables: planner.variables }
+    let mut here = function.live();
+    let mut variables = vec![false; here.len()];
+    for id in 0..here.len() {
+        if let (true, Some(of)) = (here[id], function.graph.as_loop(id as Id)) {
+            of.body.iter().for_each(|&id| here[id as usize] = false);
+        }
+        // a variable of a loop is of no concern outside
+        here[id] &= !matches!(function.graph.node(id as Id).op, Op::LoopVariable(..));
+    }
+    let steps = steps(function, here, &function.outputs, &[], &mut variables);
+    Plan { steps, variables }
 }

@@ -9,7 +9,7 @@ pub use c::C;
 pub use dialect::Dialect;
 pub use wgsl::Wgsl;
 
-use crate::graph::{Condition, Id, Kind, Node, Op};
+use crate::graph::{Condition, Id, Kind, Loop, Op};
 use crate::module::{Access, Function, Leaf, Module, Type};
 use crate::plan::{Plan, Step, plan};
 pub(crate) use ascii::comment;
@@ -84,6 +84,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
             Kind::Truth => Leaf::Truth,
             Kind::Word => Leaf::Word,
             Kind::Pair => Leaf::Vec2,
+            Kind::Loop => panic!("a loop is no value"),
         }
     }
     fn name(&self, id: Id) -> String {
@@ -92,6 +93,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
             Kind::Truth => 'b',
             Kind::Word => 'k',
             Kind::Pair => 'v',
+            Kind::Loop => panic!("a loop has no name"),
         };
         let number = self.names[id as usize].unwrap_or_else(|| {
             panic!("{}: node {id} is used before it is declared", self.function.name);
@@ -122,14 +124,25 @@ impl<'a, D: Dialect> Printer<'a, D> {
         match node.op {
             _ if self.plan.variables[id as usize] => Expression::atom(self.name(id)),
             Op::Input(_, index) => Expression::atom(self.input(index)),
+            Op::LoopVariable(..) => Expression::atom(self.name(id)),
             Op::Real(bits) => self.language.real(f32::from_bits(bits)),
             Op::Truth(value) => Expression::atom(value.to_string()),
             Op::Word(value) => Expression::atom(self.language.word(value)),
-            _ => self.expression(node),
+            _ => self.expression(id),
         }
     }
-    fn expression(&self, node: Node) -> Expression {
-        let all: Vec<Expression> = node.operands().iter().map(|&id| self.value(id)).collect();
+    /// What a variable of a loop is after it.
+    fn result(&self, id: Id) -> Expression {
+        let Op::LoopResult(_, k) = self.function.graph.node(id).op else { panic!("no result of a loop") };
+        let of = self.function.graph.as_loop(self.function.graph.operands(id)[0]);
+        Expression::atom(self.name(of.expect("a result is of a loop").variables[k as usize]))
+    }
+    fn expression(&self, id: Id) -> Expression {
+        let graph = &self.function.graph;
+        if let Op::LoopResult(..) = graph.node(id).op {
+            return self.result(id);
+        }
+        let all: Vec<Expression> = graph.operands(id).iter().map(|&id| self.value(id)).collect();
         let call = |name: &str| {
             let all: Vec<&str> = all.iter().map(|operand| operand.text.as_str()).collect();
             Expression::atom(format!("{name}({})", all.join(", ")))
@@ -137,7 +150,7 @@ impl<'a, D: Dialect> Printer<'a, D> {
         let binary = |token: &str, level: Level| Expression::binary(&all[0], token, &all[1], level);
         // of truth values, parentheses tell more than precedence
         let apart = |token: &str| Expression::apart(&all[0], token, &all[1]);
-        match node.op {
+        match graph.node(id).op {
             Op::Add | Op::WordAdd => binary("+", Level::Sum),
             Op::Sub | Op::WordSub => binary("-", Level::Sum),
             Op::Mul | Op::WordMul => binary("*", Level::Product),
@@ -165,29 +178,89 @@ impl<'a, D: Dialect> Printer<'a, D> {
         let value = self.value(mask);
         if holds { value.text } else { Expression::prefix("!", &value).text }
     }
-    fn steps(&mut self, steps: &[Step], indent: usize, text: &mut String) {
-        let margin = "    ".repeat(indent);
-        for step in steps {
-            let line = match *step {
-                Step::Let(id) => {
-                    let value = self.expression(self.function.graph.node(id)).text;
-                    let name = self.declare(id);
-                    self.language.constant(self.leaf_of(id), &name, &value)
+    /// The text of a statement that is no branch and no loop; those of loops are several lines.
+    fn statement(&mut self, step: &Step) -> Vec<String> {
+        match *step {
+            Step::Default(id, other) => {
+                let value = other.map(|other| self.value(other).text);
+                let (name, leaf) = (self.declare(id), self.leaf_of(id));
+                return vec![match value {
+                    Some(value) => self.language.mutable(leaf, &name, &value),
+                    None => self.language.variable(leaf, &name),
+                }];
+            }
+            Step::Choose(id, value) => return vec![format!("{} = {};", self.name(id), self.expression(value).text)],
+            _ => {}
+        }
+        let (&Step::Let(id) | &Step::Declare(id) | &Step::Assign(id)) = step else { panic!("{step:?} has statements") };
+        // the variables that get a value, each with that
+        let variables: Vec<(Id, Option<Id>)> = match self.function.graph.as_loop(id) {
+            Some(of) => of.variables.iter().copied().zip(of.first().iter().map(|&first| Some(first))).collect(),
+            None => vec![(id, None)],
+        };
+        let line = |(id, first): (Id, Option<Id>)| {
+            let value = |this: &Self| first.map_or_else(|| this.expression(id), |first| this.value(first)).text;
+            match step {
+                Step::Let(_) => {
+                    let value = value(self);
+                    let (name, leaf) = (self.declare(id), self.leaf_of(id));
+                    match first {
+                        Some(_) => self.language.mutable(leaf, &name, &value),
+                        None => self.language.constant(leaf, &name, &value),
+                    }
                 }
-                Step::Declare(id) => {
+                Step::Declare(_) => {
                     let name = self.declare(id);
                     self.language.variable(self.leaf_of(id), &name)
                 }
-                Step::Assign(id) => {
-                    format!("{} = {};", self.name(id), self.expression(self.function.graph.node(id)).text)
-                }
-                Step::If(condition, ref inner) => {
-                    let _ = writeln!(text, "{margin}if ({}) {{", self.condition(condition));
-                    self.steps(inner, indent + 1, text);
-                    "}".into()
-                }
-            };
+                _ => format!("{} = {};", self.name(id), value(self)),
+            }
+        };
+        variables.into_iter().map(line).collect()
+    }
+    /// The next values of the variables of a loop.
+    fn next(&mut self, of: &Loop) -> Vec<String> {
+        let (mut copies, mut lines) = (Vec::new(), Vec::new());
+        for (&variable, &next) in of.variables.iter().zip(&of.next).filter(|(variable, next)| variable != next) {
+            let mut value = self.value(next).text;
+            // one that gets its own next value before is copied
+            if of.variables.contains(&next) {
+                self.declared += 1;
+                let copy = format!("{value}_{}", self.declared);
+                copies.push(self.language.constant(self.leaf_of(next), &copy, &value));
+                value = copy;
+            }
+            lines.push(format!("{} = {value};", self.name(variable)));
+        }
+        [copies, lines].concat()
+    }
+    fn steps(&mut self, steps: &[Step], indent: usize, text: &mut String) {
+        let margin = "    ".repeat(indent);
+        let put = |text: &mut String, line: &str| {
             let _ = writeln!(text, "{margin}{line}");
+        };
+        for step in steps {
+            match *step {
+                Step::If(condition, ref inner) => {
+                    put(text, &format!("if ({}) {{", self.condition(condition)));
+                    self.steps(inner, indent + 1, text);
+                    put(text, "}");
+                }
+                Step::Loop(id, ref inner) => {
+                    let graph = &self.function.graph;
+                    let of = graph.as_loop(id).expect("a loop is one");
+                    let masks = of.variables[of.variables.len() - of.masks..].iter().map(|&mask| self.name(mask));
+                    let condition = masks.collect::<Vec<_>>().join(&format!(" {} ", self.language.or()));
+                    let condition = if of.masks > 1 { format!("({condition})") } else { condition };
+                    put(text, &self.language.open_loop(of.most, &condition));
+                    self.steps(inner, indent + 1, text);
+                    for line in self.next(of) {
+                        put(text, &format!("    {line}"));
+                    }
+                    put(text, "}");
+                }
+                _ => self.statement(step).iter().for_each(|line| put(text, line)),
+            }
         }
     }
     fn function(mut self) -> String {

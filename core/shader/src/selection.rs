@@ -3,6 +3,7 @@
 use crate::list::{Technique, TechniqueVisitor, WarpTechnique, WarpVisitor, every_technique, every_warp};
 use crate::module::Module;
 use crate::record::{add_calls, add_technique, add_warp, snake};
+use crate::tools::{add_tool, tools};
 use crate::wanted::Wanted;
 
 /// The name of a light by a technique.
@@ -51,7 +52,9 @@ pub struct Selection {
     pub lights: Vec<String>,
     /// Warps, or `all`.
     pub warps: Vec<String>,
-    /// Their functions and fields.
+    /// Other functions, or `all`: see [`tools`].
+    pub tools: Vec<String>,
+    /// The functions and fields of lights and warps.
     pub wanted: Wanted,
 }
 
@@ -79,6 +82,9 @@ impl Selection {
         every_warp(&mut visitor);
         every_technique(&mut visitor);
         let mut module = visitor.1;
+        for tool in tools().iter().filter(|tool| self.tools.iter().any(|name| name == *tool || name == "all")) {
+            add_tool(&mut module, tool);
+        }
         add_calls(&mut module);
         module
     }

@@ -13,7 +13,7 @@ pub enum Target {
     GlslEs,
     /// HLSL, shader model 5.1 and later.
     Hlsl,
-    /// The Metal shading language, 2.0 and later.
+    /// The Metal shading language, 2.1 and later.
     Msl,
     /// SPIR-V 1.3, in binary words.
     SpirV,
@@ -48,8 +48,8 @@ impl<'a> Checked<'a> {
             Target::GlslEs => self.glsl(glsl::Version::Embedded { version: 300, is_webgl: true }),
             Target::Hlsl => self.hlsl(),
             Target::Msl => {
-                let options = (msl::Options::default(), msl::PipelineOptions::default());
-                let text = msl::write_string(&self.module, &self.info, &options.0, &options.1);
+                let options = msl::Options { lang_version: (2, 1), ..msl::Options::default() };
+                let text = msl::write_string(&self.module, &self.info, &options, &msl::PipelineOptions::default());
                 Ok(text.map_err(|error| error.to_string())?.0.into_bytes())
             }
             Target::SpirV => {

@@ -1,6 +1,8 @@
 //! The C sources return the bits of the Rust routines, compiled by the C compiler of the machine.
 
 use core::fmt::Write;
+use etendue::estimate::{Heuristic, technique_pdf};
+use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::{LightSample, LightSampler, Vec2, Vec3};
 use etendue_properties::generators::{Random, nasty, unit_or_edge};
 use etendue_properties::techniques::AreaLight;
@@ -73,7 +75,13 @@ impl<'a> Driver<'a> {
     fn take(&mut self, of: Type, name: &str) {
         let _ = writeln!(self.text, "    {} {name};", self.type_name(of));
         for place in self.places(of, name) {
-            let _ = writeln!(self.text, "    {place} = in[{}];", self.inputs);
+            let number = format!("in[{}]", self.inputs);
+            let value = match of {
+                Type::Leaf(Leaf::Word) => format!("etendue_bits({number})"),
+                Type::Leaf(Leaf::Truth) => format!("{number} > 0.5f"),
+                _ => number,
+            };
+            let _ = writeln!(self.text, "    {place} = {value};");
             self.inputs += 1;
         }
     }
@@ -92,7 +100,12 @@ impl<'a> Driver<'a> {
     fn output(&mut self, name: &str, arguments: &[&str], result: &str) {
         self.call(name, arguments, result);
         let function = self.function(name).unwrap();
-        for place in self.places(function.result, result) {
+        let mut places = self.places(function.result, result);
+        if function.result == Type::Leaf(Leaf::Word) {
+            // halves of words are numbers
+            places = vec![format!("({result} >> 16)"), format!("({result} & 0xffffu)")];
+        }
+        for place in places {
             let _ = writeln!(self.text, "    out[{}] = (float){place};", self.outputs);
             self.outputs += 1;
         }
@@ -198,7 +211,7 @@ fn arguments(kind: usize, numbers: usize) -> Vec<Vec<f32>> {
             }
             all.truncate(numbers);
         }
-        if numbers == 24 && round % 2 == 0 {
+        if numbers == 24 && round.is_multiple_of(2) {
             all = octagon(&light);
         }
         while all.len() < numbers {
@@ -402,4 +415,74 @@ fn warps_have_the_same_bits() {
     let mut warps = Warps(0);
     every_warp(&mut warps);
     assert!(warps.0 >= 14, "{} warps", warps.0);
+}
+
+/// A tool of Rust in scalars: words come as the bits of numbers, and truth values as 0 and 1.
+fn tool(name: &str, x: &[f32]) -> Vec<f32> {
+    let word = |k: usize| x[k].to_bits();
+    let truth = |k: usize| x[k] > 0.5;
+    let pair = |u: Vec2<f32>| vec![u.x, u.y];
+    let sample =
+        |pdf: f32, emits: bool, delta: bool| LightSample { pdf, emits, delta, ..LightSample::miss(Vec3::default()) };
+    match name {
+        "sequence_key" => {
+            let key = Independent::key(word(0), word(1));
+            vec![(key >> 16) as f32, (key & 0xffff) as f32]
+        }
+        "independent_pair" => {
+            let [x, y, z, w] = Independent::numbers::<f32>(word(0), word(1), word(2) / 2, word(3));
+            if word(2).is_multiple_of(2) { vec![x, y] } else { vec![z, w] }
+        }
+        "owen_sobol_pair" => pair(OwenSobol::pair_by(word(0), word(1), word(2), word(3))),
+        "technique_pdf" => vec![technique_pdf(x[0], x[1], truth(2))],
+        "balance_weights" => Heuristic::Balance.weights([x[0], x[1]]).to_vec(),
+        "power_weights" => Heuristic::POWER.weights([x[0], x[1]]).to_vec(),
+        "power_light_weight" => vec![Heuristic::POWER.light_weight(&sample(x[0], truth(1), truth(2)), x[3])],
+        "power_bsdf_weight" => vec![Heuristic::POWER.bsdf_weight(x[0], &sample(x[1], truth(2), false))],
+        _ => panic!("the test does not know {name}"),
+    }
+}
+
+#[test]
+fn tools_have_the_same_bits() {
+    assert!(tools().len() >= 8, "{:?}", tools());
+    for (k, name) in tools().iter().enumerate() {
+        let selection = Selection { tools: vec![(*name).into()], ..Selection::default() };
+        let module = selection.module();
+        let mut driver = Driver::new(&module);
+        let parameters = driver.function(name).unwrap().parameters.clone();
+        for parameter in &parameters {
+            driver.take(parameter.of, &parameter.name);
+        }
+        let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        driver.output(name, &names, "value");
+        let mut random = Random::new(3800 + k as u64);
+        let mut argument = |of: Type| match of {
+            Type::Leaf(Leaf::Word) if random.word().is_multiple_of(3) => f32::from_bits(random.word() as u32 % 9),
+            Type::Leaf(Leaf::Word) => f32::from_bits(random.word() as u32),
+            Type::Leaf(Leaf::Truth) => f32::from(u8::from(random.word().is_multiple_of(2))),
+            _ if random.word().is_multiple_of(3) => HOSTILE[random.below(HOSTILE.len())],
+            _ => random.magnitude(1e-6, 1e6) as f32,
+        };
+        let inputs: Vec<Vec<f32>> =
+            (0..SLOTS).map(|_| parameters.iter().map(|parameter| argument(parameter.of)).collect()).collect();
+        let right: Vec<_> = inputs.iter().map(|input| tool(name, input)).collect();
+        let found = driver.run(&format!("tool_{name}"), &["-O2"], &inputs);
+        compare(name, &inputs, &right, &found);
+    }
+}
+
+/// The keys of the functions are those of the core's sequences.
+#[test]
+fn sequences_are_those_of_the_core() {
+    let mut random = Random::new(3900);
+    for _ in 0..1000 {
+        let (seed, pixel, sample, dimension) =
+            (random.word(), random.word() as u32, random.word() as u32, random.word() as u32 % 50);
+        let key = f32::from_bits(Independent::key(seed as u32, (seed >> 32) as u32));
+        let arguments = [f32::from_bits(pixel), f32::from_bits(sample), f32::from_bits(dimension), key];
+        let pair = |u: Vec2<f32>| vec![u.x, u.y];
+        assert_eq!(pair(Independent::new(seed).pair(pixel, sample, dimension)), tool("independent_pair", &arguments));
+        assert_eq!(pair(OwenSobol::new(seed).pair(pixel, sample, dimension)), tool("owen_sobol_pair", &arguments));
+    }
 }

@@ -95,6 +95,12 @@ impl Dialect for C {
             }
         }
     }
+    fn mutable(&self, of: Leaf, name: &str, value: &str) -> String {
+        format!("{} {name} = {value};", self.leaf(of))
+    }
+    fn open_loop(&self, most: usize, condition: &str) -> String {
+        format!("for (int i = 0; i < {most} && {condition}; ++i) {{")
+    }
     fn unused(&self, name: &str) -> Option<String> {
         Some(format!("(void){name};"))
     }

@@ -92,6 +92,10 @@ pub trait Dialect {
     fn constant(&self, of: Leaf, name: &str, value: &str) -> String;
     /// A variable that is 0 at first.
     fn variable(&self, of: Leaf, name: &str) -> String;
+    /// A variable with a first value.
+    fn mutable(&self, of: Leaf, name: &str, value: &str) -> String;
+    /// The first line of a loop that repeats while a condition holds, at most so many times.
+    fn open_loop(&self, most: usize, condition: &str) -> String;
     /// What tells a compiler that a parameter is not used, if it needs that.
     fn unused(&self, name: &str) -> Option<String>;
     /// The variable `result`.

@@ -86,6 +86,12 @@ impl Dialect for Wgsl {
         // variables are 0 at first
         format!("var {name}: {};", self.leaf(of))
     }
+    fn mutable(&self, _: Leaf, name: &str, value: &str) -> String {
+        format!("var {name} = {value};")
+    }
+    fn open_loop(&self, most: usize, condition: &str) -> String {
+        format!("for (var i = 0; i < {most} && {condition}; i++) {{")
+    }
     fn unused(&self, _: &str) -> Option<String> {
         None
     }
