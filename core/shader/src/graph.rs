@@ -1,213 +1,11 @@
 //! The record of a routine: a graph of operations, each of which is there once.
 
+mod node;
+
+pub use node::{Call, Condition, Id, Kind, Loop, Node, Op};
+
 use etendue::Real;
 use std::collections::{BTreeSet, HashMap, HashSet};
-
-/// A node of a graph.
-pub type Id = u32;
-
-/// What a node is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// A number of single precision.
-    Real,
-    /// A truth value.
-    Truth,
-    /// An unsigned number of 32 bits.
-    Word,
-    /// Two numbers.
-    Pair,
-    /// The variables of a loop.
-    Loop,
-}
-
-/// A function of the core that sources call, where other operations are written out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Call {
-    /// [`Real::sin_cos_turns`]: a pair.
-    SinCosTurns,
-    /// [`Real::sin_cos_quarters`]: a pair.
-    SinCosQuarters,
-    /// [`Real::acos`].
-    Acos,
-    /// [`Real::atan2`].
-    Atan2,
-    /// [`Real::atan_eighth`].
-    AtanEighth,
-    /// [`Real::cbrt`].
-    Cbrt,
-}
-
-impl Call {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SinCosTurns => "sin_cos_turns",
-            Self::SinCosQuarters => "sin_cos_quarters",
-            Self::Acos => "acos",
-            // no digit at the end, after which translators put a mark
-            Self::Atan2 => "angle",
-            Self::AtanEighth => "atan_eighth",
-            Self::Cbrt => "cbrt",
-        }
-    }
-    /// Whether it returns two numbers.
-    #[must_use]
-    pub fn returns_pair(self) -> bool {
-        matches!(self, Self::SinCosTurns | Self::SinCosQuarters)
-    }
-}
-
-/// An operation. Its operands are in its [`Node`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Op {
-    /// A constant, by its bits.
-    Real(u32),
-    /// A constant.
-    Truth(bool),
-    /// A constant.
-    Word(u32),
-    /// A number that the routine is given: its index among them.
-    Input(Kind, u32),
-    /// `a + b`
-    Add,
-    /// `a - b`
-    Sub,
-    /// `a * b`
-    Mul,
-    /// `a / b`
-    Div,
-    /// `-a`
-    Neg,
-    /// `a * b + c`, rounded once
-    MulAdd,
-    /// See [`Real::sqrt`].
-    Sqrt,
-    /// See [`Real::abs`].
-    Abs,
-    /// See [`Real::round_ties_even`].
-    Round,
-    /// See [`Real::copysign`].
-    CopySign,
-    /// See [`Real::lesser`].
-    Lesser,
-    /// See [`Real::greater`].
-    Greater,
-    /// See [`Real::pow2_scale`].
-    Pow2Scale,
-    /// See [`Real::inverse_cbrt_estimate`].
-    InverseCbrtEstimate,
-    /// See [`Real::unit`].
-    Unit,
-    /// See [`Real::from_uint`].
-    FromWord,
-    /// See [`Real::to_uint`].
-    ToWord,
-    /// `a < b` of numbers
-    Less,
-    /// `a <= b` of numbers
-    LessEqual,
-    /// `a and b`
-    And,
-    /// `a or b`
-    Or,
-    /// `a != b` of truth values
-    Xor,
-    /// `not a`
-    Not,
-    /// `a ? b : c`
-    Select,
-    /// Sum modulo 2³².
-    WordAdd,
-    /// Difference modulo 2³².
-    WordSub,
-    /// Product modulo 2³².
-    WordMul,
-    /// `a & b` of words
-    WordAnd,
-    /// `a | b` of words
-    WordOr,
-    /// `a ^ b` of words
-    WordXor,
-    /// `a << n`
-    WordShl(u32),
-    /// `a >> n`
-    WordShr(u32),
-    /// See [`etendue::Uint::reverse_bits`].
-    WordReverse,
-    /// `a < b ? 0xffffffff : 0` of words
-    WordLess,
-    /// `a != 0` of a word
-    WordAny,
-    /// A call of a function.
-    Call(Call),
-    /// One number of a pair, 0 or 1.
-    Part(u32),
-    /// A variable of a loop, inside of it: the loop and the variable, by their indices.
-    LoopVariable(Kind, u32, u32),
-    /// A loop, by its index.
-    Loop(u32),
-    /// What a variable of a loop is after it, by its index.
-    LoopResult(Kind, u32),
-}
-
-/// An operation with its operands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Node {
-    /// The operation.
-    pub op: Op,
-    operands: [Id; 3],
-    count: u8,
-}
-
-impl Node {
-    fn new(op: Op, of: &[Id]) -> Self {
-        let mut operands = [0; 3];
-        operands[..of.len()].copy_from_slice(of);
-        Self { op, operands, count: of.len() as u8 }
-    }
-    /// True for constants.
-    #[must_use]
-    pub fn is_constant(&self) -> bool {
-        matches!(self.op, Op::Real(_) | Op::Truth(_) | Op::Word(_))
-    }
-    /// True for what has a name or a value without being computed: constants, inputs, and variables of a loop inside of it.
-    #[must_use]
-    pub fn is_leaf(&self) -> bool {
-        self.is_constant() || matches!(self.op, Op::Input(..) | Op::LoopVariable(..))
-    }
-}
-
-/// A loop: its variables, and what computes the next value of each from those of all.
-#[derive(Clone, Debug)]
-pub struct Loop {
-    /// How often it repeats at most.
-    pub most: usize,
-    /// The variables inside of the loop.
-    pub variables: Vec<Id>,
-    /// How many of them, at the end, are masks: it repeats while any is true.
-    pub masks: usize,
-    /// Their next values.
-    pub next: Vec<Id>,
-    /// The nodes that are computed anew each time.
-    pub body: Vec<Id>,
-    /// Their first values, and the nodes outside of the loop that the body uses.
-    operands: Vec<Id>,
-}
-
-impl Loop {
-    /// The first values of the variables.
-    #[must_use]
-    pub fn first(&self) -> &[Id] {
-        &self.operands[..self.variables.len()]
-    }
-    /// The nodes outside of the loop that its body uses.
-    #[must_use]
-    pub fn captured(&self) -> &[Id] {
-        &self.operands[self.variables.len()..]
-    }
-}
 
 /// Operations in an order in which each follows its operands, and what the routine asked of its masks.
 #[derive(Clone, Debug)]
@@ -219,15 +17,6 @@ pub struct Graph {
     loops: Vec<Loop>,
     /// The first node that may be in the body of the loop that is being recorded.
     open: Option<usize>,
-}
-
-/// That a truth value is so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Condition {
-    /// The truth value.
-    pub mask: Id,
-    /// What it is.
-    pub holds: bool,
 }
 
 /// The node of the constant 0 of every graph.
@@ -267,7 +56,7 @@ impl Graph {
         let node = &self.nodes[id as usize];
         match node.op {
             Op::Loop(index) => &self.loops[index as usize].operands,
-            _ => &node.operands[..usize::from(node.count)],
+            _ => node.operands(),
         }
     }
     /// The loop of a node.
@@ -354,7 +143,7 @@ impl Graph {
     #[must_use]
     pub fn condition(&self, mut mask: Id, mut holds: bool) -> Condition {
         while self.node(mask).op == Op::Not {
-            (mask, holds) = (self.node(mask).operands[0], !holds);
+            (mask, holds) = (self.node(mask).operands()[0], !holds);
         }
         Condition { mask, holds }
     }
@@ -423,7 +212,7 @@ impl Graph {
                 Op::Greater => Real::greater(of(0), of(1)),
                 Op::Pow2Scale => of(0).pow2_scale(),
                 Op::InverseCbrtEstimate => of(0).inverse_cbrt_estimate(),
-                Op::Call(call) if !call.returns_pair() => evaluate(call, &x)[0],
+                Op::Call(call) if !call.returns_pair() => call.evaluate(&x)[0],
                 Op::ToWord => return Some(self.add_word(of(0).to_uint())),
                 Op::Less => return Some(self.add_truth(of(0) < of(1))),
                 Op::LessEqual => return Some(self.add_truth(of(0) <= of(1))),
@@ -435,8 +224,8 @@ impl Graph {
         if let Op::Part(k) = op {
             let pair = self.node(of[0]);
             let Op::Call(call) = pair.op else { panic!("only functions return pairs") };
-            let argument = self.constant(pair.operands[0])?;
-            return Some(self.real(evaluate(call, &[argument])[k as usize]));
+            let argument = self.constant(pair.operands()[0])?;
+            return Some(self.real(call.evaluate(&[argument])[k as usize]));
         }
         let words: Option<Vec<u32>> = of.iter().map(|&id| self.word(id)).collect();
         let x = words?;
@@ -471,7 +260,7 @@ impl Graph {
         let is = |this: &Self, id: Id, value: f32| this.constant(id).is_some_and(|x| x.to_bits() == value.to_bits());
         let negated = |this: &Self, id: Id| {
             let node = this.node(id);
-            (node.op == Op::Neg).then(|| node.operands[0])
+            (node.op == Op::Neg).then(|| node.operands()[0])
         };
         let a = of[0];
         let b = of.get(1).copied().unwrap_or(ZERO);
@@ -512,21 +301,21 @@ impl Graph {
             }
             Op::Not => match self.truth(a) {
                 Some(value) => Some(self.add_truth(!value)),
-                None => (self.node(a).op == Op::Not).then(|| self.node(a).operands[0]),
+                None => (self.node(a).op == Op::Not).then(|| self.node(a).operands()[0]),
             },
             Op::Select => {
                 let c = of[2];
                 // what is selected by the same mask again
                 let arm = |this: &Self, id: Id, k: usize| {
                     let node = this.node(id);
-                    (node.op == Op::Select && node.operands[0] == a).then_some(node.operands[k])
+                    (node.op == Op::Select && node.operands()[0] == a).then_some(node.operands()[k])
                 };
                 match self.truth(a) {
                     Some(true) => Some(b),
                     Some(false) => Some(c),
                     None if b == c => Some(b),
                     None if self.node(a).op == Op::Not => {
-                        let mask = self.node(a).operands[0];
+                        let mask = self.node(a).operands()[0];
                         Some(self.add(Op::Select, &[mask, c, b]))
                     }
                     None => match (arm(self, b, 1), arm(self, c, 2)) {
@@ -537,18 +326,5 @@ impl Graph {
             }
             _ => None,
         }
-    }
-}
-
-/// The outputs of a function for constants.
-fn evaluate(call: Call, of: &[f32]) -> [f32; 2] {
-    let pair = |(sin, cos)| [sin, cos];
-    match call {
-        Call::SinCosTurns => pair(of[0].sin_cos_turns()),
-        Call::SinCosQuarters => pair(of[0].sin_cos_quarters()),
-        Call::Acos => [Real::acos(of[0]); 2],
-        Call::Atan2 => [Real::atan2(of[0], of[1]); 2],
-        Call::AtanEighth => [of[0].atan_eighth(); 2],
-        Call::Cbrt => [Real::cbrt(of[0]); 2],
     }
 }
