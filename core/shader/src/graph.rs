@@ -308,7 +308,7 @@ impl Graph {
                 // what is selected by the same mask again
                 let arm = |this: &Self, id: Id, k: usize| {
                     let node = this.node(id);
-                    (node.op == Op::Select && node.operands()[0] == a).then_some(node.operands()[k])
+                    (node.op == Op::Select && node.operands()[0] == a).then(|| node.operands()[k])
                 };
                 match self.truth(a) {
                     Some(true) => Some(b),

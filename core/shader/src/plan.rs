@@ -28,6 +28,18 @@ pub enum Step {
     Loop(Id, Vec<Step>),
 }
 
+impl Step {
+    /// Whether a variable gets a value in it.
+    fn sets(&self, id: Id) -> bool {
+        match self {
+            Self::Let(of) | Self::Declare(of) | Self::Assign(of) | Self::Default(of, _) | Self::Choose(of, _) => {
+                *of == id
+            }
+            Self::If(_, inner) | Self::Loop(_, inner) => inner.iter().any(|step| step.sets(id)),
+        }
+    }
+}
+
 /// A function as statements.
 #[derive(Clone, Debug)]
 pub struct Plan {
@@ -361,57 +373,42 @@ impl<'a> Scheduler<'a> {
     /// of the selection, which has the other value before the branch.
     fn merge(&self, steps: &mut Vec<Step>) {
         let graph = &self.planner.function.graph;
-        for at in 0..steps.len() {
-            let Step::Declare(value) = steps[at] else { continue };
+        let mut at = 0;
+        while at < steps.len() {
+            at += 1;
+            let Step::Declare(value) = steps[at - 1] else { continue };
             let ([user], false) = (&self.planner.users[value as usize][..], self.planner.forced[value as usize]) else {
                 continue;
             };
-            let Some(end) = steps[at..].iter().position(|step| *step == Step::Let(*user)).map(|k| at + k) else {
-                continue;
-            };
-            let branch = steps[at..end]
-                .iter()
-                .position(|step| matches!(step, Step::If(_, inner) if inner.contains(&Step::Assign(value))));
-            let Some(branch) = branch.map(|k| at + k) else { continue };
+            let user = *user;
+            let Some(end) = steps.iter().position(|step| *step == Step::Let(user)) else { continue };
+            let is_branch = |step: &Step| matches!(step, Step::If(_, inner) if inner.contains(&Step::Assign(value)));
+            let Some(branch) = steps[at..end].iter().position(is_branch).map(|k| at + k) else { continue };
             let Step::If(condition, inner) = &mut steps[branch] else { panic!("it is a branch") };
-            let operands = graph.operands(*user);
-            let other = match graph.node(*user).op {
-                Op::Select if graph.condition(operands[0], true) == *condition && operands[1] == value => {
-                    Some(operands[2])
-                }
-                Op::Select if graph.condition(operands[0], false) == *condition && operands[2] == value => {
-                    Some(operands[1])
-                }
-                Op::And if graph.condition(operands[0], true) == *condition && operands[1] == value => None,
+            let operands = graph.operands(user);
+            let holds = |value: bool| graph.condition(operands[0], value) == *condition;
+            let other = match graph.node(user).op {
+                Op::Select if holds(true) && operands[1] == value => Some(operands[2]),
+                Op::Select if holds(false) && operands[2] == value => Some(operands[1]),
+                Op::And if holds(true) && operands[1] == value => None,
                 _ => continue,
             };
-            inner
-                .iter_mut()
-                .filter(|step| **step == Step::Assign(value))
-                .for_each(|step| *step = Step::Choose(*user, value));
+            let place = inner.iter().position(|step| *step == Step::Assign(value)).expect("the branch has it");
             // the other value must be known before the branch
-            let mut used = other.map_or_else(Vec::new, |id| {
-                if self.planner.variables[id as usize] { vec![id] } else { self.planner.uses(id) }
-            });
-            used.retain(|id| self.planner.here[*id as usize]);
-            let later = |id: &Id| {
-                steps[at..end].iter().any(
-                    |step| matches!(step, Step::Let(here) | Step::Declare(here) | Step::Default(here, _) if here == id),
-                )
+            let mut used = match other {
+                Some(id) if self.planner.variables[id as usize] => vec![id],
+                Some(id) => self.planner.uses(id),
+                None => Vec::new(),
             };
-            if used.iter().any(later) {
-                let Step::If(_, inner) = &mut steps[branch] else { panic!("it is a branch") };
-                inner
-                    .iter_mut()
-                    .filter(|step| **step == Step::Choose(*user, value))
-                    .for_each(|step| *step = Step::Assign(value));
+            used.retain(|id| self.planner.here[*id as usize]);
+            if used.iter().any(|&id| steps[at..end].iter().any(|step| step.sets(id))) {
                 continue;
             }
-            steps[at] = Step::Default(*user, other);
+            if let Step::If(_, inner) = &mut steps[branch] {
+                inner[place] = Step::Choose(user, value);
+            }
+            steps[at - 1] = Step::Default(user, other);
             steps.remove(end);
-            // later statements move up by one
-            self.merge(steps);
-            return;
         }
     }
 }

@@ -45,16 +45,13 @@ impl Next {
     }
 }
 
-/// A function whose first inputs are numbers that were prepared, and whose others are those of one parameter.
+/// A function whose first inputs are numbers that were prepared, and whose others are those of one parameter. Where they are is not known
+/// before all functions of the prepared struct are.
 struct Recorded {
-    name: &'static str,
-    doc: String,
+    function: Function,
     /// The nodes of the preparation.
     prepared: Vec<Id>,
     parameter: Option<(&'static str, Leaf)>,
-    result: Type,
-    outputs: Vec<Id>,
-    graph: Graph,
 }
 
 impl Recorded {
@@ -82,20 +79,14 @@ impl Recorded {
             });
             function(&sampler, &mut Next(prepared.len() as u32))
         });
-        Self { name, doc, prepared, parameter, result, outputs, graph }
+        let (name, parameters, inputs) = (name.to_owned(), Vec::new(), Vec::new());
+        let function = Function { name, doc, parameters, inputs, result, outputs, graph };
+        Self { function, prepared, parameter }
     }
     /// Those of the prepared numbers that it uses.
     fn used(&self) -> BTreeSet<Id> {
-        let function = Function {
-            name: String::new(),
-            doc: String::new(),
-            parameters: Vec::new(),
-            inputs: Vec::new(),
-            result: self.result,
-            outputs: self.outputs.clone(),
-            graph: self.graph.clone(),
-        };
-        function.used_inputs().into_iter().filter_map(|index| self.prepared.get(index as usize).copied()).collect()
+        let used = self.function.used_inputs().into_iter();
+        used.filter_map(|index| self.prepared.get(index as usize).copied()).collect()
     }
 }
 
@@ -141,34 +132,23 @@ fn add_functions(
     let used: BTreeSet<Id> = functions.iter().flat_map(Recorded::used).collect();
     let (fields, outputs, places) = fields(slots, &used);
     let prepared = (!fields.is_empty()).then(|| module.add_struct(Struct { name: name.to_owned(), doc, fields }));
-    for function in functions {
-        let (mut parameters, mut inputs) = (Vec::new(), Vec::new());
+    for Recorded { mut function, prepared: numbers, parameter } in functions {
         if let Some(prepared) = prepared {
-            parameters.push(Parameter { name: "prepared".into(), of: Type::Struct(prepared) });
+            function.parameters.push(Parameter { name: "prepared".into(), of: Type::Struct(prepared) });
         }
-        for id in &function.prepared {
+        for id in &numbers {
             // what no function uses has no field, and no access either
             let (field, axis) = places.get(id).copied().unwrap_or((usize::MAX, None));
-            inputs.push(Access { parameter: 0, field: Some(field), axis });
+            function.inputs.push(Access { parameter: 0, field: Some(field), axis });
         }
-        if let Some((name, leaf)) = function.parameter {
-            let parameter = parameters.len();
-            parameters.push(Parameter { name: name.into(), of: Type::Leaf(leaf) });
-            inputs.extend(module.parts(Type::Leaf(leaf)).iter().map(|&(field, axis)| Access {
-                parameter,
-                field,
-                axis,
-            }));
+        if let Some((name, leaf)) = parameter {
+            let parameter = function.parameters.len();
+            function.parameters.push(Parameter { name: name.into(), of: Type::Leaf(leaf) });
+            let parts = module.parts(Type::Leaf(leaf)).into_iter();
+            function.inputs.extend(parts.map(|(field, axis)| Access { parameter, field, axis }));
         }
-        module.functions.push(Function {
-            name: format!("{name}_{}", function.name),
-            doc: function.doc,
-            parameters,
-            inputs,
-            result: function.result,
-            outputs: function.outputs,
-            graph: function.graph,
-        });
+        function.name = format!("{name}_{}", function.name);
+        module.functions.push(function);
     }
     (prepared, outputs)
 }
