@@ -11,7 +11,7 @@
 #ifndef ETENDUE_FUNCTIONS_H
 #define ETENDUE_FUNCTIONS_H
 
-#if defined(__OPENCL_VERSION__)
+#if defined(__OPENCL_VERSION__) || defined(__OPENCL_C_VERSION__)
 #pragma OPENCL FP_CONTRACT OFF
 #define ETENDUE_FUNCTION static inline
 #define fmaf fma
@@ -21,6 +21,14 @@
 typedef uint etendue_word;
 ETENDUE_FUNCTION etendue_word etendue_bits(float x) { return as_uint(x); }
 ETENDUE_FUNCTION float etendue_from_bits(etendue_word bits) { return as_float(bits); }
+#elif defined(__CUDACC_RTC__) || defined(__HIPCC_RTC__)
+#define ETENDUE_FUNCTION static inline __device__
+#ifndef INFINITY
+#define INFINITY __uint_as_float(0x7f800000u)
+#endif
+typedef unsigned int etendue_word;
+ETENDUE_FUNCTION etendue_word etendue_bits(float x) { return __float_as_uint(x); }
+ETENDUE_FUNCTION float etendue_from_bits(etendue_word bits) { return __uint_as_float(bits); }
 #else
 #if defined(__CUDACC__) || defined(__HIPCC__)
 #define ETENDUE_FUNCTION static inline __host__ __device__
