@@ -12,7 +12,17 @@
 //! assert!(source.contains("EtendueLightSample etendue_sphere_by_solid_angle_sample("));
 //! ```
 //!
-//! The program does the same: `etendue-shader --language cuda --lights triangle,sphere -o etendue.cuh`.
+//! The program does the same: `etendue-shader --language cuda --lights triangle,sphere -o etendue.cuh`. Files for the most common lights are
+//! in the folder `sources`. In C, a sample takes two calls:
+//!
+//! ```c
+//! EtendueTriangle lamp = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
+//! EtendueVec3 p = {0, 0, 0};
+//! EtendueVec2 u = {0.3f, 0.6f};
+//! EtendueTriangleBySolidAngle prepared = etendue_triangle_by_solid_angle_prepare(lamp, p); // once for a shading point
+//! EtendueLightSample s = etendue_triangle_by_solid_angle_sample(prepared, u);              // as often as needed
+//! float irradiance = s.direction.y * s.weight;                                            // per unit of radiance
+//! ```
 //!
 //! # What is written
 //! For each light by each technique a struct of the light, a struct of what is prepared for a shading point, and the functions `prepare`,
@@ -26,8 +36,8 @@
 //! # Branches
 //! In the core, `if mask.any()` marks a path that few calls need. A recorded mask is neither all true nor all false, as in a packet whose
 //! lanes differ, so that both sides are recorded, and the graph keeps the condition. [`plan`] then puts into an `if` whatever is used
-//! only where the condition holds. Loops of the core have constant bounds; they are written out, each step inside of the `if` of those
-//! before.
+//! only where the condition holds. [`Real::where_any`](etendue::Real::where_any) says the same of several numbers at once, and
+//! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
 //! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that: they are not here.
