@@ -190,11 +190,14 @@ pub trait Real:
         mut going: [Self::Mask; M],
         mut step: impl FnMut([Self; N], [Self::Mask; M]) -> ([Self; N], [Self::Mask; M]),
     ) -> [Self; N] {
+        if !going.into_iter().any(Mask::any) {
+            return numbers;
+        }
         for _ in 0..most {
+            (numbers, going) = step(numbers, going);
             if !going.into_iter().any(Mask::any) {
                 break;
             }
-            (numbers, going) = step(numbers, going);
         }
         numbers
     }
