@@ -255,6 +255,22 @@ impl Graph {
     pub fn add_word(&mut self, value: u32) -> Id {
         self.place(Node::new(Op::Word(value), &[]), Kind::Word)
     }
+    /// What a value is where the mask selects it, as far as it depends on that: it may select by the same mask again, or divide by such a
+    /// number, which then guards against 0 only where the quotient does not count.
+    fn arm(&mut self, mask: Id, value: Id, k: usize) -> Option<Id> {
+        let selected = |this: &Self, id: Id| {
+            let node = this.node(id);
+            (node.op == Op::Select && node.operands()[0] == mask).then(|| node.operands()[k])
+        };
+        let node = self.node(value);
+        match node.op {
+            Op::Div => {
+                let divisor = selected(self, node.operands()[1])?;
+                Some(self.add(Op::Div, &[node.operands()[0], divisor]))
+            }
+            _ => selected(self, value),
+        }
+    }
     /// What has the same bits for every number.
     fn simpler(&mut self, op: Op, of: &[Id]) -> Option<Id> {
         let is = |this: &Self, id: Id, value: f32| this.constant(id).is_some_and(|x| x.to_bits() == value.to_bits());
@@ -305,11 +321,6 @@ impl Graph {
             },
             Op::Select => {
                 let c = of[2];
-                // what is selected by the same mask again
-                let arm = |this: &Self, id: Id, k: usize| {
-                    let node = this.node(id);
-                    (node.op == Op::Select && node.operands()[0] == a).then(|| node.operands()[k])
-                };
                 match self.truth(a) {
                     Some(true) => Some(b),
                     Some(false) => Some(c),
@@ -318,7 +329,7 @@ impl Graph {
                         let mask = self.node(a).operands()[0];
                         Some(self.add(Op::Select, &[mask, c, b]))
                     }
-                    None => match (arm(self, b, 1), arm(self, c, 2)) {
+                    None => match (self.arm(a, b, 1), self.arm(a, c, 2)) {
                         (None, None) => None,
                         (yes, no) => Some(self.add(Op::Select, &[a, yes.unwrap_or(b), no.unwrap_or(c)])),
                     },

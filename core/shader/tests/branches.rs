@@ -135,6 +135,16 @@ fn the_same_bits_are_computed_once() {
     assert_eq!(module.functions[0].operations(), 4);
 }
 
+/// A guard against 0 is of no use where the quotient counts alone if there is none.
+#[test]
+fn a_guarded_quotient_has_one_selection() {
+    let module = function(|x| {
+        let some = x.gt(Number::lit(0.0));
+        (Number::lit(1.0) / Number::blend(some, x, Number::lit(1.0))).keep(some)
+    });
+    assert_eq!(body(&module), "const float x1 = (0.0f < x) ? 1.0f / x : 0.0f;\nreturn x1;\n");
+}
+
 fn panics(routine: impl Fn(Number) -> Number + std::panic::RefUnwindSafe) -> String {
     let error = std::panic::catch_unwind(|| drop(function(&routine))).unwrap_err();
     error.downcast::<String>().map_or_else(|error| (*error.downcast::<&str>().unwrap()).to_owned(), |text| *text)
