@@ -323,7 +323,8 @@ float etendue_angle(
 }
 
 // Maps u, of which each number is in [0, 1), to a point. Points of the unit disk, uniform in area (pdf 1/pi), by
-// concentric squares: keeps strata compact.
+// concentric squares: keeps strata compact. Greatest error: 1.5e-7 in the point (proved for all u: 2.2e-7); 2e-7 in
+// invert(sample(u)).
 metal::float2 etendue_concentric_disk_sample(
     metal::float2 u
 ) {
@@ -342,7 +343,8 @@ metal::float2 etendue_concentric_disk_sample(
 }
 
 // The density of a point; 0 outside of the range. Points of the unit disk, uniform in area (pdf 1/pi), by concentric
-// squares: keeps strata compact.
+// squares: keeps strata compact. Greatest error: 1.5e-7 in the point (proved for all u: 2.2e-7); 2e-7 in
+// invert(sample(u)).
 float etendue_concentric_disk_pdf(
     metal::float2 point
 ) {
@@ -351,6 +353,8 @@ float etendue_concentric_disk_pdf(
 }
 
 // Maps u, of which each number is in [0, 1), to a point. Directions with z >= 0 and the pdf z/pi per steradian.
+// Greatest error: 1.5e-7 in the direction (proved for all u: 2.4e-7), 2e-7 relative in z (proved off the horizon, for
+// the pdf: 2.7e-7).
 metal::float3 etendue_cosine_hemisphere_sample(
     metal::float2 u_1
 ) {
@@ -375,7 +379,9 @@ metal::float3 etendue_cosine_hemisphere_sample(
     return _e53;
 }
 
-// The density of a point; 0 outside of the range. Directions with z >= 0 and the pdf z/pi per steradian.
+// The density of a point; 0 outside of the range. Directions with z >= 0 and the pdf z/pi per steradian. Greatest
+// error: 1.5e-7 in the direction (proved for all u: 2.4e-7), 2e-7 relative in z (proved off the horizon, for the pdf:
+// 2.7e-7).
 float etendue_cosine_hemisphere_pdf(
     metal::float3 point_1
 ) {
@@ -436,6 +442,9 @@ EtendueGgxVisibleNormals etendue_ggx_visible_normals_prepare(
 }
 
 // Maps u, of which each number is in [0, 1), to a point. Visible normals of a GGX microsurface, per steradian.
+// Greatest error, in units of 2^-24: 8 in the stretched normal, 8 in the pdf relative to its value and to D_v/(wi*m),
+// and 24/(1 + w.z) + 16/|c + w| in invert(sample(u)). The last is largest where a grazing view sees normals that turn
+// away from it, c -> -w, which have almost no probability; rounding may make such a normal face away, with pdf 0.
 metal::float3 etendue_ggx_visible_normals_sample(
     EtendueGgxVisibleNormals prepared,
     metal::float2 u_2
@@ -472,7 +481,10 @@ metal::float3 etendue_ggx_visible_normals_sample(
     return _e76;
 }
 
-// The density of a point; 0 outside of the range. Visible normals of a GGX microsurface, per steradian.
+// The density of a point; 0 outside of the range. Visible normals of a GGX microsurface, per steradian. Greatest
+// error, in units of 2^-24: 8 in the stretched normal, 8 in the pdf relative to its value and to D_v/(wi*m), and 24/(1
+// + w.z) + 16/|c + w| in invert(sample(u)). The last is largest where a grazing view sees normals that turn away from
+// it, c -> -w, which have almost no probability; rounding may make such a normal face away, with pdf 0.
 float etendue_ggx_visible_normals_pdf(
     EtendueGgxVisibleNormals prepared_1,
     metal::float3 point_2
@@ -580,7 +592,9 @@ EtendueSphereBySolidAngle etendue_sphere_by_solid_angle_prepare(
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Uniform over the solid angle Omega at the point p: pdf 1/Omega per
-// steradian. From inside, every direction.
+// steradian. From inside, every direction. Greatest error: pdf 3.0e-7 relative (proved: 2e-6); direction 4.8e-7
+// (proved for all u: 1.5e-6, for R from 1e-4 of the greatest coordinate to where the sphere nearly touches); distance
+// 3.6e-7 relative, except at the limb, where its slope is infinite.
 EtendueLightSample etendue_sphere_by_solid_angle_sample(
     EtendueSphereBySolidAngle prepared_2,
     metal::float2 u_3
@@ -678,7 +692,9 @@ EtendueLightSample etendue_sphere_by_solid_angle_sample(
 }
 
 // The density with which the unit direction w is drawn; 0 where it misses the light. Uniform over the solid angle
-// Omega at the point p: pdf 1/Omega per steradian. From inside, every direction.
+// Omega at the point p: pdf 1/Omega per steradian. From inside, every direction. Greatest error: pdf 3.0e-7 relative
+// (proved: 2e-6); direction 4.8e-7 (proved for all u: 1.5e-6, for R from 1e-4 of the greatest coordinate to where the
+// sphere nearly touches); distance 3.6e-7 relative, except at the limb, where its slope is infinite.
 float etendue_sphere_by_solid_angle_pdf(
     EtendueSphereBySolidAngle prepared_3,
     metal::float3 w
@@ -696,7 +712,10 @@ float etendue_sphere_by_solid_angle_pdf(
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
-// over the solid angle Omega at the point p: pdf 1/Omega per steradian. From inside, every direction.
+// over the solid angle Omega at the point p: pdf 1/Omega per steradian. From inside, every direction. Greatest error:
+// pdf 3.0e-7 relative (proved: 2e-6); direction 4.8e-7 (proved for all u: 1.5e-6, for R from 1e-4 of the greatest
+// coordinate to where the sphere nearly touches); distance 3.6e-7 relative, except at the limb, where its slope is
+// infinite.
 EtendueLightSample etendue_sphere_by_solid_angle_hit(
     EtendueSphereBySolidAngle prepared_4,
     metal::float3 w_1
@@ -1280,7 +1299,13 @@ EtendueTriangleBySolidAngle etendue_triangle_by_solid_angle_prepare(
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Uniform over the solid angle Omega at the point p: pdf 1/Omega per
-// steradian.
+// steradian. Greatest error over the atlas (size, elevation, aspect ratio and distance), for edges taken as given:
+// Omega 5e-7 relative, except 7e-5 beside the middle of an edge that is a million times longer than the triangle is
+// wide and than the point is far; direction 5.4e-7 (1.4e-5 of the angular size where that nears pi); distance 5.4e-7
+// of itself over |cos| at the plane, and 5.4e-7 of the farthest vertex's. The inverse is that of a direction 6e-7
+// away, times the triangle's apparent aspect ratio. From less than 1e-3 of its size above the plane of a triangle that
+// surrounds the point, most of u0 lies within the rounding of a direction near the ends of the sweep: there u1 follows
+// from the rounded u0, so that both lead back to the direction, and may itself be another one.
 EtendueLightSample etendue_triangle_by_solid_angle_sample(
     EtendueTriangleBySolidAngle prepared_5,
     metal::float2 u_4
@@ -1392,7 +1417,14 @@ EtendueLightSample etendue_triangle_by_solid_angle_sample(
 }
 
 // The density with which the unit direction w is drawn; 0 where it misses the light. Uniform over the solid angle
-// Omega at the point p: pdf 1/Omega per steradian.
+// Omega at the point p: pdf 1/Omega per steradian. Greatest error over the atlas (size, elevation, aspect ratio and
+// distance), for edges taken as given: Omega 5e-7 relative, except 7e-5 beside the middle of an edge that is a million
+// times longer than the triangle is wide and than the point is far; direction 5.4e-7 (1.4e-5 of the angular size where
+// that nears pi); distance 5.4e-7 of itself over |cos| at the plane, and 5.4e-7 of the farthest vertex's. The inverse
+// is that of a direction 6e-7 away, times the triangle's apparent aspect ratio. From less than 1e-3 of its size above
+// the plane of a triangle that surrounds the point, most of u0 lies within the rounding of a direction near the ends
+// of the sweep: there u1 follows from the rounded u0, so that both lead back to the direction, and may itself be
+// another one.
 float etendue_triangle_by_solid_angle_pdf(
     EtendueTriangleBySolidAngle prepared_6,
     metal::float3 w_2
@@ -1408,7 +1440,14 @@ float etendue_triangle_by_solid_angle_pdf(
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
-// over the solid angle Omega at the point p: pdf 1/Omega per steradian.
+// over the solid angle Omega at the point p: pdf 1/Omega per steradian. Greatest error over the atlas (size,
+// elevation, aspect ratio and distance), for edges taken as given: Omega 5e-7 relative, except 7e-5 beside the middle
+// of an edge that is a million times longer than the triangle is wide and than the point is far; direction 5.4e-7
+// (1.4e-5 of the angular size where that nears pi); distance 5.4e-7 of itself over |cos| at the plane, and 5.4e-7 of
+// the farthest vertex's. The inverse is that of a direction 6e-7 away, times the triangle's apparent aspect ratio.
+// From less than 1e-3 of its size above the plane of a triangle that surrounds the point, most of u0 lies within the
+// rounding of a direction near the ends of the sweep: there u1 follows from the rounded u0, so that both lead back to
+// the direction, and may itself be another one.
 EtendueLightSample etendue_triangle_by_solid_angle_hit(
     EtendueTriangleBySolidAngle prepared_7,
     metal::float3 w_3
@@ -2051,7 +2090,12 @@ EtendueRectangleBySolidAngle etendue_rectangle_by_solid_angle_prepare(
 }
 
 // Draws a direction to the light for u in [0, 1)^2. Uniform over the solid angle Omega at the point p: pdf 1/Omega per
-// steradian.
+// steradian. Greatest error over the atlas: direction 6e-7 (4e-5 of the rectangle's size if that is 1e-6 and the point
+// is 1e-7 above its plane), besides what 8 steps of 2^-24 in u do to it (Omega and u0Omega are rounded; u0 counts from
+// the nearer end where the rectangle lies on both sides of the foot). pdf 5e-7 relative, since heights and coordinates
+// are formed in twice the working precision. Next to the plane of a rectangle that surrounds the point, nearly all of
+// u0 lies within the rounding of a direction at the ends: the inverse is then one of the u that lead back to the
+// direction.
 EtendueLightSample etendue_rectangle_by_solid_angle_sample(
     EtendueRectangleBySolidAngle prepared_8,
     metal::float2 u_5
@@ -2147,7 +2191,12 @@ EtendueLightSample etendue_rectangle_by_solid_angle_sample(
 }
 
 // The density with which the unit direction w is drawn; 0 where it misses the light. Uniform over the solid angle
-// Omega at the point p: pdf 1/Omega per steradian.
+// Omega at the point p: pdf 1/Omega per steradian. Greatest error over the atlas: direction 6e-7 (4e-5 of the
+// rectangle's size if that is 1e-6 and the point is 1e-7 above its plane), besides what 8 steps of 2^-24 in u do to it
+// (Omega and u0Omega are rounded; u0 counts from the nearer end where the rectangle lies on both sides of the foot).
+// pdf 5e-7 relative, since heights and coordinates are formed in twice the working precision. Next to the plane of a
+// rectangle that surrounds the point, nearly all of u0 lies within the rounding of a direction at the ends: the
+// inverse is then one of the u that lead back to the direction.
 float etendue_rectangle_by_solid_angle_pdf(
     EtendueRectangleBySolidAngle prepared_9,
     metal::float3 w_4
@@ -2159,7 +2208,12 @@ float etendue_rectangle_by_solid_angle_pdf(
 }
 
 // The nearest point of the light in the unit direction w, with the density of that; pdf 0 where it misses. Uniform
-// over the solid angle Omega at the point p: pdf 1/Omega per steradian.
+// over the solid angle Omega at the point p: pdf 1/Omega per steradian. Greatest error over the atlas: direction 6e-7
+// (4e-5 of the rectangle's size if that is 1e-6 and the point is 1e-7 above its plane), besides what 8 steps of 2^-24
+// in u do to it (Omega and u0Omega are rounded; u0 counts from the nearer end where the rectangle lies on both sides
+// of the foot). pdf 5e-7 relative, since heights and coordinates are formed in twice the working precision. Next to
+// the plane of a rectangle that surrounds the point, nearly all of u0 lies within the rounding of a direction at the
+// ends: the inverse is then one of the u that lead back to the direction.
 EtendueLightSample etendue_rectangle_by_solid_angle_hit(
     EtendueRectangleBySolidAngle prepared_10,
     metal::float3 w_5

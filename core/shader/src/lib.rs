@@ -45,11 +45,13 @@
 //! # Which bits
 //! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; a test compares them for
 //! every function. The shading languages promise less: the beginning of each file says what.
+mod errors;
 mod graph;
 mod language;
 mod layout;
 mod list;
 mod module;
+mod names;
 mod number;
 mod plan;
 mod print;
@@ -65,10 +67,11 @@ pub use list::{
     Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, every_technique, every_warp,
 };
 pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
+pub use names::{pascal, snake};
 pub use number::{Inner, Number, Truth, Word, record};
 pub use plan::{Plan, Step, plan};
 pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
-pub use record::{add_calls, add_technique, add_warp, snake};
+pub use record::{add_calls, add_technique, add_warp};
 pub use selection::{Selection, lights, technique_name, warps};
 pub use tools::{add_tool, tools};
 pub use translate::{Checked, Target};

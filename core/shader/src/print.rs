@@ -11,20 +11,13 @@ pub use wgsl::Wgsl;
 
 use crate::graph::{Condition, Id, Kind, Loop, Op};
 use crate::module::{Access, Function, Leaf, Module, Type};
+use crate::names::pascal;
 use crate::plan::{Plan, Step, plan};
 pub(crate) use ascii::comment;
 use core::fmt::Write;
 use dialect::{Expression, Level};
 use std::collections::BTreeSet;
 
-/// `some_name` as `SomeName`.
-fn pascal(name: &str) -> String {
-    let word = |word: &str| {
-        let mut letters = word.chars();
-        letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>()).unwrap_or_default()
-    };
-    name.split('_').map(word).collect()
-}
 /// The name of a struct.
 #[must_use]
 pub fn struct_name(name: &str) -> String {

@@ -2,7 +2,8 @@
 
 use crate::list::{Technique, TechniqueVisitor, WarpTechnique, WarpVisitor, every_technique, every_warp};
 use crate::module::Module;
-use crate::record::{add_calls, add_technique, add_warp, snake};
+use crate::names::snake;
+use crate::record::{add_calls, add_technique, add_warp};
 use crate::tools::{add_tool, tools};
 use crate::wanted::Wanted;
 
