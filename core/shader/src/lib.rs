@@ -42,6 +42,12 @@
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
 //! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that: they are not here.
 //!
+//! # Size
+//! Of the functions of lights, 136 of 145 have at most 1.3 operations for each instruction of the scalar Rust routine (x86-64-v3, all that it
+//! calls counted once). The others are functions of parallelograms by projected solid angle (1.64) and of polygons of eight corners (up to
+//! 4.4): functions that Rust calls, and loops over corners, are written out for each triangle.
+//! `cargo test --release -p etendue-shader --test sizes -- --ignored --nocapture` prints them all, with the instructions of C.
+//!
 //! # Which bits
 //! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; a test compares them for
 //! every function. The shading languages promise less: the beginning of each file says what.
