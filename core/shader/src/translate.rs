@@ -15,7 +15,7 @@ pub enum Target {
     Hlsl,
     /// The Metal shading language, 2.1 and later.
     Msl,
-    /// SPIR-V 1.3, in binary words.
+    /// SPIR-V 1.3, in binary words, with the names of functions.
     SpirV,
 }
 
@@ -53,7 +53,10 @@ impl<'a> Checked<'a> {
                 Ok(text.map_err(|error| error.to_string())?.0.into_bytes())
             }
             Target::SpirV => {
-                let words = spv::write_vec(&self.module, &self.info, &spv::Options::default(), None);
+                // the names of functions are all that tells which is which, as a library has no entry points
+                let flags = spv::WriterFlags::DEBUG;
+                let options = spv::Options { lang_version: (1, 3), flags, ..spv::Options::default() };
+                let words = spv::write_vec(&self.module, &self.info, &options, None);
                 let words = words.map_err(|error| error.to_string())?;
                 Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
             }

@@ -25,6 +25,9 @@ fn all_languages_have_all_functions() {
         if language == Language::SpirV {
             // the magic number, and a whole number of words
             assert!(bytes.starts_with(&0x0723_0203_u32.to_le_bytes()) && bytes.len().is_multiple_of(4));
+            let text = String::from_utf8_lossy(&bytes);
+            let named = module.functions.iter().filter(|function| text.contains(&function_name(&function.name)));
+            assert_eq!(named.count(), module.functions.len());
             continue;
         }
         let text = String::from_utf8(bytes).unwrap();
