@@ -316,6 +316,13 @@ impl TechniqueVisitor for Lights<'_> {
         }
         let found = driver.run(&format!("{}_{name}", self.test), self.flags, &inputs);
         compare(&name, &inputs, &right, &found);
+        if self.wanted.fields == [SampleField::Direction, SampleField::Pdf].into() {
+            // of finite numbers, however hostile, no density is negative or no number
+            let finite = |input: &[f32]| input.iter().all(|x| x.is_finite());
+            for (input, right) in inputs.iter().zip(&right).filter(|(input, _)| finite(input)) {
+                assert!(right[3..].iter().all(|pdf| *pdf >= 0.0), "{name}: {right:?} for {input:?}");
+            }
+        }
         self.numbers += right[0].len();
     }
 }
