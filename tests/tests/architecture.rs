@@ -267,7 +267,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 17] = [
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
     ("core/python", &["etendue", "etendue-batch"], &[]),
-    ("core/shader", &["etendue"], &["etendue-properties"]),
+    ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),
     ("render", &["etendue"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render"], &["etendue-oracle"]),
