@@ -193,14 +193,15 @@ impl TechniqueVisitor for Lights<'_> {
     }
 }
 
-/// With few cases, all but those that consist of several triangles by projected solid angle, written out: their C takes seconds to compile.
+/// With few cases, all but those that are several triangles written out: their C takes seconds to compile.
 #[test]
 fn lights_have_the_same_bits() {
     let is_large = |entry: &Entry, _| {
-        entry.by == "projected_solid_angle" && ["Rectangle", "Parallelogram", "Polygon"].contains(&entry.light)
+        let several = ["Parallelogram", "Rectangle"].contains(&entry.light);
+        entry.light == "Polygon" || several && entry.by == "projected_solid_angle"
     };
     let lights = Lights::compare(Wanted::default(), cases(&["-O0"], &["-O2"]), "lights", is_large);
-    assert!(lights.compared >= cases(26, 29) && lights.numbers > lights.compared * 20, "{} numbers", lights.numbers);
+    assert!(lights.compared >= cases(24, 29) && lights.numbers > lights.compared * 20, "{} numbers", lights.numbers);
 }
 
 /// A sampler of which only direction and pdf are used carries no more.
@@ -208,7 +209,7 @@ fn lights_have_the_same_bits() {
 fn fewer_fields_have_the_same_bits() {
     let wanted =
         Wanted { parts: [Part::Sample, Part::Pdf].into(), fields: [SampleField::Direction, SampleField::Pdf].into() };
-    let lights = Lights::compare(wanted, cases(&["-O0"], &["-O1"]), "fewer", |_, kind| kind % 4 != 1);
-    assert!(lights.compared >= cases(7, 29));
+    let lights = Lights::compare(wanted, cases(&["-O0"], &["-O1"]), "fewer", |_, kind| kind % 5 != 1);
+    assert!(lights.compared >= cases(6, 29));
     assert_eq!(lights.numbers, lights.compared * 6);
 }
