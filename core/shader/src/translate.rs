@@ -19,6 +19,9 @@ pub enum Target {
     SpirV,
 }
 
+/// Whether the translator adds a counter to loops that may not end: all of them end by themselves.
+const BOUNDS_LOOPS: bool = false;
+
 /// A module of WGSL that has been checked.
 #[derive(Debug)]
 pub struct Checked<'a> {
@@ -48,14 +51,16 @@ impl<'a> Checked<'a> {
             Target::GlslEs => self.glsl(glsl::Version::Embedded { version: 300, is_webgl: true }),
             Target::Hlsl => self.hlsl(),
             Target::Msl => {
-                let options = msl::Options { lang_version: (2, 1), ..msl::Options::default() };
+                let (lang_version, force_loop_bounding) = ((2, 1), BOUNDS_LOOPS);
+                let options = msl::Options { lang_version, force_loop_bounding, ..msl::Options::default() };
                 let text = msl::write_string(&self.module, &self.info, &options, &msl::PipelineOptions::default());
                 Ok(text.map_err(|error| error.to_string())?.0.into_bytes())
             }
             Target::SpirV => {
                 // the names of functions are all that tells which is which, as a library has no entry points
                 let flags = spv::WriterFlags::DEBUG;
-                let options = spv::Options { lang_version: (1, 3), flags, ..spv::Options::default() };
+                let (lang_version, force_loop_bounding) = ((1, 3), BOUNDS_LOOPS);
+                let options = spv::Options { lang_version, flags, force_loop_bounding, ..spv::Options::default() };
                 let words = spv::write_vec(&self.module, &self.info, &options, None);
                 let words = words.map_err(|error| error.to_string())?;
                 Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
@@ -63,7 +68,8 @@ impl<'a> Checked<'a> {
         }
     }
     fn hlsl(&self) -> Result<Vec<u8>, String> {
-        let (options, pipeline) = (hlsl::Options::default(), hlsl::PipelineOptions::default());
+        let options = hlsl::Options { force_loop_bounding: BOUNDS_LOOPS, ..hlsl::Options::default() };
+        let pipeline = hlsl::PipelineOptions::default();
         let mut text = String::new();
         let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);
         writer.write(&self.module, &self.info, None).map_err(|error| error.to_string())?;
