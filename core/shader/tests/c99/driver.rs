@@ -108,22 +108,47 @@ impl<'a> Driver<'a> {
             self.outputs += 1;
         }
     }
-    /// Compiles the source with a program that maps the numbers of its input to those of its output, and runs it.
+    /// Compiles the source in C with a program that maps the numbers of its input to those of its output, and runs it.
     pub(crate) fn run(&self, name: &str, flags: &[&str], inputs: &[Vec<f32>]) -> Vec<Vec<f32>> {
+        let mut compile = Command::new(std::env::var("CC").unwrap_or_else(|_| "cc".into()));
+        compile.args(["-std=c99", "-Wall", "-Wextra", "-Werror"]).args(flags);
+        self.run_source(name, "c", &print(self.module, &C, "Made by a test."), compile, inputs)
+    }
+    /// The same of the source in the Metal shading language, which is C++ with another standard library.
+    pub(crate) fn run_metal(&self, name: &str, inputs: &[Vec<f32>]) -> Vec<Vec<f32>> {
+        let text = String::from_utf8(Language::Msl.write(self.module, "Made by a test.").unwrap()).unwrap();
+        let includes = "#include <metal_stdlib>\n#include <simd/simd.h>\n";
+        assert!(text.contains(includes), "{name}: other includes");
+        let mut compile = Command::new(std::env::var("CXX").unwrap_or_else(|_| "c++".into()));
+        compile.args(["-std=c++14", "-O1"]);
+        self.run_source(
+            name,
+            "cpp",
+            &with_single_constants(&text.replace(includes, include_str!("metal.hpp"))),
+            compile,
+            inputs,
+        )
+    }
+    fn run_source(
+        &self,
+        name: &str,
+        ending: &str,
+        text: &str,
+        mut compile: Command,
+        inputs: &[Vec<f32>],
+    ) -> Vec<Vec<f32>> {
         let folder = folder(name);
-        fs::write(folder.join("etendue.h"), print(self.module, &C, "Made by a test.")).unwrap();
+        fs::write(folder.join("etendue.h"), text).unwrap();
         let program = format!(
             "#include \"etendue.h\"\n#include <stdio.h>\nstatic void run(const float *in, float *out) {{\n{}}}\nint main(void) {{\n    \
              static float in[{}], out[{}];\n    while (fread(in, sizeof in, 1, stdin) == 1) {{\n        run(in, out);\n        \
              fwrite(out, sizeof out, 1, stdout);\n    }}\n    return 0;\n}}\n",
             self.text, self.inputs, self.outputs
         );
-        let [source, binary] = ["main.c", "main"].map(|file| folder.join(file));
+        let [source, binary] = [&format!("main.{ending}"), "main"].map(|file| folder.join(file));
         fs::write(&source, program).unwrap();
-        let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".into());
-        let mut compile = Command::new(&compiler);
-        compile.args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off"]).args(flags);
-        let compiled = compile.arg("-o").arg(&binary).arg(&source).arg("-lm").output().expect("a C compiler");
+        compile.args(["-ffp-contract=off", "-o"]).arg(&binary).arg(&source).arg("-lm");
+        let compiled = compile.output().expect("a compiler of C and C++");
         assert!(compiled.status.success(), "{name}: {}", String::from_utf8_lossy(&compiled.stderr));
         let mut child = Command::new(&binary).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
         let bytes: Vec<u8> = inputs.iter().flatten().flat_map(|x| x.to_ne_bytes()).collect();
@@ -139,6 +164,28 @@ impl<'a> Driver<'a> {
     }
 }
 
+/// Text of Metal with `f` after each constant: what is a number of single precision there is one of double precision in C++.
+fn with_single_constants(text: &str) -> String {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
+    let (mut all, mut rest) = (String::new(), text);
+    while let Some(begin) = rest.find(is_word) {
+        let (before, word) = rest.split_at(begin);
+        let mut end = word.find(|c| !is_word(c)).unwrap_or(word.len());
+        let is_number = word.starts_with(|c: char| c.is_ascii_digit()) && !word.starts_with("0x");
+        if is_number && word[..end].ends_with('e') {
+            // the exponent is negative
+            end += 1 + word[end + 1..].find(|c| !is_word(c)).unwrap_or(word.len() - end - 1);
+        }
+        all += before;
+        all += &word[..end];
+        if is_number && word[..end].contains(['.', 'e']) && !word[..end].ends_with('f') {
+            all.push('f');
+        }
+        rest = &word[end..];
+    }
+    all + rest
+}
+
 /// Compares all bits; those of NaN say nothing, so that all are one.
 pub(crate) fn compare(name: &str, inputs: &[Vec<f32>], right: &[Vec<f32>], found: &[Vec<f32>]) {
     let bits = |x: f32| if x.is_nan() { f32::NAN.to_bits() } else { x.to_bits() };
@@ -148,7 +195,7 @@ pub(crate) fn compare(name: &str, inputs: &[Vec<f32>], right: &[Vec<f32>], found
         for (k, (x, y)) in right.iter().zip(found).enumerate() {
             assert!(
                 bits(*x) == bits(*y),
-                "{name}: output {k} is {y:e} in C and {x:e} in Rust, for {input:?}\n{right:?}\n{found:?}"
+                "{name}: output {k} is {y:e} in the source and {x:e} in Rust, for {input:?}\n{right:?}\n{found:?}"
             );
         }
     }

@@ -1,4 +1,4 @@
-//! Each operation by itself: in C with its bits, in WGSL by its text.
+//! Each operation by itself: its bits in C, and in Metal, which is made of WGSL; and how WGSL writes it.
 
 use crate::driver::{Driver, HOSTILE, compare};
 use etendue::{Mask, Real, Uint};
@@ -217,28 +217,25 @@ fn module() -> Module {
     };
     let mut functions = Vec::new();
     for (k, op) in operations().into_iter().enumerate() {
-        functions.push(function(format!("operation_{k}"), &|of| operation(op, of).0));
+        functions.push(function(format!("operation_{k}_of"), &|of| operation(op, of).0));
     }
     let (count, _) = record(|| together(&Arguments::inputs()).len());
     for k in 0..count {
-        functions.push(function(format!("together_{k}"), &|of| Value::Several(together(of).swap_remove(k))));
+        functions.push(function(format!("together_{k}_of"), &|of| Value::Several(together(of).swap_remove(k))));
     }
     let mut module = Module { structs: Vec::new(), functions };
     add_calls(&mut module);
     module
 }
 
-#[test]
-fn operations_have_the_same_bits() {
-    let module = module();
-    let mut driver = Driver::new(&module);
+/// Programs that call each function of the module, the arguments, and the right numbers.
+fn prepared(module: &Module) -> (Driver<'_>, Vec<Vec<f32>>, Vec<Vec<f32>>) {
+    let mut driver = Driver::new(module);
     for (name, leaf) in NAMES {
         driver.take(Type::Leaf(leaf), name);
     }
     let names: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-    let own =
-        module.functions.iter().filter(|of| of.name.starts_with("operation_") || of.name.starts_with("together_"));
-    for function in own {
+    for function in module.functions.iter().filter(|function| function.name.ends_with("_of")) {
         driver.output(&function.name, &names, &function.name);
     }
     let mut random = Random::new(4000);
@@ -257,18 +254,46 @@ fn operations_have_the_same_bits() {
         let each = operations().into_iter().flat_map(|op| operation(op, &of).0.numbers());
         each.chain(together(&of).into_iter().flatten()).collect()
     });
-    let right: Vec<Vec<f32>> = right.collect();
+    let right = right.collect();
+    (driver, inputs, right)
+}
+
+#[test]
+fn operations_have_the_same_bits() {
+    let module = module();
+    let (driver, inputs, right) = prepared(&module);
     let found = driver.run("operations", &["-O1"], &inputs);
     compare("operations", &inputs, &right, &found);
 }
 
-/// No WGSL runs here, so that its text counts.
+/// WGSL promises the conversion to words in [0, 2^24] alone; all else has the same bits.
+#[test]
+fn operations_have_the_same_bits_in_metal() {
+    let module = module();
+    let (driver, inputs, mut right) = prepared(&module);
+    let mut found = driver.run_metal("operations_metal", &inputs);
+    let converts = |op: &Op| matches!(op, Op::ToWord | Op::InverseCbrtEstimate | Op::Call(Call::Cbrt));
+    let defined = operations().into_iter().flat_map(|op| {
+        let count = operation(op, &Arguments::<f32>::of(&[0.0; 7])).0.numbers().len();
+        vec![!converts(&op); count]
+    });
+    let defined: Vec<bool> = defined.collect();
+    let in_domain = |input: &[f32]| (f32::MIN_POSITIVE..16_777_216.0).contains(&input[0]);
+    for k in (0..inputs.len()).filter(|&k| !in_domain(&inputs[k])) {
+        for place in (0..defined.len()).filter(|&place| !defined[place]) {
+            (right[k][place], found[k][place]) = (0.0, 0.0);
+        }
+    }
+    assert!(inputs.iter().filter(|input| in_domain(input)).count() > 1000);
+    compare("operations in Metal", &inputs, &right, &found);
+}
+
 #[test]
 fn operations_are_written_in_wgsl() {
     let text = print(&module(), &Wgsl, "Written by a test.");
     Checked::new(&text).unwrap();
     for (k, op) in operations().into_iter().enumerate() {
-        let (_, body) = text.split_once(&format!("fn etendue_operation_{k}(")).unwrap();
+        let (_, body) = text.split_once(&format!("fn etendue_operation_{k}_of(")).unwrap();
         let (body, _) = body.split_once("\n}\n").unwrap();
         let (_, right) = operation(op, &Arguments::<f32>::of(&[0.0; 7]));
         let wanted = [format!(" = {right};"), format!("return {right};"), format!("    {right}")];
