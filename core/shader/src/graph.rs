@@ -59,12 +59,15 @@ impl Graph {
             _ => node.operands(),
         }
     }
-    /// The loop of a node.
+    /// The loop that a node is, if it is one.
     #[must_use]
     pub fn as_loop(&self, id: Id) -> Option<&Loop> {
         if let Op::Loop(index) = self.node(id).op { Some(&self.loops[index as usize]) } else { None }
     }
     /// Begins to record a loop, and returns its variables: numbers, then masks.
+    ///
+    /// # Panics
+    /// Inside of another loop.
     pub fn begin_loop(&mut self, numbers: usize, masks: usize) -> Vec<Id> {
         assert!(self.open.is_none(), "a loop inside of a loop cannot be recorded");
         self.open = Some(self.nodes.len());
@@ -74,7 +77,11 @@ impl Graph {
             .map(|k| self.place(Node::new(Op::LoopVariable(kind(k), index, k as u32), &[]), kind(k)))
             .collect()
     }
-    /// Ends it, and returns what the variables are after it, given their first and next values.
+    /// Ends the loop that was begun, which repeats at most `most` times while any of its masks is true. Returns what its variables are after
+    /// it, given their first and next values.
+    ///
+    /// # Panics
+    /// Outside of a loop.
     pub fn end_loop(&mut self, most: usize, variables: Vec<Id>, masks: usize, first: &[Id], next: Vec<Id>) -> Vec<Id> {
         let begin = self.open.take().expect("a loop ends that has begun");
         let mut varies: HashSet<Id> = variables.iter().copied().collect();
@@ -126,11 +133,11 @@ impl Graph {
     pub fn word(&self, id: Id) -> Option<u32> {
         if let Op::Word(value) = self.node(id).op { Some(value) } else { None }
     }
-    /// Adds a constant.
+    /// Adds a constant number.
     pub fn real(&mut self, value: f32) -> Id {
         self.place(Node::new(Op::Real(value.to_bits()), &[]), Kind::Real)
     }
-    /// Adds an input.
+    /// Adds an input, by its index among those of the routine.
     pub fn input(&mut self, kind: Kind, index: u32) -> Id {
         self.place(Node::new(Op::Input(kind, index), &[]), kind)
     }
@@ -139,7 +146,7 @@ impl Graph {
         let condition = self.condition(mask, holds);
         self.tested.insert(condition);
     }
-    /// The condition without `not`.
+    /// That a truth value is so, as a condition on a node that is no `not`.
     #[must_use]
     pub fn condition(&self, mut mask: Id, mut holds: bool) -> Condition {
         while self.node(mask).op == Op::Not {
@@ -247,11 +254,11 @@ impl Graph {
         };
         Some(self.add_word(value))
     }
-    /// Adds a constant.
+    /// Adds a constant truth value.
     pub fn add_truth(&mut self, value: bool) -> Id {
         self.place(Node::new(Op::Truth(value), &[]), Kind::Truth)
     }
-    /// Adds a constant.
+    /// Adds a constant word.
     pub fn add_word(&mut self, value: u32) -> Id {
         self.place(Node::new(Op::Word(value), &[]), Kind::Word)
     }

@@ -63,7 +63,7 @@ impl Language {
     /// The module in this language. `how` is a sentence about how the file was made.
     ///
     /// # Errors
-    /// What the language does not have, in the words of the translator.
+    /// If the module needs what the language does not have: what that is, in the words of the translator.
     pub fn write(self, module: &Module, how: &str) -> Result<Vec<u8>, String> {
         let target = match self {
             // one dialect

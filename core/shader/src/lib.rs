@@ -1,4 +1,4 @@
-//! Light sampling in shading languages and in C: sources that the routines of [`etendue`] write of themselves.
+//! Light sampling in shading languages and in C: sources written from the routines of [`etendue`].
 //!
 //! Every routine of the core is written once over the trait [`Real`](etendue::Real). [`Number`] implements that trait by recording what is
 //! computed: a routine that runs on it leaves a [`Graph`] of its operations, and [`Language::write`] prints this in a language. There is no
@@ -30,7 +30,7 @@
 //! [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
 //! no function uses, none that is constant, and none twice.
 //!
-//! Equal operations are there once. A value that is used more than once is a variable, the others are parts of expressions. Constants are
+//! Equal operations appear once. A value that is used more than once is a variable, the others are parts of expressions. Constants are
 //! decimal numbers that every compiler reads as the same bits.
 //!
 //! # Branches
@@ -40,7 +40,7 @@
 //! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
-//! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that: they are not here.
+//! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that, so they are not here.
 //!
 //! # Size
 //! Of the functions of lights, 136 of 145 have at most 1.3 operations for each instruction of the scalar Rust routine (x86-64-v3, all that it
@@ -49,8 +49,9 @@
 //! `cargo test --release -p etendue-shader --test sizes -- --ignored --nocapture` prints them all, with the instructions of C.
 //!
 //! # Which bits
-//! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; a test compares them for
-//! every function. The shading languages promise less: the beginning of each file says what. None of them forbids a driver to contract a
+//! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; tests compare them for
+//! every function (with `LONG=1`; otherwise for most). The shading languages promise less: the beginning of each file says what. In Metal, read
+//! as C++ with another standard library, each operation has the same bits, too. None of them forbids a driver to contract a
 //! product and a sum, and SPIR-V has no decoration against it here.
 mod errors;
 mod graph;

@@ -3,7 +3,7 @@
 use crate::graph::{Call, Graph, Id, Op};
 use std::collections::BTreeSet;
 
-/// A type without fields of its own.
+/// A type that is no struct of the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leaf {
     /// A number.
@@ -19,7 +19,10 @@ pub enum Leaf {
 }
 
 impl Leaf {
-    /// The type of so many numbers.
+    /// The type of this many numbers.
+    ///
+    /// # Panics
+    /// Unless these are 1, 2 or 3.
     #[must_use]
     pub fn of_numbers(count: usize) -> Self {
         match count {
@@ -148,7 +151,10 @@ pub struct Module {
 }
 
 impl Module {
-    /// Adds a struct, unless it is there.
+    /// Adds a struct, unless it is there, and returns its index.
+    ///
+    /// # Panics
+    /// If another struct has its name.
     pub fn add_struct(&mut self, new: Struct) -> usize {
         if let Some(known) = self.structs.iter().position(|known| known.name == new.name) {
             assert_eq!(self.structs[known], new, "two structs of one name");

@@ -20,7 +20,7 @@ pub enum Step {
     Assign(Id),
     /// A new variable for a node that selects: at first what it is without the branch below, the value of a node or `false`.
     Default(Id, Option<Id>),
-    /// It gets the value of another node, which the branch computes.
+    /// The variable of a [`Step::Default`] gets the value of another node, which the branch computes.
     Choose(Id, Id),
     /// A branch.
     If(Condition, Vec<Step>),

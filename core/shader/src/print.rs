@@ -29,7 +29,7 @@ pub fn function_name(name: &str) -> String {
     format!("etendue_{name}")
 }
 
-/// A module in a language. `how` says how the file was made.
+/// A module in a language. `how` is a sentence about how the file was made.
 pub fn print(module: &Module, language: &impl Dialect, how: &str) -> String {
     let mut text = language.begin(how);
     for of in &module.structs {

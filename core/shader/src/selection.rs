@@ -1,4 +1,4 @@
-//! What a source shall contain, by names.
+//! Which lights, warps and tools a source has, by their names.
 
 use crate::list::{Technique, TechniqueVisitor, WarpTechnique, WarpVisitor, every_technique, every_warp};
 use crate::module::Module;

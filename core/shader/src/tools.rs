@@ -135,6 +135,9 @@ fn body(name: &str, inputs: &mut Inputs) -> (&'static str, Leaf, Vec<Id>) {
 }
 
 /// Adds one of the [`tools`].
+///
+/// # Panics
+/// If it is none of them.
 pub fn add_tool(module: &mut Module, name: &str) {
     let ((inputs, (doc, result, outputs)), graph) = record(|| {
         let mut inputs = Inputs::default();

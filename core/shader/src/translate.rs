@@ -34,7 +34,7 @@ impl<'a> Checked<'a> {
     /// Reads WGSL and checks it.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// If it is not valid: what is wrong, with the line.
     pub fn new(wgsl: &'a str) -> Result<Self, String> {
         let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| error.emit_to_string(wgsl))?;
         let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
@@ -44,7 +44,7 @@ impl<'a> Checked<'a> {
     /// The module in another language.
     ///
     /// # Errors
-    /// What the language does not have.
+    /// If the module needs what the language does not have: what that is.
     pub fn translate(&self, target: Target) -> Result<Vec<u8>, String> {
         match target {
             Target::Glsl => self.glsl(glsl::Version::Desktop(450)),

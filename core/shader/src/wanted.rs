@@ -1,4 +1,4 @@
-//! What a source shall contain.
+//! Which functions and fields a source has.
 
 use crate::module::Leaf;
 use std::collections::BTreeSet;

@@ -38,7 +38,7 @@ pub enum Call {
 }
 
 impl Call {
-    /// Its outputs for constants, of which a single one is there twice.
+    /// Its outputs for constants; a single one is repeated.
     pub(super) fn evaluate(self, of: &[f32]) -> [f32; 2] {
         let pair = |(sin, cos)| [sin, cos];
         match self {
@@ -50,7 +50,7 @@ impl Call {
             Self::Cbrt => [Real::cbrt(of[0]); 2],
         }
     }
-    /// Its name.
+    /// Its name in sources, after `etendue_`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -73,11 +73,11 @@ impl Call {
 /// An operation. Its operands are in its [`Node`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Op {
-    /// A constant, by its bits.
+    /// A constant number, by its bits.
     Real(u32),
-    /// A constant.
+    /// A constant truth value.
     Truth(bool),
-    /// A constant.
+    /// A constant word.
     Word(u32),
     /// A number that the routine is given: its index among them.
     Input(Kind, u32),

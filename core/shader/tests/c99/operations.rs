@@ -62,7 +62,7 @@ impl Value<f32> {
     }
 }
 
-/// The sum of the odd numbers below twice the count, and that of the numbers below it: no step is like another.
+/// Adds one odd number after another, so that no step is like another, and returns the sum and the next one.
 fn squares<R: Real>(of: &Arguments<R>, count: usize) -> [R; 2] {
     let step = |[sum, odd]: [R; 2], [p, q]: [R::Mask; 2]| {
         let going = p | q;
@@ -116,7 +116,10 @@ fn operation<R: Real>(op: Op, of: &Arguments<R>) -> (Value<R>, &'static str) {
         Op::WordReverse => (word(k.reverse_bits()), "reverseBits(k)"),
         Op::WordLess => (word(Uint::lt(k, m)), "etendue_word_less(k, m)"),
         // asks for a branch alone: both sides are recorded, and no value depends on it
-        Op::WordAny => (real(if (k & m).any() { a } else { a }), "a"),
+        Op::WordAny => {
+            let _ = (k & m).any();
+            (real(a), "a")
+        }
         Op::Call(Call::SinCosTurns) | Op::Part(0) => (real(a.sin_cos_turns().0), "v1.x"),
         Op::Call(Call::SinCosQuarters) | Op::Part(_) => (real(a.sin_cos_quarters().1), "v1.y"),
         Op::Call(Call::Acos) => (real(a.acos()), "etendue_acos(a)"),
@@ -143,7 +146,7 @@ fn operations() -> Vec<Op> {
 /// expressions inside of expressions.
 fn together<R: Real>(of: &Arguments<R>) -> Vec<Vec<R>> {
     let ([a, b, c], [k, m], [p, q]) = (of.x, of.k, of.p);
-    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let (zero, one, same) = (R::lit(0.0), R::lit(1.0), a);
     let truth = |mask: R::Mask| R::blend(mask, one, zero);
     let mut all = vec![
         // operands in the other order
@@ -168,7 +171,7 @@ fn together<R: Real>(of: &Arguments<R>) -> Vec<Vec<R>> {
         vec![one.mul_add(b, c), -(-a), (-a).abs()],
         vec![a + -b, -a + b, -a + -b],
         vec![a - -b, -(a - b), b - a],
-        vec![a - a, a / a, -a - b],
+        vec![a - same, a / same, -a - b],
         vec![a.lesser(a), a.greater(zero), zero.greater(a)],
         vec![a.lesser(zero), zero.lesser(a), a.copysign(-zero)],
         // parts of expressions
