@@ -49,10 +49,10 @@
 //! `cargo test --release -p etendue-shader --test sizes -- --ignored --nocapture` prints them all, with the instructions of C.
 //!
 //! # Which bits
-//! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; tests compare them for
-//! every function (with `LONG=1`; otherwise for most). The shading languages promise less: the beginning of each file says what. In Metal, read
-//! as C++ with another standard library, each operation has the same bits, too. None of them forbids a driver to contract a
-//! product and a sum, and SPIR-V has no decoration against it here.
+//! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; tests compare those of C for
+//! every function (with `LONG=1`; otherwise for most). The shading languages promise less: the beginning of each file says what. Read as
+//! C++ with another standard library, each operation in Metal has the same bits, but for conversions to words outside of [0, 2²⁴]. No
+//! shading language forbids a driver to contract a product and a sum, and SPIR-V has no decoration against it here.
 mod errors;
 mod graph;
 mod language;

@@ -269,7 +269,7 @@ fn operations_have_the_same_bits() {
     compare("operations", &inputs, &right, &found);
 }
 
-/// WGSL promises the conversion to words in [0, 2^24] alone; all else has the same bits.
+/// WGSL promises the conversion to words in [0, 2²⁴] alone, so that what converts is compared for normal numbers of this range.
 #[test]
 fn operations_have_the_same_bits_in_metal() {
     let module = module();
