@@ -174,6 +174,49 @@ pub trait Real:
     /// The integer part of reals in [0, 2²⁴].
     fn to_uint(self) -> Self::Uint;
 
+    /// What `some` computes if the mask is true in any lane, else `none`: a branch around a path that few calls need. Only the lanes where the
+    /// mask is true count in a packet; number types that write sources choose in each lane.
+    #[inline(always)]
+    fn where_any<const N: usize>(mask: Self::Mask, none: [Self; N], some: impl FnOnce() -> [Self; N]) -> [Self; N] {
+        if mask.any() { some() } else { none }
+    }
+    /// Calls `step` while any of the masks is true in any lane, at most `most` times: it gets the numbers and the masks, and returns the next
+    /// ones. Lanes that are done must keep their numbers, so that they do not depend on their neighbours. Number types that write sources
+    /// make a loop of it; everything else in a routine is a sequence of operations.
+    ///
+    /// ```
+    /// use etendue::{Mask, Real, f32x4};
+    /// /// Square root of a number ≥ 1 by Newton's method, from above.
+    /// fn root<R: Real>(x: R) -> R {
+    ///     let step = |[y]: [R; 1], [going]: [R::Mask; 1]| {
+    ///         let next = (y + x / y) * R::lit(0.5);
+    ///         ([R::blend(going, next, y)], [going & next.lt(y)])
+    ///     };
+    ///     R::iterate(20, [x], [R::Mask::splat(true)], step)[0]
+    /// }
+    /// let roots = root(f32x4::from([1.0, 4.0, 2.0, 9e8]));
+    /// assert_eq!(roots.to_array(), [1.0_f32, 4.0, 2.0, 9e8].map(root)); // no lane depends on its neighbours
+    /// assert!((roots.lane(2) - 2.0_f32.sqrt()).abs() < 1e-6 && roots.lane(3) == 3e4);
+    /// ```
+    #[inline(always)]
+    fn iterate<const N: usize, const M: usize>(
+        most: usize,
+        mut numbers: [Self; N],
+        mut going: [Self::Mask; M],
+        mut step: impl FnMut([Self; N], [Self::Mask; M]) -> ([Self; N], [Self::Mask; M]),
+    ) -> [Self; N] {
+        if !going.into_iter().any(Mask::any) {
+            return numbers;
+        }
+        for _ in 0..most {
+            (numbers, going) = step(numbers, going);
+            if !going.into_iter().any(Mask::any) {
+                break;
+            }
+        }
+        numbers
+    }
+
     /// (sin 2πu, cos 2πu) for u = `self`; see [`math`](crate::math) for the errors of this function and of those below. Provided: the
     /// polynomials of single precision.
     #[inline(always)]

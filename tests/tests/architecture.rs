@@ -176,8 +176,9 @@ const EXCEPTIONS: [(&str, &str, &str, &str); 2] = [
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
-const PACKAGES: [(&str, bool); 8] = [
+const PACKAGES: [(&str, bool); 9] = [
     ("core", false),
+    ("core/shader", true),
     ("render", true),
     ("render/laboratory", true),
     ("render/cli", true),
@@ -228,6 +229,7 @@ fn modules_import_one_way() {
 fn imports_are_found() {
     for (package, level, from, to) in [
         ("core", "core", "light", "spherical"),
+        ("core/shader", "core/shader", "plan", "graph"),
         ("render", "render", "integrator", "lights"),
         ("render", "render", "scene", "image"),
         ("render", "render::bvh", "stream", "single_ray"),
@@ -260,11 +262,12 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 16] = [
+const ARROWS: [(&str, &[&str], &[&str]); 17] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
     ("core/python", &["etendue", "etendue-batch"], &[]),
+    ("core/shader", &["etendue"], &["etendue-oracle", "etendue-properties"]),
     ("render", &["etendue"], &["etendue-oracle"]),
     ("render/laboratory", &["etendue", "etendue-oracle", "etendue-render"], &["etendue-properties"]),
     ("render/cli", &["etendue-laboratory", "etendue-render"], &["etendue-oracle"]),

@@ -43,15 +43,27 @@ pub(super) fn hash4<U: Uint>(v: [U; 4]) -> [U; 4] {
 /// - Values: multiples of 2⁻²⁴ in [0, 1 − 2⁻²⁴], the same at every precision and width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Independent {
-    seed: u32,
+    pub(super) seed: u32,
 }
 
 impl Independent {
     /// A stream; those of different seeds are independent. All 64 bits of the seed count.
     #[must_use]
     pub fn new(seed: u64) -> Self {
-        let [x, y, ..] = hash4([seed as u32, (seed >> 32) as u32, 0x4574_656e, 0x6475_6500]);
-        Self { seed: x ^ y.rotate_left(16) }
+        Self { seed: Self::key(seed as u32, (seed >> 32) as u32) }
+    }
+    /// What is kept of a seed, of which `low` and `high` are the halves.
+    #[doc(hidden)]
+    #[inline]
+    pub fn key<U: Uint>(low: U, high: U) -> U {
+        let [x, y, ..] = hash4([low, high, U::splat(0x4574_656e), U::splat(0x6475_6500)]);
+        x ^ (y.shl(16) | y.shr(16))
+    }
+    /// Numbers of two pairs, with a key of its own for each lane.
+    #[doc(hidden)]
+    #[inline]
+    pub fn numbers<R: Real>(pixel: R::Uint, sample: R::Uint, block: R::Uint, key: R::Uint) -> [R; 4] {
+        hash4([pixel, sample, block, key]).map(R::unit)
     }
     /// The four hashed words of a counter.
     #[inline]
@@ -61,7 +73,7 @@ impl Independent {
     /// The pairs `2·block` and `2·block + 1`, for the cost of one.
     #[inline]
     pub fn two_pairs<R: Real>(&self, pixel: R::Uint, sample: R::Uint, block: u32) -> [Vec2<R>; 2] {
-        let [x, y, z, w] = self.words(pixel, sample, block).map(R::unit);
+        let [x, y, z, w] = Self::numbers(pixel, sample, R::Uint::splat(block), R::Uint::splat(self.seed));
         [Vec2::new(x, y), Vec2::new(z, w)]
     }
 }

@@ -98,14 +98,20 @@ impl OwenSobol {
     pub fn new(seed: u64) -> Self {
         Self { random: Independent::new(seed) }
     }
+    /// A pair, with a dimension and a key of its own for each lane.
+    #[doc(hidden)]
+    #[inline]
+    pub fn pair_by<R: Real>(pixel: R::Uint, sample: R::Uint, dimension: R::Uint, key: R::Uint) -> Vec2<R> {
+        let [shuffle, first, second, _] = hash4([pixel, R::Uint::splat(0x4f57_454e), dimension, key]);
+        let index = scramble(sample.reverse_bits(), shuffle).reverse_bits();
+        net(index, [first, second])
+    }
 }
 
 impl Sequence for OwenSobol {
     #[inline]
     fn pair<R: Real>(&self, pixel: R::Uint, sample: R::Uint, dimension: u32) -> Vec2<R> {
-        let [shuffle, first, second, _] = self.random.words(pixel, R::Uint::splat(0x4f57_454e), dimension);
-        let index = scramble(sample.reverse_bits(), shuffle).reverse_bits();
-        net(index, [first, second])
+        Self::pair_by(pixel, sample, R::Uint::splat(dimension), R::Uint::splat(self.random.seed))
     }
 }
 

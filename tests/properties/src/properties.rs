@@ -9,6 +9,7 @@ use crate::tolerances::{self, Tolerance, ULP, ULP_F64};
 use core::fmt::Debug;
 use etendue::spherical::DirectionSample;
 use etendue::{Real, Vec2, Vec3, Warp, f32x4, f32x8};
+#[cfg(feature = "checks")]
 use etendue_oracle::tier::cases;
 use etendue_oracle::{Greatest, V3, cross, integrate, length, sub};
 

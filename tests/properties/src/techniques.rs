@@ -296,6 +296,14 @@ macro_rules! techniques {
             })+)+
             panic!("the core's list has no {shape:?} by {by:?}");
         }
+        /// The numbers of the light of a shape, in the order of its fields.
+        fn numbers(shape: LightShape, (v, radius): &([Vec3<f32>; 5], f32)) -> Vec<f32> {
+            let mut all = Vec::new();
+            $(if shape == shape!($light) {
+                $light::placed(v, *radius).map(|x| all.push(x));
+            })+
+            all
+        }
     };
 }
 etendue::techniques!(techniques! {});
@@ -373,6 +381,11 @@ impl AreaLight {
             vectors_of(|i| of(i).n),
         ];
         (vectors, lanes_of(|i| f64::from(of(i).radius)))
+    }
+    /// The numbers of the light itself, in the order of the fields of its type in the core.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f32> {
+        numbers(self.shape, &Self::vectors(&[*self]))
     }
     /// The point of a patch at surface coordinates, relative to the shading point.
     #[must_use]

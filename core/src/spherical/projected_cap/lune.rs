@@ -164,11 +164,10 @@ impl<R: Real> ProjectedCap<R> {
         let start = START.map(|[c0, c1, c2]| mean.mul_add(mean.mul_add(R::lit(c2), R::lit(c1)), R::lit(c0)));
         let series = root.mul_add(root.mul_add(root.mul_add(start[3], start[2]), start[1]), start[0]);
         // the thickest lune has 0.88 root² near its ends
-        let mut rest = (root * series).greater(half * root * root).lesser(one);
+        let rest = (root * series).greater(half * root * root).lesser(one);
         // a step cubes the error, so one below `enough` of the rest is the last
         let (steps, enough) = if double::<R>() { (7, 0.0) } else { (4, 1.0 / 128.0) };
-        let mut open = R::Mask::splat(true);
-        for _ in 0..steps {
+        let step = |[rest]: [R; 1], [open]: [R::Mask; 1]| {
             let slice = self.slice(rest);
             let mut off = slice.area - target;
             if (ends & open).any() {
@@ -180,12 +179,9 @@ impl<R: Real> ProjectedCap<R> {
             // a converged lane stays as it is, so that it does not depend on its neighbours
             let next = (rest + step).greater(R::lit(0.125) * rest).lesser(one);
             let moves = (next - rest).abs().gt(R::lit(enough) * next);
-            rest = R::blend(open, next, rest);
-            open = open & moves;
-            if !open.any() {
-                break;
-            }
-        }
+            ([R::blend(open, next, rest)], [open & moves])
+        };
+        let [rest] = R::iterate(steps, [rest], [R::Mask::splat(true)], step);
         rest
     }
 }

@@ -224,23 +224,25 @@ impl<R: Real> Sector<R> {
         let target = v * ratio(R::lit(2.0) * self.area, self.outer);
         let start = self.start(v);
         let narrow = self.narrow();
-        let mut x = self.near * start;
+        let x = self.near * start;
         // about the zenith, the area is proportional to θ
-        let mut theta = self.wide * R::blend(self.inner.gt(zero), start, v);
-        let mut bracket = [zero, self.wide];
-        let mut going = [x.gt(zero), theta.gt(zero) & self.inner.gt(zero)];
-        for _ in 0..24 {
-            let [tangent, angle] = going.map(Mask::any);
-            if tangent {
+        let theta = self.wide * R::blend(self.inner.gt(zero), start, v);
+        let going = [x.gt(zero), theta.gt(zero) & self.inner.gt(zero)];
+        let step = |[x, theta, low, high]: [R; 4], mut going: [R::Mask; 2]| {
+            let [tangent, angle] = going;
+            let [x] = R::where_any(tangent, [x], || {
+                let mut x = x;
                 self.step_tangent(&narrow, target, &mut x, &mut going[0]);
-            }
-            if angle {
+                [x]
+            });
+            let [theta, low, high] = R::where_any(angle, [theta, low, high], || {
+                let (mut theta, mut bracket) = (theta, [low, high]);
                 self.step_angle(target, &mut theta, &mut bracket, &mut going[1]);
-            }
-            if !(tangent | angle) {
-                break;
-            }
-        }
+                [theta, bracket[0], bracket[1]]
+            });
+            ([x, theta, low, high], going)
+        };
+        let [x, theta, ..] = R::iterate(24, [x, theta, zero, self.wide], going, step);
         let (mut s, mut c) = (zero, one);
         if small.any() {
             c = one / x.mul_add(x, one).sqrt();

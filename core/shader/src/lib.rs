@@ -1,0 +1,86 @@
+//! Light sampling in shading languages and in C: sources written from the routines of [`etendue`].
+//!
+//! Every routine of the core is written once over the trait [`Real`](etendue::Real). [`Number`] implements that trait by recording what is
+//! computed: a routine that runs on it leaves a [`Graph`] of its operations, and [`Language::write`] prints this in a language. There is no
+//! second body of any routine, and no second list: [`every_technique`] and [`every_warp`] go through those of the core.
+//!
+//! ```
+//! use etendue_shader::{Language, Selection};
+//! let selection = Selection { lights: vec!["sphere_by_solid_angle".into()], ..Selection::default() };
+//! let source = Language::C.write(&selection.module(), "Written by an example.").unwrap();
+//! let source = String::from_utf8(source).unwrap();
+//! assert!(source.contains("EtendueLightSample etendue_sphere_by_solid_angle_sample("));
+//! ```
+//!
+//! The program does the same: `etendue-shader --language cuda --lights triangle,sphere -o etendue.cuh`. Files for the most common lights are
+//! in the folder `sources`. In C, a sample takes two calls:
+//!
+//! ```c
+//! EtendueTriangle lamp = {{0, 2, 0}, {1, 0, 0}, {0, 0, 1}};
+//! EtendueVec3 p = {0, 0, 0};
+//! EtendueVec2 u = {0.3f, 0.6f};
+//! EtendueTriangleBySolidAngle prepared = etendue_triangle_by_solid_angle_prepare(lamp, p); // once for a shading point
+//! EtendueLightSample s = etendue_triangle_by_solid_angle_sample(prepared, u);              // as often as needed
+//! float irradiance = s.direction.y * s.weight;                                            // per unit of radiance
+//! ```
+//!
+//! # What is written
+//! For each light by each technique a struct of the light, a struct of what is prepared for a shading point, and the functions `prepare`,
+//! `sample`, `pdf`, `hit`, `invert`, and one for what the technique is uniform over; for each warp `sample`, `pdf` and `invert`.
+//! [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
+//! no function uses, none that is constant, and none twice.
+//!
+//! Equal operations appear once. A value that is used more than once is a variable, the others are parts of expressions. Constants are
+//! decimal numbers that every compiler reads as the same bits.
+//!
+//! # Branches
+//! In the core, `if mask.any()` marks a path that few calls need. A recorded mask is neither all true nor all false, as in a packet whose
+//! lanes differ, so that both sides are recorded, and the graph keeps the condition. [`plan`] then puts into an `if` whatever is used
+//! only where the condition holds. [`Real::where_any`](etendue::Real::where_any) says the same of several numbers at once, and
+//! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
+//!
+//! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
+//! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that, so they are not here.
+//!
+//! # Size
+//! Of the functions of lights, 136 of 145 have at most 1.3 operations for each instruction of the scalar Rust routine (x86-64-v3, all that it
+//! calls counted once). The others are functions of parallelograms by projected solid angle (1.64) and of polygons of eight corners (up to
+//! 4.4): functions that Rust calls, and loops over corners, are written out for each triangle.
+//! `cargo test --release -p etendue-shader --test sizes -- --ignored --nocapture` prints them all, with the instructions of C.
+//!
+//! # Which bits
+//! C99, C++ and CUDA return the bits of the scalar Rust routine, if the compiler does not contract operations; tests compare those of C for
+//! every function (with `LONG=1`; otherwise for most). The shading languages promise less: the beginning of each file says what. Read as
+//! C++ with another standard library, each operation in Metal has the same bits, but for conversions to words outside of [0, 2²⁴]. No
+//! shading language forbids a driver to contract a product and a sum, and SPIR-V has no decoration against it here.
+mod errors;
+mod graph;
+mod language;
+mod layout;
+mod list;
+mod module;
+mod names;
+mod number;
+mod plan;
+mod print;
+mod record;
+mod selection;
+mod tools;
+mod translate;
+mod wanted;
+
+pub use graph::{Call, Condition, Graph, Id, Kind, Loop, Node, Op};
+pub use language::Language;
+pub use list::{
+    Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, every_technique, every_warp,
+};
+pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
+pub use names::{pascal, snake};
+pub use number::{Inner, Number, Truth, Word, record};
+pub use plan::{Plan, Step, plan};
+pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
+pub use record::{add_calls, add_technique, add_warp};
+pub use selection::{Selection, lights, technique_name, warps};
+pub use tools::{add_tool, tools};
+pub use translate::{Checked, Target};
+pub use wanted::{Part, SampleField, Wanted};

@@ -1,0 +1,338 @@
+//! The number type that records what a routine computes.
+//!
+//! A routine runs once, and all its paths are recorded: a mask that is not constant counts as neither all true nor all false, as in a packet
+//! whose lanes differ. What a routine asks of one lane (a number to compare in an `if`, the bits of a mask, a lane as f64) is known for
+//! constants alone; to ask it of anything else panics.
+
+use crate::graph::{Call, Graph, Id, Kind, ONE_MINUS_EPSILON, Op, ZERO};
+use core::cmp::Ordering;
+use core::fmt;
+use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+use etendue::{Mask, Real, Uint};
+use std::cell::RefCell;
+
+thread_local! {
+    static GRAPH: RefCell<Graph> = RefCell::new(Graph::default());
+}
+
+fn with<T>(f: impl FnOnce(&mut Graph) -> T) -> T {
+    GRAPH.with_borrow_mut(f)
+}
+fn add(op: Op, of: &[Id]) -> Id {
+    with(|graph| graph.add(op, of))
+}
+
+/// Runs a routine on recorded numbers, and returns its result with the graph. One routine of a thread at a time.
+pub fn record<T>(routine: impl FnOnce() -> T) -> (T, Graph) {
+    with(|graph| *graph = Graph::default());
+    let result = routine();
+    (result, with(std::mem::take))
+}
+
+/// A number that is recorded; the functions of [`Call`] are called.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub struct Number(Id);
+/// The same, but these functions are written out: for their own bodies.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub struct Inner(Id);
+/// A truth value that is recorded.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Truth(Id);
+/// A word that is recorded.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Word(Id);
+
+macro_rules! recorded {
+    ($($name:ident)+) => {$(
+        impl $name {
+            /// The node.
+            #[must_use]
+            pub fn id(self) -> Id {
+                self.0
+            }
+        }
+        /// The node, so that the `Debug` of a struct tells which of its fields is which.
+        impl fmt::Debug for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "#{}", self.0)
+            }
+        }
+    )+};
+}
+recorded!(Number Inner Truth Word);
+
+macro_rules! binary {
+    ($name:ident: $($trait:ident $method:ident $op:ident)+) => {$(
+        impl $trait for $name {
+            type Output = Self;
+            fn $method(self, other: Self) -> Self {
+                Self(add(Op::$op, &[self.0, other.0]))
+            }
+        }
+    )+};
+}
+binary!(Truth: BitAnd bitand And BitOr bitor Or BitXor bitxor Xor);
+binary!(Word: BitAnd bitand WordAnd BitOr bitor WordOr BitXor bitxor WordXor);
+
+impl Not for Truth {
+    type Output = Self;
+    fn not(self) -> Self {
+        Self(add(Op::Not, &[self.0]))
+    }
+}
+
+impl Mask for Truth {
+    fn splat(value: bool) -> Self {
+        Self(with(|graph| graph.add_truth(value)))
+    }
+    fn from_bits(bits: u32) -> Self {
+        Self::splat(bits & 1 == 1)
+    }
+    fn bits(self) -> u32 {
+        let known = with(|graph| graph.truth(self.0));
+        u32::from(known.expect("a routine asks for the bits of a mask that is not constant: it cannot be recorded"))
+    }
+    fn any(self) -> bool {
+        with(|graph| {
+            let known = graph.truth(self.0);
+            known.unwrap_or_else(|| {
+                graph.test(self.0, true);
+                true
+            })
+        })
+    }
+    fn all(self) -> bool {
+        with(|graph| {
+            let known = graph.truth(self.0);
+            known.unwrap_or_else(|| {
+                graph.test(self.0, false);
+                false
+            })
+        })
+    }
+}
+
+impl Uint for Word {
+    const LANES: usize = 1;
+    fn splat(value: u32) -> Self {
+        Self(with(|graph| graph.add_word(value)))
+    }
+    fn from_fn(mut f: impl FnMut(usize) -> u32) -> Self {
+        Self::splat(f(0))
+    }
+    fn lane(self, i: usize) -> u32 {
+        let known = with(|graph| graph.word([self.0][i]));
+        known.expect("a routine asks for a lane of a counter that is not constant: it cannot be recorded")
+    }
+    fn wrapping_add(self, other: Self) -> Self {
+        Self(add(Op::WordAdd, &[self.0, other.0]))
+    }
+    fn wrapping_sub(self, other: Self) -> Self {
+        Self(add(Op::WordSub, &[self.0, other.0]))
+    }
+    fn wrapping_mul(self, other: Self) -> Self {
+        Self(add(Op::WordMul, &[self.0, other.0]))
+    }
+    fn shl(self, bits: u32) -> Self {
+        Self(add(Op::WordShl(bits), &[self.0]))
+    }
+    fn shr(self, bits: u32) -> Self {
+        Self(add(Op::WordShr(bits), &[self.0]))
+    }
+    fn reverse_bits(self) -> Self {
+        Self(add(Op::WordReverse, &[self.0]))
+    }
+    fn lt(self, other: Self) -> Self {
+        Self(add(Op::WordLess, &[self.0, other.0]))
+    }
+    fn any(self) -> bool {
+        Truth(add(Op::WordAny, &[self.0])).any()
+    }
+}
+
+impl Word {
+    /// A word that a routine is given.
+    #[must_use]
+    pub fn input(index: u32) -> Self {
+        Self(with(|graph| graph.input(Kind::Word, index)))
+    }
+}
+impl Truth {
+    /// A truth value that a routine is given.
+    #[must_use]
+    pub fn input(index: u32) -> Self {
+        Self(with(|graph| graph.input(Kind::Truth, index)))
+    }
+}
+
+macro_rules! real {
+    ($name:ident { $($functions:tt)* }) => {
+        binary!($name: Add add Add Sub sub Sub Mul mul Mul Div div Div);
+        impl Neg for $name {
+            type Output = Self;
+            fn neg(self) -> Self {
+                Self(add(Op::Neg, &[self.0]))
+            }
+        }
+        impl AddAssign for $name {
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+        impl SubAssign for $name {
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+        impl MulAssign for $name {
+            fn mul_assign(&mut self, other: Self) {
+                *self = *self * other;
+            }
+        }
+        impl PartialOrd for $name {
+            fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+                self.known("compares two numbers").partial_cmp(&other.known("compares two numbers"))
+            }
+        }
+        impl $name {
+            /// A number that a routine is given.
+            #[must_use]
+            pub fn input(index: u32) -> Self {
+                Self(with(|graph| graph.input(Kind::Real, index)))
+            }
+            fn known(self, asked: &str) -> f32 {
+                let known = with(|graph| graph.constant(self.0));
+                known.unwrap_or_else(|| panic!("a routine {asked} in one lane that is not constant: it cannot be recorded"))
+            }
+        }
+        impl Real for $name {
+            type Scalar = Self;
+            type Mask = Truth;
+            type Uint = Word;
+            const LANES: usize = 1;
+            const ONE_MINUS_EPSILON: Self = Self(ONE_MINUS_EPSILON);
+            fn splat(value: Self) -> Self {
+                value
+            }
+            fn lit(value: f64) -> Self {
+                Self(with(|graph| graph.real(value as f32)))
+            }
+            fn from_fn(mut f: impl FnMut(usize) -> Self) -> Self {
+                f(0)
+            }
+            fn lane(self, i: usize) -> Self {
+                [self][i]
+            }
+            fn lane_f64(self, i: usize) -> f64 {
+                f64::from([self][i].known("takes a number"))
+            }
+            fn lt(self, other: Self) -> Truth {
+                Truth(add(Op::Less, &[self.0, other.0]))
+            }
+            fn le(self, other: Self) -> Truth {
+                Truth(add(Op::LessEqual, &[self.0, other.0]))
+            }
+            fn blend(mask: Truth, yes: Self, no: Self) -> Self {
+                Self(add(Op::Select, &[mask.0, yes.0, no.0]))
+            }
+            fn blend_uint(mask: Truth, yes: Word, no: Word) -> Word {
+                Word(add(Op::Select, &[mask.0, yes.0, no.0]))
+            }
+            fn keep(self, mask: Truth) -> Self {
+                Self(add(Op::Select, &[mask.0, self.0, ZERO]))
+            }
+            fn negate_where(self, mask: Truth) -> Self {
+                Self(add(Op::Select, &[mask.0, (-self).0, self.0]))
+            }
+            fn lesser(self, other: Self) -> Self {
+                Self(add(Op::Lesser, &[self.0, other.0]))
+            }
+            fn greater(self, other: Self) -> Self {
+                Self(add(Op::Greater, &[self.0, other.0]))
+            }
+            fn abs(self) -> Self {
+                Self(add(Op::Abs, &[self.0]))
+            }
+            fn copysign(self, sign: Self) -> Self {
+                Self(add(Op::CopySign, &[self.0, sign.0]))
+            }
+            fn sqrt(self) -> Self {
+                Self(add(Op::Sqrt, &[self.0]))
+            }
+            fn round_ties_even(self) -> Self {
+                Self(add(Op::Round, &[self.0]))
+            }
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                Self(add(Op::MulAdd, &[self.0, a.0, b.0]))
+            }
+            fn pow2_scale(self) -> Self {
+                Self(add(Op::Pow2Scale, &[self.0]))
+            }
+            fn unit(bits: Word) -> Self {
+                Self(add(Op::Unit, &[bits.0]))
+            }
+            fn from_uint(value: Word) -> Self {
+                Self(add(Op::FromWord, &[value.0]))
+            }
+            fn to_uint(self) -> Word {
+                Word(add(Op::ToWord, &[self.0]))
+            }
+            fn inverse_cbrt_estimate(self) -> Self {
+                Self(add(Op::InverseCbrtEstimate, &[self.0]))
+            }
+            fn where_any<const N: usize>(
+                mask: Truth,
+                none: [Self; N],
+                some: impl FnOnce() -> [Self; N],
+            ) -> [Self; N] {
+                if !mask.any() {
+                    return none;
+                }
+                let some = some();
+                core::array::from_fn(|k| Self::blend(mask, some[k], none[k]))
+            }
+            fn iterate<const N: usize, const M: usize>(
+                most: usize,
+                numbers: [Self; N],
+                going: [Truth; M],
+                mut step: impl FnMut([Self; N], [Truth; M]) -> ([Self; N], [Truth; M]),
+            ) -> [Self; N] {
+                let variables = with(|graph| graph.begin_loop(N, M));
+                // one mask is true wherever the loop goes on
+                let inside = |k: usize| if M == 1 { Truth::splat(true) } else { Truth(variables[N + k]) };
+                let (next, next_going) =
+                    step(core::array::from_fn(|k| Self(variables[k])), core::array::from_fn(inside));
+                let ids = |numbers: [Self; N], masks: [Truth; M]| -> Vec<Id> {
+                    numbers.map(Self::id).into_iter().chain(masks.map(Truth::id)).collect()
+                };
+                let (first, next) = (ids(numbers, going), ids(next, next_going));
+                let results = with(|graph| graph.end_loop(most, variables, M, &first, next));
+                core::array::from_fn(|k| Self(results[k]))
+            }
+            $($functions)*
+        }
+    };
+}
+real!(Inner {});
+real!(Number {
+    fn sin_cos_turns(self) -> (Self, Self) {
+        let pair = add(Op::Call(Call::SinCosTurns), &[self.0]);
+        (Self(add(Op::Part(0), &[pair])), Self(add(Op::Part(1), &[pair])))
+    }
+    fn sin_cos_quarters(self) -> (Self, Self) {
+        let pair = add(Op::Call(Call::SinCosQuarters), &[self.0]);
+        (Self(add(Op::Part(0), &[pair])), Self(add(Op::Part(1), &[pair])))
+    }
+    fn acos(self) -> Self {
+        Self(add(Op::Call(Call::Acos), &[self.0]))
+    }
+    fn atan2(self, other: Self) -> Self {
+        Self(add(Op::Call(Call::Atan2), &[self.0, other.0]))
+    }
+    fn atan_eighth(self) -> Self {
+        Self(add(Op::Call(Call::AtanEighth), &[self.0]))
+    }
+    fn cbrt(self) -> Self {
+        Self(add(Op::Call(Call::Cbrt), &[self.0]))
+    }
+});

@@ -1,0 +1,101 @@
+//! WGSL.
+
+use super::dialect::{Dialect, Expression, decimal};
+use crate::graph::Op;
+use crate::module::Leaf;
+
+/// WGSL.
+#[derive(Clone, Copy, Debug)]
+pub struct Wgsl;
+
+const PRELUDE: &str = include_str!("prelude.wgsl");
+
+impl Dialect for Wgsl {
+    fn begin(&self, how: &str) -> String {
+        format!("// Light sampling for renderers, in WGSL. MIT or Apache-2.0.\n// {how}\n{PRELUDE}\n")
+    }
+    fn end(&self) -> String {
+        String::new()
+    }
+    fn leaf(&self, leaf: Leaf) -> &'static str {
+        match leaf {
+            Leaf::Real => "f32",
+            Leaf::Truth => "bool",
+            Leaf::Word => "u32",
+            Leaf::Vec2 => "vec2<f32>",
+            Leaf::Vec3 => "vec3<f32>",
+        }
+    }
+    fn real(&self, value: f32) -> Expression {
+        // an infinite constant would be an error
+        let infinite = || "etendue_from_bits(0x7f800000u)".into();
+        let text = if value.is_infinite() { infinite() } else { format!("{}f", decimal(value.abs())) };
+        if value.is_sign_negative() { Expression::prefix("-", &Expression::atom(text)) } else { Expression::atom(text) }
+    }
+    fn word(&self, value: u32) -> String {
+        format!("{value}u")
+    }
+    // the others are branches
+    fn and(&self) -> &'static str {
+        "&"
+    }
+    fn or(&self) -> &'static str {
+        "|"
+    }
+    fn function(&self, op: Op) -> &'static str {
+        match op {
+            Op::MulAdd => "fma",
+            Op::Sqrt => "sqrt",
+            Op::Abs => "abs",
+            Op::Round => "round",
+            Op::CopySign => "etendue_copysign",
+            Op::Lesser => "etendue_lesser",
+            Op::Greater => "etendue_greater",
+            Op::Pow2Scale => "etendue_pow2_scale",
+            Op::InverseCbrtEstimate => "etendue_inverse_cbrt_estimate",
+            Op::Unit => "etendue_unit",
+            Op::FromWord => "etendue_from_word",
+            Op::ToWord => "etendue_to_word",
+            Op::WordReverse => "reverseBits",
+            Op::WordLess => "etendue_word_less",
+            _ => panic!("{op:?} is an operator and not a function"),
+        }
+    }
+    fn select(&self, mask: &Expression, yes: &Expression, no: &Expression) -> Expression {
+        Expression::atom(format!("select({}, {}, {})", no.text, yes.text, mask.text))
+    }
+    fn open_struct(&self, name: &str) -> String {
+        format!("struct {name} {{\n")
+    }
+    fn field(&self, of: &str, name: &str) -> String {
+        format!("    {name}: {of},\n")
+    }
+    fn close_struct(&self, _: &str) -> String {
+        "}\n".into()
+    }
+    fn open_function(&self, result: &str, name: &str, parameters: &str) -> String {
+        format!("fn {name}({parameters}) -> {result} {{\n")
+    }
+    fn parameter(&self, of: &str, name: &str) -> String {
+        format!("{name}: {of}")
+    }
+    fn constant(&self, _: Leaf, name: &str, value: &str) -> String {
+        format!("let {name} = {value};")
+    }
+    fn variable(&self, of: Leaf, name: &str) -> String {
+        // variables are 0 at first
+        format!("var {name}: {};", self.leaf(of))
+    }
+    fn mutable(&self, _: Leaf, name: &str, value: &str) -> String {
+        format!("var {name} = {value};")
+    }
+    fn open_loop(&self, most: usize, condition: &str) -> String {
+        format!("for (var i = 0; i < {most} && {condition}; i++) {{")
+    }
+    fn unused(&self, _: &str) -> Option<String> {
+        None
+    }
+    fn result(&self, of: &str) -> String {
+        format!("var result: {of};")
+    }
+}

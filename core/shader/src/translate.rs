@@ -1,0 +1,95 @@
+//! From WGSL to the other shading languages, by `naga`, which also checks the types and the control flow.
+
+use naga::back::{glsl, hlsl, msl, spv};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{Module, ShaderStage};
+
+/// A language into which WGSL is translated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// GLSL 4.50, for OpenGL and Vulkan.
+    Glsl,
+    /// GLSL ES 3.00, for WebGL 2.
+    GlslEs,
+    /// HLSL, shader model 5.1 and later.
+    Hlsl,
+    /// The Metal shading language, 2.1 and later.
+    Msl,
+    /// SPIR-V 1.3, in binary words, with the names of functions.
+    SpirV,
+}
+
+/// Whether the translator adds a counter to loops that may not end: all of them end by themselves.
+const BOUNDS_LOOPS: bool = false;
+
+/// A module of WGSL that has been checked.
+#[derive(Debug)]
+pub struct Checked<'a> {
+    wgsl: &'a str,
+    module: Module,
+    info: ModuleInfo,
+}
+
+impl<'a> Checked<'a> {
+    /// Reads WGSL and checks it.
+    ///
+    /// # Errors
+    /// If it is not valid: what is wrong, with the line.
+    pub fn new(wgsl: &'a str) -> Result<Self, String> {
+        let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| error.emit_to_string(wgsl))?;
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+        let info = validator.validate(&module).map_err(|error| error.emit_to_string(wgsl))?;
+        Ok(Self { wgsl, module, info })
+    }
+    /// The module in another language.
+    ///
+    /// # Errors
+    /// If the module needs what the language does not have: what that is.
+    pub fn translate(&self, target: Target) -> Result<Vec<u8>, String> {
+        match target {
+            Target::Glsl => self.glsl(glsl::Version::Desktop(450)),
+            Target::GlslEs => self.glsl(glsl::Version::Embedded { version: 300, is_webgl: true }),
+            Target::Hlsl => self.hlsl(),
+            Target::Msl => {
+                let (lang_version, force_loop_bounding) = ((2, 1), BOUNDS_LOOPS);
+                let options = msl::Options { lang_version, force_loop_bounding, ..msl::Options::default() };
+                let text = msl::write_string(&self.module, &self.info, &options, &msl::PipelineOptions::default());
+                Ok(text.map_err(|error| error.to_string())?.0.into_bytes())
+            }
+            Target::SpirV => {
+                // the names of functions are all that tells which is which, as a library has no entry points
+                let flags = spv::WriterFlags::DEBUG;
+                let (lang_version, force_loop_bounding) = ((1, 3), BOUNDS_LOOPS);
+                let options = spv::Options { lang_version, flags, force_loop_bounding, ..spv::Options::default() };
+                let words = spv::write_vec(&self.module, &self.info, &options, None);
+                let words = words.map_err(|error| error.to_string())?;
+                Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
+            }
+        }
+    }
+    fn hlsl(&self) -> Result<Vec<u8>, String> {
+        let options = hlsl::Options { force_loop_bounding: BOUNDS_LOOPS, ..hlsl::Options::default() };
+        let pipeline = hlsl::PipelineOptions::default();
+        let mut text = String::new();
+        let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);
+        writer.write(&self.module, &self.info, None).map_err(|error| error.to_string())?;
+        Ok(text.into_bytes())
+    }
+    /// GLSL is translated for an entry point alone: an empty one, which is then left out with the line of the version, so that the text can
+    /// stand in any shader.
+    fn glsl(&self, version: glsl::Version) -> Result<Vec<u8>, String> {
+        let wgsl = format!("{}@fragment fn main() {{}}\n", self.wgsl);
+        let Checked { module, info, .. } = &Checked::new(&wgsl)?;
+        let options = glsl::Options { version, ..glsl::Options::default() };
+        let entry_point = "main".into();
+        let pipeline = glsl::PipelineOptions { shader_stage: ShaderStage::Fragment, entry_point, multiview: None };
+        let mut text = String::new();
+        let bounds = naga::proc::BoundsCheckPolicies::default();
+        let writer = glsl::Writer::new(&mut text, module, info, &options, &pipeline, bounds);
+        writer.and_then(|mut writer| writer.write()).map_err(|error| error.to_string())?;
+        let functions = text.trim_end().strip_suffix("void main() {\n    return;\n}");
+        let functions = functions.and_then(|text| text.strip_prefix("#version")?.split_once('\n'));
+        let (_, functions) = functions.ok_or("the translator puts the version and the entry point elsewhere")?;
+        Ok(functions.trim().to_owned().into_bytes())
+    }
+}

@@ -1,0 +1,29 @@
+//! The committed header.
+
+use crate::driver::folder;
+use std::fs;
+use std::process::Command;
+
+/// The committed header is C++, too, and its example in the documentation is right.
+#[test]
+fn the_committed_header_serves_cpp() {
+    let lines = include_str!("../../src/lib.rs").lines().skip_while(|line| *line != "//! ```c").skip(1);
+    let example: Vec<_> =
+        lines.take_while(|line| *line != "//! ```").map(|line| line.trim_start_matches("//! ")).collect();
+    assert!(example.len() > 4, "{example:?}");
+    let header = concat!(env!("CARGO_MANIFEST_DIR"), "/sources/etendue.h");
+    let text = format!(
+        "#include \"{header}\"\nint main(void) {{\n{}\nreturn irradiance > 0.0f && irradiance < 1.0f ? 0 : 1;\n}}\n",
+        example.join("\n")
+    );
+    let folder = folder("cpp");
+    for (compiler, standard, ending) in [("cc", "-std=c99", "c"), ("c++", "-std=c++11", "cpp")] {
+        let [source, binary] = [format!("example.{ending}"), format!("example_{ending}")].map(|file| folder.join(file));
+        fs::write(&source, &text).unwrap();
+        let mut compile = Command::new(compiler);
+        compile.args([standard, "-Wall", "-Wextra", "-Werror", "-O1", "-ffp-contract=off", "-o"]).arg(&binary);
+        let compiled = compile.arg(&source).arg("-lm").output().expect("a C and a C++ compiler");
+        assert!(compiled.status.success(), "{compiler}: {}", String::from_utf8_lossy(&compiled.stderr));
+        assert!(Command::new(&binary).status().unwrap().success(), "{compiler}");
+    }
+}

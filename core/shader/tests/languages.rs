@@ -1,0 +1,108 @@
+//! Every light and every warp in every language.
+
+use etendue_oracle::tier::{cases, is_long};
+use etendue_shader::*;
+use std::collections::HashMap;
+
+fn everything() -> Selection {
+    Selection {
+        lights: vec!["all".into()],
+        warps: vec!["all".into()],
+        tools: vec!["all".into()],
+        wanted: Wanted::default(),
+    }
+}
+
+/// Everything; with few cases, every third of the lights by their techniques, without those that are several triangles written out, which
+/// take translators longest.
+fn translated() -> Selection {
+    let techniques = lights().into_iter().flat_map(|(_, techniques)| techniques);
+    let is_large = |name: &str| {
+        let several = ["rectangle", "parallelogram"].iter().any(|light| name.starts_with(light));
+        name.starts_with("polygon") || several && name.ends_with("projected_solid_angle")
+    };
+    let (long, mut kind) = (is_long(), 0);
+    let is_here = |name: &String| {
+        kind += 1;
+        long || kind % 3 == 1 && !is_large(name)
+    };
+    Selection { lights: techniques.filter(is_here).collect(), ..everything() }
+}
+
+/// `naga` accepts the WGSL with all checks, and writes all other languages; each has every function, with its comment.
+#[test]
+fn all_languages_have_all_functions() {
+    let module = translated().module();
+    assert!(module.functions.len() > cases(90, 200), "{} functions", module.functions.len());
+    for language in Language::ALL {
+        let bytes = language
+            .write(&module, "Written by a test.")
+            .unwrap_or_else(|error| panic!("{}: {error}", language.name()));
+        println!("{:8} {:9} bytes", language.name(), bytes.len());
+        if language == Language::SpirV {
+            // the magic number, and a whole number of words
+            assert!(bytes.starts_with(&0x0723_0203_u32.to_le_bytes()) && bytes.len().is_multiple_of(4));
+            let text = String::from_utf8_lossy(&bytes);
+            let named = module.functions.iter().filter(|function| text.contains(&function_name(&function.name)));
+            assert_eq!(named.count(), module.functions.len());
+            continue;
+        }
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(text.is_ascii(), "{}", language.name());
+        let lines: Vec<&str> = text.lines().collect();
+        // the lines that begin functions, by their names
+        let begins = lines.iter().enumerate().filter(|(_, line)| !line.starts_with([' ', '}', '/']));
+        let begins = begins.filter_map(|(at, line)| Some((line.split_once('(')?.0.rsplit(' ').next()?, at)));
+        let begins: HashMap<&str, usize> = begins.collect();
+        for function in &module.functions {
+            let name = function_name(&function.name);
+            let first = begins.get(&*name).unwrap_or_else(|| panic!("{}: no {name}", language.name()));
+            assert!(lines[first - 1].starts_with("// "), "{}: {name} has no comment", language.name());
+        }
+        assert!(!text.contains("void main"), "{}", language.name());
+    }
+}
+
+/// What is not WGSL is an error with its place.
+#[test]
+fn broken_sources_are_found() {
+    let module = Selection { lights: vec!["sun".into()], ..Selection::default() }.module();
+    let text = print(&module, &Wgsl, "Written by a test.");
+    Checked::new(&text).unwrap();
+    for (from, to, why) in [
+        ("fn etendue_lesser(a: f32, b: f32) -> f32 {", "fn etendue_lesser(a: f32, b: f32) -> u32 {", "type"),
+        ("fn etendue_greater(", "fn etendue_other(", "etendue_greater"),
+        ("    return bitcast<f32>(bits);", "    return bits;", "return"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        let error = Checked::new(&text.replacen(from, to, 1)).expect_err(from);
+        assert!(error.contains(why), "{error}");
+    }
+}
+
+/// The comments of samples tell the greatest error that the core documents: of every warp, and of the lights by solid angle and by projected
+/// solid angle.
+#[test]
+fn comments_tell_the_greatest_error() {
+    let module = everything().module();
+    let tells = |function: &Function| function.doc.contains("Greatest error");
+    let samples = module.functions.iter().filter(|function| function.name.ends_with("_sample"));
+    let (with, without): (Vec<_>, Vec<_>) = samples.partition(|function| tells(function));
+    let names = |of: Vec<&Function>| of.into_iter().map(|function| function.name.clone()).collect::<Vec<_>>();
+    let (with, without) = (names(with), names(without));
+    println!("with: {with:?}\nwithout: {without:?}");
+    for warp in warps() {
+        assert!(with.contains(&format!("{warp}_sample")), "{warp}: {without:?}");
+    }
+    for light in ["sphere", "triangle", "parallelogram", "polygon"] {
+        for by in ["solid_angle", "projected_solid_angle"] {
+            assert!(with.contains(&format!("{light}_by_{by}_sample")), "{light} by {by}: {without:?}");
+        }
+    }
+    // a number of the core's documentation, and links as plain text
+    let of = |name: &str| module.functions.iter().find(|function| function.name == name).unwrap();
+    assert!(of("sphere_by_solid_angle_pdf").doc.contains("Greatest error: pdf 3.0e−7 relative (proved: 2e−6)"));
+    assert!(of("polygon_by_projected_solid_angle_sample").doc.contains("As with SphericalPolygon, up to all of"));
+    let cosine = &of("triangle_by_cosine_warp_sample").doc;
+    assert!(cosine.contains("the pdf adds 8 ulp") && cosine.contains("direction 5.4e−7"), "{cosine}");
+}

@@ -1,0 +1,95 @@
+//! The program: what it writes, and what it says about arguments that it cannot use.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn program(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_etendue-shader")).args(arguments).output().unwrap()
+}
+fn message(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(output.stdout.is_empty(), "{output:?}");
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+#[test]
+fn unknown_names_are_errors_with_the_list() {
+    let text = message(&program(&["--language", "basic", "--lights", "sphere"]));
+    assert!(
+        text.contains("'basic'") && text.contains("c, cuda, hip, opencl, wgsl, glsl, glsl-es, hlsl, msl, spirv"),
+        "{text}"
+    );
+    let text = message(&program(&["--language", "c", "--lights", "sphere,cube"]));
+    assert!(text.contains("'cube'") && text.contains("triangle_by_cosine_warp") && text.contains("sun"), "{text}");
+    let text = message(&program(&["--language", "c", "--warps", "cone,cylinder"]));
+    assert!(text.contains("'cylinder'") && text.contains("ggx_visible_normals"), "{text}");
+    let text = message(&program(&["--language", "c", "--lights", "sun", "--functions", "draw"]));
+    assert!(text.contains("'draw'") && text.contains("sample, pdf, hit, invert, measure"), "{text}");
+    let text = message(&program(&["--language", "c", "--lights", "sun", "--fields", "color"]));
+    assert!(text.contains("'color'") && text.contains("direction, distance, pdf"), "{text}");
+    let text = message(&program(&["--language", "c"]));
+    assert!(text.contains("--lights") && text.contains("--warps"), "{text}");
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_an_error() {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("no such folder").join("etendue.h");
+    let text = message(&program(&["--language", "c", "--lights", "sun", "-o", path.to_str().unwrap()]));
+    assert!(text.contains("no such folder"), "{text}");
+}
+
+/// Just what is asked for is written, to the file or to standard output.
+#[test]
+fn what_is_asked_for_is_written() {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("asked.h");
+    let arguments =
+        ["--language", "cuda", "--lights", "sphere_by_area,sun", "--functions", "sample", "--fields", "direction,pdf"];
+    let output = program(&[&arguments[..], &["-o", path.to_str().unwrap()]].concat());
+    assert!(output.status.success() && output.stdout.is_empty(), "{output:?}");
+    let text = fs::read_to_string(path).unwrap();
+    assert_eq!(text.as_bytes(), program(&arguments).stdout);
+    for (name, there) in [
+        ("etendue_sphere_by_area_prepare(", true),
+        ("etendue_sphere_by_area_sample(", true),
+        ("etendue_sun_by_solid_angle_sample(", true),
+        ("etendue_sphere_by_area_pdf(", false),
+        ("etendue_sphere_by_solid_angle_sample(", false),
+        ("etendue_triangle", false),
+        ("EtendueVec3 direction;", true),
+        ("EtendueVec3 normal;", false),
+        ("etendue_sin_cos_turns(", true),
+        ("etendue_angle(", false),
+    ] {
+        assert_eq!(text.contains(name), there, "{name}");
+    }
+}
+
+/// Each committed file is what the command in its second line writes. `WRITE=1` writes it anew.
+#[test]
+fn committed_files_are_not_stale() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sources");
+    let mut files: Vec<PathBuf> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    assert!(files.len() >= 6, "{files:?}");
+    for path in files {
+        let text = fs::read_to_string(&path).unwrap();
+        let line = text.lines().nth(1).unwrap();
+        let command = line.strip_prefix("// Written by `etendue-shader ").and_then(|rest| rest.strip_suffix("`."));
+        let command = command.unwrap_or_else(|| panic!("{}: no command in {line:?}", path.display()));
+        let output = program(&command.split(' ').collect::<Vec<_>>());
+        assert!(output.status.success(), "{}: {output:?}", path.display());
+        if std::env::var("WRITE").is_ok() {
+            fs::write(&path, &output.stdout).unwrap();
+            continue;
+        }
+        let new = String::from_utf8(output.stdout).unwrap();
+        let differs = text.lines().zip(new.lines()).position(|(old, new)| old != new);
+        let place = differs.unwrap_or(text.lines().count().min(new.lines().count())) + 1;
+        assert!(
+            text == new,
+            "{}:{place}: not what the program writes: WRITE=1 cargo test -p etendue-shader --test program",
+            path.display()
+        );
+    }
+}
