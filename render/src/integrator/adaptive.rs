@@ -86,7 +86,7 @@ pub struct Allotment {
     pub lights: usize,
     /// The weight of each light at each pixel.
     pub weights: Vec<f32>,
-    /// [`Statistics::square`] of the pilot.
+    /// What the pilot tells of the variance of each pixel: that of a set of n samples is about proportional to this and to n^−1.5.
     pub squares: Vec<f32>,
     /// Samples per set of each light in the pilot.
     pub begun: Vec<[u32; APART]>,

@@ -25,7 +25,7 @@ impl Weights<'_> {
         ((y - y0) * (x1 - x0) + (x - x0)) as usize
     }
     /// The same weights for sets of which no block is done.
-    pub(super) fn from_the_start(&self) -> Weights<'_> {
+    pub(super) fn anew(&self) -> Weights<'_> {
         Weights { lights: self.lights, of: Cow::Borrowed(&self.of), area: self.area, begun: &[] }
     }
     /// A bit for each light that has some weight in a pixel.

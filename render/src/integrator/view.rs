@@ -227,7 +227,7 @@ impl View<'_> {
             let packets: Vec<u32> = area::pixels(tile).map(|pixel| allotment.packets_at(pixel)).collect();
             let checks = Checks::new(tile, &by_spread, &packets, checks, self.settings.seed);
             // their first samples are allocated by the pilot, too, which makes little difference
-            let weights = weights.map(Weights::from_the_start);
+            let weights = weights.map(Weights::anew);
             let range = |pixel| [0, if checks.contains(pixel) { allotment.packets_at(pixel) } else { 0 }];
             let second = renderer.parts(tile, pilot, sets..sets + 1, weights.as_ref(), range);
             let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));

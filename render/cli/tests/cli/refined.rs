@@ -52,7 +52,7 @@ fn the_error_asked_for_is_reached() {
 #[test]
 fn the_error_of_edges_is_claimed() {
     let (mut claims, mut errors) = (0.0, 0.0);
-    for seed in 0..cases(4, 12) {
+    for seed in 0..cases(4, 32) {
         let seed = seed.to_string();
         let (claimed, measured, report) = claimed_and_measured("triangle-light", &["--error", "0.01", "--seed", &seed]);
         assert_eq!((&report["technique"], &report["chosen"]), (&"auto".into(), &"analytic".into()));
