@@ -54,10 +54,10 @@ pub const LIMIT: f64 = 4.5;
 /// Images whose values differ by at most this fraction of the peak are equal up to the rounding of f32.
 const ROUNDING: f64 = 1e-6;
 
-/// Side of the squares of pixels whose variances are known together: those that a thread renders at a time.
+/// Side of the squares of pixels whose variances are known together, in images of one set per pixel: those that a thread renders at a time.
 const TILE: usize = 16;
-/// So many tiles tell how they differ.
-const ENOUGH: usize = 32;
+/// About the relative standard error of the sum of these variances.
+const TOGETHER: f64 = 0.5;
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
@@ -119,20 +119,15 @@ impl Comparison {
             // the channels of a pixel share their samples, and the pixels of a tile what is known of their variance
             let excess =
                 |i: usize| (0..3).map(|k| difference(i, k).powi(2) - own(i, k) - other(i, k)).sum::<f64>() / 3.0;
-            let mut tiles = vec![[0.0; 2]; image.width.div_ceil(TILE) * image.height.div_ceil(TILE)];
+            let bias = (0..variance.len()).map(excess).sum::<f64>() / count;
+            let of_pixels = (0..variance.len()).map(|i| (excess(i) - bias).powi(2)).sum::<f64>();
+            let mut tiles = vec![0.0; image.width.div_ceil(TILE) * image.height.div_ceil(TILE)];
             for i in 0..variance.len() {
                 let [x, y] = [i % image.width / TILE, i / image.width / TILE];
-                let [sum, pixels] = &mut tiles[y * image.width.div_ceil(TILE) + x];
-                (*sum, *pixels) = (*sum + excess(i), *pixels + 1.0);
+                tiles[y * image.width.div_ceil(TILE) + x] += (0..3).map(|k| own(i, k)).sum::<f64>() / 3.0;
             }
-            let bias = tiles.iter().map(|[sum, _]| sum).sum::<f64>() / count;
-            // a few tiles do not tell how they differ: then pixels have to
-            let squares: f64 = if tiles.len() < ENOUGH {
-                (0..variance.len()).map(|i| (excess(i) - bias).powi(2)).sum::<f64>() / (1.0 - count.recip()).max(0.5)
-            } else {
-                let square = |[sum, pixels]: &[f64; 2]| (sum - bias * pixels).powi(2);
-                tiles.iter().map(square).sum::<f64>() / (1.0 - (tiles.len() as f64).recip())
-            };
+            let of_tiles = tiles.iter().map(|sum| (TOGETHER * sum).powi(2)).sum::<f64>();
+            let squares = of_pixels * count / (count - 1.0).max(1.0) + of_tiles;
             Prediction {
                 mse: totals.iter().sum::<f64>() / (3.0 * count),
                 z: std::array::from_fn(|k| ratio(mean[k], totals[k].sqrt() / count)),
