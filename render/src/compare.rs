@@ -29,9 +29,11 @@ pub struct Prediction {
     pub mse: f64,
     /// Mean difference per channel, in standard deviations.
     pub z: [f64; 3],
-    /// `mse − predicted mse` in standard deviations, which come from the spread over pixels. A large value of either sign is a
-    /// fault: the variance layer claims too much precision, or too little.
+    /// `mse − predicted mse` in standard deviations, which come from the spread over pixels, and from what the variances of a tile have in
+    /// common. A large value of either sign is a fault: the variance layer claims too much precision, or too little.
     pub z_mse: f64,
+    /// The same from the spread over pixels alone: right if the variance of each pixel comes from sets of its own.
+    pub z_pixels: f64,
 }
 
 /// Whether two images estimate the same values.
@@ -58,6 +60,8 @@ const ROUNDING: f64 = 1e-6;
 const TILE: usize = 16;
 /// About the relative standard error of the sum of these variances.
 const TOGETHER: f64 = 0.5;
+/// The part of the predicted squared difference that is too little for images of independent numbers.
+const MUCH_LESS: f64 = 0.6;
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
 
@@ -127,11 +131,12 @@ impl Comparison {
                 tiles[y * image.width.div_ceil(TILE) + x] += (0..3).map(|k| own(i, k)).sum::<f64>() / 3.0;
             }
             let of_tiles = tiles.iter().map(|sum| (TOGETHER * sum).powi(2)).sum::<f64>();
-            let squares = of_pixels * count / (count - 1.0).max(1.0) + of_tiles;
+            let of_pixels = of_pixels * count / (count - 1.0).max(1.0);
             Prediction {
                 mse: totals.iter().sum::<f64>() / (3.0 * count),
                 z: std::array::from_fn(|k| ratio(mean[k], totals[k].sqrt() / count)),
-                z_mse: ratio(bias, squares.sqrt() / count),
+                z_mse: ratio(bias, (of_pixels + of_tiles).sqrt() / count),
+                z_pixels: ratio(bias, of_pixels.sqrt() / count),
             }
         });
         Ok(Self {
@@ -162,7 +167,8 @@ impl Comparison {
     /// images of one seed do. (Otherwise, a variance is too large.)
     #[must_use]
     pub fn shares_noise(&self) -> bool {
-        self.largest.0 != 0.0 && self.predicted.as_ref().is_some_and(|p| p.z_mse <= -LIMIT)
+        let is_less = |p: &Prediction| p.z_pixels <= -LIMIT && self.mse < MUCH_LESS * p.mse;
+        self.largest.0 != 0.0 && self.predicted.as_ref().is_some_and(is_less)
     }
 
     /// Whether the images agree, and why.
