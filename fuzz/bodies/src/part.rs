@@ -72,6 +72,7 @@ fn make(bytes: &mut impl Iterator<Item = u8>) -> Option<Vec<u8>> {
     names.extend((0..12).flat_map(|k| ["pairs", "taken"].map(|name| format!("{name}.{k}"))));
     let floats = ["R", "G", "B"].into_iter().flat_map(|c| [c.to_owned(), format!("variance.{c}")]);
     let floats = floats.chain((0..12).flat_map(|k| ["spread", "weight"].map(|name| format!("{name}.{k}"))));
+    let floats = floats.chain(["squares".to_owned()]);
     let (dropped, value) = (next()? as usize * 3, next()? | next()? << 8 | next()? << 16 | next()? << 24);
     let n = count(area);
     let integers = names.into_iter().map(|name| (name, Numbers::U32(vec![value; n])));
