@@ -330,6 +330,22 @@ pub fn reports_variance(sampler: Sampler, spp: u32, sets: u32, lens: bool) -> bo
 mod tests {
     use super::*;
 
+    /// Pairs that are kept stay as they are, and all others with names change.
+    #[test]
+    fn pairs_are_redrawn() {
+        let (zero, lanes) = (u32x8::splat(0), u32x8::new([0, 1, 2, 3, 4, 5, 6, 7]));
+        let active = etendue::Mask::from_bits(0xff);
+        let packet = Packet { x: u32x8::splat(3), y: u32x8::splat(5), sample: lanes, replicate: zero, active };
+        let source = |redrawn| Source::new(Sampler::Adaptive, 7, 64, 0, true, 32).redrawn(redrawn);
+        let (before, after) = (source(Redrawn::default()), source(Redrawn::all_but(&[FILM, LENS])));
+        for pair in [FILM, LIGHT, CHOICE, LENS, SURFACE, 5] {
+            let is_kept = before.pair(&packet, pair).x.to_array() == after.pair(&packet, pair).x.to_array();
+            assert_eq!(is_kept, [FILM, LENS, 5].contains(&pair), "pair {pair}");
+        }
+        let [film, light] = [&before, &after].map(|source| source.film_and_light_of(&packet, zero, lanes).map(|v| v.x));
+        assert!(film[0].to_array() == light[0].to_array() && film[1].to_array() != light[1].to_array());
+    }
+
     #[test]
     fn the_default_sampler_reports_a_variance_if_any_does() {
         for lens in [false, true] {

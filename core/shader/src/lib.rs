@@ -43,8 +43,8 @@
 //! mask) is known for constants alone; anything else panics with a message. Tables, trees and visible parts do ask that, so they are not here.
 //!
 //! # Size
-//! Of the functions of lights, 136 of 145 have at most 1.3 operations for each instruction of the scalar Rust routine (x86-64-v3, all that it
-//! calls counted once). The others are functions of parallelograms by projected solid angle (1.64) and of polygons of eight corners (up to
+//! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
+//! whatever the routine calls counts once. In 136 of 145 functions, there are at most 1.3 times as many. The others are functions of parallelograms by projected solid angle (1.64) and of polygons of eight corners (up to
 //! 4.4): functions that Rust calls, and loops over corners, are written out for each triangle.
 //! `cargo test --release -p etendue-shader --test sizes -- --ignored --nocapture` prints them all, with the instructions of C.
 //!

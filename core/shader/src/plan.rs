@@ -45,7 +45,7 @@ impl Step {
 pub struct Plan {
     /// The statements.
     pub steps: Vec<Step>,
-    /// Of each node, whether it is a variable; the others are part of expressions.
+    /// Whether each node is a variable. A node that is none is part of an expression.
     pub variables: Vec<bool>,
 }
 

@@ -5,7 +5,8 @@
 //! The squared differences of both tell by what factor the variances differ from what the spread of the samples lets expect, in each tile.
 //!
 //! Pixels are chosen by their spread, with a known chance, and count by the inverse of that: the ratio estimator of surveys (Cochran 1977,
-//! Sampling Techniques, chapters 6 and 9A). So the sum of the variances is right in the mean, whatever the spread.
+//! Sampling Techniques, chapters 6 and 9A). So the sum of the variances is right in the mean, but for a bias that falls with the number of
+//! pixels that are chosen in a tile.
 
 use crate::area::{self, Area};
 use crate::film::Pixel;
