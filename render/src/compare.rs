@@ -279,3 +279,36 @@ impl std::fmt::Display for Comparison {
         write!(f, "verdict            {}: {reason}", verdict.name())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A black reference, and an image of 64 tiles whose pixels have a variance of 1 and claim that times a factor of their tile.
+    fn compared(factor: impl Fn(usize) -> f32) -> (Verdict, Prediction) {
+        let side = 8 * TILE;
+        let mut state = 1_u32;
+        let mut sign = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            if state >> 31 == 0 { 1.0 } else { -1.0 }
+        };
+        // squares of 0 or 2
+        let radiance = (0..side * side).map(|_| [(1.0 + sign()) * 0.5_f32.sqrt() * sign(); 3]).collect();
+        let tile = |i: usize| i / side / TILE * 8 + i % side / TILE;
+        let variance = Some((0..side * side).map(|i| [factor(tile(i)); 3]).collect());
+        let image = Picture { width: side, height: side, radiance, variance };
+        let reference = Picture { radiance: vec![[0.0; 3]; side * side], variance: None, ..image.clone() };
+        let comparison = Comparison::new(&reference, &image, 0.0).unwrap();
+        (comparison.verdict().0, comparison.predicted.unwrap())
+    }
+
+    /// Tiles may err in common, whether their mean errs little or not; if all of them err alike, the images differ.
+    #[test]
+    fn variances_of_a_tile_have_an_error_in_common() {
+        let (verdict, prediction) = compared(|tile| if tile % 8 < 5 { 0.6 } else { 1.4 });
+        assert!(verdict == Verdict::Agree && prediction.z_pixels > LIMIT, "{prediction:?}");
+        assert_eq!(compared(|_| 1.0).0, Verdict::Agree);
+        assert_eq!(compared(|_| 0.5).0, Verdict::Differ);
+        assert!(compared(|_| 2.5).1.z_mse < -LIMIT);
+    }
+}
