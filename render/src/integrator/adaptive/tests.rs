@@ -209,3 +209,16 @@ fn spreads_are_of_pairs_of_one_light() {
     let all = squares / (4.0 * 16.0) + 4.0 / 3.0;
     assert!((found.variance / all - 1.0).abs() < 1e-14, "{} {all}", found.variance);
 }
+
+/// A light with a quarter of the samples has 8 times the variance of one with all of them: (1/4)^−1.5.
+#[test]
+fn squares_count_the_samples_of_each_light() {
+    let (mut spread, mut pairs, mut taken) = ([0.0; APART], [0; APART], [0; APART]);
+    spread[..3].copy_from_slice(&[6.0, 5.0, 7.0]);
+    pairs[..3].copy_from_slice(&[3, 1, 0]);
+    taken[..3].copy_from_slice(&[4, 11, 1]);
+    let part = Statistics { packets: 2, variance: 0.25, lights: 3, spread, pairs, taken, ..Statistics::default() };
+    let expected = 16.0 * 0.25 + 2.0 * 8.0 + 5.0 * (16.0 / 11.0_f64).powf(1.5);
+    assert!((part.square() / expected - 1.0).abs() < 1e-12, "{}", part.square());
+    assert_eq!(Statistics { packets: 2, variance: 0.5, ..Statistics::default() }.square(), 8.0);
+}
