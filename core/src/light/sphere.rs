@@ -79,8 +79,8 @@ lanewise! {
     /// A sphere relative to the shading point. Its surface coordinates are those that [`UniformSphere`] maps to the normal: height and
     /// azimuth.
     pub struct PlacedSphere {
-        center: Vec3<R>,
-        radius: R,
+        pub(super) center: Vec3<R>,
+        pub(super) radius: R,
     }
 }
 impl<R: Real> PlacedSphere<R> {

@@ -1,0 +1,380 @@
+//! Pictures on lights: which texel, in proportion to its radiance and to its measure as seen from a point.
+
+use crate::discrete::TableError;
+use crate::real::{Mask, Real, Uint};
+use crate::vector::Vec2;
+
+/// Steps of `u` in the unit interval, and the greatest number of columns and of rows.
+const STEPS: f64 = 16_777_216.0;
+
+/// The part of the unit square of surface coordinates that a light covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    /// All of it: [`Rectangle`](super::Rectangle), [`Parallelogram`](super::Parallelogram).
+    Square,
+    /// The half where u + v < 1: [`Triangle`](super::Triangle).
+    Triangle,
+    /// The inscribed disk: [`Disk`](super::Disk).
+    Disk,
+}
+
+impl Region {
+    /// Part of the texel in column `x` and row `y` of w × h that the light covers, in [0, 1], to 1/64; above 0 wherever it covers any.
+    #[must_use]
+    pub fn part(self, [x, y]: [usize; 2], [w, h]: [usize; 2]) -> f64 {
+        let at = |i: usize, offset: f64, n: usize| (i as f64 + offset) / n as f64;
+        // below 0 inside, and 0 on the rim
+        let beyond = |s: f64, t: f64| match self {
+            Self::Square => -1.0,
+            Self::Triangle => s + t - 1.0,
+            Self::Disk => (s - 0.5) * (s - 0.5) + (t - 0.5) * (t - 0.5) - 0.25,
+        };
+        // the corner or the point that is nearest to the middle of the region
+        let nearest = |i: usize, n: usize| match self {
+            Self::Disk => 0.5_f64.max(at(i, 0.0, n)).min(at(i, 1.0, n)),
+            _ => at(i, 0.0, n),
+        };
+        if beyond(nearest(x, w), nearest(y, h)) >= 0.0 {
+            return 0.0;
+        }
+        let offset = |k: usize| (k as f64 + 0.5) / 8.0;
+        let points = (0..64).map(|k| {
+            let beyond = beyond(at(x, offset(k % 8), w), at(y, offset(k / 8), h));
+            if beyond < 0.0 {
+                1.0
+            } else if beyond == 0.0 {
+                0.5
+            } else {
+                0.0
+            }
+        });
+        points.sum::<f64>().max(1.0) / 64.0
+    }
+    /// Whether a point of the unit square is on the light.
+    #[inline(always)]
+    pub(super) fn contains<R: Real>(self, uv: Vec2<R>) -> R::Mask {
+        let half = R::lit(0.5);
+        match self {
+            Self::Square => R::Mask::splat(true),
+            Self::Triangle => (uv.x + uv.y).lt(R::lit(1.0)),
+            Self::Disk => {
+                let q = Vec2::new(uv.x - half, uv.y - half);
+                q.dot(q).lt(R::lit(0.25))
+            }
+        }
+    }
+}
+
+/// A picture's hierarchy, in the caller's memory: how much of the radiance of each box of texels is in its lower half.
+///
+/// [`on`](Self::on) puts it on a light, whose samplers then draw a texel in proportion to its radiance times its area, solid angle or
+/// projected solid angle as seen from a point.
+///
+/// - Formula: a box of 2ᵏ × 2ᵐ texels is halved along the longer side until one texel is left. Of the half with the radiance Lᵢ and the
+///   measure mᵢ per area, the share is Lᵢmᵢ/(L₁m₁ + L₂m₂). What is left of u₀ after the halvings along columns, and of u₁ after those along
+///   rows, is the position in the texel.
+/// - Exact probabilities: a share is rounded to whole steps of 2⁻²⁴ of the `u` that it divides, and each half that has radiance keeps at
+///   least a step for each of its columns or rows. So the pmf of a texel is what is drawn, the product of two multiples of 2⁻²⁴, and no
+///   texel with radiance is lost.
+/// - Domain: 1 to 2²⁴ columns and rows; finite weights ≥ 0, in any unit.
+/// - Cost: log₂ w + log₂ h steps.
+/// - Source: Clarberg, Jarosz, Akenine-Möller and Jensen 2005, "Wavelet Importance Sampling", for warping by a hierarchy; measures for its
+///   boxes, and steps, are ours.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture<'a> {
+    /// By level, from the whole picture on, and row by row: the share of the lower half.
+    shares: &'a [f32],
+    size: [u32; 2],
+    region: Region,
+}
+
+/// A level of the hierarchy.
+#[derive(Clone, Copy)]
+struct Level {
+    /// Where its entries begin.
+    offset: u32,
+    /// Boxes are 2ᵏ columns wide and as many rows high.
+    log: [u32; 2],
+    /// The side that is halved: 0 along columns, 1 along rows.
+    axis: usize,
+    /// The rows of its entries are 2ᵏ long.
+    stride: u32,
+}
+
+/// The levels of a picture of this size.
+struct Levels {
+    size: [u32; 2],
+    offset: u32,
+    log: [u32; 2],
+}
+
+impl Levels {
+    const fn new(size: [u32; 2]) -> Self {
+        Self { size, offset: 0, log: [log2_above(size[0]), log2_above(size[1])] }
+    }
+    /// The next level, while a box has more than one texel.
+    const fn advance(&mut self) -> Option<Level> {
+        let log = self.log;
+        if log[0] == 0 && log[1] == 0 {
+            return None;
+        }
+        let axis = (log[1] > log[0]) as usize;
+        let stride = log2_above(self.size[0]) - log[0];
+        let level = Level { offset: self.offset, log, axis, stride };
+        self.offset += self.size[1].div_ceil(1 << log[1]) << stride;
+        self.log[axis] -= 1;
+        Some(level)
+    }
+}
+
+impl Iterator for Levels {
+    type Item = Level;
+    #[inline(always)]
+    fn next(&mut self) -> Option<Level> {
+        self.advance()
+    }
+}
+
+/// The least k with 2ᵏ ≥ n.
+const fn log2_above(n: u32) -> u32 {
+    if n > 1 { 32 - (n - 1).leading_zeros() } else { 0 }
+}
+
+/// A box of texels, from `low` to `high`, as parts of the picture's sides.
+#[derive(Clone, Copy)]
+pub(super) struct Box2<R> {
+    pub(super) low: Vec2<R>,
+    pub(super) high: Vec2<R>,
+}
+
+/// How much of the measure, per unit of the picture's area, the two halves of a box have.
+pub(super) trait Halves<R: Real> {
+    /// Two numbers ≥ 0 in proportion to it, neither of which is infinite or NaN. A half in which a sample can have a pdf has more than 0.
+    ///
+    /// Also, whether the halves of these halves can differ by more than 1 %: where not, nothing more is asked. `axis` is 0 where the halves
+    /// are beside each other along u, 1 along v.
+    fn densities(&self, axis: usize, low: &Box2<R>, high: &Box2<R>) -> ([R; 2], R::Mask);
+}
+
+/// A texel that was drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn<R: Real> {
+    /// Column and row.
+    pub(super) texel: Vec2<R>,
+    /// The first step of the texel in u₀ and u₁.
+    start: Vec2<R>,
+    /// Number of its steps.
+    steps: Vec2<R>,
+}
+
+impl<R: Real> Drawn<R> {
+    /// Probability of the texel.
+    #[inline(always)]
+    pub(super) fn pmf(&self) -> R {
+        let step = R::lit(1.0 / STEPS);
+        (self.steps.x * step) * (self.steps.y * step)
+    }
+    /// The `u` for a position in the texel.
+    #[inline(always)]
+    pub(super) fn invert(&self, within: Vec2<R>) -> Vec2<R> {
+        let step = R::lit(1.0 / STEPS);
+        let at = |start: R, steps: R, within: R| {
+            // the number below the next texel's first step
+            let end = start + steps;
+            within.mul_add(steps, start).lesser(end - end * step) * step
+        };
+        let Self { start, steps, .. } = self;
+        Vec2::new(at(start.x, steps.x, within.x), at(start.y, steps.y, within.y))
+    }
+}
+
+impl<'a> Picture<'a> {
+    /// Length of the buffer for w × h texels: wh − 1 if both are powers of two, and less than 4wh + 64 always.
+    #[must_use]
+    pub const fn buffer(width: usize, height: usize) -> usize {
+        let mut levels = Levels::new([width as u32, height as u32]);
+        while levels.advance().is_some() {}
+        levels.offset as usize
+    }
+    /// Builds the hierarchy in the caller's buffer, of [`buffer`](Self::buffer) entries, from the mean radiance of each texel, row by row:
+    /// its luminance, or a sum of its channels. [`mean_of_bilinear`] is that mean where the host interpolates. Columns are u, rows v, of the
+    /// light's surface coordinates.
+    ///
+    /// # Errors
+    /// If the lengths do not belong together, a weight is invalid, or all are 0 within the region.
+    pub fn build(weights: &[f32], width: usize, region: Region, buffer: &'a mut [f32]) -> Result<Self, TableError> {
+        let height = weights.len().checked_div(width).unwrap_or(0);
+        let whole = width.max(height) <= STEPS as usize && weights.len() == width * height && height > 0;
+        if !whole || weights.len() > u32::MAX as usize / 2 || buffer.len() != Self::buffer(width, height) {
+            return Err(TableError::Length);
+        }
+        if weights.iter().any(|w| !(0.0..=f32::MAX).contains(w)) {
+            return Err(TableError::Weight);
+        }
+        let size = [width as u32, height as u32];
+        let weight = |x: usize, y: usize| {
+            let w = f64::from(weights[y * width + x]);
+            if w > 0.0 && region != Region::Square { w * region.part([x, y], [width, height]) } else { w }
+        };
+        let sum = |[x0, y0]: [usize; 2], [x1, y1]: [usize; 2]| -> f64 {
+            (y0..y1.min(height)).map(|y| (x0..x1.min(width)).map(|x| weight(x, y)).sum::<f64>()).sum()
+        };
+        for Level { offset, log: [kx, ky], axis, stride } in Levels::new(size) {
+            for (i, share) in buffer[offset as usize..].iter_mut().enumerate() {
+                let (nx, ny) = (i & ((1 << stride) - 1), i >> stride);
+                let ([x0, y0], [x1, y1]) = ([nx << kx, ny << ky], [(nx + 1) << kx, (ny + 1) << ky]);
+                if y0 >= height {
+                    break;
+                }
+                let [lower, upper] = if axis == 0 {
+                    let middle = x0.midpoint(x1);
+                    [sum([x0, y0], [middle, y1]), sum([middle, y0], [x1, y1])]
+                } else {
+                    let middle = y0.midpoint(y1);
+                    [sum([x0, y0], [x1, middle]), sum([x0, middle], [x1, y1])]
+                };
+                let least = f64::from(f32::EPSILON) / 2.0;
+                *share = match (lower > 0.0, upper > 0.0) {
+                    // neither may be rounded away
+                    (true, true) => (lower / (lower + upper)).max(f64::from(f32::MIN_POSITIVE)).min(1.0 - least) as f32,
+                    (false, true) => 0.0,
+                    _ => 1.0,
+                };
+            }
+        }
+        if sum([0, 0], [width, height]) > 0.0 {
+            Ok(Self { shares: buffer, size, region })
+        } else {
+            Err(TableError::Empty)
+        }
+    }
+    /// The picture that [`build`](Self::build) has left in the buffer. The contents are not checked: with others, the pmf is still what is
+    /// drawn.
+    ///
+    /// # Errors
+    /// If the length of the buffer is not that of a picture of this size.
+    pub fn from_buffer(buffer: &'a [f32], [width, height]: [usize; 2], region: Region) -> Result<Self, TableError> {
+        let sizes = 1..=STEPS as usize;
+        let fits = sizes.contains(&width) && sizes.contains(&height) && width * height <= u32::MAX as usize / 2;
+        if !fits || buffer.len() != Self::buffer(width, height) {
+            return Err(TableError::Length);
+        }
+        Ok(Self { shares: buffer, size: [width as u32, height as u32], region })
+    }
+    /// Columns and rows.
+    #[inline(always)]
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        self.size.map(|n| n as usize)
+    }
+    /// The part of the surface coordinates that its light covers.
+    #[inline(always)]
+    #[must_use]
+    pub fn region(&self) -> Region {
+        self.region
+    }
+    #[inline(always)]
+    pub(super) fn counts<R: Real>(&self) -> Vec2<R> {
+        let [w, h] = self.size.map(|n| R::lit(f64::from(n)));
+        Vec2::new(w, h)
+    }
+    /// The position in the texel that `u` draws, and the texel.
+    #[inline(always)]
+    pub(super) fn draw<R: Real>(&self, u: Vec2<R>, halves: &impl Halves<R>) -> (Drawn<R>, Vec2<R>) {
+        let (zero, steps) = (R::lit(0.0), R::lit(STEPS));
+        let least = |x: R| x.clamped(zero, R::ONE_MINUS_EPSILON) * steps;
+        let at = Vec2::new(least(u.x), least(u.y));
+        let drawn = self.walk(halves, |axis, step, _| if axis == 0 { at.x.lt(step) } else { at.y.lt(step) });
+        // the differences are exact
+        let within = |at: R, start: R, steps: R| crate::real::unit_interval((at - start) / steps);
+        let Drawn { start, steps, .. } = drawn;
+        (drawn, Vec2::new(within(at.x, start.x, steps.x), within(at.y, start.y, steps.y)))
+    }
+    /// A texel, given its column and row, and how it is drawn.
+    #[inline(always)]
+    pub(super) fn find<R: Real>(&self, texel: Vec2<R>, halves: &impl Halves<R>) -> Drawn<R> {
+        self.walk(halves, |axis, _, middle| if axis == 0 { texel.x.lt(middle) } else { texel.y.lt(middle) })
+    }
+    /// Goes down to a texel. At each box, `lower` is asked whether to go to its lower half, given the axis, and the first step and the first
+    /// column or row of the upper half.
+    #[inline(always)]
+    fn walk<R: Real>(&self, halves: &impl Halves<R>, lower: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
+        let counts = self.counts::<R>();
+        let inverse = Vec2::new(one / counts.x, one / counts.y);
+        let mut start = [zero; 2];
+        let mut steps = [R::lit(STEPS); 2];
+        let mut texel = [zero; 2];
+        let mut differ = R::Mask::splat(true);
+        for Level { offset, log, axis, stride } in Levels::new(self.size) {
+            let index = {
+                let [x, y] = [texel[0].to_uint().shr(log[0]), texel[1].to_uint().shr(log[1])];
+                y.shl(stride).wrapping_add(x).wrapping_add(R::Uint::splat(offset))
+            };
+            let share = R::from_fn(|lane| {
+                let share = self.shares.get(index.lane(lane) as usize).copied().unwrap_or(1.0);
+                R::Scalar::lit(f64::from(share))
+            });
+            let share = share.clamped(zero, one);
+            let half = R::lit(f64::from(1_u32 << (log[axis] - 1)));
+            let count = if axis == 0 { counts.x } else { counts.y };
+            let middle = texel[axis] + half;
+            let end = (middle + half).lesser(count);
+            let [low, high] = {
+                let across = 1 - axis;
+                let size = R::lit(f64::from(1_u32 << log[across]));
+                let from = texel[across];
+                let to = (from + size).lesser(if axis == 0 { counts.y } else { counts.x });
+                let boxed = |start: R, end: R| {
+                    let [x0, x1, y0, y1] = if axis == 0 { [start, end, from, to] } else { [from, to, start, end] };
+                    Box2 {
+                        low: Vec2::new(x0 * inverse.x, y0 * inverse.y),
+                        high: Vec2::new(x1 * inverse.x, y1 * inverse.y),
+                    }
+                };
+                [boxed(texel[axis], middle), boxed(middle, end)]
+            };
+            let (radiant, rest) = (share, one - share);
+            let [a, b] = if differ.any() {
+                let ([a, b], still) = halves.densities(axis, &low, &high);
+                let each = [R::blend(differ, a, one), R::blend(differ, b, one)];
+                differ = differ & still;
+                each
+            } else {
+                [one; 2]
+            };
+            let (a, b) = (a * radiant, b * rest);
+            // where the measure leaves nothing, the radiance decides
+            let none = !(a + b).gt(zero);
+            let (a, b) = (R::blend(none, radiant, a), R::blend(none, rest, b));
+            let all = steps[axis];
+            let cut = (all * (a / (a + b))).round_ties_even().clamped(half, all - (end - middle));
+            // a box that is never drawn has no steps
+            let cut = cut.clamped(zero, all);
+            let cut = R::blend(b.gt(zero), cut, all).keep(a.gt(zero));
+            // no contents of a buffer lead past the last column or row
+            let cut = R::blend(middle.lt(count), cut, all);
+            let below = lower(axis, start[axis] + cut, middle);
+            steps[axis] = R::blend(below, cut, all - cut);
+            start[axis] = R::blend(below, start[axis], start[axis] + cut);
+            texel[axis] = R::blend(below, texel[axis], middle);
+        }
+        let pair = |[x, y]: [R; 2]| Vec2::new(x, y);
+        Drawn { texel: pair(texel), start: pair(start), steps: pair(steps) }
+    }
+}
+
+/// The mean over the texel in column `x` and row `y` of an image that is interpolated bilinearly between the centres of its texels, and
+/// continued by its outermost ones: what pbrt-v4 does with pictures on lights, and Mitsuba 3 with textures that are clamped.
+///
+/// It is ⅛, ¾ and ⅛ of a texel and its neighbours, in both directions, so that it is above 0 wherever the interpolation is.
+///
+/// # Panics
+/// If the texel is not in the image.
+#[must_use]
+pub fn mean_of_bilinear(values: &[f32], width: usize, [x, y]: [usize; 2]) -> f32 {
+    let height = values.len() / width;
+    let around = |i: usize, n: usize| [(i.saturating_sub(1), 0.125), (i, 0.75), ((i + 1).min(n - 1), 0.125)];
+    let row = |y: usize| around(x, width).map(|(x, part)| part * f64::from(values[y * width + x])).iter().sum::<f64>();
+    around(y, height).map(|(y, part)| part * row(y)).iter().sum::<f64>() as f32
+}
