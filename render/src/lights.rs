@@ -6,14 +6,15 @@ pub mod tree;
 use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
 use crate::geometry::{Geometry, bounds_of};
+use crate::light_picture::LightPicture;
 use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{DeltaLight, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
 use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
 use etendue::{
-    DirectionalLight, LightSample, LightSampler, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2,
-    Vec3, u32x8,
+    DirectionalLight, LightSample, LightSampler, Mask, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle,
+    Vec2, Vec3, u32x8,
 };
 use many::{ManyAt, ManyLights};
 use rayon::prelude::*;
@@ -29,8 +30,11 @@ const DISTANT: u32 = 5;
 const SKY: u32 = 6;
 const KINDS: u32 = 7;
 const TWO_SIDED: u32 = 8;
+const PICTURED: u32 = 16;
+/// The bit of [`Lights::kinds`] that says that some lights are [`PICTURED`].
+const PICTURES: u32 = 1 << KINDS;
 const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT;
-const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM;
+const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | PICTURES;
 
 /// A light.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,9 +45,9 @@ struct LightRecord {
     first: [f32; 3],
     /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y.
     second: [f32; 3],
-    /// Radiance; intensity of a point or spot light, irradiance of a distant light.
+    /// Radiance, the mean of a picture; intensity of a point or spot light, irradiance of a distant light.
     radiance: [f32; 3],
-    /// Its kind, and [`TWO_SIDED`].
+    /// Its kind, and [`TWO_SIDED`] and [`PICTURED`].
     kind: u32,
     /// Index of its shape, or [`NOTHING`].
     shape: u32,
@@ -65,6 +69,7 @@ impl LightRecord {
             Geometry::Parallelogram { p, u, v } => (PARALLELOGRAM, [p, u, v]),
         };
         let (sides, flag) = if emission.two_sided { (2.0, TWO_SIDED) } else { (1.0, 0) };
+        let flag = if emission.picture.is_some() { flag | PICTURED } else { flag };
         let power = sum(emission.radiance) * shape.geometry.area() * sides;
         let record = Self { place, first, second, radiance: emission.radiance, kind: kind | flag, shape: index };
         Some((record, power))
@@ -127,10 +132,11 @@ pub struct Lights {
     /// a copy of each is as large as the shape.
     unpacked: Vec<u32>,
     shapes: Arc<[Shape]>,
+    pictures: Arc<[LightPicture]>,
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     many: ManyLights,
-    /// Bit k is set if there is a light of kind k.
+    /// Bit k is set if there is a light of kind k; and [`PICTURES`].
     kinds: u32,
     sky: Option<Arc<Sky>>,
     /// Index of the light of each shape; [`NOTHING`] for shapes that are not lights.
@@ -192,7 +198,7 @@ pub struct Chosen {
     place: V8,
     first: V8,
     second: V8,
-    /// Radiance; intensity or irradiance for a delta light.
+    /// Radiance; intensity or irradiance for a delta light. That of a picture is the mean until the light is sampled.
     pub radiance: V8,
     kind: u32x8,
     /// Index of its shape; [`NOTHING`] for a light without one.
@@ -263,17 +269,19 @@ impl Lights {
             let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
             all.push((record, sky.flux() * squared_radius(scene)));
         }
-        Self::of(all, &scene.shapes, sky)
+        Self::of(all, scene, sky)
     }
     /// The delta lights of a scene alone.
     ///
     /// # Errors
     /// Fails if there are more lights than a tree can index.
     pub fn deltas(scene: &Scene) -> Result<Self, BuildError> {
-        Self::of(delta_lights(scene), &scene.shapes, None)
+        Self::of(delta_lights(scene), scene, None)
     }
-    fn of(all: Powered, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
-        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS));
+    fn of(all: Powered, scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
+        let shapes = &scene.shapes;
+        let pictured = |light: &LightRecord| if light.kind & PICTURED != 0 { PICTURES } else { 0 };
+        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS) | pictured(light));
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
         // relative to the greatest, so that all are finite
         let bound = |(light, power): &(LightRecord, f64)| light.bound(power / greatest);
@@ -297,6 +305,7 @@ impl Lights {
             all.iter().map(|(record, _)| record).take_while(is_unpacked).map(|record| record.shape).collect();
         own.packed = all[own.unpacked.len()..].iter().map(|(record, _)| record.pack()).collect();
         own.shapes = Arc::clone(shapes);
+        own.pictures = Arc::clone(&scene.pictures);
         Ok(own)
     }
     /// Bounds of the lights of a scene that have an area, in their order.
@@ -330,6 +339,11 @@ impl Lights {
     /// Whether there are 1 to [`FEW`] lights, and all have an area.
     pub fn only_few_areas(&self) -> bool {
         self.kinds & !ONLY_AREAS == 0 && (1..=FEW).contains(&self.len())
+    }
+    /// Whether all lights are shapes that show pictures.
+    pub fn only_pictures(&self) -> bool {
+        let is_pictured = |shape: &Shape| shape.emission.is_none_or(|emission| emission.picture.is_some());
+        self.kinds & !ONLY_AREAS == 0 && self.kinds & PICTURES != 0 && self.shapes.iter().all(is_pictured)
     }
     /// What each light can contribute to points of surfaces, where samples can be allocated.
     #[inline]
@@ -378,8 +392,8 @@ impl Lights {
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
         LightRecord::of(shape, &self.shapes[shape as usize]).map(|(record, _)| record.pack()).unwrap_or_default()
     }
-    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky, `radiance` of
-    /// `chosen` becomes that of the sampled direction.
+    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky and a picture,
+    /// `radiance` of `chosen` becomes that of the sampled direction.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         const ONLY_SPHERES: u32 = 1 << SPHERE;
@@ -401,6 +415,9 @@ impl Lights {
             let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
             let Chosen { place, first, second, .. } = *chosen;
             let sample = match kind {
+                SPHERE | TRIANGLE | PARALLELOGRAM if self.kinds & PICTURES != 0 => {
+                    self.pictured(kind, here, chosen, measure, p, normal, u)
+                }
                 SPHERE => chosen.sphere(measure, p, normal, u),
                 TRIANGLE => chosen.triangle(measure, p, normal, u),
                 PARALLELOGRAM => chosen.parallelogram(measure, p, normal, u),
@@ -429,6 +446,39 @@ impl Lights {
             });
         }
         mixed.unwrap_or_else(|| unreachable!("there is a light"))
+    }
+    /// Samples shapes of one kind, some of which show pictures, and puts the radiance of the sampled points into the lanes `here`. Points are
+    /// drawn by the shape alone.
+    // not inlined, so that it does not burden scenes without pictures
+    #[inline(never)]
+    #[allow(clippy::too_many_arguments, reason = "those of `sample`, and which lanes")]
+    fn pictured(
+        &self,
+        kind: u32,
+        here: M8,
+        chosen: &mut Chosen,
+        measure: Measure,
+        p: V8,
+        normal: V8,
+        u: Vec2<X8>,
+    ) -> Drawn {
+        let sample: LightSample<X8> = match kind {
+            SPHERE => chosen.sphere(measure, p, normal, u),
+            TRIANGLE => chosen.triangle(measure, p, normal, u),
+            _ => chosen.parallelogram(measure, p, normal, u),
+        };
+        let mut left = here & !equal(chosen.kind & u32x8::splat(PICTURED), u32x8::splat(0));
+        while left.any() {
+            let shape = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
+            let lanes = left & equal(chosen.shape, u32x8::splat(shape));
+            let shape = &self.shapes[shape as usize];
+            if let Some(picture) = shape.emission.and_then(|emission| emission.picture) {
+                let picture = &self.pictures[picture as usize];
+                picture.show(&shape.geometry, lanes, sample.uv, sample.normal, &mut chosen.radiance);
+            }
+            left = left & !lanes;
+        }
+        sample.into()
     }
     /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
     /// shape from `p`.
@@ -461,7 +511,7 @@ impl Lights {
 
 /// Not inlined, so that its registers do not burden the cheaper measures.
 #[inline(never)]
-fn projected(sample: impl Fn() -> Drawn) -> Drawn {
+fn projected<D>(sample: impl Fn() -> D) -> D {
     sample()
 }
 
@@ -479,21 +529,21 @@ impl Chosen {
         }
     }
     #[inline]
-    fn sphere(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+    fn sphere<D: From<LightSample<X8>>>(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> D {
         let light = Sphere { center: self.place, radius: self.first.x };
         match measure {
             Measure::Area => {
                 // From outside, the far side is behind the near one, even if it emits inwards. The light does not occlude itself.
-                let drawn = Drawn::from(light.by_area(p).sample(u));
+                let drawn = light.by_area(p).sample(u);
                 let inside = (light.center - p).length_squared().lt(light.radius * light.radius);
-                Drawn { pdf: drawn.pdf.keep(drawn.emits | inside), ..drawn }
+                LightSample { pdf: drawn.pdf.keep(drawn.emits | inside), ..drawn }.into()
             }
             Measure::SolidAngle => light.by_solid_angle(p).sample(u).into(),
             Measure::Projected => light.by_projected_solid_angle(p, normal).sample(u).into(),
         }
     }
     #[inline]
-    fn triangle(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+    fn triangle<D: From<LightSample<X8>>>(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> D {
         let light = Triangle { v0: self.place, e1: self.first, e2: self.second };
         match measure {
             Measure::Area => light.by_area(p).sample(u).into(),
@@ -502,7 +552,7 @@ impl Chosen {
         }
     }
     #[inline]
-    fn parallelogram(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+    fn parallelogram<D: From<LightSample<X8>>>(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> D {
         let light = Parallelogram { corner: self.place, edge_s: self.first, edge_t: self.second };
         match measure {
             Measure::Area => light.by_area(p).sample(u).into(),

@@ -7,6 +7,9 @@ pub const MOST_PIXELS: u64 = 1 << 28;
 /// Most pixels across, and down.
 pub const MOST_SIDE: u32 = 65_536;
 
+/// Greatest radiance: eight samples are added in single precision, which ends at 3.4e38.
+pub const MOST_RADIANCE: f32 = 4e37;
+
 /// Whether an image can have this size.
 #[must_use]
 pub fn is_size(width: u64, height: u64) -> bool {

@@ -22,7 +22,8 @@
 //! | other patches, `disk`, `cylinder`, partial, stretched or textured spheres | triangles |
 //! | `curve` and older quadrics | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
-//! | `goniometric`, `projection`, lights with a picture | a point, spot or plain light of the same mean; portals are ignored |
+//! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
+//! | `goniometric`, `projection` | a point or spot light of the same mean; portals are ignored |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
@@ -30,7 +31,7 @@
 //! | in glTF files | becomes |
 //! |---|---|
 //! | metallic-roughness, specular-glossiness, index of refraction | glTF's GGX over diffuse |
-//! | emissive textures | the mean over each triangle |
+//! | emissive textures | themselves, on each triangle |
 //! | masks, blending | holes, as for `alpha` |
 //! | transmission | opaque |
 //! | meshes of several nodes, `EXT_mesh_gpu_instancing` | instances, or copies in small scenes and of lights |
@@ -43,6 +44,7 @@ mod description;
 mod generated;
 mod gltf;
 mod includes;
+mod lamps;
 mod lexer;
 mod lights;
 mod material_parameters;

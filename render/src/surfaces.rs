@@ -5,6 +5,7 @@ mod points;
 use crate::bsdf::{Finish, Metal, PLAIN, albedo, finish};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::geometry::Affine;
+use crate::light_picture::{LightPicture, coordinates};
 use crate::packet::{M8, V8, X8, equal};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
 use etendue::{Mask, Real, Vec3, u32x8};
@@ -42,6 +43,8 @@ pub struct Surfaces {
     pub bvh: Bvh,
     /// Spheres and emitters.
     shapes: Arc<[Shape]>,
+    /// What some of them show.
+    pictures: Arc<[LightPicture]>,
     /// Albedos of the materials; white for metals and mirrors that are not black.
     albedos: Vec<[f32; 3]>,
     finishes: Vec<Finish>,
@@ -120,6 +123,7 @@ impl Surfaces {
             rough: means.iter().any(Material::is_glossy),
             is_plain: !detailed && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
             shapes: Arc::clone(&scene.shapes),
+            pictures: Arc::clone(&scene.pictures),
             bvh,
             albedos: means.iter().map(albedo).collect(),
             finishes: means.iter().map(|material| finish(&material.isotropic())).collect(),
@@ -226,7 +230,7 @@ impl Surfaces {
     /// Adds the spheres and emitters that eight rays hit.
     fn solid(&self, hits: &Hits, lanes: M8, rays: &Rays, surface: &mut Surface) {
         self.each_shape(hits, lanes, rays, |_, here, shape, outward| {
-            if let Some((radiance, lit)) = emitted(here, shape, outward, rays.direction) {
+            if let Some((radiance, lit)) = self.emitted(hits, here, shape, outward, rays) {
                 surface.emission = V8::blend(lit, radiance, surface.emission);
             }
             if self.reflect[shape.material as usize] {
@@ -245,6 +249,27 @@ impl Surfaces {
                 surface.reflects = surface.reflects | here;
             }
         });
+    }
+
+    /// Radiance that a shape emits against the rays that have hit it in these lanes, and the lanes where it does.
+    #[inline]
+    pub fn emitted(&self, hits: &Hits, lanes: M8, shape: &Shape, outward: V8, rays: &Rays) -> Option<(V8, M8)> {
+        let emission = shape.emission?;
+        let front = outward.dot(rays.direction).lt(X8::lit(0.0));
+        let lit = lanes & (front | M8::splat(emission.two_sided));
+        let radiance = match emission.picture {
+            None => emission.radiance.into(),
+            Some(picture) => self.shown(picture, hits, lit, shape, outward, rays),
+        };
+        Some((radiance, lit))
+    }
+    /// Radiance of the points of a shape with a picture that rays have hit.
+    #[inline(never)]
+    fn shown(&self, picture: u32, hits: &Hits, lanes: M8, shape: &Shape, outward: V8, rays: &Rays) -> V8 {
+        let mut radiance = V8::default();
+        let st = coordinates(&shape.geometry, rays.direction.mul_add(hits.distance, rays.origin));
+        self.pictures[picture as usize].show(&shape.geometry, lanes, st, outward, &mut radiance);
+        radiance
     }
 
     /// Materials at the hit points of these lanes, and the lanes of smooth surfaces: `surface` gets their normals, and the albedos of
@@ -404,14 +429,6 @@ fn smooth_normal(normals: &[[f32; 3]; 3], weights: [f32; 3], flat: [f32; 3], dir
         n = unit(std::array::from_fn(|k| n[k] - (LEAST_COS - cos) * direction[k]))?;
     }
     Some(n.map(|x| x as f32))
-}
-
-/// Radiance that a shape emits against the rays, and the lanes where it does.
-#[inline]
-pub fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(V8, M8)> {
-    let emission = shape.emission?;
-    let front = outward.dot(direction).lt(X8::lit(0.0));
-    Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
 }
 
 #[cfg(test)]

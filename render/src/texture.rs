@@ -77,6 +77,17 @@ impl Texels {
     fn opacity(&self, index: usize) -> [f32; 3] {
         [self.alpha.as_ref().map_or(1.0, |alpha| f32::from(alpha[index]) / 255.0); 3]
     }
+    /// The greatest value of each channel, at least 0.
+    #[must_use]
+    pub fn greatest(&self) -> [f32; 3] {
+        let texels = (0..self.width * self.height).map(|index| self.color(index));
+        texels.fold([0.0; 3], |most, texel| std::array::from_fn(|k| texel[k].max(most[k])))
+    }
+    /// The mean colour of all texels, linear RGB.
+    #[must_use]
+    pub fn average(&self) -> [f64; 3] {
+        self.mean(Self::color).map(f64::from)
+    }
     /// The mean over all texels.
     fn mean(&self, value: impl Fn(&Self, usize) -> [f32; 3]) -> [f32; 3] {
         let count = self.width * self.height;
@@ -292,8 +303,22 @@ impl Picture {
         let low = x.floor();
         (low as i64, if self.bilinear { (x - low) as f32 } else { 0.0 })
     }
-    fn at(&self, uv: [f32; 2]) -> [f32; 3] {
+    /// The colour at texture coordinates.
+    #[must_use]
+    pub fn at(&self, uv: [f32; 2]) -> [f32; 3] {
         self.interpolated(uv, |index| self.texels.color(index))
+    }
+    /// The index of the texel in a column and a row, which may be beyond the edges; `None` if it is black.
+    #[inline]
+    fn index(&self, x: i64, y: i64) -> Option<usize> {
+        let Texels { width, height, .. } = *self.texels;
+        let place = wrapped(x, width, self.wrap[0]).zip(wrapped(y, height, self.wrap[1]));
+        place.map(|(x, y)| y * width + x)
+    }
+    /// The colour of the texel in a column and a row, which may be beyond the edges.
+    #[must_use]
+    pub fn texel(&self, x: i64, y: i64) -> [f32; 3] {
+        self.index(x, y).map_or([0.0; 3], |index| self.texels.color(index))
     }
     fn opacity(&self, uv: [f32; 2]) -> [f32; 3] {
         self.interpolated(uv, |index| self.texels.opacity(index))
@@ -303,10 +328,7 @@ impl Picture {
         let [s, t] = self.mapping.at(uv);
         let Texels { width, height, .. } = *self.texels;
         let ((x, fx), (y, fy)) = (self.beside(s, width), self.beside(t, height));
-        let texel = |x: i64, y: i64| {
-            let place = wrapped(x, width, self.wrap[0]).zip(wrapped(y, height, self.wrap[1]));
-            place.map_or([0.0; 3], |(x, y)| value(y * width + x))
-        };
+        let texel = |x: i64, y: i64| self.index(x, y).map_or([0.0; 3], &value);
         if !self.bilinear {
             return texel(x, y);
         }

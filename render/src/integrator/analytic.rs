@@ -32,6 +32,8 @@ const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 pub(super) struct AreaLight {
     form: Convex<f32>,
     radiance: [f32; 3],
+    /// Whether its radiance varies, so that no closed form has its integral. It is sampled unless it is dark.
+    varies: bool,
 }
 
 /// What is known of a light, as seen from a part of a surface. What it contributes is computed in a precision that suffices there.
@@ -191,7 +193,9 @@ impl<'a> Analytic<'a> {
         let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
         let (eye, pixel) = camera.middle(settings.width, settings.height);
         let light = |shape: &crate::scene::Shape| {
-            Some(AreaLight { form: shape.geometry.convex(), radiance: shape.emission?.radiance })
+            let emission = shape.emission?;
+            let varies = emission.picture.is_some();
+            Some(AreaLight { form: shape.geometry.convex(), radiance: emission.radiance, varies })
         };
         Self {
             surfaces,
@@ -302,6 +306,9 @@ impl<'a> Analytic<'a> {
                 }
             };
             known.push(match certificate {
+                // a smaller patch is not darker
+                Certificate::Lit(_) if lights[light].varies => Known::Never,
+                Certificate::Blockers(..) if lights[light].varies => Known::Crowded,
                 Certificate::Lit(Precision::Neither) | Certificate::Blockers(_, Precision::Neither) => Known::Crowded,
                 Certificate::Lit(precision) => Known::Lit(precision),
                 Certificate::Dark => Known::Dark,

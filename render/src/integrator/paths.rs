@@ -14,7 +14,7 @@ use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
 use crate::packet::{M8, V8, X8, pick, select};
-use crate::surfaces::{Surface, emitted};
+use crate::surfaces::Surface;
 use crate::technique::Technique;
 use etendue::estimate::{Heuristic, technique_pdf};
 use etendue::occlusion::SPARED;
@@ -444,7 +444,7 @@ impl<'a> Paths<'a> {
             });
             lit[p] = M8::splat(false);
             world.each_shape(&hits[p], met, rays, |index, here, shape, outward| {
-                if let Some((emitted, here)) = emitted(here, shape, outward, direction) {
+                if let Some((emitted, here)) = world.emitted(&hits[p], here, shape, outward, rays) {
                     radiance = V8::blend(here, emitted, radiance);
                     lit[p] = lit[p] | here;
                     if let Some(pmf) = pmf.as_ref().filter(|_| here.any()) {

@@ -1,18 +1,17 @@
 //! Collects the surfaces of a scene in world space: checks and orients them, and rounds them once to f32.
 
 use super::description::{CameraSettings, Corners, Details, FilmSettings, Scene, Shape};
+use super::lamps::Lamps;
 use super::lights::{DeltaLight, Emission, Environment};
 use super::materials::{Material, Varying};
 use super::message::{Message, Notes};
-use super::params::MOST_RADIANCE;
 use super::shape_attributes::ShapeAttributes;
-use super::spectrum::luminance;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use super::vertices::{Vertex, Vertices};
 use crate::geometry::{Affine, Geometry, Instance, bounds_of};
-use crate::texture::{Mask, Texture};
+use crate::light_picture::affine;
+use crate::texture::{Mapping, Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
-use std::f64::consts::PI;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -35,6 +34,7 @@ pub(super) struct Builder {
     pub(super) varying: Vec<Varying>,
     pub(super) details: Details,
     pub(super) shapes: Vec<Shape>,
+    lamps: Lamps,
     pub(super) notes: Notes,
     material_index: HashMap<[u32; 10], u32>,
     /// Materials with holes: for each the index of the one without, and the mask.
@@ -78,6 +78,15 @@ const MOST_TRIANGLES: usize = (1 << 31) - 1;
 fn corners(bounds: [[f32; 3]; 2], ctm: &Transform) -> [[f64; 3]; 8] {
     let corner = move |k: usize| std::array::from_fn(|axis| f64::from(bounds[k >> axis & 1][axis]));
     std::array::from_fn(|k| ctm.point(corner(k)))
+}
+
+/// How far texture coordinates at the corners p00, p10, p01, p11 are from those of an affine map, relative to their range.
+fn bend_of_uvs(corners: &[Vertex; 4]) -> f64 {
+    let [a, b, c, d] = corners.map(|vertex| vertex.uv);
+    let range = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+    let off = range([a[0] + d[0], a[1] + d[1]], [b[0] + c[0], b[1] + c[1]]);
+    let size = [b, c, d].into_iter().map(|uv| range(uv, a)).fold(f64::MIN_POSITIVE, f64::max);
+    off / size
 }
 
 #[inline(always)]
@@ -256,7 +265,7 @@ impl Builder {
     /// Adds a copy of an object.
     fn copy(&mut self, parts: &Self, ctm: &Transform) {
         let flip = ctm.determinant() < 0.0;
-        let mut surface = ShapeAttributes { ctm: *ctm, flip, material: 0, emission: None, power: None };
+        let mut surface = ShapeAttributes { ctm: *ctm, flip, material: 0, emission: None, picture: None, power: None };
         for (i, triangle) in (0..).zip(&parts.triangles) {
             surface.material = parts.triangle_materials[i as usize];
             let corners = parts.details.of(i);
@@ -306,6 +315,7 @@ impl Builder {
             varying: self.varying,
             details: self.details.into(),
             shapes: self.shapes.into(),
+            pictures: self.lamps.pictures.into(),
             delta_lights,
             environment,
             warnings: self.notes.warnings,
@@ -325,19 +335,30 @@ impl Builder {
         }
     }
 
-    /// Adds a shape that emits as the attributes tell.
-    pub(super) fn add(&mut self, surface: &ShapeAttributes, geometry: Geometry) {
-        let emission = surface.emission.map(|emission| match surface.power {
-            Some(power) => {
-                // a Lambertian emitter of radiance L has the power πAL on each side that emits
-                let sides = if emission.two_sided { 2.0 } else { 1.0 };
-                let y = luminance(emission.radiance.map(f64::from)) * PI * sides * geometry.area();
-                let radiance = emission.radiance.map(|x| (f64::from(x) * power / y).min(MOST_RADIANCE.into()) as f32);
-                Emission { radiance, ..emission }
-            }
-            None => emission,
-        });
+    /// Adds a shape that emits as the attributes tell. `mapping` takes its coordinates to texture coordinates.
+    pub(super) fn add(&mut self, surface: &ShapeAttributes, geometry: Geometry, mapping: impl FnOnce() -> Mapping) {
+        let emission = self.lamps.emission(surface, &geometry, mapping);
         self.push(surface.material, emission, geometry);
+    }
+
+    /// Adds a triangle that emits, unless it has no area or is dark; returns whether it did. Normals tell which side emits.
+    pub(super) fn lamp(&mut self, surface: &ShapeAttributes, corners: [Vertex; 3]) -> bool {
+        let [first, second, third] = corners;
+        let corners = if surface.flip { [first, third, second] } else { corners };
+        let [a, b, c] = corners.map(|vertex| round(vertex.point).map(f64::from));
+        let flat = cross(sub(b, a), sub(c, a));
+        if flat == [0.0; 3] {
+            return false;
+        }
+        let given = corners.iter().fold([0.0; 3], |sum, vertex| add(sum, vertex.normal));
+        let [first, second, third] = corners;
+        let corners = if dot(flat, given) < 0.0 { [first, third, second] } else { corners };
+        let geometry = Geometry::Triangle(corners.map(|vertex| round(vertex.point)));
+        let emission = self.lamps.emission(surface, &geometry, || affine(corners.map(|vertex| vertex.uv)));
+        if emission.is_some() {
+            self.push(surface.material, emission, geometry);
+        }
+        emission.is_some()
     }
 
     /// Makes room for the triangles of a mesh.
@@ -380,6 +401,12 @@ impl Builder {
         normal: impl Fn(usize) -> [f64; 3],
         uv: impl Fn(usize) -> [f64; 2],
     ) {
+        if surface.emission.is_some() {
+            let vertex = |k: usize| Vertex { point: point(k), normal: normal(k), uv: uv(k) };
+            if self.lamp(surface, [vertex(0), vertex(1), vertex(2)]) {
+                return;
+            }
+        }
         // spelt out, since the compiler calls the closures of arrays' `map` one by one
         let [j, k] = if surface.flip { [2, 1] } else { [1, 2] };
         let corners = [round(point(0)), round(point(j)), round(point(k))];
@@ -391,12 +418,6 @@ impl Builder {
             return;
         }
         let normals = [normal(0), normal(j), normal(k)];
-        if surface.emission.is_some() {
-            let [a, b, c] = corners;
-            let given = normals.into_iter().fold([0.0; 3], add);
-            let corners = if dot(flat, given) < 0.0 { [a, c, b] } else { corners };
-            return self.add(surface, Geometry::Triangle(corners));
-        }
         let has_normals = normals.iter().all(|n| *n != [0.0; 3]);
         let least = FLAT * length(flat);
         let is_smooth = has_normals && normals.iter().any(|n| dot(*n, flat).abs() < least);
@@ -425,8 +446,9 @@ impl Builder {
         let size = length(u).max(length(v)).max(length(sub(p11, p01))).max(length(sub(p11, p10)));
         let off = length(sub(p11, add(p10, v))) / size;
         let [a, b, c, d] = corners;
+        let bend = if surface.emission.is_some() && surface.picture.is_some() { bend_of_uvs(&corners) } else { 0.0 };
         // a patch without extent is flat
-        if off.is_nan() || off <= FLATNESS {
+        if (off.is_nan() || off <= FLATNESS) && bend <= FLATNESS {
             if surface.emission.is_none() {
                 self.triangle(surface, [a, b, d]);
                 return self.triangle(surface, [a, d, c]);
@@ -434,16 +456,22 @@ impl Builder {
             let given = corners.iter().fold([0.0; 3], |sum, vertex| add(sum, vertex.normal));
             let side = dot(cross(u, v), given);
             let flip = if side == 0.0 { surface.flip } else { side < 0.0 };
-            let (u, v) = if flip { (v, u) } else { (u, v) };
+            let (u, v, [b, c]) = if flip { (v, u, [c, b]) } else { (u, v, [b, c]) };
             let (p, u, v) = (round(p00), round(u), round(v));
             if cross(u.map(f64::from), v.map(f64::from)) == [0.0; 3] {
                 self.left_out += 1;
-            } else {
-                self.add(surface, Geometry::Parallelogram { p, u, v });
+                return;
             }
-            return;
+            let geometry = Geometry::Parallelogram { p, u, v };
+            let emission = self.lamps.emission(surface, &geometry, || affine([a.uv, b.uv, c.uv]));
+            if emission.is_some() {
+                return self.push(surface.material, emission, geometry);
+            }
+            let dark = ShapeAttributes { emission: None, ..surface.clone() };
+            return self.patch(&dark, corners);
         }
         // a patch is off its n² pairs of triangles by a quarter of its bend over n²
+        let off = off.max(bend);
         let parts = ((off / (4.0 * BEND)).sqrt().ceil() as usize).clamp(2, MOST_PARTS);
         let at = |i: usize, j: usize| {
             let [s, t] = [i, j].map(|k| k as f64 / parts as f64);

@@ -4,6 +4,7 @@ use super::lights::{DeltaLight, Emission, Environment};
 use super::materials::{Material, Varying};
 use super::message::Message;
 use crate::geometry::{Geometry, Instance};
+use crate::light_picture::LightPicture;
 use crate::texture::Mask;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -38,6 +39,8 @@ pub struct Scene {
     pub details: Arc<Details>,
     /// All spheres, and the triangles and parallelograms that emit. What renders the scene shares them.
     pub shapes: Arc<[Shape]>,
+    /// The pictures that shapes emit. What renders the scene shares them.
+    pub pictures: Arc<[LightPicture]>,
     /// Point, spot and distant lights.
     pub delta_lights: Vec<DeltaLight>,
     /// Light from infinitely far away, if there is any.

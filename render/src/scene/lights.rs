@@ -7,9 +7,12 @@ use super::spectrum::luminance;
 use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
+use crate::texture::{self, Colors, Mapping, Texels, Wrap};
 use etendue::Vec2;
 use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
+use std::collections::HashMap;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,13 +46,15 @@ pub enum DeltaLight {
     },
 }
 
-/// Constant emission of a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Emission of a surface, the same in all directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Emission {
-    /// Radiance, linear RGB; at least one channel is greater than 0.
+    /// Radiance, linear RGB; at least one channel is greater than 0. With a picture, it is the mean over the surface.
     pub radiance: [f32; 3],
     /// Whether both sides emit, or only the side of the normal.
     pub two_sided: bool,
+    /// The picture that the surface shows, if its radiance varies: an index into [`Scene::pictures`](super::Scene::pictures).
+    pub picture: Option<u32>,
 }
 
 /// Light from infinitely far away in all directions.
@@ -85,7 +90,7 @@ pub(super) enum Source {
     Dark,
 }
 
-/// Greatest number of texels of an environment.
+/// Greatest number of texels of an environment, or of the picture of a light.
 const MOST_TEXELS: usize = 1 << 26;
 
 /// Where the files of a light are found.
@@ -197,26 +202,39 @@ fn mean_of(name: &str, params: &Params, files: &Files<'_>) -> Result<[f64; 3], M
     Ok(sum.map(|x| x / image.radiance.len() as f64))
 }
 
-/// Reads an `AreaLightSource`: its emission, unless it is dark, and the power of each light if the scene gives it.
+/// What an `AreaLightSource` makes of shapes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Area {
+    /// Nothing if it is dark. With a picture, the radiance is what its texels are multiplied by.
+    pub(super) emission: Option<Emission>,
+    /// The picture that each shape shows by its texture coordinates.
+    pub(super) picture: Option<texture::Picture>,
+    /// The power of each light, if the scene gives it.
+    pub(super) power: Option<f64>,
+}
+
+/// The pictures of lights that were read so far, by the files that name them and their names there.
+pub(super) type Shown = HashMap<(Arc<str>, String), Arc<Texels>>;
+
+/// Reads an `AreaLightSource`.
 pub(super) fn area(
     kind: &str,
     params: &mut Params,
     files: &Files<'_>,
+    known: &mut Shown,
     notes: &mut Notes,
-) -> Result<(Option<Emission>, Option<f64>), Message> {
+) -> Result<Area, Message> {
     if kind != "diffuse" && kind != "area" {
         return Err(params.error("not supported, only \"diffuse\""));
     }
     params.given("nsamples");
     params.given("samples");
-    let picture = match params.text("filename")? {
-        Some(name) => {
-            notes.stand_in("picture", || params.error("the picture on the light becomes its mean"));
-            mean_of(&name, params, files)?
-        }
-        None => [1.0; 3],
+    let texels = match params.text("filename")? {
+        Some(name) => Some(shown_texels(&name, params, files, known, notes)?),
+        None => None,
     };
-    let radiance = params.light("L", files.resolve)?.unwrap_or(picture);
+    // pbrt-v4 refuses a radiance beside a picture
+    let radiance = params.light("L", files.resolve)?.unwrap_or([1.0; 3]);
     let power = params.float("power")?;
     if let Some(power) = power.filter(|&power| power <= 0.0) {
         return Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(power))));
@@ -224,14 +242,42 @@ pub(super) fn area(
     let scale = scale(params)?;
     let radiance: [f64; 3] = std::array::from_fn(|k| radiance[k] * scale[k]);
     let two_sided = params.flag("twosided")?.unwrap_or(false);
-    let too_large = || params.error(format!("the radiance {radiance:?}: at most {MOST_RADIANCE:e} is supported"));
-    let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
-    brightness(radiance).into_iter().for_each(|text| notes.warn(params.error(text)));
-    let dark = radiance == [0.0; 3];
+    let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
+    let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
+    let too_large = || params.error(format!("the radiance {brightest:?}: at most {MOST_RADIANCE:e} is supported"));
+    let brightest = rounded(brightest).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
+    let radiance = rounded(radiance).ok_or_else(too_large)?;
+    brightness(brightest).into_iter().for_each(|text| notes.warn(params.error(text)));
+    let dark = brightest == [0.0; 3];
     if dark {
         notes.warn(params.error("emits nothing"));
     }
-    Ok(((!dark).then_some(Emission { radiance, two_sided }), power))
+    // pbrt's (0, 0) is the lower left corner
+    let mapping = Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]);
+    let picture = texels.map(|texels| texture::Picture { texels, mapping, wrap: [Wrap::Clamp; 2], bilinear: true });
+    let emission = Emission { radiance, two_sided, picture: None };
+    Ok(Area { emission: (!dark).then_some(emission), picture, power })
+}
+
+/// The texels of the picture of a light, which is read once.
+fn shown_texels(
+    name: &str,
+    params: &Params,
+    files: &Files<'_>,
+    known: &mut Shown,
+    notes: &mut Notes,
+) -> Result<Arc<Texels>, Message> {
+    let key = (Arc::clone(&params.place.file), name.to_owned());
+    if let Some(texels) = known.get(&key) {
+        return Ok(Arc::clone(texels));
+    }
+    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
+    let (colors, warning) = radiances(&image, name, [1.0; 3]).map_err(|what| params.error(what))?;
+    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
+    let Picture { width, height, .. } = image;
+    let texels = Arc::new(Texels { width, height, colors: Colors::Float(colors), alpha: None });
+    known.insert(key, Arc::clone(&texels));
+    Ok(texels)
 }
 
 /// The factor of a light; older files have one for each channel.
@@ -349,9 +395,7 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
 /// The rotation from world space to light space.
 fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
     let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
-    let factor = ctm.similarity().ok_or_else(stretched)?;
-    // the inverse of an orthogonal matrix is its transpose
-    Ok(std::array::from_fn(|i| std::array::from_fn(|j| (ctm.linear[j][i] / factor) as f32)))
+    ctm.axes().ok_or_else(stretched)
 }
 
 /// The image of an environment; `None` if it is black.
@@ -374,10 +418,17 @@ pub(super) fn sky_of(
     name: &str,
     scale: [f64; 3],
 ) -> Result<(Option<SkyRadiance>, Option<String>), String> {
+    // pbrt-v4's maps are square, those of others show longitude and latitude
+    let map = if image.width == image.height { EnvironmentMap::EqualArea } else { EnvironmentMap::Equirectangular };
+    let (texels, warning) = radiances(image, name, scale)?;
+    let black = texels.iter().all(|t| *t == [0.0; 3]);
+    Ok(((!black).then_some(SkyRadiance::Image { width: image.width, map, texels }), warning))
+}
+
+/// What the texels of an image emit, and a warning if some of it is negative. Fails if there are too many, or if one is not finite.
+fn radiances(image: &Picture, name: &str, scale: [f64; 3]) -> Result<(Vec<[f32; 3]>, Option<String>), String> {
     let (width, height) = (image.width, image.height);
     let told = |what: String| format!("{}: {what}", shortened(name));
-    // pbrt-v4's maps are square, those of others show longitude and latitude
-    let map = if width == height { EnvironmentMap::EqualArea } else { EnvironmentMap::Equirectangular };
     if width * height > MOST_TEXELS {
         return Err(told(format!("{width}×{height} texels: at most 2^26 are supported")));
     }
@@ -387,8 +438,9 @@ pub(super) fn sky_of(
         let rgb: [f32; 3] = std::array::from_fn(|k| (f64::from(texel[k]) * scale[k]) as f32);
         // texels are sampled in proportion to the sum of their channels
         if !(rgb.iter().sum::<f32>().is_finite() && rgb.iter().all(|&x| x <= MOST_RADIANCE)) {
+            let scaled = if scale == [1.0; 3] { String::new() } else { format!(", times {scale:?}") };
             return Err(told(format!(
-                "texel ({}, {}) is {texel:?}, times {scale:?}: must be finite, and at most {MOST_RADIANCE:e}",
+                "texel ({}, {}) is {texel:?}{scaled}: must be finite, and at most {MOST_RADIANCE:e}",
                 i % width,
                 i / width
             )));
@@ -397,6 +449,5 @@ pub(super) fn sky_of(
         texels.push(rgb.map(|x| x.max(0.0)));
     }
     let warning = (negative > 0).then(|| told(format!("negative values in {negative} texel(s) are replaced by 0")));
-    let black = texels.iter().all(|t| *t == [0.0; 3]);
-    Ok(((!black).then_some(SkyRadiance::Image { width, map, texels }), warning))
+    Ok((texels, warning))
 }

@@ -394,8 +394,7 @@ impl Params {
     }
 }
 
-/// Greatest radiance: eight samples are added in single precision, which ends at 3.4e38.
-pub(super) const MOST_RADIANCE: f32 = 4e37;
+pub(super) use crate::limits::MOST_RADIANCE;
 /// Above this, the variance of a pixel may be more than single precision holds.
 const BRIGHT: f32 = 1e18;
 

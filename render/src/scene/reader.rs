@@ -6,18 +6,19 @@ use super::description::{CameraSettings, FilmSettings, Scene};
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
-use super::lights::{self, DeltaLight, Emission, Environment, Files};
+use super::lights::{self, Area, DeltaLight, Environment, Files, Shown};
 use super::material_parameters::{self, Context, Finish};
 use super::materials::Material;
 use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
-use super::params::{Param, Params};
+use super::params::{Param, Params, Resolve};
 use super::shape_attributes::ShapeAttributes;
 use super::shapes;
 use super::textures::Textures;
 use super::transform::Transform;
 use super::transform_directives;
 use super::view::{self, Window};
+use crate::files::FileError;
 use crate::image;
 use crate::texture::{Mask, Texture};
 use std::cell::RefCell;
@@ -34,9 +35,7 @@ struct State {
     ctm: Transform,
     reverse: bool,
     material: Finish,
-    emission: Option<Emission>,
-    /// The power of each light, if the scene gives it.
-    power: Option<f64>,
+    area: Area,
     /// Parameters of `Attribute`, by what they are for.
     defaults: Vec<(String, Vec<Param>)>,
     /// Whether transforms apply only to the end of the exposure, which is not rendered.
@@ -66,6 +65,8 @@ struct Reader<'a> {
     systems: HashMap<String, Transform>,
     named: NamedMaterials,
     textures: Textures,
+    /// The pictures of lights.
+    shown: Shown,
     objects: HashMap<String, u32>,
     open: Option<Open>,
     in_world: bool,
@@ -79,8 +80,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         ctm: Transform::IDENTITY,
         reverse: false,
         material: Finish::Of(Material::Diffuse([0.5; 3])),
-        emission: None,
-        power: None,
+        area: Area::default(),
         defaults: Vec::new(),
         is_end: false,
     };
@@ -98,6 +98,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         systems: HashMap::new(),
         named: NamedMaterials::default(),
         textures: Textures::default(),
+        shown: Shown::default(),
         objects: HashMap::new(),
         open: None,
         in_world: false,
@@ -376,11 +377,11 @@ impl Reader<'_> {
             }
             "AreaLightSource" => {
                 self.with_defaults("light", &mut params);
-                let (main, inputs) = (self.main_dir, &self.inputs);
-                let resolve = |name: &str| resolved(main, inputs, name, dir);
-                let files = Files { resolve: &resolve, open: &|name| image::read(&resolve(name)) };
-                let area = lights::area(kind, &mut params, &files, &mut self.out.notes)?;
-                (self.state.emission, self.state.power) = area;
+                let Self { out, state, inputs, is_builtin, main_dir, shown, .. } = self;
+                let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
+                let open = |name: &str| opened(*is_builtin, name, &resolve);
+                let files = Files { resolve: &resolve, open: &open };
+                state.area = lights::area(kind, &mut params, &files, shown, &mut out.notes)?;
             }
             "LightSource" => {
                 self.with_defaults("light", &mut params);
@@ -454,10 +455,7 @@ impl Reader<'_> {
     fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
         let Self { out, state, inputs, is_builtin, main_dir, .. } = self;
         let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
-        let open = |name: &str| match BUILTIN_IMAGES.iter().find(|(known, _)| *is_builtin && *known == name) {
-            Some((_, bytes)) => image::decode(Path::new(name), bytes),
-            None => image::read(&resolve(name)),
-        };
+        let open = |name: &str| opened(*is_builtin, name, &resolve);
         let files = Files { resolve: &resolve, open: &open };
         match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
             lights::Source::Delta(light) => self.delta_lights.push(light),
@@ -489,12 +487,12 @@ impl Reader<'_> {
         let opacity = self.textures.number("alpha", params)?;
         params.given("shadowalpha");
         let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
-        if opacity.as_ref().is_some_and(is_absent) && self.state.emission.is_none() {
+        if opacity.as_ref().is_some_and(is_absent) && self.state.area.emission.is_none() {
             params.ignore_all();
             return Ok(());
         }
         let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
-        let mut emission = self.state.emission;
+        let Area { mut emission, picture, power } = self.state.area.clone();
         let Some(material) = self.named.of_shape(self.state.material, &mut self.out) else {
             if emission.is_some() {
                 self.out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
@@ -520,11 +518,20 @@ impl Reader<'_> {
                 _ => self.out.material(material),
             },
             emission,
-            power: self.state.power,
+            picture,
+            power,
         };
         let Self { out, inputs, main_dir, is_builtin, .. } = self;
         let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
         shapes::read(kind, out, &surface, params, &resolve, *is_builtin)
+    }
+}
+
+/// Reads the image of a light.
+fn opened(is_builtin: bool, name: &str, resolve: Resolve<'_>) -> Result<image::Picture, FileError> {
+    match BUILTIN_IMAGES.iter().find(|(known, _)| is_builtin && *known == name) {
+        Some((_, bytes)) => image::decode(Path::new(name), bytes),
+        None => image::read(&resolve(name)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::lights::Emission;
 use super::transform::{Transform, cross, dot, scaled, unit};
+use crate::texture::Picture;
 
 /// What applies to all of a shape.
 #[derive(Clone, Debug)]
@@ -12,6 +13,9 @@ pub(super) struct ShapeAttributes {
     pub(super) flip: bool,
     pub(super) material: u32,
     pub(super) emission: Option<Emission>,
+    /// What the shape emits, relative to the radiance of `emission`, by its texture coordinates. It is empty where that radiance is the same
+    /// everywhere.
+    pub(super) picture: Option<Picture>,
     /// If given, the power of each emitting triangle, sphere or parallelogram; only the colour of `emission` then counts.
     pub(super) power: Option<f64>,
 }

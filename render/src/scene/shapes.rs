@@ -12,6 +12,7 @@ use super::transform::Transform;
 use super::vertices::{Vertex, Vertices};
 use crate::files::read_unpacked;
 use crate::geometry::Geometry;
+use crate::texture::Mapping;
 use std::path::Path;
 
 /// Reads a `Shape`; only a built-in scene may name `builtin:` meshes.
@@ -78,7 +79,7 @@ fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> 
             )));
         }
         let center = center[0].map(|x| x as f32);
-        out.add(surface, Geometry::Sphere { center, radius: world_radius });
+        out.add(surface, Geometry::Sphere { center, radius: world_radius }, || Mapping::IDENTITY);
         return Ok(());
     }
     check_radius(radius, params)?;

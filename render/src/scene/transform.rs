@@ -139,6 +139,13 @@ impl Transform {
         inverse.is_finite().then_some(inverse)
     }
 
+    /// Rows of the orthogonal matrix from world space to the space of a similarity, in single precision; `None` for another map.
+    pub(super) fn axes(&self) -> Option<[[f32; 3]; 3]> {
+        let factor = self.similarity()?;
+        // the inverse of an orthogonal matrix is its transpose
+        Some(std::array::from_fn(|i| std::array::from_fn(|j| (self.linear[j][i] / factor) as f32)))
+    }
+
     /// The scale factor of a similarity (rotation, uniform scale, reflection); `None` if lengths differ by more than 1 in 10⁵.
     pub(super) fn similarity(&self) -> Option<f64> {
         let column = |j: usize| [self.linear[0][j], self.linear[1][j], self.linear[2][j]];

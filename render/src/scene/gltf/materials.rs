@@ -32,39 +32,10 @@ pub(super) struct Surface {
 /// The light that a material emits.
 #[derive(Debug)]
 pub(super) struct Glow {
-    /// Radiance where the texture is 1; at least one channel is greater than 0.
-    radiance: [f32; 3],
-    /// The texture and its set of texture coordinates.
-    pub(super) texture: Option<(Texture, u32)>,
-    two_sided: bool,
-}
-
-/// Triangles along each edge of those in which an emissive texture is sampled.
-const PARTS: usize = 4;
-
-impl Glow {
-    /// The emission of a triangle with texture coordinates: the mean over its parts. `None` if it is black.
-    pub(super) fn over(&self, uvs: [[f32; 2]; 3]) -> Option<Emission> {
-        let mut sum = [0.0_f64; 3];
-        match &self.texture {
-            None => sum = [(PARTS * PARTS) as f64; 3],
-            Some((texture, _)) => {
-                // the centres of triangles that point up, then of those that point down, in thirds of a part
-                let up = (0..PARTS).flat_map(|i| (0..PARTS - i).map(move |j| (3 * i + 1, 3 * j + 1)));
-                let down = (0..PARTS).flat_map(|i| (1..PARTS - i).map(move |j| (3 * i + 2, 3 * j - 1)));
-                for (i, j) in up.chain(down) {
-                    let [s, t] = [i, j].map(|k| k as f32 / (3 * PARTS) as f32);
-                    let at = |k: usize| uvs[0][k] * (1.0 - s - t) + uvs[1][k] * s + uvs[2][k] * t;
-                    let color = texture.at([at(0), at(1)]);
-                    sum.iter_mut().zip(color).for_each(|(sum, x)| *sum += f64::from(x));
-                }
-            }
-        }
-        let mean = sum.map(|x| x / (PARTS * PARTS) as f64);
-        // floating-point images may hold any numbers
-        let radiance = std::array::from_fn(|k| ((mean[k] * f64::from(self.radiance[k])) as f32).min(MOST_RADIANCE));
-        (radiance != [0.0; 3]).then_some(Emission { radiance, two_sided: self.two_sided })
-    }
+    /// Its radiance is that where the texture is 1.
+    pub(super) emission: Emission,
+    /// The picture and its set of texture coordinates.
+    pub(super) texture: Option<(Picture, u32)>,
 }
 
 /// The materials and images that were read so far.
@@ -309,13 +280,13 @@ impl Reader<'_, '_> {
         }
         let texture = match &material.emissive_texture {
             None => None,
-            Some(info) => {
-                self.stand_in("emissive texture", "each triangle emits the mean of the emissiveTexture over itself");
-                let (texture, set) = self.picture(info, Encoding::Srgb)?;
-                Some((texture, set))
-            }
+            Some(info) => match self.picture(info, Encoding::Srgb)? {
+                (Texture::Picture(picture), set) => Some((picture, set)),
+                _ => None,
+            },
         };
-        Ok(Some(Glow { radiance, texture, two_sided: material.double_sided }))
+        let emission = Emission { radiance, two_sided: material.double_sided, picture: None };
+        Ok(Some(Glow { emission, texture }))
     }
 
     fn warn_of_ignored(&mut self, material: &material::Material) {

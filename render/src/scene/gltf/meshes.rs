@@ -100,6 +100,7 @@ impl Adder<'_, '_> {
             flip: transform.determinant() < 0.0,
             material: surface.material,
             emission: None,
+            picture: None,
             power: None,
         };
         let wide = |v: &[f32; 3]| v.map(f64::from);
@@ -116,8 +117,9 @@ impl Adder<'_, '_> {
         let uvs = uvs.iter().flatten().map(|uv| uv.map(f64::from)).collect();
         let vertices = Vertices::new(points, normals, uvs);
         let glow = surface.glow.as_ref();
-        let glowing = glow.and_then(|glow| glow.texture.as_ref()).map(|(_, set)| *set);
-        let glowing = self.coordinates(primitive, glowing, count)?;
+        let (picture, set) = glow.and_then(|glow| glow.texture.clone()).unzip();
+        let glowing_uvs = self.coordinates(primitive, set, count)?;
+        let glowing = glow.map(|glow| ShapeAttributes { emission: Some(glow.emission), picture, ..attributes.clone() });
 
         let indices = match primitive.indices {
             Some(indices) => Some(self.source.integers(indices, &self.item)?),
@@ -153,20 +155,14 @@ impl Adder<'_, '_> {
                 Some(indices) => places.map(|place| indices[place] as usize),
                 None => places,
             };
-            let emission = glow.and_then(|glow| {
-                let uvs = glowing.as_ref().map_or([[0.0; 2]; 3], |uvs| places.map(|place| uvs[place]));
-                glow.over(uvs)
-            });
-            match emission {
+            let emits = glowing.as_ref().is_some_and(|attributes| {
+                let uv = |place: usize| glowing_uvs.as_ref().map_or([0.0; 2], |uvs| uvs[place].map(f64::from));
                 // the order of the vertices tells which side emits
-                Some(_) => {
-                    let corners = vertices.corners(places, &[[0.0; 2]; 3]);
-                    self.out.triangle(
-                        &ShapeAttributes { emission, ..attributes.clone() },
-                        corners.map(|vertex| Vertex { normal: [0.0; 3], ..vertex }),
-                    );
-                }
-                None => self.out.face(&attributes, &vertices, places, &[[0.0; 2]; 3]),
+                let vertex = |place: usize| Vertex { point: vertices.points[place], normal: [0.0; 3], uv: uv(place) };
+                self.out.lamp(attributes, places.map(vertex))
+            });
+            if !emits {
+                self.out.face(&attributes, &vertices, places, &[[0.0; 2]; 3]);
             }
         };
         (0..triangles).for_each(&mut add);

@@ -222,19 +222,19 @@ fn emitters_have_sides_and_strengths() {
         scene.shapes.first().map(|shape| shape.emission.unwrap())
     };
     let one = emission(json!({"emissiveFactor": [1, 0.5, 0]})).unwrap();
-    assert_eq!(one, Emission { radiance: [1.0, 0.5, 0.0], two_sided: false });
+    assert_eq!(one, Emission { radiance: [1.0, 0.5, 0.0], ..Emission::default() });
     let both = emission(json!({
         "emissiveFactor": [1, 0.5, 0], "doubleSided": true,
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 20}},
     }));
-    assert_eq!(both, Some(Emission { radiance: [20.0, 10.0, 0.0], two_sided: true }));
+    assert_eq!(both, Some(Emission { radiance: [20.0, 10.0, 0.0], two_sided: true, picture: None }));
     assert_eq!(emission(json!({"emissiveFactor": [0, 0, 0]})), None);
     let scene = Asset::of_material(json!({"emissiveFactor": [1, 1, 1]})).read();
     assert!(!scene.warnings.iter().any(|message| message.text.contains("black")), "{:?}", scene.warnings);
 }
 
 #[test]
-fn emissive_textures_are_averaged_over_triangles() {
+fn triangles_show_their_parts_of_emissive_textures() {
     let mut asset = Asset::new();
     let positions = asset.floats(&QUAD);
     // the left half of the image is black, the right one white
@@ -251,13 +251,18 @@ fn emissive_textures_are_averaged_over_triangles() {
     asset.add("samplers", json!({"magFilter": 9728, "wrapS": 33071}));
     asset.add("textures", json!({"source": 0, "sampler": 0}));
     let scene = asset.read();
-    let radiance = |k: usize| scene.shapes[k].emission.unwrap().radiance;
+    assert_eq!((scene.shapes.len(), scene.pictures.len(), asset.warnings()), (2, 2, Vec::<String>::new()));
     // three quarters of the lower triangle are in the right half
-    assert_eq!(scene.shapes.len(), 2);
-    assert!((radiance(0)[0] - 0.75).abs() < 0.05 && radiance(0)[1] == 0.5 * radiance(0)[0], "{:?}", radiance(0));
-    assert!((radiance(1)[0] - 0.25).abs() < 0.05 && radiance(1)[2] == 0.0, "{:?}", radiance(1));
-    let text = "each triangle emits the mean of the emissiveTexture over itself (reported once)";
-    assert_eq!(asset.warnings(), [format!("a.gltf: material 0: {text}")]);
+    for (k, share) in [0.75, 0.25].into_iter().enumerate() {
+        let Emission { radiance, picture, .. } = scene.shapes[k].emission.unwrap();
+        assert_eq!(picture, Some(k as u32));
+        assert!((radiance[0] - share).abs() < 1e-6 && radiance[1] == 0.5 * radiance[0], "{radiance:?}");
+        assert_eq!((radiance[2], scene.pictures[k].factor), (0.0, [1.0, 0.5, 0.0]));
+    }
+    // from the corner (0, 0), s is along the lower edge of the first triangle, and along the diagonal of the second one
+    let at = |k: usize, st: [f32; 2]| scene.pictures[k].picture.at(st)[0];
+    assert_eq!([at(0, [0.4, 0.0]), at(0, [0.6, 0.0]), at(0, [0.0, 0.4]), at(0, [0.0, 0.6])], [0.0, 1.0, 0.0, 1.0]);
+    assert_eq!([at(1, [0.4, 0.5]), at(1, [0.6, 0.0]), at(1, [0.0, 0.9])], [0.0, 1.0, 0.0]);
 
     // a triangle of black texels emits nothing
     let dark = asset.floats(&[[0.0, 0.0], [0.1, 0.0], [0.0, 1.0], [0.2, 1.0]]);

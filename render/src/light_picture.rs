@@ -1,0 +1,99 @@
+//! Pictures that shapes emit.
+
+mod mean;
+
+use crate::geometry::Geometry;
+use crate::limits::MOST_RADIANCE;
+use crate::packet::{M8, V8, X8, each_bit};
+use crate::texture::{Mapping, Picture};
+use etendue::{Mask, Real, Vec2, Vec3};
+use std::f32::consts::{FRAC_1_PI, PI};
+
+/// A picture that a shape emits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightPicture {
+    /// The picture. Its mapping takes the coordinates of the surface: (s, t) of the point v0 + s (v1 − v0) + t (v2 − v0) of a triangle
+    /// or p + s u + t v of a parallelogram; (φ/2π, 1 − θ/π) of a sphere.
+    pub picture: Picture,
+    /// Radiance where the picture is 1, linear RGB.
+    pub factor: [f32; 3],
+    /// Rows of the orthogonal matrix from world space to the axes of a sphere, where θ is the angle to +z, and φ that about it, from +x
+    /// towards +y; the identity for flat shapes.
+    pub axes: [[f32; 3]; 3],
+}
+
+/// World axes.
+pub const WORLD: [[f32; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The mapping from coordinates of a flat surface to texture coordinates, which are given for (0, 0), (1, 0) and (0, 1).
+pub fn affine([origin, first, second]: [[f64; 2]; 3]) -> Mapping {
+    Mapping([0, 1].map(|k| [first[k] - origin[k], second[k] - origin[k], origin[k]].map(|x| x as f32)))
+}
+
+impl LightPicture {
+    /// The mean radiance over a shape, linear RGB: that of the interpolated picture over the shape's area, but for rounding. It is 0 only
+    /// where all of the shape is dark.
+    ///
+    /// `most` is the greatest number of cells between texels to look at, and what remains of it afterwards. If the shape has more, the mean
+    /// of the whole picture stands for its own.
+    pub fn mean_over(&self, geometry: &Geometry, most: &mut u64) -> [f64; 3] {
+        let corners: &[[f64; 2]] = match geometry {
+            Geometry::Triangle(_) => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+            Geometry::Parallelogram { .. } => &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+            Geometry::Sphere { .. } => &[],
+        };
+        let mean = if corners.is_empty() {
+            mean::over_sphere(&self.picture)
+        } else {
+            mean::over_polygon(&self.picture, corners, most).unwrap_or_else(|| self.picture.texels.average())
+        };
+        std::array::from_fn(|k| mean[k] * f64::from(self.factor[k]))
+    }
+
+    /// Radiance of a point on a flat shape with these coordinates.
+    fn on_flat(&self, st: [f32; 2]) -> [f32; 3] {
+        let color = self.picture.at(st);
+        // floating-point images may hold any numbers
+        std::array::from_fn(|k| (color[k] * self.factor[k]).min(MOST_RADIANCE))
+    }
+
+    /// Radiance of the point of a sphere with this outward normal in world space.
+    fn on_sphere(&self, normal: [f32; 3]) -> [f32; 3] {
+        let [x, y, z] = self.axes.map(|row| row[0] * normal[0] + row[1] * normal[1] + row[2] * normal[2]);
+        let turns = libm::atan2f(y, x) * (0.5 * FRAC_1_PI);
+        // more accurate near the poles than by the arc cosine of z
+        let above = libm::atan2f(z, libm::sqrtf(x * x + y * y));
+        self.on_flat([if turns < 0.0 { turns + 1.0 } else { turns }, (above + 0.5 * PI) * FRAC_1_PI])
+    }
+
+    /// Puts the radiance of points on a shape into these lanes: of a flat one by their coordinates, of a sphere by its outward normals.
+    #[inline]
+    pub fn show(&self, geometry: &Geometry, lanes: M8, st: Vec2<X8>, outward: V8, radiance: &mut V8) {
+        each_bit(lanes.bits(), |lane| {
+            let [r, g, b] = match geometry {
+                Geometry::Sphere { .. } => self.on_sphere([outward.x, outward.y, outward.z].map(|x| x.lane(lane))),
+                _ => self.on_flat([st.x.lane(lane), st.y.lane(lane)]),
+            };
+            radiance.x.as_mut_array()[lane] = r;
+            radiance.y.as_mut_array()[lane] = g;
+            radiance.z.as_mut_array()[lane] = b;
+        });
+    }
+}
+
+/// The coordinates (s, t) of points on a flat shape; 0 for a sphere.
+#[inline]
+pub fn coordinates(geometry: &Geometry, point: V8) -> Vec2<X8> {
+    let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
+    let (corner, u, v) = match *geometry {
+        Geometry::Sphere { .. } => return Vec2::new(X8::lit(0.0), X8::lit(0.0)),
+        Geometry::Triangle([a, b, c]) => (a, wide(b) - wide(a), wide(c) - wide(a)),
+        Geometry::Parallelogram { p, u, v } => (p, wide(u), wide(v)),
+    };
+    let normal = u.cross(v);
+    let inverse = 1.0 / normal.length_squared();
+    let along = |dual: Vec3<f64>| V8::from([dual.x, dual.y, dual.z].map(|x| (x * inverse) as f32));
+    let from_corner = point - V8::from(corner);
+    let inside = |x: X8| x.clamped(X8::lit(0.0), X8::lit(1.0));
+    Vec2::new(inside(from_corner.dot(along(v.cross(normal)))), inside(from_corner.dot(along(normal.cross(u)))))
+}

@@ -1,0 +1,157 @@
+//! Reading of pictures that shapes emit.
+
+use super::meshes::Scratch;
+use super::*;
+use crate::light_picture::LightPicture;
+use crate::texture::Mapping;
+use exr::prelude::write_rgb_file;
+
+/// A folder with a picture of 3 × 2 texels, (column, row, 1) in each.
+fn folder(name: &str) -> Scratch {
+    let folder = Scratch::new(name);
+    write_rgb_file(folder.path.join("p.exr"), 3, 2, |x, y| (x as f32, y as f32, 1.0_f32)).unwrap();
+    folder
+}
+
+const LIGHT: &str = "AreaLightSource \"diffuse\" \"string filename\" \"p.exr\"";
+const QUAD: &str = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  4 0 0  0 3 0  4 3 0]";
+
+fn load(folder: &Scratch, text: &str) -> Scene {
+    parse(&world(text), "a.pbrt", &folder.path).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// What the picture of a shape shows at coordinates of its surface.
+fn at(scene: &Scene, shape: usize, st: [f32; 2]) -> [f32; 3] {
+    let LightPicture { picture, factor, .. } =
+        &scene.pictures[scene.shapes[shape].emission.unwrap().picture.unwrap() as usize];
+    let color = picture.at(st);
+    std::array::from_fn(|k| color[k] * factor[k])
+}
+
+fn near(found: [f32; 3], wanted: [f32; 3]) {
+    assert!((0..3).all(|k| (found[k] - wanted[k]).abs() < 1e-5), "{found:?}, {wanted:?}");
+}
+
+/// The first row of the image is at v = 1, as in pbrt.
+#[test]
+fn quads_show_pictures_upright() {
+    let folder = folder("quads");
+    let scene = load(&folder, &format!("{LIGHT} \"float scale\" 2 {QUAD}"));
+    assert_eq!((warnings(&scene), scene.shapes.len()), (Vec::new(), 1));
+    near(scene.shapes[0].emission.unwrap().radiance, [2.0, 1.0, 2.0]);
+    near(at(&scene, 0, [0.5 / 3.0, 0.75]), [0.0, 0.0, 2.0]);
+    near(at(&scene, 0, [1.0, 0.0]), [4.0, 2.0, 2.0]);
+    // beyond the middles of the outermost texels, their values go on
+    near(at(&scene, 0, [0.9, 0.5]), [4.0, 1.0, 2.0]);
+    // a shape that is turned around keeps the picture in its place
+    let turned = load(&folder, &format!("{LIGHT} ReverseOrientation {QUAD}"));
+    let Geometry::Parallelogram { u, v, .. } = turned.shapes[0].geometry else { panic!() };
+    assert_eq!((u, v), ([0.0, 3.0, 0.0], [4.0, 0.0, 0.0]));
+    near(at(&turned, 0, [0.0, 1.0]), [2.0, 1.0, 1.0]);
+    // the file is read once
+    let two = load(&folder, &format!("{LIGHT} {QUAD} {LIGHT} \"rgb L\" [1 0 3] Translate 0 0 1 {QUAD}"));
+    let texels = |k: usize| std::sync::Arc::as_ptr(&two.pictures[k].picture.texels);
+    assert_eq!((two.pictures[1].factor, texels(0)), ([1.0, 0.0, 3.0], texels(1)));
+    assert!(two.inputs.contains(&folder.path.join("p.exr")), "{:?}", two.inputs);
+}
+
+#[test]
+fn triangles_and_given_coordinates() {
+    let folder = folder("triangles");
+    let mesh = "\"point3 P\" [0 0 0  1 0 0  0 1 0]";
+    let plain = load(&folder, &format!("{LIGHT} Shape \"trianglemesh\" {mesh}"));
+    // pbrt's default coordinates are (0, 0), (1, 0), (1, 1)
+    near(at(&plain, 0, [0.0, 0.0]), [0.0, 1.0, 1.0]);
+    near(at(&plain, 0, [0.0, 1.0]), [2.0, 0.0, 1.0]);
+    // turned around by its normals
+    let given = format!("{mesh} \"point2 uv\" [.5 .25  .5 .75  .5 .25] \"normal N\" [0 0 -1  0 0 -1  0 0 -1]");
+    let turned = load(&folder, &format!("{LIGHT} Shape \"trianglemesh\" {given}"));
+    near(at(&turned, 0, [0.0, 1.0]), [1.0, 0.0, 1.0]);
+    near(at(&turned, 0, [1.0, 0.0]), [1.0, 1.0, 1.0]);
+    near(turned.shapes[0].emission.unwrap().radiance, [1.0, 2.0 / 3.0, 1.0]);
+    // coordinates that no affine map gives to a quad make triangles
+    let bent = load(&folder, &format!("{LIGHT} {QUAD} \"point2 uv\" [0 0  1 0  0 1  .5 .5]"));
+    assert!(bent.shapes.len() >= 8 && bent.shapes.iter().all(|s| matches!(s.geometry, Geometry::Triangle(_))));
+    let area = |shape: &Shape| shape.geometry.area();
+    let mean = bent.shapes.iter().map(|s| area(s) * f64::from(s.emission.unwrap().radiance[2])).sum::<f64>() / 12.0;
+    assert!((mean - 1.0).abs() < 1e-5, "{mean}");
+}
+
+#[test]
+fn spheres_show_pictures_by_their_own_axes() {
+    let folder = folder("spheres");
+    let scene = load(&folder, &format!("Rotate 90 0 1 0 Scale 2 2 2 {LIGHT} Shape \"sphere\" \"float radius\" 3"));
+    assert_eq!((warnings(&scene), scene.shapes.len()), (Vec::new(), 1));
+    let LightPicture { axes, picture, .. } = &scene.pictures[0];
+    // its +z is +x of the world, and its +x is −z
+    let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|k| (a[k] - b[k]).abs() < 1e-6);
+    assert!(near(axes[2], [1.0, 0.0, 0.0]) && near(axes[0], [0.0, 0.0, -1.0]), "{axes:?}");
+    assert_eq!(picture.mapping, Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]));
+    assert!(near(scene.shapes[0].emission.unwrap().radiance, [1.0, 0.5, 1.0]));
+    // a part of a sphere becomes triangles, with as much light
+    let part = load(&folder, &format!("{LIGHT} Shape \"sphere\" \"float zmin\" 0"));
+    let power = part.shapes.iter().map(|s| s.geometry.area() * f64::from(s.emission.unwrap().radiance[2])).sum::<f64>();
+    assert!(part.shapes.len() > 1000 && (power / std::f64::consts::TAU - 1.0).abs() < 5e-3, "{power}");
+}
+
+/// The power of a light is that of its mean luminance.
+#[test]
+fn powers_are_those_of_pictures() {
+    let folder = folder("powers");
+    let scene = load(&folder, &format!("{LIGHT} \"float power\" 10 \"bool twosided\" true {QUAD}"));
+    let luminance = |rgb: [f32; 3]| 0.212_639 * rgb[0] + 0.715_169 * rgb[1] + 0.072_192 * rgb[2];
+    let mean = scene.shapes[0].emission.unwrap().radiance;
+    let power = luminance(mean) * 2.0 * 12.0 * std::f32::consts::PI;
+    assert!((power - 10.0).abs() < 1e-4, "{power}");
+    let shown = at(&scene, 0, [0.5, 0.5]);
+    assert!((0..3).all(|k| (shown[k] - mean[k]).abs() < 1e-6), "{shown:?}, {mean:?}");
+}
+
+/// What shows only dark texels is an ordinary surface.
+#[test]
+fn dark_parts_are_no_lights() {
+    let folder = folder("dark");
+    write_rgb_file(folder.path.join("p.exr"), 8, 1, |x, _| (0.0, if x == 7 { 1e-44_f32 } else { 0.0 }, 0.0)).unwrap();
+    let dark = "\"point2 uv\" [0 0  .5 0  0 1  .5 1]";
+    let scene = load(&folder, &format!("{LIGHT} {QUAD} {dark} Translate 0 0 1 {QUAD}"));
+    assert_eq!((scene.shapes.len(), scene.triangles.len(), scene.pictures.len()), (1, 2, 1));
+    let radiance = scene.shapes[0].emission.unwrap().radiance;
+    assert_eq!(radiance, [0.0, f32::MIN_POSITIVE, 0.0]);
+    write_rgb_file(folder.path.join("p.exr"), 2, 2, |_, _| (0.0, 0.0, 0.0_f32)).unwrap();
+    let scene = load(&folder, &format!("{LIGHT}\n{QUAD}"));
+    assert!(scene.shapes.is_empty() && warnings(&scene)[0].contains("emits nothing"), "{:?}", warnings(&scene));
+}
+
+#[test]
+fn faulty_pictures_are_named() {
+    let folder = folder("faulty");
+    let write =
+        |name: &str, x: f32| {
+            write_rgb_file(folder.path.join(name), 2, 2, |c, r| {
+                if (c, r) == (1, 0) { (x, 1.0, 1.0) } else { (1.0, 1.0, 1.0) }
+            })
+            .unwrap();
+        };
+    write("nan.exr", f32::NAN);
+    write("infinite.exr", f32::INFINITY);
+    write("bright.exr", 3e37);
+    write("negative.exr", -1.0);
+    std::fs::write(folder.path.join("text.png"), "text").unwrap();
+    let light = |name: &str, more: &str| {
+        let text = format!("AreaLightSource \"diffuse\" \"string filename\" \"{name}\" {more}\n{QUAD}");
+        parse(&world(&text), "a.pbrt", &folder.path)
+    };
+    for (name, more, what) in [
+        ("nan.exr", "", "nan.exr: texel (1, 0) is [NaN, 1.0, 1.0]: must be finite"),
+        ("infinite.exr", "", "infinite.exr: texel (1, 0) is [inf, 1.0, 1.0]: must be finite"),
+        ("bright.exr", "\"float scale\" 2", "the radiance [6"),
+        ("text.png", "", "not a valid EXR, HDR, PFM or PNG image"),
+        ("none.exr", "", "cannot read"),
+    ] {
+        let message = light(name, more).unwrap_err().to_string();
+        assert!(message.starts_with("a.pbrt:2: AreaLightSource \"diffuse\": ") && message.contains(what), "{message}");
+    }
+    let scene = light("negative.exr", "").unwrap();
+    assert!(warnings(&scene)[0].contains("negative.exr: negative values in 1 texel(s)"), "{:?}", warnings(&scene));
+    near(scene.shapes[0].emission.unwrap().radiance, [0.75, 1.0, 1.0]);
+}
