@@ -3,7 +3,7 @@
 
 use clap::ValueEnum;
 use etendue_oracle::tier::cases;
-use etendue_render::{Sampler, Settings, Technique, World, scene};
+use etendue_render::{Sampler, Settings, Technique, World, frame, scene};
 use exr::prelude::write_rgb_file;
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -242,6 +242,18 @@ fn cameras_see_pictures() {
             }
         }
     }
+}
+
+/// Parts of an image are of the same scene only if its pictures are the same.
+#[test]
+fn digests_cover_pictures() {
+    let folder = Folder::new("digest");
+    let text = format!("Camera \"perspective\"\nWorldBegin\n{LIGHT}\nShape \"sphere\"");
+    let digest = || frame::digest(&scene::parse(&text, "test.pbrt", &folder.0).unwrap()).unwrap();
+    let before = digest();
+    assert_eq!(before, digest());
+    write_rgb_file(folder.0.join("p.exr"), SIZE[0], SIZE[1], |_, _| (1.0, 1.0, 1.0_f32)).unwrap();
+    assert_ne!(before, digest());
 }
 
 /// All techniques have the same means in all parts of an image with walls, shadows, a mirror and a rough metal.
