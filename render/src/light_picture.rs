@@ -50,6 +50,24 @@ impl LightPicture {
         std::array::from_fn(|k| mean[k] * f64::from(self.factor[k]))
     }
 
+    /// The mean of the sum of the channels over a cell of a shape, from `s[0]` to `s[1]` and from `t[0]` to `t[1]` in its coordinates: of a flat
+    /// shape (s, t), of a sphere (1 − z)/2 and φ/2π about its axes. Of a cell of a sphere it is the mean over angles. `None` if the picture
+    /// is repeated too often.
+    pub fn mean_of_cell(&self, geometry: &Geometry, s: [f64; 2], t: [f64; 2]) -> Option<f64> {
+        /// The most cells between texels.
+        const MOST: u64 = 1 << 14;
+        let [s, t] = match geometry {
+            Geometry::Sphere { .. } => {
+                let row = |s: f64| 1.0 - libm::acos(1.0 - 2.0 * s) * std::f64::consts::FRAC_1_PI;
+                [t, [row(s[1]), row(s[0])]]
+            }
+            _ => [s, t],
+        };
+        let corners = [[s[0], t[0]], [s[1], t[0]], [s[1], t[1]], [s[0], t[1]]];
+        let mean = mean::over_polygon(&self.picture, &corners, &mut { MOST })?;
+        Some((0..3).map(|k| mean[k] * f64::from(self.factor[k])).sum())
+    }
+
     /// Radiance of a point on a flat shape with these coordinates.
     fn on_flat(&self, st: [f32; 2]) -> [f32; 3] {
         let color = self.picture.at(st);

@@ -1,6 +1,7 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
 
 mod many;
+mod pictures;
 pub mod tree;
 
 use crate::bvh::BuildError;
@@ -17,6 +18,7 @@ use etendue::{
     Vec2, Vec3, u32x8,
 };
 use many::{ManyAt, ManyLights};
+use pictures::Tables;
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -133,6 +135,8 @@ pub struct Lights {
     unpacked: Vec<u32>,
     shapes: Arc<[Shape]>,
     pictures: Arc<[LightPicture]>,
+    /// By which shapes with pictures are sampled.
+    tables: Tables,
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     many: ManyLights,
@@ -306,6 +310,7 @@ impl Lights {
         own.packed = all[own.unpacked.len()..].iter().map(|(record, _)| record.pack()).collect();
         own.shapes = Arc::clone(shapes);
         own.pictures = Arc::clone(&scene.pictures);
+        own.tables = Tables::new(shapes, &scene.pictures);
         Ok(own)
     }
     /// Bounds of the lights of a scene that have an area, in their order.
@@ -447,8 +452,7 @@ impl Lights {
         }
         mixed.unwrap_or_else(|| unreachable!("there is a light"))
     }
-    /// Samples shapes of one kind, some of which show pictures, and puts the radiance of the sampled points into the lanes `here`. Points are
-    /// drawn by the shape alone.
+    /// Samples shapes of one kind, some of which show pictures, and puts the radiance of the sampled points into the lanes `here`.
     // not inlined, so that it does not burden scenes without pictures
     #[inline(never)]
     #[allow(clippy::too_many_arguments, reason = "those of `sample`, and which lanes")]
@@ -462,21 +466,40 @@ impl Lights {
         normal: V8,
         u: Vec2<X8>,
     ) -> Drawn {
-        let sample: LightSample<X8> = match kind {
-            SPHERE => chosen.sphere(measure, p, normal, u),
-            TRIANGLE => chosen.triangle(measure, p, normal, u),
-            _ => chosen.parallelogram(measure, p, normal, u),
+        let pictured = here & !equal(chosen.kind & u32x8::splat(PICTURED), u32x8::splat(0));
+        let by_shape = || -> LightSample<X8> {
+            match kind {
+                SPHERE => chosen.sphere(measure, p, normal, u),
+                TRIANGLE => chosen.triangle(measure, p, normal, u),
+                _ => chosen.parallelogram(measure, p, normal, u),
+            }
         };
-        let mut left = here & !equal(chosen.kind & u32x8::splat(PICTURED), u32x8::splat(0));
+        let (mut sample, mut left) = (None, pictured);
         while left.any() {
-            let shape = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
-            let lanes = left & equal(chosen.shape, u32x8::splat(shape));
-            let shape = &self.shapes[shape as usize];
+            let index = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
+            let lanes = left & equal(chosen.shape, u32x8::splat(index));
+            left = left & !lanes;
+            let shape = &self.shapes[index as usize];
+            let Some(picture) = shape.emission.and_then(|emission| emission.picture) else { continue };
+            let picture = &self.pictures[picture as usize];
+            if let Some(table) = self.tables.of(index as usize) {
+                let drawn = table.sample((&shape.geometry, &picture.axes), measure, p, normal, u);
+                // in a packet of one light, no other map is needed
+                let others = sample.unwrap_or_else(|| if lanes.all() { drawn } else { by_shape() });
+                sample = Some(LightSample::blend(lanes, drawn, others));
+            }
+        }
+        let sample = sample.unwrap_or_else(by_shape);
+        let mut left = pictured;
+        while left.any() {
+            let index = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
+            let lanes = left & equal(chosen.shape, u32x8::splat(index));
+            left = left & !lanes;
+            let shape = &self.shapes[index as usize];
             if let Some(picture) = shape.emission.and_then(|emission| emission.picture) {
                 let picture = &self.pictures[picture as usize];
                 picture.show(&shape.geometry, lanes, sample.uv, sample.normal, &mut chosen.radiance);
             }
-            left = left & !lanes;
         }
         sample.into()
     }
@@ -484,6 +507,12 @@ impl Lights {
     /// shape from `p`.
     #[inline]
     pub fn shape_pdf(&self, pmf: &LightPmf<'_>, shape: usize, geometry: &Geometry, p: V8, w: V8) -> X8 {
+        if let Some(table) = self.tables.of(shape)
+            && let Some(picture) = self.shapes[shape].emission.and_then(|emission| emission.picture)
+        {
+            let axes = &self.pictures[picture as usize].axes;
+            return table.pdf((geometry, axes), p, w) * pmf.of(self.shape_lights[shape]);
+        }
         let pdf = match *geometry {
             Geometry::Sphere { center, radius } => {
                 Sphere::new(center.into(), X8::splat(radius)).by_solid_angle(p).pdf(w)

@@ -1,0 +1,202 @@
+//! Shapes with pictures, sampled by their radiance.
+
+use crate::geometry::Geometry;
+use crate::light_picture::LightPicture;
+use crate::packet::{V8, X8};
+use crate::scene::Shape;
+use crate::technique::Measure;
+use etendue::light::{Picture, Region};
+use etendue::{LightSample, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3};
+use rayon::prelude::*;
+
+/// The most cells along a side of a shape.
+const MOST_ALONG: usize = 1024;
+/// The most cells of all shapes.
+const MOST: usize = 1 << 24;
+/// A triangle with fewer cells along its sides is sampled as a whole: cells on its third side are sampled in vain half of the time.
+const FEWEST_OF_TRIANGLE: usize = 8;
+/// Pictures that vary by less are not worth a table.
+const LEAST_CONTRAST: f64 = 1.1;
+
+/// A picture on a shape as a table of the radiance of its cells.
+#[derive(Clone, Debug)]
+struct Table {
+    buffer: Vec<f32>,
+    size: [usize; 2],
+}
+
+/// The tables of shapes, by the index of the shape; none where the shape is sampled without regard to its picture.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tables {
+    of_shapes: Vec<u32>,
+    tables: Vec<Table>,
+}
+
+/// Index of a shape without a table.
+const NO_TABLE: u32 = u32::MAX;
+
+/// Cells along both coordinates of a shape's surface: as many as there are texels, but not too many.
+fn size(picture: &LightPicture, geometry: &Geometry, share: usize) -> [usize; 2] {
+    let texels = &picture.picture.texels;
+    let (w, h) = (texels.width as f32, texels.height as f32);
+    let most = (share as f64).sqrt().min(MOST_ALONG as f64) as usize;
+    let cells = |texels: f32| (texels.ceil() as usize).clamp(1, most.max(1));
+    let rows = picture.picture.mapping.0;
+    let along = |k: usize| cells((rows[0][k] * w).abs().max((rows[1][k] * h).abs()));
+    match geometry {
+        // heights, and azimuths
+        Geometry::Sphere { .. } => [cells(h), cells(w)],
+        Geometry::Triangle(_) => [along(0).max(along(1)); 2],
+        Geometry::Parallelogram { .. } => [along(0), along(1)],
+    }
+}
+
+impl Table {
+    /// None where the shape is as good without.
+    fn new(picture: &LightPicture, geometry: &Geometry, share: usize) -> Option<Self> {
+        let [w, h] = size(picture, geometry, share);
+        if matches!(geometry, Geometry::Triangle(_)) && w < FEWEST_OF_TRIANGLE {
+            return None;
+        }
+        let cell = |i: usize| {
+            let [s, t] = [(i % w, w), (i / w, h)].map(|(i, n)| [i, i + 1].map(|i| i as f64 / n as f64));
+            picture.mean_of_cell(geometry, s, t)
+        };
+        let weights: Option<Vec<f64>> = (0..w * h).into_par_iter().map(cell).collect();
+        let weights = weights?;
+        let (sum, most) = weights.iter().fold((0.0, 0.0), |(sum, most), w| (sum + w, w.max(most)));
+        if most * (w * h) as f64 <= sum * LEAST_CONTRAST {
+            return None;
+        }
+        // relative to the greatest, and above 0 where there is light
+        let relative = |w: &f64| if *w > 0.0 { ((w / most) as f32).max(f32::MIN_POSITIVE) } else { 0.0 };
+        let weights: Vec<f32> = weights.iter().map(relative).collect();
+        let mut buffer = vec![0.0; Picture::buffer(w, h)];
+        Picture::build(&weights, w, region(geometry), &mut buffer).ok()?;
+        Some(Self { buffer, size: [w, h] })
+    }
+}
+
+fn region(geometry: &Geometry) -> Region {
+    if matches!(geometry, Geometry::Triangle(_)) { Region::Triangle } else { Region::Square }
+}
+
+impl Tables {
+    /// The tables of the shapes that show these pictures.
+    pub(super) fn new(shapes: &[Shape], pictures: &[LightPicture]) -> Self {
+        let shows = |shape: &Shape| shape.emission.and_then(|emission| emission.picture);
+        let count = shapes.iter().filter(|shape| shows(shape).is_some()).count();
+        if count == 0 {
+            return Self::default();
+        }
+        let (mut of_shapes, mut tables) = (vec![NO_TABLE; shapes.len()], Vec::new());
+        for (index, shape) in shapes.iter().enumerate() {
+            let Some(picture) = shows(shape) else { continue };
+            if let Some(table) = Table::new(&pictures[picture as usize], &shape.geometry, MOST / count) {
+                of_shapes[index] = tables.len() as u32;
+                tables.push(table);
+            }
+        }
+        Self { of_shapes, tables }
+    }
+    /// The table of a shape.
+    #[inline]
+    pub(super) fn of(&self, shape: usize) -> Option<TableOf<'_>> {
+        let table = self.tables.get(*self.of_shapes.get(shape)? as usize)?;
+        Some(TableOf(table))
+    }
+}
+
+/// The table of a shape.
+#[derive(Clone, Copy)]
+pub(super) struct TableOf<'a>(&'a Table);
+
+/// Calls a method of the sampler of a shape with a picture by a measure. A sphere is sampled in the axes of its picture.
+macro_rules! with_sampler {
+    ($self:ident, $shape:ident, $p:ident, $normal:ident, $measure:ident, |$sampler:ident| $flat:expr, |$axes:ident, $round:ident| $of_sphere:expr) => {{
+        let (geometry, axes) = $shape;
+        let picture =
+            Picture::from_buffer(&$self.0.buffer, $self.0.size, region(geometry)).expect("a table of its own size");
+        macro_rules! flat {
+            ($light:expr) => {{
+                let light = picture.on($light);
+                match $measure {
+                    Measure::Area => {
+                        let $sampler = light.by_area($p);
+                        $flat
+                    }
+                    Measure::SolidAngle => {
+                        let $sampler = light.by_solid_angle($p);
+                        $flat
+                    }
+                    Measure::Projected => {
+                        let $sampler = light.by_projected_solid_angle($p, $normal);
+                        $flat
+                    }
+                }
+            }};
+        }
+        match *geometry {
+            Geometry::Triangle([a, b, c]) => {
+                // the edges as the light's record has them
+                let edge = |to: [f32; 3]| V8::from(std::array::from_fn(|k| to[k] - a[k]));
+                flat!(Triangle { v0: a.into(), e1: edge(b), e2: edge(c) })
+            }
+            Geometry::Parallelogram { p, u, v } => flat!(Parallelogram::new(p.into(), u.into(), v.into())),
+            Geometry::Sphere { center, radius } => {
+                let $axes = Axes(axes.map(V8::from));
+                let sphere = Sphere::new($axes.inwards(V8::from(center) - $p), X8::splat(radius));
+                let $round = picture.on(sphere).by_visible_area(Vec3::default());
+                $of_sphere
+            }
+        }
+    }};
+}
+
+/// Rows of a rotation.
+struct Axes([V8; 3]);
+
+impl Axes {
+    #[inline]
+    fn inwards(&self, v: V8) -> V8 {
+        let [x, y, z] = self.0.map(|row| row.dot(v));
+        Vec3::new(x, y, z)
+    }
+    #[inline]
+    fn outwards(&self, v: V8) -> V8 {
+        let [x, y, z] = self.0;
+        x.mul_add(v.x, y.mul_add(v.y, z * v.z))
+    }
+}
+
+impl TableOf<'_> {
+    /// Samples the shape in proportion to its radiance, from points `p` on surfaces with this normal. From outside, the far side of a sphere
+    /// is behind the near one.
+    pub(super) fn sample(
+        self,
+        shape: (&Geometry, &[[f32; 3]; 3]),
+        measure: Measure,
+        p: V8,
+        normal: V8,
+        u: Vec2<X8>,
+    ) -> LightSample<X8> {
+        with_sampler!(self, shape, p, normal, measure, |sampler| sampler.draw(u).light, |axes, sampler| {
+            let drawn = sampler.draw(u).light;
+            let Geometry::Sphere { center, radius } = *shape.0 else { unreachable!("a sphere") };
+            let inside = (V8::from(center) - p).length_squared().lt(X8::splat(radius * radius));
+            LightSample {
+                direction: axes.outwards(drawn.direction),
+                normal: axes.outwards(drawn.normal),
+                pdf: drawn.pdf.keep(drawn.emits | inside),
+                ..drawn
+            }
+        })
+    }
+    /// Pdf per steradian with which [`sample`](Self::sample) by solid angle draws the direction `w`.
+    pub(super) fn pdf(self, shape: (&Geometry, &[[f32; 3]; 3]), p: V8, w: V8) -> X8 {
+        let (measure, normal) = (Measure::SolidAngle, w);
+        with_sampler!(self, shape, p, normal, measure, |sampler| sampler.pdf(w), |axes, sampler| {
+            sampler.pdf(axes.inwards(w))
+        })
+    }
+}
