@@ -297,7 +297,8 @@ impl<'a> Picture<'a> {
     }
     /// Goes down to a texel. At each box, `lower` is asked whether to go to its lower half, given the axis, and the first step and the first
     /// column or row of the upper half.
-    #[inline(always)]
+    // by far the longest part: one copy for each measure
+    #[inline]
     fn walk<R: Real>(&self, halves: &impl Halves<R>, lower: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let counts = self.counts::<R>();

@@ -114,7 +114,7 @@ impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
         (drawn.pmf() * pdf).lesser(R::lit(GREATEST))
     }
     /// A direction in proportion to radiance and measure, with its texel.
-    #[inline(always)]
+    #[inline]
     pub fn draw(&self, u: Vec2<R>) -> PictureSample<R> {
         let (drawn, within) = self.picture.draw(u, &self.surface);
         let texel = Texel { at: drawn.texel, of: self.picture.counts() };
@@ -122,7 +122,7 @@ impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
         let pdf = Self::density(&drawn, light.pdf).keep(self.picture.region().contains(light.uv));
         PictureSample { light: LightSample { pdf, ..light }, x: drawn.texel.x.to_uint(), y: drawn.texel.y.to_uint() }
     }
-    #[inline(always)]
+    #[inline]
     fn pdf_at(&self, w: Vec3<R>, at: &SurfaceHit<R>) -> R {
         let (texel, _) = Texel::at(at.uv, self.picture.counts());
         let drawn = self.picture.find(texel.at, &self.surface);
@@ -132,7 +132,7 @@ impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
 }
 
 impl<R: Real, S: TexelSurface<R>> LightSampler<R> for ByPicture<'_, R, S> {
-    #[inline(always)]
+    #[inline]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let drawn = self.draw(u).light;
         if !S::FLAT {
@@ -141,17 +141,17 @@ impl<R: Real, S: TexelSurface<R>> LightSampler<R> for ByPicture<'_, R, S> {
         let hit = self.hit(drawn.direction);
         LightSample { pdf: hit.pdf.keep(drawn.pdf.gt(R::lit(0.0))), ..hit }
     }
-    #[inline(always)]
+    #[inline]
     fn pdf(&self, w: Vec3<R>) -> R {
         self.pdf_at(w, &self.surface.at(w))
     }
-    #[inline(always)]
+    #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
         let (texel, within) = Texel::at(self.surface.at(w).uv, self.picture.counts());
         let drawn = self.picture.find(texel.at, &self.surface);
         drawn.invert(self.surface.invert(&texel, w, within))
     }
-    #[inline(always)]
+    #[inline]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
         let at = self.surface.at(w);
         let pdf = self.pdf_at(w, &at);

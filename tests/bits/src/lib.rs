@@ -8,6 +8,7 @@ mod choices;
 mod figures;
 mod functions;
 mod lights;
+mod pictures;
 mod sequences;
 mod warps;
 
@@ -25,6 +26,7 @@ fn each(mut take: impl FnMut(Entry)) {
     functions::add(&mut list);
     warps::add(&mut list);
     lights::add(&mut list);
+    pictures::add(&mut list);
     choices::add(&mut list);
 }
 

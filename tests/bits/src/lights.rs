@@ -12,7 +12,7 @@ use etendue_properties::techniques::{AreaLight, LightFixture};
 
 const SLOTS: usize = 50 * Figures::MOST;
 
-fn sample<R: Real>(lanes: &mut Lanes<'_>, s: &LightSample<R>) {
+pub(crate) fn sample<R: Real>(lanes: &mut Lanes<'_>, s: &LightSample<R>) {
     lanes.vector(s.direction);
     lanes.vector(s.normal);
     lanes.pair(s.uv);
@@ -20,7 +20,7 @@ fn sample<R: Real>(lanes: &mut Lanes<'_>, s: &LightSample<R>) {
     lanes.truth::<R>(s.emits);
     lanes.truth::<R>(s.delta);
 }
-fn sampler<R: Real>(lanes: &mut Lanes<'_>, sampler: &dyn LightSampler<R>, us: &[[f32; 2]], ws: &[[f32; 3]]) {
+pub(crate) fn sampler<R: Real>(lanes: &mut Lanes<'_>, sampler: &dyn LightSampler<R>, us: &[[f32; 2]], ws: &[[f32; 3]]) {
     let u = squares_of(us);
     let s = sampler.sample(u);
     sample(lanes, &s);

@@ -8,6 +8,7 @@ mod light_tree;
 mod lights;
 mod numbers;
 mod occlusion;
+mod pictures;
 mod sequences;
 mod shapes;
 mod surfaces;
@@ -82,6 +83,8 @@ targets! {
     distant_lights: lights, 700;
     /// An environment image, in either mapping.
     environment: numbers, 300;
+    /// Pictures on lights of any shape.
+    pictures: pictures, 200;
     /// Tables of one and two dimensions.
     piecewise_constant: numbers, 500;
     /// Vose's alias tables.
