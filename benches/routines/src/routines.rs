@@ -1,7 +1,7 @@
 //! Samples, densities and inverses.
 
 use etendue::discrete::{AliasTable, PiecewiseConstant2d};
-use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::sequence::{
     Independent, JointSobol, JointStratified, LatinHypercube, Lattice, OwenSobol, Sequence, Stratified, ZOrder,
@@ -256,7 +256,7 @@ fn half_of<R: Real>() -> R {
     R::lit(0.5)
 }
 
-/// Tables of 64 × 32 cells, which a process builds once.
+/// Tables of 64 × 32 cells, and pictures, which a process builds once.
 fn tables<R: Real + 'static>() -> Vec<Routine> {
     let mut list = List::<R>::new();
     let weights: Vec<f32> = (0..2048).map(|i| 1.0 + (i * 37 % 101) as f32).collect();
@@ -266,6 +266,29 @@ fn tables<R: Real + 'static>() -> Vec<Routine> {
     let sky = buffer(ImageEnvironment::buffer(64, 32));
     let sky = ImageEnvironment::build(&weights, 64, EnvironmentMap::Equirectangular, sky);
     list.warp("image environment 64x32", sky.expect("weights are positive"));
+    // beside it, to be compared: `light rectangle by solid angle`, which has no picture
+    for side in [16, 128, 1024] {
+        let weights: Vec<f32> =
+            (0..side * side).map(|i| (i * 37 % 101) as f32 * ((i / side * 53) % 97) as f32).collect();
+        let buffer = buffer(Picture::buffer(side, side));
+        let picture = Picture::build(&weights, side, Region::Square, buffer).expect("weights are positive");
+        // near is at the distance of its size, far at 25 times that
+        for (name, at) in [("", 2.0), (", far", 50.0)] {
+            let edge = |v: [f64; 3]| black_box(Vec3::<R>::lit(v));
+            let screen = Rectangle::new(edge([-1.0, at, -1.0]), edge([2.0, 0.0, 0.0]), edge([0.0, 0.0, 2.0]));
+            let up = edge([0.0, 1.0, 0.0]);
+            let name = move |by: &str| format!("picture {side}x{side} {by}{name}");
+            list.prepared(&name("by area"), move |p, u| picture.on(screen).by_area(p).draw(u));
+            list.prepared(&name("by solid angle"), move |p, u| picture.on(screen).by_solid_angle(p).draw(u));
+            list.prepared(&name("by projected solid angle"), move |p, u| {
+                picture.on(screen).by_projected_solid_angle(p, up).draw(u)
+            });
+        }
+        let globe = Sphere::new(Vec3::lit([0.0, 2.0, 0.0]), R::lit(0.7));
+        list.prepared(&format!("picture {side}x{side} on a sphere"), move |p, u| {
+            picture.on(globe).by_visible_area(p).draw(u)
+        });
+    }
     let weights = Vec::leak(weights);
     let alias = AliasTable::build(weights, buffer(2048), Vec::leak(vec![0; 2048])).expect("weights are positive");
     let us = list.squares.iter().map(|u| u.x).collect();
