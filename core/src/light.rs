@@ -32,6 +32,7 @@
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
+//! | [`PointLight`] with a [`Profile`] or a [`Projector`] | [`by_profile`](PointLight::by_profile): the same | | |
 //!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
 //! patches, and the projected solid angle of disks. A sun and a constant environment have no area.
@@ -90,6 +91,8 @@ mod flat;
 mod line;
 mod patch;
 mod polygon;
+mod profile;
+mod projector;
 mod sample;
 mod sampler;
 mod sphere;
@@ -114,6 +117,8 @@ pub use flat::{
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle, PlacedLine};
 pub use patch::{BilinearPatch, PatchByArea, PlacedPatch};
 pub use polygon::{PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonBySolidAngle};
+pub use profile::{Profile, ProfileError};
+pub use projector::{ProjectedImage, Projector};
 pub use sample::{AreaSample, FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, BySolidAngle, LightSampler};
 pub use sphere::{PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
