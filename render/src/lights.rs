@@ -1,5 +1,6 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
 
+mod directed;
 mod many;
 pub mod tree;
 
@@ -10,6 +11,7 @@ use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{DeltaLight, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
+use directed::{DirectedLight, directed_lights};
 use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2,
@@ -17,6 +19,7 @@ use etendue::{
 };
 use many::{ManyAt, ManyLights};
 use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 // kinds of lights, and a flag beside them
@@ -27,21 +30,23 @@ const POINT: u32 = 3;
 const SPOT: u32 = 4;
 const DISTANT: u32 = 5;
 const SKY: u32 = 6;
+const DIRECTED: u32 = 7;
 const KINDS: u32 = 7;
 const TWO_SIDED: u32 = 8;
-const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT;
+const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT | 1 << DIRECTED;
 const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM;
 
 /// A light.
 #[derive(Clone, Copy, Debug, Default)]
 struct LightRecord {
-    /// Centre of a sphere, corner of a triangle or parallelogram, position of a point or spot light, direction to a distant light.
+    /// Centre of a sphere, corner of a triangle or parallelogram, position of a light without an area, direction to a distant light.
     place: [f32; 3],
-    /// First edge of a triangle or parallelogram, axis of a spot light; a sphere has its radius in x.
+    /// First edge of a triangle or parallelogram, axis of a spot or directed light; a sphere has its radius in x.
     first: [f32; 3],
-    /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y.
+    /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y; a directed
+    /// light has its index among those in x, and in y the cosine of the angle from which on it is dark.
     second: [f32; 3],
-    /// Radiance; intensity of a point or spot light, irradiance of a distant light.
+    /// Radiance; intensity of a point or spot light, the greatest of a directed light, irradiance of a distant light.
     radiance: [f32; 3],
     /// Its kind, and [`TWO_SIDED`].
     kind: u32,
@@ -96,7 +101,7 @@ impl LightRecord {
                 (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
             }
             // beyond a hemisphere, a cone bounds nothing
-            SPOT if self.second[1] > 0.0 => (p, 0.0, u),
+            SPOT | DIRECTED if self.second[1] > 0.0 => (p, 0.0, u),
             _ => (p, 0.0, Vec3::default()),
         };
         let length = normal.length();
@@ -107,7 +112,7 @@ impl LightRecord {
             // the rounding of the centre moves the sphere by less than this
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
-            cos_cone: if self.kind & KINDS == SPOT { self.second[1].max(0.0) } else { 0.0 },
+            cos_cone: if matches!(self.kind & KINDS, SPOT | DIRECTED) { self.second[1].max(0.0) } else { 0.0 },
             two_sided: two_sided && length > 0.0,
             power: if self.is_distant() {
                 0.0
@@ -132,6 +137,7 @@ pub struct Lights {
     many: ManyLights,
     /// Bit k is set if there is a light of kind k.
     kinds: u32,
+    directed: Vec<DirectedLight>,
     sky: Option<Arc<Sky>>,
     /// Index of the light of each shape; [`NOTHING`] for shapes that are not lights.
     shape_lights: Vec<u32>,
@@ -218,6 +224,10 @@ fn squared_radius(scene: &Scene) -> f64 {
     if squared.is_finite() { squared } else { 1.0 }
 }
 
+fn product(a: V8, b: V8) -> V8 {
+    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
+}
+
 fn sum(rgb: [f32; 3]) -> f64 {
     rgb.iter().map(|&x| f64::from(x)).sum()
 }
@@ -230,6 +240,7 @@ fn area_lights(scene: &Scene) -> Powered {
 }
 
 fn delta_lights(scene: &Scene) -> Powered {
+    let mut directed = 0;
     let light = |light: &DeltaLight| {
         let none = LightRecord { shape: NOTHING, ..LightRecord::default() };
         match *light {
@@ -241,6 +252,14 @@ fn delta_lights(scene: &Scene) -> Powered {
                 let second = [cos_inner, cos_outer, 0.0];
                 // a cone too narrow for its cosine to differ from 1 still has a chance
                 (LightRecord { place, first, second, radiance, kind: SPOT, ..none }, cone.max(1e-7) * sum(radiance))
+            }
+            DeltaLight::Directed { position: place, to_light: [_, _, first], intensity: radiance, table } => {
+                let shape = &scene.intensities[table as usize];
+                let second = [f32::from_bits(directed), shape.cos_cone(), 0.0];
+                directed += 1;
+                let flux = shape.flux();
+                let power = (0..3).map(|k| f64::from(radiance[k]) * flux[k]).sum::<f64>() / PI;
+                (LightRecord { place, first, second, radiance, kind: DIRECTED, ..none }, power)
             }
             DeltaLight::Distant { direction: place, irradiance: radiance } => {
                 (LightRecord { place, radiance, kind: DISTANT, ..none }, sum(radiance) * squared_radius(scene))
@@ -263,21 +282,23 @@ impl Lights {
             let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
             all.push((record, sky.flux() * squared_radius(scene)));
         }
-        Self::of(all, &scene.shapes, sky)
+        Self::of(all, scene, sky)
     }
     /// The delta lights of a scene alone.
     ///
     /// # Errors
     /// Fails if there are more lights than a tree can index.
     pub fn deltas(scene: &Scene) -> Result<Self, BuildError> {
-        Self::of(delta_lights(scene), &scene.shapes, None)
+        Self::of(delta_lights(scene), scene, None)
     }
-    fn of(all: Powered, shapes: &Arc<[Shape]>, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
+    fn of(all: Powered, scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
+        let shapes = &scene.shapes;
         let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS));
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
         // relative to the greatest, so that all are finite
         let bound = |(light, power): &(LightRecord, f64)| light.bound(power / greatest);
-        let mut own = Self { kinds, sky, shape_lights: vec![NOTHING; shapes.len()], ..Self::default() };
+        let shape_lights = vec![NOTHING; shapes.len()];
+        let mut own = Self { kinds, sky, shape_lights, directed: directed_lights(scene), ..Self::default() };
         if kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len()) {
             let bounds: Vec<_> = all.iter().map(bound).collect();
             own.spatial = Some(SpatialLights::new(&bounds).expect("few lights"));
@@ -378,8 +399,8 @@ impl Lights {
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
         LightRecord::of(shape, &self.shapes[shape as usize]).map(|(record, _)| record.pack()).unwrap_or_default()
     }
-    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky, `radiance` of
-    /// `chosen` becomes that of the sampled direction.
+    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies and directed
+    /// lights, `radiance` of `chosen` becomes that of the sampled direction.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         const ONLY_SPHERES: u32 = 1 << SPHERE;
@@ -397,7 +418,7 @@ impl Lights {
     /// Samples every kind of light that the scene has, each in its lanes.
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let mut mixed: Option<Drawn> = None;
-        for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
+        for kind in (SPHERE..=DIRECTED).filter(|kind| self.kinds >> kind & 1 == 1) {
             let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
             let Chosen { place, first, second, .. } = *chosen;
             let sample = match kind {
@@ -410,6 +431,11 @@ impl Lights {
                     light.by_delta(p).sample(u).into()
                 }
                 DISTANT => DirectionalLight::new(place).by_delta(p).sample(u).into(),
+                DIRECTED => {
+                    let (sample, intensity) = directed::sample(&self.directed, second.x.to_bits(), place, p, here);
+                    chosen.radiance = V8::blend(here, product(chosen.radiance, intensity), chosen.radiance);
+                    sample.into()
+                }
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
                     let (sample, radiance) = sky.sample(measure, normal, u);

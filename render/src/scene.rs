@@ -22,7 +22,8 @@
 //! | other patches, `disk`, `cylinder`, partial, stretched or textured spheres | triangles |
 //! | `curve` and older quadrics | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
-//! | `goniometric`, `projection`, lights with a picture | a point, spot or plain light of the same mean; portals are ignored |
+//! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
+//! | lights with a picture | plain ones of the same mean; portals are ignored |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
@@ -40,8 +41,10 @@
 mod builder;
 mod builtin;
 mod description;
+mod directed;
 mod generated;
 mod gltf;
+mod ies;
 mod includes;
 mod lexer;
 mod lights;

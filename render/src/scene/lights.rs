@@ -34,6 +34,17 @@ pub enum DeltaLight {
         /// Radiant intensity on the axis, linear RGB.
         intensity: [f32; 3],
     },
+    /// A point light whose intensity differs by direction.
+    Directed {
+        /// World position.
+        position: [f32; 3],
+        /// Rows of the orthogonal matrix from world space to the space of its intensity.
+        to_light: [[f32; 3]; 3],
+        /// Greatest radiant intensity, linear RGB.
+        intensity: [f32; 3],
+        /// Index of its relative intensity in the scene.
+        table: u32,
+    },
     /// Parallel light from infinitely far away.
     Distant {
         /// Unit vector towards the light.
@@ -86,7 +97,7 @@ pub(super) enum Source {
 }
 
 /// Greatest number of texels of an environment.
-const MOST_TEXELS: usize = 1 << 26;
+pub(super) const MOST_TEXELS: usize = 1 << 26;
 
 /// Where the files of a light are found.
 pub(super) struct Files<'a> {
@@ -103,30 +114,15 @@ pub(super) fn read(
     files: &Files<'_>,
     notes: &mut Notes,
 ) -> Result<Source, Message> {
-    let has_picture = ["infinite", "goniometric", "projection"].contains(&kind);
-    let file = match if has_picture { params.text("filename")? } else { None } {
-        None if has_picture => params.text("mapname")?,
+    if !["point", "spot", "distant", "infinite"].contains(&kind) {
+        return Err(params.error(
+            "not supported, only \"point\", \"spot\", \"distant\", \"infinite\", \"goniometric\" and \"projection\"",
+        ));
+    }
+    let is_sky = kind == "infinite";
+    let file = match if is_sky { params.text("filename")? } else { None } {
+        None if is_sky => params.text("mapname")?,
         file => file,
-    };
-    // lights with a picture are plain ones with its mean
-    let (kind, file) = match (kind, file) {
-        ("goniometric", file) => {
-            notes.stand_in(kind, || params.error("becomes a point light of the same mean intensity"));
-            ("point", file)
-        }
-        ("projection", file) => {
-            notes.stand_in(kind, || params.error("becomes a spot light of the same mean intensity"));
-            let fov = params.float("fov")?.unwrap_or(90.0);
-            params.set_float("coneangle", 0.5 * fov);
-            params.set_float("conedeltaangle", 0.0);
-            ("spot", file)
-        }
-        ("point" | "spot" | "distant" | "infinite", file) => (kind, file),
-        _ => {
-            return Err(params.error(
-                "not supported, only \"point\", \"spot\", \"distant\", \"infinite\", \"goniometric\" and \"projection\"",
-            ));
-        }
     };
     if params.given("portal") {
         notes.stand_in("portal", || params.error("\"portal\" is ignored: light comes from everywhere"));
@@ -143,7 +139,7 @@ pub(super) fn read(
         return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
     }
     let source = match file {
-        Some(file) if kind == "infinite" => {
+        Some(file) => {
             let to_light = turned(params, ctm)?;
             // pbrt-v3 multiplies both, and pbrt-v4 refuses them
             let scale = colour.map_or(scale, |colour| std::array::from_fn(|k| scale[k] * colour[k]));
@@ -156,13 +152,9 @@ pub(super) fn read(
                 None => Source::Dark,
             }
         }
-        file => {
-            let mean = match file {
-                Some(file) => mean_of(&file, params, files)?,
-                None => [1.0; 3],
-            };
+        None => {
             let given = colour.unwrap_or([1.0; 3]);
-            let mut colour: [f64; 3] = std::array::from_fn(|k| given[k] * scale[k] * mean[k]);
+            let mut colour: [f64; 3] = std::array::from_fn(|k| given[k] * scale[k]);
             if let Some(wanted) = wanted {
                 // what a light of the intensity or radiance 1 has
                 let per_unit = match kind {
@@ -235,7 +227,7 @@ pub(super) fn area(
 }
 
 /// The factor of a light; older files have one for each channel.
-fn scale(params: &mut Params) -> Result<[f64; 3], Message> {
+pub(super) fn scale(params: &mut Params) -> Result<[f64; 3], Message> {
     let scale = params.numbers_of("scale", &["float", "rgb"], 1)?.unwrap_or_else(|| vec![1.0]);
     let scale: [f64; 3] = match scale[..] {
         [x] => [x; 3],
@@ -347,7 +339,7 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
 }
 
 /// The rotation from world space to light space.
-fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
+pub(super) fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
     let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
     let factor = ctm.similarity().ok_or_else(stretched)?;
     // the inverse of an orthogonal matrix is its transpose

@@ -3,6 +3,7 @@
 use super::builder::{Builder, Rest};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
+use super::directed;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
@@ -19,6 +20,7 @@ use super::transform::Transform;
 use super::transform_directives;
 use super::view::{self, Window};
 use crate::image;
+use crate::intensity::Intensity;
 use crate::texture::{Mask, Texture};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -59,6 +61,7 @@ struct Reader<'a> {
     film: Option<(FilmSettings, Option<Window>)>,
     pixel_samples: Option<u32>,
     delta_lights: Vec<DeltaLight>,
+    intensities: Vec<Arc<Intensity>>,
     environment: Option<Environment>,
     out: Builder,
     state: State,
@@ -91,6 +94,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         film: None,
         pixel_samples: None,
         delta_lights: Vec::new(),
+        intensities: Vec::new(),
         environment: None,
         out: Builder::default(),
         state,
@@ -132,6 +136,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         film,
         pixel_samples: reader.pixel_samples.unwrap_or(16),
         delta_lights: reader.delta_lights,
+        intensities: reader.intensities,
         environment: reader.environment,
         inputs: reader.inputs.into_inner(),
     };
@@ -459,6 +464,15 @@ impl Reader<'_> {
             None => image::read(&resolve(name)),
         };
         let files = Files { resolve: &resolve, open: &open };
+        if ["goniometric", "projection"].contains(&kind) {
+            let table = self.intensities.len() as u32;
+            let read = directed::read(kind, params, &state.ctm, &files, &mut out.notes, table)?;
+            if let Some((light, intensity)) = read {
+                self.delta_lights.push(light);
+                self.intensities.push(intensity.into());
+            }
+            return Ok(());
+        }
         match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
             lights::Source::Delta(light) => self.delta_lights.push(light),
             lights::Source::Environment(environment) => match self.environment.take() {

@@ -24,6 +24,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
         details: Arc::default(),
         shapes: shapes.into(),
         delta_lights: Vec::new(),
+        intensities: Vec::new(),
         environment: None,
         warnings: Vec::new(),
         stand_ins: Vec::new(),
