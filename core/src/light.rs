@@ -34,6 +34,9 @@
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
 //! | [`PointLight`] with a [`Profile`] or a [`Projector`] | [`by_profile`](PointLight::by_profile): the same | | |
 //!
+//! Of a light that emits within an angle of its normal, a [`Spread`], `by_spread` samples what a point sees: [`Parallelogram`],
+//! [`Rectangle`] and [`Disk`] have it.
+//!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
 //! patches, and the projected solid angle of disks. A sun and a constant environment have no area.
 //!
@@ -96,6 +99,7 @@ mod projector;
 mod sample;
 mod sampler;
 mod sphere;
+mod spread;
 mod surface;
 mod techniques;
 
@@ -122,4 +126,5 @@ pub use projector::{ProjectedImage, Projector};
 pub use sample::{AreaSample, FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, BySolidAngle, LightSampler};
 pub use sphere::{PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
+pub use spread::Spread;
 pub use surface::{AreaSurface, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint};
