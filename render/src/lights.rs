@@ -2,6 +2,7 @@
 
 mod directed;
 mod many;
+mod spread;
 pub mod tree;
 
 use crate::bvh::BuildError;
@@ -12,6 +13,7 @@ use crate::scene::{DeltaLight, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
 use directed::{DirectedLight, directed_lights};
+use etendue::light::Spread;
 use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle, Vec2,
@@ -22,7 +24,7 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-// kinds of lights, and a flag beside them
+// kinds of lights, and flags beside them
 const SPHERE: u32 = 0;
 const TRIANGLE: u32 = 1;
 const PARALLELOGRAM: u32 = 2;
@@ -33,8 +35,11 @@ const SKY: u32 = 6;
 const DIRECTED: u32 = 7;
 const KINDS: u32 = 7;
 const TWO_SIDED: u32 = 8;
+const SPREAD: u32 = 16;
+/// Beside the bits of the kinds: there is a light with a spread.
+const SPREADS: u32 = 1 << 8;
 const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT | 1 << DIRECTED;
-const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM;
+const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | SPREADS;
 
 /// A light.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,7 +53,9 @@ struct LightRecord {
     second: [f32; 3],
     /// Radiance; intensity of a point or spot light, the greatest of a directed light, irradiance of a distant light.
     radiance: [f32; 3],
-    /// Its kind, and [`TWO_SIDED`].
+    /// Its spread, where [`SPREAD`] is set.
+    spread: Spread<f32>,
+    /// Its kind, [`TWO_SIDED`] and [`SPREAD`].
     kind: u32,
     /// Index of its shape, or [`NOTHING`].
     shape: u32,
@@ -71,14 +78,27 @@ impl LightRecord {
         };
         let (sides, flag) = if emission.two_sided { (2.0, TWO_SIDED) } else { (1.0, 0) };
         let power = sum(emission.radiance) * shape.geometry.area() * sides;
-        let record = Self { place, first, second, radiance: emission.radiance, kind: kind | flag, shape: index };
+        let radiance = emission.radiance;
+        let mut record = Self { place, first, second, radiance, kind: kind | flag, shape: index, ..Self::default() };
+        if let Some(spread) = emission.spread {
+            (record.spread, record.kind) = (spread, record.kind | SPREAD);
+        }
         Some((record, power))
     }
     fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
         [
             [a, b, c, d, e, f, g, h],
-            [i, red, green, blue, f32::from_bits(self.kind), f32::from_bits(self.shape), 0.0, 0.0],
+            [
+                i,
+                red,
+                green,
+                blue,
+                f32::from_bits(self.kind),
+                f32::from_bits(self.shape),
+                self.spread.tan_half,
+                self.spread.gain,
+            ],
         ]
     }
     /// Whether the light is infinitely far away.
@@ -112,7 +132,11 @@ impl LightRecord {
             // the rounding of the centre moves the sphere by less than this
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
-            cos_cone: if matches!(self.kind & KINDS, SPOT | DIRECTED) { self.second[1].max(0.0) } else { 0.0 },
+            cos_cone: match self.kind & KINDS {
+                SPOT | DIRECTED => self.second[1].max(0.0),
+                _ if self.kind & SPREAD != 0 => spread::cos_cone(&self.spread),
+                _ => 0.0,
+            },
             two_sided: two_sided && length > 0.0,
             power: if self.is_distant() {
                 0.0
@@ -135,7 +159,7 @@ pub struct Lights {
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     many: ManyLights,
-    /// Bit k is set if there is a light of kind k.
+    /// Bit k is set if there is a light of kind k, and [`SPREADS`] if one has a spread.
     kinds: u32,
     directed: Vec<DirectedLight>,
     sky: Option<Arc<Sky>>,
@@ -200,6 +224,7 @@ pub struct Chosen {
     second: V8,
     /// Radiance; intensity or irradiance for a delta light.
     pub radiance: V8,
+    spread: Spread<X8>,
     kind: u32x8,
     /// Index of its shape; [`NOTHING`] for a light without one.
     pub shape: u32x8,
@@ -293,7 +318,8 @@ impl Lights {
     }
     fn of(all: Powered, scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
         let shapes = &scene.shapes;
-        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS));
+        let bits = |kind: u32| 1 << (kind & KINDS) | if kind & SPREAD == 0 { 0 } else { SPREADS };
+        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | bits(light.kind));
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
         // relative to the greatest, so that all are finite
         let bound = |(light, power): &(LightRecord, f64)| light.bound(power / greatest);
@@ -399,8 +425,8 @@ impl Lights {
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
         LightRecord::of(shape, &self.shapes[shape as usize]).map(|(record, _)| record.pack()).unwrap_or_default()
     }
-    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies and directed
-    /// lights, `radiance` of `chosen` becomes that of the sampled direction.
+    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, directed
+    /// lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         const ONLY_SPHERES: u32 = 1 << SPHERE;
@@ -412,12 +438,16 @@ impl Lights {
             ONLY_PARALLELOGRAMS => chosen.parallelogram(measure, p, normal, u),
             _ => self.mixed(chosen, measure, p, normal, u),
         };
-        sample.emits = sample.emits | chosen.two_sided();
+        sample.emits = sample.emits | chosen.has(TWO_SIDED);
         sample
     }
     /// Samples every kind of light that the scene has, each in its lanes.
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let mut mixed: Option<Drawn> = None;
+        let normal_of_light = chosen.first.cross(chosen.second);
+        if self.kinds & SPREADS != 0 {
+            chosen.narrow(p);
+        }
         for kind in (SPHERE..=DIRECTED).filter(|kind| self.kinds >> kind & 1 == 1) {
             let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
             let Chosen { place, first, second, .. } = *chosen;
@@ -454,7 +484,13 @@ impl Lights {
                 },
             });
         }
-        mixed.unwrap_or_else(|| unreachable!("there is a light"))
+        let sample = mixed.unwrap_or_else(|| unreachable!("there is a light"));
+        if self.kinds & SPREADS != 0 {
+            let lanes = chosen.has(SPREAD);
+            let factor = spread::attenuation(normal_of_light, sample.direction, &chosen.spread, lanes);
+            chosen.radiance = chosen.radiance * factor;
+        }
+        sample
     }
     /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
     /// shape from `p`.
@@ -470,7 +506,13 @@ impl Lights {
                 Triangle { v0: a.into(), e1: edge(b), e2: edge(c) }.by_solid_angle(p).pdf(w)
             }
             Geometry::Parallelogram { p: corner, u, v } => {
-                Parallelogram::new(corner.into(), u.into(), v.into()).by_solid_angle(p).pdf(w)
+                let mut light = Parallelogram::new(corner.into(), u.into(), v.into());
+                if self.kinds & SPREADS != 0
+                    && let Some(spread) = self.shapes[shape].emission.and_then(|emission| emission.spread)
+                {
+                    light = light.visible_part(p, &Spread::splat(spread));
+                }
+                light.by_solid_angle(p).pdf(w)
             }
         };
         pdf * pmf.of(self.shape_lights[shape])
@@ -500,6 +542,7 @@ impl Chosen {
             first: V8::new(a[3], a[4], a[5]),
             second: V8::new(a[6], a[7], b[0]),
             radiance: V8::new(b[1], b[2], b[3]),
+            spread: Spread { tan_half: b[6], gain: b[7] },
             kind: b[4].to_bits(),
             shape: b[5].to_bits(),
         }
@@ -536,8 +579,16 @@ impl Chosen {
             Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal).sample(u).into()),
         }
     }
+    /// Leaves of the parallelograms with a spread what the points see.
     #[inline]
-    fn two_sided(&self) -> M8 {
-        !equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
+    fn narrow(&mut self, p: V8) {
+        let lanes = self.has(SPREAD) & equal(self.kind & u32x8::splat(KINDS), u32x8::splat(PARALLELOGRAM));
+        let light = Parallelogram { corner: self.place, edge_s: self.first, edge_t: self.second };
+        let part = Parallelogram::blend(lanes, light.visible_part(p, &self.spread), light);
+        (self.place, self.first, self.second) = (part.corner, part.edge_s, part.edge_t);
+    }
+    #[inline]
+    fn has(&self, flag: u32) -> M8 {
+        !equal(self.kind & u32x8::splat(flag), u32x8::splat(0))
     }
 }

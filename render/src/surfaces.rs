@@ -7,6 +7,7 @@ use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::geometry::Affine;
 use crate::packet::{M8, V8, X8, equal};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
+use etendue::light::Spread;
 use etendue::{Mask, Real, Vec3, u32x8};
 pub(crate) use points::{LEAST, LIFT};
 use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
@@ -411,7 +412,11 @@ fn smooth_normal(normals: &[[f32; 3]; 3], weights: [f32; 3], flat: [f32; 3], dir
 pub fn emitted(lanes: M8, shape: &Shape, outward: V8, direction: V8) -> Option<(V8, M8)> {
     let emission = shape.emission?;
     let front = outward.dot(direction).lt(X8::lit(0.0));
-    Some((emission.radiance.into(), lanes & (front | M8::splat(emission.two_sided))))
+    let mut radiance = V8::from(emission.radiance);
+    if let Some(spread) = emission.spread {
+        radiance = radiance * Spread::splat(spread).attenuation(direction, outward);
+    }
+    Some((radiance, lanes & (front | M8::splat(emission.two_sided))))
 }
 
 #[cfg(test)]

@@ -136,8 +136,11 @@ pub fn certificates(bytes: &[u8]) {
     input.scale = [1.0, 1e-6, 1e6, 1.0, 1e-30, 1e15, 1.0, 0.01][kind % 8];
     input.shift = [0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 0.0][kind % 8];
     let two_sided = input.below(2) == 0;
-    let light =
-        Shape { geometry: input.light(), material: 0, emission: Some(Emission { radiance: [1.0; 3], two_sided }) };
+    let light = Shape {
+        geometry: input.light(),
+        material: 0,
+        emission: Some(Emission { radiance: [1.0; 3], two_sided, spread: None }),
+    };
     let view = input.below(4);
     let origin = wide(input.point());
     let place = input.below(256);

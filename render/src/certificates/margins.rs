@@ -116,7 +116,7 @@ const REACH: f32 = 1e12;
 const ROUNDING: f64 = REACH as f64 / (1_u64 << 48) as f64;
 
 fn set(patch: &Patch, geometry: Geometry) -> (Facing, Shaft) {
-    let emission = Some(Emission { radiance: [1.0; 3], two_sided: false });
+    let emission = Some(Emission { radiance: [1.0; 3], two_sided: false, spread: None });
     let lamp = Lamp::new(&Shape { geometry, material: 0, emission }, 0).unwrap();
     let mut shaft = Shaft::default();
     let facing = shaft.set(patch, &lamp, REACH, &mut Region::new(REACH));

@@ -32,6 +32,8 @@ const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 pub(super) struct AreaLight {
     form: Convex<f32>,
     radiance: [f32; 3],
+    /// Whether it must be sampled unless it is dark: closed forms are for the same radiance in all directions.
+    is_sampled: bool,
 }
 
 /// What is known of a light, as seen from a part of a surface. What it contributes is computed in a precision that suffices there.
@@ -69,8 +71,8 @@ pub struct Survey {
     pub few: u32,
     /// Lights with 5 to 8 possible blockers.
     pub many: u32,
-    /// Lights with at most 16 possible blockers that are sampled, because that takes less time, because spheres overlap, or because closed
-    /// forms are not accurate enough.
+    /// Lights with at most 16 possible blockers that are sampled, because that takes less time, because spheres overlap, because closed forms
+    /// are not accurate enough, or because it has a spread.
     pub crowded: u32,
     /// Lights of which nothing is proved.
     pub unknown: u32,
@@ -191,7 +193,9 @@ impl<'a> Analytic<'a> {
         let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
         let (eye, pixel) = camera.middle(settings.width, settings.height);
         let light = |shape: &crate::scene::Shape| {
-            Some(AreaLight { form: shape.geometry.convex(), radiance: shape.emission?.radiance })
+            let emission = shape.emission?;
+            let (form, is_sampled) = (shape.geometry.convex(), emission.spread.is_some());
+            Some(AreaLight { form, radiance: emission.radiance, is_sampled })
         };
         Self {
             surfaces,
@@ -303,8 +307,9 @@ impl<'a> Analytic<'a> {
             };
             known.push(match certificate {
                 Certificate::Lit(Precision::Neither) | Certificate::Blockers(_, Precision::Neither) => Known::Crowded,
-                Certificate::Lit(precision) => Known::Lit(precision),
                 Certificate::Dark => Known::Dark,
+                Certificate::Lit(_) | Certificate::Blockers(..) if lights[light].is_sampled => Known::Crowded,
+                Certificate::Lit(precision) => Known::Lit(precision),
                 Certificate::Unknown => before,
                 Certificate::Blockers(found, _) if !is_clipped(&lights[light].form, found) => Known::Crowded,
                 Certificate::Blockers(found, precision) => {

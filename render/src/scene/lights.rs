@@ -8,7 +8,7 @@ use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
 use etendue::Vec2;
-use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Spread, Texel};
 use std::f64::consts::PI;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
@@ -61,6 +61,8 @@ pub struct Emission {
     pub radiance: [f32; 3],
     /// Whether both sides emit, or only the side of the normal.
     pub two_sided: bool,
+    /// The cone about the normal within which a flat light emits, unless that is all of a hemisphere.
+    pub spread: Option<Spread<f32>>,
 }
 
 /// Light from infinitely far away in all directions.
@@ -216,14 +218,29 @@ pub(super) fn area(
     let scale = scale(params)?;
     let radiance: [f64; 3] = std::array::from_fn(|k| radiance[k] * scale[k]);
     let two_sided = params.flag("twosided")?.unwrap_or(false);
-    let too_large = || params.error(format!("the radiance {radiance:?}: at most {MOST_RADIANCE:e} is supported"));
-    let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
+    let spread = spread(params)?;
+    // on the axis
+    let gain = spread.map_or(1.0, |spread| f64::from(spread.tan_half) * f64::from(spread.gain));
+    let most = f64::from(MOST_RADIANCE) / gain;
+    let too_large = || params.error(format!("the radiance {radiance:?}: at most {most:e} is supported"));
+    let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| f64::from(x) <= most)).ok_or_else(too_large)?;
     brightness(radiance).into_iter().for_each(|text| notes.warn(params.error(text)));
     let dark = radiance == [0.0; 3];
     if dark {
         notes.warn(params.error("emits nothing"));
     }
-    Ok(((!dark).then_some(Emission { radiance, two_sided }), power))
+    Ok(((!dark).then_some(Emission { radiance, two_sided, spread }), power))
+}
+
+/// The spread of an area light: the full angle in degrees, as in Cycles. pbrt has none.
+fn spread(params: &mut Params) -> Result<Option<Spread<f32>>, Message> {
+    match params.float("spread")? {
+        None => Ok(None),
+        Some(angle) if !(0.1..=180.0).contains(&angle) => {
+            Err(params.error(format!("\"spread\": must be from 0.1 to 180 degrees, not {}", shown(angle))))
+        }
+        Some(angle) => Ok((angle < 180.0).then(|| Spread::new(angle.to_radians()))),
+    }
 }
 
 /// The factor of a light; older files have one for each channel.

@@ -522,6 +522,12 @@ impl Reader<'_> {
                 .stand_in("light in an object", || params.error("a light in an object emits nothing, as in pbrt"));
             emission = None;
         }
+        if let Some(emission) = emission.as_mut().filter(|emission| kind == "sphere" && emission.spread.is_some()) {
+            self.out
+                .notes
+                .stand_in("spread", || params.error("a sphere has no \"spread\": it emits in all directions"));
+            emission.spread = None;
+        }
         let mask = opacity.map(|opacity| Mask { opacity, least: None });
         if mask.is_some() && emission.is_some() {
             self.out.notes.stand_in("light with holes", || params.error("\"alpha\": a light is seen, and opaque"));

@@ -270,7 +270,7 @@ fn shapes_become_what_they_should() {
     assert!(scene.shapes[0].emission.is_none());
     assert!(matches!(scene.shapes[1].geometry, Geometry::Triangle(_)));
     assert!(matches!(scene.shapes[2].geometry, Geometry::Parallelogram { .. }));
-    assert_eq!(scene.shapes[2].emission, Some(Emission { radiance: [1.0; 3], two_sided: false }));
+    assert_eq!(scene.shapes[2].emission, Some(Emission { radiance: [1.0; 3], two_sided: false, spread: None }));
     assert_eq!((scene.materials.len(), scene.pixel_samples), (1, 16));
     assert_eq!(scene.film, FilmSettings { width: 1280, height: 720, diagonal: 35.0, filename: None });
 }
@@ -286,7 +286,7 @@ fn materials_and_lights_follow_the_graphics_state() {
     assert_eq!(scene.materials, [[0.25; 3], [1.0, 0.0, 0.0], [0.5; 3]].map(Material::Diffuse));
     assert_eq!(scene.triangle_materials, [0, 0, 2]);
     assert_eq!(scene.shapes[0].material, 1);
-    assert_eq!(scene.shapes[0].emission, Some(Emission { radiance: [2.0, 4.0, 6.0], two_sided: true }));
+    assert_eq!(scene.shapes[0].emission, Some(Emission { radiance: [2.0, 4.0, 6.0], two_sided: true, spread: None }));
 }
 
 #[test]

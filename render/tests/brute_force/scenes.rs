@@ -33,7 +33,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
 }
 
 pub(crate) fn shape(geometry: Geometry, emission: Option<bool>) -> Shape {
-    let emission = emission.map(|two_sided| Emission { radiance: [1.0; 3], two_sided });
+    let emission = emission.map(|two_sided| Emission { radiance: [1.0; 3], two_sided, spread: None });
     // flat lights do not reflect
     let black = emission.is_some() && !matches!(geometry, Geometry::Sphere { .. });
     Shape { geometry, material: u32::from(black), emission }

@@ -63,7 +63,7 @@ impl Glow {
         let mean = sum.map(|x| x / (PARTS * PARTS) as f64);
         // floating-point images may hold any numbers
         let radiance = std::array::from_fn(|k| ((mean[k] * f64::from(self.radiance[k])) as f32).min(MOST_RADIANCE));
-        (radiance != [0.0; 3]).then_some(Emission { radiance, two_sided: self.two_sided })
+        (radiance != [0.0; 3]).then_some(Emission { radiance, two_sided: self.two_sided, spread: None })
     }
 }
 
