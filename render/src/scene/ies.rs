@@ -13,6 +13,7 @@
 use super::message::shown;
 use crate::files::read_file;
 use crate::intensity::Intensity;
+use etendue::light::Profile;
 use std::path::Path;
 
 /// A signed axis of light space: x, y or z, and its sign.
@@ -201,13 +202,15 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
     };
     let greatest = columns.iter().flat_map(|(_, column)| column).fold(0.0, |most: f64, &x| most.max(x));
     let unit = if greatest > 0.0 { greatest } else { 1.0 };
-    let values = columns.iter().flat_map(|(_, column)| column.iter().map(|x| (x / unit) as f32)).collect();
-    let azimuth = columns.iter().map(|(angle, _)| *angle).collect();
-    let (polar, axes) = match name_of(kind) {
+    let values: Vec<f32> = columns.iter().flat_map(|(_, column)| column.iter().map(|x| (x / unit) as f32)).collect();
+    let azimuth: Vec<f32> = columns.iter().map(|(angle, _)| *angle).collect();
+    let (polar, axes): (Vec<f32>, _) = match name_of(kind) {
         'C' => (polar, [(0, 1.0), (2, 1.0), (1, -1.0)]),
         'B' => (polar.iter().map(|v| v + 90.0).collect(), [(1, -1.0), (2, -1.0), (0, -1.0)]),
         _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)]),
     };
+    // angles that differ by too little are the same once they are mirrored
+    Profile::new(&polar, &azimuth, &values).map_err(|error| format!("{name}: {error}"))?;
     let intensity = Intensity::Angles { polar, azimuth, values };
     Ok(Photometry { intensity, greatest: greatest * factor, axes, warnings })
 }

@@ -43,7 +43,7 @@ impl Drop for Folder {
 }
 
 /// A file of this photometric type, with factors that multiply to 6 and another of 0.5 that counts before 2002.
-fn ies(head: &str, kind: u32, vertical: &str, horizontal: &str, values: &str) -> String {
+fn file(head: &str, kind: u32, vertical: &str, horizontal: &str, values: &str) -> String {
     let count = |list: &str| list.split_whitespace().count();
     format!(
         "{head}\n[TEST] none\nTILT=NONE\n1 1000 3 {} {} {kind} 2 0 0 0\n2 0.5 100\n{vertical}\n{horizontal}\n{values}\n",
@@ -67,21 +67,21 @@ fn type_c_has_the_nadir_as_axis() {
     let folder = Folder::new("ies-c");
     let turn = |degrees: f64| [degrees.to_radians().cos(), -1.0, degrees.to_radians().sin()];
     // all around, by 90 degrees
-    folder.write("a.ies", &ies(NEW, 1, "0 90", "0 90 180 270 360", "8 0 8 2 8 4 8 6 8 0"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0 90 180 270 360", "8 0 8 2 8 4 8 6 8 0"));
     near(&folder.intensities(LAMP, &[DOWN, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), &[48.0, 0.0, 0.0]);
     // half way down, half of each
     near(&folder.intensities(LAMP, &[0.0, 90.0, 180.0, 270.0, 45.0].map(turn)), &[24.0, 30.0, 36.0, 42.0, 27.0]);
     // one quarter stands for four, one half for two, and one angle for all
-    folder.write("a.ies", &ies(NEW, 1, "0 90", "0 90", "8 0 8 2"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0 90", "8 0 8 2"));
     near(&folder.intensities(LAMP, &[0.0, 90.0, 180.0, 270.0, 225.0].map(turn)), &[24.0, 30.0, 24.0, 30.0, 27.0]);
-    folder.write("a.ies", &ies(NEW, 1, "0 90", "0 90 180", "8 0 8 2 8 6"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0 90 180", "8 0 8 2 8 6"));
     near(&folder.intensities(LAMP, &[0.0, 90.0, 180.0, 270.0, 225.0].map(turn)), &[24.0, 30.0, 42.0, 30.0, 36.0]);
-    folder.write("a.ies", &ies(NEW, 1, "0 90", "90 180 270", "8 0 8 2 8 6"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "90 180 270", "8 0 8 2 8 6"));
     near(&folder.intensities(LAMP, &[0.0, 90.0, 180.0, 270.0, 315.0].map(turn)), &[30.0, 24.0, 30.0, 42.0, 36.0]);
-    folder.write("a.ies", &ies(NEW, 1, "0 90", "0", "8 2"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0", "8 2"));
     near(&folder.intensities(LAMP, &[0.0, 77.0, 200.0].map(turn)), &[30.0; 3]);
     // before 2002 another factor counts; the light's own factor and transform do, too
-    folder.write("a.ies", &ies("IESNA:LM-63-1995", 1, "0 90", "0", "8 2"));
+    folder.write("a.ies", &file("IESNA:LM-63-1995", 1, "0 90", "0", "8 2"));
     let turned = format!("Rotate 90 1 0 0 Scale 2 2 2 {LAMP} \"float scale\" 10 \"rgb I\" [3 1 1]");
     // about +x, −y turns to −z
     near(&folder.intensities(&turned, &[[0.0, 0.0, -1.0], [0.0, -1.0, 0.0]]), &[720.0, 180.0]);
@@ -96,7 +96,7 @@ fn type_c_has_the_nadir_as_axis() {
 fn types_b_and_a_have_other_axes() {
     let folder = Folder::new("ies-ab");
     let values = "1 2 3 4 8 6 7 8 9";
-    folder.write("a.ies", &ies(NEW, 2, "-90 0 90", "-90 0 90", values));
+    folder.write("a.ies", &file(NEW, 2, "-90 0 90", "-90 0 90", values));
     // the nadir; the ends of the axis, where all planes meet; right and left, looking down with +x up
     let [down, up, back] = [DOWN, [1.0, 1e-4, 0.0], [-1.0, 1e-4, 0.0]];
     near(&folder.intensities(LAMP, &[down, [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]), &[48.0, 48.0, 12.0]);
@@ -104,20 +104,62 @@ fn types_b_and_a_have_other_axes() {
     near(&folder.intensities(LAMP, &[[0.0, 1.0, 0.1], up, back]), &[0.0; 3]);
     near(&folder.intensities(LAMP, &[[1.0, -1e-6, 0.0], [-1.0, -1e-6, 0.0]]), &[36.0, 24.0]);
     // one side stands for both
-    folder.write("a.ies", &ies(NEW, 2, "-90 0 90", "0 90", "4 8 6 7 3 9"));
+    folder.write("a.ies", &file(NEW, 2, "-90 0 90", "0 90", "4 8 6 7 3 9"));
     near(&folder.intensities(LAMP, &[down, [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]), &[48.0, 18.0, 18.0]);
     // the same lamp of type A shines along +x, with the right at −z
-    folder.write("a.ies", &ies(NEW, 3, "-90 0 90", "-90 0 90", values));
+    folder.write("a.ies", &file(NEW, 3, "-90 0 90", "-90 0 90", values));
     let ahead = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]];
     near(&folder.intensities(LAMP, &ahead), &[48.0, 48.0, 12.0, 0.0]);
     near(&folder.intensities(LAMP, &[[1e-6, 1.0, 0.0], [1e-6, -1.0, 0.0]]), &[36.0, 24.0]);
+}
+
+/// Whatever is cut off or damaged, a file is one of a light, or an error that names it.
+#[test]
+fn damaged_files_are_errors() {
+    let whole = file(NEW, 3, "-90 -1 0 90", "0 30 90", "8 0 8 2 1 2 3 4 5 6 7 8")
+        .replace("TILT=NONE", "TILT=INCLUDE\n1 2 0 90 1 1");
+    let judge = |text: &str| match ies::parse(text, "a.ies") {
+        Ok(found) => {
+            let flux = found.intensity.flux()[0];
+            assert!((0.0..=12.6).contains(&flux) && found.greatest >= 0.0, "{flux}: {text}");
+            true
+        }
+        Err(error) => {
+            assert!(error.starts_with("a.ies:"), "{error}");
+            false
+        }
+    };
+    assert!(judge(&whole));
+    let cut: Vec<usize> = (0..whole.len()).filter(|&end| judge(&whole[..end])).collect();
+    // only the line's end is not needed
+    assert!(cut.iter().all(|&end| end + 2 > whole.len()), "{cut:?}");
+    let mut state = 5_u64;
+    // a linear congruential generator, of which the high bits count
+    let mut below = |n: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % n
+    };
+    let words = ["0", "-1", "90", "1e-9", "1e300", "nan", "-0", "4294967296", "x", "", "180", "0.5", "2"];
+    let mut read = 0;
+    for _ in 0..etendue_oracle::tier::cases(3000, 300_000) {
+        let mut pieces: Vec<&str> = whole.split(' ').collect();
+        for _ in 0..=below(3) {
+            let at = below(pieces.len());
+            pieces[at] = words[below(words.len())];
+        }
+        read += u32::from(judge(&pieces.join(" ")));
+    }
+    assert!(read > 100, "{read}");
+    // once mirrored, these are the same
+    let close = file(NEW, 1, "0 90", "0 1e-9 90", "8 0 8 2 1 2");
+    assert!(ies::parse(&close, "a.ies").unwrap_err().contains("a.ies: angles do not ascend"));
 }
 
 /// The power that a scene asks for is what the light emits, summed over directions.
 #[test]
 fn power_is_what_is_emitted() {
     let folder = Folder::new("directed-power");
-    folder.write("a.ies", &ies(NEW, 1, "0 60 180", "0 90", "8 3 0 2 1 5"));
+    folder.write("a.ies", &file(NEW, 1, "0 60 180", "0 90", "8 3 0 2 1 5"));
     write_rgb_file(folder.0.join("a.exr"), 4, 4, |x, y| (x as f32, 2.0 * y as f32, 1.0)).unwrap();
     let projection = "LightSource \"projection\" \"string filename\" \"a.exr\" \"float fov\" 70";
     let image = "LightSource \"goniometric\" \"string filename\" \"a.exr\"";
@@ -175,35 +217,35 @@ fn images_are_turned_as_in_pbrt() {
 fn errors_name_file_line_and_value() {
     let folder = Folder::new("directed-errors");
     let faulty = [
-        (ies(NEW, 1, "0 90", "0", "8"), "a.ies:8: 2 vertical and 1 horizontal angles need 5 numbers, but 4 are left"),
-        (ies(NEW, 1, "0 90 80", "0", "8 2 1"), "a.ies:6: vertical angles must ascend: 80 follows 90"),
-        (ies(NEW, 1, "0 90", "0 0", "8 2 1 1"), "a.ies:7: horizontal angles must ascend: 0 follows 0"),
-        (ies(NEW, 1, "0 90", "0", "8 -2"), "a.ies:8: candela value: must be at least 0, not -2"),
-        (ies(NEW, 1, "0 90", "0", "8 nan"), "a.ies:8: candela value: expected a finite number, found \"nan\""),
-        (ies(NEW, 1, "0 90", "0", "8 x"), "a.ies:8: candela value: expected a finite number, found \"x\""),
-        (ies(NEW, 1, "0 181", "0", "8 2"), "a.ies:6: vertical angle: must be from 0 to 180, not 181"),
-        (ies(NEW, 2, "-91 0", "0 90", "8 2 1 1"), "a.ies:6: vertical angle: must be from -90 to 90, not -91"),
-        (ies(NEW, 4, "0 90", "0", "8 2"), "a.ies:4: photometric type: must be from 1 to 3, not 4"),
+        (file(NEW, 1, "0 90", "0", "8"), "a.ies:8: 2 vertical and 1 horizontal angles need 5 numbers, but 4 are left"),
+        (file(NEW, 1, "0 90 80", "0", "8 2 1"), "a.ies:6: vertical angles must ascend: 80 follows 90"),
+        (file(NEW, 1, "0 90", "0 0", "8 2 1 1"), "a.ies:7: horizontal angles must ascend: 0 follows 0"),
+        (file(NEW, 1, "0 90", "0", "8 -2"), "a.ies:8: candela value: must be at least 0, not -2"),
+        (file(NEW, 1, "0 90", "0", "8 nan"), "a.ies:8: candela value: expected a finite number, found \"nan\""),
+        (file(NEW, 1, "0 90", "0", "8 x"), "a.ies:8: candela value: expected a finite number, found \"x\""),
+        (file(NEW, 1, "0 181", "0", "8 2"), "a.ies:6: vertical angle: must be from 0 to 180, not 181"),
+        (file(NEW, 2, "-91 0", "0 90", "8 2 1 1"), "a.ies:6: vertical angle: must be from -90 to 90, not -91"),
+        (file(NEW, 4, "0 90", "0", "8 2"), "a.ies:4: photometric type: must be from 1 to 3, not 4"),
         (
-            ies(NEW, 1, "0 90", "0 45", "8 2 1 1"),
+            file(NEW, 1, "0 90", "0 45", "8 2 1 1"),
             "a.ies:7: horizontal angles from 0 to 45 in type C: must be from 0 to 90",
         ),
         (
-            ies(NEW, 3, "0 90", "-90 0", "8 2 1 1"),
+            file(NEW, 3, "0 90", "-90 0", "8 2 1 1"),
             "a.ies:7: horizontal angles from -90 to 0 in type A: must be from 0 or",
         ),
-        (ies(NEW, 1, "0", "0", "8"), "a.ies:6: a single vertical angle: at least two are needed"),
-        (ies(NEW, 1, "0 90", "0", "8 2").replace("TILT=NONE", "TILT"), "a.ies: no line begins with TILT="),
+        (file(NEW, 1, "0", "0", "8"), "a.ies:6: a single vertical angle: at least two are needed"),
+        (file(NEW, 1, "0 90", "0", "8 2").replace("TILT=NONE", "TILT"), "a.ies: no line begins with TILT="),
         (
-            ies(NEW, 1, "0 90", "0", "8 2").replace(" 2 1 1 ", " 1000000000000 1 1 "),
+            file(NEW, 1, "0 90", "0", "8 2").replace(" 2 1 1 ", " 1000000000000 1 1 "),
             "a.ies:4: number of vertical angles: must be from 1 to the",
         ),
         (
-            ies(NEW, 1, "0 90", "0", "8 2").replace(" 2 1 1 ", " 1.5 1 1 "),
+            file(NEW, 1, "0 90", "0", "8 2").replace(" 2 1 1 ", " 1.5 1 1 "),
             "a.ies:4: number of vertical angles: must be",
         ),
         (
-            ies(NEW, 1, "0 90", "0", "8 2").replace("1000 3", "1000 -3"),
+            file(NEW, 1, "0 90", "0", "8 2").replace("1000 3", "1000 -3"),
             "a.ies:4: multiplier: must be at least 0, not -3",
         ),
         ("TILT=INCLUDE\n1 2 90 0 1 1".into(), "a.ies:2: tilt angles must ascend: 0 follows 90"),
@@ -217,9 +259,9 @@ fn errors_name_file_line_and_value() {
             "{text}\n{error}\n{what}"
         );
     }
-    folder.write("a.ies", &ies(NEW, 1, "0 90", "0", "8 2 3"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0", "8 2 3"));
     assert!(folder.load(LAMP).unwrap().warnings[0].text.contains("a.ies: 1 numbers after the last candela value"));
-    folder.write("a.ies", &ies(NEW, 1, "0 90", "0", "0 0"));
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0", "0 0"));
     assert!(folder.load(LAMP).unwrap().warnings[0].text.contains("emits nothing"));
     write_rgb_file(folder.0.join("odd.exr"), 3, 2, |_, _| (1.0, 1.0, 1.0)).unwrap();
     write_rgb_file(folder.0.join("nan.exr"), 2, 2, |x, _| (x as f32, f32::NAN, 1.0)).unwrap();
