@@ -444,10 +444,8 @@ impl Lights {
     /// Samples every kind of light that the scene has, each in its lanes.
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         let mut mixed: Option<Drawn> = None;
-        let normal_of_light = chosen.first.cross(chosen.second);
-        if self.kinds & SPREADS != 0 {
-            chosen.narrow(p);
-        }
+        // normals before the lights are narrowed
+        let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(p));
         for kind in (SPHERE..=DIRECTED).filter(|kind| self.kinds >> kind & 1 == 1) {
             let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
             let Chosen { place, first, second, .. } = *chosen;
@@ -485,9 +483,9 @@ impl Lights {
             });
         }
         let sample = mixed.unwrap_or_else(|| unreachable!("there is a light"));
-        if self.kinds & SPREADS != 0 {
+        if let Some(normal) = normal_of_light {
             let lanes = chosen.has(SPREAD);
-            let factor = spread::attenuation(normal_of_light, sample.direction, &chosen.spread, lanes);
+            let factor = spread::attenuation(normal, sample.direction, &chosen.spread, lanes);
             chosen.radiance = chosen.radiance * factor;
         }
         sample
@@ -579,13 +577,15 @@ impl Chosen {
             Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal).sample(u).into()),
         }
     }
-    /// Leaves of the parallelograms with a spread what the points see.
-    #[inline]
-    fn narrow(&mut self, p: V8) {
+    /// Leaves of the parallelograms with a spread what the points see, and returns the normals of all flat lights, of any length.
+    #[inline(never)]
+    fn narrow(&mut self, p: V8) -> V8 {
+        let normal = self.first.cross(self.second);
         let lanes = self.has(SPREAD) & equal(self.kind & u32x8::splat(KINDS), u32x8::splat(PARALLELOGRAM));
         let light = Parallelogram { corner: self.place, edge_s: self.first, edge_t: self.second };
         let part = Parallelogram::blend(lanes, light.visible_part(p, &self.spread), light);
         (self.place, self.first, self.second) = (part.corner, part.edge_s, part.edge_t);
+        normal
     }
     #[inline]
     fn has(&self, flag: u32) -> M8 {

@@ -243,7 +243,7 @@ fn tables_that_are_none_are_refused() {
     }
     let profile = Profile::new(&[0.0, 1.0], &[0.0], &[0.0, 1.0]).unwrap();
     assert_eq!(
-        [(0, 4), (3, 4), (1, 0)].map(|(w, n)| profile.means(w, &mut one.clone()[..n])),
+        [(0, 4), (3, 4), (1, 0)].map(|(w, n)| profile.means(w, &mut { one }[..n])),
         [Err(ProfileError::Length); 3]
     );
 }

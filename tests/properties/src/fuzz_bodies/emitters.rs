@@ -42,11 +42,10 @@ fn profile(input: &mut Input<'_>) {
     }
     let ascend = |angles: &[f32]| angles.iter().zip(&angles[1..]).all(|(a, b)| a < b);
     let [first, last] = [azimuth[0], azimuth[azimuth.len() - 1]];
+    let is_turn = first > -360.0 && first <= 0.0 && last - first <= 360.0;
     let error = if polar.len() < 2 {
         Some(ProfileError::Length)
-    } else if !(polar.iter().all(|x| (0.0..=180.0).contains(x)) && ascend(&polar) && ascend(&azimuth))
-        || !(first > -360.0 && first <= 0.0 && last - first <= 360.0)
-    {
+    } else if !(polar.iter().all(|x| (0.0..=180.0).contains(x)) && ascend(&polar) && ascend(&azimuth) && is_turn) {
         Some(ProfileError::Angle)
     } else if values.iter().any(|x| !(0.0..=1e37).contains(x)) {
         Some(ProfileError::Value)
