@@ -38,6 +38,8 @@ const TWO_SIDED: u32 = 8;
 const SPREAD: u32 = 16;
 /// Beside the bits of the kinds: there is a light with a spread.
 const SPREADS: u32 = 1 << 8;
+/// Lights whose radiance or intensity differs by direction, but for the sky.
+const UNEVEN: u32 = 1 << DIRECTED | SPREADS;
 const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT | 1 << DIRECTED;
 const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | SPREADS;
 
@@ -206,6 +208,21 @@ pub struct Drawn {
     pub emits: M8,
     /// True where no other technique can hit the light.
     pub delta: M8,
+}
+
+impl Drawn {
+    /// The sample in these lanes, and the other, if there is one, elsewhere.
+    #[inline(always)]
+    fn blend(here: M8, sample: Self, other: Option<Self>) -> Self {
+        let Some(other) = other else { return sample };
+        Self {
+            direction: V8::blend(here, sample.direction, other.direction),
+            distance: select(here, sample.distance, other.distance),
+            pdf: select(here, sample.pdf, other.pdf),
+            emits: sample.emits & here | other.emits & !here,
+            delta: sample.delta & here | other.delta & !here,
+        }
+    }
 }
 
 impl From<LightSample<X8>> for Drawn {
@@ -436,17 +453,36 @@ impl Lights {
             ONLY_SPHERES => chosen.sphere(measure, p, normal, u),
             ONLY_TRIANGLES => chosen.triangle(measure, p, normal, u),
             ONLY_PARALLELOGRAMS => chosen.parallelogram(measure, p, normal, u),
-            _ => self.mixed(chosen, measure, p, normal, u),
+            kinds if kinds & UNEVEN != 0 => self.uneven(chosen, measure, p, normal, u),
+            _ => self.mixed(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light")),
         };
         sample.emits = sample.emits | chosen.has(TWO_SIDED);
         sample
     }
-    /// Samples every kind of light that the scene has, each in its lanes.
-    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
-        let mut mixed: Option<Drawn> = None;
+    /// Samples a scene with lights that emit unevenly: those in lanes of their own, and what the points see of panels with a spread.
+    #[inline(never)]
+    fn uneven(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         // normals before the lights are narrowed
         let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(p));
-        for kind in (SPHERE..=DIRECTED).filter(|kind| self.kinds >> kind & 1 == 1) {
+        let mut drawn = self.mixed(chosen, measure, p, normal, u);
+        if self.kinds >> DIRECTED & 1 == 1 {
+            let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(DIRECTED));
+            let index = chosen.second.x.to_bits();
+            let (sample, intensity) = directed::sample(&self.directed, index, chosen.place, p, here);
+            chosen.radiance = V8::blend(here, product(chosen.radiance, intensity), chosen.radiance);
+            drawn = Some(Drawn::blend(here, sample.into(), drawn));
+        }
+        let sample = drawn.unwrap_or_else(|| unreachable!("there is a light"));
+        if let Some(normal) = normal_of_light {
+            let factor = spread::attenuation(normal, sample.direction, &chosen.spread, chosen.has(SPREAD));
+            chosen.radiance = chosen.radiance * factor;
+        }
+        sample
+    }
+    /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
+    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
+        let mut mixed: Option<Drawn> = None;
+        for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
             let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
             let Chosen { place, first, second, .. } = *chosen;
             let sample = match kind {
@@ -459,11 +495,6 @@ impl Lights {
                     light.by_delta(p).sample(u).into()
                 }
                 DISTANT => DirectionalLight::new(place).by_delta(p).sample(u).into(),
-                DIRECTED => {
-                    let (sample, intensity) = directed::sample(&self.directed, second.x.to_bits(), place, p, here);
-                    chosen.radiance = V8::blend(here, product(chosen.radiance, intensity), chosen.radiance);
-                    sample.into()
-                }
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
                     let (sample, radiance) = sky.sample(measure, normal, u);
@@ -471,24 +502,9 @@ impl Lights {
                     sample.into()
                 }
             };
-            mixed = Some(match mixed {
-                None => sample,
-                Some(other) => Drawn {
-                    direction: V8::blend(here, sample.direction, other.direction),
-                    distance: select(here, sample.distance, other.distance),
-                    pdf: select(here, sample.pdf, other.pdf),
-                    emits: sample.emits & here | other.emits & !here,
-                    delta: sample.delta & here | other.delta & !here,
-                },
-            });
+            mixed = Some(Drawn::blend(here, sample, mixed));
         }
-        let sample = mixed.unwrap_or_else(|| unreachable!("there is a light"));
-        if let Some(normal) = normal_of_light {
-            let lanes = chosen.has(SPREAD);
-            let factor = spread::attenuation(normal, sample.direction, &chosen.spread, lanes);
-            chosen.radiance = chosen.radiance * factor;
-        }
-        sample
+        mixed
     }
     /// Pdf per steradian, including the pmf of the choice, with which [`sample`](Self::sample) by solid angle draws the direction `w` to a
     /// shape from `p`.
