@@ -27,8 +27,8 @@ lanewise! {
     /// - Source: Cycles, `intern/cycles/kernel/light/area.h`, derived anew.
     ///
     /// ```
-    /// use etendue::{Parallelogram, LightSampler, Vec2, light::Spread};
-    /// let panel = Parallelogram::<f32>::new([-9.0, 1.0, -9.0].into(), [18.0, 0.0, 0.0].into(), [0.0, 0.0, 18.0].into());
+    /// use etendue::{LightSampler, Rectangle, Vec2, light::Spread};
+    /// let panel = Rectangle::<f32>::new([-9.0, 1.0, -9.0].into(), [18.0, 0.0, 0.0].into(), [0.0, 0.0, 18.0].into());
     /// let spread = Spread::new(90_f64.to_radians());
     /// let p = [0.0; 3].into();
     /// // of 18 × 18, the point sees 2 × 2
