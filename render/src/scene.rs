@@ -24,7 +24,7 @@
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
 //! | lights with a picture | plain ones of the same mean; portals are ignored |
-//! | `"float spread"` of area lights, which pbrt has not | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
+//! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |

@@ -54,7 +54,7 @@ pub enum DeltaLight {
     },
 }
 
-/// Constant emission of a surface.
+/// Emission of a surface, the same at all of its points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Radiance, linear RGB; at least one channel is greater than 0.
@@ -221,9 +221,9 @@ pub(super) fn area(
     let spread = spread(params)?;
     // on the axis
     let gain = spread.map_or(1.0, |spread| f64::from(spread.tan_half) * f64::from(spread.gain));
-    let most = f64::from(MOST_RADIANCE) / gain;
+    let most = (f64::from(MOST_RADIANCE) / gain) as f32;
     let too_large = || params.error(format!("the radiance {radiance:?}: at most {most:e} is supported"));
-    let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| f64::from(x) <= most)).ok_or_else(too_large)?;
+    let radiance = rounded(radiance).filter(|rgb| rgb.iter().all(|&x| x <= most)).ok_or_else(too_large)?;
     brightness(radiance).into_iter().for_each(|text| notes.warn(params.error(text)));
     let dark = radiance == [0.0; 3];
     if dark {
