@@ -107,7 +107,7 @@ fn intensity_is_that_of_the_table() {
         for w in directions(&mut random, 200) {
             let [polar, azimuth] = Table::angles(w);
             // the value, and those within the rounding of the angles: at its edges, a table is not continuous
-            let truths = |slack: f64| {
+            let truths = |slack: f64, of_value: f64| {
                 let sides = [-slack, 0.0, slack];
                 let across = slack / polar.to_radians().sin().max(slack.to_radians());
                 let azimuths = [-across.min(180.0), 0.0, across.min(180.0)].map(|d| (azimuth + d).rem_euclid(360.0));
@@ -116,12 +116,12 @@ fn intensity_is_that_of_the_table() {
                     .flat_map(|d| azimuths.map(|a| table.at((polar + d).clamp(0.0, 180.0), a)))
                     .collect();
                 let [low, high] = [f64::min, f64::max].map(|f| near.iter().copied().reduce(f).unwrap());
-                [low - slack, high + slack]
+                [low - of_value, high + of_value]
             };
-            let [low, high] = truths(2e-5 * 4.0);
+            let [low, high] = truths(1e-6_f64.to_degrees(), 4e-7 * 2.0);
             let narrow = f64::from(profile.intensity::<f32>(Coordinates::gather(&[w])));
             assert!((low..=high).contains(&narrow), "{narrow} at {w:?}, expected {low} to {high}: {table:?}");
-            let [low, high] = truths(1e-12);
+            let [low, high] = truths(1e-12, 1e-14);
             let wide = profile.intensity(Vec3::<f64>::new(w[0], w[1], w[2]));
             assert!((low..=high).contains(&wide), "{wide} at {w:?}, expected {low} to {high}: {table:?}");
         }
