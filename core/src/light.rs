@@ -34,6 +34,10 @@
 //! | a flat light with a [`Picture`] | [`by_area`](Pictured::by_area) | [`by_solid_angle`](Pictured::by_solid_angle) | [`by_projected_solid_angle`](Pictured::by_projected_solid_angle) |
 //! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](Pictured::by_visible_area) | | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
+//! | [`PointLight`] with a [`Profile`] or a [`Projector`] | [`by_profile`](PointLight::by_profile): the same | | |
+//!
+//! Of a light that emits within an angle of its normal, a [`Spread`], `by_spread` samples what a point sees: [`Parallelogram`],
+//! [`Rectangle`] and [`Disk`] have it.
 //!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
 //! patches, and the projected solid angle of disks. A sun and a constant environment have no area.
@@ -96,9 +100,12 @@ mod pictured;
 mod pictured_curved;
 mod pictured_flat;
 mod polygon;
+mod profile;
+mod projector;
 mod sample;
 mod sampler;
 mod sphere;
+mod spread;
 mod surface;
 mod techniques;
 
@@ -124,7 +131,10 @@ pub use pictured::{ByPicture, PictureSample, Pictured};
 pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
 pub use polygon::{PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonBySolidAngle};
+pub use profile::{Profile, ProfileError};
+pub use projector::{ProjectedImage, Projector};
 pub use sample::{AreaSample, FAR, LightSample};
 pub use sampler::{ByArea, ByCosineWarp, ByProjectedSolidAngle, BySolidAngle, LightSampler};
 pub use sphere::{PlacedSphere, Sphere, SphereByArea, SphereByProjectedSolidAngle, SphereBySolidAngle};
+pub use spread::Spread;
 pub use surface::{AreaSurface, PlacedParallelogram, PlacedTriangle, Surface, SurfaceHit, SurfacePoint};

@@ -26,6 +26,7 @@ pub mod frame;
 pub mod geometry;
 pub mod image;
 pub mod integrator;
+pub mod intensity;
 pub mod light_picture;
 pub mod lights;
 pub mod limits;

@@ -1,7 +1,9 @@
 //! The lights of a scene: packets choose one per lane, and sample it.
 
+mod directed;
 mod many;
 mod pictures;
+mod spread;
 pub mod tree;
 
 use crate::bvh::BuildError;
@@ -9,9 +11,11 @@ use crate::bvh::NOTHING;
 use crate::geometry::{Geometry, bounds_of};
 use crate::light_picture::LightPicture;
 use crate::packet::{M8, V8, X8, equal, select};
-use crate::scene::{DeltaLight, Scene, Shape};
+use crate::scene::{DeltaLight, Emission, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
+use directed::{DirectedLight, directed_lights};
+use etendue::light::Spread;
 use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Mask, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle,
@@ -20,9 +24,10 @@ use etendue::{
 use many::{ManyAt, ManyLights};
 use pictures::Tables;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-// kinds of lights, and a flag beside them
+// kinds of lights, and flags beside them
 const SPHERE: u32 = 0;
 const TRIANGLE: u32 = 1;
 const PARALLELOGRAM: u32 = 2;
@@ -30,26 +35,36 @@ const POINT: u32 = 3;
 const SPOT: u32 = 4;
 const DISTANT: u32 = 5;
 const SKY: u32 = 6;
+const DIRECTED: u32 = 7;
 const KINDS: u32 = 7;
 const TWO_SIDED: u32 = 8;
-const PICTURED: u32 = 16;
-/// The bit of [`Lights::kinds`] that says that some lights are [`PICTURED`].
-const PICTURES: u32 = 1 << KINDS;
-const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT;
-const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | PICTURES;
+const SPREAD: u32 = 16;
+const PICTURED: u32 = 32;
+/// Beside the bits of the kinds: there is a light with a spread.
+const SPREADS: u32 = 1 << 8;
+/// Beside the bits of the kinds: there is a light that shows a picture.
+const PICTURES: u32 = 1 << 9;
+/// Lights whose radiance or intensity differs by direction, but for the sky.
+const UNEVEN: u32 = 1 << DIRECTED | SPREADS;
+const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT | 1 << DIRECTED;
+const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | SPREADS | PICTURES;
 
 /// A light.
 #[derive(Clone, Copy, Debug, Default)]
 struct LightRecord {
-    /// Centre of a sphere, corner of a triangle or parallelogram, position of a point or spot light, direction to a distant light.
+    /// Centre of a sphere, corner of a triangle or parallelogram, position of a light without an area, direction to a distant light.
     place: [f32; 3],
-    /// First edge of a triangle or parallelogram, axis of a spot light; a sphere has its radius in x.
+    /// First edge of a triangle or parallelogram, axis of a spot or directed light; a sphere has its radius in x.
     first: [f32; 3],
-    /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y.
+    /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y; a directed
+    /// light has its index among those in x, and in y the cosine of the angle from which on it is dark.
     second: [f32; 3],
-    /// Radiance, the mean of a picture; intensity of a point or spot light, irradiance of a distant light.
+    /// Radiance, the mean of a picture; intensity of a point or spot light, the greatest of a directed light, irradiance of a distant
+    /// light.
     radiance: [f32; 3],
-    /// Its kind, and [`TWO_SIDED`] and [`PICTURED`].
+    /// Its spread, where [`SPREAD`] is set.
+    spread: Spread<f32>,
+    /// Its kind, [`TWO_SIDED`], [`SPREAD`] and [`PICTURED`].
     kind: u32,
     /// Index of its shape, or [`NOTHING`].
     shape: u32,
@@ -73,14 +88,27 @@ impl LightRecord {
         let (sides, flag) = if emission.two_sided { (2.0, TWO_SIDED) } else { (1.0, 0) };
         let flag = if emission.picture.is_some() { flag | PICTURED } else { flag };
         let power = sum(emission.radiance) * shape.geometry.area() * sides;
-        let record = Self { place, first, second, radiance: emission.radiance, kind: kind | flag, shape: index };
+        let radiance = emission.radiance;
+        let mut record = Self { place, first, second, radiance, kind: kind | flag, shape: index, ..Self::default() };
+        if let Some(spread) = emission.spread {
+            (record.spread, record.kind) = (spread, record.kind | SPREAD);
+        }
         Some((record, power))
     }
     fn pack(&self) -> PackedLight {
         let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
         [
             [a, b, c, d, e, f, g, h],
-            [i, red, green, blue, f32::from_bits(self.kind), f32::from_bits(self.shape), 0.0, 0.0],
+            [
+                i,
+                red,
+                green,
+                blue,
+                f32::from_bits(self.kind),
+                f32::from_bits(self.shape),
+                self.spread.tan_half,
+                self.spread.gain,
+            ],
         ]
     }
     /// Whether the light is infinitely far away.
@@ -103,7 +131,7 @@ impl LightRecord {
                 (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
             }
             // beyond a hemisphere, a cone bounds nothing
-            SPOT if self.second[1] > 0.0 => (p, 0.0, u),
+            SPOT | DIRECTED if self.second[1] > 0.0 => (p, 0.0, u),
             _ => (p, 0.0, Vec3::default()),
         };
         let length = normal.length();
@@ -114,7 +142,11 @@ impl LightRecord {
             // the rounding of the centre moves the sphere by less than this
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
-            cos_cone: if self.kind & KINDS == SPOT { self.second[1].max(0.0) } else { 0.0 },
+            cos_cone: match self.kind & KINDS {
+                SPOT | DIRECTED => self.second[1].max(0.0),
+                _ if self.kind & SPREAD != 0 => spread::cos_cone(&self.spread),
+                _ => 0.0,
+            },
             two_sided: two_sided && length > 0.0,
             power: if self.is_distant() {
                 0.0
@@ -140,8 +172,9 @@ pub struct Lights {
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     many: ManyLights,
-    /// Bit k is set if there is a light of kind k; and [`PICTURES`].
+    /// Bit k is set if there is a light of kind k, [`SPREADS`] if one has a spread, and [`PICTURES`] if one shows a picture.
     kinds: u32,
+    directed: Vec<DirectedLight>,
     sky: Option<Arc<Sky>>,
     /// Index of the light of each shape; [`NOTHING`] for shapes that are not lights.
     shape_lights: Vec<u32>,
@@ -188,6 +221,21 @@ pub struct Drawn {
     pub delta: M8,
 }
 
+impl Drawn {
+    /// The sample in these lanes, and the other, if there is one, elsewhere.
+    #[inline(always)]
+    fn blend(here: M8, sample: Self, other: Option<Self>) -> Self {
+        let Some(other) = other else { return sample };
+        Self {
+            direction: V8::blend(here, sample.direction, other.direction),
+            distance: select(here, sample.distance, other.distance),
+            pdf: select(here, sample.pdf, other.pdf),
+            emits: sample.emits & here | other.emits & !here,
+            delta: sample.delta & here | other.delta & !here,
+        }
+    }
+}
+
 impl From<LightSample<X8>> for Drawn {
     #[inline(always)]
     fn from(s: LightSample<X8>) -> Self {
@@ -204,6 +252,7 @@ pub struct Chosen {
     second: V8,
     /// Radiance; intensity or irradiance for a delta light. That of a picture is the mean until the light is sampled.
     pub radiance: V8,
+    spread: Spread<X8>,
     kind: u32x8,
     /// Index of its shape; [`NOTHING`] for a light without one.
     pub shape: u32x8,
@@ -228,6 +277,10 @@ fn squared_radius(scene: &Scene) -> f64 {
     if squared.is_finite() { squared } else { 1.0 }
 }
 
+fn product(a: V8, b: V8) -> V8 {
+    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
+}
+
 fn sum(rgb: [f32; 3]) -> f64 {
     rgb.iter().map(|&x| f64::from(x)).sum()
 }
@@ -240,6 +293,7 @@ fn area_lights(scene: &Scene) -> Powered {
 }
 
 fn delta_lights(scene: &Scene) -> Powered {
+    let mut directed = 0;
     let light = |light: &DeltaLight| {
         let none = LightRecord { shape: NOTHING, ..LightRecord::default() };
         match *light {
@@ -251,6 +305,14 @@ fn delta_lights(scene: &Scene) -> Powered {
                 let second = [cos_inner, cos_outer, 0.0];
                 // a cone too narrow for its cosine to differ from 1 still has a chance
                 (LightRecord { place, first, second, radiance, kind: SPOT, ..none }, cone.max(1e-7) * sum(radiance))
+            }
+            DeltaLight::Directed { position: place, to_light: [_, _, first], intensity: radiance, table } => {
+                let shape = &scene.intensities[table as usize];
+                let second = [f32::from_bits(directed), shape.cos_cone(), 0.0];
+                directed += 1;
+                let flux = shape.flux();
+                let power = (0..3).map(|k| f64::from(radiance[k]) * flux[k]).sum::<f64>() / PI;
+                (LightRecord { place, first, second, radiance, kind: DIRECTED, ..none }, power)
             }
             DeltaLight::Distant { direction: place, irradiance: radiance } => {
                 (LightRecord { place, radiance, kind: DISTANT, ..none }, sum(radiance) * squared_radius(scene))
@@ -284,12 +346,14 @@ impl Lights {
     }
     fn of(all: Powered, scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
         let shapes = &scene.shapes;
-        let pictured = |light: &LightRecord| if light.kind & PICTURED != 0 { PICTURES } else { 0 };
-        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | 1 << (light.kind & KINDS) | pictured(light));
+        let flag = |kind: u32, flag: u32, bit: u32| if kind & flag == 0 { 0 } else { bit };
+        let bits = |kind: u32| 1 << (kind & KINDS) | flag(kind, SPREAD, SPREADS) | flag(kind, PICTURED, PICTURES);
+        let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | bits(light.kind));
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
         // relative to the greatest, so that all are finite
         let bound = |(light, power): &(LightRecord, f64)| light.bound(power / greatest);
-        let mut own = Self { kinds, sky, shape_lights: vec![NOTHING; shapes.len()], ..Self::default() };
+        let shape_lights = vec![NOTHING; shapes.len()];
+        let mut own = Self { kinds, sky, shape_lights, directed: directed_lights(scene), ..Self::default() };
         if kinds & !ONLY_AREAS == 0 && (2..=FEW).contains(&all.len()) {
             let bounds: Vec<_> = all.iter().map(bound).collect();
             own.spatial = Some(SpatialLights::new(&bounds).expect("few lights"));
@@ -397,8 +461,8 @@ impl Lights {
         let Some(&shape) = self.unpacked.get(light) else { return self.packed[light - self.unpacked.len()] };
         LightRecord::of(shape, &self.shapes[shape as usize]).map(|(record, _)| record.pack()).unwrap_or_default()
     }
-    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For a sky and a picture,
-    /// `radiance` of `chosen` becomes that of the sampled direction.
+    /// Samples the chosen lights from points `p` on surfaces with this normal. `emits` allows for two-sided lights. For skies, pictures,
+    /// directed lights and those with a spread, `radiance` of `chosen` becomes that of the sampled direction.
     #[inline(always)]
     pub fn sample(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
         const ONLY_SPHERES: u32 = 1 << SPHERE;
@@ -408,13 +472,34 @@ impl Lights {
             ONLY_SPHERES => chosen.sphere(measure, p, normal, u),
             ONLY_TRIANGLES => chosen.triangle(measure, p, normal, u),
             ONLY_PARALLELOGRAMS => chosen.parallelogram(measure, p, normal, u),
-            _ => self.mixed(chosen, measure, p, normal, u),
+            kinds if kinds & UNEVEN != 0 => self.uneven(chosen, measure, p, normal, u),
+            _ => self.mixed(chosen, measure, p, normal, u).unwrap_or_else(|| unreachable!("there is a light")),
         };
-        sample.emits = sample.emits | chosen.two_sided();
+        sample.emits = sample.emits | chosen.has(TWO_SIDED);
         sample
     }
-    /// Samples every kind of light that the scene has, each in its lanes.
-    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+    /// Samples a scene with lights that emit unevenly: those in lanes of their own, and what the points see of panels with a spread.
+    #[inline(never)]
+    fn uneven(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Drawn {
+        // normals before the lights are narrowed
+        let normal_of_light = (self.kinds & SPREADS != 0).then(|| chosen.narrow(p));
+        let mut drawn = self.mixed(chosen, measure, p, normal, u);
+        if self.kinds >> DIRECTED & 1 == 1 {
+            let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(DIRECTED));
+            let index = chosen.second.x.to_bits();
+            let (sample, intensity) = directed::sample(&self.directed, index, chosen.place, p, here);
+            chosen.radiance = V8::blend(here, product(chosen.radiance, intensity), chosen.radiance);
+            drawn = Some(Drawn::blend(here, sample.into(), drawn));
+        }
+        let sample = drawn.unwrap_or_else(|| unreachable!("there is a light"));
+        if let Some(normal) = normal_of_light {
+            let factor = spread::attenuation(normal, sample.direction, &chosen.spread, chosen.has(SPREAD));
+            chosen.radiance = chosen.radiance * factor;
+        }
+        sample
+    }
+    /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
+    fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {
         let mut mixed: Option<Drawn> = None;
         for kind in (SPHERE..=SKY).filter(|kind| self.kinds >> kind & 1 == 1) {
             let here = equal(chosen.kind & u32x8::splat(KINDS), u32x8::splat(kind));
@@ -439,18 +524,9 @@ impl Lights {
                     sample.into()
                 }
             };
-            mixed = Some(match mixed {
-                None => sample,
-                Some(other) => Drawn {
-                    direction: V8::blend(here, sample.direction, other.direction),
-                    distance: select(here, sample.distance, other.distance),
-                    pdf: select(here, sample.pdf, other.pdf),
-                    emits: sample.emits & here | other.emits & !here,
-                    delta: sample.delta & here | other.delta & !here,
-                },
-            });
+            mixed = Some(Drawn::blend(here, sample, mixed));
         }
-        mixed.unwrap_or_else(|| unreachable!("there is a light"))
+        mixed
     }
     /// Samples shapes of one kind, some of which show pictures, and puts the radiance of the sampled points into the lanes `here`.
     // not inlined, so that it does not burden scenes without pictures
@@ -466,7 +542,7 @@ impl Lights {
         normal: V8,
         u: Vec2<X8>,
     ) -> Drawn {
-        let pictured = here & !equal(chosen.kind & u32x8::splat(PICTURED), u32x8::splat(0));
+        let pictured = here & chosen.has(PICTURED);
         let by_shape = || -> LightSample<X8> {
             match kind {
                 SPHERE => chosen.sphere(measure, p, normal, u),
@@ -523,7 +599,13 @@ impl Lights {
                 Triangle { v0: a.into(), e1: edge(b), e2: edge(c) }.by_solid_angle(p).pdf(w)
             }
             Geometry::Parallelogram { p: corner, u, v } => {
-                Parallelogram::new(corner.into(), u.into(), v.into()).by_solid_angle(p).pdf(w)
+                let mut light = Parallelogram::new(corner.into(), u.into(), v.into());
+                if self.kinds & SPREADS != 0
+                    && let Some(Emission { spread: Some(spread), picture: None, .. }) = self.shapes[shape].emission
+                {
+                    light = light.visible_part(p, &Spread::splat(spread));
+                }
+                light.by_solid_angle(p).pdf(w)
             }
         };
         pdf * pmf.of(self.shape_lights[shape])
@@ -553,6 +635,7 @@ impl Chosen {
             first: V8::new(a[3], a[4], a[5]),
             second: V8::new(a[6], a[7], b[0]),
             radiance: V8::new(b[1], b[2], b[3]),
+            spread: Spread { tan_half: b[6], gain: b[7] },
             kind: b[4].to_bits(),
             shape: b[5].to_bits(),
         }
@@ -589,8 +672,19 @@ impl Chosen {
             Measure::Projected => projected(|| light.by_projected_solid_angle(p, normal).sample(u).into()),
         }
     }
+    /// Leaves of the parallelograms with a spread what the points see, and returns the normals of all flat lights, of any length.
+    #[inline(never)]
+    fn narrow(&mut self, p: V8) -> V8 {
+        let normal = self.first.cross(self.second);
+        // a picture is on the whole of its light
+        let lanes = equal(self.kind & u32x8::splat(KINDS | SPREAD | PICTURED), u32x8::splat(PARALLELOGRAM | SPREAD));
+        let light = Parallelogram { corner: self.place, edge_s: self.first, edge_t: self.second };
+        let part = Parallelogram::blend(lanes, light.visible_part(p, &self.spread), light);
+        (self.place, self.first, self.second) = (part.corner, part.edge_s, part.edge_t);
+        normal
+    }
     #[inline]
-    fn two_sided(&self) -> M8 {
-        !equal(self.kind & u32x8::splat(TWO_SIDED), u32x8::splat(0))
+    fn has(&self, flag: u32) -> M8 {
+        !equal(self.kind & u32x8::splat(flag), u32x8::splat(0))
     }
 }

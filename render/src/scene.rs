@@ -23,7 +23,9 @@
 //! | `curve` and older quadrics | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
-//! | `goniometric`, `projection` | a point or spot light of the same mean; portals are ignored |
+//! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
+//! | portals | ignored |
+//! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
@@ -41,8 +43,10 @@
 mod builder;
 mod builtin;
 mod description;
+mod directed;
 mod generated;
 mod gltf;
+mod ies;
 mod includes;
 mod lamps;
 mod lexer;

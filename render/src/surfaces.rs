@@ -8,6 +8,7 @@ use crate::geometry::Affine;
 use crate::light_picture::{LightPicture, coordinates};
 use crate::packet::{M8, V8, X8, equal};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
+use etendue::light::Spread;
 use etendue::{Mask, Real, Vec3, u32x8};
 pub(crate) use points::{LEAST, LIFT};
 use points::{Points, on_plane, on_sphere, on_triangle, on_triangles};
@@ -257,10 +258,13 @@ impl Surfaces {
         let emission = shape.emission?;
         let front = outward.dot(rays.direction).lt(X8::lit(0.0));
         let lit = lanes & (front | M8::splat(emission.two_sided));
-        let radiance = match emission.picture {
+        let mut radiance = match emission.picture {
             None => emission.radiance.into(),
             Some(picture) => self.shown(picture, hits, lit, shape, outward, rays),
         };
+        if let Some(spread) = emission.spread {
+            radiance = radiance * Spread::splat(spread).attenuation(rays.direction, outward);
+        }
         Some((radiance, lit))
     }
     /// Radiance of the points of a shape with a picture that rays have hit.

@@ -14,6 +14,14 @@ fn inverse_square<R: Real>(distance: R) -> R {
     squared.keep(squared.lt(R::lit(1e37)))
 }
 
+/// `pdf`/intensity, where that is finite; 0 where the intensity is 0.
+#[inline(always)]
+fn attenuated<R: Real>(pdf: R, intensity: R) -> R {
+    let some = intensity.gt(R::lit(0.0));
+    let pdf = pdf / R::blend(some, intensity, R::lit(1.0));
+    pdf.keep(some & pdf.lt(R::lit(1e37)))
+}
+
 /// A delta light prepared for a shading point.
 macro_rules! by_delta {
     ($(#[$doc:meta])+ $name:ident) => {
@@ -57,7 +65,8 @@ macro_rules! by_delta {
     };
 }
 by_delta! {
-    /// A [`PointLight`] prepared for a shading point; its samples have pdf distance², which is no density.
+    /// A [`PointLight`] prepared for a shading point; its samples have pdf distance², or that over the intensity of its profile, which is
+    /// no density.
     PointLightByDelta
 }
 by_delta! {
@@ -91,6 +100,16 @@ impl<R: Real> PointLight<R> {
     pub fn by_delta(&self, p: Vec3<R>) -> PointLightByDelta<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
         PointLightByDelta { origin: p, direction, distance, pdf: inverse_square(distance) }
+    }
+    /// A light at this position whose intensity differs by direction, prepared for the shading point `p`. `intensity` returns that in the
+    /// unit direction in which light travels, relative to the I of the estimator: of a [`Profile`](super::Profile), a
+    /// [`Projector`](super::Projector), or a texel of an [`ImageEnvironment`](super::ImageEnvironment). `pdf` is distance²/intensity,
+    /// which is no density; where the intensity is 0, so is the pdf.
+    #[inline(always)]
+    pub fn by_profile(&self, p: Vec3<R>, intensity: impl FnOnce(Vec3<R>) -> R) -> PointLightByDelta<R> {
+        let DirectionSample { direction, distance } = direction_to(self.position - p);
+        let pdf = attenuated(inverse_square(distance), intensity(-direction));
+        PointLightByDelta { origin: p, direction, distance, pdf }
     }
 }
 
@@ -126,10 +145,8 @@ impl<R: Real> SpotLight<R> {
     #[inline(always)]
     pub fn by_delta(&self, p: Vec3<R>) -> SpotLightByDelta<R> {
         let DirectionSample { direction, distance } = direction_to(self.position - p);
-        let falloff = self.falloff(-direction);
-        let some = falloff.gt(R::lit(0.0));
-        let pdf = inverse_square(distance) / R::blend(some, falloff, R::lit(1.0));
-        SpotLightByDelta { origin: p, direction, distance, pdf: pdf.keep(some & pdf.lt(R::lit(1e37))) }
+        let pdf = attenuated(inverse_square(distance), self.falloff(-direction));
+        SpotLightByDelta { origin: p, direction, distance, pdf }
     }
 }
 

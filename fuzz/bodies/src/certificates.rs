@@ -121,6 +121,7 @@ fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettin
         shapes: shapes.into(),
         pictures: Default::default(),
         delta_lights: Vec::new(),
+        intensities: Vec::new(),
         environment: None,
         warnings: Vec::new(),
         stand_ins: Vec::new(),
@@ -139,7 +140,7 @@ pub fn certificates(bytes: &[u8]) {
     let light = Shape {
         geometry: input.light(),
         material: 0,
-        emission: Some(Emission { radiance: [1.0; 3], two_sided, picture: None }),
+        emission: Some(Emission { radiance: [1.0; 3], two_sided, ..Emission::default() }),
     };
     let view = input.below(4);
     let origin = wide(input.point());

@@ -32,7 +32,7 @@ const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 pub(super) struct AreaLight {
     form: Convex<f32>,
     radiance: [f32; 3],
-    /// Whether its radiance varies, so that no closed form has its integral. It is sampled unless it is dark.
+    /// Whether its radiance varies by point or direction, so that no closed form has its integral. It is sampled unless it is dark.
     varies: bool,
 }
 
@@ -71,8 +71,8 @@ pub struct Survey {
     pub few: u32,
     /// Lights with 5 to 8 possible blockers.
     pub many: u32,
-    /// Lights with at most 16 possible blockers that are sampled, because that takes less time, because spheres overlap, or because closed
-    /// forms are not accurate enough.
+    /// Lights with at most 16 possible blockers that are sampled, because that takes less time, because spheres overlap, because closed forms
+    /// are not accurate enough, or because it has a spread.
     pub crowded: u32,
     /// Lights of which nothing is proved.
     pub unknown: u32,
@@ -194,7 +194,7 @@ impl<'a> Analytic<'a> {
         let (eye, pixel) = camera.middle(settings.width, settings.height);
         let light = |shape: &crate::scene::Shape| {
             let emission = shape.emission?;
-            let varies = emission.picture.is_some();
+            let varies = emission.picture.is_some() || emission.spread.is_some();
             Some(AreaLight { form: shape.geometry.convex(), radiance: emission.radiance, varies })
         };
         Self {
@@ -310,8 +310,8 @@ impl<'a> Analytic<'a> {
                 Certificate::Lit(_) if lights[light].varies => Known::Never,
                 Certificate::Blockers(..) if lights[light].varies => Known::Crowded,
                 Certificate::Lit(Precision::Neither) | Certificate::Blockers(_, Precision::Neither) => Known::Crowded,
-                Certificate::Lit(precision) => Known::Lit(precision),
                 Certificate::Dark => Known::Dark,
+                Certificate::Lit(precision) => Known::Lit(precision),
                 Certificate::Unknown => before,
                 Certificate::Blockers(found, _) if !is_clipped(&lights[light].form, found) => Known::Crowded,
                 Certificate::Blockers(found, precision) => {

@@ -9,11 +9,13 @@ use super::shape_attributes::ShapeAttributes;
 use super::transform::{Transform, add, cross, dot, length, scaled, sub, unit};
 use super::vertices::{Vertex, Vertices};
 use crate::geometry::{Affine, Geometry, Instance, bounds_of};
+use crate::intensity::Intensity;
 use crate::light_picture::affine;
 use crate::texture::{Mapping, Mask, Texture};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// How far a bilinear patch may deviate from a parallelogram, and a quad of a mesh file from its plane, relative to its size:
 /// coordinates of six digits pass, a visible bend does not.
@@ -52,6 +54,7 @@ pub(super) struct Rest {
     pub(super) film: FilmSettings,
     pub(super) pixel_samples: u32,
     pub(super) delta_lights: Vec<DeltaLight>,
+    pub(super) intensities: Vec<Arc<Intensity>>,
     pub(super) environment: Option<Environment>,
     pub(super) inputs: Vec<PathBuf>,
 }
@@ -295,7 +298,7 @@ impl Builder {
     pub(super) fn scene(mut self, file: &str, rest: Rest, warning: impl FnOnce(&str) -> Message) -> Scene {
         self.finish();
         let (objects, instances) = self.place_objects();
-        let Rest { camera, film, pixel_samples, delta_lights, environment, inputs } = rest;
+        let Rest { camera, film, pixel_samples, delta_lights, intensities, environment, inputs } = rest;
         let emits = self.shapes.iter().any(|shape| shape.emission.is_some());
         if !emits && delta_lights.is_empty() && environment.is_none() {
             self.notes.warn(warning(&format!("{DARK}: the image will be black; --environment FILE adds a sky")));
@@ -317,6 +320,7 @@ impl Builder {
             shapes: self.shapes.into(),
             pictures: self.lamps.pictures.into(),
             delta_lights,
+            intensities,
             environment,
             warnings: self.notes.warnings,
             stand_ins: self.notes.stand_ins,

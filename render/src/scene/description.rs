@@ -4,6 +4,7 @@ use super::lights::{DeltaLight, Emission, Environment};
 use super::materials::{Material, Varying};
 use super::message::Message;
 use crate::geometry::{Geometry, Instance};
+use crate::intensity::Intensity;
 use crate::light_picture::LightPicture;
 use crate::texture::Mask;
 use std::ops::Range;
@@ -43,6 +44,8 @@ pub struct Scene {
     pub pictures: Arc<[LightPicture]>,
     /// Point, spot and distant lights.
     pub delta_lights: Vec<DeltaLight>,
+    /// Relative intensities of those that differ by direction.
+    pub intensities: Vec<Arc<Intensity>>,
     /// Light from infinitely far away, if there is any.
     pub environment: Option<Environment>,
     /// Warnings about ignored parts of the file, in the order of the file.

@@ -136,6 +136,7 @@ pub(super) fn read(bytes: &[u8], file: &str, folder: Option<&Path>) -> Result<Sc
     });
     let message = |text: &str| source.message(text);
     let inputs = source.inputs();
-    let rest = Rest { camera, film, pixel_samples: 16, delta_lights, environment: None, inputs };
+    let rest =
+        Rest { camera, film, pixel_samples: 16, delta_lights, intensities: Vec::new(), environment: None, inputs };
     Ok(out.scene(file, rest, message))
 }

@@ -34,7 +34,7 @@ impl Lamps {
         geometry: &Geometry,
         mapping: impl FnOnce() -> Mapping,
     ) -> Option<Emission> {
-        let Emission { radiance, two_sided, .. } = surface.emission?;
+        let Emission { radiance, two_sided, spread, .. } = surface.emission?;
         let powered = |color: [f32; 3], mean: [f32; 3]| match surface.power {
             Some(power) => {
                 // a Lambertian emitter of mean radiance L has the power πAL on each side that emits
@@ -45,7 +45,7 @@ impl Lamps {
             None => color,
         };
         let Some(picture) = &surface.picture else {
-            return Some(Emission { radiance: powered(radiance, radiance), two_sided, picture: None });
+            return Some(Emission { radiance: powered(radiance, radiance), two_sided, picture: None, spread });
         };
         let picture = Picture { mapping: mapping().then(&picture.mapping), ..picture.clone() };
         let axes = if matches!(geometry, Geometry::Sphere { .. }) { surface.ctm.axes()? } else { WORLD };
@@ -58,6 +58,6 @@ impl Lamps {
         }
         let index = self.pictures.len() as u32;
         self.pictures.push(LightPicture { factor: powered(radiance, mean), ..shown });
-        Some(Emission { radiance: powered(mean, mean), two_sided, picture: Some(index) })
+        Some(Emission { radiance: powered(mean, mean), two_sided, picture: Some(index), spread })
     }
 }

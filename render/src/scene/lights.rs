@@ -9,7 +9,7 @@ use crate::files::FileError;
 use crate::image::Picture;
 use crate::texture::{self, Colors, Mapping, Texels, Wrap};
 use etendue::Vec2;
-use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Spread, Texel};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -37,6 +37,17 @@ pub enum DeltaLight {
         /// Radiant intensity on the axis, linear RGB.
         intensity: [f32; 3],
     },
+    /// A point light whose intensity differs by direction.
+    Directed {
+        /// World position.
+        position: [f32; 3],
+        /// Rows of the orthogonal matrix from world space to the space of its intensity.
+        to_light: [[f32; 3]; 3],
+        /// Greatest radiant intensity, linear RGB.
+        intensity: [f32; 3],
+        /// Index of its relative intensity in the scene.
+        table: u32,
+    },
     /// Parallel light from infinitely far away.
     Distant {
         /// Unit vector towards the light.
@@ -46,7 +57,7 @@ pub enum DeltaLight {
     },
 }
 
-/// Emission of a surface, the same in all directions.
+/// Emission of a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Emission {
     /// Radiance, linear RGB; at least one channel is greater than 0. With a picture, it is the mean over the surface.
@@ -55,6 +66,8 @@ pub struct Emission {
     pub two_sided: bool,
     /// The picture that the surface shows, if its radiance varies: an index into [`Scene::pictures`](super::Scene::pictures).
     pub picture: Option<u32>,
+    /// The cone about the normal within which a flat light emits, unless that is all of a hemisphere.
+    pub spread: Option<Spread<f32>>,
 }
 
 /// Light from infinitely far away in all directions.
@@ -91,7 +104,7 @@ pub(super) enum Source {
 }
 
 /// Greatest number of texels of an environment, or of the picture of a light.
-const MOST_TEXELS: usize = 1 << 26;
+pub(super) const MOST_TEXELS: usize = 1 << 26;
 
 /// Where the files of a light are found.
 pub(super) struct Files<'a> {
@@ -108,30 +121,15 @@ pub(super) fn read(
     files: &Files<'_>,
     notes: &mut Notes,
 ) -> Result<Source, Message> {
-    let has_picture = ["infinite", "goniometric", "projection"].contains(&kind);
-    let file = match if has_picture { params.text("filename")? } else { None } {
-        None if has_picture => params.text("mapname")?,
+    if !["point", "spot", "distant", "infinite"].contains(&kind) {
+        return Err(params.error(
+            "not supported, only \"point\", \"spot\", \"distant\", \"infinite\", \"goniometric\" and \"projection\"",
+        ));
+    }
+    let is_sky = kind == "infinite";
+    let file = match if is_sky { params.text("filename")? } else { None } {
+        None if is_sky => params.text("mapname")?,
         file => file,
-    };
-    // lights with a picture are plain ones with its mean
-    let (kind, file) = match (kind, file) {
-        ("goniometric", file) => {
-            notes.stand_in(kind, || params.error("becomes a point light of the same mean intensity"));
-            ("point", file)
-        }
-        ("projection", file) => {
-            notes.stand_in(kind, || params.error("becomes a spot light of the same mean intensity"));
-            let fov = params.float("fov")?.unwrap_or(90.0);
-            params.set_float("coneangle", 0.5 * fov);
-            params.set_float("conedeltaangle", 0.0);
-            ("spot", file)
-        }
-        ("point" | "spot" | "distant" | "infinite", file) => (kind, file),
-        _ => {
-            return Err(params.error(
-                "not supported, only \"point\", \"spot\", \"distant\", \"infinite\", \"goniometric\" and \"projection\"",
-            ));
-        }
     };
     if params.given("portal") {
         notes.stand_in("portal", || params.error("\"portal\" is ignored: light comes from everywhere"));
@@ -148,7 +146,7 @@ pub(super) fn read(
         return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
     }
     let source = match file {
-        Some(file) if kind == "infinite" => {
+        Some(file) => {
             let to_light = turned(params, ctm)?;
             // pbrt-v3 multiplies both, and pbrt-v4 refuses them
             let scale = colour.map_or(scale, |colour| std::array::from_fn(|k| scale[k] * colour[k]));
@@ -161,13 +159,9 @@ pub(super) fn read(
                 None => Source::Dark,
             }
         }
-        file => {
-            let mean = match file {
-                Some(file) => mean_of(&file, params, files)?,
-                None => [1.0; 3],
-            };
+        None => {
             let given = colour.unwrap_or([1.0; 3]);
-            let mut colour: [f64; 3] = std::array::from_fn(|k| given[k] * scale[k] * mean[k]);
+            let mut colour: [f64; 3] = std::array::from_fn(|k| given[k] * scale[k]);
             if let Some(wanted) = wanted {
                 // what a light of the intensity or radiance 1 has
                 let per_unit = match kind {
@@ -192,14 +186,6 @@ pub(super) fn read(
         notes.warn(params.error("emits nothing"));
     }
     Ok(source)
-}
-
-/// The mean of an image, without what is negative.
-fn mean_of(name: &str, params: &Params, files: &Files<'_>) -> Result<[f64; 3], Message> {
-    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
-    let sum = image.radiance.iter().map(|rgb| rgb.map(f64::from));
-    let sum = sum.fold([0.0; 3], |a, b| std::array::from_fn(|k| a[k] + b[k].max(0.0)));
-    Ok(sum.map(|x| x / image.radiance.len() as f64))
 }
 
 /// What an `AreaLightSource` makes of shapes.
@@ -244,8 +230,12 @@ pub(super) fn area(
     let two_sided = params.flag("twosided")?.unwrap_or(false);
     let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
     let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
-    let too_large = || params.error(format!("the radiance {brightest:?}: at most {MOST_RADIANCE:e} is supported"));
-    let brightest = rounded(brightest).filter(|rgb| rgb.iter().all(|&x| x <= MOST_RADIANCE)).ok_or_else(too_large)?;
+    let spread = spread(params)?;
+    // on the axis
+    let gain = spread.map_or(1.0, |spread| f64::from(spread.tan_half) * f64::from(spread.gain));
+    let most = (f64::from(MOST_RADIANCE) / gain) as f32;
+    let too_large = || params.error(format!("the radiance {brightest:?}: at most {most:e} is supported"));
+    let brightest = rounded(brightest).filter(|rgb| rgb.iter().all(|&x| x <= most)).ok_or_else(too_large)?;
     let radiance = rounded(radiance).ok_or_else(too_large)?;
     brightness(brightest).into_iter().for_each(|text| notes.warn(params.error(text)));
     let dark = brightest == [0.0; 3];
@@ -255,7 +245,7 @@ pub(super) fn area(
     // pbrt's (0, 0) is the lower left corner
     let mapping = Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]);
     let picture = texels.map(|texels| texture::Picture { texels, mapping, wrap: [Wrap::Clamp; 2], bilinear: true });
-    let emission = Emission { radiance, two_sided, picture: None };
+    let emission = Emission { radiance, two_sided, picture: None, spread };
     Ok(Area { emission: (!dark).then_some(emission), picture, power })
 }
 
@@ -280,8 +270,19 @@ fn shown_texels(
     Ok(texels)
 }
 
+/// The spread of an area light: the full angle in degrees, as in Cycles. pbrt has none.
+fn spread(params: &mut Params) -> Result<Option<Spread<f32>>, Message> {
+    match params.float("spread")? {
+        None => Ok(None),
+        Some(angle) if !(0.1..=180.0).contains(&angle) => {
+            Err(params.error(format!("\"spread\": must be from 0.1 to 180 degrees, not {}", shown(angle))))
+        }
+        Some(angle) => Ok((angle < 180.0).then(|| Spread::new(angle.to_radians()))),
+    }
+}
+
 /// The factor of a light; older files have one for each channel.
-fn scale(params: &mut Params) -> Result<[f64; 3], Message> {
+pub(super) fn scale(params: &mut Params) -> Result<[f64; 3], Message> {
     let scale = params.numbers_of("scale", &["float", "rgb"], 1)?.unwrap_or_else(|| vec![1.0]);
     let scale: [f64; 3] = match scale[..] {
         [x] => [x; 3],
@@ -393,7 +394,7 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
 }
 
 /// The rotation from world space to light space.
-fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
+pub(super) fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
     let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
     ctm.axes().ok_or_else(stretched)
 }

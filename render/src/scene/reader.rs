@@ -3,6 +3,7 @@
 use super::builder::{Builder, Rest};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
+use super::directed;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
@@ -20,6 +21,7 @@ use super::transform_directives;
 use super::view::{self, Window};
 use crate::files::FileError;
 use crate::image;
+use crate::intensity::Intensity;
 use crate::texture::{Mask, Texture};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -58,6 +60,7 @@ struct Reader<'a> {
     film: Option<(FilmSettings, Option<Window>)>,
     pixel_samples: Option<u32>,
     delta_lights: Vec<DeltaLight>,
+    intensities: Vec<Arc<Intensity>>,
     environment: Option<Environment>,
     out: Builder,
     state: State,
@@ -91,6 +94,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         film: None,
         pixel_samples: None,
         delta_lights: Vec::new(),
+        intensities: Vec::new(),
         environment: None,
         out: Builder::default(),
         state,
@@ -133,6 +137,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         film,
         pixel_samples: reader.pixel_samples.unwrap_or(16),
         delta_lights: reader.delta_lights,
+        intensities: reader.intensities,
         environment: reader.environment,
         inputs: reader.inputs.into_inner(),
     };
@@ -457,6 +462,15 @@ impl Reader<'_> {
         let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
         let open = |name: &str| opened(*is_builtin, name, &resolve);
         let files = Files { resolve: &resolve, open: &open };
+        if ["goniometric", "projection"].contains(&kind) {
+            let table = self.intensities.len() as u32;
+            let read = directed::read(kind, params, &state.ctm, &files, &mut out.notes, table)?;
+            if let Some((light, intensity)) = read {
+                self.delta_lights.push(light);
+                self.intensities.push(intensity.into());
+            }
+            return Ok(());
+        }
         match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
             lights::Source::Delta(light) => self.delta_lights.push(light),
             lights::Source::Environment(environment) => match self.environment.take() {
@@ -505,6 +519,12 @@ impl Reader<'_> {
                 .notes
                 .stand_in("light in an object", || params.error("a light in an object emits nothing, as in pbrt"));
             emission = None;
+        }
+        if let Some(emission) = emission.as_mut().filter(|emission| kind == "sphere" && emission.spread.is_some()) {
+            self.out
+                .notes
+                .stand_in("spread", || params.error("a sphere has no \"spread\": it emits in all directions"));
+            emission.spread = None;
         }
         let mask = opacity.map(|opacity| Mask { opacity, least: None });
         if mask.is_some() && emission.is_some() {

@@ -2,6 +2,7 @@
 //! scenes of many lights, `own_scenes` what files of others have.
 
 mod cameras;
+mod directed;
 mod faulty;
 mod lights;
 mod many_lights;
@@ -286,7 +287,10 @@ fn materials_and_lights_follow_the_graphics_state() {
     assert_eq!(scene.materials, [[0.25; 3], [1.0, 0.0, 0.0], [0.5; 3]].map(Material::Diffuse));
     assert_eq!(scene.triangle_materials, [0, 0, 2]);
     assert_eq!(scene.shapes[0].material, 1);
-    assert_eq!(scene.shapes[0].emission, Some(Emission { radiance: [2.0, 4.0, 6.0], two_sided: true, picture: None }));
+    assert_eq!(
+        scene.shapes[0].emission,
+        Some(Emission { radiance: [2.0, 4.0, 6.0], two_sided: true, ..Emission::default() })
+    );
 }
 
 #[test]

@@ -25,6 +25,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
         shapes: shapes.into(),
         pictures: Arc::default(),
         delta_lights: Vec::new(),
+        intensities: Vec::new(),
         environment: None,
         warnings: Vec::new(),
         stand_ins: Vec::new(),
@@ -33,7 +34,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
 }
 
 pub(crate) fn shape(geometry: Geometry, emission: Option<bool>) -> Shape {
-    let emission = emission.map(|two_sided| Emission { radiance: [1.0; 3], two_sided, picture: None });
+    let emission = emission.map(|two_sided| Emission { radiance: [1.0; 3], two_sided, ..Emission::default() });
     // flat lights do not reflect
     let black = emission.is_some() && !matches!(geometry, Geometry::Sphere { .. });
     Shape { geometry, material: u32::from(black), emission }

@@ -71,6 +71,52 @@ fn spot_over_a_plane() {
     exactly(&narrow("1 5 2", &scene.replace("[.5 0 0]", "[2 0 0]")), [0.0; 3]);
 }
 
+/// A lamp of an IES file and a projected image: what arrives has one value.
+#[test]
+fn directed_lights_over_a_plane() {
+    let folder = std::env::temp_dir().join(format!("etendue-directed-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    // 90 cd at the nadir, 0 from 60 degrees on
+    let lamp = "IESNA:LM-63-2019\nTILT=NONE\n1 -1 3 2 1 1 2 0 0 0\n1 1 9\n0 60\n0\n30 0\n";
+    std::fs::write(folder.join("lamp.ies"), lamp).unwrap();
+    // the texel at the right and below has a colour, the others are black
+    let texel = |x: usize, y: usize| if (x, y) == (1, 1) { (1.0_f32, 2.0_f32, 4.0_f32) } else { (0.0, 0.0, 0.0) };
+    exr::prelude::write_rgb_file(folder.join("slide.exr"), 2, 2, texel).unwrap();
+    let world = |lights: &str| {
+        let text = format!(
+            "LookAt 1 5 2 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{PLANE}{lights}"
+        );
+        World::new(&scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|e| panic!("{e}"))).unwrap()
+    };
+    let ies = |turn: f64| {
+        format!(
+            "AttributeBegin Translate 1 2 0 Rotate {turn} 0 0 1\nLightSource \"goniometric\" \"string filename\" \"lamp.ies\"\nAttributeEnd\n"
+        )
+    };
+    let (squared, angle) = (5.0_f64, 0.5_f64.atan().to_degrees());
+    let lamp = 90.0 * (1.0 - angle / 60.0) * 2.0 / squared.sqrt() / squared;
+    exactly(&world(&ies(0.0)), [lamp; 3]);
+    // turned about z by an angle, the nadir is that angle nearer, or farther
+    exactly(&world(&ies(-angle)), [90.0 * 2.0 / squared.sqrt() / squared; 3]);
+    exactly(&world(&ies(50.0)), [0.0; 3]);
+    // projected downwards, with +y of the image towards −x of the world, and its right towards −z: the origin is below, in the left half
+    let slide = |place: &str| {
+        format!(
+            "AttributeBegin Transform [0 0 -1 0  -1 0 0 0  0 -1 0 0  {place} 1] LightSource \"projection\" \"string filename\" \"slide.exr\" \"float fov\" 100 AttributeEnd\n"
+        )
+    };
+    let squared = 4.0_f64 + 0.25 + 0.04;
+    let each = 2.0 / squared.sqrt() / squared;
+    exactly(&world(&slide("-.5 2 .2")), [each, 2.0 * each, 4.0 * each]);
+    for place in ["-.5 2 -.2", ".5 2 .2", ".5 2 -.2", "-.5 -2 .2", "-3 2 .2"] {
+        exactly(&world(&slide(place)), [0.0; 3]);
+    }
+    // several lights, of several kinds
+    let both = format!("{}{}{}", ies(0.0), slide("-.5 2 .2"), slide("-.5 2 -.2"));
+    exactly(&world(&both), [lamp + each, lamp + 2.0 * each, lamp + 4.0 * each]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 #[test]
 fn parallel_light_over_a_plane() {
     let scene =
@@ -106,6 +152,69 @@ fn many_delta_lights_and_mixed_ones() {
             assert!(z.abs() < LIMIT && error[0] < 0.1 * mean[0], "{technique:?}: {mean:?} ± {error:?}, {irradiance}");
         }
     }
+}
+
+/// Every technique gives this irradiance in every channel, but for its noise.
+fn nearly(world: &World, irradiance: f64, spp: u32) {
+    for &technique in Technique::value_variants() {
+        let (mean, error) = pixel(world, technique, spp);
+        let truth = irradiance * 0.8 / PI;
+        let off = (mean[0] - truth).abs();
+        assert!(off <= LIMIT * error[0] + 3e-5 * truth, "{technique:?}: {mean:?} ± {error:?}, not {truth}");
+        // where nothing is lost, no technique is blind
+        assert!(error[0] < 0.2 * truth, "{technique:?}: {mean:?} ± {error:?}");
+    }
+}
+
+/// A panel with a spread: where a point sees all of the cone, the irradiance is πL whatever the spread is; where it sees a part of it, that
+/// of a sum over the panel.
+#[test]
+fn panels_with_a_spread() {
+    let panel = |spread: f64, corners: &str, shape: &str| {
+        format!(
+            "{PLANE}AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \
+             \"float spread\" {spread} Shape \"{shape}\" \"point3 P\" [{corners}] AttributeEnd\n"
+        )
+    };
+    let big = "-3 1 -3  3 1 -3  -3 1 3  3 1 3";
+    for spread in [30.0, 90.0, 140.0] {
+        nearly(&narrow("1 .5 2", &panel(spread, big, "bilinearmesh")), 2.0 * PI, 1 << 14);
+    }
+    // two triangles, which are not clipped
+    let triangles = "\"integer indices\" [0 1 2 1 3 2]";
+    let two = panel(90.0, big, "trianglemesh").replace("AttributeEnd", &format!("{triangles} AttributeEnd"));
+    nearly(&narrow("1 .5 2", &two), 2.0 * PI, 1 << 14);
+    // an edge cuts the cone, and the panel is skewed
+    let (spread, [x0, x1], [z0, z1], skew) = (100.0_f64, [0.2, 2.0], [-1.0, 0.5], 0.4);
+    let cut = format!("{x0} 1 {z0}  {x1} 1 {z0}  {} 1 {z1}  {} 1 {z1}", x0 + skew, x1 + skew);
+    let (half, n) = (0.5 * spread.to_radians(), 1000);
+    let mut irradiance = 0.0;
+    for i in 0..n * n {
+        let [s, t] = [i % n, i / n].map(|k| (f64::from(k) + 0.5) / f64::from(n));
+        let (x, z) = (x0 + (x1 - x0) * s + skew * t, z0 + (z1 - z0) * t);
+        let area = (x1 - x0) * (z1 - z0) / f64::from(n * n);
+        let factor = (half.tan() - x.hypot(z)).max(0.0) / (half.tan() - half);
+        irradiance += 2.0 * factor * area / (1.0 + x * x + z * z).powi(2);
+    }
+    let scene = panel(spread, &cut, "bilinearmesh");
+    nearly(&narrow("1 .5 2", &scene), irradiance, 1 << 14);
+    // among other lights, and one of many
+    let lamp = "LightSource \"point\" \"point3 from\" [0 .5 0] \"float scale\" .25";
+    nearly(&narrow("1 .3 2", &format!("{scene} {lamp}")), irradiance + 1.0, 1 << 14);
+    let mut many = PLANE.to_owned();
+    let mut sum = 0.0;
+    for i in 0..49 {
+        let (x, z, side) = (f64::from(i % 7 - 3) * 0.4, f64::from(i / 7 - 3) * 0.4, 0.1);
+        let corners = format!("{x} 1 {z}  {} 1 {z}  {x} 1 {}  {} 1 {}", x + side, z + side, x + side, z + side);
+        many += &panel(60.0, &corners, "bilinearmesh").replace(PLANE, "");
+        let half = 30_f64.to_radians();
+        for k in 0..100 * 100 {
+            let [x, z] = [x + side * (f64::from(k % 100) + 0.5) / 100.0, z + side * (f64::from(k / 100) + 0.5) / 100.0];
+            let factor = (half.tan() - x.hypot(z)).max(0.0) / (half.tan() - half);
+            sum += 2.0 * factor * side * side * 1e-4 / (1.0 + x * x + z * z).powi(2);
+        }
+    }
+    nearly(&narrow("1 .5 2", &many), sum, 1 << 15);
 }
 
 #[test]

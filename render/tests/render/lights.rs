@@ -205,3 +205,73 @@ fn lights_far_away_have_their_share_of_the_power() {
         assert!((shares[0] + shares[1] - 1.0).abs() < 1e-6, "{shares:?}");
     }
 }
+
+/// Among many lamps of IES files, projected images and panels with a spread, none is lost: where a sample of a light contributes, its pmf is
+/// positive, and the pdf of its direction is, bit for bit, that with which it was drawn.
+#[test]
+fn directed_and_spread_lights_are_never_lost() {
+    let folder = std::env::temp_dir().join(format!("etendue-never-lost-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    for (name, vertical, values) in
+        [("narrow", "0 5 10", "9 1 0"), ("wide", "0 60 90", "1 2 3"), ("up", "90 120 180", "1 2 3")]
+    {
+        let text = format!("TILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 9\n{vertical}\n0\n{values}\n");
+        std::fs::write(folder.join(format!("{name}.ies")), text).unwrap();
+    }
+    let texel =
+        |x: usize, y: usize| if (x + y).is_multiple_of(2) { (1.0_f32, 0.0_f32, 2.0_f32) } else { (0.0, 0.0, 0.0) };
+    exr::prelude::write_rgb_file(folder.join("slide.exr"), 4, 3, texel).unwrap();
+    let mut text = "Camera \"perspective\"\nWorldBegin\n".to_owned();
+    for i in 0..120 {
+        let [x, y, z] = [37, 61, 89].map(|k| i * k % 101).map(|k| 0.02 * f64::from(k) - 1.0);
+        let lamp = |name: &str| format!("LightSource \"goniometric\" \"string filename\" \"{name}.ies\"");
+        let light = match i % 6 {
+            0 => lamp("narrow"),
+            1 => lamp("wide"),
+            2 => lamp("up"),
+            3 => format!("LightSource \"projection\" \"string filename\" \"slide.exr\" \"float fov\" {}", 5 + i),
+            k => {
+                let shape =
+                    if k == 4 { "\"bilinearmesh\"" } else { "\"trianglemesh\" \"integer indices\" [0 1 2 1 3 2]" };
+                let corners = "[0 0 0 .3 0 0 0 .2 0 .3 .2 0]";
+                format!("AreaLightSource \"diffuse\" \"float spread\" {} Shape {shape} \"point3 P\" {corners}", 1 + i)
+            }
+        };
+        text += &format!("AttributeBegin Translate {x} {y} {z} Rotate {} {y} {z} {x} {light} AttributeEnd\n", i * 47);
+    }
+    let scene = scene::parse(&text, "test.pbrt", &folder).unwrap_or_else(|error| panic!("{error}"));
+    std::fs::remove_dir_all(&folder).unwrap();
+    let lights = Lights::new(&scene, None).unwrap();
+    let (areas, all) = (scene.shapes.len() as u32, lights.len() as u32);
+    assert!(areas == 60 && all == 140, "{areas} and {all}");
+    let mut found = [0_u32; 2];
+    for number in 0..cases(300, 30_000) {
+        let lanes = u32x8::from_fn(|k| number * 8 + k as u32);
+        let pairs: [Vec2<X8>; 4] =
+            core::array::from_fn(|dimension| Independent::new(9).pair(u32x8::splat(0), lanes, dimension as u32));
+        let centered = |u: X8| u * X8::lit(4.0) - X8::lit(2.0);
+        let p = V8::new(centered(pairs[0].x), centered(pairs[0].y), centered(pairs[1].x));
+        let normal = V8::new(centered(pairs[1].y), centered(pairs[2].x), centered(pairs[2].y)).normalize();
+        let pmf = lights.pmf(p, normal);
+        for light in (0..all).filter(|light| (light + number).is_multiple_of(3)) {
+            let mut chosen = lights.chosen(u32x8::splat(light));
+            let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, pairs[3]);
+            let bright = (chosen.radiance.x + chosen.radiance.y + chosen.radiance.z).gt(X8::lit(0.0));
+            let lit = drawn.emits & bright & drawn.pdf.gt(X8::lit(0.0)) & drawn.direction.dot(normal).gt(X8::lit(0.0));
+            let all = &pmf;
+            let pmf = all.of(light);
+            let index = chosen.shape.lane(0) as usize;
+            let pdf = |shape: &scene::Shape| lights.shape_pdf(all, index, &shape.geometry, p, drawn.direction);
+            let pdf = scene.shapes.get(index).map(pdf);
+            for lane in (0..8).filter(|&lane| lit.lane(lane)) {
+                let own = (drawn.pdf * pmf).lane(lane);
+                assert!(pdf.is_none_or(|pdf| pdf.lane(lane).to_bits() == own.to_bits()), "{pdf:?} and {own}");
+                let at = [p, normal].map(|v| <[f32; 3]>::from(v.lane(lane)));
+                assert!(pmf.lane(lane) > 0.0, "light {light} is lost at {at:?}");
+                found[usize::from(light >= areas)] += 1;
+            }
+        }
+    }
+    println!("samples of panels and of other lights: {found:?}");
+    assert!(found.iter().all(|&n| n > cases(1000, 100_000)), "{found:?}");
+}

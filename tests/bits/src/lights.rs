@@ -1,10 +1,12 @@
-//! Every light by every technique: samples, pdfs, inverses, hits and points by area; environment images, and visible parts.
+//! Every light by every technique: samples, pdfs, inverses, hits and points by area; environment images, profiles, projected
+//! images, spreads, and visible parts.
 
 use crate::figures::{Figures, Lanes, List, Routine};
-use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, ProjectedImage, Projector, Spread, Texel};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::{
-    ConstantEnvironment, DirectionalLight, LightSample, LightSampler, PointLight, Real, SpotLight, Sun, Vec3,
+    ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Parallelogram, PointLight, Real, Rectangle,
+    SpotLight, Sun, Vec3, Warp,
 };
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{lanes_of, squares_of, vectors_of};
@@ -184,6 +186,81 @@ fn shape<R: Real>(random: &mut Random, center: [f64; 3], size: f64, round: bool)
     Convex::Polygon { corners: [corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)], count }
 }
 
+/// A table of intensities, with edges and seams.
+struct Intensities;
+
+impl Routine for Intensities {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(900);
+        let (polar, azimuth) = ([0.0, 10.0, 35.0, 90.0, 120.0], [-90.0, -30.0, 0.0, 45.0, 200.0]);
+        let values: Vec<_> = (0..25).map(|_| random.unit()).collect();
+        let profile = Profile::new(&polar, &azimuth, &values).expect("the angles ascend");
+        let mut means = [0.0; 32];
+        profile.means(8, &mut means).expect("a whole number of rows");
+        means.into_iter().for_each(|mean| figures.number(mean.into()));
+        figures.packets::<R>(SLOTS, |_, lanes| {
+            let ws: Vec<_> = (0..R::LANES).map(|_| unit(&mut random)).collect();
+            lanes.real(profile.intensity::<R>(vectors_of(|i| ws[i])));
+        });
+    }
+}
+
+/// A projected image.
+struct Slide;
+
+impl Routine for Slide {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(901);
+        let projector = Projector { tan_half: [1.5, 0.7] };
+        let weights: Vec<_> = (0..77).map(|_| random.unit().powi(4)).collect();
+        let mut buffer = [0.0; ProjectedImage::buffer(11, 7)];
+        let image = ProjectedImage::build(projector, &weights, 11, &mut buffer).expect("the weights are valid");
+        figures.packets::<R>(SLOTS, |_, lanes| {
+            let (us, ws): (Vec<_>, Vec<_>) = (0..R::LANES).map(|_| (square(&mut random), unit(&mut random))).unzip();
+            let (drawn, w) = (image.sample(squares_of::<R>(&us)), vectors_of::<R>(|i| ws[i]));
+            lanes.vector(drawn);
+            for w in [drawn, w] {
+                let (uv, inside) = projector.place(w);
+                lanes.pair(uv);
+                lanes.truth::<R>(inside);
+                lanes.real(image.pdf(w));
+                lanes.pair(image.invert(w));
+            }
+        });
+    }
+}
+
+/// Flat lights that emit within an angle of their normal.
+struct Narrow;
+
+impl Routine for Narrow {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(902);
+        figures.packets::<R>(20 * Figures::MOST, |_, lanes| {
+            let places: Vec<_> = (0..R::LANES)
+                .map(|_| {
+                    let extreme = random.word().is_multiple_of(4);
+                    let p = if extreme { generators::nasty(&mut random) } else { unit(&mut random) };
+                    (p, [unit(&mut random), unit(&mut random), unit(&mut random)], square(&mut random))
+                })
+                .collect();
+            let each: Vec<_> =
+                places.iter().map(|place| Spread::<f64>::new(0.02 + 3.0 * f64::from(place.2[0]))).collect();
+            let spread = Spread { tan_half: lanes_of::<R>(|i| each[i].tan_half), gain: lanes_of(|i| each[i].gain) };
+            let vector = |k: usize| vectors_of::<R>(|i| places[i].1[k]);
+            let (p, a, b, c) = (vectors_of(|i| places[i].0), vector(0), vector(1), vector(2));
+            let us: Vec<_> = places.iter().map(|place| place.2).collect();
+            let ws: Vec<_> = places.iter().map(|place| place.1[2]).collect();
+            sampler(lanes, &Parallelogram::new(a, b, c).by_spread(p, &spread), &us, &ws);
+            sampler(lanes, &Rectangle::new(a, b, b.cross(c)).by_spread(p, &spread), &us, &ws);
+            sampler(lanes, &Disk::new(a, b, R::lit(0.75)).by_spread(p, &spread), &us, &ws);
+            lanes.real(spread.attenuation(b, c));
+            let part = Parallelogram::new(a, b, c).visible_part(p, &spread);
+            [part.corner, part.edge_s, part.edge_t].into_iter().for_each(|v| lanes.vector(v));
+        });
+    }
+}
+
 pub(crate) fn add(list: &mut List<'_>) {
     for (kind, (shape, by)) in AreaLight::KINDS.iter().enumerate() {
         list.add(format!("light/{shape:?}/{by:?}"), &Area::new(kind));
@@ -194,5 +271,8 @@ pub(crate) fn add(list: &mut List<'_>) {
     }
     list.add("light/Image/EqualArea", &Sky(EnvironmentMap::EqualArea, 16, 16));
     list.add("light/Image/Equirectangular", &Sky(EnvironmentMap::Equirectangular, 24, 13));
+    list.add("light/Profile", &Intensities);
+    list.add("light/Projector", &Slide);
+    list.add("light/Spread", &Narrow);
     list.add("occlusion", &Visible);
 }

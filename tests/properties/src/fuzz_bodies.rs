@@ -4,6 +4,7 @@
 //! Every body reads its bytes as numbers at which methods break ([`Input`]): signed zeros, subnormal numbers, ulps about 1, the ends of the
 //! f32 range; vectors that are equal, opposite, collinear, or a few ulps from that.
 
+mod emitters;
 mod light_tree;
 mod lights;
 mod numbers;
@@ -83,6 +84,8 @@ targets! {
     distant_lights: lights, 700;
     /// An environment image, in either mapping.
     environment: numbers, 300;
+    /// Profiles of intensity, projected images, and lights with a spread.
+    emitters: emitters, 150;
     /// Pictures on lights of any shape.
     pictures: pictures, 200;
     /// Tables of one and two dimensions.

@@ -285,7 +285,7 @@ impl Reader<'_, '_> {
                 _ => None,
             },
         };
-        let emission = Emission { radiance, two_sided: material.double_sided, picture: None };
+        let emission = Emission { radiance, two_sided: material.double_sided, ..Emission::default() };
         Ok(Some(Glow { emission, texture }))
     }
 

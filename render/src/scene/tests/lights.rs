@@ -121,6 +121,21 @@ fn images_of_the_sky() {
     fs::remove_dir_all(&folder).unwrap();
 }
 
+/// The spread is the full angle in degrees, as in Cycles; a sphere has none.
+#[test]
+fn area_lights_have_a_spread() {
+    let spread =
+        |text: &str| read(&world(&format!("AreaLightSource \"diffuse\" {text}"))).shapes[0].emission.unwrap().spread;
+    let found = spread(&format!("\"float spread\" 90 {TRIANGLE}")).unwrap();
+    assert!(
+        (found.tan_half - 1.0).abs() < 1e-6 && (found.gain - 1.0 / (1.0 - std::f32::consts::FRAC_PI_4)).abs() < 1e-5
+    );
+    assert_eq!(spread(&format!("\"float spread\" 180 {TRIANGLE}")), None);
+    assert_eq!(spread(TRIANGLE), None);
+    let sphere = read(&world("AreaLightSource \"diffuse\" \"float spread\" 90 Shape \"sphere\""));
+    assert_eq!((sphere.shapes[0].emission.unwrap().spread, sphere.stand_ins.len()), (None, 1));
+}
+
 #[test]
 fn metals_and_mirrors() {
     let material = |text: &str| {
@@ -161,6 +176,9 @@ fn errors_name_line_and_value() {
         ("LightSource \"laser\"", "not supported, only \"point\""),
         ("LightSource \"point\" \"float power\" 0", "must be greater than 0, not 0"),
         ("LightSource \"distant\" \"float illuminance\" -3", "must be greater than 0, not -3"),
+        ("AreaLightSource \"diffuse\" \"float spread\" 0", "\"spread\": must be from 0.1 to 180 degrees, not 0"),
+        ("AreaLightSource \"diffuse\" \"float spread\" 181", "must be from 0.1 to 180 degrees, not 181"),
+        ("AreaLightSource \"diffuse\" \"float spread\" 0.1 \"float scale\" 4e36", "at most 1.0"),
         ("LightSource \"point\" \"float scale\" -2", "\"scale\": must be at least 0, not -2"),
         ("LightSource \"point\" \"rgb I\" [1 -3 1]", "\"I\": must be at least 0, not -3"),
         ("LightSource \"point\" \"texture I\" \"a\"", "a light cannot have a texture"),

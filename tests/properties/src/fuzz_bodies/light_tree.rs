@@ -29,7 +29,9 @@ fn lamp(input: &mut Input<'_>, before: &mut Vec<[f32; 3]>) -> Lamp {
     }
     before.push(b);
     let (radius, two_sided, power) = (input.weight(), input.below(4) == 0, input.weight());
-    Lamp { kind, a, b, c, radius, two_sided, power }
+    let is_flat = matches!(kind, LampKind::Area(LightShape::Triangle | LightShape::Parallelogram | LightShape::Disk));
+    let spread = if is_flat && input.below(2) == 0 { 3.0 * input.unit() } else { 0.0 };
+    Lamp { kind, a, b, c, radius, two_sided, spread, power }
 }
 
 /// Whether the lengths of a light are such that squares of them do not overflow.

@@ -2,6 +2,8 @@
 
 use crate::properties::squares_of;
 use crate::techniques::{AreaLight, LightFixture, LightShape, Measure};
+#[cfg(feature = "checks")]
+use etendue::light::Spread;
 use etendue::select::LightBound;
 use etendue::{LightSample, LightSampler, PointLight, SpotLight, Vec3};
 use etendue_oracle::{V3, along, cross, length, narrow, sub, unit, wide};
@@ -32,6 +34,8 @@ pub struct Lamp {
     pub radius: f32,
     /// Whether both sides emit.
     pub two_sided: bool,
+    /// The full angle within which a flat light emits, in radians; 0 if that is all of a hemisphere.
+    pub spread: f32,
     /// Its power.
     pub power: f32,
 }
@@ -65,7 +69,12 @@ impl Lamp {
             center: narrow(center),
             radius: (radius * (1.0 + 1e-6)) as f32,
             normal: narrow(unit(normal)),
-            cos_cone: if self.kind == LampKind::Spot { self.c[1] } else { 0.0 },
+            cos_cone: match self.kind {
+                LampKind::Spot => self.c[1],
+                // less a rounding
+                _ if self.spread > 0.0 => (libm::cos(0.5 * f64::from(self.spread)) * (1.0 - 1e-5)) as f32,
+                _ => 0.0,
+            },
             two_sided: self.two_sided && length(normal) > 0.0,
             power: self.power,
         }
@@ -77,7 +86,9 @@ impl Lamp {
     pub fn contribution(&self, p: [f32; 3], n: [f32; 3], u: [f32; 2]) -> Option<LightSample<f32>> {
         let shines = |sample: &LightSample<f32>| {
             let cos = Vec3::from(n).dot(sample.direction);
-            sample.pdf > 0.0 && cos > 0.0 && (sample.emits || self.two_sided && !sample.delta)
+            let spread = Spread::<f32>::new(self.spread.into());
+            let lit = self.spread <= 0.0 || spread.attenuation(sample.direction, sample.normal) > 0.0;
+            sample.pdf > 0.0 && cos > 0.0 && lit && (sample.emits || self.two_sided && !sample.delta)
         };
         let position = self.a.into();
         match self.kind {

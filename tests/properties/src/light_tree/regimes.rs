@@ -30,11 +30,12 @@ pub enum Regime {
     Shells,
     Clusters,
     SmallAndFar,
+    Spreads,
 }
 
 impl Regime {
     /// All regimes.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Room,
         Self::Tiny,
         Self::Huge,
@@ -55,6 +56,7 @@ impl Regime {
         Self::Shells,
         Self::Clusters,
         Self::SmallAndFar,
+        Self::Spreads,
     ];
     const SHAPES: [LampKind; 8] = [
         LampKind::Area(LightShape::Triangle),
@@ -78,7 +80,9 @@ impl Regime {
     }
     fn kind(self, random: &mut Random) -> LampKind {
         let among = match self {
-            Self::SphereOutwards | Self::Plane | Self::TwoSided | Self::OneSided | Self::Slivers => 0..3,
+            Self::SphereOutwards | Self::Plane | Self::TwoSided | Self::OneSided | Self::Slivers | Self::Spreads => {
+                0..3
+            }
             Self::Spheres => 3..4,
             Self::Points => 4..5,
             Self::Spots | Self::NarrowSpots => 5..6,
@@ -138,17 +142,20 @@ impl Regime {
                 _ => random.range(0.1, 0.99),
             };
             let slim = if self == Self::Slivers { random.magnitude(1e-4, 1.0) } else { 1.0 };
-            shape(kind, [center, normal], size, slim, cosine, random)
-                .scaled(self.unit() as f32)
-                .with(power as f32, two_sided)
+            let spread = if self == Self::Spreads { random.magnitude(0.02, 3.1) } else { 0.0 };
+            shape(kind, [center, normal], size, slim, cosine, random).scaled(self.unit() as f32).with(
+                power as f32,
+                two_sided,
+                spread as f32,
+            )
         };
         (0..count).map(lamp).collect()
     }
 }
 
 impl Lamp {
-    fn with(self, power: f32, two_sided: bool) -> Self {
-        Self { power, two_sided, ..self }
+    fn with(self, power: f32, two_sided: bool, spread: f32) -> Self {
+        Self { power, two_sided, spread, ..self }
     }
 }
 
@@ -168,7 +175,7 @@ fn shape(kind: LampKind, [center, normal]: [V3; 2], size: f64, slim: f64, cosine
         _ => (center, normal, f),
     };
     let radius = if kind == LampKind::Point || kind == LampKind::Spot { 0.0 } else { (0.5 * size) as f32 };
-    Lamp { kind, a: narrow(a), b: narrow(b), c: narrow(c), radius, two_sided: false, power: 1.0 }
+    Lamp { kind, a: narrow(a), b: narrow(b), c: narrow(c), radius, two_sided: false, spread: 0.0, power: 1.0 }
 }
 
 /// A point of a surface that a light, or its plane or its corner, makes difficult, and the index of that light.

@@ -227,7 +227,7 @@ fn emitters_have_sides_and_strengths() {
         "emissiveFactor": [1, 0.5, 0], "doubleSided": true,
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 20}},
     }));
-    assert_eq!(both, Some(Emission { radiance: [20.0, 10.0, 0.0], two_sided: true, picture: None }));
+    assert_eq!(both, Some(Emission { radiance: [20.0, 10.0, 0.0], two_sided: true, ..Emission::default() }));
     assert_eq!(emission(json!({"emissiveFactor": [0, 0, 0]})), None);
     let scene = Asset::of_material(json!({"emissiveFactor": [1, 1, 1]})).read();
     assert!(!scene.warnings.iter().any(|message| message.text.contains("black")), "{:?}", scene.warnings);

@@ -1,0 +1,106 @@
+//! Intensities of point lights that differ by direction, looked up in packets.
+
+use crate::packet::{V8, X8, select};
+use etendue::Vec3;
+use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, Projector};
+
+/// Relative radiant intensities by direction in the space of the light, whose greatest is 1. They all are finite and at least 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Intensity {
+    /// A photometric table, bilinear between its angles: see [`Profile`].
+    Angles {
+        /// Polar angles in degrees.
+        polar: Vec<f32>,
+        /// Azimuths in degrees.
+        azimuth: Vec<f32>,
+        /// All polar angles of the first azimuth come first.
+        values: Vec<f32>,
+    },
+    /// An image of all directions, constant within each texel.
+    Sphere {
+        /// How the image maps to directions.
+        map: EnvironmentMap,
+        /// Number of columns.
+        width: usize,
+        /// Texels row by row.
+        texels: Vec<f32>,
+        /// The table by which its texels are sampled, of [`ImageEnvironment`].
+        table: Vec<f32>,
+    },
+    /// A coloured image projected along +z, constant within each texel.
+    Projected {
+        /// How the image maps to directions.
+        projector: Projector,
+        /// Number of columns.
+        width: usize,
+        /// Texels row by row, linear RGB.
+        texels: Vec<[f32; 3]>,
+    },
+}
+
+impl Intensity {
+    /// An image of all directions; `None` if it is black.
+    pub fn sphere(map: EnvironmentMap, width: usize, texels: Vec<f32>) -> Option<Self> {
+        let mut table = vec![0.0; ImageEnvironment::buffer(width, texels.len() / width)];
+        ImageEnvironment::build(&texels, width, map, &mut table).ok()?;
+        Some(Self::Sphere { map, width, texels, table })
+    }
+    fn profile<'a>(polar: &'a [f32], azimuth: &'a [f32], values: &'a [f32]) -> Profile<'a> {
+        Profile::new(polar, azimuth, values).expect("the scene reader has checked the angles")
+    }
+    /// Intensity in the unit direction `w`, in which light travels.
+    pub fn at(&self, w: V8) -> V8 {
+        match self {
+            Self::Angles { polar, azimuth, values } => {
+                let value: X8 = Self::profile(polar, azimuth, values).intensity(w);
+                Vec3::new(value, value, value)
+            }
+            Self::Sphere { map, width, texels, table } => {
+                let image = ImageEnvironment::from_buffer(table, *width, *map).expect("a table of its own size");
+                let texel = image.texel(w);
+                let (x, y) = (texel.x.to_array(), texel.y.to_array());
+                let value = X8::from(std::array::from_fn(|lane| texels[y[lane] as usize * width + x[lane] as usize]));
+                Vec3::new(value, value, value)
+            }
+            Self::Projected { projector, width, texels } => {
+                let (uv, inside) = projector.place(w);
+                let height = texels.len() / width;
+                let index = |x: X8, n: usize| (x * X8::splat(n as f32)).to_array().map(|x| (x as usize).min(n - 1));
+                let (x, y) = (index(uv.x, *width), index(uv.y, height));
+                let each: [[f32; 3]; 8] = std::array::from_fn(|lane| texels[y[lane] * width + x[lane]]);
+                let channel = |k: usize| select(inside, X8::from(each.map(|texel| texel[k])), X8::splat(0.0));
+                Vec3::new(channel(0), channel(1), channel(2))
+            }
+        }
+    }
+    /// ∫I dω of each channel.
+    pub fn flux(&self) -> [f64; 3] {
+        match self {
+            Self::Angles { polar, azimuth, values } => [Self::profile(polar, azimuth, values).power(); 3],
+            Self::Sphere { map, width, texels, .. } => {
+                let height = texels.len() / width;
+                let row = |(y, row): (usize, &[f32])| {
+                    row.iter().map(|&x| f64::from(x)).sum::<f64>() * map.texel_solid_angle(*width, height, y)
+                };
+                [texels.chunks(*width).enumerate().map(row).sum(); 3]
+            }
+            Self::Projected { projector, width, texels } => {
+                let size = [*width, texels.len() / width];
+                let mut flux = [0.0; 3];
+                for (i, texel) in texels.iter().enumerate() {
+                    let solid_angle = projector.texel_solid_angle(size, [i % width, i / width]);
+                    (0..3).for_each(|k| flux[k] += f64::from(texel[k]) * solid_angle);
+                }
+                flux
+            }
+        }
+    }
+    /// Cosine of an angle to +z from which on it is dark; −1 if it may shine in all directions.
+    pub fn cos_cone(&self) -> f32 {
+        match self {
+            Self::Angles { polar, azimuth, values } => Self::profile(polar, azimuth, values).cos_cone(),
+            Self::Sphere { .. } => -1.0,
+            Self::Projected { projector, .. } => projector.cos_cone(),
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Reads photometric data of luminaires: IES files, ANSI/IES LM-63 of 1986 to 2019.
+//!
+//! The intensity is candela value × multiplier × ballast factor, and × the ballast-lamp factor in files of before 2002; at its place, later
+//! ones have something else. Data of `TILT` are read but not applied: they tell what changes when the luminaire is tilted from the position
+//! in which it was measured. In light space −y is the nadir, and the photometric horizontal is +x.
+//!
+//! | type | polar axis | vertical angle | horizontal angle |
+//! |---|---|---|---|
+//! | C | nadir | from the nadir | from the photometric horizontal, counterclockwise seen from above |
+//! | B | photometric horizontal | from the plane perpendicular to it | from the nadir to the right, with the axis up |
+//! | A | vertical | from the horizontal plane upwards | from the photometric horizontal to the right |
+
+use super::message::shown;
+use crate::files::read_file;
+use crate::intensity::Intensity;
+use etendue::light::Profile;
+use std::path::Path;
+
+/// A signed axis of light space: x, y or z, and its sign.
+pub(super) type Axis = (usize, f64);
+
+/// The intensity of a luminaire.
+#[derive(Debug)]
+pub(super) struct Photometry {
+    /// Relative intensity in the space of its profile.
+    pub(super) intensity: Intensity,
+    /// The greatest intensity in candela.
+    pub(super) greatest: f64,
+    /// The axes of the profile's space, in light space.
+    pub(super) axes: [Axis; 3],
+    /// What of the file is ignored.
+    pub(super) warnings: Vec<String>,
+}
+
+/// The numbers of a file, one after the other.
+struct Numbers<'a> {
+    name: &'a str,
+    words: Vec<(usize, &'a str)>,
+    next: usize,
+}
+
+impl Numbers<'_> {
+    fn error(&self, line: usize, what: impl AsRef<str>) -> String {
+        format!("{}:{line}: {}", self.name, what.as_ref())
+    }
+    /// The line of the number that was read last.
+    fn line(&self) -> usize {
+        self.words.get(self.next.saturating_sub(1)).map_or(0, |(line, _)| *line)
+    }
+    fn left(&self) -> usize {
+        self.words.len() - self.next
+    }
+    fn number(&mut self, what: &str) -> Result<f64, String> {
+        let Some(&(line, word)) = self.words.get(self.next) else {
+            let last = self.words.last().map_or(0, |(line, _)| *line);
+            return Err(self.error(last, format!("the file ends before {what}")));
+        };
+        self.next += 1;
+        match word.parse::<f64>() {
+            Ok(x) if x.is_finite() => Ok(x),
+            _ => Err(self.error(line, format!("{what}: expected a finite number, found {word:?}"))),
+        }
+    }
+    fn within(&mut self, what: &str, low: f64, high: f64) -> Result<f64, String> {
+        let x = self.number(what)?;
+        if (low..=high).contains(&x) {
+            return Ok(x);
+        }
+        let range = if high == f64::MAX { format!("at least {low}") } else { format!("from {low} to {high}") };
+        Err(self.error(self.line(), format!("{what}: must be {range}, not {}", shown(x))))
+    }
+    /// A number of things that the file has yet to list.
+    fn count(&mut self, what: &str) -> Result<usize, String> {
+        let x = self.number(what)?;
+        if x.fract() == 0.0 && x >= 1.0 && x <= self.left() as f64 {
+            return Ok(x as usize);
+        }
+        let left = self.left();
+        Err(self.error(self.line(), format!("{what}: must be from 1 to the {left} numbers left, not {}", shown(x))))
+    }
+    /// Ascending angles.
+    fn angles(&mut self, count: usize, what: &str, low: f64, high: f64) -> Result<Vec<f32>, String> {
+        let mut angles = Vec::with_capacity(count);
+        for _ in 0..count {
+            let angle = self.within(what, low, high)? as f32;
+            if let Some(before) = angles.last().filter(|before| **before >= angle) {
+                return Err(self.error(self.line(), format!("{what}s must ascend: {angle} follows {before}")));
+            }
+            angles.push(angle);
+        }
+        Ok(angles)
+    }
+}
+
+/// Columns of a table by azimuth.
+type Columns = Vec<(f32, Vec<f64>)>;
+
+/// The columns and their mirror image about the first or last of them, in ascending order.
+fn mirrored(columns: Columns, about: f32) -> Columns {
+    let image = |(angle, column): &(f32, Vec<f64>)| (2.0 * about - angle, column.clone());
+    let mut all: Columns = columns.iter().filter(|(angle, _)| *angle != about).map(image).collect();
+    all.extend(columns);
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all
+}
+
+/// Reads a file that messages call `name`.
+pub(super) fn read(path: &Path, name: &str) -> Result<Photometry, String> {
+    let bytes = read_file(path).map_err(|error| format!("cannot read {name:?}: {error}"))?;
+    parse(&String::from_utf8_lossy(&bytes), name)
+}
+
+/// Reads the text of a file that messages call `name`.
+pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
+    let lines = || (1..).zip(text.lines());
+    let Some((line, tilt)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
+    else {
+        return Err(format!("{name}: no line begins with TILT=, after which an IES file has its numbers"));
+    };
+    let separates = |c: char| c.is_whitespace() || c == ',' || c == '\u{1a}';
+    let words = lines()
+        .skip(line)
+        .flat_map(|(line, text)| text.split(separates).filter(|word| !word.is_empty()).map(move |word| (line, word)));
+    let mut numbers = Numbers { name, words: words.collect(), next: 0 };
+    let mut warnings = Vec::new();
+    match tilt {
+        "NONE" => {}
+        "INCLUDE" => {
+            numbers.within("lamp-to-luminaire geometry", 1.0, 3.0)?;
+            let count = numbers.count("number of tilt angles")?;
+            numbers.angles(count, "tilt angle", 0.0, 360.0)?;
+            for _ in 0..count {
+                numbers.within("tilt factor", 0.0, f64::MAX)?;
+            }
+            warnings.push(format!("{name}:{line}: the factors of TILT are not applied"));
+        }
+        other => warnings.push(format!("{name}:{line}: the factors of TILT={other} are not applied")),
+    }
+    numbers.number("number of lamps")?;
+    numbers.number("lumens per lamp")?;
+    let multiplier = numbers.within("multiplier", 0.0, f64::MAX)?;
+    let rows = numbers.count("number of vertical angles")?;
+    let count = numbers.count("number of horizontal angles")?;
+    let kind = numbers.within("photometric type", 1.0, 3.0)?;
+    for what in ["units", "width", "length", "height"] {
+        numbers.number(what)?;
+    }
+    let ballast = numbers.within("ballast factor", 0.0, f64::MAX)?;
+    let lamp = numbers.number("ballast-lamp factor")?;
+    numbers.number("input watts")?;
+    let is_late =
+        ["LM-63-2002", "LM-63-2019"].iter().any(|year| lines().next().is_some_and(|(_, text)| text.contains(year)));
+    let factor = multiplier * ballast * if is_late { 1.0 } else { lamp };
+    if !(0.0..=f64::MAX).contains(&factor) {
+        return Err(numbers.error(numbers.line(), format!("its factors multiply to {}", shown(factor))));
+    }
+    // all angles and values must be there before memory is taken
+    let needed = rows.saturating_mul(count).saturating_add(rows).saturating_add(count);
+    if needed > numbers.left() {
+        let line = numbers.words.last().map_or(0, |(line, _)| *line);
+        let what = format!(
+            "{rows} vertical and {count} horizontal angles need {needed} numbers, but {} are left",
+            numbers.left()
+        );
+        return Err(numbers.error(line, what));
+    }
+    let is_c = kind == 1.0;
+    let vertical = if is_c { [0.0, 180.0] } else { [-90.0, 90.0] };
+    let horizontal = if is_c { [0.0, 360.0] } else { [-90.0, 90.0] };
+    let polar = numbers.angles(rows, "vertical angle", vertical[0], vertical[1])?;
+    if rows < 2 {
+        return Err(numbers.error(numbers.line(), "a single vertical angle: at least two are needed"));
+    }
+    let azimuth = numbers.angles(count, "horizontal angle", horizontal[0], horizontal[1])?;
+    let line = numbers.line();
+    let mut columns = Columns::with_capacity(count);
+    for &angle in &azimuth {
+        let column: Result<Vec<f64>, String> =
+            (0..rows).map(|_| numbers.within("candela value", 0.0, f64::MAX)).collect();
+        columns.push((angle, column?));
+    }
+    if numbers.left() > 0 {
+        warnings.push(format!("{name}: {} numbers after the last candela value are ignored", numbers.left()));
+    }
+    let ends = [azimuth[0], azimuth[count - 1]];
+    let columns = match (is_c, ends) {
+        _ if count == 1 => vec![(0.0, columns.swap_remove(0).1)],
+        (true, [0.0, 90.0]) => mirrored(mirrored(columns, 90.0), 180.0),
+        (true, [0.0, 180.0]) => mirrored(columns, 180.0),
+        (true, [0.0, 360.0]) => columns,
+        (true, [90.0, 270.0]) => {
+            mirrored(columns, 270.0).into_iter().map(|(angle, column)| (angle - 360.0, column)).collect()
+        }
+        (false, [0.0, 90.0]) => mirrored(columns, 0.0),
+        (false, [-90.0, 90.0]) => columns,
+        (_, [first, last]) => {
+            let may = if is_c { "0 to 90, 180 or 360, or from 90 to 270" } else { "0 or -90 to 90" };
+            let what =
+                format!("horizontal angles from {first} to {last} in type {}: must be from {may}", name_of(kind));
+            return Err(numbers.error(line, what));
+        }
+    };
+    let greatest = columns.iter().flat_map(|(_, column)| column).fold(0.0, |most: f64, &x| most.max(x));
+    let unit = if greatest > 0.0 { greatest } else { 1.0 };
+    let values: Vec<f32> = columns.iter().flat_map(|(_, column)| column.iter().map(|x| (x / unit) as f32)).collect();
+    let azimuth: Vec<f32> = columns.iter().map(|(angle, _)| *angle).collect();
+    let (polar, axes): (Vec<f32>, _) = match name_of(kind) {
+        'C' => (polar, [(0, 1.0), (2, 1.0), (1, -1.0)]),
+        'B' => (polar.iter().map(|v| v + 90.0).collect(), [(1, -1.0), (2, -1.0), (0, -1.0)]),
+        _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)]),
+    };
+    // angles that differ by too little are the same once they are mirrored
+    Profile::new(&polar, &azimuth, &values).map_err(|error| format!("{name}: {error}"))?;
+    let intensity = Intensity::Angles { polar, azimuth, values };
+    Ok(Photometry { intensity, greatest: greatest * factor, axes, warnings })
+}
+
+/// The letter of a photometric type.
+fn name_of(kind: f64) -> char {
+    if kind < 2.0 {
+        'C'
+    } else if kind < 3.0 {
+        'B'
+    } else {
+        'A'
+    }
+}
