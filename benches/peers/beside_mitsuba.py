@@ -1,4 +1,5 @@
-"""Compares the renderer with Mitsuba 3 on meshes with textures under ten lights and more, at equal time on one core.
+"""Compares the renderer with Mitsuba 3 on meshes with textures under ten lights and more, and under lights that show pictures, at equal
+time on one core.
 
     pip install mitsuba numpy OpenEXR              # and LLVM, which DRJIT_LIBLLVM_PATH names
     cargo build --release
@@ -94,6 +95,43 @@ def texture(path, seed):
     mi.Bitmap((rgb * 255).astype(np.uint8)).write(path)
 
 
+def programme(size):
+    """What a television shows at night: a street with lamps, a lit window and a red sign. Radiance, row by row from the top."""
+    x, y = np.meshgrid((np.arange(size) + 0.5) / size, (np.arange(size) + 0.5) / size)
+    rgb = np.stack([0.02 + 0.05 * (1 - y), 0.03 + 0.06 * (1 - y), 0.08 + 0.15 * (1 - y)], -1)
+    for k in range(5):
+        away = (x - 0.1 - 0.2 * k) ** 2 + (y - 0.35 - 0.05 * k) ** 2
+        rgb += np.exp(-away / 2e-4)[..., None] * [60, 45, 20]
+    rgb[(abs(x - 0.72) < 0.06) & (abs(y - 0.62) < 0.09)] = [12, 9, 4]
+    rgb[(abs(x - 0.3) < 0.14) & (abs(y - 0.15) < 0.02)] = [25, 1, 1]
+    return rgb.astype(np.float32)
+
+
+def glass(size):
+    """A stained window: panes of saturated colours between lead, with a bright sun behind some of them."""
+    x, y = np.meshgrid((np.arange(size) + 0.5) / size, (np.arange(size) + 0.5) / size)
+    column, row = np.floor(9 * x + 0.4 * np.sin(7 * y)), np.floor(9 * y + 0.4 * np.sin(5 * x))
+    hue = np.modf(0.37 * column + 0.61 * row)[0] * 2 * math.pi
+    rgb = np.stack([np.clip(0.5 + 0.6 * np.cos(hue - 2.1 * k), 0.01, 1) for k in range(3)], -1)
+    sun = 1.5 + 80 * np.exp(-((x - 0.7) ** 2 + (y - 0.25) ** 2) / 4e-3)
+    lead = np.minimum(np.modf(9 * x + 0.4 * np.sin(7 * y))[0], np.modf(9 * y + 0.4 * np.sin(5 * x))[0]) < 0.08
+    return np.where(lead[..., None], 0, rgb * sun[..., None]).astype(np.float32)
+
+
+def boxes(path, list_of):
+    """A mesh of boxes, by their least and greatest coordinates; returns the number of its triangles."""
+    points, faces = [], []
+    for low, high in list_of:
+        corners = [[(low, high)[k >> axis & 1][axis] for axis in range(3)] for k in range(8)]
+        for quad in [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]:
+            # corners of their own, since Mitsuba smooths what shares them
+            first = len(points)
+            points += [corners[k] for k in quad]
+            faces += [[first, first + 1, first + 2], [first, first + 2, first + 3]]
+    write_mesh(path, np.array(points, float), faces)
+    return len(faces)
+
+
 class Scene:
     """A scene for both programs. Lights are parallelograms that emit downwards, or spheres."""
 
@@ -130,9 +168,21 @@ class Scene:
         self.triangles = getattr(self, 'triangles', 0) + triangles
 
     def lamp(self, corner, u, v, radiance):
+        emit = f'AreaLightSource "diffuse" "rgb L" [{radiance[0]} {radiance[1]} {radiance[2]}]'
+        self.rectangle(corner, u, v, emit, dict(type='rgb', value=list(radiance)))
+
+    def screen(self, corner, u, v, picture):
+        """A rectangle that shows an array of radiance."""
+        file = f'{self.name}{self.count}.exr'
+        header = dict(compression=OpenEXR.ZIP_COMPRESSION, type=OpenEXR.scanlineimage)
+        OpenEXR.File(header, dict(RGB=picture)).write(os.path.join(OPTIONS.folder, file))
+        # in Mitsuba, v is 0 at the first row
+        bitmap = dict(type='bitmap', bitmap=mi.Bitmap(np.ascontiguousarray(picture[::-1])), raw=True, wrap_mode='clamp')
+        self.rectangle(corner, u, v, f'AreaLightSource "diffuse" "string filename" "{file}"', bitmap)
+
+    def rectangle(self, corner, u, v, emit, radiance):
         p = [corner, np.add(corner, u), np.add(corner, v), np.add(np.add(corner, u), v)]
         numbers = ' '.join(f'{x:.9g}' for point in p for x in point)
-        emit = f'AreaLightSource "diffuse" "rgb L" [{radiance[0]} {radiance[1]} {radiance[2]}]'
         self.pbrt.append(f'AttributeBegin Material "diffuse" "rgb reflectance" [0 0 0] {emit} '
                          f'Shape "bilinearmesh" "point3 P" [{numbers}] AttributeEnd')
         matrix = np.eye(4)
@@ -141,7 +191,7 @@ class Scene:
         normal = np.cross(u, v)
         matrix[:3, 2] = normal / np.linalg.norm(normal)
         self.add(dict(type='rectangle', to_world=T(matrix), bsdf=dict(type='diffuse', reflectance=dict(type='rgb', value=0.0)),
-                      emitter=dict(type='area', radiance=dict(type='rgb', value=list(radiance)))))
+                      emitter=dict(type='area', radiance=radiance)))
 
     def ball(self, center, radius, radiance):
         emit = f'AreaLightSource "diffuse" "rgb L" [{radiance[0]} {radiance[1]} {radiance[2]}]'
@@ -234,6 +284,22 @@ def scenes():
         scene.ball((2.4 * k - 3.6, 1.0 - (k % 2) * 3, 0.9), 0.12, (30, 25, 20))
     yield scene
     yield grove()
+    scene = Scene('television', (2.4, 1.2, 1.9), (-1.6, -1.4, 0.4), 60)
+    # a room, a table and a couch before the television, which is on the wall behind the camera's left
+    room = [((-3, -3, -0.1), (3, 3, 0)), ((-3.1, -3, 0), (-3, 3, 2.6)), ((-3, -3.1, 0), (3, -3, 2.6)), ((-3, 2, 0), (3, 2.1, 2.6)),
+            ((-0.6, -0.6, 0.4), (0.6, 0, 0.45)), ((-0.55, -0.55, 0), (-0.5, -0.5, 0.4)), ((0.5, -0.55, 0), (0.55, -0.5, 0.4)),
+            ((-1.2, -2.2, 0), (1.2, -1.4, 0.4)), ((-1.2, -2.5, 0), (1.2, -2.2, 0.9)), ((-1.4, -2.5, 0), (-1.2, -1.4, 0.6))]
+    count = boxes(os.path.join(OPTIONS.folder, 'room.ply'), room)
+    scene.mesh('room.ply', count, (0, 0, 0), 1, 0)
+    scene.screen((-0.8, 1.95, 0.7), (1.6, 0, 0), (0, 0, 0.9), programme(128))
+    yield scene
+    scene = Scene('window', (-2.6, -2.4, 1.8), (1.2, 1.0, 0.6), 60)
+    hall = [((-3, -3, -0.1), (3, 3, 0)), ((3, -3, 0), (3.1, 3, 4)), ((-3, 3, 0), (3, 3.1, 4)), ((0.4, -0.2, 0), (0.8, 0.2, 1.2)),
+            ((-1.5, 1, 0), (1.5, 1.3, 0.45)), ((-1.5, 1.3, 0), (1.5, 1.36, 0.9)), ((1.6, -1.8, 0), (2, -1.4, 2.5))]
+    count = boxes(os.path.join(OPTIONS.folder, 'hall.ply'), hall)
+    scene.mesh('hall.ply', count, (0, 0, 0), 1, 0)
+    scene.screen((1.2, -2.95, 1), (-2.4, 0, 0), (0, 0, 2.6), glass(256))
+    yield scene
 
 
 def grove():

@@ -86,16 +86,19 @@ impl Texels {
     /// The mean colour of all texels, linear RGB.
     #[must_use]
     pub fn average(&self) -> [f64; 3] {
-        self.mean(Self::color).map(f64::from)
+        self.average_of(Self::color)
     }
     /// The mean over all texels.
     fn mean(&self, value: impl Fn(&Self, usize) -> [f32; 3]) -> [f32; 3] {
+        self.average_of(value).map(|x| x as f32)
+    }
+    fn average_of(&self, value: impl Fn(&Self, usize) -> [f32; 3]) -> [f64; 3] {
         let count = self.width * self.height;
         let mut sum = [0.0_f64; 3];
         for index in 0..count {
             sum.iter_mut().zip(value(self, index)).for_each(|(sum, x)| *sum += f64::from(x));
         }
-        sum.map(|x| (x / count as f64) as f32)
+        sum.map(|x| x / count as f64)
     }
 }
 

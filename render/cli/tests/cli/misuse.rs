@@ -109,6 +109,26 @@ fn a_cycle_of_files_is_named() {
 }
 
 #[test]
+fn a_faulty_picture_of_a_light_is_named() {
+    let folder = Folder::new();
+    let light = "AreaLightSource \"diffuse\" \"string filename\" \"p.pfm\" Shape \"sphere\"";
+    let texel = |x: f32| [b"PF\n1 1\n-1.0\n".as_slice(), &[x, 1.0, 2.0].map(f32::to_le_bytes).concat()].concat();
+    faulty(&folder, "lost.pbrt", scene(light), &["lost.pbrt:5: AreaLightSource \"diffuse\": p.pfm: cannot read"]);
+    for (x, what) in [(f32::NAN, "[NaN, 1.0, 2.0]"), (f32::INFINITY, "[inf, 1.0, 2.0]")] {
+        folder.write("p.pfm", texel(x));
+        faulty(
+            &folder,
+            "shown.pbrt",
+            scene(light),
+            &["shown.pbrt:5: ", "p.pfm: texel (0, 0) is ", what, "must be finite"],
+        );
+    }
+    // one texel is a picture
+    folder.write("p.pfm", texel(1.0));
+    folder.succeed(&["render", "shown.pbrt", "--spp", "4"]);
+}
+
+#[test]
 fn a_light_that_is_too_bright_is_named() {
     let folder = Folder::new();
     let bright = |radiance: &str| scene("").replace("[2 2 2]", &format!("[{radiance} 2 2]"));
