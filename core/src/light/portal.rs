@@ -49,13 +49,16 @@ impl PortalMap {
     ///
     /// The domain is [0, 1]². Near the edges of the map the solid angle goes to 0.
     #[must_use]
-    pub fn direction(&self, place: Vec2<f64>) -> (Vec3<f64>, f64) {
-        let angle = |x: f64| ((x - 0.5) * 0.5).sin_cos_turns();
+    pub fn direction<R: Real>(&self, place: Vec2<R>) -> (Vec3<R>, R) {
+        let half = R::lit(0.5);
+        let angle = |x: R| ((x - half) * half).sin_cos_turns();
         let ((sx, cx), (sy, cy)) = (angle(place.x), angle(place.y));
         let w = self.world([sx * cy, sy * cx, cx * cy]);
         let (w, length) = w.unit_and_length();
-        let solid_angle = if length > 0.0 { PI * PI * self.sin * (cx / length) * (cy / length) / length } else { 0.0 };
-        (w, solid_angle)
+        let some = length.gt(R::lit(0.0));
+        let length = R::blend(some, length, R::lit(1.0));
+        let solid_angle = (R::lit(PI * PI * self.sin) * (cx / length) * (cy / length) / length).keep(some);
+        (w, solid_angle.clamped(R::lit(0.0), R::lit(GREATEST)))
     }
     #[inline(always)]
     fn world<R: Real>(self, [x, y, z]: [R; 3]) -> Vec3<R> {
@@ -69,22 +72,25 @@ impl PortalMap {
 }
 
 /// A parallelogram through which the sky is seen, from the side that its normal s × t points away from.
-#[derive(Clone, Copy, Debug)]
-pub struct Portal<'a> {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Portal {
     corner: [f32; 3],
     lengths: [f64; 2],
     map: PortalMap,
-    table: PortalTable<'a>,
 }
 
-impl<'a> Portal<'a> {
-    /// The portal with a corner and the edges `s` and `t` from there, and the sky in its [`PortalMap`]. Portals of one map may share the
-    /// table. `None` if the edges are parallel or a number is not finite.
+impl Portal {
+    /// The portal with a corner and the edges `s` and `t` from there. `None` if the edges are parallel or a number is not finite.
     #[must_use]
-    pub fn new(corner: [f32; 3], s: [f32; 3], t: [f32; 3], table: PortalTable<'a>) -> Option<Self> {
+    pub fn new(corner: [f32; 3], s: [f32; 3], t: [f32; 3]) -> Option<Self> {
         let map = PortalMap::new(s, t)?;
         let lengths = [s, t].map(|v| Vec3::<f64>::from(v.map(f64::from)).unit_and_length().1);
-        corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map, table })
+        corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map })
+    }
+    /// The map in which its table shows the sky.
+    #[must_use]
+    pub fn map(&self) -> PortalMap {
+        self.map
     }
     #[inline(always)]
     fn sides<R: Real>(&self, p: Vec3<R>) -> ([Side<R>; 2], R::Mask) {
@@ -93,11 +99,12 @@ impl<'a> Portal<'a> {
         let (up, more) = Side::new(y, R::lit(self.lengths[1]), z);
         ([across, up], some & more)
     }
-    #[inline(always)]
-    fn spans<R: Real>(&self, sides: &[Side<R>; 2], lane: usize) -> [Span; 2] {
-        let [w, h] = self.table.size();
-        [sides[0].span(lane, w), sides[1].span(lane, h)]
-    }
+}
+
+#[inline(always)]
+fn spans<R: Real>(table: &PortalTable<'_>, sides: &[Side<R>; 2], lane: usize) -> [Span; 2] {
+    let [w, h] = table.size();
+    [sides[0].span(lane, w), sides[1].span(lane, h)]
 }
 
 /// How far beside a portal a direction still passes it, in radians: what the direction itself is rounded by.
@@ -131,8 +138,8 @@ fn slack<R: Real>() -> R {
 /// let weights: Vec<f32> = (0..256).map(|i| map.direction(place(i)).1 as f32).collect();
 /// let mut buffer = [0; PortalTable::buffer(16, 16)];
 /// let table = PortalTable::build(&weights, 16, &mut buffer).unwrap();
-/// let portals = [Portal::new(corner, s, t, table).unwrap()];
-/// let sky = PortalEnvironment::new(&portals).unwrap();
+/// let (portals, tables) = ([Portal::new(corner, s, t).unwrap()], [table]);
+/// let sky = PortalEnvironment::new(&portals, &tables).unwrap();
 /// let sampler = sky.by_radiance([0.0; 3].into());
 /// let w = sampler.sample(Vec2::new(0.3_f32, 0.6)).direction;
 /// let [y, z] = [w.y, w.z].map(|x| x / w.x * 3.0); // where it passes the plane of the window
@@ -141,20 +148,21 @@ fn slack<R: Real>() -> R {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct PortalEnvironment<'a> {
-    portals: &'a [Portal<'a>],
+    portals: &'a [Portal],
+    tables: &'a [PortalTable<'a>],
     /// The greatest unit of a table.
     unit: f64,
 }
 
 impl<'a> PortalEnvironment<'a> {
-    /// The sky through these portals.
+    /// The sky through these portals, with the table of each. Portals with the same [`PortalMap`] may share one.
     ///
     /// # Errors
-    /// If there are none or more than [`MOST_PORTALS`].
-    pub fn new(portals: &'a [Portal<'a>]) -> Result<Self, TableError> {
-        let is_some = (1..=MOST_PORTALS).contains(&portals.len());
-        let unit = portals.iter().fold(0.0, |most: f64, portal| most.max(portal.table.unit));
-        if is_some { Ok(Self { portals, unit }) } else { Err(TableError::Length) }
+    /// If there are none or more than [`MOST_PORTALS`], or not as many tables.
+    pub fn new(portals: &'a [Portal], tables: &'a [PortalTable<'a>]) -> Result<Self, TableError> {
+        let is_some = (1..=MOST_PORTALS).contains(&portals.len()) && tables.len() == portals.len();
+        let unit = tables.iter().fold(0.0, |most: f64, table| most.max(table.unit));
+        if is_some { Ok(Self { portals, tables, unit }) } else { Err(TableError::Length) }
     }
     /// Whether a ray from `p` in the unit direction `w` passes a portal towards the sky.
     #[inline(always)]
@@ -170,23 +178,24 @@ impl<'a> PortalEnvironment<'a> {
         let mut windows = [Window::default(); MOST_PORTALS];
         let mut cells = [0; MOST_LANES];
         let mut weights = [0.0; MOST_LANES];
-        for (portal, window) in self.portals.iter().zip(&mut windows) {
+        for ((portal, table), window) in self.portals.iter().zip(self.tables).zip(&mut windows) {
             let (sides, visible) = portal.sides(p);
-            let scale = portal.table.unit / self.unit;
+            let scale = table.unit / self.unit;
             let weight = R::from_fn(|lane| {
                 if !visible.lane(lane) {
                     return R::Scalar::lit(0.0);
                 }
-                let [columns, rows] = portal.spans(&sides, lane);
-                R::Scalar::lit((portal.table.columns(columns, rows).total * scale).max(LEAST_WEIGHT))
+                let [columns, rows] = spans(table, &sides, lane);
+                let weight = table.columns(columns, rows).total * columns.part_of_one() * rows.part_of_one();
+                R::Scalar::lit((weight * scale).max(LEAST_WEIGHT))
             });
             for lane in (0..R::LANES).filter(|&lane| visible.lane(lane)) {
-                cells[lane] += portal.spans(&sides, lane)[0].cells();
+                cells[lane] += spans(table, &sides, lane)[0].cells();
                 weights[lane] += weight.lane_f64(lane);
             }
             *window = Window { sides, weight };
         }
-        PortalsByRadiance { portals: self.portals, origin: p, windows, cells, weights }
+        PortalsByRadiance { portals: self.portals, tables: self.tables, origin: p, windows, cells, weights }
     }
 }
 
@@ -214,7 +223,8 @@ struct Window<R> {
 /// A sample has the pdf that [`pdf`](LightSampler::pdf) tells for its direction; next to the edge of a texel that may be the neighbour's.
 #[derive(Clone, Copy, Debug)]
 pub struct PortalsByRadiance<'a, R: Real> {
-    portals: &'a [Portal<'a>],
+    portals: &'a [Portal],
+    tables: &'a [PortalTable<'a>],
     origin: Vec3<R>,
     windows: [Window<R>; MOST_PORTALS],
     /// Number of columns that are seen in a lane, and their weight, over all portals.
@@ -234,10 +244,10 @@ impl<R: Real> PortalsByRadiance<'_, R> {
     #[inline(always)]
     fn each<T>(&self, lane: usize, mut visit: impl FnMut(usize, Place, [Span; 2]) -> Option<T>) -> Option<T> {
         let mut place = Place { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] };
-        for (k, portal) in self.portals.iter().enumerate() {
+        for (k, table) in self.tables.iter().enumerate() {
             let weight = self.windows[k].weight.lane_f64(lane);
             if weight > 0.0 {
-                let spans = portal.spans(&self.windows[k].sides, lane);
+                let spans = spans(table, &self.windows[k].sides, lane);
                 if let Some(found) = visit(k, place, spans) {
                     return Some(found);
                 }
@@ -255,7 +265,7 @@ impl<R: Real> PortalsByRadiance<'_, R> {
             if u * STEPS >= end {
                 return None;
             }
-            let table = &self.portals[portal].table;
+            let table = &self.tables[portal];
             let column = place.draw(&table.columns(columns, rows), weight, u);
             let row = Place::only(&rows).draw(&table.rows(column.cell, rows), 1.0, v);
             Some(Drawn { portal, place: [column.place(u), row.place(v)] })
@@ -265,7 +275,7 @@ impl<R: Real> PortalsByRadiance<'_, R> {
     /// Column and row of a position in a portal.
     #[inline(always)]
     fn find(&self, lane: usize, portal: usize, place: Place, [columns, rows]: [Span; 2], at: [f64; 2]) -> [Found; 2] {
-        let table = &self.portals[portal].table;
+        let table = &self.tables[portal];
         let weight = self.windows[portal].weight.lane_f64(lane);
         let column = place.find(&table.columns(columns, rows), weight, columns.cell(at[0]));
         let row = Place::only(&rows).find(&table.rows(column.cell, rows), 1.0, rows.cell(at[1]));

@@ -36,7 +36,9 @@ impl<R: Real> Side<R> {
         let ((first, some), (last, more)) = (unit(start), unit(end));
         let place = start.atan2(height).mul_add(R::lit(FRAC_1_PI), R::lit(0.5)).clamped(zero, R::lit(1.0));
         let visible = some & more & height.gt(zero) & size.gt(zero) & size.lt(R::lit(PI)) & reach.lt(R::lit(1e37));
-        (Self { start: first, end: last, size, place }, visible)
+        let keep = |pair: [R; 2]| pair.map(|x| x.keep(visible));
+        let size = size.keep(visible);
+        (Self { start: keep(first), end: keep(last), size, place: place.keep(visible) }, visible)
     }
     /// Whether a direction with the component `along` the edge, and `ahead` along the normal, is within the range to so much.
     #[inline(always)]

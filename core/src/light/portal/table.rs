@@ -57,7 +57,11 @@ impl Span {
             near
         }
     }
-    /// Parts of the first and the last cell that it covers, greater than 0.
+    /// What it covers of its cell, if it has only one; else 1.
+    pub(super) fn part_of_one(&self) -> f64 {
+        if self.first == self.last { self.high - self.low } else { 1.0 }
+    }
+    /// Parts of the first and the last cell that it covers, greater than 0; 1 of a single cell.
     fn parts(&self) -> [f64; 2] {
         if self.first == self.last {
             return [1.0; 2];
