@@ -51,6 +51,8 @@ mod message;
 mod named_materials;
 mod params;
 mod ply;
+mod portal_sides;
+mod portals;
 mod reader;
 mod shape_attributes;
 mod shapes;
@@ -69,7 +71,7 @@ pub use crate::geometry::{Affine, Geometry, Instance};
 use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
-pub use lights::{DeltaLight, Emission, Environment, SkyRadiance};
+pub use lights::{DeltaLight, Emission, Environment, SkyRadiance, SunDisk};
 pub use materials::{Material, Roughness, Varying};
 pub use message::Message;
 use message::utf8;
@@ -164,7 +166,7 @@ pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> R
         true => [[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
         false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     };
-    scene.environment = sky.map(|sky| Environment { to_light, sky });
+    scene.environment = sky.map(|sky| Environment { to_light, sky, portals: Vec::new(), sun: None });
     scene.inputs.push(path.to_owned());
     Ok(scene)
 }

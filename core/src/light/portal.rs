@@ -87,6 +87,11 @@ impl Portal {
         let lengths = [s, t].map(|v| Vec3::<f64>::from(v.map(f64::from)).unit_and_length().1);
         corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map })
     }
+    /// Whether the portal shows the sky to a point: it is on the side that the normal points away from.
+    #[inline(always)]
+    pub fn faces<R: Real>(&self, p: Vec3<R>) -> R::Mask {
+        self.sides(p).1
+    }
     /// The map in which its table shows the sky.
     #[must_use]
     pub fn map(&self) -> PortalMap {
@@ -168,8 +173,21 @@ impl<'a> PortalEnvironment<'a> {
     #[inline(always)]
     pub fn sees<R: Real>(&self, p: Vec3<R>, w: Vec3<R>) -> R::Mask {
         self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
-            let (sides, visible) = portal.sides(p);
-            sees | visible & passes(&portal.map, &sides, w)
+            let ([across, up], visible) = portal.sides(p);
+            let [x, y, z] = portal.map.local(w);
+            sees | visible & passes([&across, &up], [x, y, z])
+        })
+    }
+    /// Whether a ray from `p` within so many radians of the unit direction `w` may pass a portal. Where this is false, none does; a sun
+    /// need not be sampled there.
+    #[inline(always)]
+    pub fn sees_cone<R: Real>(&self, p: Vec3<R>, w: Vec3<R>, radius: R) -> R::Mask {
+        self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
+            let ([across, up], visible) = portal.sides(p);
+            let [x, y, z] = portal.map.local(w);
+            // an oblique axis stretches a small step by the inverse of the sine
+            let slack = (radius + slack()) * R::lit(1.0 / portal.map.sin);
+            sees | visible & across.has(x, z, slack) & up.has(y, z, slack) & z.gt(-slack)
         })
     }
     /// Directions from `p` in proportion to the weights.
@@ -203,11 +221,10 @@ const MOST_LANES: usize = 16;
 /// Weights are at least this: less has no reciprocal in single precision.
 const LEAST_WEIGHT: f64 = 1e-37;
 
-/// Whether a direction passes a portal.
+/// Whether a direction of these components passes a portal that is seen.
 #[inline(always)]
-fn passes<R: Real>(map: &PortalMap, [across, up]: &[Side<R>; 2], w: Vec3<R>) -> R::Mask {
-    let [x, y, z] = map.local(w);
-    across.has(x, z, slack()) & up.has(y, z, slack())
+fn passes<R: Real>([across, up]: [&Side<R>; 2], [x, y, z]: [R; 3]) -> R::Mask {
+    across.has(x, z, slack()) & up.has(y, z, slack()) & z.gt(R::lit(0.0))
 }
 
 /// A portal as a point sees it.
@@ -286,7 +303,7 @@ impl<R: Real> PortalsByRadiance<'_, R> {
     fn positions(&self, k: usize, w: Vec3<R>) -> ([R; 2], R, R::Mask) {
         let (map, Window { sides: [across, up], weight }) = (&self.portals[k].map, &self.windows[k]);
         let [x, y, z] = map.local(w);
-        let passes = weight.gt(R::lit(0.0)) & across.has(x, z, slack()) & up.has(y, z, slack());
+        let passes = weight.gt(R::lit(0.0)) & passes([across, up], [x, y, z]);
         // the area of the window, in radians², per steradian
         let (a, b) = (x.mul_add(x, z * z), y.mul_add(y, z * z));
         let area = (z / a) / b / (across.size * up.size * R::lit(map.sin));

@@ -3,12 +3,13 @@
 use super::lexer::shortened;
 use super::message::{Message, Notes};
 use super::params::{MOST_RADIANCE, Params, Resolve, brightness, rounded, shown};
+use super::portals;
 use super::spectrum::luminance;
 use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
 use etendue::Vec2;
-use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
+use etendue::light::{EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, Texel};
 use std::f64::consts::PI;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
@@ -59,6 +60,21 @@ pub struct Environment {
     pub to_light: [[f32; 3]; 3],
     /// Radiance by direction.
     pub sky: SkyRadiance,
+    /// What the light comes through; if there are none, it comes from everywhere.
+    pub portals: Vec<Portal>,
+    /// A disk of light before the sky.
+    pub sun: Option<SunDisk>,
+}
+
+/// A disk of constant radiance in the sky.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunDisk {
+    /// Unit vector towards its centre, in world space.
+    pub direction: [f32; 3],
+    /// 1 − cosσ of the angle σ that its radius spans, greater than 0.
+    pub one_minus_cos: f32,
+    /// Radiance in addition to the sky's, linear RGB; at least one channel is greater than 0.
+    pub radiance: [f32; 3],
 }
 
 /// Radiance of an [`Environment`], linear RGB.
@@ -128,9 +144,7 @@ pub(super) fn read(
             ));
         }
     };
-    if params.given("portal") {
-        notes.stand_in("portal", || params.error("\"portal\" is ignored: light comes from everywhere"));
-    }
+    let portals = if kind == "infinite" { portals::read(params)? } else { Vec::new() };
     // older files scale by a colour
     let scale = scale(params)?;
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
@@ -152,7 +166,7 @@ pub(super) fn read(
                 None => sky,
             });
             match picture {
-                Some(sky) => Source::Environment(Environment { to_light, sky }),
+                Some(sky) => Source::Environment(Environment { to_light, sky, portals, sun: None }),
                 None => Source::Dark,
             }
         }
@@ -179,7 +193,7 @@ pub(super) fn read(
                 || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
             let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
             brightness(colour).into_iter().for_each(|text| notes.warn(params.error(text)));
-            let source = constant(kind, params, ctm, colour)?;
+            let source = constant(kind, params, ctm, colour, portals)?;
             if colour == [0.0; 3] { Source::Dark } else { source }
         }
     };
@@ -279,12 +293,26 @@ fn illuminating(sky: SkyRadiance, wanted: f64) -> SkyRadiance {
 }
 
 impl Environment {
-    /// The sum of two skies, if one of them is the same in all directions.
-    pub(super) fn and(self, other: Self) -> Option<Self> {
+    /// The sum of two skies, if one of them is the same in all directions, or if both are the same sky through other portals.
+    pub(super) fn and(mut self, other: Self) -> Option<Self> {
+        if !self.portals.is_empty()
+            && !other.portals.is_empty()
+            && (self.to_light, self.sun) == (other.to_light, other.sun)
+        {
+            let are_few = self.portals.len() + other.portals.len() <= MOST_PORTALS;
+            if are_few && self.sky == other.sky {
+                self.portals.extend(other.portals);
+                return Some(self);
+            }
+        }
+        if !(self.portals.is_empty() && other.portals.is_empty()) || self.sun.is_some() && other.sun.is_some() {
+            return None;
+        }
+        let sun = self.sun.or(other.sun);
         let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| (a[k] + b[k]).min(MOST_RADIANCE));
         let (constant, other) = match (self.sky, other.sky) {
             (SkyRadiance::Constant(a), sky) => (a, Self { sky, ..other }),
-            (sky, SkyRadiance::Constant(b)) => (b, Self { sky, to_light: self.to_light }),
+            (sky, SkyRadiance::Constant(b)) => (b, Self { sky, to_light: self.to_light, ..other }),
             _ => return None,
         };
         let sky = match other.sky {
@@ -294,11 +322,17 @@ impl Environment {
                 SkyRadiance::Image { width, map, texels }
             }
         };
-        Some(Self { sky, ..other })
+        Some(Self { sky, sun, ..other })
     }
 }
 
-fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) -> Result<Source, Message> {
+fn constant(
+    kind: &str,
+    params: &mut Params,
+    ctm: &Transform,
+    colour: [f32; 3],
+    portals: Vec<Portal>,
+) -> Result<Source, Message> {
     let mut point = |name: &str, default: [f64; 3]| -> Result<[f64; 3], Message> {
         let Some(p) = params.numbers(name, "point3", 3)? else { return Ok(default) };
         <[f64; 3]>::try_from(&p[..])
@@ -308,6 +342,8 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
         return Ok(Source::Environment(Environment {
             to_light: turned(params, ctm)?,
             sky: SkyRadiance::Constant(colour),
+            portals,
+            sun: None,
         }));
     }
     let from = point("from", [0.0; 3])?;

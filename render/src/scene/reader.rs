@@ -12,6 +12,7 @@ use super::materials::Material;
 use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
 use super::params::{Param, Params};
+use super::portal_sides;
 use super::shape_attributes::ShapeAttributes;
 use super::shapes;
 use super::textures::Textures;
@@ -20,6 +21,7 @@ use super::transform_directives;
 use super::view::{self, Window};
 use crate::image;
 use crate::texture::{Mask, Texture};
+use etendue::light::Portal;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -60,6 +62,8 @@ struct Reader<'a> {
     pixel_samples: Option<u32>,
     delta_lights: Vec<DeltaLight>,
     environment: Option<Environment>,
+    /// The portals, with what to say if one faces away.
+    portals: Vec<(Portal, Message)>,
     out: Builder,
     state: State,
     saved: Vec<(State, Place)>,
@@ -92,6 +96,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         pixel_samples: None,
         delta_lights: Vec::new(),
         environment: None,
+        portals: Vec::new(),
         out: Builder::default(),
         state,
         saved: Vec::new(),
@@ -135,7 +140,9 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         environment: reader.environment,
         inputs: reader.inputs.into_inner(),
     };
-    Ok(reader.out.scene(&file, rest, |text| end.message(text)))
+    let scene = reader.out.scene(&file, rest, |text| end.message(text));
+    portal_sides::check(&scene, reader.portals)?;
+    Ok(scene)
 }
 
 impl Reader<'_> {
@@ -461,16 +468,20 @@ impl Reader<'_> {
         let files = Files { resolve: &resolve, open: &open };
         match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
             lights::Source::Delta(light) => self.delta_lights.push(light),
-            lights::Source::Environment(environment) => match self.environment.take() {
-                None => self.environment = Some(environment),
-                Some(before) => {
-                    let kept = before.clone();
-                    self.environment = before.and(environment).or_else(|| {
-                        out.notes.stand_in("second sky", || params.error("a second image of a sky is ignored"));
-                        Some(kept)
-                    });
+            lights::Source::Environment(environment) => {
+                let facing = |portal: &Portal| (*portal, portal_sides::faces_away(params));
+                self.portals.extend(environment.portals.iter().map(facing));
+                match self.environment.take() {
+                    None => self.environment = Some(environment),
+                    Some(before) => {
+                        let kept = before.clone();
+                        self.environment = before.and(environment).or_else(|| {
+                            out.notes.stand_in("second sky", || params.error("a second sky is ignored"));
+                            Some(kept)
+                        });
+                    }
                 }
-            },
+            }
             lights::Source::Dark => {}
         }
         Ok(())

@@ -40,11 +40,11 @@ impl<R: Real> Side<R> {
         let size = size.keep(visible);
         (Self { start: keep(first), end: keep(last), size, place: place.keep(visible) }, visible)
     }
-    /// Whether a direction with the component `along` the edge, and `ahead` along the normal, is within the range to so much.
+    /// Whether a direction with the component `along` the edge, and `ahead` along the normal, is within the range to so many radians.
     #[inline(always)]
     pub(super) fn has(&self, along: R, ahead: R, slack: R) -> R::Mask {
         let after = |[sin, cos]: [R; 2]| along.mul_add(cos, -(ahead * sin));
-        after(self.start).ge(-slack) & after(self.end).le(slack) & ahead.gt(R::lit(0.0))
+        after(self.start).ge(-slack) & after(self.end).le(slack)
     }
     /// The position of that direction in the range, in [0, 1].
     #[inline(always)]
