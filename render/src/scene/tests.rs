@@ -7,6 +7,7 @@ mod lights;
 mod many_lights;
 mod meshes;
 mod own_scenes;
+mod portals;
 
 use super::*;
 

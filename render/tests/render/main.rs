@@ -9,6 +9,7 @@ mod lens;
 mod lights;
 mod own_scenes;
 mod parts;
+mod portals;
 mod references;
 mod sampler;
 mod sensor;
