@@ -83,6 +83,7 @@
 
 mod annulus;
 mod cylinder;
+mod daylight;
 mod delta;
 mod disk;
 mod distant;
@@ -100,6 +101,7 @@ mod techniques;
 
 pub use annulus::{Annulus, AnnulusByArea, PlacedAnnulus};
 pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
+pub use daylight::{GeneralSky, Moment, SunPosition};
 pub use delta::{
     DirectionalLight, DirectionalLightByDelta, PointLight, PointLightByDelta, SpotLight, SpotLightByDelta,
 };
