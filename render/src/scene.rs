@@ -22,10 +22,25 @@
 //! | other patches, `disk`, `cylinder`, partial, stretched or textured spheres | triangles |
 //! | `curve` and older quadrics | left out |
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
-//! | `goniometric`, `projection`, lights with a picture | a point, spot or plain light of the same mean; portals are ignored |
+//! | `goniometric`, `projection`, lights with a picture | a point, spot or plain light of the same mean |
+//! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
+//!
+//! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
+//! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
+//! ([`GeneralSky`](etendue::light::GeneralSky)). In the light's space +x is east, +y north and +z up; nothing shines from below the horizon.
+//!
+//! | parameter of a `cie` sky | what it is | default |
+//! |---|---|---|
+//! | `integer type` | type of the sky, 1 to 15 | 12: clear |
+//! | `float elevation`, `azimuth` | the sun in degrees: above the horizon, and from north over east | azimuth 180 |
+//! | `float latitude`, `longitude` | place in degrees, instead of those; north and east are positive | |
+//! | `integer year`, `month`, `day`, `float hours`, `timezone` | local time there; the time zone is in hours before Greenwich | timezone 0 |
+//! | `rgb L`, `float scale` | radiance of the zenith | 1 |
+//! | `float illuminance` | illuminance of the horizontal plane by the sky, instead | |
+//! | `float sun` | illuminance of a surface that faces the sun, by its disk of 0.53° | 0: no disk |
 //!
 //! | in glTF files | becomes |
 //! |---|---|
@@ -39,7 +54,9 @@
 
 mod builder;
 mod builtin;
+mod daylight;
 mod description;
+mod environment;
 mod generated;
 mod gltf;
 mod includes;
@@ -71,7 +88,8 @@ pub use crate::geometry::{Affine, Geometry, Instance};
 use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
-pub use lights::{DeltaLight, Emission, Environment, SkyRadiance, SunDisk};
+pub use environment::{Environment, SkyRadiance, SunDisk};
+pub use lights::{DeltaLight, Emission};
 pub use materials::{Material, Roughness, Varying};
 pub use message::Message;
 use message::utf8;

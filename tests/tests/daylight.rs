@@ -109,7 +109,7 @@ fn horizontal_illuminance() {
     assert!((uniform - PI).abs() < 1e-9, "{uniform}");
     let mut worst = 0.0_f64;
     for kind in 1..=15 {
-        for zenith in [0.0, 25.0, 60.0, 88.0] {
+        for zenith in [0.0, 25.0, 60.0, 88.0].into_iter().skip(kind % cases(4, 1)).step_by(cases(4, 1)) {
             let sun = at(zenith, 70.0);
             let (rule_u, rule_v) = (gauss_legendre::<400>(), 400);
             // polar coordinates about the sun

@@ -1,5 +1,7 @@
 //! Reads `LightSource` and `AreaLightSource`.
 
+use super::daylight;
+use super::environment::{Environment, SkyRadiance};
 use super::lexer::shortened;
 use super::message::{Message, Notes};
 use super::params::{MOST_RADIANCE, Params, Resolve, brightness, rounded, shown};
@@ -9,7 +11,7 @@ use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
 use etendue::Vec2;
-use etendue::light::{EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, Texel};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, Texel};
 use std::f64::consts::PI;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
@@ -51,46 +53,6 @@ pub struct Emission {
     pub radiance: [f32; 3],
     /// Whether both sides emit, or only the side of the normal.
     pub two_sided: bool,
-}
-
-/// Light from infinitely far away in all directions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Environment {
-    /// Rows of the orthogonal matrix from world space to light space.
-    pub to_light: [[f32; 3]; 3],
-    /// Radiance by direction.
-    pub sky: SkyRadiance,
-    /// What the light comes through; if there are none, it comes from everywhere.
-    pub portals: Vec<Portal>,
-    /// A disk of light before the sky.
-    pub sun: Option<SunDisk>,
-}
-
-/// A disk of constant radiance in the sky.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SunDisk {
-    /// Unit vector towards its centre, in world space.
-    pub direction: [f32; 3],
-    /// 1 − cosσ of the angle σ that its radius spans, greater than 0.
-    pub one_minus_cos: f32,
-    /// Radiance in addition to the sky's, linear RGB; at least one channel is greater than 0.
-    pub radiance: [f32; 3],
-}
-
-/// Radiance of an [`Environment`], linear RGB.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SkyRadiance {
-    /// The same in all directions.
-    Constant([f32; 3]),
-    /// An image, constant within each texel.
-    Image {
-        /// Number of columns.
-        width: usize,
-        /// How the image maps to directions.
-        map: EnvironmentMap,
-        /// Texels row by row; at least one channel is greater than 0.
-        texels: Vec<[f32; 3]>,
-    },
 }
 
 /// What a `LightSource` directive creates.
@@ -156,7 +118,20 @@ pub(super) fn read(
     if let Some(x) = wanted.filter(|&x| x <= 0.0) {
         return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
     }
+    let formula = if kind == "infinite" { params.text("sky")? } else { None };
     let source = match file {
+        Some(file) if formula.is_some() => {
+            return Err(
+                params.error(format!("\"sky\" and \"filename\" {}: a sky has one or the other", shortened(&file)))
+            );
+        }
+        None if formula.is_some() => {
+            let given = colour.unwrap_or([1.0; 3]);
+            let (to_light, zenith) = (turned(params, ctm)?, std::array::from_fn(|k| given[k] * scale[k]));
+            let daylight = daylight::read(&formula.unwrap_or_default(), params, zenith, wanted, &to_light)?;
+            let light = |(sky, sun)| Source::Environment(Environment { to_light, sky, portals, sun });
+            daylight.map_or(Source::Dark, light)
+        }
         Some(file) if kind == "infinite" => {
             let to_light = turned(params, ctm)?;
             // pbrt-v3 multiplies both, and pbrt-v4 refuses them
@@ -290,40 +265,6 @@ fn illuminating(sky: SkyRadiance, wanted: f64) -> SkyRadiance {
     let factor = if sum > 0.0 { wanted / sum } else { 1.0 };
     let texels = texels.into_iter().map(|rgb| rgb.map(|x| (f64::from(x) * factor) as f32)).collect();
     SkyRadiance::Image { width, map, texels }
-}
-
-impl Environment {
-    /// The sum of two skies, if one of them is the same in all directions, or if both are the same sky through other portals.
-    pub(super) fn and(mut self, other: Self) -> Option<Self> {
-        if !self.portals.is_empty()
-            && !other.portals.is_empty()
-            && (self.to_light, self.sun) == (other.to_light, other.sun)
-        {
-            let are_few = self.portals.len() + other.portals.len() <= MOST_PORTALS;
-            if are_few && self.sky == other.sky {
-                self.portals.extend(other.portals);
-                return Some(self);
-            }
-        }
-        if !(self.portals.is_empty() && other.portals.is_empty()) || self.sun.is_some() && other.sun.is_some() {
-            return None;
-        }
-        let sun = self.sun.or(other.sun);
-        let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| (a[k] + b[k]).min(MOST_RADIANCE));
-        let (constant, other) = match (self.sky, other.sky) {
-            (SkyRadiance::Constant(a), sky) => (a, Self { sky, ..other }),
-            (sky, SkyRadiance::Constant(b)) => (b, Self { sky, to_light: self.to_light, ..other }),
-            _ => return None,
-        };
-        let sky = match other.sky {
-            SkyRadiance::Constant(b) => SkyRadiance::Constant(add(constant, b)),
-            SkyRadiance::Image { width, map, texels } => {
-                let texels = texels.into_iter().map(|texel| add(texel, constant)).collect();
-                SkyRadiance::Image { width, map, texels }
-            }
-        };
-        Some(Self { sky, sun, ..other })
-    }
 }
 
 fn constant(

@@ -2,6 +2,7 @@
 //! scenes of many lights, `own_scenes` what files of others have.
 
 mod cameras;
+mod daylight;
 mod faulty;
 mod lights;
 mod many_lights;

@@ -58,7 +58,7 @@ fn portals_that_are_none_are_errors() {
             "{message}"
         );
     }
-    let many = vec![UP; 9].join(" ");
+    let many = [UP; 9].join(" ");
     assert!(error(&format!("{FLOOR}{}", sky(&many))).contains("found 36 points"));
     let message = error(&format!("{FLOOR}{}", sky("0 0")));
     assert!(message.contains("expected a multiple of 3 numbers, found 2"), "{message}");
