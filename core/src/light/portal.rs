@@ -128,7 +128,7 @@ fn slack<R: Real>() -> R {
 /// - Domain: u in [0, 1)²; any point.
 /// - Density: probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal is
 ///   seen, and from behind. Each column and row has at least 2⁻²⁴ of the numbers, so that the probabilities are those of the draw exactly.
-/// - Degenerate: no portal seen, in its plane or from behind: pdf 0.
+/// - Degenerate: no portal seen, from within 1e−6 rad of its plane or from behind: pdf 0.
 /// - Greatest error: direction 6e−7. A direction within 3e−7 beside a portal passes it. Next to the edge of a texel rounding decides whose pdf
 ///   a sample has.
 /// - Source: Bitterli, Novák and Jarosz 2015, and Crow 1984 for the table.

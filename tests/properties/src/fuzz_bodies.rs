@@ -10,6 +10,7 @@ mod numbers;
 mod occlusion;
 mod sequences;
 mod shapes;
+mod skies;
 mod surfaces;
 
 use crate::generators::{self, EDGES, NASTY};
@@ -82,6 +83,10 @@ targets! {
     distant_lights: lights, 700;
     /// An environment image, in either mapping.
     environment: numbers, 300;
+    /// The sky through up to three portals, seen from anywhere.
+    portals: skies, 30;
+    /// Daylight of any type, and the sun at any time and place.
+    daylight: skies, 200;
     /// Tables of one and two dimensions.
     piecewise_constant: numbers, 500;
     /// Vose's alias tables.

@@ -5,6 +5,9 @@ use crate::math::rsqrt;
 use crate::real::Real;
 use core::f64::consts::{FRAC_1_PI, PI};
 
+/// The sine of the angle below which a portal is seen edge-on, as if from its plane.
+const EDGE_ON: f64 = 1e-6;
+
 /// The angles about the other edge, between the normal and directions into the portal, along one edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Side<R> {
@@ -26,6 +29,8 @@ impl<R: Real> Side<R> {
         let scale = reach.pow2_scale();
         let (start, length, height) = (start * scale, length * scale, height * scale);
         let end = start + length;
+        // closer to the plane, rounding decides on which side directions into the portal are
+        let near = start.abs().greater(end.abs()) * R::lit(EDGE_ON);
         let size = (length * height).atan2(start.mul_add(end, height * height));
         let unit = |x: R| {
             let squared = x.mul_add(x, height * height);
@@ -35,7 +40,13 @@ impl<R: Real> Side<R> {
         };
         let ((first, some), (last, more)) = (unit(start), unit(end));
         let place = start.atan2(height).mul_add(R::lit(FRAC_1_PI), R::lit(0.5)).clamped(zero, R::lit(1.0));
-        let visible = some & more & height.gt(zero) & size.gt(zero) & size.lt(R::lit(PI)) & reach.lt(R::lit(1e37));
+        let visible = some
+            & more
+            & height.gt(zero)
+            & height.gt(near)
+            & size.gt(zero)
+            & size.lt(R::lit(PI))
+            & reach.lt(R::lit(1e37));
         let keep = |pair: [R; 2]| pair.map(|x| x.keep(visible));
         let size = size.keep(visible);
         (Self { start: keep(first), end: keep(last), size, place: place.keep(visible) }, visible)
