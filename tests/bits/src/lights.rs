@@ -190,7 +190,7 @@ impl Routine for Daylight {
         let mut random = Random::new(1000);
         for kind in 1..=15 {
             let sky = GeneralSky::new(kind, random.direction()).expect("one of the types");
-            figures.packets::<R>(SLOTS / 15, |_, lanes| {
+            figures.packets::<R>(4 * Figures::MOST, |_, lanes| {
                 let ws: Vec<_> = (0..R::LANES).map(|_| unit(&mut random)).collect();
                 lanes.real(sky.luminance(vectors_of::<R>(|i| ws[i])));
             });
