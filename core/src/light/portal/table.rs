@@ -22,6 +22,7 @@ pub(super) struct Span {
 
 impl Span {
     /// The span that begins at `start` in [0, 1] and has this size, over so many cells.
+    #[inline]
     pub(super) fn new(start: f64, size: f64, cells: usize) -> Self {
         let most = cells as f64;
         let low = start.clamp(0.0, 1.0) * most;
@@ -32,10 +33,12 @@ impl Span {
         Self { low, high, first, last: last.clamp(first, cells as u32 - 1) }
     }
     /// Number of cells that it touches.
+    #[inline]
     pub(super) fn cells(&self) -> u32 {
         self.last - self.first + 1
     }
     /// Where a cell begins, as a fraction of the span.
+    #[inline]
     pub(super) fn edge(&self, cell: u32) -> f64 {
         if cell <= self.first {
             0.0
@@ -46,6 +49,7 @@ impl Span {
         }
     }
     /// The cell at a fraction of the span.
+    #[inline]
     pub(super) fn cell(&self, fraction: f64) -> u32 {
         let near = ((self.low + fraction * (self.high - self.low)) as u32).clamp(self.first, self.last);
         // rounding may have crossed an edge
@@ -58,10 +62,12 @@ impl Span {
         }
     }
     /// What it covers of its cell, if it has only one; else 1.
+    #[inline]
     pub(super) fn part_of_one(&self) -> f64 {
         if self.first == self.last { self.high - self.low } else { 1.0 }
     }
     /// Parts of the first and the last cell that it covers, greater than 0; 1 of a single cell.
+    #[inline]
     fn parts(&self) -> [f64; 2] {
         if self.first == self.last {
             return [1.0; 2];
@@ -84,6 +90,7 @@ pub(super) struct Distribution<F> {
 }
 
 impl<F: Fn(u32) -> u64> Distribution<F> {
+    #[inline]
     fn new(span: Span, sum: F) -> Self {
         let [head, tail] = span.parts();
         let base = sum(span.first + 1);
@@ -97,10 +104,12 @@ impl<F: Fn(u32) -> u64> Distribution<F> {
         Self { total: before + last * tail, ..own }
     }
     /// Weight of the cells before one that is neither the first nor past the last. No cell has a negative weight: no rounding has one either.
+    #[inline]
     fn weight_before(&self, cell: u32) -> f64 {
         self.head + (self.sum)(cell).saturating_sub(self.base) as f64
     }
     /// Fraction of the weight before a cell, in [0, 1].
+    #[inline]
     fn share_before(&self, cell: u32) -> f64 {
         if cell <= self.span.first {
             0.0
@@ -135,6 +144,7 @@ pub(super) struct Found {
 
 impl Found {
     /// The position in the span to which `u` goes.
+    #[inline]
     pub(super) fn place(&self, u: f64) -> f64 {
         let [first, count] = self.steps;
         let [start, size] = self.part;
@@ -142,6 +152,7 @@ impl Found {
         (start + within * size).min(1.0)
     }
     /// The `u` that goes to a position in the span.
+    #[inline]
     pub(super) fn invert(&self, place: f64) -> f64 {
         let [first, count] = self.steps;
         let [start, size] = self.part;
@@ -149,6 +160,7 @@ impl Found {
         (first + within * count) / STEPS
     }
     /// Probability of the cell over its part of the span.
+    #[inline]
     pub(super) fn density(&self) -> f64 {
         self.steps[1] / STEPS / self.part[1].max(1e-12)
     }
@@ -156,19 +168,23 @@ impl Found {
 
 impl Place {
     /// A span alone.
+    #[inline]
     pub(super) fn only(span: &Span) -> Self {
         Self { cells: [span.cells(), 0], weights: [1.0, 0.0] }
     }
     /// The step at which something begins that has so many cells and this weight before it.
+    #[inline]
     pub(super) fn step(&self, cells: u32, weight: f64) -> f64 {
         let free = STEPS - f64::from(self.cells[0]);
         let share = if self.weights[0] > 0.0 { (weight / self.weights[0]).min(1.0) } else { 0.0 };
         f64::from(cells) + f64::from((share * free) as u32)
     }
+    #[inline]
     fn step_of<F: Fn(u32) -> u64>(&self, own: &Distribution<F>, weight: f64, cell: u32) -> f64 {
         self.step(self.cells[1] + cell - own.span.first, self.weights[1] + weight * own.share_before(cell))
     }
     /// What is known of a cell of a distribution with this weight.
+    #[inline]
     pub(super) fn find<F: Fn(u32) -> u64>(&self, own: &Distribution<F>, weight: f64, cell: u32) -> Found {
         let first = self.step_of(own, weight, cell);
         let count = (self.step_of(own, weight, cell + 1) - first).max(0.0);
@@ -176,6 +192,7 @@ impl Place {
         Found { cell, steps: [first, count], part: [start, own.span.edge(cell + 1) - start] }
     }
     /// Draws a cell.
+    #[inline]
     pub(super) fn draw<F: Fn(u32) -> u64>(&self, own: &Distribution<F>, weight: f64, u: f64) -> Found {
         let (mut low, mut high) = (own.span.first, own.span.last);
         while low < high {
@@ -269,10 +286,12 @@ impl<'a> PortalTable<'a> {
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }
+    #[inline]
     fn sum(&self, column: u32, row: u32) -> u64 {
         self.sums.get(column as usize * (self.height + 1) + row as usize).copied().unwrap_or(0)
     }
     /// The columns, by what these rows of them weigh, in 2⁻¹⁵ of the unit.
+    #[inline]
     pub(super) fn columns(&self, columns: Span, rows: Span) -> Distribution<impl Fn(u32) -> u64> {
         let parts = rows.parts().map(|part| (part * WHOLE_ROW as f64) as u64);
         let table = *self;
@@ -289,6 +308,7 @@ impl<'a> PortalTable<'a> {
         })
     }
     /// These rows of a column.
+    #[inline]
     pub(super) fn rows(&self, column: u32, rows: Span) -> Distribution<impl Fn(u32) -> u64> {
         let table = *self;
         Distribution::new(rows, move |row| table.sum(column + 1, row).saturating_sub(table.sum(column, row)))

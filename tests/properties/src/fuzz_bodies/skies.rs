@@ -4,7 +4,7 @@ use super::Input;
 use crate::properties::{squares_of, vectors_of};
 use core::f64::consts::{FRAC_PI_2, TAU};
 use etendue::light::{GeneralSky, Moment, Portal, PortalEnvironment, PortalTable, SunPosition};
-use etendue::{LightSampler, Mask, Real, Vec3, f32x8};
+use etendue::{LightSampler, Real, Vec3, f32x8};
 use etendue_oracle::{cross, length, wide};
 
 /// One to three portals of any place and shape, seen from anywhere: finite everywhere, and each sample is one that the pdf tells of.
