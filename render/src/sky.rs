@@ -115,14 +115,22 @@ impl Sky {
     /// Radiance of a ray from `p` in this direction.
     #[inline]
     pub fn radiance(&self, p: V8, direction: V8) -> V8 {
-        let mut radiance = self.of_sky(direction);
-        if let Some(sun) = &self.sun {
-            let is_sun = sun.sampler().pdf(direction).gt(X8::lit(0.0));
-            radiance += V8::from(sun.disk.radiance).keep(is_sun);
-        }
+        let radiance = self.of_both(direction);
         match &self.windows {
             Some(windows) => radiance.keep(windows.all(|all| all.sees(p, direction))),
             None => radiance,
+        }
+    }
+    /// Radiance of sky and sun, as if there were no portals.
+    #[inline]
+    fn of_both(&self, direction: V8) -> V8 {
+        let of_sky = self.of_sky(direction);
+        match &self.sun {
+            Some(sun) => {
+                let is_sun = sun.sampler().pdf(direction).gt(X8::lit(0.0));
+                of_sky + V8::from(sun.disk.radiance).keep(is_sun)
+            }
+            None => of_sky,
         }
     }
     #[inline]
@@ -141,23 +149,40 @@ impl Sky {
         if self.windows.is_none() && self.sun.is_none() {
             return self.sample_sky(measure, normal, u);
         }
-        let Some(sun) = &self.sun else {
-            let sample = self.sample_windows(measure, p, normal, u);
-            return (sample, self.radiance(p, sample.direction));
+        let sample = match &self.windows {
+            Some(windows) => windows.all(|all| {
+                let sampler = all.by_radiance(p);
+                self.sample_both(p, u, |u| sampler.sample(u), |w| sampler.pdf(w))
+            }),
+            None => {
+                let sample = |u| self.sample_sky(measure, normal, u).0;
+                self.sample_both(p, u, sample, |w| self.pdf_of_sky(measure, normal, w))
+            }
         };
+        (sample, self.of_both(sample.direction))
+    }
+    /// Samples the sun, if there is one, or the sky, of which the functions are.
+    #[inline]
+    fn sample_both(
+        &self,
+        p: V8,
+        u: Vec2<X8>,
+        sample: impl Fn(Vec2<X8>) -> LightSample<X8>,
+        pdf: impl Fn(V8) -> X8,
+    ) -> LightSample<X8> {
+        let Some(sun) = &self.sun else { return sample(u) };
+        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
         let share = self.share(sun, p);
         let is_sun = u.x.lt(share);
-        let zero = X8::lit(0.0);
-        let (start, size) = (select(is_sun, zero, share), select(is_sun, share, X8::lit(1.0) - share));
+        let (start, size) = (select(is_sun, zero, share), select(is_sun, share, one - share));
         let u = Vec2::new((u.x - start) / size, u.y);
-        let of_sky = self.sample_windows(measure, p, normal, u);
-        let direction = V8::blend(is_sun, sun.sampler().sample(u).direction, of_sky.direction);
-        let pdf = self.pdf(measure, p, normal, direction);
-        let visible = self.windows.as_ref().map_or(M8::splat(true), |all| all.all(|all| all.sees(p, direction)));
-        (
-            LightSample { direction, distance: X8::lit(FAR), pdf: pdf.keep(visible), emits: visible, ..of_sky },
-            self.radiance(p, direction),
-        )
+        let (of_sky, sampler) = (sample(u), sun.sampler());
+        let direction = V8::blend(is_sun, sampler.sample(u).direction, of_sky.direction);
+        let sky_pdf = if is_sun.any() { select(is_sun, pdf(direction), of_sky.pdf) } else { of_sky.pdf };
+        // each direction through a portal has a pdf, and no other has
+        let visible = sky_pdf.gt(zero) | M8::splat(self.windows.is_none());
+        let pdf = (share * sampler.pdf(direction) + (one - share) * sky_pdf).keep(visible);
+        LightSample { direction, distance: X8::lit(FAR), pdf, emits: visible, ..of_sky }
     }
     /// Share of the samples that a sun has from a point: none where no portal can show it.
     #[inline]
@@ -166,14 +191,6 @@ impl Sky {
         match &self.windows {
             Some(windows) => share.keep(windows.all(|all| all.sees_cone(p, sun.disk.direction.into(), sun.radius()))),
             None => share,
-        }
-    }
-    /// Samples the sky without its sun.
-    #[inline]
-    fn sample_windows(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
-        match &self.windows {
-            Some(windows) => windows.all(|all| all.by_radiance(p).sample(u)),
-            None => self.sample_sky(measure, normal, u).0,
         }
     }
     #[inline]
