@@ -478,7 +478,8 @@ fn invalid_input_is_an_error() {
     assert!(PortalEnvironment::new(&portals[1..], &tables[1..]).is_ok());
 }
 
-/// Time of a packet of eight samples, each from a point of its own, over that of an image of as many texels.
+/// Time of a sample from a point of its own, and of an image of as many texels. Optimised:
+/// `cargo test --config profile.dev.package.etendue-tests.opt-level=3 -p etendue-tests --test portals -- --ignored --nocapture`
 #[test]
 #[ignore = "prints times"]
 fn time_per_sample() {
@@ -487,14 +488,16 @@ fn time_per_sample() {
     let weights: Vec<_> = (0..SIDE * SIDE).map(|_| random.unit()).collect();
     let mut buffer = vec![0.0; ImageEnvironment::buffer(SIDE, SIDE)];
     let image = ImageEnvironment::build(&weights, SIDE, EnvironmentMap::EqualArea, &mut buffer).unwrap();
-    let mut packet = || -> (Vec3<f32x8>, Vec2<f32x8>, Vec3<f32x8>) {
+    /// Points, numbers and directions.
+    type Packet = (Vec3<f32x8>, Vec2<f32x8>, Vec3<f32x8>);
+    let mut packet = || -> Packet {
         let mut unit = || f32x8::from_fn(|_| random.unit());
         let p = Vec3::new(unit(), unit(), unit());
         let ahead = f32x8::splat(1.0);
         (p, Vec2::new(unit(), unit()), Vec3::new(ahead, unit() - ahead, unit()).normalize())
     };
     let packets: Vec<_> = (0..512).map(|_| packet()).collect();
-    let time = |name: &str, run: &mut dyn FnMut(&(Vec3<f32x8>, Vec2<f32x8>, Vec3<f32x8>)) -> f32x8| {
+    let time = |name: &str, run: &mut dyn FnMut(&Packet) -> f32x8| {
         let mut best = f64::INFINITY;
         // short enough that few are interrupted
         for _ in 0..100 {
