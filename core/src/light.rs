@@ -31,6 +31,7 @@
 //! | [`Sun`] | | [`by_solid_angle`](Sun::by_solid_angle) | |
 //! | [`ConstantEnvironment`] | | [`by_solid_angle`](ConstantEnvironment::by_solid_angle) | [`by_projected_solid_angle`](ConstantEnvironment::by_projected_solid_angle) |
 //! | [`ImageEnvironment`] | | [`by_radiance`](ImageEnvironment::by_radiance): in proportion to an image | |
+//! | [`PortalEnvironment`] | | [`by_radiance`](PortalEnvironment::by_radiance): what is seen of an image through portals | |
 //! | a flat light with a [`Picture`] | [`by_area`](Pictured::by_area) | [`by_solid_angle`](Pictured::by_solid_angle) | [`by_projected_solid_angle`](Pictured::by_projected_solid_angle) |
 //! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](Pictured::by_visible_area) | | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
@@ -88,6 +89,7 @@
 
 mod annulus;
 mod cylinder;
+mod daylight;
 mod delta;
 mod disk;
 mod distant;
@@ -100,6 +102,7 @@ mod pictured;
 mod pictured_curved;
 mod pictured_flat;
 mod polygon;
+mod portal;
 mod profile;
 mod projector;
 mod sample;
@@ -111,6 +114,7 @@ mod techniques;
 
 pub use annulus::{Annulus, AnnulusByArea, PlacedAnnulus};
 pub use cylinder::{Cylinder, CylinderByArea, PlacedCylinder};
+pub use daylight::{GeneralSky, Moment, SunPosition};
 pub use delta::{
     DirectionalLight, DirectionalLightByDelta, PointLight, PointLightByDelta, SpotLight, SpotLightByDelta,
 };
@@ -131,6 +135,7 @@ pub use pictured::{ByPicture, PictureSample, Pictured};
 pub use pictured_curved::Curved;
 pub use pictured_flat::{Area, Flat, FlatLight, Projected, SolidAngle};
 pub use polygon::{PlacedPolygon, Polygon, PolygonByArea, PolygonByProjectedSolidAngle, PolygonBySolidAngle};
+pub use portal::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable, PortalsByRadiance};
 pub use profile::{Profile, ProfileError};
 pub use projector::{ProjectedImage, Projector};
 pub use sample::{AreaSample, FAR, LightSample};

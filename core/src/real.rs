@@ -243,6 +243,11 @@ pub trait Real:
     fn atan_eighth(self) -> Self {
         functions::atan_eighth_f32(self)
     }
+    /// eˣ, lane by lane in double precision and rounded once. Too large for the number type, it is infinite; NaN stays NaN.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        Self::from_fn(|lane| Self::Scalar::lit(libm::exp(self.lane_f64(lane))))
+    }
     /// Cube root of a number ≥ 0; 0 for a subnormal one.
     #[inline(always)]
     fn cbrt(self) -> Self {

@@ -519,7 +519,7 @@ impl Lights {
                 DISTANT => DirectionalLight::new(place).by_delta(p).sample(u).into(),
                 _ => {
                     let sky = self.sky.as_ref().unwrap_or_else(|| unreachable!("a sky among the records"));
-                    let (sample, radiance) = sky.sample(measure, normal, u);
+                    let (sample, radiance) = sky.sample(measure, p, normal, u);
                     chosen.radiance = V8::blend(here, radiance, chosen.radiance);
                     sample.into()
                 }
@@ -612,9 +612,9 @@ impl Lights {
     }
     /// The same for a direction to the sky, which is the last of the lights.
     #[inline]
-    pub fn sky_pdf(&self, pmf: &LightPmf<'_>, normal: V8, w: V8) -> X8 {
+    pub fn sky_pdf(&self, pmf: &LightPmf<'_>, p: V8, normal: V8, w: V8) -> X8 {
         match &self.sky {
-            Some(sky) => sky.pdf(Measure::SolidAngle, normal, w) * pmf.of(self.len() as u32 - 1),
+            Some(sky) => sky.pdf(Measure::SolidAngle, p, normal, w) * pmf.of(self.len() as u32 - 1),
             None => X8::lit(0.0),
         }
     }

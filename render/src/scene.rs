@@ -24,11 +24,25 @@
 //! | `ObjectInstance` | itself, or a copy in small scenes; lights in objects emit nothing, as in pbrt |
 //! | `diffuse` with a picture | itself: texels are interpolated as in pbrt-v4, by u and v, or the angles of a whole sphere |
 //! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
-//! | portals | ignored |
+//! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
 //! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
+//!
+//! Beyond pbrt, a sky may have up to eight portals, in one list of corners or in several lights of the same sky. They may be parallelograms,
+//! and what two of them show counts once. `LightSource "infinite" "string sky" "cie"` is daylight by CIE's standard general sky
+//! ([`GeneralSky`](etendue::light::GeneralSky)). In the light's space +x is east, +y north and +z up; nothing shines from below the horizon.
+//!
+//! | parameter of a `cie` sky | what it is | default |
+//! |---|---|---|
+//! | `integer type` | type of the sky, 1 to 15 | 12: clear |
+//! | `float elevation`, `azimuth` | the sun in degrees: above the horizon, and from north over east | azimuth 180 |
+//! | `float latitude`, `longitude` | place in degrees, instead of those; north and east are positive | |
+//! | `integer year`, `month`, `day`, `float hours`, `timezone` | local time there; the time zone is in hours before Greenwich | timezone 0 |
+//! | `rgb L`, `float scale` | radiance of the zenith | 1 |
+//! | `float illuminance` | illuminance of the horizontal plane by the sky, instead | |
+//! | `float sun` | illuminance of a surface that faces the sun, by its disk of 0.53° | 0: no disk |
 //!
 //! | in glTF files | becomes |
 //! |---|---|
@@ -42,8 +56,10 @@
 
 mod builder;
 mod builtin;
+mod daylight;
 mod description;
 mod directed;
+mod environment;
 mod generated;
 mod gltf;
 mod ies;
@@ -57,6 +73,8 @@ mod message;
 mod named_materials;
 mod params;
 mod ply;
+mod portal_sides;
+mod portals;
 mod reader;
 mod shape_attributes;
 mod shapes;
@@ -75,7 +93,8 @@ pub use crate::geometry::{Affine, Geometry, Instance};
 use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
-pub use lights::{DeltaLight, Emission, Environment, SkyRadiance};
+pub use environment::{Environment, SkyRadiance, SunDisk};
+pub use lights::{DeltaLight, Emission};
 pub use materials::{Material, Roughness, Varying};
 pub use message::Message;
 use message::utf8;
@@ -170,7 +189,7 @@ pub fn load_with_sky(name_or_path: impl AsRef<Path>, sky: impl AsRef<Path>) -> R
         true => [[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
         false => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     };
-    scene.environment = sky.map(|sky| Environment { to_light, sky });
+    scene.environment = sky.map(|sky| Environment { to_light, sky, portals: Vec::new(), sun: None });
     scene.inputs.push(path.to_owned());
     Ok(scene)
 }

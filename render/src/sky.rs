@@ -1,10 +1,13 @@
 //! Light from infinitely far away, looked up and sampled in packets.
 
-use crate::packet::{V8, X8};
+mod windows;
+
+use crate::packet::{M8, V8, X8, select};
 use crate::scene;
 use crate::technique::Measure;
-use etendue::light::ImageEnvironment;
-use etendue::{ConstantEnvironment, LightSample, LightSampler, Vec2, Vec3, Warp, u32x8};
+use etendue::light::{FAR, ImageEnvironment, SunBySolidAngle};
+use etendue::{ConstantEnvironment, LightSample, LightSampler, Mask, Real, Sun, Vec2, Vec3, Warp, u32x8};
+use windows::Windows;
 
 /// An environment and the table by which it is sampled.
 #[derive(Clone, Debug)]
@@ -12,12 +15,44 @@ pub struct Sky {
     /// Rows of the rotation from the world to the light.
     rows: [[f32; 3]; 3],
     kind: SkyKind,
+    windows: Option<Windows>,
+    sun: Option<SunBefore>,
 }
 
 #[derive(Clone, Debug)]
 enum SkyKind {
     Constant([f32; 3]),
     Image { width: usize, map: etendue::light::EnvironmentMap, texels: Vec<[f32; 3]>, table: Vec<f32> },
+}
+
+/// A sun, and the share of the samples that it has where it can be seen: a multiple of 2⁻²⁴.
+#[derive(Clone, Copy, Debug)]
+struct SunBefore {
+    disk: scene::SunDisk,
+    share: f32,
+}
+
+impl SunBefore {
+    fn new(disk: scene::SunDisk, sky: f64) -> Self {
+        let own = flux_of(&disk);
+        // what hides one of them does not hide the other
+        let share = (own / (own + sky)).clamp(0.125, 0.875);
+        Self { disk, share: ((share * 16_777_216.0).round() / 16_777_216.0) as f32 }
+    }
+    #[inline]
+    fn sampler(&self) -> SunBySolidAngle<X8> {
+        Sun::new(self.disk.direction.into(), X8::splat(self.disk.one_minus_cos)).by_solid_angle()
+    }
+    /// Angle of the radius, rounded up.
+    fn radius(&self) -> X8 {
+        X8::lit(1.001 * (2.0 * f64::from(self.disk.one_minus_cos)).sqrt() * std::f64::consts::FRAC_PI_2)
+    }
+}
+
+/// ∫L dω of a sun, summed over channels.
+fn flux_of(disk: &scene::SunDisk) -> f64 {
+    let sum: f64 = disk.radiance.iter().map(|&x| f64::from(x)).sum();
+    sum * 2.0 * std::f64::consts::PI * f64::from(disk.one_minus_cos)
 }
 
 impl Sky {
@@ -33,12 +68,32 @@ impl Sky {
                 SkyKind::Image { width: *width, map: *map, texels: texels.clone(), table }
             }
         };
-        Self { rows: environment.to_light, kind }
+        let mut own = Self { rows: environment.to_light, kind, windows: None, sun: None };
+        own.sun = environment.sun.map(|disk| SunBefore::new(disk, own.flux()));
+        own.windows = Windows::new(&environment.portals, own.texel(), |w| own.sum(w));
+        own
     }
-    /// ∫L dω, summed over channels.
+    /// Angle that a texel spans, in radians.
+    fn texel(&self) -> f64 {
+        match &self.kind {
+            // as if it had this many
+            SkyKind::Constant(_) => std::f64::consts::PI / 64.0,
+            SkyKind::Image { width, map, texels, .. } => {
+                let height = texels.len() / width;
+                (0..height).map(|y| map.texel_solid_angle(*width, height, y)).fold(0.0, f64::max).sqrt()
+            }
+        }
+    }
+    /// Radiance of the sky without its sun from a direction, wherever it is seen from, summed over channels.
+    fn sum(&self, direction: V8) -> X8 {
+        let radiance = self.of_sky(direction);
+        radiance.x + radiance.y + radiance.z
+    }
+    /// ∫L dω, summed over channels, as if there were no portals.
     pub fn flux(&self) -> f64 {
         let sum = |rgb: &[f32; 3]| rgb.iter().map(|&x| f64::from(x)).sum::<f64>();
-        match &self.kind {
+        let sun = self.sun.as_ref().map_or(0.0, |sun| flux_of(&sun.disk));
+        sun + match &self.kind {
             SkyKind::Constant(radiance) => 4.0 * std::f64::consts::PI * sum(radiance),
             SkyKind::Image { width, map, texels, .. } => {
                 let height = texels.len() / width;
@@ -57,9 +112,29 @@ impl Sky {
         let [x, y, z] = self.rows.map(V8::from);
         x.mul_add(w.x, y.mul_add(w.y, z * w.z))
     }
-    /// Radiance from a direction.
+    /// Radiance of a ray from `p` in this direction.
     #[inline]
-    pub fn radiance(&self, direction: V8) -> V8 {
+    pub fn radiance(&self, p: V8, direction: V8) -> V8 {
+        let radiance = self.of_both(direction);
+        match &self.windows {
+            Some(windows) => radiance.keep(windows.all(|all| all.sees(p, direction))),
+            None => radiance,
+        }
+    }
+    /// Radiance of sky and sun, as if there were no portals.
+    #[inline]
+    fn of_both(&self, direction: V8) -> V8 {
+        let of_sky = self.of_sky(direction);
+        match &self.sun {
+            Some(sun) => {
+                let is_sun = sun.sampler().pdf(direction).gt(X8::lit(0.0));
+                of_sky + V8::from(sun.disk.radiance).keep(is_sun)
+            }
+            None => of_sky,
+        }
+    }
+    #[inline]
+    fn of_sky(&self, direction: V8) -> V8 {
         match &self.kind {
             SkyKind::Constant(radiance) => (*radiance).into(),
             SkyKind::Image { width, texels, .. } => {
@@ -68,9 +143,58 @@ impl Sky {
             }
         }
     }
-    /// Samples a direction; returns it with its pdf per steradian, and the radiance from there.
+    /// Samples a direction from `p`; returns it with its pdf per steradian, and the radiance from there.
     #[inline]
-    pub fn sample(&self, measure: Measure, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
+    pub fn sample(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
+        if self.windows.is_none() && self.sun.is_none() {
+            return self.sample_sky(measure, normal, u);
+        }
+        let sample = match &self.windows {
+            Some(windows) => windows.all(|all| {
+                let sampler = all.by_radiance(p);
+                self.sample_both(p, u, |u| sampler.sample(u), |w| sampler.pdf(w))
+            }),
+            None => {
+                let sample = |u| self.sample_sky(measure, normal, u).0;
+                self.sample_both(p, u, sample, |w| self.pdf_of_sky(measure, normal, w))
+            }
+        };
+        (sample, self.of_both(sample.direction))
+    }
+    /// Samples the sun, if there is one, or the sky, of which the functions are.
+    #[inline]
+    fn sample_both(
+        &self,
+        p: V8,
+        u: Vec2<X8>,
+        sample: impl Fn(Vec2<X8>) -> LightSample<X8>,
+        pdf: impl Fn(V8) -> X8,
+    ) -> LightSample<X8> {
+        let Some(sun) = &self.sun else { return sample(u) };
+        let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
+        let share = self.share(sun, p);
+        let is_sun = u.x.lt(share);
+        let (start, size) = (select(is_sun, zero, share), select(is_sun, share, one - share));
+        let u = Vec2::new((u.x - start) / size, u.y);
+        let (of_sky, sampler) = (sample(u), sun.sampler());
+        let direction = V8::blend(is_sun, sampler.sample(u).direction, of_sky.direction);
+        let sky_pdf = if is_sun.any() { select(is_sun, pdf(direction), of_sky.pdf) } else { of_sky.pdf };
+        // each direction through a portal has a pdf, and no other has
+        let visible = sky_pdf.gt(zero) | M8::splat(self.windows.is_none());
+        let pdf = (share * sampler.pdf(direction) + (one - share) * sky_pdf).keep(visible);
+        LightSample { direction, distance: X8::lit(FAR), pdf, emits: visible, ..of_sky }
+    }
+    /// Share of the samples that a sun has from a point: none where no portal can show it.
+    #[inline]
+    fn share(&self, sun: &SunBefore, p: V8) -> X8 {
+        let share = X8::splat(sun.share);
+        match &self.windows {
+            Some(windows) => share.keep(windows.all(|all| all.sees_cone(p, sun.disk.direction.into(), sun.radius()))),
+            None => share,
+        }
+    }
+    #[inline]
+    fn sample_sky(&self, measure: Measure, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
         match &self.kind {
             SkyKind::Constant(radiance) => {
                 let sample = match measure {
@@ -86,9 +210,23 @@ impl Sky {
             }
         }
     }
-    /// Pdf per steradian with which [`sample`](Self::sample) draws a direction.
+    /// Pdf per steradian with which [`sample`](Self::sample) draws a direction from `p`.
     #[inline]
-    pub fn pdf(&self, measure: Measure, normal: V8, direction: V8) -> X8 {
+    pub fn pdf(&self, measure: Measure, p: V8, normal: V8, direction: V8) -> X8 {
+        let of_sky = match &self.windows {
+            Some(windows) => windows.all(|all| all.by_radiance(p).pdf(direction)),
+            None => self.pdf_of_sky(measure, normal, direction),
+        };
+        match &self.sun {
+            Some(sun) => {
+                let share = self.share(sun, p);
+                share * sun.sampler().pdf(direction) + (X8::lit(1.0) - share) * of_sky
+            }
+            None => of_sky,
+        }
+    }
+    #[inline]
+    fn pdf_of_sky(&self, measure: Measure, normal: V8, direction: V8) -> X8 {
         match (&self.kind, measure) {
             (SkyKind::Constant(_), Measure::Projected) => {
                 ConstantEnvironment.by_projected_solid_angle(normal).pdf(direction)

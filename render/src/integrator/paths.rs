@@ -299,7 +299,9 @@ impl<'a> Paths<'a> {
                 let see = |surface: &Surface| {
                     let missed = here & !hits[p].any();
                     match &scene.sky {
-                        Some(sky) if missed.any() => V8::blend(missed, sky.radiance(ray.direction), surface.emission),
+                        Some(sky) if missed.any() => {
+                            V8::blend(missed, sky.radiance(ray.origin, ray.direction), surface.emission)
+                        }
                         _ => surface.emission,
                     }
                 };
@@ -456,10 +458,10 @@ impl<'a> Paths<'a> {
             target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
             limit[p] = hits[p].distance * X8::lit(COVERED);
             if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
-                radiance = V8::blend(missed, sky.radiance(direction), radiance);
+                radiance = V8::blend(missed, sky.radiance(point, direction), radiance);
                 lit[p] = lit[p] | missed;
                 if let Some(pmf) = &pmf {
-                    light_pdf = select(missed, scene.lights.sky_pdf(pmf, normal, direction), light_pdf);
+                    light_pdf = select(missed, scene.lights.sky_pdf(pmf, point, normal, direction), light_pdf);
                 }
             }
             let factor = match heuristic {

@@ -1,8 +1,9 @@
 //! Collects the surfaces of a scene in world space: checks and orients them, and rounds them once to f32.
 
 use super::description::{CameraSettings, Corners, Details, FilmSettings, Scene, Shape};
+use super::environment::Environment;
 use super::lamps::Lamps;
-use super::lights::{DeltaLight, Emission, Environment};
+use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
 use super::message::{Message, Notes};
 use super::shape_attributes::ShapeAttributes;

@@ -1,6 +1,7 @@
 //! What a scene file describes.
 
-use super::lights::{DeltaLight, Emission, Environment};
+use super::environment::Environment;
+use super::lights::{DeltaLight, Emission};
 use super::materials::{Material, Varying};
 use super::message::Message;
 use crate::geometry::{Geometry, Instance};

@@ -1,15 +1,18 @@
 //! Reads `LightSource` and `AreaLightSource`.
 
+use super::daylight;
+use super::environment::{Environment, SkyRadiance};
 use super::lexer::shortened;
 use super::message::{Message, Notes};
 use super::params::{MOST_RADIANCE, Params, Resolve, brightness, rounded, shown};
+use super::portals;
 use super::spectrum::luminance;
 use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
 use crate::texture::{self, Colors, Mapping, Texels, Wrap};
 use etendue::Vec2;
-use etendue::light::{EnvironmentMap, ImageEnvironment, Spread, Texel};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, Spread, Texel};
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -70,31 +73,6 @@ pub struct Emission {
     pub spread: Option<Spread<f32>>,
 }
 
-/// Light from infinitely far away in all directions.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Environment {
-    /// Rows of the orthogonal matrix from world space to light space.
-    pub to_light: [[f32; 3]; 3],
-    /// Radiance by direction.
-    pub sky: SkyRadiance,
-}
-
-/// Radiance of an [`Environment`], linear RGB.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SkyRadiance {
-    /// The same in all directions.
-    Constant([f32; 3]),
-    /// An image, constant within each texel.
-    Image {
-        /// Number of columns.
-        width: usize,
-        /// How the image maps to directions.
-        map: EnvironmentMap,
-        /// Texels row by row; at least one channel is greater than 0.
-        texels: Vec<[f32; 3]>,
-    },
-}
-
 /// What a `LightSource` directive creates.
 pub(super) enum Source {
     Delta(DeltaLight),
@@ -131,9 +109,7 @@ pub(super) fn read(
         None if is_sky => params.text("mapname")?,
         file => file,
     };
-    if params.given("portal") {
-        notes.stand_in("portal", || params.error("\"portal\" is ignored: light comes from everywhere"));
-    }
+    let portals = if is_sky { portals::read(params)? } else { Vec::new() };
     // older files scale by a colour
     let scale = scale(params)?;
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
@@ -145,7 +121,20 @@ pub(super) fn read(
     if let Some(x) = wanted.filter(|&x| x <= 0.0) {
         return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
     }
+    let formula = if is_sky { params.text("sky")? } else { None };
     let source = match file {
+        Some(file) if formula.is_some() => {
+            return Err(
+                params.error(format!("\"sky\" and \"filename\" {}: a sky has one or the other", shortened(&file)))
+            );
+        }
+        None if formula.is_some() => {
+            let given = colour.unwrap_or([1.0; 3]);
+            let (to_light, zenith) = (turned(params, ctm)?, std::array::from_fn(|k| given[k] * scale[k]));
+            let daylight = daylight::read(&formula.unwrap_or_default(), params, zenith, wanted, &to_light)?;
+            let light = |(sky, sun)| Source::Environment(Environment { to_light, sky, portals, sun });
+            daylight.map_or(Source::Dark, light)
+        }
         Some(file) => {
             let to_light = turned(params, ctm)?;
             // pbrt-v3 multiplies both, and pbrt-v4 refuses them
@@ -155,7 +144,7 @@ pub(super) fn read(
                 None => sky,
             });
             match picture {
-                Some(sky) => Source::Environment(Environment { to_light, sky }),
+                Some(sky) => Source::Environment(Environment { to_light, sky, portals, sun: None }),
                 None => Source::Dark,
             }
         }
@@ -178,7 +167,7 @@ pub(super) fn read(
                 || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
             let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
             brightness(colour).into_iter().for_each(|text| notes.warn(params.error(text)));
-            let source = constant(kind, params, ctm, colour)?;
+            let source = constant(kind, params, ctm, colour, portals)?;
             if colour == [0.0; 3] { Source::Dark } else { source }
         }
     };
@@ -325,27 +314,13 @@ fn illuminating(sky: SkyRadiance, wanted: f64) -> SkyRadiance {
     SkyRadiance::Image { width, map, texels }
 }
 
-impl Environment {
-    /// The sum of two skies, if one of them is the same in all directions.
-    pub(super) fn and(self, other: Self) -> Option<Self> {
-        let add = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|k| (a[k] + b[k]).min(MOST_RADIANCE));
-        let (constant, other) = match (self.sky, other.sky) {
-            (SkyRadiance::Constant(a), sky) => (a, Self { sky, ..other }),
-            (sky, SkyRadiance::Constant(b)) => (b, Self { sky, to_light: self.to_light }),
-            _ => return None,
-        };
-        let sky = match other.sky {
-            SkyRadiance::Constant(b) => SkyRadiance::Constant(add(constant, b)),
-            SkyRadiance::Image { width, map, texels } => {
-                let texels = texels.into_iter().map(|texel| add(texel, constant)).collect();
-                SkyRadiance::Image { width, map, texels }
-            }
-        };
-        Some(Self { sky, ..other })
-    }
-}
-
-fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) -> Result<Source, Message> {
+fn constant(
+    kind: &str,
+    params: &mut Params,
+    ctm: &Transform,
+    colour: [f32; 3],
+    portals: Vec<Portal>,
+) -> Result<Source, Message> {
     let mut point = |name: &str, default: [f64; 3]| -> Result<[f64; 3], Message> {
         let Some(p) = params.numbers(name, "point3", 3)? else { return Ok(default) };
         <[f64; 3]>::try_from(&p[..])
@@ -355,6 +330,8 @@ fn constant(kind: &str, params: &mut Params, ctm: &Transform, colour: [f32; 3]) 
         return Ok(Source::Environment(Environment {
             to_light: turned(params, ctm)?,
             sky: SkyRadiance::Constant(colour),
+            portals,
+            sun: None,
         }));
     }
     let from = point("from", [0.0; 3])?;

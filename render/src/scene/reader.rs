@@ -4,15 +4,17 @@ use super::builder::{Builder, Rest};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
 use super::directed;
+use super::environment::Environment;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
-use super::lights::{self, Area, DeltaLight, Environment, Files, Shown};
+use super::lights::{self, Area, DeltaLight, Files, Shown};
 use super::material_parameters::{self, Context, Finish};
 use super::materials::Material;
 use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
 use super::params::{Param, Params, Resolve};
+use super::portal_sides;
 use super::shape_attributes::ShapeAttributes;
 use super::shapes;
 use super::textures::Textures;
@@ -23,6 +25,7 @@ use crate::files::FileError;
 use crate::image;
 use crate::intensity::Intensity;
 use crate::texture::{Mask, Texture};
+use etendue::light::Portal;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -62,6 +65,8 @@ struct Reader<'a> {
     delta_lights: Vec<DeltaLight>,
     intensities: Vec<Arc<Intensity>>,
     environment: Option<Environment>,
+    /// The portals, with what to say if one faces away.
+    portals: Vec<(Portal, Message)>,
     out: Builder,
     state: State,
     saved: Vec<(State, Place)>,
@@ -96,6 +101,7 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         delta_lights: Vec::new(),
         intensities: Vec::new(),
         environment: None,
+        portals: Vec::new(),
         out: Builder::default(),
         state,
         saved: Vec::new(),
@@ -141,7 +147,9 @@ pub(super) fn read(text: &str, file: &str, dir: &Path, origin: Origin<'_>) -> Re
         environment: reader.environment,
         inputs: reader.inputs.into_inner(),
     };
-    Ok(reader.out.scene(&file, rest, |text| end.message(text)))
+    let scene = reader.out.scene(&file, rest, |text| end.message(text));
+    portal_sides::check(&scene, reader.portals)?;
+    Ok(scene)
 }
 
 impl Reader<'_> {
@@ -473,16 +481,20 @@ impl Reader<'_> {
         }
         match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
             lights::Source::Delta(light) => self.delta_lights.push(light),
-            lights::Source::Environment(environment) => match self.environment.take() {
-                None => self.environment = Some(environment),
-                Some(before) => {
-                    let kept = before.clone();
-                    self.environment = before.and(environment).or_else(|| {
-                        out.notes.stand_in("second sky", || params.error("a second image of a sky is ignored"));
-                        Some(kept)
-                    });
+            lights::Source::Environment(environment) => {
+                let facing = |portal: &Portal| (*portal, portal_sides::faces_away(params));
+                self.portals.extend(environment.portals.iter().map(facing));
+                match self.environment.take() {
+                    None => self.environment = Some(environment),
+                    Some(before) => {
+                        let kept = before.clone();
+                        self.environment = before.and(environment).or_else(|| {
+                            out.notes.stand_in("second sky", || params.error("a second sky is ignored"));
+                            Some(kept)
+                        });
+                    }
                 }
-            },
+            }
             lights::Source::Dark => {}
         }
         Ok(())

@@ -2,6 +2,7 @@
 //! scenes of many lights, `own_scenes` what files of others have.
 
 mod cameras;
+mod daylight;
 mod directed;
 mod faulty;
 mod lights;
@@ -9,6 +10,7 @@ mod many_lights;
 mod meshes;
 mod own_scenes;
 mod pictures;
+mod portals;
 
 use super::*;
 

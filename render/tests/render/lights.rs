@@ -89,7 +89,7 @@ fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
             let choice = lights.choose(p, normal, [u, second]);
             let mut chosen = lights.chosen(choice.index);
             let drawn = lights.sample(&mut chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
-            let pdf = lights.sky_pdf(&lights.pmf(p, normal), normal, drawn.direction);
+            let pdf = lights.sky_pdf(&lights.pmf(p, normal), p, normal, drawn.direction);
             for lane in (0..8).filter(|&lane| choice.index.lane(lane) + 1 == lights.len() as u32) {
                 assert!(choice.pmf.lane(lane) < 1.0, "{name}: another light has a share, too");
                 let own = drawn.pdf.lane(lane) * choice.pmf.lane(lane);

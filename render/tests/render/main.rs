@@ -10,6 +10,7 @@ mod lights;
 mod own_scenes;
 mod parts;
 mod pictures;
+mod portals;
 mod references;
 mod sampler;
 mod sensor;

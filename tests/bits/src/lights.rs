@@ -2,7 +2,10 @@
 //! images, spreads, and visible parts.
 
 use crate::figures::{Figures, Lanes, List, Routine};
-use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, ProjectedImage, Projector, Spread, Texel};
+use etendue::light::{
+    EnvironmentMap, GeneralSky, ImageEnvironment, Moment, Portal, PortalEnvironment, PortalTable, Profile,
+    ProjectedImage, Projector, Spread, SunPosition, Texel,
+};
 use etendue::occlusion::{Convex, Occlusion};
 use etendue::{
     ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Parallelogram, PointLight, Real, Rectangle,
@@ -135,6 +138,75 @@ impl Routine for Sky {
             [drawn.x, drawn.y, x, y].into_iter().for_each(|at| lanes.words(at));
             lanes.pair(offset);
         });
+    }
+}
+
+/// An image of the sky through three portals, two of them parallel.
+struct Portals;
+
+impl Routine for Portals {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(900);
+        let mut buffers = [vec![0; PortalTable::buffer(16, 12)], vec![0; PortalTable::buffer(9, 30)]];
+        let tables = [16, 9].into_iter().zip(&mut buffers).map(|(width, buffer)| {
+            let texels = if width == 16 { 192 } else { 270 };
+            let weights: Vec<_> = (0..texels).map(|_| random.unit().powi(4)).collect();
+            PortalTable::build(&weights, width, buffer).expect("the weights are valid")
+        });
+        let tables: Vec<_> = tables.collect();
+        let tables = [tables[0], tables[0], tables[1]];
+        let portals = [
+            Portal::new([1.0, -1.0, 0.0], [0.0, 0.9, 0.0], [0.0, 0.0, 1.0]),
+            Portal::new([1.0, 0.1, 0.2], [0.0, 0.7, 0.0], [0.0, 0.0, 0.5]),
+            Portal::new([-0.5, -0.5, 1.0], [1.0, 0.2, 0.0], [0.1, 0.8, 0.1]),
+        ]
+        .map(|portal| portal.expect("the edges enclose an area"));
+        for (k, portal) in portals.iter().enumerate() {
+            let [u, v] = square(&mut random).map(f64::from);
+            let (direction, solid_angle) = portal.map().direction(etendue::Vec2::new(u, v));
+            [direction.x, direction.y, direction.z, solid_angle, k as f64].into_iter().for_each(|x| figures.number(x));
+        }
+        let sky = PortalEnvironment::new(&portals, &tables).expect("three portals");
+        figures.packets::<R>(SLOTS, |_, lanes| {
+            let mut places = Vec::new();
+            for _ in 0..R::LANES {
+                let extreme = random.word().is_multiple_of(8);
+                let p = if extreme { generators::nasty(&mut random) } else { unit(&mut random) };
+                places.push((p, square(&mut random), unit(&mut random)));
+            }
+            let us: Vec<_> = places.iter().map(|place| place.1).collect();
+            let ws: Vec<_> = places.iter().map(|place| place.2).collect();
+            let p = vectors_of(|i| places[i].0);
+            sampler::<R>(lanes, &sky.by_radiance(p), &us, &ws);
+            let w = vectors_of(|i| ws[i]);
+            lanes.truth::<R>(sky.sees(p, w));
+            lanes.truth::<R>(sky.sees_cone(p, w, R::lit(0.1)));
+        });
+    }
+}
+
+/// Skies of all types, and suns at some times.
+struct Daylight;
+
+impl Routine for Daylight {
+    fn run<R: Real>(&self, figures: &mut Figures) {
+        let mut random = Random::new(1000);
+        for kind in 1..=15 {
+            let sky = GeneralSky::new(kind, random.direction()).expect("one of the types");
+            figures.packets::<R>(4 * Figures::MOST, |_, lanes| {
+                let ws: Vec<_> = (0..R::LANES).map(|_| unit(&mut random)).collect();
+                lanes.real(sky.luminance(vectors_of::<R>(|i| ws[i])));
+            });
+            let time = Moment {
+                year: 1950 + 6 * kind as i32,
+                month: 1 + kind % 12,
+                day: kind,
+                hours: 24.0 * random.unit_f64(),
+            };
+            let (latitude, longitude) = (random.range(-90.0, 90.0), random.range(-180.0, 180.0));
+            let sun = SunPosition::new(time, latitude, longitude).expect("a time and a place");
+            [sun.elevation, sun.azimuth].into_iter().for_each(|x| figures.number(x));
+        }
     }
 }
 
@@ -274,5 +346,7 @@ pub(crate) fn add(list: &mut List<'_>) {
     list.add("light/Profile", &Intensities);
     list.add("light/Projector", &Slide);
     list.add("light/Spread", &Narrow);
+    list.add("light/Portals", &Portals);
+    list.add("light/Daylight", &Daylight);
     list.add("occlusion", &Visible);
 }

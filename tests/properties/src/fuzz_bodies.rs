@@ -12,6 +12,7 @@ mod occlusion;
 mod pictures;
 mod sequences;
 mod shapes;
+mod skies;
 mod surfaces;
 
 use crate::generators::{self, EDGES, NASTY};
@@ -88,6 +89,10 @@ targets! {
     emitters: emitters, 150;
     /// Pictures on lights of any shape.
     pictures: pictures, 200;
+    /// The sky through up to three portals, seen from anywhere.
+    portals: skies, 30;
+    /// Daylight of any type, and the sun at any time and place.
+    daylight: skies, 200;
     /// Tables of one and two dimensions.
     piecewise_constant: numbers, 500;
     /// Vose's alias tables.

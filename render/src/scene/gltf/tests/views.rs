@@ -2,6 +2,7 @@
 
 use super::super::super::{CameraSettings, DeltaLight, load_with_sky};
 use super::*;
+use crate::packet::V8;
 use crate::sky::Sky;
 use std::path::Path;
 
@@ -171,7 +172,7 @@ fn a_sky_is_added() {
     assert!(loaded.warnings.iter().all(|warning| !warning.text.contains("emits")), "{:?}", loaded.warnings);
     assert!(loaded.inputs.contains(&sky) && loaded.inputs.contains(&scene));
     let seen = Sky::new(loaded.environment.as_ref().unwrap());
-    let at = |direction: [f32; 3]| seen.radiance(direction.into()).x.to_array()[0];
+    let at = |direction: [f32; 3]| seen.radiance(V8::default(), direction.into()).x.to_array()[0];
     // the columns begin at −x, and go on over −z, +x and +z
     let columns = [[-1.0, -0.5], [1.0, -0.5], [1.0, 0.5], [-1.0, 0.5]];
     let found = [-1.0, 1.0].map(|y| columns.map(|[x, z]| at([x, y, z])));
@@ -182,7 +183,7 @@ fn a_sky_is_added() {
     let loaded = load_with_sky(&plain, &sky).unwrap();
     assert!(loaded.warnings.is_empty());
     let seen = Sky::new(loaded.environment.as_ref().unwrap());
-    let up = seen.radiance([0.1, 0.1, 1.0].into()).x.to_array()[0];
+    let up = seen.radiance(V8::default(), [0.1, 0.1, 1.0].into()).x.to_array()[0];
     assert_eq!(up, texels[4]);
 
     let failed = |path: &Path| load_with_sky(&plain, path).unwrap_err().to_string();

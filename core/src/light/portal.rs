@@ -1,0 +1,385 @@
+//! An image of the sky through portals: parallelograms in walls that nothing else of the sky passes.
+
+mod side;
+mod table;
+
+use super::distant::met;
+use super::sample::LightSample;
+use super::sampler::LightSampler;
+use crate::discrete::TableError;
+use crate::real::{GREATEST, Mask, Real, unit_interval};
+use crate::vector::{Vec2, Vec3};
+use crate::warp::{Octahedral, Warp};
+use core::f64::consts::PI;
+use side::Side;
+pub use table::PortalTable;
+use table::{Found, Place, STEPS, Span};
+
+/// Greatest number of portals of a [`PortalEnvironment`].
+pub const MOST_PORTALS: usize = 8;
+
+/// The directions in front of a portal, as a rectangle in which its edges are parallel to the axes from wherever they are seen.
+///
+/// A direction w = x s + y t + z n, by the unit edges s and t and the normal n = s × t/|s × t|, has the coordinates
+/// (atan(x/z)/π + ½, atan(y/z)/π + ½) in [0, 1]². Parallel portals with parallel edges have the same map.
+///
+/// Source: Bitterli, Novák and Jarosz, "Portal-Masked Environment Map Sampling", EGSR 2015, for rectangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PortalMap {
+    /// Unit edges and normal.
+    axes: [Vec3<f64>; 3],
+    /// What x, y and z are inner products with.
+    duals: [Vec3<f64>; 3],
+    /// Sine of the angle between the edges.
+    sin: f64,
+}
+
+impl PortalMap {
+    /// The map of portals with these edges. The sky is where `s` × `t` points to. `None` if the edges are parallel or not finite.
+    #[must_use]
+    pub fn new(s: [f32; 3], t: [f32; 3]) -> Option<Self> {
+        let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from)).unit_and_length();
+        let ((x, a), (y, b)) = (wide(s), wide(t));
+        let (z, sin) = x.cross(y).unit_and_length();
+        let is_some = a > 0.0 && b > 0.0 && sin > 0.0 && a.is_finite() && b.is_finite();
+        let inverse = 1.0 / sin;
+        is_some.then(|| Self { axes: [x, y, z], duals: [y.cross(z) * inverse, z.cross(x) * inverse, z], sin })
+    }
+    /// The unit direction of a point of the map, and the solid angle there per unit of its area, in steradians.
+    ///
+    /// The domain is [0, 1]². Near the edges of the map the solid angle goes to 0.
+    #[must_use]
+    pub fn direction<R: Real>(&self, place: Vec2<R>) -> (Vec3<R>, R) {
+        let half = R::lit(0.5);
+        let angle = |x: R| ((x - half) * half).sin_cos_turns();
+        let ((sx, cx), (sy, cy)) = (angle(place.x), angle(place.y));
+        let w = self.world([sx * cy, sy * cx, cx * cy]);
+        let (w, length) = w.unit_and_length();
+        let some = length.gt(R::lit(0.0));
+        let length = R::blend(some, length, R::lit(1.0));
+        let solid_angle = (R::lit(PI * PI * self.sin) * (cx / length) * (cy / length) / length).keep(some);
+        (w, solid_angle.clamped(R::lit(0.0), R::lit(GREATEST)))
+    }
+    #[inline(always)]
+    fn world<R: Real>(self, [x, y, z]: [R; 3]) -> Vec3<R> {
+        let [s, t, n] = self.axes.map(|v| Vec3::lit([v.x, v.y, v.z]));
+        s.mul_add(x, t.mul_add(y, n * z))
+    }
+    #[inline(always)]
+    fn local<R: Real>(self, v: Vec3<R>) -> [R; 3] {
+        self.duals.map(|dual| v.dot(Vec3::lit([dual.x, dual.y, dual.z])))
+    }
+}
+
+/// A parallelogram through which the sky is seen, from the side that its normal s × t points away from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Portal {
+    corner: [f32; 3],
+    lengths: [f64; 2],
+    map: PortalMap,
+}
+
+impl Portal {
+    /// The portal with a corner and the edges `s` and `t` from there. `None` if the edges are parallel or a number is not finite.
+    #[must_use]
+    pub fn new(corner: [f32; 3], s: [f32; 3], t: [f32; 3]) -> Option<Self> {
+        let map = PortalMap::new(s, t)?;
+        let lengths = [s, t].map(|v| Vec3::<f64>::from(v.map(f64::from)).unit_and_length().1);
+        corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map })
+    }
+    /// Whether the portal shows the sky to a point: it is on the side that the normal points away from.
+    #[inline(always)]
+    pub fn faces<R: Real>(&self, p: Vec3<R>) -> R::Mask {
+        self.sides(p).1
+    }
+    /// The map in which its table shows the sky.
+    #[must_use]
+    pub fn map(&self) -> PortalMap {
+        self.map
+    }
+    #[inline(always)]
+    fn sides<R: Real>(&self, p: Vec3<R>) -> ([Side<R>; 2], R::Mask) {
+        let [x, y, z] = self.map.local(Vec3::lit(self.corner.map(f64::from)) - p);
+        let (across, some) = Side::new(x, R::lit(self.lengths[0]), z);
+        let (up, more) = Side::new(y, R::lit(self.lengths[1]), z);
+        ([across, up], some & more)
+    }
+}
+
+#[inline(always)]
+fn spans<R: Real>(table: &PortalTable<'_>, sides: &[Side<R>; 2], lane: usize) -> [Span; 2] {
+    let [w, h] = table.size();
+    [sides[0].span(lane, w), sides[1].span(lane, h)]
+}
+
+/// How far beside a portal a direction still passes it, in radians: what the direction itself is rounded by.
+#[inline(always)]
+fn slack<R: Real>() -> R {
+    R::lit(if size_of::<R::Scalar>() == 4 { 3e-7 } else { 1e-15 })
+}
+
+/// The part of an image of the sky that is seen through some portals, at most [`MOST_PORTALS`]; the rest of the sky is hidden by walls.
+///
+/// What the sky is like beyond the portals is in the tables of the portals: from each point exactly the part is sampled that the point sees,
+/// by the weights of the texels. A direction through two portals counts once: the pdf is that with which either one draws it.
+///
+/// - Formula: a portal is a rectangle in its [`PortalMap`]. Among the columns of all portals one is drawn by its weight within the rectangle,
+///   then a row of it, then a place uniform in the map; texels that the border cuts count with their part.
+/// - Domain: u in [0, 1)²; any point.
+/// - Density: probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal is
+///   seen, and from behind. Each column and row has at least 2⁻²⁴ of the numbers, so that the probabilities are those of the draw exactly.
+/// - Degenerate: no portal seen, from within 1e−6 rad of its plane or from behind: pdf 0.
+/// - Greatest error: direction 6e−7. A direction within 3e−7 beside a portal passes it. Next to the edge of a texel rounding decides whose pdf
+///   a sample has.
+/// - Source: Bitterli, Novák and Jarosz 2015, and Crow 1984 for the table.
+///
+/// ```
+/// use etendue::light::{Portal, PortalEnvironment, PortalMap, PortalTable};
+/// use etendue::{LightSampler, Vec2};
+/// // a window of 1 by 2 in the plane x = 3, under a sky of the same radiance everywhere
+/// let (corner, s, t) = ([3.0, -0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]);
+/// let map = PortalMap::new(s, t).unwrap();
+/// let place = |i: usize| Vec2::new((i % 16) as f64 + 0.5, (i / 16) as f64 + 0.5) * (1.0 / 16.0);
+/// let weights: Vec<f32> = (0..256).map(|i| map.direction(place(i)).1 as f32).collect();
+/// let mut buffer = [0; PortalTable::buffer(16, 16)];
+/// let table = PortalTable::build(&weights, 16, &mut buffer).unwrap();
+/// let (portals, tables) = ([Portal::new(corner, s, t).unwrap()], [table]);
+/// let sky = PortalEnvironment::new(&portals, &tables).unwrap();
+/// let sampler = sky.by_radiance([0.0; 3].into());
+/// let w = sampler.sample(Vec2::new(0.3_f32, 0.6)).direction;
+/// let [y, z] = [w.y, w.z].map(|x| x / w.x * 3.0); // where it passes the plane of the window
+/// assert!((-0.5..0.5).contains(&y) && (0.0..2.0).contains(&z) && sampler.pdf(w) > 0.0);
+/// assert_eq!(sampler.pdf([1.0, 0.0, 0.9].into()), 0.0); // above it
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct PortalEnvironment<'a> {
+    portals: &'a [Portal],
+    tables: &'a [PortalTable<'a>],
+    /// The greatest unit of a table.
+    unit: f64,
+}
+
+impl<'a> PortalEnvironment<'a> {
+    /// The sky through these portals, with the table of each. Portals with the same [`PortalMap`] may share one.
+    ///
+    /// # Errors
+    /// If there are none or more than [`MOST_PORTALS`], or not as many tables.
+    pub fn new(portals: &'a [Portal], tables: &'a [PortalTable<'a>]) -> Result<Self, TableError> {
+        let is_some = (1..=MOST_PORTALS).contains(&portals.len()) && tables.len() == portals.len();
+        let unit = tables.iter().fold(0.0, |most: f64, table| most.max(table.unit));
+        if is_some { Ok(Self { portals, tables, unit }) } else { Err(TableError::Length) }
+    }
+    /// Whether a ray from `p` in the unit direction `w` passes a portal towards the sky.
+    #[inline(always)]
+    pub fn sees<R: Real>(&self, p: Vec3<R>, w: Vec3<R>) -> R::Mask {
+        self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
+            let ([across, up], visible) = portal.sides(p);
+            let [x, y, z] = portal.map.local(w);
+            sees | visible & passes([&across, &up], [x, y, z])
+        })
+    }
+    /// Whether a ray from `p` within so many radians of the unit direction `w` may pass a portal. Where this is false, none does; a sun
+    /// need not be sampled there.
+    #[inline(always)]
+    pub fn sees_cone<R: Real>(&self, p: Vec3<R>, w: Vec3<R>, radius: R) -> R::Mask {
+        self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
+            let ([across, up], visible) = portal.sides(p);
+            let [x, y, z] = portal.map.local(w);
+            // an oblique axis stretches a small step by the inverse of the sine
+            let slack = (radius + slack()) * R::lit(1.0 / portal.map.sin);
+            sees | visible & across.has(x, z, slack) & up.has(y, z, slack) & z.gt(-slack)
+        })
+    }
+    /// Directions from `p` in proportion to the weights.
+    #[inline(always)]
+    pub fn by_radiance<R: Real>(&self, p: Vec3<R>) -> PortalsByRadiance<'a, R> {
+        let mut windows = [Window::default(); MOST_PORTALS];
+        let mut cells = [0; MOST_LANES];
+        let mut weights = [0.0; MOST_LANES];
+        for ((portal, table), window) in self.portals.iter().zip(self.tables).zip(&mut windows) {
+            let (sides, visible) = portal.sides(p);
+            let scale = table.unit / self.unit;
+            let weight = R::from_fn(|lane| {
+                if !visible.lane(lane) {
+                    return R::Scalar::lit(0.0);
+                }
+                let [columns, rows] = spans(table, &sides, lane);
+                let weight = table.columns(columns, rows).total * columns.part_of_one() * rows.part_of_one();
+                R::Scalar::lit((weight * scale).max(LEAST_WEIGHT))
+            });
+            for lane in (0..R::LANES).filter(|&lane| visible.lane(lane)) {
+                cells[lane] += spans(table, &sides, lane)[0].cells();
+                weights[lane] += weight.lane_f64(lane);
+            }
+            *window = Window { sides, weight };
+        }
+        PortalsByRadiance { portals: self.portals, tables: self.tables, origin: p, windows, cells, weights }
+    }
+}
+
+const MOST_LANES: usize = 16;
+/// Weights are at least this: less has no reciprocal in single precision.
+const LEAST_WEIGHT: f64 = 1e-37;
+
+/// Whether a direction of these components passes a portal that is seen.
+#[inline(always)]
+fn passes<R: Real>([across, up]: [&Side<R>; 2], [x, y, z]: [R; 3]) -> R::Mask {
+    across.has(x, z, slack()) & up.has(y, z, slack()) & z.gt(R::lit(0.0))
+}
+
+/// A portal as a point sees it.
+#[derive(Clone, Copy, Debug, Default)]
+struct Window<R> {
+    sides: [Side<R>; 2],
+    /// Weight of what is seen; 0 where the portal is not seen.
+    weight: R,
+}
+
+/// A [`PortalEnvironment`] prepared for a point. Surface coordinates: those of [`Octahedral`], for the whole sphere.
+///
+/// A sample has the pdf that [`pdf`](LightSampler::pdf) tells for its direction; next to the edge of a texel that may be the neighbour's.
+#[derive(Clone, Copy, Debug)]
+pub struct PortalsByRadiance<'a, R: Real> {
+    portals: &'a [Portal],
+    tables: &'a [PortalTable<'a>],
+    origin: Vec3<R>,
+    windows: [Window<R>; MOST_PORTALS],
+    /// Number of columns that are seen in a lane, and their weight, over all portals.
+    cells: [u32; MOST_LANES],
+    weights: [f64; MOST_LANES],
+}
+
+/// A place in a portal: its number, column and row, and the position of each.
+#[derive(Clone, Copy, Debug, Default)]
+struct Drawn {
+    portal: usize,
+    place: [f64; 2],
+}
+
+impl<R: Real> PortalsByRadiance<'_, R> {
+    /// Calls `visit` with each portal that is seen in a lane, and where its columns are among the steps of u, until it returns something.
+    #[inline(always)]
+    fn each<T>(&self, lane: usize, mut visit: impl FnMut(usize, Place, [Span; 2]) -> Option<T>) -> Option<T> {
+        let mut place = Place { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] };
+        for (k, table) in self.tables.iter().enumerate() {
+            let weight = self.windows[k].weight.lane_f64(lane);
+            if weight > 0.0 {
+                let spans = spans(table, &self.windows[k].sides, lane);
+                if let Some(found) = visit(k, place, spans) {
+                    return Some(found);
+                }
+                place.cells[1] += spans[0].cells();
+                place.weights[1] += weight;
+            }
+        }
+        None
+    }
+    #[inline(always)]
+    fn draw(&self, lane: usize, [u, v]: [f64; 2]) -> Drawn {
+        let drawn = self.each(lane, |portal, place, [columns, rows]| {
+            let weight = self.windows[portal].weight.lane_f64(lane);
+            let end = place.step(place.cells[1] + columns.cells(), place.weights[1] + weight);
+            if u * STEPS >= end {
+                return None;
+            }
+            let table = &self.tables[portal];
+            let column = place.draw(&table.columns(columns, rows), weight, u);
+            let row = Place::only(&rows).draw(&table.rows(column.cell, rows), 1.0, v);
+            Some(Drawn { portal, place: [column.place(u), row.place(v)] })
+        });
+        drawn.unwrap_or_default()
+    }
+    /// Column and row of a position in a portal.
+    #[inline(always)]
+    fn find(&self, lane: usize, portal: usize, place: Place, [columns, rows]: [Span; 2], at: [f64; 2]) -> [Found; 2] {
+        let table = &self.tables[portal];
+        let weight = self.windows[portal].weight.lane_f64(lane);
+        let column = place.find(&table.columns(columns, rows), weight, columns.cell(at[0]));
+        let row = Place::only(&rows).find(&table.rows(column.cell, rows), 1.0, rows.cell(at[1]));
+        [column, row]
+    }
+    /// Where a direction passes a portal, the density there per unit of its window, and whether it passes at all.
+    #[inline(always)]
+    fn positions(&self, k: usize, w: Vec3<R>) -> ([R; 2], R, R::Mask) {
+        let (map, Window { sides: [across, up], weight }) = (&self.portals[k].map, &self.windows[k]);
+        let [x, y, z] = map.local(w);
+        let passes = weight.gt(R::lit(0.0)) & passes([across, up], [x, y, z]);
+        // the area of the window, in radians², per steradian
+        let (a, b) = (x.mul_add(x, z * z), y.mul_add(y, z * z));
+        let area = (z / a) / b / (across.size * up.size * R::lit(map.sin));
+        ([across.position(x, z), up.position(y, z)], area, passes)
+    }
+}
+
+impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
+    #[inline(always)]
+    fn sample(&self, u: Vec2<R>) -> LightSample<R> {
+        let u = u.map(unit_interval);
+        let mut drawn = [Drawn::default(); MOST_LANES];
+        for (lane, drawn) in drawn[..R::LANES].iter_mut().enumerate() {
+            *drawn = self.draw(lane, [u.x, u.y].map(|u| u.lane_f64(lane)));
+        }
+        let [x, y] = [0, 1].map(|k| {
+            let side = match self.portals {
+                [_] => self.windows[0].sides[k],
+                _ => Side::gather(|lane| &self.windows[drawn[lane].portal].sides[k]),
+            };
+            side.at(R::from_fn(|lane| R::Scalar::lit(drawn[lane].place[k])))
+        });
+        let axes = [x[0] * y[1], y[0] * x[1], x[1] * y[1]];
+        let direction = match self.portals {
+            [only] => only.map.world(axes),
+            portals => {
+                let of = |lane: usize| portals[drawn[lane].portal].map.world(axes.map(|x| x.lane(lane)));
+                Vec3::new(R::from_fn(|lane| of(lane).x), R::from_fn(|lane| of(lane).y), R::from_fn(|lane| of(lane).z))
+            }
+        };
+        self.hit(direction.unit_and_length().0)
+    }
+    #[inline(always)]
+    fn pdf(&self, w: Vec3<R>) -> R {
+        let mut sum = R::lit(0.0);
+        for k in 0..self.portals.len() {
+            let ([x, y], area, passes) = self.positions(k, w);
+            if !passes.any() {
+                continue;
+            }
+            let density = R::from_fn(|lane| {
+                let found = self.each(lane, |portal, place, spans| {
+                    let at = [x, y].map(|x| x.lane_f64(lane));
+                    (portal == k && passes.lane(lane)).then(|| self.find(lane, k, place, spans, at))
+                });
+                R::Scalar::lit(found.map_or(0.0, |[column, row]| column.density() * row.density()))
+            });
+            sum += (density * area).lesser(R::lit(GREATEST)).keep(passes);
+        }
+        sum.lesser(R::lit(GREATEST))
+    }
+    #[inline(always)]
+    fn invert(&self, w: Vec3<R>) -> Vec2<R> {
+        let mut u = Vec2::lit([0.0; 2]);
+        // of several portals, the first one
+        for k in (0..self.portals.len()).rev() {
+            let (at, _, passes) = self.positions(k, w);
+            let mut pairs = [[0.0; 2]; MOST_LANES];
+            for lane in (0..R::LANES).filter(|&lane| passes.lane(lane)) {
+                let at = at.map(|x| x.lane_f64(lane));
+                let found =
+                    self.each(lane, |portal, place, spans| (portal == k).then(|| self.find(lane, k, place, spans, at)));
+                let [column, row] = found.unwrap_or_default();
+                pairs[lane] = [column.invert(at[0]), row.invert(at[1])];
+            }
+            let pair = [0, 1].map(|i| R::from_fn(|lane| R::Scalar::lit(pairs[lane][i])));
+            u = Vec2::blend(passes, Vec2::new(pair[0], pair[1]), u);
+        }
+        u.map(unit_interval)
+    }
+    #[inline(always)]
+    fn hit(&self, w: Vec3<R>) -> LightSample<R> {
+        met(w, self.pdf(w), Octahedral.invert(w))
+    }
+    #[inline(always)]
+    fn origin(&self) -> Vec3<R> {
+        self.origin
+    }
+}

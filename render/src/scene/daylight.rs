@@ -1,0 +1,150 @@
+//! Reads `LightSource "infinite" "string sky" "cie"`: daylight by CIE's standard general sky, without a file.
+//!
+//! The sky is an image of 512 × 512 texels, each
+//! of which has the mean of the formula at 16 places.
+
+use super::environment::{SkyRadiance, SunDisk};
+use super::message::Message;
+use super::params::{MOST_RADIANCE, Params, rounded, shown};
+use super::spectrum::luminance;
+use etendue::light::{EnvironmentMap, GeneralSky, ImageEnvironment, Moment, SunPosition, Texel};
+use etendue::{Real, Vec2, f32x8, u32x8};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Columns and rows of the image, and places in a texel along each axis.
+const SIDE: usize = 512;
+const PLACES: usize = 4;
+/// 1 − cosσ of the sun's radius as seen from the earth.
+const SUN: f64 = 1.09e-5;
+/// Types whose luminance does not depend on the sun.
+const WITHOUT_SUN: [i64; 3] = [1, 3, 5];
+
+/// A sky and its sun.
+pub(super) type Daylight = (SkyRadiance, Option<SunDisk>);
+
+/// Reads the sky of this kind; `colour` is the radiance of its zenith, unless the horizontal plane has the wanted illuminance. The rows of
+/// `to_light` turn the world to the light's space.
+pub(super) fn read(
+    kind: &str,
+    params: &mut Params,
+    colour: [f64; 3],
+    wanted: Option<f64>,
+    to_light: &[[f32; 3]; 3],
+) -> Result<Option<Daylight>, Message> {
+    if kind != "cie" {
+        return Err(params.error(format!("\"sky\": {kind:?} is not supported, only \"cie\"")));
+    }
+    let number = params.integer("type")?.unwrap_or(12);
+    let sun = sun(params, WITHOUT_SUN.contains(&number))?;
+    let sky = u32::try_from(number).ok().and_then(|number| GeneralSky::new(number, sun));
+    let sky = sky.ok_or_else(|| params.error(format!("\"type\": must be from 1 to 15, not {number}")))?;
+    let disk = params.float("sun")?.unwrap_or(0.0);
+    if !(0.0..=f64::MAX).contains(&disk) {
+        return Err(params.error(format!("\"sun\": must be at least 0, not {}", shown(disk))));
+    }
+    let brightness = luminance(colour);
+    let factor = match wanted {
+        Some(wanted) if brightness > 0.0 => wanted / (brightness * sky.horizontal()),
+        _ => 1.0,
+    };
+    let zenith = colour.map(|x| x * factor);
+    let too_large = |rgb: &dyn std::fmt::Debug| {
+        params.error(format!("the radiance {rgb:?} of the sky or its sun: at most {MOST_RADIANCE:e} is supported"))
+    };
+    let (mut texels, mut is_dark) = (Vec::with_capacity(SIDE * SIDE), true);
+    for relative in image(&sky) {
+        let rgb = zenith.map(|x| x * relative);
+        let rgb = rounded(rgb).filter(|rgb| rgb.iter().all(|x| *x <= MOST_RADIANCE)).ok_or_else(|| too_large(&rgb))?;
+        is_dark &= rgb == [0.0; 3];
+        texels.push(rgb);
+    }
+    // a surface that faces the disk gets π sin²σ times its radiance
+    let radiance = disk / (PI * SUN * (2.0 - SUN));
+    let narrow = rounded([radiance; 3]).filter(|rgb| rgb[0] <= MOST_RADIANCE).ok_or_else(|| too_large(&radiance))?;
+    // the inverse of an orthogonal matrix is its transpose
+    let direction = std::array::from_fn(|k| (0..3).map(|i| f64::from(to_light[i][k]) * sun[i]).sum::<f64>() as f32);
+    let disk = (narrow[0] > 0.0).then_some(SunDisk { direction, one_minus_cos: SUN as f32, radiance: narrow });
+    let sky = match is_dark {
+        true => SkyRadiance::Constant([0.0; 3]),
+        false => SkyRadiance::Image { width: SIDE, map: EnvironmentMap::EqualArea, texels },
+    };
+    Ok((!is_dark || disk.is_some()).then_some((sky, disk)))
+}
+
+/// Unit vector to the sun in the light's space.
+fn sun(params: &mut Params, may_lack: bool) -> Result<[f64; 3], Message> {
+    let place = [params.float("latitude")?, params.float("longitude")?];
+    let [latitude, longitude] = match (params.float("elevation")?, place) {
+        (Some(_), [Some(_), _] | [_, Some(_)]) => {
+            return Err(params.error("\"elevation\" and \"latitude\": the sun has one or the other"));
+        }
+        (Some(elevation), _) => {
+            if !(0.0..=90.0).contains(&elevation) {
+                return Err(
+                    params.error(format!("\"elevation\": must be from 0 to 90 degrees, not {}", shown(elevation)))
+                );
+            }
+            let azimuth = params.float("azimuth")?.unwrap_or(180.0);
+            if !azimuth.is_finite() {
+                return Err(params.error(format!("\"azimuth\": must be finite, not {}", shown(azimuth))));
+            }
+            let position = SunPosition { elevation: elevation.to_radians(), azimuth: azimuth.to_radians() };
+            return Ok(position.direction());
+        }
+        (None, [None, None]) if may_lack => return Ok([0.0, 0.0, 1.0]),
+        (None, [Some(latitude), Some(longitude)]) => [latitude, longitude],
+        _ => return Err(params.error("needs \"elevation\", or \"latitude\" and \"longitude\", for its sun")),
+    };
+    let mut date = |name: &str| -> Result<i64, Message> {
+        params.integer(name)?.ok_or_else(|| params.error(format!("needs {name:?} for its sun")))
+    };
+    let [year, month, day] = [date("year")?, date("month")?, date("day")?];
+    let hours = params.float("hours")?.ok_or_else(|| params.error("needs \"hours\" for its sun"))?;
+    let zone = params.float("timezone")?.unwrap_or(0.0);
+    if !(0.0..=24.0).contains(&hours) || !(-24.0..=24.0).contains(&zone) {
+        return Err(params.error(format!(
+            "\"hours\" must be from 0 to 24 and \"timezone\" from -24 to 24, not {} and {}",
+            shown(hours),
+            shown(zone)
+        )));
+    }
+    let small = |x: i64| u32::try_from(x).unwrap_or(0);
+    let time = Moment {
+        year: i32::try_from(year).unwrap_or(0).clamp(-9999, 9999),
+        month: small(month),
+        day: small(day),
+        hours: hours - zone,
+    };
+    if i64::from(time.year) != year || !time.is_valid() {
+        return Err(params.error(format!("there is no day {year}-{month}-{day}")));
+    }
+    let position = SunPosition::new(time, latitude, longitude).ok_or_else(|| {
+        params.error(format!(
+            "\"latitude\" must be from -90 to 90 and \"longitude\" from -180 to 180 degrees, not {} and {}",
+            shown(latitude),
+            shown(longitude)
+        ))
+    })?;
+    if position.elevation < 0.0 {
+        let below = shown(-position.elevation.to_degrees());
+        return Err(params.error(format!("the sun is {below} degrees below the horizon at that time")));
+    }
+    Ok(position.direction())
+}
+
+/// The mean of each texel, over the luminance of the zenith.
+fn image(sky: &GeneralSky) -> Vec<f64> {
+    let buffer = vec![0.0; ImageEnvironment::buffer(SIDE, SIDE)];
+    let map = ImageEnvironment::from_buffer(&buffer, SIDE, EnvironmentMap::EqualArea).expect("a buffer of its size");
+    // two packets of 4 columns and 2 rows
+    let within = |k: usize| ((k as f64 + 0.5) / PLACES as f64) as f32;
+    let places =
+        [0, 1].map(|half| Vec2::new(f32x8::from_fn(|k| within(k % 4)), f32x8::from_fn(|k| within(2 * half + k / 4))));
+    let mean = |i: usize| {
+        let [x, y] = [i % SIDE, i / SIDE].map(|k| u32x8::splat(k as u32));
+        let luminance = places.map(|offset| sky.luminance(map.direction(&Texel { x, y, offset })));
+        (0..8).map(|lane| luminance[0].lane_f64(lane) + luminance[1].lane_f64(lane)).sum::<f64>() / 16.0
+    };
+    (0..SIDE * SIDE).into_par_iter().map(mean).collect()
+}

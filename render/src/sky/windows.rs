@@ -1,0 +1,85 @@
+//! The portals of a sky, with their tables.
+
+use crate::packet::{V8, X8};
+use etendue::Vec2;
+use etendue::light::{MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable};
+use etendue::real::Real;
+use rayon::prelude::*;
+
+/// The portals of a sky. Parallel ones share a table.
+#[derive(Clone, Debug)]
+pub(super) struct Windows {
+    portals: Vec<Portal>,
+    /// The table of each portal.
+    of: Vec<usize>,
+    tables: Vec<Vec<u64>>,
+    /// Columns and rows of a table.
+    size: usize,
+}
+
+/// Bounds of the number of columns and rows.
+const LEAST: usize = 64;
+const MOST: usize = 1024;
+/// Greatest number of places per texel of a table at which the sky is looked up, along each axis.
+const MOST_PLACES: usize = 16;
+
+impl Windows {
+    /// Tables of a sky whose texels span this angle, by a function that looks it up. The tables are about as fine as the image, within bounds,
+    /// and the sky is looked up at every half texel of it, so that no small sun is missed.
+    pub(super) fn new(portals: &[Portal], texel: f64, radiance: impl Fn(V8) -> X8 + Sync) -> Option<Self> {
+        if portals.is_empty() {
+            return None;
+        }
+        let wanted = std::f64::consts::PI / texel;
+        let size = (wanted as usize).clamp(LEAST, MOST);
+        let places = ((2.0 * wanted / size as f64).ceil() as usize).clamp(2, MOST_PLACES);
+        let mut maps: Vec<PortalMap> = Vec::new();
+        let of = portals.iter().map(|portal| {
+            let map = portal.map();
+            maps.iter().position(|known| *known == map).unwrap_or_else(|| {
+                maps.push(map);
+                maps.len() - 1
+            })
+        });
+        let of: Vec<_> = of.collect();
+        let tables = maps.iter().map(|map| table(map, size, places, &radiance)).collect();
+        Some(Self { portals: portals.to_vec(), of, tables, size })
+    }
+    /// What `run` makes of the portals.
+    #[inline]
+    pub(super) fn all<T>(&self, run: impl FnOnce(&PortalEnvironment<'_>) -> T) -> T {
+        let table = |k: usize| PortalTable::from_buffer(&self.tables[k], self.size).expect("a table of its own size");
+        let count = self.portals.len();
+        let tables: [_; MOST_PORTALS] = std::array::from_fn(|k| table(self.of[k.min(count - 1)]));
+        run(&PortalEnvironment::new(&self.portals, &tables[..count]).expect("the scene reader has counted the portals"))
+    }
+}
+
+/// The sky before a portal. A dark sky counts as one of the same radiance everywhere.
+fn table(map: &PortalMap, size: usize, places: usize, radiance: &(impl Fn(V8) -> X8 + Sync)) -> Vec<u64> {
+    let step = 1.0 / (size * places) as f64;
+    let weight = |x: usize, y: usize| -> f64 {
+        let mut sum = 0.0;
+        for first in (0..places * places).step_by(8) {
+            let place = |k: usize| ((first + k) % places, (first + k) / places);
+            let at = |corner: usize, inner: usize| ((corner * places + inner) as f64 + 0.5) * step;
+            let u = Vec2::new(X8::from_fn(|k| at(x, place(k).0) as f32), X8::from_fn(|k| at(y, place(k).1) as f32));
+            let (direction, solid_angle) = map.direction(u);
+            let worth = radiance(direction) * solid_angle;
+            sum += (0..8.min(places * places - first)).map(|k| worth.lane_f64(k)).sum::<f64>();
+        }
+        sum / (places * places) as f64
+    };
+    let mut weights = vec![0.0; size * size];
+    weights.par_chunks_mut(size).enumerate().for_each(|(y, row)| {
+        for (x, entry) in row.iter_mut().enumerate() {
+            *entry = weight(x, y).min(f64::from(f32::MAX)) as f32;
+        }
+    });
+    if weights.iter().all(|w| *w == 0.0) {
+        weights.fill(1.0);
+    }
+    let mut buffer = vec![0; PortalTable::buffer(size, size)];
+    PortalTable::build(&weights, size, &mut buffer).expect("valid weights");
+    buffer
+}

@@ -1,0 +1,534 @@
+//! The sky through portals against double precision: what is seen, the density by its definition, frequencies, inverses, lanes.
+
+use core::f64::consts::PI;
+use etendue::discrete::TableError;
+use etendue::light::{
+    EnvironmentMap, ImageEnvironment, MOST_PORTALS, Portal, PortalEnvironment, PortalMap, PortalTable,
+};
+use etendue::{LightSampler, Mask, Real, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
+use etendue_oracle::tier::cases;
+use etendue_oracle::{V3, cross, dot, length, sub, wide};
+use etendue_properties::generators::{self, Random};
+use etendue_properties::properties::{Coordinates, squares_of, twice, vectors_of};
+use etendue_properties::stats;
+use etendue_properties::tolerances::SIGNIFICANCE;
+
+/// A parallelogram with the texels of its map.
+#[derive(Clone)]
+struct Opening {
+    corner: [f32; 3],
+    s: [f32; 3],
+    t: [f32; 3],
+    weights: Vec<f32>,
+    width: usize,
+}
+
+fn add(a: V3, b: V3) -> V3 {
+    core::array::from_fn(|k| a[k] + b[k])
+}
+fn scale(v: V3, by: f64) -> V3 {
+    v.map(|x| x * by)
+}
+
+impl Opening {
+    fn new(random: &mut Random, corner: V3, s: V3, t: V3, [width, height]: [usize; 2]) -> Self {
+        let narrow = |v: V3| v.map(|x| x as f32);
+        let weights = (0..width * height)
+            .map(|i| match i % 7 {
+                0 => 0.0,
+                3 => 50.0 * random.unit(),
+                _ => random.unit(),
+            })
+            .collect();
+        Self { corner: narrow(corner), s: narrow(s), t: narrow(t), weights, width }
+    }
+    fn height(&self) -> usize {
+        self.weights.len() / self.width
+    }
+    /// Where a ray passes the parallelogram, in units of its edges, if it goes that way.
+    fn passed(&self, p: V3, w: V3) -> Option<[f64; 2]> {
+        let (s, t) = (wide(self.s), wide(self.t));
+        let n = cross(s, t);
+        let ahead = dot(sub(wide(self.corner), p), n);
+        let toward = dot(w, n);
+        if ahead <= 0.0 || toward <= 0.0 {
+            return None;
+        }
+        let at = sub(add(p, scale(w, ahead / toward)), wide(self.corner));
+        let square = dot(n, n);
+        Some([dot(cross(at, t), n) / square, dot(cross(s, at), n) / square])
+    }
+    /// Angles of a vector about both edges, in units of the map.
+    fn place(&self, v: V3) -> [f64; 2] {
+        let (s, t) = (wide(self.s), wide(self.t));
+        let n = cross(s, t);
+        let square = dot(n, n);
+        let (x, y) = (dot(cross(v, t), n) / square * length(s), dot(cross(s, v), n) / square * length(t));
+        let z = dot(v, n) / length(n);
+        [x.atan2(z) / PI + 0.5, y.atan2(z) / PI + 0.5]
+    }
+    /// Corners of what is seen in the map.
+    fn window(&self, p: V3) -> [[f64; 2]; 2] {
+        let low = sub(wide(self.corner), p);
+        let high = add(low, add(wide(self.s), wide(self.t)));
+        [self.place(low), self.place(high)]
+    }
+    /// Weight of what is seen, and that of a place over its area.
+    fn weight(&self, p: V3) -> f64 {
+        let [low, high] = self.window(p);
+        let (w, h) = (self.width, self.height());
+        let part = |k: usize, i: usize, n: usize| {
+            let [a, b] = [i, i + 1].map(|i| i as f64 / n as f64);
+            (b.min(high[k]) - a.max(low[k])).max(0.0) * n as f64
+        };
+        let texel = |i: usize| f64::from(self.weights[i]) * part(0, i % w, w) * part(1, i / w, h);
+        (0..w * h).map(texel).sum()
+    }
+    fn texel(&self, w: V3) -> [usize; 2] {
+        let ([x, y], [columns, rows]) = (self.place(w), [self.width, self.height()]);
+        [((x * columns as f64) as usize).min(columns - 1), ((y * rows as f64) as usize).min(rows - 1)]
+    }
+    /// Weight per steradian of a direction.
+    fn density(&self, w: V3) -> f64 {
+        let [i, j] = self.texel(w);
+        f64::from(self.weights[j * self.width + i]) * self.area(w) * (self.width * self.height()) as f64
+    }
+    /// What six steps of u weigh at most, per steradian.
+    fn step(&self, p: V3, w: V3) -> f64 {
+        let [low, high] = self.window(p);
+        let (at, sizes) = (self.texel(w), [self.width as f64, self.height() as f64]);
+        let part = |k: usize| {
+            let [a, b] = [at[k], at[k] + 1].map(|i| i as f64 / sizes[k]);
+            b.min(high[k]) - a.max(low[k])
+        };
+        6.0 / 16_777_216.0 / (part(0) * part(1)) * self.area(w)
+    }
+    /// Area of the map per steradian.
+    fn area(&self, w: V3) -> f64 {
+        // by differences of the map in two directions of the tangent plane
+        let a = if w[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+        let u = cross(w, a);
+        let u = scale(u, 1.0 / length(u));
+        let v = cross(w, u);
+        let e = 1e-5;
+        let difference = |d: V3| {
+            let [a, b] = [e, -e].map(|e| self.place(add(w, scale(d, e))));
+            [(a[0] - b[0]) / (2.0 * e), (a[1] - b[1]) / (2.0 * e)]
+        };
+        let (a, b) = (difference(u), difference(v));
+        (a[0] * b[1] - a[1] * b[0]).abs()
+    }
+}
+
+fn portals_of(openings: &[Opening]) -> Vec<Portal> {
+    openings.iter().map(|o| Portal::new(o.corner, o.s, o.t).unwrap()).collect()
+}
+
+/// Calls `run` with the portals.
+fn with<T>(openings: &[Opening], run: impl FnOnce(&PortalEnvironment<'_>) -> T) -> T {
+    let mut buffers: Vec<_> = openings.iter().map(|o| vec![0; PortalTable::buffer(o.width, o.height())]).collect();
+    let both = openings.iter().zip(&mut buffers);
+    let tables: Vec<_> = both.map(|(o, buffer)| PortalTable::build(&o.weights, o.width, buffer).unwrap()).collect();
+    run(&PortalEnvironment::new(&portals_of(openings), &tables).unwrap())
+}
+
+/// Openings, and points that see something of them.
+fn scenes() -> Vec<(&'static str, Vec<Opening>, Vec<V3>)> {
+    let mut random = Random::new(5);
+    let r = &mut random;
+    let window = |r: &mut Random, size| Opening::new(r, [3.0, -1.0, 0.5], [0.0, 2.0, 0.0], [0.0, 0.0, 1.5], size);
+    let near: Vec<V3> = vec![[0.0, 0.0, 1.0], [2.9, 0.3, 1.0], [2.0, -3.0, 4.0], [-20.0, 5.0, 0.0]];
+    let skew = Opening::new(r, [1.0, 0.5, 2.0], [1.0, 0.2, 0.0], [0.4, 1.3, 0.2], [9, 14]);
+    let below: Vec<V3> = vec![[1.2, 1.0, 0.0], [0.0, 0.0, 1.9], [4.0, -2.0, -1.0]];
+    let three = vec![
+        window(r, [16, 16]),
+        Opening::new(r, [3.0, 1.5, 0.5], [0.0, 1.0, 0.0], [0.0, 0.0, 1.5], [16, 16]),
+        Opening::new(r, [-1.0, -1.0, 3.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [5, 30]),
+    ];
+    // one behind the other: every direction through the smaller passes both
+    let behind = vec![window(r, [12, 12]), Opening::new(r, [4.0, -0.5, 0.8], [0.0, 1.0, 0.1], [0.0, 0.0, 0.7], [8, 8])];
+    let one = Opening { weights: vec![2.0], width: 1, ..window(r, [1, 1]) };
+    vec![
+        ("window", vec![window(r, [16, 12])], near.clone()),
+        ("fine", vec![window(r, [256, 128])], near.clone()),
+        ("one texel", vec![one], near.clone()),
+        ("skew", vec![skew], below),
+        ("three", three, vec![[0.0, 0.0, 1.0], [2.5, 1.0, 2.5], [-0.5, 0.0, 2.8]]),
+        ("one behind the other", behind, near),
+    ]
+}
+
+fn narrow(p: V3) -> Vec3<f32> {
+    vectors_of(|_| p.map(|x| x as f32))
+}
+
+/// The pdf is the weight per steradian over the weight that is seen, with a share of 2⁻²⁴ for each column and row; 0 beside the portal.
+/// A direction through two portals has the sum.
+#[test]
+fn pdf_by_its_definition() {
+    let mut random = Random::new(1);
+    for (name, openings, points) in scenes() {
+        with(&openings, |sky| {
+            let mut passed = [0, 0];
+            for &p in &points {
+                let sampler = sky.by_radiance(Vec3::<f64>::new(p[0], p[1], p[2]));
+                let single = sky.by_radiance(narrow(p));
+                let total: f64 = openings.iter().map(|o| o.weight(p)).sum();
+                // a window within a dark texel: the density is that of its one step of u
+                if total == 0.0 {
+                    continue;
+                }
+                for i in 0..4000 {
+                    let w = if i % 2 == 0 {
+                        random.direction()
+                    } else {
+                        sampler.sample(Vec2::new(random.unit_f64(), random.unit_f64())).direction.at(0)
+                    };
+                    let inside =
+                        |o: &&Opening| o.passed(p, w).is_some_and(|at| at.iter().all(|x| (0.0..1.0).contains(x)));
+                    // where neither border nor edge is near
+                    let clear = openings.iter().all(|o| {
+                        let [x, y] = o.place(w);
+                        let far = |x: f64, n: usize| ((x * n as f64).fract() - 0.5).abs() < 0.499;
+                        let beside = |x: f64| x.abs() > 1e-3 && (x - 1.0).abs() > 1e-3;
+                        far(x, o.width)
+                            && far(y, o.height())
+                            && o.passed(p, w).is_none_or(|at| at.iter().all(|&x| beside(x)))
+                    });
+                    if !clear {
+                        continue;
+                    }
+                    let through: Vec<_> = openings.iter().filter(inside).collect();
+                    let truth = through.iter().map(|o| o.density(w)).sum::<f64>() / total;
+                    let wide: Vec3<f64> = Coordinates::gather(&[w]);
+                    let pdf = sampler.pdf(wide);
+                    passed[usize::from(through.len() > 1)] += usize::from(!through.is_empty());
+                    assert_eq!(!through.is_empty(), pdf > 0.0, "{name}: {pdf} at {w:?} from {p:?}");
+                    assert_eq!(sky.sees(Vec3::new(p[0], p[1], p[2]), wide), pdf > 0.0);
+                    // columns and rows are drawn in 2⁻²⁴ths, and parts of rows count in 2⁻¹⁵ths
+                    let floor = through.iter().map(|o| o.step(p, w)).sum::<f64>();
+                    assert!(
+                        (pdf - truth).abs() <= 1e-4 * truth + floor,
+                        "{name}: {pdf}, expected {truth} ± {floor} at {w:?} from {p:?}"
+                    );
+                    let narrow = f64::from(single.pdf(narrow(w)));
+                    assert!(
+                        (narrow - pdf).abs() <= 1e-4 * pdf + floor,
+                        "{name}: {narrow} in single precision, {pdf} in double"
+                    );
+                }
+            }
+            assert!(passed[0] > 1000, "{name}: {passed:?}");
+            assert_eq!(passed[1] > 100, name == "one behind the other", "{name}: {passed:?}");
+        });
+    }
+}
+
+/// ∫pdf = 1 by a sum over the area of the portals, which refers to no map, and samples match it in bins.
+#[test]
+fn samples_follow_the_pdf() {
+    for (name, openings, points) in scenes() {
+        with(&openings, |sky| {
+            for &p in points.iter().step_by(cases(2, 1)) {
+                let sampler = sky.by_radiance(Vec3::<f64>::new(p[0], p[1], p[2]));
+                let (n, bins) = (cases(400, 2000), 8);
+                let mut expected = vec![0.0; openings.len() * bins * bins];
+                let first = |w: V3| {
+                    openings.iter().enumerate().find_map(|(k, o)| {
+                        let [x, y] = o.passed(p, w).filter(|at| at.iter().all(|x| (0.0..1.0).contains(x)))?;
+                        let bin = |x: f64| ((x * bins as f64) as usize).min(bins - 1);
+                        Some((k * bins + bin(x)) * bins + bin(y))
+                    })
+                };
+                for o in &openings {
+                    let normal = cross(wide(o.s), wide(o.t));
+                    for i in 0..n * n {
+                        let [x, y] = [i % n, i / n].map(|i| (i as f64 + 0.5) / n as f64);
+                        let to = sub(add(wide(o.corner), add(scale(wide(o.s), x), scale(wide(o.t), y))), p);
+                        let far = length(to);
+                        let w = scale(to, 1.0 / far);
+                        let Some(bin) = first(w) else { continue };
+                        // what two portals show counts once, in the first one
+                        if o.passed(p, w).is_some()
+                            && bin / (bins * bins) == openings.iter().position(|q| core::ptr::eq(q, o)).unwrap()
+                        {
+                            let solid_angle = dot(w, normal).max(0.0) / (far * far) / (n * n) as f64;
+                            expected[bin] += sampler.pdf(Coordinates::gather(&[w])) * solid_angle;
+                        }
+                    }
+                }
+                let sum: f64 = expected.iter().sum();
+                assert!((sum - 1.0).abs() < 1e-2, "{name}: the pdf integrates to {sum} from {p:?}");
+                let single = sky.by_radiance(narrow(p));
+                let (mut random, count) = (Random::new(3), 20_000);
+                let mut observed = vec![0_u64; expected.len()];
+                let mut lost = 0;
+                for _ in 0..count {
+                    let s = single.sample(Vec2::new(random.unit(), random.unit()));
+                    assert!(s.pdf > 0.0 && s.pdf == single.pdf(s.direction), "{name}: {s:?} from {p:?}");
+                    assert!((length(s.direction.at(0)) - 1.0).abs() < 4e-7 && s.emits && !s.delta && s.distance > 1e38);
+                    match first(s.direction.at(0)) {
+                        Some(bin) => observed[bin] += 1,
+                        None => lost += 1,
+                    }
+                }
+                assert!(lost < count / 1000, "{name}: {lost} samples beside the portals from {p:?}");
+                let expected: Vec<_> = expected.iter().map(|e| (e / sum).max(1e-9) * f64::from(count)).collect();
+                let p_value = stats::chi_square(&observed, &expected);
+                assert!(p_value > SIGNIFICANCE, "{name}: {p_value} from {p:?}");
+            }
+        });
+    }
+}
+
+/// `sample(invert(w)) = w` for directions through a portal, and `invert(sample(u)) = u` where one portal shows the direction.
+#[test]
+fn inverses() {
+    let mut random = Random::new(2);
+    let mut worst = [0.0_f64; 2];
+    for (name, openings, points) in scenes() {
+        with(&openings, |sky| {
+            for &p in &points {
+                let sampler = sky.by_radiance(Vec3::<f64>::new(p[0], p[1], p[2]));
+                for _ in 0..500 {
+                    let u = [random.unit_f64(), random.unit_f64()];
+                    let s = sampler.sample(Vec2::new(u[0], u[1]));
+                    let back = sampler.invert(s.direction);
+                    let again = sampler.sample(back).direction;
+                    let off = length(sub(again.at(0), s.direction.at(0)));
+                    worst[0] = worst[0].max(off);
+                    assert!(off < 1e-7, "{name}: {:?} maps back to {again:?} from {p:?}", s.direction);
+                    let through = openings.iter().filter(|o| {
+                        o.passed(p, s.direction.at(0))
+                            .is_some_and(|at| at.iter().all(|x| (-1e-6..1.000_001).contains(x)))
+                    });
+                    if through.count() == 1 {
+                        let off = (back.x - u[0]).abs().max((back.y - u[1]).abs());
+                        worst[1] = worst[1].max(off);
+                        assert!(off < 1e-7, "{name}: {back:?}, expected {u:?} from {p:?}");
+                    }
+                    // single precision, to the steps of u in dim columns
+                    let single = sky.by_radiance(narrow(p));
+                    let s = single.sample(squares_of(&[u.map(|u| u as f32)]));
+                    let again = single.sample(single.invert(s.direction)).direction;
+                    let cell = (2.0 * PI / openings[0].width.min(openings[0].height()) as f64).min(1.0);
+                    let off = length(sub(again.at(0), s.direction.at(0)));
+                    assert!(off < cell, "{name}: {off} from {p:?}");
+                }
+            }
+        });
+    }
+    println!("direction {:.1e}, u {:.1e}", worst[0], worst[1]);
+}
+
+/// From behind, and in the plane of a portal, nothing is seen.
+#[test]
+fn nothing_is_seen_from_behind() {
+    let openings = vec![scenes()[0].1[0].clone()];
+    with(&openings, |sky| {
+        for p in [[3.0, 0.0, 1.0], [3.5, 0.0, 1.0], [1e9, 0.0, 0.0], [3.0, 50.0, 1.0]] {
+            let sampler = sky.by_radiance(narrow(p));
+            let s = sampler.sample(Vec2::new(0.3, 0.7));
+            assert_eq!((s.pdf, s.emits), (0.0, false), "{p:?}");
+            let ahead = Vec3::new(1.0, 0.0, 0.0);
+            assert_eq!((sampler.pdf(ahead), sky.sees(narrow(p), ahead)), (0.0, false), "{p:?}");
+        }
+        let through: Vec3<f32> = Vec3::new(1.0, 0.0, 0.0);
+        assert!(sky.sees(narrow([2.999, 0.0, 1.0]), through) && !sky.sees(narrow([2.999, 0.0, 1.0]), -through));
+    });
+}
+
+/// A portal of any size at any distance: scaled with the point, it gives the same bits; far away, samples stay within it to rounding.
+#[test]
+fn portals_of_any_size() {
+    let base = scenes()[0].1[0].clone();
+    let us: Vec<[f32; 2]> = (0..64).map(|i| [i as f32 / 64.0, (i * 37 % 64) as f32 / 64.0]).collect();
+    let directions = |factor: f32| {
+        let by = |v: [f32; 3]| v.map(|x| x * factor);
+        let scaled = Opening { corner: by(base.corner), s: by(base.s), t: by(base.t), ..base.clone() };
+        with(&[scaled], |sky| {
+            let sampler = sky.by_radiance(Vec3::new(0.25 * factor, 0.5 * factor, factor));
+            us.iter()
+                .map(|u| sampler.sample(squares_of::<f32>(&[*u])))
+                .map(|s| [s.pdf, s.direction.x])
+                .collect::<Vec<_>>()
+        })
+    };
+    let one = directions(1.0);
+    for power in [-60, -20, 3, 40] {
+        assert_eq!(one, directions(2.0_f32.powi(power)), "2^{power}");
+    }
+    for distance in [10.0, 1e3, 1e5] {
+        let far = Opening { corner: [distance, -1.0, -0.75], ..base.clone() };
+        with(core::slice::from_ref(&far), |sky| {
+            let sampler = sky.by_radiance(Vec3::<f32>::default());
+            let mut mean = [0.0; 2];
+            for u in &us {
+                let s = sampler.sample(squares_of(&[*u]));
+                let at = far.passed([0.0; 3], s.direction.at(0)).unwrap();
+                let slack = 3e-7 * f64::from(distance);
+                assert!(at.iter().all(|x| (-slack..1.0 + slack).contains(x)), "{distance}: {at:?}");
+                let solid_angle = 3.0 / f64::from(distance).powi(2);
+                if distance > 100.0 {
+                    // its window is within one texel or two rows of it
+                    let ratio = f64::from(s.pdf) * solid_angle;
+                    assert!((0.0..60.0).contains(&ratio) && s.pdf > 0.0, "{distance}: {ratio}");
+                }
+                mean = [mean[0] + at[0], mean[1] + at[1]];
+            }
+        });
+    }
+}
+
+fn bits<R: Real>(sky: &PortalEnvironment<'_>, p: Vec3<R>, u: Vec2<R>, w: Vec3<R>, i: usize) -> [u64; 11] {
+    let sampler = sky.by_radiance(p);
+    let s = sampler.sample(u);
+    let ([x, y, z], back, again) = (s.direction.at(i), sampler.invert(w).at(i), sampler.invert(s.direction).at(i));
+    let pdf = sampler.pdf(w);
+    let all = [x, y, z, s.pdf.lane_f64(i), pdf.lane_f64(i), back[0], back[1], again[0], again[1], s.uv.at(i)[0]];
+    assert!(all.iter().all(|x| x.is_finite()) && all[3] >= 0.0 && all[4] >= 0.0, "{all:?}");
+    assert!(all[5..9].iter().all(|u| (0.0..1.0).contains(u)), "{all:?}");
+    assert_eq!(s.pdf.lane_f64(i).to_bits(), sampler.pdf(s.direction).lane_f64(i).to_bits());
+    assert_eq!(s.emits.lane(i), s.pdf.lane_f64(i) > 0.0);
+    let mut words = [0; 11];
+    words[..10].copy_from_slice(&all.map(f64::to_bits));
+    words[10] = u64::from(sky.sees(p, w).lane(i));
+    words
+}
+
+/// Any point and direction gives finite numbers, identical at every width; also with tables of any contents.
+#[test]
+fn any_bits_in_every_lane() {
+    let mut random = Random::new(4);
+    for (name, openings, points) in scenes() {
+        let mut garbage: Vec<_> = openings.iter().map(|o| vec![0; PortalTable::buffer(o.width, o.height())]).collect();
+        garbage.iter_mut().flatten().for_each(|x| *x = random.word());
+        let both = openings.iter().zip(&garbage);
+        let tables: Vec<_> = both.map(|(o, buffer)| PortalTable::from_buffer(buffer, o.width).unwrap()).collect();
+        let portals = portals_of(&openings);
+        let broken = PortalEnvironment::new(&portals, &tables).unwrap();
+        with(&openings, |sky| {
+            for round in 0..cases(200, 2000) {
+                let p: [[f32; 3]; 8] = std::array::from_fn(|i| {
+                    if (round + i) % 3 == 0 {
+                        generators::nasty(&mut random)
+                    } else {
+                        points[i % points.len()].map(|x| x as f32)
+                    }
+                });
+                let w: [[f32; 3]; 8] = std::array::from_fn(|_| {
+                    if round % 4 == 0 { generators::nasty(&mut random) } else { random.direction().map(|x| x as f32) }
+                });
+                let u: [[f32; 2]; 8] = std::array::from_fn(|_| [random.unit(), random.unit()]);
+                for i in 0..8 {
+                    let one = bits::<f32>(sky, vectors_of(|_| p[i]), squares_of(&u[i..=i]), vectors_of(|_| w[i]), 0);
+                    let all = |sky| bits::<f32x8>(sky, vectors_of(|i| p[i]), squares_of(&u), vectors_of(|i| w[i]), i);
+                    assert_eq!(one, all(sky), "{name}");
+                    all(&broken);
+                    let k = i / 4 * 4;
+                    let four = bits::<f32x4>(
+                        sky,
+                        vectors_of(|j| p[k + j]),
+                        squares_of(&u[k..k + 4]),
+                        vectors_of(|j| w[k + j]),
+                        i % 4,
+                    );
+                    assert_eq!(one, four, "{name}");
+                    let (p, u, w) = (twice(&p), twice(&u), twice(&w));
+                    let sixteen =
+                        bits::<f32x16>(sky, vectors_of(|j| p[j]), squares_of(&u), vectors_of(|j| w[j]), 15 - i);
+                    assert_eq!(
+                        bits::<f32>(
+                            sky,
+                            vectors_of(|_| p[15 - i]),
+                            squares_of(&u[15 - i..16 - i]),
+                            vectors_of(|_| w[15 - i]),
+                            0
+                        ),
+                        sixteen
+                    );
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn invalid_input_is_an_error() {
+    let mut buffer = [0; PortalTable::buffer(2, 2)];
+    let mut build = |weights: &[f32], width| PortalTable::build(weights, width, &mut buffer).map(|_| ()).unwrap_err();
+    assert_eq!(build(&[1.0; 3], 2), TableError::Length);
+    assert_eq!(build(&[1.0; 4], 0), TableError::Length);
+    assert_eq!(build(&[1.0; 6], 2), TableError::Length);
+    assert_eq!(build(&[0.0; 4], 2), TableError::Empty);
+    assert_eq!(build(&[1.0, f32::NAN, 0.0, 0.0], 2), TableError::Weight);
+    assert_eq!(build(&[1.0, -1.0, 0.0, 0.0], 2), TableError::Weight);
+    for (length, width) in [(9, 2), (10, 0), (0, 3), (10, usize::MAX), (1, 1)] {
+        assert!(PortalTable::from_buffer(&[0; 10][..length], width).is_err(), "{length} {width}");
+    }
+    let (s, t) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    assert!(PortalMap::new(s, s).is_none() && PortalMap::new(s, [0.0; 3]).is_none());
+    assert!(PortalMap::new(s, [f32::NAN; 3]).is_none() && PortalMap::new([f32::INFINITY, 0.0, 0.0], t).is_none());
+    let table = PortalTable::build(&[1.0; 4], 2, &mut buffer).unwrap();
+    assert!(Portal::new([f32::NAN, 0.0, 0.0], s, t).is_none());
+    let portals = [Portal::new([0.0; 3], s, t).unwrap(); MOST_PORTALS + 1];
+    let tables = [table; MOST_PORTALS + 1];
+    assert!(PortalEnvironment::new(&portals, &tables).is_err() && PortalEnvironment::new(&[], &[]).is_err());
+    assert!(PortalEnvironment::new(&portals[1..], &tables).is_err());
+    assert!(PortalEnvironment::new(&portals[1..], &tables[1..]).is_ok());
+}
+
+/// Time of a sample from a point of its own, and of an image of as many texels. Optimised:
+/// `cargo test --config profile.dev.package.etendue-tests.opt-level=3 -p etendue-tests --test portals -- --ignored --nocapture`
+#[test]
+#[ignore = "prints times"]
+fn time_per_sample() {
+    const SIDE: usize = 512;
+    let mut random = Random::new(8);
+    let weights: Vec<_> = (0..SIDE * SIDE).map(|_| random.unit()).collect();
+    let mut buffer = vec![0.0; ImageEnvironment::buffer(SIDE, SIDE)];
+    let image = ImageEnvironment::build(&weights, SIDE, EnvironmentMap::EqualArea, &mut buffer).unwrap();
+    /// Points, numbers and directions.
+    type Packet = (Vec3<f32x8>, Vec2<f32x8>, Vec3<f32x8>);
+    let mut packet = || -> Packet {
+        let mut unit = || f32x8::from_fn(|_| random.unit());
+        let p = Vec3::new(unit(), unit(), unit());
+        let ahead = f32x8::splat(1.0);
+        (p, Vec2::new(unit(), unit()), Vec3::new(ahead, unit() - ahead, unit()).normalize())
+    };
+    let packets: Vec<_> = (0..512).map(|_| packet()).collect();
+    let time = |name: &str, run: &mut dyn FnMut(&Packet) -> f32x8| {
+        let mut best = f64::INFINITY;
+        // short enough that few are interrupted
+        for _ in 0..100 {
+            let start = std::time::Instant::now();
+            let sum = packets.iter().fold(f32x8::splat(0.0), |sum, packet| sum + run(packet));
+            best = best.min(start.elapsed().as_secs_f64() * 1e9 / (8 * packets.len()) as f64);
+            assert!((0..8).any(|lane| sum.lane(lane) > 0.0), "nothing was computed");
+        }
+        println!("{name}: {best:.1} ns");
+    };
+    time("image, sample", &mut |(_, u, _)| image.draw(*u).light.pdf);
+    time("image, sample with the pdf of its direction", &mut |(_, u, _)| image.by_radiance().sample(*u).pdf);
+    time("image, pdf", &mut |(_, _, w)| image.pdf(*w));
+    for count in [1, 3] {
+        let windows = (0..count).map(|k| {
+            let mut opening = Opening::new(
+                &mut Random::new(9),
+                [3.0, 1.5 * f64::from(k) - 1.0, 0.5],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, 1.5],
+                [1, 1],
+            );
+            (opening.weights, opening.width) = (weights.clone(), SIDE);
+            opening
+        });
+        with(&windows.collect::<Vec<_>>(), |sky| {
+            time(&format!("{count} portals, sample"), &mut |(p, u, _)| sky.by_radiance(*p).sample(*u).pdf);
+            time(&format!("{count} portals, pdf"), &mut |(p, _, w)| sky.by_radiance(*p).pdf(*w));
+            time(&format!("{count} portals, sees"), &mut |(p, _, w)| {
+                f32x8::splat(1.0).keep(sky.sees(*p, *w)) + f32x8::splat(1e-6)
+            });
+        });
+    }
+}
