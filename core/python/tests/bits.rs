@@ -3,7 +3,7 @@
 use etendue::light::*;
 use etendue::sequence::{Independent, OwenSobol, Sequence};
 use etendue::warp::{CosineHemisphere, Warp};
-use etendue::{LightSampler, Vec2, Vec3};
+use etendue::{LightSampler, Real, Vec2, Vec3};
 
 /// The words of a sample.
 fn words(s: &LightSample<f32>) -> [u32; 12] {
@@ -46,7 +46,7 @@ fn polygons<const N: usize>(case: u32) -> (Polygon<f32, N>, Polygon<f32, 8>) {
     let mut angles: [f32; N] = core::array::from_fn(|i| (i as f32 + 0.9 * pair(case, i as u32, 4).x) / N as f32);
     angles.sort_by(f32::total_cmp);
     let corner = |turns: f32| {
-        let (sin, cos) = (turns * core::f32::consts::TAU).sin_cos();
+        let (sin, cos) = Real::sin_cos_turns(turns);
         center + a * cos + b * sin
     };
     let corners = angles.map(corner);

@@ -178,6 +178,7 @@ impl SunPosition {
         if !time.is_valid() || !(-90.0..=90.0).contains(&latitude) || !(-180.0..=180.0).contains(&longitude) {
             return None;
         }
+        // by the name of the trait, since the standard library's methods of f64 have other bits
         let days = time.days();
         // degrees of more than a turn keep their precision as turns
         let turn = |degrees: f64| (degrees / 360.0).sin_cos_turns();
@@ -185,7 +186,7 @@ impl SunPosition {
         let mean = 280.46 + 0.985_647_4 * days;
         let longitude_of_sun = mean + 1.915 * turn(anomaly).0 + 0.02 * turn(2.0 * anomaly).0;
         let ((sin, cos), (tilt_sin, tilt_cos)) = (turn(longitude_of_sun), turn(23.439 - 4e-7 * days));
-        let ascension = (tilt_cos * sin).atan2(cos);
+        let ascension = Real::atan2(tilt_cos * sin, cos);
         let height = tilt_sin * sin;
         let width = Real::sqrt(1.0 - height * height);
         let sidereal = 15.0 * (6.697_375 + 0.065_709_824_2 * days + time.hours) + longitude;
@@ -193,9 +194,9 @@ impl SunPosition {
         let (lat_sin, lat_cos) = turn(latitude);
         let (east, north) = (-width * h_sin, height * lat_cos - width * lat_sin * h_cos);
         let up = height * lat_sin + width * lat_cos * h_cos;
-        let azimuth = east.atan2(north);
+        let azimuth = Real::atan2(east, north);
         let across = Real::sqrt(east * east + north * north);
-        Some(Self { elevation: up.atan2(across), azimuth: if azimuth < 0.0 { azimuth + TAU } else { azimuth } })
+        Some(Self { elevation: Real::atan2(up, across), azimuth: if azimuth < 0.0 { azimuth + TAU } else { azimuth } })
     }
     /// The direction to the sun: +x is east, +y north and +z up.
     #[must_use]

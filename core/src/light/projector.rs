@@ -68,7 +68,7 @@ impl Projector {
         };
         let [[left, right], [top, bottom]] = [edges(x, width, self.tan_half[0]), edges(y, height, self.tan_half[1])];
         // the solid angle of the rectangle from the axis to a corner
-        let corner = |x: f64, y: f64| (x * y).atan2(Real::sqrt(1.0 + x * x + y * y));
+        let corner = |x: f64, y: f64| Real::atan2(x * y, Real::sqrt(1.0 + x * x + y * y));
         let solid_angle = corner(right, bottom) - corner(left, bottom) - corner(right, top) + corner(left, top);
         // a texel that rounding would take away keeps a chance
         solid_angle.greater(f64::MIN_POSITIVE)
