@@ -1,7 +1,7 @@
 //! Each light by each technique.
 
 use crate::driver::{Driver, HOSTILE, compare, slots};
-use etendue::{LightSample, LightSampler, Vec2, Vec3};
+use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use etendue_oracle::tier::{cases, is_long};
 use etendue_properties::generators::{Random, nasty, unit_or_edge};
 use etendue_properties::techniques::AreaLight;
@@ -29,8 +29,7 @@ fn sample(s: &LightSample<f32>, wanted: &Wanted, all: &mut Vec<f32>) {
 /// A convex octagon about `a` in the plane of `b` and `c`.
 fn octagon(light: &AreaLight) -> Vec<f32> {
     let corner = |k: usize| {
-        let turn = std::f64::consts::TAU * (k as f64 + 0.3 * (k % 3) as f64) / 8.0;
-        let (s, c) = turn.sin_cos();
+        let (s, c) = Real::sin_cos_turns((k as f64 + 0.3 * (k % 3) as f64) / 8.0);
         (0..3).map(move |i| (f64::from(light.a[i]) + c * f64::from(light.b[i]) + s * f64::from(light.c[i])) as f32)
     };
     (0..8).flat_map(corner).collect()
