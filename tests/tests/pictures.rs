@@ -209,14 +209,18 @@ fn samples_follow_the_pdf() {
                     let name = format!("{light:?} {by:?} {:?} {} from {p:?}", image.size, image.name);
                     let sampler = light.with::<f64>(picture, by, vector(p), vector(normal(p)));
                     // a grid over each texel: exact by solid angle and by projected solid angle for texels that are whole
-                    let n = (64 / image.size[0].max(image.size[1])).max(4);
-                    let mut expected = vec![0.0; image.weights.len()];
+                    let varies = by == By::Area || by == By::Visible;
+                    let n = (128 / image.size[0].max(image.size[1])).max(if varies { 20 } else { 6 });
+                    // a patch may hide a part of itself
+                    let (mut expected, mut hidden) = (vec![0.0; image.weights.len()], false);
                     for [x, y] in image.texels() {
                         for k in 0..n * n {
                             let at = [k % n, k / n].map(|i| (i as f64 + 0.5) / n as f64);
-                            if let Some((w, steradians)) = light.seen(p, image.place(x, y, at)) {
-                                let pdf = sampler.light.pdf(vector(w));
-                                expected[y * image.size[0] + x] += pdf * steradians / (n * n) as f64;
+                            let uv = image.place(x, y, at);
+                            if let Some((w, steradians)) = light.seen(p, uv) {
+                                let hit = sampler.light.hit(vector(w));
+                                hidden |= light == Patch && (hit.uv.x - uv[0]).abs() > 1e-6;
+                                expected[y * image.size[0] + x] += hit.pdf * steradians / (n * n) as f64;
                             }
                         }
                         expected[y * image.size[0] + x] /= image.weights.len() as f64;
@@ -231,18 +235,22 @@ fn samples_follow_the_pdf() {
                             if visible { (s.y as usize) * image.size[0] + s.x as usize } else { image.weights.len() };
                         observed[slot] += 1;
                     }
+                    // texels that the horizon cuts are not known well enough
+                    let cut = |uv| light.point(uv).is_none_or(|(point, _)| dot(sub(point, p), normal(p)) < 0.0);
+                    let cut = by == By::Projected && [[0.0; 2], [1.0, 0.0], [0.0, 1.0], [1.0; 2]].into_iter().any(cut);
                     // beyond the rim, behind, and below the horizon there is no sample
                     let missed = observed[image.weights.len()] as f64 / f64::from(count);
                     let whole = light.region() == Region::Square && light != Ball && by != By::Projected;
                     let nothing = sum < 1e-6;
                     let near = 0.05 + if by == By::Area || light == Patch || light == Ball { 0.1 } else { 0.0 };
                     assert!(
-                        nothing || (sum + missed - 1.0).abs() < near,
+                        nothing || cut || (sum + missed - 1.0).abs() < near,
                         "{name}: ∫pdf = {sum}, {missed} of samples without"
                     );
                     assert!(!whole || nothing || missed == 0.0, "{name}: {missed} of samples have no pdf");
                     // the quadrature's error at the horizon counts above, not below
-                    if (sum + missed - 1.0).abs() < 0.01 && sum > 0.1 && image.weights.len() > 1 {
+                    let several = !cut && !hidden && expected.iter().filter(|&&e| e > 0.01).count() > 1;
+                    if (sum + missed - 1.0).abs() < 0.01 && sum > 0.1 && several {
                         let drawn: u64 = observed[..image.weights.len()].iter().sum();
                         let expected: Vec<_> = expected.iter().map(|e| (e / sum).max(1e-9) * drawn as f64).collect();
                         observed.truncate(image.weights.len());
