@@ -7,6 +7,7 @@ use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
 use etendue_properties::generators::Random;
 use etendue_properties::properties::{Coordinates, squares_of};
+use etendue_properties::tolerances::ULP;
 
 fn vector<R: Real>(v: V3) -> Vec3<R> {
     Coordinates::gather(&[v])
@@ -132,7 +133,11 @@ fn holds(
         let back = sampler.invert(s.direction);
         let again = sampler.sample(back);
         let off = length(sub(again.direction.at(0), s.direction.at(0)));
-        assert!(off < 2e-5, "{u:?} inverts to {back:?}, off by {off}");
+        // directions are rounded: across a sliver, that is a part of its width, and so may move the inverse along a part of its length
+        let size = 2.0 * (length(scene.s) + length(scene.t)) / f64::from(s.distance);
+        let sliver = size.min(scene.angle).powi(2) * f64::from(s.pdf);
+        let bound = 2e-5 + 2.0 * ULP * sliver;
+        assert!(off < bound, "{u:?} inverts to {back:?}, off by {off}, allowed {bound}");
     }
     count
 }
