@@ -37,8 +37,8 @@
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
 //! | [`PointLight`] with a [`Profile`] or a [`Projector`] | [`by_profile`](PointLight::by_profile): the same | | |
 //!
-//! Of a light that emits within an angle of its normal, a [`Spread`], `by_spread` samples what a point sees: [`Parallelogram`],
-//! [`Rectangle`] and [`Disk`] have it.
+//! Some lights emit only within an angle of their normal, a [`Spread`]. Their method `by_spread` samples the part that a point sees:
+//! [`Parallelogram`], [`Rectangle`] and [`Disk`] have it.
 //!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
 //! patches, and the projected solid angle of disks. A sun and a constant environment have no area.

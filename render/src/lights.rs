@@ -3,15 +3,16 @@
 mod directed;
 mod many;
 mod pictures;
+mod record;
 mod spread;
 pub mod tree;
 
 use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
-use crate::geometry::{Geometry, bounds_of};
+use crate::geometry::Geometry;
 use crate::light_picture::LightPicture;
 use crate::packet::{M8, V8, X8, equal, select};
-use crate::scene::{DeltaLight, Emission, Scene, Shape};
+use crate::scene::{Emission, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
 use directed::{DirectedLight, directed_lights};
@@ -19,143 +20,17 @@ use etendue::light::Spread;
 use etendue::select::{Allocated, Choice, FEW, LightBound, LightChoice, LightsAt, SpatialLights};
 use etendue::{
     DirectionalLight, LightSample, LightSampler, Mask, Parallelogram, PointLight, Real, Sphere, SpotLight, Triangle,
-    Vec2, Vec3, u32x8,
+    Vec2, u32x8,
 };
 use many::{ManyAt, ManyLights};
 use pictures::Tables;
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use record::{
+    DIRECTED, DISTANT, KINDS, LightRecord, ONLY_AREAS, ONLY_DELTAS, PARALLELOGRAM, PICTURED, PICTURES, POINT,
+    PackedLight, Powered, SKY, SPHERE, SPOT, SPREAD, SPREADS, TRIANGLE, TWO_SIDED, UNEVEN, area_lights, delta_lights,
+    squared_radius,
+};
 use std::sync::Arc;
-
-// kinds of lights, and flags beside them
-const SPHERE: u32 = 0;
-const TRIANGLE: u32 = 1;
-const PARALLELOGRAM: u32 = 2;
-const POINT: u32 = 3;
-const SPOT: u32 = 4;
-const DISTANT: u32 = 5;
-const SKY: u32 = 6;
-const DIRECTED: u32 = 7;
-const KINDS: u32 = 7;
-const TWO_SIDED: u32 = 8;
-const SPREAD: u32 = 16;
-const PICTURED: u32 = 32;
-/// Beside the bits of the kinds: there is a light with a spread.
-const SPREADS: u32 = 1 << 8;
-/// Beside the bits of the kinds: there is a light that shows a picture.
-const PICTURES: u32 = 1 << 9;
-/// Lights whose radiance or intensity differs by direction, but for the sky.
-const UNEVEN: u32 = 1 << DIRECTED | SPREADS;
-const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT | 1 << DIRECTED;
-const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | SPREADS | PICTURES;
-
-/// A light.
-#[derive(Clone, Copy, Debug, Default)]
-struct LightRecord {
-    /// Centre of a sphere, corner of a triangle or parallelogram, position of a light without an area, direction to a distant light.
-    place: [f32; 3],
-    /// First edge of a triangle or parallelogram, axis of a spot or directed light; a sphere has its radius in x.
-    first: [f32; 3],
-    /// Second edge of a triangle or parallelogram; a spot light has the cosines of its inner and outer angle in x and y; a directed
-    /// light has its index among those in x, and in y the cosine of the angle from which on it is dark.
-    second: [f32; 3],
-    /// Radiance, the mean of a picture; intensity of a point or spot light, the greatest of a directed light, irradiance of a distant
-    /// light.
-    radiance: [f32; 3],
-    /// Its spread, where [`SPREAD`] is set.
-    spread: Spread<f32>,
-    /// Its kind, [`TWO_SIDED`], [`SPREAD`] and [`PICTURED`].
-    kind: u32,
-    /// Index of its shape, or [`NOTHING`].
-    shape: u32,
-}
-
-/// A [`LightRecord`] in two halves of eight numbers: two transpositions gather eight lights. [`Chosen::new`] unpacks it.
-type PackedLight = [[f32; 8]; 2];
-
-impl LightRecord {
-    /// A shape that emits, and its power in units of π.
-    fn of(index: u32, shape: &Shape) -> Option<(Self, f64)> {
-        let emission = shape.emission?;
-        let (kind, [place, first, second]) = match shape.geometry {
-            Geometry::Sphere { center, radius } => (SPHERE, [center, [radius, 0.0, 0.0], [0.0; 3]]),
-            Geometry::Triangle([a, b, c]) => {
-                let edge = |to: [f32; 3]| std::array::from_fn(|k| to[k] - a[k]);
-                (TRIANGLE, [a, edge(b), edge(c)])
-            }
-            Geometry::Parallelogram { p, u, v } => (PARALLELOGRAM, [p, u, v]),
-        };
-        let (sides, flag) = if emission.two_sided { (2.0, TWO_SIDED) } else { (1.0, 0) };
-        let flag = if emission.picture.is_some() { flag | PICTURED } else { flag };
-        let power = sum(emission.radiance) * shape.geometry.area() * sides;
-        let radiance = emission.radiance;
-        let mut record = Self { place, first, second, radiance, kind: kind | flag, shape: index, ..Self::default() };
-        if let Some(spread) = emission.spread {
-            (record.spread, record.kind) = (spread, record.kind | SPREAD);
-        }
-        Some((record, power))
-    }
-    fn pack(&self) -> PackedLight {
-        let Self { place: [a, b, c], first: [d, e, f], second: [g, h, i], radiance: [red, green, blue], .. } = *self;
-        [
-            [a, b, c, d, e, f, g, h],
-            [
-                i,
-                red,
-                green,
-                blue,
-                f32::from_bits(self.kind),
-                f32::from_bits(self.shape),
-                self.spread.tan_half,
-                self.spread.gain,
-            ],
-        ]
-    }
-    /// Whether the light is infinitely far away.
-    fn is_distant(&self) -> bool {
-        matches!(self.kind & KINDS, DISTANT | SKY)
-    }
-    /// The bound of what a light of finite extent contributes, by its power. The bound of another light has no power.
-    fn bound(&self, power: f64) -> LightBound {
-        let wide = |v: [f32; 3]| Vec3::<f64>::from(v.map(f64::from));
-        let (p, u, v) = (wide(self.place), wide(self.first), wide(self.second));
-        let (center, radius, normal) = match self.kind & KINDS {
-            SPHERE => (p, f64::from(self.first[0]), Vec3::default()),
-            TRIANGLE => {
-                let center = p + (u + v) * (1.0 / 3.0);
-                let corners = [p, p + u, p + v];
-                (center, corners.into_iter().map(|c| (c - center).length()).fold(0.0, f64::max), u.cross(v))
-            }
-            PARALLELOGRAM => {
-                let center = p + (u + v) * 0.5;
-                (center, 0.5 * (u + v).length().max((u - v).length()), u.cross(v))
-            }
-            // beyond a hemisphere, a cone bounds nothing
-            SPOT | DIRECTED if self.second[1] > 0.0 => (p, 0.0, u),
-            _ => (p, 0.0, Vec3::default()),
-        };
-        let length = normal.length();
-        let narrow = |v: Vec3<f64>| [v.x, v.y, v.z].map(|x| x as f32);
-        let two_sided = self.kind & TWO_SIDED != 0;
-        LightBound {
-            center: narrow(center),
-            // the rounding of the centre moves the sphere by less than this
-            radius: (radius * (1.0 + 1e-6)) as f32,
-            normal: narrow(if length > 0.0 { normal * (1.0 / length) } else { normal }),
-            cos_cone: match self.kind & KINDS {
-                SPOT | DIRECTED => self.second[1].max(0.0),
-                _ if self.kind & SPREAD != 0 => spread::cos_cone(&self.spread),
-                _ => 0.0,
-            },
-            two_sided: two_sided && length > 0.0,
-            power: if self.is_distant() {
-                0.0
-            } else {
-                (power as f32 * if two_sided { 0.5 } else { 1.0 }).max(f32::MIN_POSITIVE)
-            },
-        }
-    }
-}
 
 /// The lights of a scene.
 #[derive(Debug, Default)]
@@ -258,68 +133,8 @@ pub struct Chosen {
     pub shape: u32x8,
 }
 
-/// Squared radius of a sphere around all surfaces.
-fn squared_radius(scene: &Scene) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let boxes = scene.shapes.iter().map(|shape| shape.geometry.bounds());
-    let objects: Vec<_> =
-        scene.objects.iter().map(|range| bounds_of(scene.triangles[range.clone()].as_flattened())).collect();
-    let instances = scene.instances.iter().flat_map(|instance| instance.corners(objects[instance.object as usize]));
-    let own = scene.objects.first().map_or(scene.triangles.len(), |range| range.start);
-    let points = scene.triangles[..own].as_flattened().iter().copied().chain(instances);
-    for [least, most] in points.map(|p| [p, p]).chain(boxes) {
-        for k in 0..3 {
-            low[k] = low[k].min(f64::from(least[k]));
-            high[k] = high[k].max(f64::from(most[k]));
-        }
-    }
-    let squared: f64 = (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>() / 4.0;
-    if squared.is_finite() { squared } else { 1.0 }
-}
-
 fn product(a: V8, b: V8) -> V8 {
     V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
-}
-
-fn sum(rgb: [f32; 3]) -> f64 {
-    rgb.iter().map(|&x| f64::from(x)).sum()
-}
-
-/// Records and their powers, in units of π.
-type Powered = Vec<(LightRecord, f64)>;
-
-fn area_lights(scene: &Scene) -> Powered {
-    (0..).zip(scene.shapes.iter()).filter_map(|(index, shape)| LightRecord::of(index, shape)).collect()
-}
-
-fn delta_lights(scene: &Scene) -> Powered {
-    let mut directed = 0;
-    let light = |light: &DeltaLight| {
-        let none = LightRecord { shape: NOTHING, ..LightRecord::default() };
-        match *light {
-            DeltaLight::Point { position: place, intensity: radiance } => {
-                (LightRecord { place, radiance, kind: POINT, ..none }, 4.0 * sum(radiance))
-            }
-            DeltaLight::Spot { position: place, axis: first, cos_inner, cos_outer, intensity: radiance } => {
-                let cone = 2.0 - f64::from(cos_inner) - f64::from(cos_outer);
-                let second = [cos_inner, cos_outer, 0.0];
-                // a cone too narrow for its cosine to differ from 1 still has a chance
-                (LightRecord { place, first, second, radiance, kind: SPOT, ..none }, cone.max(1e-7) * sum(radiance))
-            }
-            DeltaLight::Directed { position: place, to_light: [_, _, first], intensity: radiance, table } => {
-                let shape = &scene.intensities[table as usize];
-                let second = [f32::from_bits(directed), shape.cos_cone(), 0.0];
-                directed += 1;
-                let flux = shape.flux();
-                let power = (0..3).map(|k| f64::from(radiance[k]) * flux[k]).sum::<f64>() / PI;
-                (LightRecord { place, first, second, radiance, kind: DIRECTED, ..none }, power)
-            }
-            DeltaLight::Distant { direction: place, irradiance: radiance } => {
-                (LightRecord { place, radiance, kind: DISTANT, ..none }, sum(radiance) * squared_radius(scene))
-            }
-        }
-    };
-    scene.delta_lights.iter().map(light).collect()
 }
 
 impl Lights {
