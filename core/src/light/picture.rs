@@ -1,7 +1,7 @@
 //! Pictures on lights: which texel, in proportion to its radiance and to its measure as seen from a point.
 
-use crate::discrete::TableError;
-use crate::real::{Mask, Real, Uint};
+use crate::discrete::{TableError, locate};
+use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::vector::Vec2;
 
 /// Steps of `u` in the unit interval, and the greatest number of columns and of rows.
@@ -84,8 +84,11 @@ impl Region {
 pub struct Picture<'a> {
     /// By level, from the whole picture on, and row by row: the share of the lower half.
     shares: &'a [f32],
+    /// Number of cells.
     size: [u32; 2],
     region: Region,
+    /// The values between which a picture is interpolated, if it is, row by row.
+    values: Option<&'a [f32]>,
 }
 
 /// A level of the hierarchy.
@@ -211,11 +214,20 @@ impl<'a> Picture<'a> {
         if weights.iter().any(|w| !(0.0..=f32::MAX).contains(w)) {
             return Err(TableError::Weight);
         }
-        let size = [width as u32, height as u32];
         let weight = |x: usize, y: usize| {
             let w = f64::from(weights[y * width + x]);
             if w > 0.0 && region != Region::Square { w * region.part([x, y], [width, height]) } else { w }
         };
+        let shares = Self::fill(buffer, [width, height], weight)?;
+        Ok(Self { shares, size: [width as u32, height as u32], region, values: None })
+    }
+    /// Fills the buffer with shares, given the weight of each cell times its area.
+    fn fill(
+        buffer: &'a mut [f32],
+        [width, height]: [usize; 2],
+        weight: impl Fn(usize, usize) -> f64,
+    ) -> Result<&'a [f32], TableError> {
+        let size = [width as u32, height as u32];
         let sum = |[x0, y0]: [usize; 2], [x1, y1]: [usize; 2]| -> f64 {
             (y0..y1.min(height)).map(|y| (x0..x1.min(width)).map(|x| weight(x, y)).sum::<f64>()).sum()
         };
@@ -242,11 +254,7 @@ impl<'a> Picture<'a> {
                 };
             }
         }
-        if sum([0, 0], [width, height]) > 0.0 {
-            Ok(Self { shares: buffer, size, region })
-        } else {
-            Err(TableError::Empty)
-        }
+        if sum([0, 0], [width, height]) > 0.0 { Ok(buffer) } else { Err(TableError::Empty) }
     }
     /// The picture that [`build`](Self::build) has left in the buffer. The contents are not checked: with others, the pmf is still what is
     /// drawn.
@@ -259,7 +267,103 @@ impl<'a> Picture<'a> {
         if !fits || buffer.len() != Self::buffer(width, height) {
             return Err(TableError::Length);
         }
-        Ok(Self { shares: buffer, size: [width as u32, height as u32], region })
+        Ok(Self { shares: buffer, size: [width as u32, height as u32], region, values: None })
+    }
+    /// Builds the hierarchy of a picture that is interpolated bilinearly between the centres of its texels, and continued by its outermost
+    /// ones: what pbrt-v4 does with pictures on lights, and Mitsuba 3 with textures that are clamped. The pdf is then in proportion to the
+    /// interpolated radiance: cells are between the centres of four texels.
+    ///
+    /// `values` is the radiance at the centres, row by row, and must live as long as the picture. The buffer has
+    /// [`buffer`](Self::buffer)(width + 1, height + 1) entries, and [`size`](Self::size) is one more than that of the image.
+    ///
+    /// # Errors
+    /// As for [`build`](Self::build).
+    pub fn interpolated(values: &'a [f32], width: usize, buffer: &'a mut [f32]) -> Result<Self, TableError> {
+        let height = values.len().checked_div(width).unwrap_or(0);
+        let [columns, rows] = [width, height].map(|n| n + 1);
+        let whole = columns.max(rows) <= STEPS as usize && values.len() == width * height && height > 0;
+        if !whole || columns * rows > u32::MAX as usize / 2 || buffer.len() != Self::buffer(columns, rows) {
+            return Err(TableError::Length);
+        }
+        if values.iter().any(|w| !(0.0..=f32::MAX).contains(w)) {
+            return Err(TableError::Weight);
+        }
+        let value = |x: usize, y: usize| f64::from(values[y * width + x]);
+        // of a cell at the rim, only a half is in the picture
+        let part = |i: usize, n: usize| if i == 0 || i == n { 0.5 } else { 1.0 };
+        let ends = |i: usize, n: usize| [i.saturating_sub(1), i.min(n - 1)];
+        let weight = |x: usize, y: usize| {
+            let ([left, right], [top, bottom]) = (ends(x, width), ends(y, height));
+            let sum = value(left, top) + value(right, top) + value(left, bottom) + value(right, bottom);
+            0.25 * sum * part(x, width) * part(y, height)
+        };
+        let shares = Self::fill(buffer, [columns, rows], weight)?;
+        Ok(Self { shares, size: [columns, rows].map(|n| n as u32), region: Region::Square, values: Some(values) })
+    }
+    /// The interpolated picture that [`interpolated`](Self::interpolated) has built in the buffer.
+    ///
+    /// # Errors
+    /// As for [`from_buffer`](Self::from_buffer).
+    pub fn interpolated_from_buffer(values: &'a [f32], width: usize, buffer: &'a [f32]) -> Result<Self, TableError> {
+        let height = values.len().checked_div(width).unwrap_or(0);
+        if height == 0 || values.len() != width * height {
+            return Err(TableError::Length);
+        }
+        Ok(Self { values: Some(values), ..Self::from_buffer(buffer, [width + 1, height + 1], Region::Square)? })
+    }
+    /// Radiance at the corners of a cell, in which it is bilinear; none where it is constant.
+    #[inline(always)]
+    pub(super) fn corners<R: Real>(&self, cell: Vec2<R>) -> Option<[R; 4]> {
+        let values = self.values?;
+        let [width, height] = self.size.map(|n| n as usize - 1);
+        let (x, y) = (cell.x.to_uint(), cell.y.to_uint());
+        let value = |right: usize, below: usize| {
+            R::from_fn(|lane| {
+                let at = |i: u32, next: usize, n: usize| (i as usize + next).saturating_sub(1).min(n - 1);
+                let index = at(y.lane(lane), below, height) * width + at(x.lane(lane), right, width);
+                R::Scalar::lit(f64::from(values.get(index).copied().unwrap_or(0.0)))
+            })
+        };
+        Some([value(0, 0), value(1, 0), value(0, 1), value(1, 1)])
+    }
+    /// Where columns, or rows, begin in the picture, in [0, 1], given one over their number.
+    #[inline(always)]
+    fn edge<R: Real>(&self, at: R, count: R) -> R {
+        match self.values {
+            None => at / count,
+            Some(_) => {
+                let (zero, half, one) = (R::lit(0.0), R::lit(0.5), R::lit(1.0));
+                // with one cell more than texels, the first and the last one are halves
+                ((at - half) / (count - one)).clamped(zero, one)
+            }
+        }
+    }
+    /// A cell as a box.
+    #[inline(always)]
+    pub(super) fn cell<R: Real>(&self, at: Vec2<R>) -> Box2<R> {
+        let (counts, one) = (self.counts::<R>(), R::lit(1.0));
+        let edges = |x: R, y: R| Vec2::new(self.edge(x, counts.x), self.edge(y, counts.y));
+        Box2 { low: edges(at.x, at.y), high: edges(at.x + one, at.y + one) }
+    }
+    /// The cell at surface coordinates, and the position in it.
+    #[inline(always)]
+    pub(super) fn locate<R: Real>(&self, uv: Vec2<R>) -> (Vec2<R>, Vec2<R>) {
+        let counts = self.counts::<R>();
+        let one = |x: R, n: R| match self.values {
+            None => {
+                let (i, within) = locate(unit_interval(x), n);
+                (R::from_uint(i), within)
+            }
+            Some(_) => {
+                let (half, one) = (R::lit(0.5), R::lit(1.0));
+                let place = unit_interval(x).mul_add(n - one, half);
+                let i = R::from_uint(place.to_uint()).lesser(n - one);
+                let (start, end) = (self.edge(i, n), self.edge(i + one, n));
+                (i, unit_interval((x - start) / (end - start)))
+            }
+        };
+        let ((x, s), (y, t)) = (one(uv.x, counts.x), one(uv.y, counts.y));
+        (Vec2::new(x, y), Vec2::new(s, t))
     }
     /// Columns and rows.
     #[inline(always)]
@@ -286,7 +390,7 @@ impl<'a> Picture<'a> {
         let at = Vec2::new(least(u.x), least(u.y));
         let drawn = self.walk(halves, |axis, step, _| if axis == 0 { at.x.lt(step) } else { at.y.lt(step) });
         // the differences are exact
-        let within = |at: R, start: R, steps: R| crate::real::unit_interval((at - start) / steps);
+        let within = |at: R, start: R, steps: R| unit_interval((at - start) / steps);
         let Drawn { start, steps, .. } = drawn;
         (drawn, Vec2::new(within(at.x, start.x, steps.x), within(at.y, start.y, steps.y)))
     }
@@ -303,6 +407,10 @@ impl<'a> Picture<'a> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let counts = self.counts::<R>();
         let inverse = Vec2::new(one / counts.x, one / counts.y);
+        let place = |x: R, y: R| match self.values {
+            None => Vec2::new(x * inverse.x, y * inverse.y),
+            Some(_) => Vec2::new(self.edge(x, counts.x), self.edge(y, counts.y)),
+        };
         let mut start = [zero; 2];
         let mut steps = [R::lit(STEPS); 2];
         let mut texel = [zero; 2];
@@ -328,10 +436,7 @@ impl<'a> Picture<'a> {
                 let to = (from + size).lesser(if axis == 0 { counts.y } else { counts.x });
                 let boxed = |start: R, end: R| {
                     let [x0, x1, y0, y1] = if axis == 0 { [start, end, from, to] } else { [from, to, start, end] };
-                    Box2 {
-                        low: Vec2::new(x0 * inverse.x, y0 * inverse.y),
-                        high: Vec2::new(x1 * inverse.x, y1 * inverse.y),
-                    }
+                    Box2 { low: place(x0, y0), high: place(x1, y1) }
                 };
                 [boxed(texel[axis], middle), boxed(middle, end)]
             };

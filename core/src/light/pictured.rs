@@ -1,11 +1,10 @@
 //! Lights with pictures, prepared for a shading point.
 
-use super::picture::{Drawn, Halves, Picture};
+use super::picture::{Box2, Drawn, Halves, Picture};
 use super::sample::LightSample;
 use super::sampler::LightSampler;
 use super::surface::SurfaceHit;
-use crate::discrete::{locate, place};
-use crate::real::{GREATEST, Real, unit_interval};
+use crate::real::{GREATEST, Real};
 use crate::vector::{Vec2, Vec3};
 
 /// A sample of a light with a picture, and the texel that it comes from.
@@ -34,27 +33,23 @@ impl<'a> Picture<'a> {
     }
 }
 
-/// A texel of a picture of so many columns and rows.
+/// A texel, as a part of the unit square of surface coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Texel<R> {
-    /// Column and row.
-    pub(super) at: Vec2<R>,
-    /// Columns and rows of the picture.
-    pub(super) of: Vec2<R>,
+    /// Its first corner.
+    pub(super) low: Vec2<R>,
+    /// Its sides.
+    pub(super) size: Vec2<R>,
+    /// Radiance at its corners, between which it is bilinear, unless it is constant.
+    pub(super) corners: Option<[R; 4]>,
 }
 
 impl<R: Real> Texel<R> {
     /// Surface coordinates of a position in the texel.
     #[inline(always)]
     pub(super) fn place(&self, within: Vec2<R>) -> Vec2<R> {
-        let inner = within.map(unit_interval);
-        Vec2::new(place(self.at.x.to_uint(), inner.x, self.of.x), place(self.at.y.to_uint(), inner.y, self.of.y))
-    }
-    /// The texel at surface coordinates, and the position in it.
-    #[inline(always)]
-    fn at(uv: Vec2<R>, of: Vec2<R>) -> (Self, Vec2<R>) {
-        let ((x, s), (y, t)) = (locate(unit_interval(uv.x), of.x), locate(unit_interval(uv.y), of.y));
-        (Self { at: Vec2::new(R::from_uint(x), R::from_uint(y)), of }, Vec2::new(s, t))
+        let at = |low: R, size: R, x: R| x.mul_add(size, low).clamped(R::lit(0.0), R::ONE_MINUS_EPSILON);
+        Vec2::new(at(self.low.x, self.size.x, within.x), at(self.low.y, self.size.y, within.y))
     }
 }
 
@@ -69,7 +64,7 @@ pub(super) trait TexelSurface<R: Real>: Halves<R> {
     /// A point of the texel for `u` in [0, 1)², with the pdf that it has among those of the texel.
     fn draw(&self, texel: &Texel<R>, u: Vec2<R>) -> LightSample<R>;
     /// The pdf per steradian of a direction that hits the texel in `at`, among those of the texel.
-    fn pdf(&self, texel: &Texel<R>, w: Vec3<R>, at: &SurfaceHit<R>) -> R;
+    fn pdf(&self, texel: &Texel<R>, w: Vec3<R>, at: &SurfaceHit<R>, within: Vec2<R>) -> R;
     /// The `u` that [`draw`](Self::draw) maps to a direction, which hits the texel in this position.
     fn invert(&self, texel: &Texel<R>, w: Vec3<R>, within: Vec2<R>) -> Vec2<R>;
 }
@@ -117,17 +112,22 @@ impl<R: Real, S: TexelSurface<R>> ByPicture<'_, R, S> {
     #[inline]
     pub fn draw(&self, u: Vec2<R>) -> PictureSample<R> {
         let (drawn, within) = self.picture.draw(u, &self.surface);
-        let texel = Texel { at: drawn.texel, of: self.picture.counts() };
-        let light = self.surface.draw(&texel, within);
+        let light = self.surface.draw(&self.texel(drawn.texel), within);
         let pdf = Self::density(&drawn, light.pdf).keep(self.picture.region().contains(light.uv));
         PictureSample { light: LightSample { pdf, ..light }, x: drawn.texel.x.to_uint(), y: drawn.texel.y.to_uint() }
     }
+    #[inline(always)]
+    fn texel(&self, at: Vec2<R>) -> Texel<R> {
+        let Box2 { low, high } = self.picture.cell(at);
+        Texel { low, size: high - low, corners: self.picture.corners(at) }
+    }
     #[inline]
     fn pdf_at(&self, w: Vec3<R>, at: &SurfaceHit<R>) -> R {
-        let (texel, _) = Texel::at(at.uv, self.picture.counts());
-        let drawn = self.picture.find(texel.at, &self.surface);
+        let (cell, within) = self.picture.locate(at.uv);
+        let drawn = self.picture.find(cell, &self.surface);
+        let texel = self.texel(cell);
         let hit = self.surface.contains(w) & self.picture.region().contains(at.uv);
-        Self::density(&drawn, self.surface.pdf(&texel, w, at)).keep(hit)
+        Self::density(&drawn, self.surface.pdf(&texel, w, at, within)).keep(hit)
     }
 }
 
@@ -147,9 +147,9 @@ impl<R: Real, S: TexelSurface<R>> LightSampler<R> for ByPicture<'_, R, S> {
     }
     #[inline]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
-        let (texel, within) = Texel::at(self.surface.at(w).uv, self.picture.counts());
-        let drawn = self.picture.find(texel.at, &self.surface);
-        drawn.invert(self.surface.invert(&texel, w, within))
+        let (cell, within) = self.picture.locate(self.surface.at(w).uv);
+        let drawn = self.picture.find(cell, &self.surface);
+        drawn.invert(self.surface.invert(&self.texel(cell), w, within))
     }
     #[inline]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {

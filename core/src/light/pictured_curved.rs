@@ -10,7 +10,7 @@ use crate::math::{quotient, ratio};
 use crate::real::{Mask, Real};
 use crate::spherical::DirectionSample;
 use crate::vector::{Vec2, Vec3};
-use crate::warp::{UniformSphere, Warp};
+use crate::warp::{Bilinear, UniformSphere, Warp};
 use core::f64::consts::PI;
 
 impl<'a, R: Real> Pictured<'a, Sphere<R>> {
@@ -149,21 +149,29 @@ impl<R: Real, S: Coordinates<R>> TexelSurface<R> for Curved<S> {
     }
     #[inline(always)]
     fn draw(&self, texel: &Texel<R>, u: Vec2<R>) -> LightSample<R> {
-        let uv = texel.place(u);
+        let (within, varied) = match texel.corners {
+            None => (u, R::lit(1.0)),
+            Some(corners) => {
+                let within = Bilinear { corners }.sample(u);
+                (within, Bilinear { corners }.pdf(within))
+            }
+        };
+        let uv = texel.place(within);
         let point = self.0.point(uv);
         let DirectionSample { direction, distance } = direction_to(point.position);
         let cos = direction.dot(point.normal);
-        let pdf = solid_angle_pdf(distance, cos.abs() * (point.inverse_pdf / texel.of.x / texel.of.y));
+        let pdf = solid_angle_pdf(distance, cos.abs() * (point.inverse_pdf * texel.size.x * texel.size.y)) * varied;
         let (emits, delta) = (cos.lt(R::lit(0.0)), R::Mask::splat(false));
         LightSample { direction, distance, pdf, normal: point.normal, uv, emits, delta }
     }
     #[inline(always)]
-    fn pdf(&self, texel: &Texel<R>, w: Vec3<R>, at: &SurfaceHit<R>) -> R {
-        let area = self.0.stretch(at.uv) / texel.of.x / texel.of.y;
-        solid_angle_pdf(at.distance, w.dot(at.normal).abs() * area)
+    fn pdf(&self, texel: &Texel<R>, w: Vec3<R>, at: &SurfaceHit<R>, within: Vec2<R>) -> R {
+        let area = self.0.stretch(at.uv) * texel.size.x * texel.size.y;
+        let varied = texel.corners.map_or(R::lit(1.0), |corners| Bilinear { corners }.pdf(within));
+        solid_angle_pdf(at.distance, w.dot(at.normal).abs() * area) * varied
     }
     #[inline(always)]
-    fn invert(&self, _: &Texel<R>, _: Vec3<R>, within: Vec2<R>) -> Vec2<R> {
-        within
+    fn invert(&self, texel: &Texel<R>, _: Vec3<R>, within: Vec2<R>) -> Vec2<R> {
+        texel.corners.map_or(within, |corners| Bilinear { corners }.invert(within))
     }
 }

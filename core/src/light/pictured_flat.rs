@@ -7,13 +7,14 @@ use super::flat::{
 };
 use super::picture::{Box2, Halves};
 use super::pictured::{ByPicture, Pictured, Texel, TexelSurface};
-use super::sample::{LightSample, solid_angle_pdf};
+use super::sample::{LightSample, direction_to, solid_angle_pdf};
 use super::sampler::LightSampler;
 use super::surface::{AreaSurface, PlacedParallelogram, Surface, SurfaceHit};
 use crate::math::{quotient, rsqrt};
 use crate::real::{Mask, Real};
-use crate::spherical::to_unit;
+use crate::spherical::{DirectionSample, to_unit};
 use crate::vector::{Frame, Vec2, Vec3};
+use crate::warp::{Bilinear, Warp};
 
 /// A flat light as the parallelogram of its surface coordinates.
 pub trait FlatLight<R: Real> {
@@ -105,10 +106,9 @@ pub struct Flat<R, M> {
 impl<R: Real, M> Flat<R, M> {
     #[inline(always)]
     fn texel(&self, texel: &Texel<R>) -> Parallelogram<R> {
-        let part = Vec2::new(R::lit(1.0) / texel.of.x, R::lit(1.0) / texel.of.y);
         let Parallelogram { corner, edge_s, edge_t } = self.frame;
-        let corner = edge_s.mul_add(texel.at.x * part.x, edge_t.mul_add(texel.at.y * part.y, corner));
-        Parallelogram { corner, edge_s: edge_s * part.x, edge_t: edge_t * part.y }
+        let corner = edge_s.mul_add(texel.low.x, edge_t.mul_add(texel.low.y, corner));
+        Parallelogram { corner, edge_s: edge_s * texel.size.x, edge_t: edge_t * texel.size.y }
     }
 }
 
@@ -131,16 +131,70 @@ impl<R: Real, M: TexelMeasure<R>> TexelSurface<R> for Flat<R, M> {
     }
     #[inline(always)]
     fn draw(&self, texel: &Texel<R>, u: Vec2<R>) -> LightSample<R> {
-        let light = self.measure.texel(&self.texel(texel)).sample(u);
-        LightSample { uv: texel.place(light.uv), ..light }
+        let (corners, near) = self.weights(texel);
+        let within = corners.sample(u);
+        let uv = texel.place(within);
+        let Parallelogram { corner, edge_s, edge_t } = self.frame;
+        let position = edge_s.mul_add(uv.x, edge_t.mul_add(uv.y, corner));
+        let DirectionSample { direction, distance } = direction_to(position);
+        let pdf = self.far_pdf(texel, direction, corners.pdf(within));
+        let Vec3 { x, y, z } = direction;
+        let [x, y, z, distance, pdf, u, v] = R::where_any(near, [x, y, z, distance, pdf, uv.x, uv.y], || {
+            let light = self.measure.texel(&self.texel(texel)).sample(u);
+            let (Vec3 { x, y, z }, inner) = (light.direction, texel.place(light.uv));
+            let near = |a: R, b: R| R::blend(near, a, b);
+            let far = (direction, distance, pdf, uv);
+            [
+                near(x, far.0.x),
+                near(y, far.0.y),
+                near(z, far.0.z),
+                near(light.distance, far.1),
+                near(light.pdf, far.2),
+                near(inner.x, far.3.x),
+                near(inner.y, far.3.y),
+            ]
+        });
+        let direction = Vec3::new(x, y, z);
+        let normal = self.surface.at(direction).normal;
+        let (emits, delta) = (direction.dot(normal).lt(R::lit(0.0)), R::Mask::splat(false));
+        LightSample { direction, distance, pdf, normal, uv: Vec2::new(u, v), emits, delta }
     }
     #[inline(always)]
-    fn pdf(&self, texel: &Texel<R>, w: Vec3<R>, _: &SurfaceHit<R>) -> R {
-        self.measure.pdf(&self.measure.texel(&self.texel(texel)), w)
+    fn pdf(&self, texel: &Texel<R>, w: Vec3<R>, _: &SurfaceHit<R>, within: Vec2<R>) -> R {
+        let (corners, near) = self.weights(texel);
+        let far = self.far_pdf(texel, w, corners.pdf(within));
+        let [pdf] = R::where_any(near, [far], || [self.measure.pdf(&self.measure.texel(&self.texel(texel)), w)]);
+        R::blend(near, pdf, far)
     }
     #[inline(always)]
-    fn invert(&self, texel: &Texel<R>, w: Vec3<R>, _: Vec2<R>) -> Vec2<R> {
-        self.measure.texel(&self.texel(texel)).invert(w)
+    fn invert(&self, texel: &Texel<R>, w: Vec3<R>, within: Vec2<R>) -> Vec2<R> {
+        let (corners, near) = self.weights(texel);
+        let far = corners.invert(within);
+        let [x, y] = R::where_any(near, [far.x, far.y], || {
+            let Vec2 { x, y } = self.measure.texel(&self.texel(texel)).invert(w);
+            [x, y]
+        });
+        Vec2::blend(near, Vec2::new(x, y), far)
+    }
+}
+
+#[allow(private_bounds, reason = "the measures are those below")]
+impl<R: Real, M: TexelMeasure<R>> Flat<R, M> {
+    /// Radiance times the measure at the corners of a texel; and whether it is too large for its distance to be bilinear in between.
+    #[inline(always)]
+    fn weights(&self, texel: &Texel<R>) -> (Bilinear<R>, R::Mask) {
+        let of = Box2 { low: texel.low, high: texel.low + texel.size };
+        let (measures, near) = self.measure.corners(&of);
+        let one = R::lit(1.0);
+        let radiance = texel.corners.unwrap_or([one; 4]);
+        (Bilinear { corners: core::array::from_fn(|k| radiance[k] * measures[k]) }, near)
+    }
+    /// The pdf of a point of the texel, given that of its position in it.
+    #[inline(always)]
+    fn far_pdf(&self, texel: &Texel<R>, w: Vec3<R>, pdf: R) -> R {
+        let at = self.surface.at(w);
+        let area = self.surface.area() * texel.size.x * texel.size.y;
+        solid_angle_pdf(at.distance, w.dot(at.normal).abs() * area) * pdf
     }
 }
 
@@ -151,7 +205,13 @@ pub(super) trait TexelMeasure<R: Real>: Halves<R> {
     fn texel(&self, texel: &Parallelogram<R>) -> Self::Texel;
     /// Its pdf per steradian for a unit direction that hits it.
     fn pdf(&self, texel: &Self::Texel, w: Vec3<R>) -> R;
+    /// The measure per area at the corners of a box, in any unit, and where it is so large for its distance that it is sampled as a shape of
+    /// its own.
+    fn corners(&self, of: &Box2<R>) -> ([R; 4], R::Mask);
 }
+
+/// Texels of more than so much of their distance are sampled as shapes of their own.
+const LARGE: f64 = 1.0 / 4.0;
 
 /// The measure of [`Pictured::by_area`].
 #[derive(Clone, Copy, Debug)]
@@ -174,6 +234,10 @@ impl<R: Real> TexelMeasure<R> for Area {
         let at = texel.surface.at(w);
         solid_angle_pdf(at.distance, w.dot(at.normal).abs() * texel.area())
     }
+    #[inline(always)]
+    fn corners(&self, _: &Box2<R>) -> ([R; 4], R::Mask) {
+        ([R::lit(1.0); 4], R::Mask::splat(false))
+    }
 }
 
 /// The measure of [`Pictured::by_solid_angle`]: a light in units in which no coordinate exceeds 2.
@@ -183,7 +247,7 @@ pub struct SolidAngle<R> {
     edge_s: Vec3<R>,
     edge_t: Vec3<R>,
     /// Squared lengths of the edges.
-    squares: Vec2<R>,
+    edges: Vec2<R>,
     /// Six times the volume of the pyramid from the point over half the parallelogram, as the product of triples is.
     volume: R,
 }
@@ -197,8 +261,8 @@ impl<R: Real> SolidAngle<R> {
     #[inline(always)]
     fn new(light: &Parallelogram<R>, p: Vec3<R>) -> Self {
         let ([corner, edge_s, edge_t], _) = to_unit([light.corner - p, light.edge_s, light.edge_t]);
-        let squares = Vec2::new(edge_s.length_squared(), edge_t.length_squared());
-        Self { corner, edge_s, edge_t, squares, volume: corner.dot(edge_s.cross(edge_t)).abs() }
+        let edges = Vec2::new(edge_s.length_squared(), edge_t.length_squared());
+        Self { corner, edge_s, edge_t, edges, volume: corner.dot(edge_s.cross(edge_t)).abs() }
     }
     #[inline(always)]
     fn at(&self, s: R, t: R) -> Vec3<R> {
@@ -213,7 +277,24 @@ impl<R: Real> SolidAngle<R> {
     #[inline(always)]
     fn longer(&self, of: &Box2<R>, square: R) -> R::Mask {
         let (s, t) = (of.high.x - of.low.x, of.high.y - of.low.y);
-        (self.squares.x * s).mul_add(s, self.squares.y * t * t).gt(square * R::lit(4.0))
+        (self.edges.x * s).mul_add(s, self.edges.y * t * t).gt(square * R::lit(4.0))
+    }
+    /// The corners of a box: (0, 0), (1, 0), (0, 1), (1, 1).
+    #[inline(always)]
+    fn quad(&self, of: &Box2<R>) -> [Vec3<R>; 4] {
+        let Box2 { low, high } = of;
+        [(low.x, low.y), (high.x, low.y), (low.x, high.y), (high.x, high.y)].map(|(s, t)| self.at(s, t))
+    }
+    /// Squared distances of the corners of a box, at least so large that their powers are numbers.
+    #[inline(always)]
+    fn squares(&self, of: &Box2<R>) -> [R; 4] {
+        self.quad(of).map(|v| v.length_squared().greater(R::lit(1e-12)))
+    }
+    /// Whether a box is large for its distance.
+    #[inline(always)]
+    fn large(&self, of: &Box2<R>, [a, b, c, d]: [R; 4]) -> R::Mask {
+        let least = a.lesser(b).lesser(c.lesser(d));
+        self.longer(of, least * R::lit(LARGE * LARGE)) | least.le(R::lit(1e-12))
     }
     /// The six corners of two halves: three along one side, and three along the other.
     #[inline(always)]
@@ -281,6 +362,11 @@ impl<R: Real> TexelMeasure<R> for SolidAngle<R> {
     #[inline(always)]
     fn pdf(&self, texel: &Self::Texel, _: Vec3<R>) -> R {
         texel.shape.uniform_pdf()
+    }
+    #[inline(always)]
+    fn corners(&self, of: &Box2<R>) -> ([R; 4], R::Mask) {
+        let squares = self.squares(of);
+        (squares.map(|square| R::lit(1.0) / (square * square.sqrt())), self.large(of, squares))
     }
 }
 
@@ -380,5 +466,14 @@ impl<R: Real> TexelMeasure<R> for Projected<R> {
     #[inline(always)]
     fn pdf(&self, texel: &Self::Texel, w: Vec3<R>) -> R {
         texel.shape.pdf_at_cosine(w.dot(self.normal))
+    }
+    #[inline(always)]
+    fn corners(&self, of: &Box2<R>) -> ([R; 4], R::Mask) {
+        let this = &self.solid_angle;
+        let squares = this.squares(of);
+        // no corner above the horizon is lost to rounding
+        let height = |v: Vec3<R>| (v.dot(self.normal) + R::lit(2e-6)).greater(R::lit(0.0));
+        let heights = this.quad(of).map(height);
+        (core::array::from_fn(|k| heights[k] / (squares[k] * squares[k])), this.large(of, squares))
     }
 }
