@@ -5,6 +5,7 @@ use crate::light_picture::LightPicture;
 use crate::packet::{V8, X8};
 use crate::scene::Shape;
 use crate::technique::Measure;
+use crate::texture::{Mapping, Wrap};
 use etendue::light::{Picture, Region};
 use etendue::{LightSample, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3};
 use rayon::prelude::*;
@@ -22,7 +23,10 @@ const LEAST_CONTRAST: f64 = 1.1;
 #[derive(Clone, Debug)]
 struct Table {
     buffer: Vec<f32>,
+    /// Cells along both coordinates; of an interpolated picture, texels.
     size: [usize; 2],
+    /// What is interpolated, if the shape shows all of a picture and its coordinates are those of the surface.
+    values: Option<Vec<f32>>,
 }
 
 /// The tables of shapes, by the index of the shape; none where the shape is sampled without regard to its picture.
@@ -54,6 +58,9 @@ fn size(picture: &LightPicture, geometry: &Geometry, share: usize) -> [usize; 2]
 impl Table {
     /// None where the shape is as good without.
     fn new(picture: &LightPicture, geometry: &Geometry, share: usize) -> Option<Self> {
+        if let Some(values) = interpolated(picture, geometry).filter(|values| values.len() <= share) {
+            return Self::of_values(values, picture.picture.texels.width);
+        }
         let [w, h] = size(picture, geometry, share);
         if matches!(geometry, Geometry::Triangle(_)) && w < FEWEST_OF_TRIANGLE {
             return None;
@@ -64,17 +71,61 @@ impl Table {
         };
         let weights: Option<Vec<f64>> = (0..w * h).into_par_iter().map(cell).collect();
         let weights = weights?;
-        let (sum, most) = weights.iter().fold((0.0, 0.0), |(sum, most), w| (sum + w, w.max(most)));
-        if most * (w * h) as f64 <= sum * LEAST_CONTRAST {
-            return None;
-        }
-        // relative to the greatest, and above 0 where there is light
-        let relative = |w: &f64| if *w > 0.0 { ((w / most) as f32).max(f32::MIN_POSITIVE) } else { 0.0 };
-        let weights: Vec<f32> = weights.iter().map(relative).collect();
+        let weights = relative(&weights)?;
         let mut buffer = vec![0.0; Picture::buffer(w, h)];
         Picture::build(&weights, w, region(geometry), &mut buffer).ok()?;
-        Some(Self { buffer, size: [w, h] })
+        Some(Self { buffer, size: [w, h], values: None })
     }
+    fn of_values(values: Vec<f64>, width: usize) -> Option<Self> {
+        let values = relative(&values)?;
+        let height = values.len() / width;
+        let mut buffer = vec![0.0; Picture::buffer(width + 1, height + 1)];
+        Picture::interpolated(&values, width, &mut buffer).ok()?;
+        Some(Self { buffer, size: [width, height], values: Some(values) })
+    }
+    #[inline]
+    fn picture(&self, geometry: &Geometry) -> Picture<'_> {
+        let picture = match &self.values {
+            None => Picture::from_buffer(&self.buffer, self.size, region(geometry)),
+            Some(values) => Picture::interpolated_from_buffer(values, self.size[0], &self.buffer),
+        };
+        picture.expect("a table of its own size")
+    }
+}
+
+/// Weights relative to the greatest, above 0 where there is light; none where they hardly differ.
+fn relative(weights: &[f64]) -> Option<Vec<f32>> {
+    let (sum, most) = weights.iter().fold((0.0, 0.0), |(sum, most), w| (sum + w, w.max(most)));
+    let relative = |w: &f64| if *w > 0.0 { ((w / most) as f32).max(f32::MIN_POSITIVE) } else { 0.0 };
+    (most * weights.len() as f64 > sum * LEAST_CONTRAST).then(|| weights.iter().map(relative).collect())
+}
+
+/// The sums of the channels of all texels, in the order of the surface's coordinates, if a parallelogram shows all of an interpolated
+/// picture, upright, upside down or mirrored.
+fn interpolated(shown: &LightPicture, geometry: &Geometry) -> Option<Vec<f64>> {
+    let picture = &shown.picture;
+    let whole = matches!(geometry, Geometry::Parallelogram { .. }) && picture.bilinear;
+    if !whole || picture.wrap.iter().any(|wrap| *wrap != Wrap::Clamp) {
+        return None;
+    }
+    let Mapping([[a, b, c], [d, e, f]]) = picture.mapping;
+    // whether an axis is mirrored, if it is all of the picture
+    let mirrored = |scale: f32, start: f32| match [scale, start] {
+        [1.0, 0.0] => Some(false),
+        [-1.0, 1.0] => Some(true),
+        _ => None,
+    };
+    let (across, down) = (mirrored(a, c)?, mirrored(e, f)?);
+    if [b, d] != [0.0; 2] {
+        return None;
+    }
+    let (w, h) = (picture.texels.width, picture.texels.height);
+    let sum = |i: usize| -> f64 {
+        let at = |i: usize, n: usize, mirrored: bool| if mirrored { n - 1 - i } else { i };
+        let texel = picture.texel(at(i % w, w, across) as i64, at(i / w, h, down) as i64);
+        (0..3).map(|k| f64::from(texel[k]) * f64::from(shown.factor[k])).sum()
+    };
+    Some((0..w * h).map(sum).collect())
 }
 
 fn region(geometry: &Geometry) -> Region {
@@ -115,8 +166,7 @@ pub(super) struct TableOf<'a>(&'a Table);
 macro_rules! with_sampler {
     ($self:ident, $shape:ident, $p:ident, $normal:ident, $measure:ident, |$sampler:ident| $flat:expr, |$axes:ident, $round:ident| $of_sphere:expr) => {{
         let (geometry, axes) = $shape;
-        let picture =
-            Picture::from_buffer(&$self.0.buffer, $self.0.size, region(geometry)).expect("a table of its own size");
+        let picture = $self.0.picture(geometry);
         macro_rules! flat {
             ($light:expr) => {{
                 let light = picture.on($light);
