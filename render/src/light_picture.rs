@@ -1,11 +1,14 @@
 //! Pictures that shapes emit.
 
+mod irradiance;
 mod mean;
+
+pub use irradiance::PictureIrradiance;
 
 use crate::geometry::Geometry;
 use crate::limits::MOST_RADIANCE;
 use crate::packet::{M8, V8, X8, each_bit};
-use crate::texture::{Mapping, Picture};
+use crate::texture::{Mapping, Picture, Wrap};
 use etendue::{Mask, Real, Vec2, Vec3};
 use std::f32::consts::{FRAC_1_PI, PI};
 
@@ -66,6 +69,32 @@ impl LightPicture {
         let corners = [[s[0], t[0]], [s[1], t[0]], [s[1], t[1]], [s[0], t[1]]];
         let mean = mean::over_polygon(&self.picture, &corners, &mut { MOST })?;
         Some((0..3).map(|k| mean[k] * f64::from(self.factor[k])).sum())
+    }
+
+    /// Along both coordinates, whether the picture is mirrored, if a parallelogram shows all of it, and its edges are clamped or do not
+    /// matter.
+    #[must_use]
+    pub fn whole(&self, geometry: &Geometry) -> Option<[bool; 2]> {
+        let Picture { wrap, bilinear, mapping: Mapping([[a, b, c], [d, e, f]]), .. } = self.picture;
+        let is_clamped = !bilinear || wrap == [Wrap::Clamp; 2];
+        if !matches!(geometry, Geometry::Parallelogram { .. }) || !is_clamped || [b, d] != [0.0; 2] {
+            return None;
+        }
+        let mirrored = |scale: f32, start: f32| match [scale, start] {
+            [1.0, 0.0] => Some(false),
+            [-1.0, 1.0] => Some(true),
+            _ => None,
+        };
+        Some([mirrored(a, c)?, mirrored(e, f)?])
+    }
+
+    /// Radiance of the texel in a column and a row as a parallelogram shows them that shows the [`whole`](Self::whole) picture.
+    #[must_use]
+    pub fn whole_texel(&self, mirrored: [bool; 2], at: [usize; 2]) -> [f32; 3] {
+        let size = [self.picture.texels.width, self.picture.texels.height];
+        let [x, y] = [0, 1].map(|k| (if mirrored[k] { size[k] - 1 - at[k] } else { at[k] }) as i64);
+        let color = self.picture.texel(x, y);
+        std::array::from_fn(|k| color[k] * self.factor[k])
     }
 
     /// Radiance of a point on a flat shape with these coordinates.

@@ -10,7 +10,7 @@ pub mod tree;
 use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
-use crate::light_picture::LightPicture;
+use crate::light_picture::{LightPicture, PictureIrradiance};
 use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{Emission, Scene, Shape};
 use crate::sky::Sky;
@@ -44,6 +44,8 @@ pub struct Lights {
     pictures: Arc<[LightPicture]>,
     /// By which shapes with pictures are sampled.
     tables: Tables,
+    /// By which the light of a few shapes with pictures is known without samples, in the order of the lights.
+    irradiances: Vec<Option<PictureIrradiance>>,
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     many: ManyLights,
@@ -189,7 +191,17 @@ impl Lights {
         own.packed = all[own.unpacked.len()..].iter().map(|(record, _)| record.pack()).collect();
         own.shapes = Arc::clone(shapes);
         own.pictures = Arc::clone(&scene.pictures);
-        own.tables = Tables::new(shapes, &scene.pictures);
+        if kinds & PICTURES != 0 {
+            own.tables = Tables::new(shapes, &scene.pictures);
+        }
+        if kinds & PICTURES != 0 && own.only_few_areas() {
+            let irradiance = |(light, _): &(LightRecord, f64)| {
+                let Shape { emission, geometry, .. } = shapes.get(light.shape as usize)?;
+                let emission = emission.filter(|emission| emission.spread.is_none())?;
+                PictureIrradiance::new(&scene.pictures[emission.picture? as usize], geometry)
+            };
+            own.irradiances = all.par_iter().map(irradiance).collect();
+        }
         Ok(own)
     }
     /// Bounds of the lights of a scene that have an area, in their order.
@@ -224,10 +236,21 @@ impl Lights {
     pub fn only_few_areas(&self) -> bool {
         self.kinds & !ONLY_AREAS == 0 && (1..=FEW).contains(&self.len())
     }
-    /// Whether all lights are shapes that show pictures.
-    pub fn only_pictures(&self) -> bool {
-        let is_pictured = |shape: &Shape| shape.emission.is_none_or(|emission| emission.picture.is_some());
-        self.kinds & !ONLY_AREAS == 0 && self.kinds & PICTURES != 0 && self.shapes.iter().all(is_pictured)
+    /// The irradiance from the picture of one of a few lights, if it shows one and has a closed form.
+    pub fn irradiance(&self, light: usize) -> Option<&PictureIrradiance> {
+        self.irradiances.get(light)?.as_ref()
+    }
+    /// Whether the pictures of any lights have closed forms.
+    pub fn has_irradiances(&self) -> bool {
+        self.irradiances.iter().any(Option::is_some)
+    }
+    /// Whether all lights are shapes that show pictures, without closed forms.
+    pub fn only_sampled(&self) -> bool {
+        let is_sampled = |shape: &Shape| shape.emission.is_none_or(|emission| emission.picture.is_some());
+        self.kinds & !ONLY_AREAS == 0
+            && self.kinds & PICTURES != 0
+            && !self.has_irradiances()
+            && self.shapes.iter().all(is_sampled)
     }
     /// What each light can contribute to points of surfaces, where samples can be allocated.
     #[inline]

@@ -4,12 +4,14 @@
 //! what a square of 4 × 4 pixels sees of it. (Certificates for single pixels save less time than they take.) A surface seen through a lens
 //! or in a mirror is certified as a whole.
 
+use super::prepared::PreparedScene;
 use super::settings::{Settings, TILE};
 use crate::bvh::{GROUP, NOTHING, SHAPE};
 use crate::camera::{Camera, Pinhole};
 use crate::certificates::{ALLOWED, Blocker, Bodies, Certificate, Certifier, Patch, Precision, Pyramid, Viewer};
 use crate::geometry::Geometry;
-use crate::packet::{M8, V8, X8, each_bit, equal, widen_points};
+use crate::light_picture::PictureIrradiance;
+use crate::packet::{M8, V8, X8, each_bit, equal, select, widen_points};
 use crate::surfaces::{Surface, Surfaces};
 use etendue::occlusion::{Convex, Occlusion, Polyhedron};
 use etendue::{Mask, Real, Vec3, f64x4, u32x8};
@@ -29,11 +31,24 @@ const MOST_WHOLE: usize = 1 << 16;
 const SAMPLES_PER_CERTIFICATE: f64 = 160.0;
 
 /// A light with an area.
-pub(super) struct AreaLight {
+pub(super) struct AreaLight<'a> {
     form: Convex<f32>,
+    /// Radiance; its mean, if it varies.
     radiance: [f32; 3],
-    /// Whether its radiance varies by point or direction, so that no closed form has its integral. It is sampled unless it is dark.
-    varies: bool,
+    /// How its integral is known.
+    closed: Closed<'a>,
+}
+
+/// The closed form of a light's integral.
+#[derive(Clone, Copy)]
+enum Closed<'a> {
+    /// The radiance is constant.
+    Constant,
+    /// The light shows a picture. Behind blockers, the part of it that is visible is computed as if the radiance was constant, and samples
+    /// correct that.
+    Picture(&'a PictureIrradiance),
+    /// The radiance varies by point or direction, and no closed form has its integral. The light is sampled unless it is dark.
+    No,
 }
 
 /// What is known of a light, as seen from a part of a surface. What it contributes is computed in a precision that suffices there.
@@ -49,6 +64,17 @@ pub(super) enum Known {
     Nothing,
     /// It is sampled: smaller patches are not worth asking for.
     Never,
+}
+
+impl Closed<'_> {
+    /// Whether it is accurate enough. Those of pictures are computed in single precision.
+    fn suffices(self, precision: Precision) -> bool {
+        match self {
+            Self::Constant => true,
+            Self::Picture(_) => precision == Precision::Single,
+            Self::No => false,
+        }
+    }
 }
 
 impl Known {
@@ -72,7 +98,7 @@ pub struct Survey {
     /// Lights with 5 to 8 possible blockers.
     pub many: u32,
     /// Lights with at most 16 possible blockers that are sampled, because that takes less time, because spheres overlap, because closed forms
-    /// are not accurate enough, or because it has a spread.
+    /// are not accurate enough, because it has a spread, or because it shows a picture behind blockers.
     pub crowded: u32,
     /// Lights of which nothing is proved.
     pub unknown: u32,
@@ -150,7 +176,7 @@ impl Exact<'_> {
 pub(super) struct Analytic<'a> {
     surfaces: &'a Surfaces,
     bodies: &'a Bodies,
-    pub(super) lights: Vec<AreaLight>,
+    pub(super) lights: Vec<AreaLight<'a>>,
     certifier: Certifier<'a>,
     occlusion: Box<Occlusion<X8>>,
     /// The camera, if it is a pinhole.
@@ -188,19 +214,25 @@ fn is_clipped(light: &Convex<f32>, blockers: &[Blocker]) -> bool {
 
 impl<'a> Analytic<'a> {
     /// For a scene as a camera sees it. [`begin`](Self::begin) prepares for a tile.
-    pub(super) fn new(surfaces: &'a Surfaces, bodies: &'a Bodies, camera: &Camera, settings: &Settings) -> Self {
+    pub(super) fn new(scene: &'a PreparedScene, camera: &Camera, settings: &Settings) -> Self {
+        let (surfaces, bodies) = (&scene.surfaces, &scene.bodies);
         let count = surfaces.light_shapes().count();
         let pixels = SAMPLES_PER_CERTIFICATE * count as f64 / f64::from(settings.spp);
         let (eye, pixel) = camera.middle(settings.width, settings.height);
-        let light = |shape: &crate::scene::Shape| {
+        let light = |(light, index): (usize, u32)| {
+            let shape = &surfaces.shapes()[index as usize];
             let emission = shape.emission?;
-            let varies = emission.picture.is_some() || emission.spread.is_some();
-            Some(AreaLight { form: shape.geometry.convex(), radiance: emission.radiance, varies })
+            let closed = match scene.lights.irradiance(light) {
+                Some(irradiance) => Closed::Picture(irradiance),
+                None if emission.picture.is_some() || emission.spread.is_some() => Closed::No,
+                None => Closed::Constant,
+            };
+            Some(AreaLight { form: shape.geometry.convex(), radiance: emission.radiance, closed })
         };
         Self {
             surfaces,
             bodies,
-            lights: surfaces.shapes().iter().filter_map(light).collect(),
+            lights: surfaces.light_shapes().enumerate().filter_map(light).collect(),
             certifier: Certifier::new(surfaces, bodies, surfaces.light_shapes()),
             occlusion: Box::default(),
             pinhole: if let Camera::Pinhole(pinhole) = camera { Some(*pinhole) } else { None },
@@ -307,8 +339,8 @@ impl<'a> Analytic<'a> {
             };
             known.push(match certificate {
                 // a smaller patch is not darker
-                Certificate::Lit(_) if lights[light].varies => Known::Never,
-                Certificate::Blockers(..) if lights[light].varies => Known::Crowded,
+                Certificate::Lit(precision) if !lights[light].closed.suffices(precision) => Known::Never,
+                Certificate::Blockers(_, precision) if !lights[light].closed.suffices(precision) => Known::Crowded,
                 Certificate::Lit(Precision::Neither) | Certificate::Blockers(_, Precision::Neither) => Known::Crowded,
                 Certificate::Dark => Known::Dark,
                 Certificate::Lit(precision) => Known::Lit(precision),
@@ -387,10 +419,11 @@ impl<'a> Analytic<'a> {
             return survey;
         }
         let (first, _) = self.find(surface, places, M8::from_bits(1 << lane));
-        for known in &self.known[first..first + self.lights.len()] {
+        for (light, known) in self.lights.iter().zip(&self.known[first..]) {
             *match known {
                 Known::Lit(_) => &mut survey.lit,
                 Known::Dark => &mut survey.dark,
+                Known::Behind(..) if matches!(light.closed, Closed::Picture(_)) => &mut survey.crowded,
                 Known::Behind(forms, bodies, _) if forms.len() + bodies.len() <= 4 => &mut survey.few,
                 Known::Behind(..) => &mut survey.many,
                 Known::Crowded => &mut survey.crowded,
@@ -410,7 +443,14 @@ impl<'a> Analytic<'a> {
         let mut sum = V8::default();
         for (light, known) in self.lights.iter().zip(&self.known[first..]) {
             if matches!(known, Known::Lit(_) | Known::Behind(..)) {
-                let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
+                // the irradiance from a picture is as accurate as where a surface faces it
+                let normal = match (light.closed, &light.form) {
+                    (Closed::Picture(_), Convex::Parallelogram { corner, edges: [u, v] }) => {
+                        (V8::splat(*corner + (*u + *v) * 0.5) - surface.point).normalize()
+                    }
+                    _ => surface.normal,
+                };
+                let all = self.occlusion.visible(surface.point, normal, &light.form, &[]);
                 sum += V8::from(light.radiance) * all.unwrap_or_default();
             }
         }
@@ -448,13 +488,15 @@ impl<'a> Analytic<'a> {
     }
 
     /// Adds the reflected light that is known. Sets the lanes in which a light must be sampled, for each light and packet, and returns
-    /// whether there are any.
+    /// whether there are any. Of a light with a picture that is sampled, a part may have been counted as if nothing hid it: then samples add
+    /// what is hidden, and what is visible, less that part.
     pub(super) fn gather(
         &mut self,
         surfaces: &[Surface],
         places: &[Places; GROUP],
         reflected: &mut [V8; GROUP],
         unknown: &mut [[M8; GROUP]],
+        counted: &mut [[X8; GROUP]],
     ) -> bool {
         let mut any = false;
         for (p, surface) in surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
@@ -476,6 +518,7 @@ impl<'a> Analytic<'a> {
             for (k, light) in self.lights.iter().enumerate() {
                 let (mut lit, mut lit_exactly) = (M8::splat(false), M8::splat(false));
                 let mut open = sampled;
+                let mut behind = M8::splat(false);
                 let mut part = X8::lit(0.0);
                 for (first, lanes) in &parts[..count] {
                     match &self.known[first + k] {
@@ -496,11 +539,32 @@ impl<'a> Analytic<'a> {
                                 self.occlusion.visible_past(point, normal, form, forms, bodies)
                             };
                             match visible {
-                                Some(visible) => part += visible.keep(*lanes),
+                                Some(visible) => {
+                                    part += visible.keep(*lanes);
+                                    behind = behind | *lanes;
+                                }
                                 None => open = open | *lanes,
                             }
                         }
                     }
+                }
+                if let Closed::Picture(irradiance) = light.closed {
+                    let zero = X8::lit(0.0);
+                    // what is visible of a light of constant radiance is the best guess
+                    let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
+                    if behind.any() {
+                        let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
+                        let all = all.unwrap_or_default();
+                        is_part = behind & part.gt(zero) & part.lt(all);
+                        share = select(behind, (part / all).clamped(zero, X8::lit(1.0)).keep(part.gt(zero)), share);
+                    }
+                    let (all, known) = irradiance.at(surface.point, surface.normal, lit | behind);
+                    let share = share.keep(known);
+                    sum += all * share;
+                    let open = open | is_part | (lit | behind) & !known;
+                    (unknown[k][p], counted[k][p]) = (open, share.keep(is_part));
+                    any = any || open.any();
+                    continue;
                 }
                 if lit.any() {
                     let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);

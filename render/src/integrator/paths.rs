@@ -102,6 +102,8 @@ pub(super) struct Paths<'a> {
     pub(super) analytic: Option<Analytic<'a>>,
     /// Lanes in which a light must be sampled, for each light and packet.
     unknown: Vec<[M8; GROUP]>,
+    /// The part of each light that has been counted where it must be sampled, if lights have such parts.
+    counted: Option<Vec<[X8; GROUP]>>,
     radiance: Box<[Radiance; GROUP]>,
 }
 
@@ -120,9 +122,10 @@ impl<'a> Paths<'a> {
             analytic: settings
                 .technique
                 .is_analytic(scene.lights.only_few_areas())
-                .then(|| Analytic::new(&scene.surfaces, &scene.bodies, camera, settings)),
+                .then(|| Analytic::new(scene, camera, settings)),
             radiance: Box::default(),
             unknown: vec![[M8::splat(false); GROUP]; FEW],
+            counted: scene.lights.has_irradiances().then(|| vec![[X8::lit(0.0); GROUP]; FEW]),
         }
     }
 
@@ -248,7 +251,8 @@ impl<'a> Paths<'a> {
         }
         if let Some(analytic) = self.analytic.as_mut().filter(|analytic| !analytic.is_hopeless()) {
             let mut unknown = std::mem::take(&mut self.unknown);
-            if analytic.gather(&self.surfaces[..count], &self.places, &mut known, &mut unknown) {
+            let counted = self.counted.as_deref_mut().unwrap_or_default();
+            if analytic.gather(&self.surfaces[..count], &self.places, &mut known, &mut unknown, counted) {
                 let which = if allocated.is_empty() {
                     Which::Among(&unknown)
                 } else {
@@ -360,7 +364,8 @@ impl<'a> Paths<'a> {
         let mut limit = [zero; GROUP];
         let mut target = [u32x8::splat(NOTHING); GROUP];
         let mut found = [V8::default(); GROUP];
-        let Self { scene, surfaces, ends, rays, places, .. } = self;
+        let is_closed = matches!(which, Which::Among(_) | Which::Expected(..));
+        let Self { scene, surfaces, ends, rays, places, counted, .. } = self;
         for (p, surface) in surfaces[..count].iter().enumerate().filter(|(_, surface)| surface.reflects.any()) {
             let bsdf = bsdf::<METAL>(surface, &ends[p]);
             let mut u = numbers.light[p];
@@ -389,6 +394,12 @@ impl<'a> Paths<'a> {
             limit[p] = sample.distance * X8::lit(COVERED);
             target[p] = chosen.shape;
             found[p] = product(color, chosen.radiance) * (factor / pdf);
+            if is_closed && let Some(counted) = counted {
+                let part = X8::from_fn(|lane| {
+                    counted.get(choice.index.as_array()[lane] as usize).map_or(0.0, |of| of[p].lane(lane))
+                });
+                reflected[p] += keep(found[p] * -part, lit[p]);
+            }
         }
         self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
     }

@@ -5,7 +5,6 @@ use crate::light_picture::LightPicture;
 use crate::packet::{V8, X8};
 use crate::scene::Shape;
 use crate::technique::Measure;
-use crate::texture::{Mapping, Wrap};
 use etendue::light::{Picture, Region};
 use etendue::{LightSample, LightSampler, Parallelogram, Real, Sphere, Triangle, Vec2, Vec3};
 use rayon::prelude::*;
@@ -101,30 +100,11 @@ fn relative(weights: &[f64]) -> Option<Vec<f32>> {
 }
 
 /// The sums of the channels of all texels, in the order of the surface's coordinates, if a parallelogram shows all of an interpolated
-/// picture, upright, upside down or mirrored.
+/// picture.
 fn interpolated(shown: &LightPicture, geometry: &Geometry) -> Option<Vec<f64>> {
-    let picture = &shown.picture;
-    let whole = matches!(geometry, Geometry::Parallelogram { .. }) && picture.bilinear;
-    if !whole || picture.wrap.iter().any(|wrap| *wrap != Wrap::Clamp) {
-        return None;
-    }
-    let Mapping([[a, b, c], [d, e, f]]) = picture.mapping;
-    // whether an axis is mirrored, if it is all of the picture
-    let mirrored = |scale: f32, start: f32| match [scale, start] {
-        [1.0, 0.0] => Some(false),
-        [-1.0, 1.0] => Some(true),
-        _ => None,
-    };
-    let (across, down) = (mirrored(a, c)?, mirrored(e, f)?);
-    if [b, d] != [0.0; 2] {
-        return None;
-    }
-    let (w, h) = (picture.texels.width, picture.texels.height);
-    let sum = |i: usize| -> f64 {
-        let at = |i: usize, n: usize, mirrored: bool| if mirrored { n - 1 - i } else { i };
-        let texel = picture.texel(at(i % w, w, across) as i64, at(i / w, h, down) as i64);
-        (0..3).map(|k| f64::from(texel[k]) * f64::from(shown.factor[k])).sum()
-    };
+    let mirrored = shown.whole(geometry).filter(|_| shown.picture.bilinear)?;
+    let (w, h) = (shown.picture.texels.width, shown.picture.texels.height);
+    let sum = |i: usize| shown.whole_texel(mirrored, [i % w, i / w]).map(f64::from).iter().sum();
     Some((0..w * h).map(sum).collect())
 }
 
