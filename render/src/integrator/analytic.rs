@@ -66,17 +66,6 @@ pub(super) enum Known {
     Never,
 }
 
-impl Closed<'_> {
-    /// Whether it is accurate enough. Those of pictures are computed in single precision.
-    fn suffices(self, precision: Precision) -> bool {
-        match self {
-            Self::Constant => true,
-            Self::Picture(_) => precision == Precision::Single,
-            Self::No => false,
-        }
-    }
-}
-
 impl Known {
     /// Whether the light must be sampled.
     pub(super) const fn is_open(&self) -> bool {
@@ -339,8 +328,8 @@ impl<'a> Analytic<'a> {
             };
             known.push(match certificate {
                 // a smaller patch is not darker
-                Certificate::Lit(precision) if !lights[light].closed.suffices(precision) => Known::Never,
-                Certificate::Blockers(_, precision) if !lights[light].closed.suffices(precision) => Known::Crowded,
+                Certificate::Lit(_) if matches!(lights[light].closed, Closed::No) => Known::Never,
+                Certificate::Blockers(..) if matches!(lights[light].closed, Closed::No) => Known::Crowded,
                 Certificate::Lit(Precision::Neither) | Certificate::Blockers(_, Precision::Neither) => Known::Crowded,
                 Certificate::Dark => Known::Dark,
                 Certificate::Lit(precision) => Known::Lit(precision),
@@ -551,6 +540,8 @@ impl<'a> Analytic<'a> {
                 if let Closed::Picture(irradiance) = light.closed {
                     let zero = X8::lit(0.0);
                     // what is visible of a light of constant radiance is the best guess
+                    // single precision always suffices, since nothing cancels
+                    let lit = lit | lit_exactly;
                     let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
                     if behind.any() {
                         let all = self.occlusion.visible(surface.point, surface.normal, &light.form, &[]);
