@@ -5,6 +5,7 @@ mod allocation;
 mod analytic;
 mod checks;
 mod choice;
+mod known;
 mod paths;
 mod prepared;
 mod settings;
@@ -15,7 +16,7 @@ mod world;
 
 pub use adaptive::{Allotment, Statistics};
 pub use allocation::APART;
-pub use analytic::Survey;
+pub use known::Survey;
 pub use settings::{RayCount, Settings};
 pub use view::{Content, Samples, View};
 pub use world::World;

@@ -5,8 +5,9 @@
 //! between mirrors keep their lanes: compacted into fewer packets they took as long in the mirror room, 1.00 ± 0.03, and 1.04 times
 //! as long among three thousand balls.)
 
-use super::analytic::{Analytic, Places, Survey};
+use super::analytic::{Analytic, Places};
 use super::choice::Which;
+use super::known::Survey;
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
 use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};

@@ -2,7 +2,7 @@
 
 use super::adaptive::{Statistics, StatisticsSum};
 use super::allocation::{Blocks, Weights};
-use super::analytic::Survey;
+use super::known::Survey;
 use super::paths::{Numbers, Paths, Radiance};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings, TILE};

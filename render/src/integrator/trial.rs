@@ -1,6 +1,7 @@
 //! Decides at the start of a tile whether certificates are worth their time.
 
-use super::analytic::{Analytic, Known, Places};
+use super::analytic::{Analytic, Places};
+use super::known::Known;
 use crate::bvh::GROUP;
 use crate::packet::{M8, each_bit};
 use crate::surfaces::Surface;

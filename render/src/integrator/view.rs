@@ -2,8 +2,8 @@
 
 use super::adaptive::{Allotment, Effort, Statistics};
 use super::allocation::Weights;
-use super::analytic::Survey;
 use super::checks::Checks;
+use super::known::Survey;
 use super::settings::{RayCount, Settings, tiles};
 use super::tile::TileRenderer;
 use super::world::World;
