@@ -326,30 +326,37 @@ impl<'a> Picture<'a> {
         };
         Some([value(0, 0), value(1, 0), value(0, 1), value(1, 1)])
     }
-    /// Where columns, or rows, begin in the picture, in [0, 1], given one over their number.
+    /// One over the numbers of columns and rows that are whole, which [`edge`](Self::edge) needs.
     #[inline(always)]
-    fn edge<R: Real>(&self, at: R, count: R) -> R {
+    fn pitch<R: Real>(&self) -> Vec2<R> {
+        let (counts, one) = (self.counts::<R>(), R::lit(1.0));
+        let pitch = |count: R| match self.values {
+            None => one / count,
+            // with one cell more than texels, the first and the last one are halves
+            Some(_) => one / (count - one),
+        };
+        Vec2::new(pitch(counts.x), pitch(counts.y))
+    }
+    /// Where columns, or rows, begin in the picture, in [0, 1].
+    #[inline(always)]
+    fn edge<R: Real>(&self, at: R, pitch: R) -> R {
         match self.values {
-            None => at / count,
-            Some(_) => {
-                let (zero, half, one) = (R::lit(0.0), R::lit(0.5), R::lit(1.0));
-                // with one cell more than texels, the first and the last one are halves
-                ((at - half) / (count - one)).clamped(zero, one)
-            }
+            None => at * pitch,
+            Some(_) => ((at - R::lit(0.5)) * pitch).clamped(R::lit(0.0), R::lit(1.0)),
         }
     }
     /// A cell as a box.
     #[inline(always)]
     pub(super) fn cell<R: Real>(&self, at: Vec2<R>) -> Box2<R> {
-        let (counts, one) = (self.counts::<R>(), R::lit(1.0));
-        let edges = |x: R, y: R| Vec2::new(self.edge(x, counts.x), self.edge(y, counts.y));
+        let (pitch, one) = (self.pitch::<R>(), R::lit(1.0));
+        let edges = |x: R, y: R| Vec2::new(self.edge(x, pitch.x), self.edge(y, pitch.y));
         Box2 { low: edges(at.x, at.y), high: edges(at.x + one, at.y + one) }
     }
     /// The cell at surface coordinates, and the position in it.
     #[inline(always)]
     pub(super) fn locate<R: Real>(&self, uv: Vec2<R>) -> (Vec2<R>, Vec2<R>) {
-        let counts = self.counts::<R>();
-        let one = |x: R, n: R| match self.values {
+        let (counts, pitch) = (self.counts::<R>(), self.pitch::<R>());
+        let one = |x: R, n: R, pitch: R| match self.values {
             None => {
                 let (i, within) = locate(unit_interval(x), n);
                 (R::from_uint(i), within)
@@ -358,11 +365,11 @@ impl<'a> Picture<'a> {
                 let (half, one) = (R::lit(0.5), R::lit(1.0));
                 let place = unit_interval(x).mul_add(n - one, half);
                 let i = R::from_uint(place.to_uint()).lesser(n - one);
-                let (start, end) = (self.edge(i, n), self.edge(i + one, n));
+                let (start, end) = (self.edge(i, pitch), self.edge(i + one, pitch));
                 (i, unit_interval((x - start) / (end - start)))
             }
         };
-        let ((x, s), (y, t)) = (one(uv.x, counts.x), one(uv.y, counts.y));
+        let ((x, s), (y, t)) = (one(uv.x, counts.x, pitch.x), one(uv.y, counts.y, pitch.y));
         (Vec2::new(x, y), Vec2::new(s, t))
     }
     /// Columns and rows.
@@ -405,12 +412,8 @@ impl<'a> Picture<'a> {
     #[inline]
     fn walk<R: Real>(&self, halves: &impl Halves<R>, lower: impl Fn(usize, R, R) -> R::Mask) -> Drawn<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let counts = self.counts::<R>();
-        let inverse = Vec2::new(one / counts.x, one / counts.y);
-        let place = |x: R, y: R| match self.values {
-            None => Vec2::new(x * inverse.x, y * inverse.y),
-            Some(_) => Vec2::new(self.edge(x, counts.x), self.edge(y, counts.y)),
-        };
+        let (counts, pitch) = (self.counts::<R>(), self.pitch::<R>());
+        let place = |x: R, y: R| Vec2::new(self.edge(x, pitch.x), self.edge(y, pitch.y));
         let mut start = [zero; 2];
         let mut steps = [R::lit(STEPS); 2];
         let mut texel = [zero; 2];
@@ -440,21 +443,17 @@ impl<'a> Picture<'a> {
                 };
                 [boxed(texel[axis], middle), boxed(middle, end)]
             };
-            let (radiant, rest) = (share, one - share);
-            let [a, b] = if differ.any() {
-                let ([a, b], still) = halves.densities(axis, &low, &high);
-                let each = [R::blend(differ, a, one), R::blend(differ, b, one)];
+            let (mut a, mut b, mut ratio) = (share, one - share, share);
+            if differ.any() {
+                let (densities, still) = halves.densities(axis, &low, &high);
+                let (c, d) = (a * densities[0], b * densities[1]);
+                // where the measure leaves nothing, the radiance decides
+                let some = differ & (c + d).gt(zero);
+                (a, b, ratio) = (R::blend(some, c, a), R::blend(some, d, b), R::blend(some, c / (c + d), ratio));
                 differ = differ & still;
-                each
-            } else {
-                [one; 2]
-            };
-            let (a, b) = (a * radiant, b * rest);
-            // where the measure leaves nothing, the radiance decides
-            let none = !(a + b).gt(zero);
-            let (a, b) = (R::blend(none, radiant, a), R::blend(none, rest, b));
+            }
             let all = steps[axis];
-            let cut = (all * (a / (a + b))).round_ties_even().clamped(half, all - (end - middle));
+            let cut = (all * ratio).round_ties_even().clamped(half, all - (end - middle));
             // a box that is never drawn has no steps
             let cut = cut.clamped(zero, all);
             let cut = R::blend(b.gt(zero), cut, all).keep(a.gt(zero));
