@@ -7,8 +7,8 @@ use etendue::{BilinearPatch, Disk, LightSampler, Parallelogram, Real, Rectangle,
 use etendue_properties::generators::{self, Random};
 use etendue_properties::properties::{squares_of, vectors_of};
 
-/// A picture on a light of this name.
-struct Shown(&'static str, Region, [usize; 2]);
+/// A picture on a light of this name, in texels, or interpolated.
+struct Shown(&'static str, Region, [usize; 2], bool);
 
 /// All methods, and the texel that is drawn.
 fn all<R: Real>(
@@ -26,15 +26,21 @@ fn all<R: Real>(
 
 impl Routine for Shown {
     fn run<R: Real>(&self, figures: &mut Figures) {
-        let Self(name, region, [width, height]) = *self;
+        let Self(name, region, [width, height], is_interpolated) = *self;
         let mut random = Random::new(950);
         let values: Vec<_> = (0..width * height).map(|_| random.unit().powi(6)).collect();
         let mean = |i: usize| mean_of_bilinear(&values, width, [i % width, i / width]);
         // some texels are dark
         let weights: Vec<_> = (0..width * height).map(|i| if i % 5 == 4 { 0.0 } else { mean(i) }).collect();
         weights.iter().for_each(|&weight| figures.number(weight.into()));
-        let mut buffer = vec![0.0; Picture::buffer(width, height)];
-        let picture = Picture::build(&weights, width, region, &mut buffer).expect("the weights are valid");
+        let cells = if is_interpolated { [width + 1, height + 1] } else { [width, height] };
+        let mut buffer = vec![0.0; Picture::buffer(cells[0], cells[1])];
+        let picture = if is_interpolated {
+            Picture::interpolated(&weights, width, &mut buffer)
+        } else {
+            Picture::build(&weights, width, region, &mut buffer)
+        };
+        let picture = picture.expect("the weights are valid");
         figures.packets::<R>(10 * Figures::MOST, |_, lanes| {
             let places: Vec<_> = (0..R::LANES)
                 .map(|_| {
@@ -87,6 +93,9 @@ pub(crate) fn add(list: &mut List<'_>) {
         ("Sphere", Region::Square, [8, 16]),
         ("Patch", Region::Square, [5, 3]),
     ] {
-        list.add(format!("light/Picture/{name}"), &Shown(name, region, size));
+        list.add(format!("light/Picture/{name}"), &Shown(name, region, size, false));
+    }
+    for (name, size) in [("Parallelogram", [13, 7]), ("Rectangle", [16, 15]), ("Sphere", [8, 16]), ("Patch", [5, 3])] {
+        list.add(format!("light/Picture/Interpolated{name}"), &Shown(name, Region::Square, size, true));
     }
 }

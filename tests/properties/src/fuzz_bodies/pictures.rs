@@ -27,6 +27,16 @@ impl Shown {
             _ => Region::Square,
         }
     }
+    fn is_interpolated(&self) -> bool {
+        self.kind >= 5 && self.region() == Region::Square
+    }
+    /// Whether a texel has radiance, or one at the corners of a cell between texels.
+    fn radiates(&self, x: usize, y: usize) -> bool {
+        let [width, height] = self.size;
+        let weight = |x: usize, y: usize| self.weights[y.min(height - 1) * width + x.min(width - 1)];
+        let [left, top] = if self.is_interpolated() { [x, y].map(|i| i.saturating_sub(1)) } else { [x, y] };
+        [(left, top), (x, top), (left, y), (x, y)].into_iter().any(|(x, y)| weight(x, y) > 0.0)
+    }
     /// Calls `take` with the light by each measure.
     fn each<R: Real>(&self, picture: Picture<'_>, take: &mut Visitor<'_, R>) {
         let [corner, edge_s, edge_t, diagonal, p, n] = [0, 1, 2, 3, 4, 5].map(|k| vectors_of::<R>(|_| self.vectors[k]));
@@ -55,7 +65,7 @@ impl Shown {
 
 /// Any picture on any light: texels that are drawn have radiance, results are finite, and lanes agree with scalars.
 pub(super) fn pictures(input: &mut Input<'_>) {
-    let kind = input.below(5);
+    let kind = input.below(10);
     let weights = input.weights(40);
     let width = 1 + input.below(weights.len() as u8) as usize;
     let height = weights.len() / width;
@@ -67,8 +77,13 @@ pub(super) fn pictures(input: &mut Input<'_>) {
     }
     vectors.push(input.direction());
     let shown = Shown { kind, weights, size: [width, height], vectors, radius: input.number() };
-    let mut buffer = vec![0.0; Picture::buffer(width, height)];
-    let built = Picture::build(&shown.weights, width, shown.region(), &mut buffer);
+    let cells = if shown.is_interpolated() { [width + 1, height + 1] } else { [width, height] };
+    let mut buffer = vec![0.0; Picture::buffer(cells[0], cells[1])];
+    let built = if shown.is_interpolated() {
+        Picture::interpolated(&shown.weights, width, &mut buffer)
+    } else {
+        Picture::build(&shown.weights, width, shown.region(), &mut buffer)
+    };
     let Ok(picture) = built else {
         let lit = |i: usize| shown.weights[i] > 0.0 && shown.region().part([i % width, i / width], shown.size) > 0.0;
         assert!(!(0..width * height).any(lit), "{shown:?}: {built:?}");
@@ -87,8 +102,8 @@ pub(super) fn pictures(input: &mut Input<'_>) {
         for (k, &u) in us.iter().enumerate() {
             let s = draw(squares_of(&[u]));
             let (x, y) = (s.x as usize, s.y as usize);
-            assert!(x < width && y < height, "{shown:?} at {u:?}: {s:?}");
-            assert!(shown.weights[y * width + x] > 0.0, "{shown:?} at {u:?}: a dark texel, {s:?}");
+            assert!(x < cells[0] && y < cells[1], "{shown:?} at {u:?}: {s:?}");
+            assert!(shown.radiates(x, y), "{shown:?} at {u:?}: a dark texel, {s:?}");
             let numbers = [s.light.direction.x, s.light.direction.y, s.light.direction.z, s.light.distance];
             assert!(numbers.iter().all(|x| x.is_finite()), "{shown:?} at {u:?}: {s:?}");
             let (pdf, evaluated) = (s.light.pdf, light.pdf(s.light.direction));
