@@ -74,7 +74,7 @@ fn one_set_tells_its_variance() {
     {
         let world = world(name);
         let settings = Settings { width: 64, height: 64, spp, technique, sets: 0, ..SETTINGS };
-        let count = cases(24, 80);
+        let count = cases(24, 48);
         let films: Vec<Film> = (0..count).map(|seed| render(&world, &Settings { seed, ..settings }).0).collect();
         let mut sums = [[0.0; 2]; 5];
         for i in 0..64 * 64 {
@@ -133,7 +133,7 @@ fn errs_less_than_as_many_samples_everywhere() {
                 let film = render(&world, &Settings { width: 256, height: 256, spp, sampler, seed, ..SETTINGS }).0;
                 Comparison::new(&reference, &Picture::from(&film), error).unwrap().mse
             };
-            (1..cases(2, 4)).map(of).sum::<f64>()
+            (1..cases(2, 3)).map(of).sum::<f64>()
         };
         let gain = measured(Sampler::Sobol) / measured(Sampler::Adaptive);
         println!("{name}, {spp} samples: sobol has {gain:.2} times the error");
@@ -148,7 +148,7 @@ fn is_not_biased() {
     let world = world("sphere-light");
     let settings = Settings { width: 32, height: 32, spp: 16, ..SETTINGS };
     let precise = render(&world, &Settings { spp: cases(1 << 11, 1 << 14), sampler: Sampler::Sobol, ..settings }).0;
-    let n = cases(30, 400);
+    let n = cases(30, 120);
     let off: Vec<f64> = (0..n)
         .map(|seed| {
             let film = render(&world, &Settings { seed: 100 + seed, ..settings }).0;
@@ -161,5 +161,5 @@ fn is_not_biased() {
     let mean = off.iter().sum::<f64>() / n as f64;
     let error = (off.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n * (n - 1)) as f64).sqrt();
     println!("bias {mean:.1e} ± {error:.1e} of {:.3}", precise.mean()[0]);
-    assert!(mean.abs() < 4.0 * error && error < cases(4e-5, 2e-5), "{mean:e} ± {error:e}");
+    assert!(mean.abs() < 4.0 * error && error < 4e-5, "{mean:e} ± {error:e}");
 }

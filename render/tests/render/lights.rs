@@ -245,7 +245,7 @@ fn directed_and_spread_lights_are_never_lost() {
     let (areas, all) = (scene.shapes.len() as u32, lights.len() as u32);
     assert!(areas == 60 && all == 140, "{areas} and {all}");
     let mut found = [0_u32; 2];
-    for number in 0..cases(300, 30_000) {
+    for number in 0..cases(300, 10_000) {
         let lanes = u32x8::from_fn(|k| number * 8 + k as u32);
         let pairs: [Vec2<X8>; 4] =
             core::array::from_fn(|dimension| Independent::new(9).pair(u32x8::splat(0), lanes, dimension as u32));
@@ -273,5 +273,5 @@ fn directed_and_spread_lights_are_never_lost() {
         }
     }
     println!("samples of panels and of other lights: {found:?}");
-    assert!(found.iter().all(|&n| n > cases(1000, 100_000)), "{found:?}");
+    assert!(found.iter().all(|&n| n > cases(1000, 33_000)), "{found:?}");
 }

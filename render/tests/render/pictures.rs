@@ -117,7 +117,7 @@ fn agrees(name: &str, light: &str, truth: V3) {
     let folder = Folder::new(name);
     let world = folder.world(NARROW, &format!("{PLANE}{light}"));
     for &technique in Technique::value_variants() {
-        let spp = cases(1 << 14, 1 << 20);
+        let spp = cases(1 << 14, 1 << 17);
         let (film, _) = world.render(&settings(technique, spp, 1, Sampler::Independent), &|_| ());
         let pixel = film.pixels[0];
         for (k, albedo) in [0.8, 0.5, 0.2].into_iter().enumerate() {
