@@ -253,50 +253,77 @@ pub struct PortalsByRadiance<'a, R: Real> {
 #[derive(Clone, Copy, Debug, Default)]
 struct Drawn {
     portal: usize,
+    found: [Found; 2],
     place: [f64; 2],
 }
 
 impl<R: Real> PortalsByRadiance<'_, R> {
-    /// Calls `visit` with each portal that is seen in a lane, and where its columns are among the steps of u, until it returns something.
     #[inline(always)]
-    fn each<T>(&self, lane: usize, mut visit: impl FnMut(usize, Place, [Span; 2]) -> Option<T>) -> Option<T> {
-        let mut place = Place { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] };
-        for (k, table) in self.tables.iter().enumerate() {
-            let weight = self.windows[k].weight.lane_f64(lane);
+    fn draw(&self, lane: usize, u: [f64; 2]) -> Drawn {
+        let mut place = self.first(lane);
+        for (portal, table) in self.tables.iter().enumerate() {
+            let weight = self.windows[portal].weight.lane_f64(lane);
             if weight > 0.0 {
-                let spans = spans(table, &self.windows[k].sides, lane);
-                if let Some(found) = visit(k, place, spans) {
-                    return Some(found);
+                let spans = self.spans(lane, portal);
+                let next = place.after(&spans[0], weight);
+                if u[0] * STEPS < next.begin() {
+                    let column = place.draw(&table.columns(spans[0], spans[1]), weight, u[0]);
+                    let row = Place::only(&spans[1]).draw(&table.rows(column.cell, spans[1]), 1.0, u[1]);
+                    return Drawn { portal, found: [column, row], place: [column.place(u[0]), row.place(u[1])] };
                 }
-                place.cells[1] += spans[0].cells();
-                place.weights[1] += weight;
+                place = next;
             }
         }
-        None
+        Drawn::default()
     }
+    /// Column and row of a position in a portal that is seen in a lane.
     #[inline(always)]
-    fn draw(&self, lane: usize, [u, v]: [f64; 2]) -> Drawn {
-        let drawn = self.each(lane, |portal, place, [columns, rows]| {
-            let weight = self.windows[portal].weight.lane_f64(lane);
-            let end = place.step(place.cells[1] + columns.cells(), place.weights[1] + weight);
-            if u * STEPS >= end {
-                return None;
+    fn find(&self, lane: usize, portal: usize, at: [f64; 2]) -> [Found; 2] {
+        let mut place = self.first(lane);
+        for k in 0..portal {
+            let weight = self.windows[k].weight.lane_f64(lane);
+            if weight > 0.0 {
+                place = place.after(&self.spans(lane, k)[0], weight);
             }
-            let table = &self.tables[portal];
-            let column = place.draw(&table.columns(columns, rows), weight, u);
-            let row = Place::only(&rows).draw(&table.rows(column.cell, rows), 1.0, v);
-            Some(Drawn { portal, place: [column.place(u), row.place(v)] })
-        });
-        drawn.unwrap_or_default()
-    }
-    /// Column and row of a position in a portal.
-    #[inline(always)]
-    fn find(&self, lane: usize, portal: usize, place: Place, [columns, rows]: [Span; 2], at: [f64; 2]) -> [Found; 2] {
-        let table = &self.tables[portal];
+        }
+        let (table, [columns, rows]) = (&self.tables[portal], self.spans(lane, portal));
         let weight = self.windows[portal].weight.lane_f64(lane);
         let column = place.find(&table.columns(columns, rows), weight, columns.cell(at[0]));
         let row = Place::only(&rows).find(&table.rows(column.cell, rows), 1.0, rows.cell(at[1]));
         [column, row]
+    }
+    #[inline(always)]
+    fn first(&self, lane: usize) -> Place {
+        Place { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] }
+    }
+    #[inline(always)]
+    fn spans(&self, lane: usize, portal: usize) -> [Span; 2] {
+        spans(&self.tables[portal], &self.windows[portal].sides, lane)
+    }
+    /// The density of a direction. Where it is within the cell that has been drawn in a lane, that of the cell need not be found again.
+    #[inline(always)]
+    fn density(&self, w: Vec3<R>, drawn: Option<&[Drawn; MOST_LANES]>) -> R {
+        let mut sum = R::lit(0.0);
+        for k in 0..self.portals.len() {
+            let ([x, y], area, passes) = self.positions(k, w);
+            let bits = passes.bits();
+            if bits == 0 {
+                continue;
+            }
+            let density = R::from_fn(|lane| {
+                if bits >> lane & 1 == 0 {
+                    return R::Scalar::lit(0.0);
+                }
+                let at = [x, y].map(|x| x.lane_f64(lane));
+                let known = drawn.map(|drawn| &drawn[lane]);
+                let known =
+                    known.filter(|drawn| drawn.portal == k && drawn.found[0].has(at[0]) && drawn.found[1].has(at[1]));
+                let [column, row] = known.map_or_else(|| self.find(lane, k, at), |drawn| drawn.found);
+                R::Scalar::lit(column.density() * row.density())
+            });
+            sum += (density * area).lesser(R::lit(GREATEST)).keep(passes);
+        }
+        sum.lesser(R::lit(GREATEST))
     }
     /// Where a direction passes a portal, the density there per unit of its window, and whether it passes at all.
     #[inline(always)]
@@ -319,41 +346,22 @@ impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
         for (lane, drawn) in drawn[..R::LANES].iter_mut().enumerate() {
             *drawn = self.draw(lane, [u.x, u.y].map(|u| u.lane_f64(lane)));
         }
-        let [x, y] = [0, 1].map(|k| {
-            let side = match self.portals {
-                [_] => self.windows[0].sides[k],
-                _ => Side::gather(|lane| &self.windows[drawn[lane].portal].sides[k]),
-            };
-            side.at(R::from_fn(|lane| R::Scalar::lit(drawn[lane].place[k])))
-        });
-        let axes = [x[0] * y[1], y[0] * x[1], x[1] * y[1]];
-        let direction = match self.portals {
-            [only] => only.map.world(axes),
-            portals => {
-                let of = |lane: usize| portals[drawn[lane].portal].map.world(axes.map(|x| x.lane(lane)));
-                Vec3::new(R::from_fn(|lane| of(lane).x), R::from_fn(|lane| of(lane).y), R::from_fn(|lane| of(lane).z))
+        let mut direction = Vec3::lit([0.0; 3]);
+        for (k, (portal, Window { sides, .. })) in self.portals.iter().zip(&self.windows).enumerate() {
+            let bits = drawn[..R::LANES].iter().enumerate().filter(|(_, drawn)| drawn.portal == k);
+            let here = R::Mask::from_bits(bits.fold(0, |bits, (lane, _)| bits | 1 << lane));
+            if here.any() {
+                let at = |i: usize| sides[i].at(R::from_fn(|lane| R::Scalar::lit(drawn[lane].place[i])));
+                let (x, y) = (at(0), at(1));
+                direction = Vec3::blend(here, portal.map.world([x[0] * y[1], y[0] * x[1], x[1] * y[1]]), direction);
             }
-        };
-        self.hit(direction.unit_and_length().0)
+        }
+        let w = direction.unit_and_length().0;
+        met(w, self.density(w, Some(&drawn)), Octahedral.invert(w))
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        let mut sum = R::lit(0.0);
-        for k in 0..self.portals.len() {
-            let ([x, y], area, passes) = self.positions(k, w);
-            if !passes.any() {
-                continue;
-            }
-            let density = R::from_fn(|lane| {
-                let found = self.each(lane, |portal, place, spans| {
-                    let at = [x, y].map(|x| x.lane_f64(lane));
-                    (portal == k && passes.lane(lane)).then(|| self.find(lane, k, place, spans, at))
-                });
-                R::Scalar::lit(found.map_or(0.0, |[column, row]| column.density() * row.density()))
-            });
-            sum += (density * area).lesser(R::lit(GREATEST)).keep(passes);
-        }
-        sum.lesser(R::lit(GREATEST))
+        self.density(w, None)
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -364,9 +372,7 @@ impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
             let mut pairs = [[0.0; 2]; MOST_LANES];
             for lane in (0..R::LANES).filter(|&lane| passes.lane(lane)) {
                 let at = at.map(|x| x.lane_f64(lane));
-                let found =
-                    self.each(lane, |portal, place, spans| (portal == k).then(|| self.find(lane, k, place, spans, at)));
-                let [column, row] = found.unwrap_or_default();
+                let [column, row] = self.find(lane, k, at);
                 pairs[lane] = [column.invert(at[0]), row.invert(at[1])];
             }
             let pair = [0, 1].map(|i| R::from_fn(|lane| R::Scalar::lit(pairs[lane][i])));
