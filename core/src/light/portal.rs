@@ -10,10 +10,11 @@ use crate::discrete::TableError;
 use crate::real::{GREATEST, Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Octahedral, Warp};
+use core::array;
 use core::f64::consts::PI;
 use side::Side;
 pub use table::PortalTable;
-use table::{Found, Place, STEPS, Span};
+use table::{Columns, Found, Place, STEPS, Search, Span};
 
 /// Greatest number of portals of a [`PortalEnvironment`].
 pub const MOST_PORTALS: usize = 8;
@@ -199,17 +200,16 @@ impl<'a> PortalEnvironment<'a> {
         for ((portal, table), window) in self.portals.iter().zip(self.tables).zip(&mut windows) {
             let (sides, visible) = portal.sides(p);
             let scale = table.unit / self.unit;
-            let weight = R::from_fn(|lane| {
-                if !visible.lane(lane) {
-                    return R::Scalar::lit(0.0);
-                }
+            let (mut seen, bits) = ([0.0; MOST_LANES], visible.bits());
+            for lane in (0..R::LANES).filter(|lane| bits >> lane & 1 == 1) {
                 let [columns, rows] = spans(table, &sides, lane);
                 let weight = table.columns(columns, rows).total * columns.part_of_one() * rows.part_of_one();
-                R::Scalar::lit((weight * scale).max(LEAST_WEIGHT))
-            });
-            for lane in (0..R::LANES).filter(|&lane| visible.lane(lane)) {
-                cells[lane] += spans(table, &sides, lane)[0].cells();
-                weights[lane] += weight.lane_f64(lane);
+                seen[lane] = (weight * scale).max(LEAST_WEIGHT);
+                cells[lane] += columns.cells();
+            }
+            let weight = R::from_fn(|lane| R::Scalar::lit(seen[lane]));
+            for (lane, sum) in weights[..R::LANES].iter_mut().enumerate() {
+                *sum += weight.lane_f64(lane);
             }
             *window = Window { sides, weight };
         }
@@ -257,24 +257,48 @@ struct Drawn {
     place: [f64; 2],
 }
 
-impl<R: Real> PortalsByRadiance<'_, R> {
+impl<'a, R: Real> PortalsByRadiance<'a, R> {
     #[inline(always)]
-    fn draw(&self, lane: usize, u: [f64; 2]) -> Drawn {
+    fn draw(&self, u: Vec2<R>) -> [Drawn; MOST_LANES] {
+        let mut drawn = [Drawn::default(); MOST_LANES];
+        let mut spans = [None; MOST_LANES];
+        let mut columns: [_; MOST_LANES] = array::from_fn(|lane| {
+            let (portal, rows, search) = (lane < R::LANES).then(|| self.search(lane, u.x.lane_f64(lane))).flatten()?;
+            (drawn[lane].portal, spans[lane]) = (portal, Some(rows));
+            Some(search)
+        });
+        Search::all(&mut columns);
+        let mut rows: [_; MOST_LANES] = array::from_fn(|lane| {
+            let (drawn, rows) = (&mut drawn[lane], spans[lane]?);
+            drawn.found[0] = columns[lane].as_ref()?.found();
+            let column = self.tables[drawn.portal].rows(drawn.found[0].cell, rows);
+            Some(Place::only(&rows).search(column, 1.0, u.y.lane_f64(lane)))
+        });
+        Search::all(&mut rows);
+        for (lane, drawn) in drawn.iter_mut().enumerate() {
+            if let Some(row) = &rows[lane] {
+                drawn.found[1] = row.found();
+                drawn.place = [drawn.found[0].place(u.x.lane_f64(lane)), drawn.found[1].place(u.y.lane_f64(lane))];
+            }
+        }
+        drawn
+    }
+    /// The portal to which `u` goes in a lane, its rows, and a search among its columns.
+    #[inline(always)]
+    fn search(&self, lane: usize, u: f64) -> Option<(usize, Span, Search<Columns<'a>>)> {
         let mut place = self.first(lane);
         for (portal, table) in self.tables.iter().enumerate() {
             let weight = self.windows[portal].weight.lane_f64(lane);
             if weight > 0.0 {
-                let spans = self.spans(lane, portal);
-                let next = place.after(&spans[0], weight);
-                if u[0] * STEPS < next.begin() {
-                    let column = place.draw(&table.columns(spans[0], spans[1]), weight, u[0]);
-                    let row = Place::only(&spans[1]).draw(&table.rows(column.cell, spans[1]), 1.0, u[1]);
-                    return Drawn { portal, found: [column, row], place: [column.place(u[0]), row.place(u[1])] };
+                let [columns, rows] = self.spans(lane, portal);
+                let next = place.after(&columns, weight);
+                if u * STEPS < next.begin() {
+                    return Some((portal, rows, place.search(table.columns(columns, rows), weight, u)));
                 }
                 place = next;
             }
         }
-        Drawn::default()
+        None
     }
     /// Column and row of a position in a portal that is seen in a lane.
     #[inline(always)]
@@ -342,10 +366,7 @@ impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let u = u.map(unit_interval);
-        let mut drawn = [Drawn::default(); MOST_LANES];
-        for (lane, drawn) in drawn[..R::LANES].iter_mut().enumerate() {
-            *drawn = self.draw(lane, [u.x, u.y].map(|u| u.lane_f64(lane)));
-        }
+        let drawn = self.draw(u);
         let mut direction = Vec3::lit([0.0; 3]);
         for (k, (portal, Window { sides, .. })) in self.portals.iter().zip(&self.windows).enumerate() {
             let bits = drawn[..R::LANES].iter().enumerate().filter(|(_, drawn)| drawn.portal == k);

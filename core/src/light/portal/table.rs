@@ -1,6 +1,7 @@
 //! Sums over the rectangles of a table, and exact draws from one of them.
 
 use crate::discrete::TableError;
+use core::hint::select_unpredictable;
 
 /// Steps of `u` in the unit interval.
 pub(super) const STEPS: f64 = 16_777_216.0;
@@ -258,30 +259,63 @@ impl Place {
         let count = (self.step_of(own, weight, cell + 1) - first).max(0.0);
         Found { cell, steps: [first, count], ends: [cell, cell + 1].map(|cell| own.span.edge(cell)) }
     }
-    /// Draws a cell.
+    /// Begins to search for the cell to which `u` goes.
     #[inline(always)]
-    pub(super) fn draw<S: Sums>(&self, own: &Distribution<S>, weight: f64, u: f64) -> Found {
-        let span = own.span;
-        let (mut cell, mut count) = (span.first, span.cells());
-        // where a cell begins, solved for the weight before it: a search without divisions and without jumps, exact but for rounding
-        let free = STEPS - f64::from(self.cells[0]);
-        let scale = own.total / weight;
-        let step = self.weights[0] / free;
-        let weight_of_step = step * scale;
+    pub(super) fn search<S: Sums>(&self, own: Distribution<S>, weight: f64, u: f64) -> Search<S> {
+        let (free, scale) = (STEPS - f64::from(self.cells[0]), own.total / weight);
+        let weight_of_step = self.weights[0] / free * scale;
         let most = (u * STEPS - f64::from(self.cells[1])) * weight_of_step - self.weights[1] * scale;
-        while count > 1 {
-            let half = count / 2;
-            let middle = cell + half;
-            let before = own.weight_before(middle) + f64::from(middle - span.first) * weight_of_step;
-            cell = if before <= most { middle } else { cell };
-            count -= half;
+        let (cell, count) = (own.span.first, own.span.cells());
+        Search { place: *self, own, weight, step: u * STEPS, most, weight_of_step, cell, count }
+    }
+}
+
+/// A search for the cell to which a step of `u` goes: without divisions by where a cell begins, solved for the weight before it, which is
+/// exact but for rounding.
+pub(super) struct Search<S> {
+    place: Place,
+    own: Distribution<S>,
+    weight: f64,
+    /// The step, and the greatest weight before the cell: that of all cells before it, and one of them for each.
+    step: f64,
+    most: f64,
+    weight_of_step: f64,
+    /// The first of the cells that are left, and their number.
+    cell: u32,
+    count: u32,
+}
+
+impl<S: Sums> Search<S> {
+    /// Runs searches side by side, so that none waits for the memory that another needs.
+    #[inline(always)]
+    pub(super) fn all(searches: &mut [Option<Self>]) {
+        let mut most = searches.iter().flatten().fold(0, |most, search| most.max(search.count));
+        while most > 1 {
+            searches.iter_mut().flatten().for_each(Self::halve);
+            most -= most / 2;
         }
-        let mut found = self.find(own, weight, cell);
-        while found.cell > span.first && found.steps[0] > u * STEPS {
-            found = self.find(own, weight, found.cell - 1);
+    }
+    /// Leaves half of the cells; of one cell, itself.
+    #[inline(always)]
+    fn halve(&mut self) {
+        let half = self.count / 2;
+        let middle = self.cell + half;
+        let before = self.own.weight_before(middle) + f64::from(middle - self.own.span.first) * self.weight_of_step;
+        self.cell = select_unpredictable(before <= self.most, middle, self.cell);
+        self.count -= half;
+    }
+    /// What has been found.
+    #[inline(always)]
+    pub(super) fn found(&self) -> Found {
+        let span = self.own.span;
+        let find = |cell| self.place.find(&self.own, self.weight, cell);
+        let mut found = find(self.cell);
+        // rounding may have crossed an edge
+        while found.cell > span.first && self.step < found.steps[0] {
+            found = find(found.cell - 1);
         }
-        while found.cell < span.last && found.steps[0] + found.steps[1] <= u * STEPS {
-            found = self.find(own, weight, found.cell + 1);
+        while found.cell < span.last && self.step >= found.steps[0] + found.steps[1] {
+            found = find(found.cell + 1);
         }
         found
     }
