@@ -10,7 +10,6 @@ use crate::discrete::TableError;
 use crate::real::{GREATEST, Mask, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Octahedral, Warp};
-use core::array;
 use core::f64::consts::PI;
 use side::Side;
 pub use table::PortalTable;
@@ -262,23 +261,27 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
     fn draw(&self, u: Vec2<R>) -> [Drawn; MOST_LANES] {
         let mut drawn = [Drawn::default(); MOST_LANES];
         let mut spans = [None; MOST_LANES];
-        let mut columns: [_; MOST_LANES] = array::from_fn(|lane| {
-            let (portal, rows, search) = (lane < R::LANES).then(|| self.search(lane, u.x.lane_f64(lane))).flatten()?;
-            (drawn[lane].portal, spans[lane]) = (portal, Some(rows));
-            Some(search)
-        });
+        let mut columns = [const { None }; MOST_LANES];
+        for lane in 0..R::LANES {
+            if let Some((portal, rows, search)) = self.search(lane, u.x.lane_f64(lane)) {
+                (drawn[lane].portal, spans[lane], columns[lane]) = (portal, Some(rows), Some(search));
+            }
+        }
         Search::all(&mut columns);
-        let mut rows: [_; MOST_LANES] = array::from_fn(|lane| {
-            let (drawn, rows) = (&mut drawn[lane], spans[lane]?);
-            drawn.found[0] = columns[lane].as_ref()?.found();
-            let column = self.tables[drawn.portal].rows(drawn.found[0].cell, rows);
-            Some(Place::only(&rows).search(column, 1.0, u.y.lane_f64(lane)))
-        });
+        let mut rows = [const { None }; MOST_LANES];
+        for lane in 0..R::LANES {
+            if let (Some(column), Some(span)) = (&columns[lane], spans[lane]) {
+                let found = column.found();
+                let sums = self.tables[drawn[lane].portal].rows(found.cell, span);
+                rows[lane] = Some(Place::only(&span).search(sums, 1.0, u.y.lane_f64(lane)));
+                (drawn[lane].found[0], drawn[lane].place[0]) = (found, found.place(u.x.lane_f64(lane)));
+            }
+        }
         Search::all(&mut rows);
-        for (lane, drawn) in drawn.iter_mut().enumerate() {
+        for lane in 0..R::LANES {
             if let Some(row) = &rows[lane] {
-                drawn.found[1] = row.found();
-                drawn.place = [drawn.found[0].place(u.x.lane_f64(lane)), drawn.found[1].place(u.y.lane_f64(lane))];
+                let found = row.found();
+                (drawn[lane].found[1], drawn[lane].place[1]) = (found, found.place(u.y.lane_f64(lane)));
             }
         }
         drawn

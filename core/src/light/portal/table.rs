@@ -257,7 +257,7 @@ impl Place {
     pub(super) fn find<S: Sums>(&self, own: &Distribution<S>, weight: f64, cell: u32) -> Found {
         let first = self.step_of(own, weight, cell);
         let count = (self.step_of(own, weight, cell + 1) - first).max(0.0);
-        Found { cell, steps: [first, count], ends: [cell, cell + 1].map(|cell| own.span.edge(cell)) }
+        Found { cell, steps: [first, count], ends: [own.span.edge(cell), own.span.edge(cell + 1)] }
     }
     /// Begins to search for the cell to which `u` goes.
     #[inline(always)]
@@ -289,9 +289,14 @@ impl<S: Sums> Search<S> {
     /// Runs searches side by side, so that none waits for the memory that another needs.
     #[inline(always)]
     pub(super) fn all(searches: &mut [Option<Self>]) {
-        let mut most = searches.iter().flatten().fold(0, |most, search| most.max(search.count));
+        let mut most = 0;
+        for search in searches.iter().flatten() {
+            most = search.count.max(most);
+        }
         while most > 1 {
-            searches.iter_mut().flatten().for_each(Self::halve);
+            for search in searches.iter_mut().flatten() {
+                search.halve();
+            }
             most -= most / 2;
         }
     }
@@ -308,16 +313,19 @@ impl<S: Sums> Search<S> {
     #[inline(always)]
     pub(super) fn found(&self) -> Found {
         let span = self.own.span;
-        let find = |cell| self.place.find(&self.own, self.weight, cell);
-        let mut found = find(self.cell);
+        let mut found = self.find(self.cell);
         // rounding may have crossed an edge
         while found.cell > span.first && self.step < found.steps[0] {
-            found = find(found.cell - 1);
+            found = self.find(found.cell - 1);
         }
         while found.cell < span.last && self.step >= found.steps[0] + found.steps[1] {
-            found = find(found.cell + 1);
+            found = self.find(found.cell + 1);
         }
         found
+    }
+    #[inline(always)]
+    fn find(&self, cell: u32) -> Found {
+        self.place.find(&self.own, self.weight, cell)
     }
 }
 
