@@ -87,6 +87,11 @@ impl Portal {
         let lengths = [s, t].map(|v| Vec3::<f64>::from(v.map(f64::from)).unit_and_length().1);
         corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map })
     }
+    /// Its area.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.lengths[0] * self.lengths[1] * self.map.sin
+    }
     /// Whether the portal shows the sky to a point: it is on the side that the normal points away from.
     #[inline(always)]
     pub fn faces<R: Real>(&self, p: Vec3<R>) -> R::Mask {

@@ -14,6 +14,7 @@ use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
 use crate::packet::{M8, V8, X8, pick, select};
+use crate::sky::SunBeside;
 use crate::surfaces::Surface;
 use crate::technique::Technique;
 use etendue::estimate::{Heuristic, technique_pdf};
@@ -263,6 +264,9 @@ impl<'a> Paths<'a> {
             }
         } else {
             self.by_light::<METAL>(lights, &Which::Chosen(allocated), count, numbers, &mut reflected);
+            if let Some(sun) = self.sun_beside() {
+                self.by_sun::<METAL>(sun, count, numbers, &mut reflected);
+            }
         }
         if self.technique.finds_lights() {
             self.by_surface::<METAL>(count, &numbers.light, allocated, &mut reflected);
@@ -343,6 +347,24 @@ impl<'a> Paths<'a> {
         }
     }
 
+    /// The sun, if it is sampled besides the other lights.
+    fn sun_beside(&self) -> Option<SunBeside<'a>> {
+        let sky = self.scene.sky.as_ref().filter(|_| !self.technique.finds_lights())?;
+        sky.sun_beside()
+    }
+
+    /// Not inlined, so that it does not burden scenes without portals.
+    #[inline(never)]
+    fn by_sun<const METAL: bool>(
+        &mut self,
+        sun: SunBeside<'_>,
+        count: usize,
+        numbers: &Numbers,
+        reflected: &mut [V8; GROUP],
+    ) {
+        self.by_light::<METAL>(&self.scene.lights, &Which::Sun(sun), count, numbers, reflected);
+    }
+
     /// Adds the light reflected by sampling a light, with its MIS weight if the technique combines two.
     #[inline(always)]
     fn by_light<const METAL: bool>(
@@ -371,7 +393,14 @@ impl<'a> Paths<'a> {
                 u.x = choice.u;
             }
             let mut chosen = lights.chosen(choice.index);
-            let sample = lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
+            let sample = match which {
+                Which::Sun(sun) => {
+                    let (sample, radiance) = sun.sample(surface.point, u);
+                    chosen.radiance = radiance;
+                    sample.into()
+                }
+                _ => lights.sample(&mut chosen, measure, surface.point, surface.normal, u),
+            };
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
             lit[p] = lanes & sample.emits & some & cos.gt(zero);
@@ -457,18 +486,24 @@ impl<'a> Paths<'a> {
             });
             target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
             limit[p] = hits[p].distance * X8::lit(COVERED);
+            let mut beside = None;
             if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
-                radiance = V8::blend(missed, sky.radiance(point, direction), radiance);
+                beside = sky.sun_beside().map(|sun| sun.radiance_and_pdf(point, direction));
+                radiance = V8::blend(missed, sky.sampled_radiance(point, direction), radiance);
                 lit[p] = lit[p] | missed;
                 if let Some(pmf) = &pmf {
                     light_pdf = select(missed, scene.lights.sky_pdf(pmf, point, normal, direction), light_pdf);
                 }
             }
-            let factor = match heuristic {
+            let factor = |light_pdf: X8| match heuristic {
                 None => factors[p],
                 Some(by) => factors[p] * by.weights([own[p], light_pdf])[0],
             };
-            found[p] = product(found[p], radiance) * factor;
+            let color = found[p];
+            found[p] = product(color, radiance) * factor(light_pdf);
+            if let Some((radiance, pdf)) = beside {
+                found[p] += product(color, keep(radiance, missed)) * factor(pdf);
+            }
         }
         self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
     }
