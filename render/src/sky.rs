@@ -197,7 +197,7 @@ impl Sky {
         let sample = match (&self.windows, &self.sun) {
             (None, None) => return self.sample_sky(measure, normal, u),
             (None, Some(sun)) => self.sample_both(sun, measure, normal, u),
-            (Some(windows), _) => windows.all(|all| all.by_radiance(p).sample(u)),
+            (Some(windows), _) => windows.all(|all| all.by_radiance_above(p, normal).sample(u)),
         };
         (sample, self.of_sampled(sample.direction))
     }
@@ -237,7 +237,7 @@ impl Sky {
     #[inline]
     pub fn pdf(&self, measure: Measure, p: V8, normal: V8, direction: V8) -> X8 {
         if let Some(windows) = &self.windows {
-            return windows.all(|all| all.by_radiance(p).pdf(direction));
+            return windows.all(|all| all.by_radiance_above(p, normal).pdf(direction));
         }
         let of_sky = self.pdf_of_sky(measure, normal, direction);
         match &self.sun {

@@ -321,6 +321,57 @@ fn inverses() {
     println!("direction {:.1e}, u {:.1e}", worst[0], worst[1]);
 }
 
+/// Above a horizon, each portal has the pdf that it has otherwise, times a factor: by the mean cosine of its corners. Below, it has none.
+#[test]
+fn portals_above_the_horizon() {
+    let mut random = Random::new(6);
+    let mut passed = [0; 2];
+    for (name, openings, points) in scenes() {
+        with(&openings, |sky| {
+            for (&p, _) in points.iter().zip(0..3).flat_map(|point| [point; 8]) {
+                let normal = random.direction();
+                let mean_cos = |o: &Opening| {
+                    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[a, b]| {
+                        let to = sub(add(wide(o.corner), add(scale(wide(o.s), a), scale(wide(o.t), b))), p);
+                        dot(to, normal) / length(to)
+                    });
+                    let is_above = corners.iter().any(|cos| *cos > -1e-3);
+                    if is_above { corners.iter().map(|cos| cos.max(1e-3)).sum::<f64>() / 4.0 } else { 0.0 }
+                };
+                let weights: Vec<_> = openings.iter().map(|o| o.weight(p)).collect();
+                let (all, above): (f64, f64) =
+                    (weights.iter().sum(), openings.iter().zip(&weights).map(|(o, weight)| mean_cos(o) * weight).sum());
+                let at = Vec3::<f64>::new(p[0], p[1], p[2]);
+                let (plain, own) =
+                    (sky.by_radiance(at), sky.by_radiance_above(at, Vec3::new(normal[0], normal[1], normal[2])));
+                for i in 0..200 {
+                    let u = Vec2::new(random.unit_f64(), random.unit_f64());
+                    let s = own.sample(u);
+                    assert_eq!((s.pdf > 0.0, own.pdf(s.direction)), (s.emits, s.pdf), "{name}");
+                    assert!(above > 0.0 || s.pdf == 0.0, "{name}: {s:?} below the horizon from {p:?}");
+                    let w = if i % 2 == 0 && s.pdf > 0.0 { s.direction } else { plain.sample(u).direction };
+                    let inside =
+                        |o: &&Opening| o.passed(p, w.at(0)).is_some_and(|at| at.iter().all(|x| (0.0..1.0).contains(x)));
+                    let through: Vec<_> = openings.iter().filter(inside).collect();
+                    if let [only] = through[..]
+                        && all > 0.0
+                    {
+                        let factor = if above > 0.0 { mean_cos(only) * all / above } else { 0.0 };
+                        let (truth, pdf) = (plain.pdf(w) * factor, own.pdf(w));
+                        let floor = 4.0 * (1.0 + factor) * only.step(p, w.at(0));
+                        passed[usize::from(truth > 0.0)] += 1;
+                        assert!(
+                            (pdf - truth).abs() <= 1e-4 * truth + floor && (pdf > 0.0) == (truth > 0.0),
+                            "{name}: {pdf}, expected {truth} ± {floor} at {w:?} from {p:?} on {normal:?}"
+                        );
+                    }
+                }
+            }
+        });
+    }
+    assert!(passed.iter().all(|&count| count > 1000), "{passed:?}");
+}
+
 /// From behind, and in the plane of a portal, nothing is seen.
 #[test]
 fn nothing_is_seen_from_behind() {

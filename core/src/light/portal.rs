@@ -97,6 +97,22 @@ impl Portal {
     pub fn faces<R: Real>(&self, p: Vec3<R>) -> R::Mask {
         self.sides(p).1
     }
+    /// Mean of the cosines of the corners to a normal, each at least [`GRAZING`]; 0 if all of them are below the horizon.
+    #[inline(always)]
+    fn mean_cos<R: Real>(&self, p: Vec3<R>, normal: Vec3<R>) -> R {
+        let [s, t] = [0, 1].map(|k| {
+            let edge = self.map.axes[k] * self.lengths[k];
+            Vec3::lit([edge.x, edge.y, edge.z])
+        });
+        let first = Vec3::lit(self.corner.map(f64::from)) - p;
+        let (mut sum, mut above) = (R::lit(0.0), R::Mask::splat(false));
+        for corner in [first, first + s, first + t, first + s + t] {
+            let cos = corner.unit_and_length().0.dot(normal);
+            above = above | cos.gt(R::lit(-GRAZING));
+            sum += cos.greater(R::lit(GRAZING));
+        }
+        (sum * R::lit(0.25)).keep(above)
+    }
     /// The map in which its table shows the sky.
     #[must_use]
     pub fn map(&self) -> PortalMap {
@@ -183,32 +199,35 @@ impl<'a> PortalEnvironment<'a> {
             sees | visible & passes([&across, &up], [x, y, z])
         })
     }
-    /// Whether a ray from `p` within so many radians of the unit direction `w` may pass a portal. Where this is false, none does; a sun
-    /// need not be sampled there.
-    #[inline(always)]
-    pub fn sees_cone<R: Real>(&self, p: Vec3<R>, w: Vec3<R>, radius: R) -> R::Mask {
-        self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
-            let ([across, up], visible) = portal.sides(p);
-            let [x, y, z] = portal.map.local(w);
-            // an oblique axis stretches a small step by the inverse of the sine
-            let slack = (radius + slack()) * R::lit(1.0 / portal.map.sin);
-            sees | visible & across.has(x, z, slack) & up.has(y, z, slack) & z.gt(-slack)
-        })
-    }
     /// Directions from `p` in proportion to the weights.
     #[inline(always)]
     pub fn by_radiance<R: Real>(&self, p: Vec3<R>) -> PortalsByRadiance<'a, R> {
+        self.prepared(p, |_| R::lit(1.0))
+    }
+    /// Directions from a point of a surface with this unit normal, in proportion to the weights within each portal, while a portal weighs
+    /// less the more slanting the surface sees it.
+    ///
+    /// The weight of a portal is that of what is seen times the mean of max(cosθ, 10⁻³) over its corners, θ being measured from the
+    /// normal. A portal whose corners all have cosθ < −10⁻³ is below the horizon: it has no sample, and the pdf 0. If all are, so has
+    /// every direction.
+    #[inline(always)]
+    pub fn by_radiance_above<R: Real>(&self, p: Vec3<R>, normal: Vec3<R>) -> PortalsByRadiance<'a, R> {
+        self.prepared(p, |portal| portal.mean_cos(p, normal))
+    }
+    /// Prepares for a point. The weight of each portal is multiplied by what it is worth; at 0, it is not seen.
+    #[inline(always)]
+    fn prepared<R: Real>(&self, p: Vec3<R>, worth: impl Fn(&Portal) -> R) -> PortalsByRadiance<'a, R> {
         let mut windows = [Window::default(); MOST_PORTALS];
         let mut cells = [0; MOST_LANES];
         let mut weights = [0.0; MOST_LANES];
         for ((portal, table), window) in self.portals.iter().zip(self.tables).zip(&mut windows) {
-            let (sides, visible) = portal.sides(p);
+            let ((sides, visible), worth) = (portal.sides(p), worth(portal));
             let scale = table.unit / self.unit;
-            let (mut seen, bits) = ([0.0; MOST_LANES], visible.bits());
+            let (mut seen, bits) = ([0.0; MOST_LANES], (visible & worth.gt(R::lit(0.0))).bits());
             for lane in (0..R::LANES).filter(|lane| bits >> lane & 1 == 1) {
                 let [columns, rows] = spans(table, &sides, lane);
                 let weight = table.columns(columns, rows).total * columns.part_of_one() * rows.part_of_one();
-                seen[lane] = (weight * scale).max(LEAST_WEIGHT);
+                seen[lane] = (weight * scale * worth.lane_f64(lane)).max(LEAST_WEIGHT);
                 cells[lane] += columns.cells();
             }
             let weight = R::from_fn(|lane| R::Scalar::lit(seen[lane]));
@@ -222,6 +241,8 @@ impl<'a> PortalEnvironment<'a> {
 }
 
 const MOST_LANES: usize = 16;
+/// The least cosine that a corner of a portal counts with; so much below the horizon, rounding does not matter.
+const GRAZING: f64 = 1e-3;
 /// Weights are at least this: less has no reciprocal in single precision.
 const LEAST_WEIGHT: f64 = 1e-37;
 
