@@ -72,7 +72,11 @@ impl SunBeside<'_> {
     #[inline]
     pub fn radiance_and_pdf(&self, p: V8, direction: V8) -> (V8, X8) {
         let pdf = self.sun.sampler().pdf(direction);
-        let visible = pdf.gt(X8::lit(0.0)) & self.windows.all(|all| all.sees(p, direction));
+        let is_sun = pdf.gt(X8::lit(0.0));
+        if !is_sun.any() {
+            return Default::default();
+        }
+        let visible = is_sun & self.windows.all(|all| all.sees(p, direction));
         (V8::from(self.sun.disk.radiance).keep(visible), pdf.keep(visible))
     }
 }
@@ -152,19 +156,19 @@ impl Sky {
     /// Radiance of a ray from `p` in this direction.
     #[inline]
     pub fn radiance(&self, p: V8, direction: V8) -> V8 {
-        self.seen(p, direction, |own| own.of_both(direction))
+        self.of_both(direction).keep(self.shows(p, direction))
     }
-    /// The same without a [sun beside](Self::sun_beside).
+    /// The same without a [sun beside](Self::sun_beside), and where it is not known to be dark: outside of portals, no ray is needed.
     #[inline]
-    pub fn sampled_radiance(&self, p: V8, direction: V8) -> V8 {
-        self.seen(p, direction, |own| own.of_sampled(direction))
+    pub fn sampled_radiance(&self, p: V8, direction: V8) -> (V8, M8) {
+        let shown = self.shows(p, direction);
+        let radiance = if shown.any() { self.of_sampled(direction).keep(shown) } else { V8::default() };
+        (radiance, shown)
     }
+    /// Whether a portal shows the sky, if there are any.
     #[inline]
-    fn seen(&self, p: V8, direction: V8, radiance: impl Fn(&Self) -> V8) -> V8 {
-        match &self.windows {
-            Some(windows) => radiance(self).keep(windows.all(|all| all.sees(p, direction))),
-            None => radiance(self),
-        }
+    fn shows(&self, p: V8, direction: V8) -> M8 {
+        self.windows.as_ref().map_or(M8::splat(true), |windows| windows.all(|all| all.sees(p, direction)))
     }
     /// Radiance of sky and sun, as if there were no portals.
     #[inline]

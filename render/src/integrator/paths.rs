@@ -488,10 +488,11 @@ impl<'a> Paths<'a> {
             limit[p] = hits[p].distance * X8::lit(COVERED);
             let mut beside = None;
             if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
+                let (seen, shown) = sky.sampled_radiance(point, direction);
                 beside = sky.sun_beside().map(|sun| sun.radiance_and_pdf(point, direction));
-                radiance = V8::blend(missed, sky.sampled_radiance(point, direction), radiance);
-                lit[p] = lit[p] | missed;
-                if let Some(pmf) = &pmf {
+                radiance = V8::blend(missed, seen, radiance);
+                lit[p] = lit[p] | missed & shown;
+                if let Some(pmf) = pmf.as_ref().filter(|_| (missed & shown).any()) {
                     light_pdf = select(missed, scene.lights.sky_pdf(pmf, point, normal, direction), light_pdf);
                 }
             }
