@@ -65,6 +65,12 @@ impl PortalMap {
         let [s, t, n] = self.axes.map(|v| Vec3::lit([v.x, v.y, v.z]));
         s.mul_add(x, t.mul_add(y, n * z))
     }
+    /// How far beside a portal a direction still passes it, in radians: what the direction itself is rounded by. Oblique axes stretch a
+    /// small step by the inverse of the sine.
+    #[inline(always)]
+    fn slack<R: Real>(&self) -> R {
+        R::lit(if size_of::<R::Scalar>() == 4 { 3e-7 } else { 1e-15 } / self.sin)
+    }
     #[inline(always)]
     fn local<R: Real>(self, v: Vec3<R>) -> [R; 3] {
         self.duals.map(|dual| v.dot(Vec3::lit([dual.x, dual.y, dual.z])))
@@ -133,12 +139,6 @@ fn spans<R: Real>(table: &PortalTable<'_>, sides: &[Side<R>; 2], lane: usize) ->
     [sides[0].span(lane, w), sides[1].span(lane, h)]
 }
 
-/// How far beside a portal a direction still passes it, in radians: what the direction itself is rounded by.
-#[inline(always)]
-fn slack<R: Real>() -> R {
-    R::lit(if size_of::<R::Scalar>() == 4 { 3e-7 } else { 1e-15 })
-}
-
 /// The part of an image of the sky that is seen through some portals, at most [`MOST_PORTALS`]; the rest of the sky is hidden by walls.
 ///
 /// What the sky is like beyond the portals is in the tables of the portals: from each point exactly the part is sampled that the point sees,
@@ -150,8 +150,8 @@ fn slack<R: Real>() -> R {
 /// - Density: probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal is
 ///   seen, and from behind. Each column and row has at least 2⁻²⁴ of the numbers, so that the probabilities are those of the draw exactly.
 /// - Degenerate: no portal seen, from within 1e−6 rad of its plane or from behind: pdf 0.
-/// - Greatest error: direction 6e−7. A direction within 3e−7 beside a portal passes it. Next to the edge of a texel rounding decides whose pdf
-///   a sample has.
+/// - Greatest error: direction 6e−7. A direction within 3e−7/sinφ beside a portal passes it, φ being the angle between its edges. Next to the
+///   edge of a texel rounding decides whose pdf a sample has.
 /// - Source: Bitterli, Novák and Jarosz 2015, and Crow 1984 for the table.
 ///
 /// ```
@@ -196,7 +196,7 @@ impl<'a> PortalEnvironment<'a> {
         self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
             let ([across, up], visible) = portal.sides(p);
             let [x, y, z] = portal.map.local(w);
-            sees | visible & passes([&across, &up], [x, y, z])
+            sees | visible & passes([&across, &up], [x, y, z], portal.map.slack())
         })
     }
     /// Directions from `p` in proportion to the weights.
@@ -246,10 +246,10 @@ const GRAZING: f64 = 1e-3;
 /// Weights are at least this: less has no reciprocal in single precision.
 const LEAST_WEIGHT: f64 = 1e-37;
 
-/// Whether a direction of these components passes a portal that is seen.
+/// Whether a direction of these components passes a portal that is seen, to so many radians.
 #[inline(always)]
-fn passes<R: Real>([across, up]: [&Side<R>; 2], [x, y, z]: [R; 3]) -> R::Mask {
-    across.has(x, z, slack()) & up.has(y, z, slack()) & z.gt(R::lit(0.0))
+fn passes<R: Real>([across, up]: [&Side<R>; 2], [x, y, z]: [R; 3], slack: R) -> R::Mask {
+    across.has(x, z, slack) & up.has(y, z, slack) & z.gt(R::lit(0.0))
 }
 
 /// A portal as a point sees it.
@@ -383,7 +383,7 @@ impl<'a, R: Real> PortalsByRadiance<'a, R> {
     fn positions(&self, k: usize, w: Vec3<R>) -> ([R; 2], R, R::Mask) {
         let (map, Window { sides: [across, up], weight }) = (&self.portals[k].map, &self.windows[k]);
         let [x, y, z] = map.local(w);
-        let passes = weight.gt(R::lit(0.0)) & passes([across, up], [x, y, z]);
+        let passes = weight.gt(R::lit(0.0)) & passes([across, up], [x, y, z], map.slack());
         // the area of the window, in radians², per steradian
         let (a, b) = (x.mul_add(x, z * z), y.mul_add(y, z * z));
         let area = (z / a) / b / (across.size * up.size * R::lit(map.sin));
