@@ -7,9 +7,10 @@
 
 use super::analytic::{Analytic, Places, Survey};
 use super::choice::Which;
+use super::end::{End, bsdf, keep, product};
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
-use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
+use crate::bsdf::{Evaluated, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
@@ -59,30 +60,6 @@ pub(super) struct Numbers {
     pub(super) choice: Option<[Vec2<X8>; GROUP]>,
     /// For a direction from the BSDF in addition to a light, if the technique combines them.
     pub(super) surface: Option<[Vec2<X8>; GROUP]>,
-}
-
-/// Where the paths of a packet end, in a scene with mirrors or metals.
-#[derive(Clone, Copy)]
-struct End {
-    /// Directions of the rays that hit the surfaces.
-    direction: V8,
-    metal: Option<Metal>,
-    /// Lanes whose surface has the normal of a smooth one.
-    smooth: M8,
-    /// Normals of the flat surfaces.
-    flat: V8,
-    /// Fractions of the light leaving the surfaces that reach the camera.
-    throughput: V8,
-}
-
-/// The BSDF at the end of a path.
-#[inline(always)]
-fn bsdf<const METAL: bool>(surface: &Surface, end: &End) -> Bsdf<METAL> {
-    if METAL {
-        Bsdf::new(surface.normal, end.flat, surface.albedo, end.direction, end.metal)
-    } else {
-        Bsdf::new(surface.normal, surface.normal, surface.albedo, V8::default(), None)
-    }
 }
 
 /// The paths of a group of packets, and their scratch memory.
@@ -526,48 +503,4 @@ impl<'a> Paths<'a> {
             reflected[p] += keep(found[p], lit[p]);
         }
     }
-}
-
-impl End {
-    /// Before any ray has hit.
-    fn start() -> Self {
-        let zero = V8::default();
-        Self { direction: zero, metal: None, smooth: M8::splat(false), flat: zero, throughput: zero }
-    }
-    /// Lanes of rough metals and of coats.
-    #[inline]
-    fn rough(&self) -> M8 {
-        self.metal.map_or(M8::splat(false), |metal| metal.rough())
-    }
-    /// Ends the paths of these lanes at a surface.
-    #[inline]
-    fn settle(&mut self, own: &mut Surface, surface: &Surface, lanes: M8, direction: V8, metal: Metal) {
-        if !lanes.any() {
-            return;
-        }
-        own.point = V8::blend(lanes, surface.point, own.point);
-        own.normal = V8::blend(lanes, surface.normal, own.normal);
-        own.albedo = V8::blend(lanes, surface.albedo, own.albedo);
-        own.reflects = own.reflects | lanes;
-        self.direction = V8::blend(lanes, direction, self.direction);
-        self.metal = Some(self.metal.map_or(metal, |other| Metal::select(lanes, &metal, &other)));
-    }
-    /// Reflects the rays of these lanes at mirrors; returns their origins and directions.
-    #[inline]
-    fn reflect(&mut self, surface: &Surface, metal: &Metal, lanes: M8, direction: V8) -> (V8, V8) {
-        let cos = -direction.dot(surface.normal);
-        let share = product(self.throughput, metal.reflectance(cos));
-        self.throughput = V8::blend(lanes, share, self.throughput);
-        (surface.point, surface.normal.mul_add(cos + cos, direction).normalize())
-    }
-}
-
-#[inline]
-fn keep(v: V8, mask: M8) -> V8 {
-    V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
-}
-
-#[inline]
-fn product(a: V8, b: V8) -> V8 {
-    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
 }
