@@ -5,6 +5,7 @@ mod allocation;
 mod analytic;
 mod checks;
 mod choice;
+mod end;
 mod known;
 mod paths;
 mod prepared;

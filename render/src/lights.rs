@@ -98,9 +98,8 @@ impl Lights {
         let mut all = area_lights(scene);
         all.extend(delta_lights(scene));
         if let Some(sky) = &sky {
-            // what enters the sphere around the scene
             let record = LightRecord { kind: SKY, shape: NOTHING, ..LightRecord::default() };
-            all.push((record, sky.flux() * squared_radius(scene)));
+            all.push((record, sky.power(squared_radius(scene))));
         }
         Self::of(all, scene, sky)
     }

@@ -25,7 +25,7 @@ enum SkyKind {
     Image { width: usize, map: etendue::light::EnvironmentMap, texels: Vec<[f32; 3]>, table: Vec<f32> },
 }
 
-/// A sun, and the share of the samples that it has where it can be seen: a multiple of 2⁻²⁴.
+/// A sun, and the share of the samples that it has in a sky without portals: a multiple of 2⁻²⁴.
 #[derive(Clone, Copy, Debug)]
 struct SunBefore {
     disk: scene::SunDisk,
@@ -43,9 +43,41 @@ impl SunBefore {
     fn sampler(&self) -> SunBySolidAngle<X8> {
         Sun::new(self.disk.direction.into(), X8::splat(self.disk.one_minus_cos)).by_solid_angle()
     }
-    /// Angle of the radius, rounded up.
-    fn radius(&self) -> X8 {
-        X8::lit(1.001 * (2.0 * f64::from(self.disk.one_minus_cos)).sqrt() * std::f64::consts::FRAC_PI_2)
+    /// Its radiance from a direction.
+    #[inline]
+    fn radiance(&self, direction: V8) -> V8 {
+        V8::from(self.disk.radiance).keep(self.sampler().pdf(direction).gt(X8::lit(0.0)))
+    }
+}
+
+/// A sun that is sampled besides its sky, since the sky comes through portals: where one shows the sun, that is most of the light, and
+/// elsewhere it takes no ray.
+#[derive(Clone, Copy)]
+pub struct SunBeside<'a> {
+    sun: &'a SunBefore,
+    windows: &'a Windows,
+}
+
+impl SunBeside<'_> {
+    /// Samples a direction from `p`; returns it with its pdf per steradian, and the radiance of the sun alone.
+    #[inline]
+    pub fn sample(&self, p: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
+        let sample = self.sun.sampler().sample(u);
+        let visible = self.windows.all(|all| all.sees(p, sample.direction));
+        let sample = LightSample { distance: X8::lit(FAR), pdf: sample.pdf.keep(visible), emits: visible, ..sample };
+        (sample, self.sun.disk.radiance.into())
+    }
+    /// The radiance of the sun alone from a direction, as `p` sees it, and the pdf per steradian with which [`sample`](Self::sample)
+    /// draws it.
+    #[inline]
+    pub fn radiance_and_pdf(&self, p: V8, direction: V8) -> (V8, X8) {
+        let pdf = self.sun.sampler().pdf(direction);
+        let is_sun = pdf.gt(X8::lit(0.0));
+        if !is_sun.any() {
+            return Default::default();
+        }
+        let visible = is_sun & self.windows.all(|all| all.sees(p, direction));
+        (V8::from(self.sun.disk.radiance).keep(visible), pdf.keep(visible))
     }
 }
 
@@ -89,7 +121,7 @@ impl Sky {
         let radiance = self.of_sky(direction);
         radiance.x + radiance.y + radiance.z
     }
-    /// ∫L dω, summed over channels, as if there were no portals.
+    /// ∫L dω of sky and sun, summed over channels, as if there were no portals.
     pub fn flux(&self) -> f64 {
         let sum = |rgb: &[f32; 3]| rgb.iter().map(|&x| f64::from(x)).sum::<f64>();
         let sun = self.sun.as_ref().map_or(0.0, |sun| flux_of(&sun.disk));
@@ -101,6 +133,15 @@ impl Sky {
                 rows.map(|(y, row)| row.iter().map(sum).sum::<f64>() * map.texel_solid_angle(*width, height, y)).sum()
             }
         }
+    }
+    /// The power of what [`sample`](Self::sample) samples, in units of π, summed over channels: what enters a sphere of this squared
+    /// radius, or what comes through the portals.
+    pub fn power(&self, squared_radius: f64) -> f64 {
+        self.windows.as_ref().map_or_else(|| self.flux() * squared_radius, Windows::power)
+    }
+    /// The sun, if it is sampled besides the sky.
+    pub fn sun_beside(&self) -> Option<SunBeside<'_>> {
+        Some(SunBeside { sun: self.sun.as_ref()?, windows: self.windows.as_ref()? })
     }
     #[inline]
     fn to_light(&self, w: V8) -> V8 {
@@ -115,23 +156,33 @@ impl Sky {
     /// Radiance of a ray from `p` in this direction.
     #[inline]
     pub fn radiance(&self, p: V8, direction: V8) -> V8 {
-        let radiance = self.of_both(direction);
-        match &self.windows {
-            Some(windows) => radiance.keep(windows.all(|all| all.sees(p, direction))),
-            None => radiance,
-        }
+        self.of_both(direction).keep(self.shows(p, direction))
+    }
+    /// The same without a [sun beside](Self::sun_beside), and where it is not known to be dark: outside of portals, no ray is needed.
+    #[inline]
+    pub fn sampled_radiance(&self, p: V8, direction: V8) -> (V8, M8) {
+        let shown = self.shows(p, direction);
+        let radiance = if shown.any() { self.of_sampled(direction).keep(shown) } else { V8::default() };
+        (radiance, shown)
+    }
+    /// Whether a portal shows the sky, if there are any.
+    #[inline]
+    fn shows(&self, p: V8, direction: V8) -> M8 {
+        self.windows.as_ref().map_or(M8::splat(true), |windows| windows.all(|all| all.sees(p, direction)))
     }
     /// Radiance of sky and sun, as if there were no portals.
     #[inline]
     fn of_both(&self, direction: V8) -> V8 {
         let of_sky = self.of_sky(direction);
         match &self.sun {
-            Some(sun) => {
-                let is_sun = sun.sampler().pdf(direction).gt(X8::lit(0.0));
-                of_sky + V8::from(sun.disk.radiance).keep(is_sun)
-            }
+            Some(sun) => of_sky + sun.radiance(direction),
             None => of_sky,
         }
+    }
+    /// The part of it that [`sample`](Self::sample) samples.
+    #[inline]
+    fn of_sampled(&self, direction: V8) -> V8 {
+        if self.windows.is_some() { self.of_sky(direction) } else { self.of_both(direction) }
     }
     #[inline]
     fn of_sky(&self, direction: V8) -> V8 {
@@ -143,55 +194,31 @@ impl Sky {
             }
         }
     }
-    /// Samples a direction from `p`; returns it with its pdf per steradian, and the radiance from there.
+    /// Samples a direction from `p`; returns it with its pdf per steradian, and the radiance from there without a
+    /// [sun beside](Self::sun_beside).
     #[inline]
     pub fn sample(&self, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
-        if self.windows.is_none() && self.sun.is_none() {
-            return self.sample_sky(measure, normal, u);
-        }
-        let sample = match &self.windows {
-            Some(windows) => windows.all(|all| {
-                let sampler = all.by_radiance(p);
-                self.sample_both(p, u, |u| sampler.sample(u), |w| sampler.pdf(w))
-            }),
-            None => {
-                let sample = |u| self.sample_sky(measure, normal, u).0;
-                self.sample_both(p, u, sample, |w| self.pdf_of_sky(measure, normal, w))
-            }
+        let sample = match (&self.windows, &self.sun) {
+            (None, None) => return self.sample_sky(measure, normal, u),
+            (None, Some(sun)) => self.sample_both(sun, measure, normal, u),
+            (Some(windows), _) => windows.all(|all| all.by_radiance_above(p, normal).sample(u)),
         };
-        (sample, self.of_both(sample.direction))
+        (sample, self.of_sampled(sample.direction))
     }
-    /// Samples the sun, if there is one, or the sky, of which the functions are.
+    /// Samples the sun or the sky.
     #[inline]
-    fn sample_both(
-        &self,
-        p: V8,
-        u: Vec2<X8>,
-        sample: impl Fn(Vec2<X8>) -> LightSample<X8>,
-        pdf: impl Fn(V8) -> X8,
-    ) -> LightSample<X8> {
-        let Some(sun) = &self.sun else { return sample(u) };
+    fn sample_both(&self, sun: &SunBefore, measure: Measure, normal: V8, u: Vec2<X8>) -> LightSample<X8> {
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
-        let share = self.share(sun, p);
+        let share = X8::splat(sun.share);
         let is_sun = u.x.lt(share);
         let (start, size) = (select(is_sun, zero, share), select(is_sun, share, one - share));
         let u = Vec2::new((u.x - start) / size, u.y);
-        let (of_sky, sampler) = (sample(u), sun.sampler());
+        let (of_sky, sampler) = (self.sample_sky(measure, normal, u).0, sun.sampler());
         let direction = V8::blend(is_sun, sampler.sample(u).direction, of_sky.direction);
-        let sky_pdf = if is_sun.any() { select(is_sun, pdf(direction), of_sky.pdf) } else { of_sky.pdf };
-        // each direction through a portal has a pdf, and no other has
-        let visible = sky_pdf.gt(zero) | M8::splat(self.windows.is_none());
-        let pdf = (share * sampler.pdf(direction) + (one - share) * sky_pdf).keep(visible);
-        LightSample { direction, distance: X8::lit(FAR), pdf, emits: visible, ..of_sky }
-    }
-    /// Share of the samples that a sun has from a point: none where no portal can show it.
-    #[inline]
-    fn share(&self, sun: &SunBefore, p: V8) -> X8 {
-        let share = X8::splat(sun.share);
-        match &self.windows {
-            Some(windows) => share.keep(windows.all(|all| all.sees_cone(p, sun.disk.direction.into(), sun.radius()))),
-            None => share,
-        }
+        let pdf = || self.pdf_of_sky(measure, normal, direction);
+        let sky_pdf = if is_sun.any() { select(is_sun, pdf(), of_sky.pdf) } else { of_sky.pdf };
+        let pdf = share * sampler.pdf(direction) + (one - share) * sky_pdf;
+        LightSample { direction, distance: X8::lit(FAR), pdf, emits: M8::splat(true), ..of_sky }
     }
     #[inline]
     fn sample_sky(&self, measure: Measure, normal: V8, u: Vec2<X8>) -> (LightSample<X8>, V8) {
@@ -213,13 +240,13 @@ impl Sky {
     /// Pdf per steradian with which [`sample`](Self::sample) draws a direction from `p`.
     #[inline]
     pub fn pdf(&self, measure: Measure, p: V8, normal: V8, direction: V8) -> X8 {
-        let of_sky = match &self.windows {
-            Some(windows) => windows.all(|all| all.by_radiance(p).pdf(direction)),
-            None => self.pdf_of_sky(measure, normal, direction),
-        };
+        if let Some(windows) = &self.windows {
+            return windows.all(|all| all.by_radiance_above(p, normal).pdf(direction));
+        }
+        let of_sky = self.pdf_of_sky(measure, normal, direction);
         match &self.sun {
             Some(sun) => {
-                let share = self.share(sun, p);
+                let share = X8::splat(sun.share);
                 share * sun.sampler().pdf(direction) + (X8::lit(1.0) - share) * of_sky
             }
             None => of_sky,

@@ -13,7 +13,7 @@ use crate::warp::{Octahedral, Warp};
 use core::f64::consts::PI;
 use side::Side;
 pub use table::PortalTable;
-use table::{Found, Place, STEPS, Span};
+use table::{Columns, Found, Place, STEPS, Search, Span};
 
 /// Greatest number of portals of a [`PortalEnvironment`].
 pub const MOST_PORTALS: usize = 8;
@@ -65,6 +65,12 @@ impl PortalMap {
         let [s, t, n] = self.axes.map(|v| Vec3::lit([v.x, v.y, v.z]));
         s.mul_add(x, t.mul_add(y, n * z))
     }
+    /// How far beside a portal a direction still passes it, in radians: what the direction itself is rounded by. Oblique axes stretch a
+    /// small step by the inverse of the sine.
+    #[inline(always)]
+    fn slack<R: Real>(&self) -> R {
+        R::lit(if size_of::<R::Scalar>() == 4 { 3e-7 } else { 1e-15 } / self.sin)
+    }
     #[inline(always)]
     fn local<R: Real>(self, v: Vec3<R>) -> [R; 3] {
         self.duals.map(|dual| v.dot(Vec3::lit([dual.x, dual.y, dual.z])))
@@ -87,10 +93,31 @@ impl Portal {
         let lengths = [s, t].map(|v| Vec3::<f64>::from(v.map(f64::from)).unit_and_length().1);
         corner.iter().all(|x| x.is_finite()).then_some(Self { corner, lengths, map })
     }
+    /// Its area.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.lengths[0] * self.lengths[1] * self.map.sin
+    }
     /// Whether the portal shows the sky to a point: it is on the side that the normal points away from.
     #[inline(always)]
     pub fn faces<R: Real>(&self, p: Vec3<R>) -> R::Mask {
         self.sides(p).1
+    }
+    /// Mean of the cosines of the corners to a normal, each at least [`GRAZING`]; 0 if all of them are below the horizon.
+    #[inline(always)]
+    fn mean_cos<R: Real>(&self, p: Vec3<R>, normal: Vec3<R>) -> R {
+        let [s, t] = [0, 1].map(|k| {
+            let edge = self.map.axes[k] * self.lengths[k];
+            Vec3::lit([edge.x, edge.y, edge.z])
+        });
+        let first = Vec3::lit(self.corner.map(f64::from)) - p;
+        let (mut sum, mut above) = (R::lit(0.0), R::Mask::splat(false));
+        for corner in [first, first + s, first + t, first + s + t] {
+            let cos = corner.unit_and_length().0.dot(normal);
+            above = above | cos.gt(R::lit(-GRAZING));
+            sum += cos.greater(R::lit(GRAZING));
+        }
+        (sum * R::lit(0.25)).keep(above)
     }
     /// The map in which its table shows the sky.
     #[must_use]
@@ -112,12 +139,6 @@ fn spans<R: Real>(table: &PortalTable<'_>, sides: &[Side<R>; 2], lane: usize) ->
     [sides[0].span(lane, w), sides[1].span(lane, h)]
 }
 
-/// How far beside a portal a direction still passes it, in radians: what the direction itself is rounded by.
-#[inline(always)]
-fn slack<R: Real>() -> R {
-    R::lit(if size_of::<R::Scalar>() == 4 { 3e-7 } else { 1e-15 })
-}
-
 /// The part of an image of the sky that is seen through some portals, at most [`MOST_PORTALS`]; the rest of the sky is hidden by walls.
 ///
 /// What the sky is like beyond the portals is in the tables of the portals: from each point exactly the part is sampled that the point sees,
@@ -129,8 +150,8 @@ fn slack<R: Real>() -> R {
 /// - Density: probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal is
 ///   seen, and from behind. Each column and row has at least 2⁻²⁴ of the numbers, so that the probabilities are those of the draw exactly.
 /// - Degenerate: no portal seen, from within 1e−6 rad of its plane or from behind: pdf 0.
-/// - Greatest error: direction 6e−7. A direction within 3e−7 beside a portal passes it. Next to the edge of a texel rounding decides whose pdf
-///   a sample has.
+/// - Greatest error: direction 6e−7. A direction within 3e−7/sinφ beside a portal passes it, φ being the angle between its edges. Next to the
+///   edge of a texel rounding decides whose pdf a sample has.
 /// - Source: Bitterli, Novák and Jarosz 2015, and Crow 1984 for the table.
 ///
 /// ```
@@ -175,41 +196,43 @@ impl<'a> PortalEnvironment<'a> {
         self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
             let ([across, up], visible) = portal.sides(p);
             let [x, y, z] = portal.map.local(w);
-            sees | visible & passes([&across, &up], [x, y, z])
-        })
-    }
-    /// Whether a ray from `p` within so many radians of the unit direction `w` may pass a portal. Where this is false, none does; a sun
-    /// need not be sampled there.
-    #[inline(always)]
-    pub fn sees_cone<R: Real>(&self, p: Vec3<R>, w: Vec3<R>, radius: R) -> R::Mask {
-        self.portals.iter().fold(R::Mask::splat(false), |sees, portal| {
-            let ([across, up], visible) = portal.sides(p);
-            let [x, y, z] = portal.map.local(w);
-            // an oblique axis stretches a small step by the inverse of the sine
-            let slack = (radius + slack()) * R::lit(1.0 / portal.map.sin);
-            sees | visible & across.has(x, z, slack) & up.has(y, z, slack) & z.gt(-slack)
+            sees | visible & passes([&across, &up], [x, y, z], portal.map.slack())
         })
     }
     /// Directions from `p` in proportion to the weights.
     #[inline(always)]
     pub fn by_radiance<R: Real>(&self, p: Vec3<R>) -> PortalsByRadiance<'a, R> {
+        self.prepared(p, |_| R::lit(1.0))
+    }
+    /// Directions from a point of a surface with this unit normal, in proportion to the weights within each portal, while a portal weighs
+    /// less the more slanting the surface sees it.
+    ///
+    /// The weight of a portal is that of what is seen times the mean of max(cosθ, 10⁻³) over its corners, θ being measured from the
+    /// normal. A portal whose corners all have cosθ < −10⁻³ is below the horizon: it has no sample, and the pdf 0. If all are, so has
+    /// every direction.
+    #[inline(always)]
+    pub fn by_radiance_above<R: Real>(&self, p: Vec3<R>, normal: Vec3<R>) -> PortalsByRadiance<'a, R> {
+        self.prepared(p, |portal| portal.mean_cos(p, normal))
+    }
+    /// Prepares for a point. The weight of each portal is multiplied by what it is worth; at 0, it is not seen.
+    #[inline(always)]
+    fn prepared<R: Real>(&self, p: Vec3<R>, worth: impl Fn(&Portal) -> R) -> PortalsByRadiance<'a, R> {
         let mut windows = [Window::default(); MOST_PORTALS];
         let mut cells = [0; MOST_LANES];
         let mut weights = [0.0; MOST_LANES];
         for ((portal, table), window) in self.portals.iter().zip(self.tables).zip(&mut windows) {
-            let (sides, visible) = portal.sides(p);
+            let ((sides, visible), worth) = (portal.sides(p), worth(portal));
             let scale = table.unit / self.unit;
-            let weight = R::from_fn(|lane| {
-                if !visible.lane(lane) {
-                    return R::Scalar::lit(0.0);
-                }
+            let (mut seen, bits) = ([0.0; MOST_LANES], (visible & worth.gt(R::lit(0.0))).bits());
+            for lane in (0..R::LANES).filter(|lane| bits >> lane & 1 == 1) {
                 let [columns, rows] = spans(table, &sides, lane);
                 let weight = table.columns(columns, rows).total * columns.part_of_one() * rows.part_of_one();
-                R::Scalar::lit((weight * scale).max(LEAST_WEIGHT))
-            });
-            for lane in (0..R::LANES).filter(|&lane| visible.lane(lane)) {
-                cells[lane] += spans(table, &sides, lane)[0].cells();
-                weights[lane] += weight.lane_f64(lane);
+                seen[lane] = (weight * scale * worth.lane_f64(lane)).max(LEAST_WEIGHT);
+                cells[lane] += columns.cells();
+            }
+            let weight = R::from_fn(|lane| R::Scalar::lit(seen[lane]));
+            for (lane, sum) in weights[..R::LANES].iter_mut().enumerate() {
+                *sum += weight.lane_f64(lane);
             }
             *window = Window { sides, weight };
         }
@@ -218,13 +241,15 @@ impl<'a> PortalEnvironment<'a> {
 }
 
 const MOST_LANES: usize = 16;
+/// The least cosine that a corner of a portal counts with; so much below the horizon, rounding does not matter.
+const GRAZING: f64 = 1e-3;
 /// Weights are at least this: less has no reciprocal in single precision.
 const LEAST_WEIGHT: f64 = 1e-37;
 
-/// Whether a direction of these components passes a portal that is seen.
+/// Whether a direction of these components passes a portal that is seen, to so many radians.
 #[inline(always)]
-fn passes<R: Real>([across, up]: [&Side<R>; 2], [x, y, z]: [R; 3]) -> R::Mask {
-    across.has(x, z, slack()) & up.has(y, z, slack()) & z.gt(R::lit(0.0))
+fn passes<R: Real>([across, up]: [&Side<R>; 2], [x, y, z]: [R; 3], slack: R) -> R::Mask {
+    across.has(x, z, slack) & up.has(y, z, slack) & z.gt(R::lit(0.0))
 }
 
 /// A portal as a point sees it.
@@ -253,57 +278,112 @@ pub struct PortalsByRadiance<'a, R: Real> {
 #[derive(Clone, Copy, Debug, Default)]
 struct Drawn {
     portal: usize,
+    found: [Found; 2],
     place: [f64; 2],
 }
 
-impl<R: Real> PortalsByRadiance<'_, R> {
-    /// Calls `visit` with each portal that is seen in a lane, and where its columns are among the steps of u, until it returns something.
+impl<'a, R: Real> PortalsByRadiance<'a, R> {
     #[inline(always)]
-    fn each<T>(&self, lane: usize, mut visit: impl FnMut(usize, Place, [Span; 2]) -> Option<T>) -> Option<T> {
-        let mut place = Place { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] };
-        for (k, table) in self.tables.iter().enumerate() {
-            let weight = self.windows[k].weight.lane_f64(lane);
+    fn draw(&self, u: Vec2<R>) -> [Drawn; MOST_LANES] {
+        let mut drawn = [Drawn::default(); MOST_LANES];
+        let mut spans = [None; MOST_LANES];
+        let mut columns = [const { None }; MOST_LANES];
+        for lane in 0..R::LANES {
+            if let Some((portal, rows, search)) = self.search(lane, u.x.lane_f64(lane)) {
+                (drawn[lane].portal, spans[lane], columns[lane]) = (portal, Some(rows), Some(search));
+            }
+        }
+        Search::all(&mut columns);
+        let mut rows = [const { None }; MOST_LANES];
+        for lane in 0..R::LANES {
+            if let (Some(column), Some(span)) = (&columns[lane], spans[lane]) {
+                let found = column.found();
+                let sums = self.tables[drawn[lane].portal].rows(found.cell, span);
+                rows[lane] = Some(Place::only(&span).search(sums, 1.0, u.y.lane_f64(lane)));
+                (drawn[lane].found[0], drawn[lane].place[0]) = (found, found.place(u.x.lane_f64(lane)));
+            }
+        }
+        Search::all(&mut rows);
+        for lane in 0..R::LANES {
+            if let Some(row) = &rows[lane] {
+                let found = row.found();
+                (drawn[lane].found[1], drawn[lane].place[1]) = (found, found.place(u.y.lane_f64(lane)));
+            }
+        }
+        drawn
+    }
+    /// The portal to which `u` goes in a lane, its rows, and a search among its columns.
+    #[inline(always)]
+    fn search(&self, lane: usize, u: f64) -> Option<(usize, Span, Search<Columns<'a>>)> {
+        let mut place = self.first(lane);
+        for (portal, table) in self.tables.iter().enumerate() {
+            let weight = self.windows[portal].weight.lane_f64(lane);
             if weight > 0.0 {
-                let spans = spans(table, &self.windows[k].sides, lane);
-                if let Some(found) = visit(k, place, spans) {
-                    return Some(found);
+                let [columns, rows] = self.spans(lane, portal);
+                let next = place.after(&columns, weight);
+                if u * STEPS < next.begin() {
+                    return Some((portal, rows, place.search(table.columns(columns, rows), weight, u)));
                 }
-                place.cells[1] += spans[0].cells();
-                place.weights[1] += weight;
+                place = next;
             }
         }
         None
     }
+    /// Column and row of a position in a portal that is seen in a lane.
     #[inline(always)]
-    fn draw(&self, lane: usize, [u, v]: [f64; 2]) -> Drawn {
-        let drawn = self.each(lane, |portal, place, [columns, rows]| {
-            let weight = self.windows[portal].weight.lane_f64(lane);
-            let end = place.step(place.cells[1] + columns.cells(), place.weights[1] + weight);
-            if u * STEPS >= end {
-                return None;
+    fn find(&self, lane: usize, portal: usize, at: [f64; 2]) -> [Found; 2] {
+        let mut place = self.first(lane);
+        for k in 0..portal {
+            let weight = self.windows[k].weight.lane_f64(lane);
+            if weight > 0.0 {
+                place = place.after(&self.spans(lane, k)[0], weight);
             }
-            let table = &self.tables[portal];
-            let column = place.draw(&table.columns(columns, rows), weight, u);
-            let row = Place::only(&rows).draw(&table.rows(column.cell, rows), 1.0, v);
-            Some(Drawn { portal, place: [column.place(u), row.place(v)] })
-        });
-        drawn.unwrap_or_default()
-    }
-    /// Column and row of a position in a portal.
-    #[inline(always)]
-    fn find(&self, lane: usize, portal: usize, place: Place, [columns, rows]: [Span; 2], at: [f64; 2]) -> [Found; 2] {
-        let table = &self.tables[portal];
+        }
+        let (table, [columns, rows]) = (&self.tables[portal], self.spans(lane, portal));
         let weight = self.windows[portal].weight.lane_f64(lane);
         let column = place.find(&table.columns(columns, rows), weight, columns.cell(at[0]));
         let row = Place::only(&rows).find(&table.rows(column.cell, rows), 1.0, rows.cell(at[1]));
         [column, row]
+    }
+    #[inline(always)]
+    fn first(&self, lane: usize) -> Place {
+        Place { cells: [self.cells[lane], 0], weights: [self.weights[lane], 0.0] }
+    }
+    #[inline(always)]
+    fn spans(&self, lane: usize, portal: usize) -> [Span; 2] {
+        spans(&self.tables[portal], &self.windows[portal].sides, lane)
+    }
+    /// The density of a direction. Where it is within the cell that has been drawn in a lane, that of the cell need not be found again.
+    #[inline(always)]
+    fn density(&self, w: Vec3<R>, drawn: Option<&[Drawn; MOST_LANES]>) -> R {
+        let mut sum = R::lit(0.0);
+        for k in 0..self.portals.len() {
+            let ([x, y], area, passes) = self.positions(k, w);
+            let bits = passes.bits();
+            if bits == 0 {
+                continue;
+            }
+            let density = R::from_fn(|lane| {
+                if bits >> lane & 1 == 0 {
+                    return R::Scalar::lit(0.0);
+                }
+                let at = [x, y].map(|x| x.lane_f64(lane));
+                let known = drawn.map(|drawn| &drawn[lane]);
+                let known =
+                    known.filter(|drawn| drawn.portal == k && drawn.found[0].has(at[0]) && drawn.found[1].has(at[1]));
+                let [column, row] = known.map_or_else(|| self.find(lane, k, at), |drawn| drawn.found);
+                R::Scalar::lit(column.density() * row.density())
+            });
+            sum += (density * area).lesser(R::lit(GREATEST)).keep(passes);
+        }
+        sum.lesser(R::lit(GREATEST))
     }
     /// Where a direction passes a portal, the density there per unit of its window, and whether it passes at all.
     #[inline(always)]
     fn positions(&self, k: usize, w: Vec3<R>) -> ([R; 2], R, R::Mask) {
         let (map, Window { sides: [across, up], weight }) = (&self.portals[k].map, &self.windows[k]);
         let [x, y, z] = map.local(w);
-        let passes = weight.gt(R::lit(0.0)) & passes([across, up], [x, y, z]);
+        let passes = weight.gt(R::lit(0.0)) & passes([across, up], [x, y, z], map.slack());
         // the area of the window, in radians², per steradian
         let (a, b) = (x.mul_add(x, z * z), y.mul_add(y, z * z));
         let area = (z / a) / b / (across.size * up.size * R::lit(map.sin));
@@ -315,45 +395,23 @@ impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
         let u = u.map(unit_interval);
-        let mut drawn = [Drawn::default(); MOST_LANES];
-        for (lane, drawn) in drawn[..R::LANES].iter_mut().enumerate() {
-            *drawn = self.draw(lane, [u.x, u.y].map(|u| u.lane_f64(lane)));
-        }
-        let [x, y] = [0, 1].map(|k| {
-            let side = match self.portals {
-                [_] => self.windows[0].sides[k],
-                _ => Side::gather(|lane| &self.windows[drawn[lane].portal].sides[k]),
-            };
-            side.at(R::from_fn(|lane| R::Scalar::lit(drawn[lane].place[k])))
-        });
-        let axes = [x[0] * y[1], y[0] * x[1], x[1] * y[1]];
-        let direction = match self.portals {
-            [only] => only.map.world(axes),
-            portals => {
-                let of = |lane: usize| portals[drawn[lane].portal].map.world(axes.map(|x| x.lane(lane)));
-                Vec3::new(R::from_fn(|lane| of(lane).x), R::from_fn(|lane| of(lane).y), R::from_fn(|lane| of(lane).z))
+        let drawn = self.draw(u);
+        let mut direction = Vec3::lit([0.0; 3]);
+        for (k, (portal, Window { sides, .. })) in self.portals.iter().zip(&self.windows).enumerate() {
+            let bits = drawn[..R::LANES].iter().enumerate().filter(|(_, drawn)| drawn.portal == k);
+            let here = R::Mask::from_bits(bits.fold(0, |bits, (lane, _)| bits | 1 << lane));
+            if here.any() {
+                let at = |i: usize| sides[i].at(R::from_fn(|lane| R::Scalar::lit(drawn[lane].place[i])));
+                let (x, y) = (at(0), at(1));
+                direction = Vec3::blend(here, portal.map.world([x[0] * y[1], y[0] * x[1], x[1] * y[1]]), direction);
             }
-        };
-        self.hit(direction.unit_and_length().0)
+        }
+        let w = direction.unit_and_length().0;
+        met(w, self.density(w, Some(&drawn)), Octahedral.invert(w))
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
-        let mut sum = R::lit(0.0);
-        for k in 0..self.portals.len() {
-            let ([x, y], area, passes) = self.positions(k, w);
-            if !passes.any() {
-                continue;
-            }
-            let density = R::from_fn(|lane| {
-                let found = self.each(lane, |portal, place, spans| {
-                    let at = [x, y].map(|x| x.lane_f64(lane));
-                    (portal == k && passes.lane(lane)).then(|| self.find(lane, k, place, spans, at))
-                });
-                R::Scalar::lit(found.map_or(0.0, |[column, row]| column.density() * row.density()))
-            });
-            sum += (density * area).lesser(R::lit(GREATEST)).keep(passes);
-        }
-        sum.lesser(R::lit(GREATEST))
+        self.density(w, None)
     }
     #[inline(always)]
     fn invert(&self, w: Vec3<R>) -> Vec2<R> {
@@ -364,9 +422,7 @@ impl<R: Real> LightSampler<R> for PortalsByRadiance<'_, R> {
             let mut pairs = [[0.0; 2]; MOST_LANES];
             for lane in (0..R::LANES).filter(|&lane| passes.lane(lane)) {
                 let at = at.map(|x| x.lane_f64(lane));
-                let found =
-                    self.each(lane, |portal, place, spans| (portal == k).then(|| self.find(lane, k, place, spans, at)));
-                let [column, row] = found.unwrap_or_default();
+                let [column, row] = self.find(lane, k, at);
                 pairs[lane] = [column.invert(at[0]), row.invert(at[1])];
             }
             let pair = [0, 1].map(|i| R::from_fn(|lane| R::Scalar::lit(pairs[lane][i])));

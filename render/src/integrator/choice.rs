@@ -3,6 +3,7 @@
 use crate::bvh::GROUP;
 use crate::lights::Lights;
 use crate::packet::{M8, X8, equal, pick, select};
+use crate::sky::SunBeside;
 use crate::surfaces::Surface;
 use etendue::select::{Allocated, Choice, LightChoice};
 use etendue::{Mask, Real, u32x8};
@@ -10,6 +11,8 @@ use etendue::{Mask, Real, u32x8};
 /// Which light is sampled.
 pub(super) enum Which<'a> {
     Given(u32),
+    /// The sun besides the sky, which is the last of the lights.
+    Sun(SunBeside<'a>),
     /// The one to which the sample is allocated, or one chosen at random if that is empty.
     Chosen(&'a [Allocated<'a, X8>]),
     /// One of those whose lanes are set, for each light and packet.
@@ -34,6 +37,9 @@ impl Which<'_> {
         let all = surface.reflects;
         match self {
             Self::Given(light) => (Choice { index: u32x8::splat(*light), pmf: X8::lit(1.0), u: number }, all),
+            Self::Sun(_) => {
+                (Choice { index: u32x8::splat(lights.len() as u32 - 1), pmf: X8::lit(1.0), u: number }, all)
+            }
             Self::Chosen(allocated) => match allocated.get(packet) {
                 Some(allocated) => (allocated.choose(number), all),
                 None => (lights.choose(surface.point, surface.normal, [number, second]), all),

@@ -7,14 +7,16 @@
 
 use super::analytic::{Analytic, Places};
 use super::choice::Which;
+use super::end::{End, bsdf, keep, product};
 use super::known::Survey;
 use super::prepared::PreparedScene;
 use super::settings::{RayCount, Settings};
-use crate::bsdf::{Bsdf, Evaluated, Metal, Scattered};
+use crate::bsdf::{Evaluated, Scattered};
 use crate::bvh::{GROUP, Hits, NOTHING, Rays, SHAPE, Scratch};
 use crate::camera::Camera;
 use crate::lights::{LightPmf, Lights};
 use crate::packet::{M8, V8, X8, pick, select};
+use crate::sky::SunBeside;
 use crate::surfaces::Surface;
 use crate::technique::Technique;
 use etendue::estimate::{Heuristic, technique_pdf};
@@ -59,30 +61,6 @@ pub(super) struct Numbers {
     pub(super) choice: Option<[Vec2<X8>; GROUP]>,
     /// For a direction from the BSDF in addition to a light, if the technique combines them.
     pub(super) surface: Option<[Vec2<X8>; GROUP]>,
-}
-
-/// Where the paths of a packet end, in a scene with mirrors or metals.
-#[derive(Clone, Copy)]
-struct End {
-    /// Directions of the rays that hit the surfaces.
-    direction: V8,
-    metal: Option<Metal>,
-    /// Lanes whose surface has the normal of a smooth one.
-    smooth: M8,
-    /// Normals of the flat surfaces.
-    flat: V8,
-    /// Fractions of the light leaving the surfaces that reach the camera.
-    throughput: V8,
-}
-
-/// The BSDF at the end of a path.
-#[inline(always)]
-fn bsdf<const METAL: bool>(surface: &Surface, end: &End) -> Bsdf<METAL> {
-    if METAL {
-        Bsdf::new(surface.normal, end.flat, surface.albedo, end.direction, end.metal)
-    } else {
-        Bsdf::new(surface.normal, surface.normal, surface.albedo, V8::default(), None)
-    }
 }
 
 /// The paths of a group of packets, and their scratch memory.
@@ -268,6 +246,9 @@ impl<'a> Paths<'a> {
             }
         } else {
             self.by_light::<METAL>(lights, &Which::Chosen(allocated), count, numbers, &mut reflected);
+            if let Some(sun) = self.sun_beside() {
+                self.by_sun::<METAL>(sun, count, numbers, &mut reflected);
+            }
         }
         if self.technique.finds_lights() {
             self.by_surface::<METAL>(count, &numbers.light, allocated, &mut reflected);
@@ -348,6 +329,24 @@ impl<'a> Paths<'a> {
         }
     }
 
+    /// The sun, if it is sampled besides the other lights.
+    fn sun_beside(&self) -> Option<SunBeside<'a>> {
+        let sky = self.scene.sky.as_ref().filter(|_| !self.technique.finds_lights())?;
+        sky.sun_beside()
+    }
+
+    /// Not inlined, so that it does not burden scenes without portals.
+    #[inline(never)]
+    fn by_sun<const METAL: bool>(
+        &mut self,
+        sun: SunBeside<'_>,
+        count: usize,
+        numbers: &Numbers,
+        reflected: &mut [V8; GROUP],
+    ) {
+        self.by_light::<METAL>(&self.scene.lights, &Which::Sun(sun), count, numbers, reflected);
+    }
+
     /// Adds the light reflected by sampling a light, with its MIS weight if the technique combines two.
     #[inline(always)]
     fn by_light<const METAL: bool>(
@@ -377,7 +376,14 @@ impl<'a> Paths<'a> {
                 u.x = choice.u;
             }
             let mut chosen = lights.chosen(choice.index);
-            let sample = lights.sample(&mut chosen, measure, surface.point, surface.normal, u);
+            let sample = match which {
+                Which::Sun(sun) => {
+                    let (sample, radiance) = sun.sample(surface.point, u);
+                    chosen.radiance = radiance;
+                    sample.into()
+                }
+                _ => lights.sample(&mut chosen, measure, surface.point, surface.normal, u),
+            };
             let cos = sample.direction.dot(surface.normal);
             let some = sample.pdf.gt(zero) & choice.pmf.gt(zero);
             lit[p] = lanes & sample.emits & some & cos.gt(zero);
@@ -469,18 +475,25 @@ impl<'a> Paths<'a> {
             });
             target[p] = pick(lit[p], hits[p].place ^ u32x8::splat(SHAPE), u32x8::splat(NOTHING));
             limit[p] = hits[p].distance * X8::lit(COVERED);
+            let mut beside = None;
             if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
-                radiance = V8::blend(missed, sky.radiance(point, direction), radiance);
-                lit[p] = lit[p] | missed;
-                if let Some(pmf) = &pmf {
+                let (seen, shown) = sky.sampled_radiance(point, direction);
+                beside = sky.sun_beside().map(|sun| sun.radiance_and_pdf(point, direction));
+                radiance = V8::blend(missed, seen, radiance);
+                lit[p] = lit[p] | missed & shown;
+                if let Some(pmf) = pmf.as_ref().filter(|_| (missed & shown).any()) {
                     light_pdf = select(missed, scene.lights.sky_pdf(pmf, point, normal, direction), light_pdf);
                 }
             }
-            let factor = match heuristic {
+            let factor = |light_pdf: X8| match heuristic {
                 None => factors[p],
                 Some(by) => factors[p] * by.weights([own[p], light_pdf])[0],
             };
-            found[p] = product(found[p], radiance) * factor;
+            let color = found[p];
+            found[p] = product(color, radiance) * factor(light_pdf);
+            if let Some((radiance, pdf)) = beside {
+                found[p] += product(color, keep(radiance, missed)) * factor(pdf);
+            }
         }
         self.add_unoccluded(count, &found, lit, &limit, &target, reflected);
     }
@@ -502,48 +515,4 @@ impl<'a> Paths<'a> {
             reflected[p] += keep(found[p], lit[p]);
         }
     }
-}
-
-impl End {
-    /// Before any ray has hit.
-    fn start() -> Self {
-        let zero = V8::default();
-        Self { direction: zero, metal: None, smooth: M8::splat(false), flat: zero, throughput: zero }
-    }
-    /// Lanes of rough metals and of coats.
-    #[inline]
-    fn rough(&self) -> M8 {
-        self.metal.map_or(M8::splat(false), |metal| metal.rough())
-    }
-    /// Ends the paths of these lanes at a surface.
-    #[inline]
-    fn settle(&mut self, own: &mut Surface, surface: &Surface, lanes: M8, direction: V8, metal: Metal) {
-        if !lanes.any() {
-            return;
-        }
-        own.point = V8::blend(lanes, surface.point, own.point);
-        own.normal = V8::blend(lanes, surface.normal, own.normal);
-        own.albedo = V8::blend(lanes, surface.albedo, own.albedo);
-        own.reflects = own.reflects | lanes;
-        self.direction = V8::blend(lanes, direction, self.direction);
-        self.metal = Some(self.metal.map_or(metal, |other| Metal::select(lanes, &metal, &other)));
-    }
-    /// Reflects the rays of these lanes at mirrors; returns their origins and directions.
-    #[inline]
-    fn reflect(&mut self, surface: &Surface, metal: &Metal, lanes: M8, direction: V8) -> (V8, V8) {
-        let cos = -direction.dot(surface.normal);
-        let share = product(self.throughput, metal.reflectance(cos));
-        self.throughput = V8::blend(lanes, share, self.throughput);
-        (surface.point, surface.normal.mul_add(cos + cos, direction).normalize())
-    }
-}
-
-#[inline]
-fn keep(v: V8, mask: M8) -> V8 {
-    V8::new(v.x.keep(mask), v.y.keep(mask), v.z.keep(mask))
-}
-
-#[inline]
-fn product(a: V8, b: V8) -> V8 {
-    V8::new(a.x * b.x, a.y * b.y, a.z * b.z)
 }

@@ -15,6 +15,8 @@ pub(super) struct Windows {
     tables: Vec<Vec<u64>>,
     /// Columns and rows of a table.
     size: usize,
+    /// What comes through all of them.
+    power: f64,
 }
 
 /// Bounds of the number of columns and rows.
@@ -42,21 +44,29 @@ impl Windows {
             })
         });
         let of: Vec<_> = of.collect();
-        let tables = maps.iter().map(|map| table(map, size, places, &radiance)).collect();
-        Some(Self { portals: portals.to_vec(), of, tables, size })
+        let (tables, irradiances): (_, Vec<_>) = maps.iter().map(|map| table(map, size, places, &radiance)).unzip();
+        let power = portals.iter().zip(&of).map(|(portal, of)| portal.area() * irradiances[*of]).sum::<f64>();
+        Some(Self { portals: portals.to_vec(), of, tables, size, power: power / std::f64::consts::PI })
+    }
+    /// The power that comes through the portals, in units of π, summed over channels.
+    pub(super) fn power(&self) -> f64 {
+        self.power
     }
     /// What `run` makes of the portals.
     #[inline]
     pub(super) fn all<T>(&self, run: impl FnOnce(&PortalEnvironment<'_>) -> T) -> T {
         let table = |k: usize| PortalTable::from_buffer(&self.tables[k], self.size).expect("a table of its own size");
-        let count = self.portals.len();
-        let tables: [_; MOST_PORTALS] = std::array::from_fn(|k| table(self.of[k.min(count - 1)]));
-        run(&PortalEnvironment::new(&self.portals, &tables[..count]).expect("the scene reader has counted the portals"))
+        let mut tables = [table(0); MOST_PORTALS];
+        for (k, of) in self.of.iter().enumerate().filter(|(_, of)| **of > 0) {
+            tables[k] = table(*of);
+        }
+        let tables = &tables[..self.portals.len()];
+        run(&PortalEnvironment::new(&self.portals, tables).expect("the scene reader has counted the portals"))
     }
 }
 
-/// The sky before a portal. A dark sky counts as one of the same radiance everywhere.
-fn table(map: &PortalMap, size: usize, places: usize, radiance: &(impl Fn(V8) -> X8 + Sync)) -> Vec<u64> {
+/// The sky before a portal, and the irradiance of the portal by it. A dark sky counts as one of the same radiance everywhere.
+fn table(map: &PortalMap, size: usize, places: usize, radiance: &(impl Fn(V8) -> X8 + Sync)) -> (Vec<u64>, f64) {
     let step = 1.0 / (size * places) as f64;
     let weight = |x: usize, y: usize| -> f64 {
         let mut sum = 0.0;
@@ -71,15 +81,25 @@ fn table(map: &PortalMap, size: usize, places: usize, radiance: &(impl Fn(V8) ->
         sum / (places * places) as f64
     };
     let mut weights = vec![0.0; size * size];
-    weights.par_chunks_mut(size).enumerate().for_each(|(y, row)| {
-        for (x, entry) in row.iter_mut().enumerate() {
-            *entry = weight(x, y).min(f64::from(f32::MAX)) as f32;
-        }
-    });
+    let axis = map.direction(Vec2::new(0.5_f64, 0.5)).0;
+    let received: Vec<f64> = weights
+        .par_chunks_mut(size)
+        .enumerate()
+        .map(|(y, row)| {
+            let mut sum = 0.0;
+            for (x, entry) in row.iter_mut().enumerate() {
+                *entry = weight(x, y).min(f64::from(f32::MAX)) as f32;
+                let middle = [x, y].map(|i| (i as f64 + 0.5) / size as f64);
+                sum += f64::from(*entry) * map.direction(Vec2::new(middle[0], middle[1])).0.dot(axis);
+            }
+            sum
+        })
+        .collect();
+    let irradiance = received.iter().sum::<f64>() / (size * size) as f64;
     if weights.iter().all(|w| *w == 0.0) {
         weights.fill(1.0);
     }
     let mut buffer = vec![0; PortalTable::buffer(size, size)];
     PortalTable::build(&weights, size, &mut buffer).expect("valid weights");
-    buffer
+    (buffer, irradiance)
 }

@@ -99,8 +99,7 @@ fn is_not_biased_in_other_scenes() {
         };
         let precise = world.render(&precise, &|_| ()).0;
         for (sampler, spp) in [(Sampler::Sobol, 8), (Sampler::Adaptive, 64)] {
-            let [mean, error] =
-                bias(&world, &precise, Settings { spp, technique, sampler, ..SETTINGS }, cases(12, 40));
+            let [mean, error] = bias(&world, &precise, Settings { spp, technique, sampler, ..SETTINGS }, cases(12, 40));
             assert!(
                 mean.abs() < 4.0 * error && error < cases(1.8e-2, 1e-2),
                 "{name}, {sampler:?}: {mean:e} ± {error:e}"

@@ -172,7 +172,7 @@ impl Routine for Portals {
             for _ in 0..R::LANES {
                 let extreme = random.word().is_multiple_of(8);
                 let p = if extreme { generators::nasty(&mut random) } else { unit(&mut random) };
-                places.push((p, square(&mut random), unit(&mut random)));
+                places.push((p, square(&mut random), unit(&mut random), unit(&mut random)));
             }
             let us: Vec<_> = places.iter().map(|place| place.1).collect();
             let ws: Vec<_> = places.iter().map(|place| place.2).collect();
@@ -180,7 +180,7 @@ impl Routine for Portals {
             sampler::<R>(lanes, &sky.by_radiance(p), &us, &ws);
             let w = vectors_of(|i| ws[i]);
             lanes.truth::<R>(sky.sees(p, w));
-            lanes.truth::<R>(sky.sees_cone(p, w, R::lit(0.1)));
+            sampler::<R>(lanes, &sky.by_radiance_above(p, vectors_of(|i| places[i].3)), &us, &ws);
         });
     }
 }

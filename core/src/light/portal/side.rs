@@ -76,15 +76,4 @@ impl<R: Real> Side<R> {
     pub(super) fn span(&self, lane: usize, cells: usize) -> Span {
         Span::new(self.place.lane_f64(lane), self.size.lane_f64(lane) * FRAC_1_PI, cells)
     }
-    /// Takes in each lane the side that `of` names.
-    #[inline(always)]
-    pub(super) fn gather<'s>(of: impl Fn(usize) -> &'s Self) -> Self {
-        let pair = |pick: fn(&Self) -> [R; 2]| [0, 1].map(|k| R::from_fn(|lane| pick(of(lane))[k].lane(lane)));
-        Self {
-            start: pair(|side| side.start),
-            end: pair(|side| side.end),
-            size: R::from_fn(|lane| of(lane).size.lane(lane)),
-            place: R::from_fn(|lane| of(lane).place.lane(lane)),
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! Sums over the rectangles of a table, and exact draws from one of them.
 
 use crate::discrete::TableError;
+use core::hint::select_unpredictable;
 
 /// Steps of `u` in the unit interval.
 pub(super) const STEPS: f64 = 16_777_216.0;
@@ -22,7 +23,7 @@ pub(super) struct Span {
 
 impl Span {
     /// The span that begins at `start` in [0, 1] and has this size, over so many cells.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(start: f64, size: f64, cells: usize) -> Self {
         let most = cells as f64;
         let low = start.clamp(0.0, 1.0) * most;
@@ -33,12 +34,12 @@ impl Span {
         Self { low, high, first, last: last.clamp(first, cells as u32 - 1) }
     }
     /// Number of cells that it touches.
-    #[inline]
+    #[inline(always)]
     pub(super) fn cells(&self) -> u32 {
         self.last - self.first + 1
     }
     /// Where a cell begins, as a fraction of the span.
-    #[inline]
+    #[inline(always)]
     pub(super) fn edge(&self, cell: u32) -> f64 {
         if cell <= self.first {
             0.0
@@ -49,7 +50,7 @@ impl Span {
         }
     }
     /// The cell at a fraction of the span.
-    #[inline]
+    #[inline(always)]
     pub(super) fn cell(&self, fraction: f64) -> u32 {
         let near = ((self.low + fraction * (self.high - self.low)) as u32).clamp(self.first, self.last);
         // rounding may have crossed an edge
@@ -62,12 +63,12 @@ impl Span {
         }
     }
     /// What it covers of its cell, if it has only one; else 1.
-    #[inline]
+    #[inline(always)]
     pub(super) fn part_of_one(&self) -> f64 {
         if self.first == self.last { self.high - self.low } else { 1.0 }
     }
     /// Parts of the first and the last cell that it covers, greater than 0; 1 of a single cell.
-    #[inline]
+    #[inline(always)]
     fn parts(&self) -> [f64; 2] {
         if self.first == self.last {
             return [1.0; 2];
@@ -77,10 +78,59 @@ impl Span {
     }
 }
 
-/// The distribution over the cells of a span, by a function that sums the weights of the cells before one.
-pub(super) struct Distribution<F> {
+/// A weight as a real number. Weights of tables that have been built are below 2⁶³; so the conversion of signed integers serves, which is
+/// an instruction of its own.
+#[inline(always)]
+fn real(weight: u64) -> f64 {
+    (weight & (u64::MAX >> 1)) as f64
+}
+
+/// The weights of cells, as sums.
+pub(super) trait Sums {
+    /// Sum of the weights of the cells before one, which may be the one past the last.
+    fn before(&self, cell: u32) -> u64;
+}
+
+/// Columns, by what some rows of them weigh.
+pub(super) struct Columns<'a> {
+    table: PortalTable<'a>,
+    /// The first and the last row, and the parts of them that count, in 2⁻¹⁵.
+    rows: [usize; 2],
+    parts: [u64; 2],
+}
+
+impl Sums for Columns<'_> {
+    #[inline(always)]
+    fn before(&self, cell: u32) -> u64 {
+        let (sums, [first, last]) = (self.table.column(cell), self.rows);
+        let part = |from: usize, to: usize, part: u64| sums[to].wrapping_sub(sums[from]).wrapping_mul(part);
+        let head = part(first, first + 1, self.parts[0]);
+        if first == last {
+            return head;
+        }
+        let inner = part(first + 1, last, WHOLE_ROW);
+        head.wrapping_add(inner).wrapping_add(part(last, last + 1, self.parts[1]))
+    }
+}
+
+/// The rows of a column.
+pub(super) struct Rows<'a> {
+    /// Sums over the columns before it, and with it.
+    sums: [&'a [u64]; 2],
+}
+
+impl Sums for Rows<'_> {
+    #[inline(always)]
+    fn before(&self, cell: u32) -> u64 {
+        let [without, with] = self.sums.map(|sums| sums[cell as usize]);
+        with.wrapping_sub(without)
+    }
+}
+
+/// The distribution over the cells of a span.
+pub(super) struct Distribution<S> {
     span: Span,
-    sum: F,
+    sums: S,
     /// Sum before the second cell.
     base: u64,
     /// Weight of the part of the first cell.
@@ -89,27 +139,27 @@ pub(super) struct Distribution<F> {
     pub(super) total: f64,
 }
 
-impl<F: Fn(u32) -> u64> Distribution<F> {
-    #[inline]
-    fn new(span: Span, sum: F) -> Self {
+impl<S: Sums> Distribution<S> {
+    #[inline(always)]
+    fn new(span: Span, sums: S) -> Self {
         let [head, tail] = span.parts();
-        let base = sum(span.first + 1);
-        let head = base.saturating_sub(sum(span.first)) as f64 * head;
-        let own = Self { span, sum, base, head, total: head };
+        let base = sums.before(span.first + 1);
+        let head = real(base.saturating_sub(sums.before(span.first))) * head;
+        let own = Self { span, sums, base, head, total: head };
         if span.first == span.last {
             return own;
         }
         let before = own.weight_before(span.last);
-        let last = (own.sum)(span.last + 1).saturating_sub((own.sum)(span.last)) as f64;
+        let last = real(own.sums.before(span.last + 1).saturating_sub(own.sums.before(span.last)));
         Self { total: before + last * tail, ..own }
     }
     /// Weight of the cells before one that is neither the first nor past the last. No cell has a negative weight: no rounding has one either.
-    #[inline]
+    #[inline(always)]
     fn weight_before(&self, cell: u32) -> f64 {
-        self.head + (self.sum)(cell).saturating_sub(self.base) as f64
+        self.head + real(self.sums.before(cell).saturating_sub(self.base))
     }
     /// Fraction of the weight before a cell, in [0, 1].
-    #[inline]
+    #[inline(always)]
     fn share_before(&self, cell: u32) -> f64 {
         if cell <= self.span.first {
             0.0
@@ -138,72 +188,144 @@ pub(super) struct Found {
     pub(super) cell: u32,
     /// The first of its steps of `u`, and their number: at least 1.
     steps: [f64; 2],
-    /// Where it begins in its span, and its size there, as fractions.
-    part: [f64; 2],
+    /// Where it begins and ends in its span, as fractions.
+    ends: [f64; 2],
 }
 
 impl Found {
     /// The position in the span to which `u` goes.
-    #[inline]
+    #[inline(always)]
     pub(super) fn place(&self, u: f64) -> f64 {
         let [first, count] = self.steps;
-        let [start, size] = self.part;
+        let [start, end] = self.ends;
         let within = ((u * STEPS - first) / count.max(1.0)).clamp(0.0, 1.0);
-        (start + within * size).min(1.0)
+        (start + within * (end - start)).min(1.0)
+    }
+    /// Whether a position in the span is certainly within the cell.
+    #[inline(always)]
+    pub(super) fn has(&self, place: f64) -> bool {
+        let [start, end] = self.ends;
+        start <= place && place < end
     }
     /// The `u` that goes to a position in the span.
-    #[inline]
+    #[inline(always)]
     pub(super) fn invert(&self, place: f64) -> f64 {
         let [first, count] = self.steps;
-        let [start, size] = self.part;
+        let [start, end] = self.ends;
+        let size = end - start;
         let within = if size > 0.0 { ((place - start) / size).clamp(0.0, 1.0) } else { 0.0 };
         (first + within * count) / STEPS
     }
     /// Probability of the cell over its part of the span.
-    #[inline]
+    #[inline(always)]
     pub(super) fn density(&self) -> f64 {
-        self.steps[1] / STEPS / self.part[1].max(1e-12)
+        let [start, end] = self.ends;
+        self.steps[1] / STEPS / (end - start).max(1e-12)
     }
 }
 
 impl Place {
     /// A span alone.
-    #[inline]
+    #[inline(always)]
     pub(super) fn only(span: &Span) -> Self {
         Self { cells: [span.cells(), 0], weights: [1.0, 0.0] }
     }
+    /// The place after this one, of a span with this weight.
+    #[inline(always)]
+    pub(super) fn after(&self, span: &Span, weight: f64) -> Self {
+        let ([cells, before], [total, lighter]) = (self.cells, self.weights);
+        Self { cells: [cells, before + span.cells()], weights: [total, lighter + weight] }
+    }
+    /// The step at which it begins.
+    #[inline(always)]
+    pub(super) fn begin(&self) -> f64 {
+        self.step(self.cells[1], self.weights[1])
+    }
     /// The step at which something begins that has so many cells and this weight before it.
-    #[inline]
-    pub(super) fn step(&self, cells: u32, weight: f64) -> f64 {
+    #[inline(always)]
+    fn step(&self, cells: u32, weight: f64) -> f64 {
         let free = STEPS - f64::from(self.cells[0]);
         let share = if self.weights[0] > 0.0 { (weight / self.weights[0]).min(1.0) } else { 0.0 };
         f64::from(cells) + f64::from((share * free) as u32)
     }
-    #[inline]
-    fn step_of<F: Fn(u32) -> u64>(&self, own: &Distribution<F>, weight: f64, cell: u32) -> f64 {
+    #[inline(always)]
+    fn step_of<S: Sums>(&self, own: &Distribution<S>, weight: f64, cell: u32) -> f64 {
         self.step(self.cells[1] + cell - own.span.first, self.weights[1] + weight * own.share_before(cell))
     }
     /// What is known of a cell of a distribution with this weight.
-    #[inline]
-    pub(super) fn find<F: Fn(u32) -> u64>(&self, own: &Distribution<F>, weight: f64, cell: u32) -> Found {
+    #[inline(always)]
+    pub(super) fn find<S: Sums>(&self, own: &Distribution<S>, weight: f64, cell: u32) -> Found {
         let first = self.step_of(own, weight, cell);
         let count = (self.step_of(own, weight, cell + 1) - first).max(0.0);
-        let start = own.span.edge(cell);
-        Found { cell, steps: [first, count], part: [start, own.span.edge(cell + 1) - start] }
+        Found { cell, steps: [first, count], ends: [own.span.edge(cell), own.span.edge(cell + 1)] }
     }
-    /// Draws a cell.
-    #[inline]
-    pub(super) fn draw<F: Fn(u32) -> u64>(&self, own: &Distribution<F>, weight: f64, u: f64) -> Found {
-        let (mut low, mut high) = (own.span.first, own.span.last);
-        while low < high {
-            let middle = low + (high - low).div_ceil(2);
-            if self.step_of(own, weight, middle) <= u * STEPS {
-                low = middle;
-            } else {
-                high = middle - 1;
-            }
+    /// Begins to search for the cell to which `u` goes.
+    #[inline(always)]
+    pub(super) fn search<S: Sums>(&self, own: Distribution<S>, weight: f64, u: f64) -> Search<S> {
+        let (free, scale) = (STEPS - f64::from(self.cells[0]), own.total / weight);
+        let weight_of_step = self.weights[0] / free * scale;
+        let most = (u * STEPS - f64::from(self.cells[1])) * weight_of_step - self.weights[1] * scale;
+        let (cell, count) = (own.span.first, own.span.cells());
+        Search { place: *self, own, weight, step: u * STEPS, most, weight_of_step, cell, count }
+    }
+}
+
+/// A search for the cell to which a step of `u` goes: without divisions by where a cell begins, solved for the weight before it, which is
+/// exact but for rounding.
+pub(super) struct Search<S> {
+    place: Place,
+    own: Distribution<S>,
+    weight: f64,
+    /// The step, and the greatest weight before the cell: that of all cells before it, and one of them for each.
+    step: f64,
+    most: f64,
+    weight_of_step: f64,
+    /// The first of the cells that are left, and their number.
+    cell: u32,
+    count: u32,
+}
+
+impl<S: Sums> Search<S> {
+    /// Runs searches side by side, so that none waits for the memory that another needs.
+    #[inline(always)]
+    pub(super) fn all(searches: &mut [Option<Self>]) {
+        let mut most = 0;
+        for search in searches.iter().flatten() {
+            most = search.count.max(most);
         }
-        self.find(own, weight, low)
+        while most > 1 {
+            for search in searches.iter_mut().flatten() {
+                search.halve();
+            }
+            most -= most / 2;
+        }
+    }
+    /// Leaves half of the cells; of one cell, itself.
+    #[inline(always)]
+    fn halve(&mut self) {
+        let half = self.count / 2;
+        let middle = self.cell + half;
+        let before = self.own.weight_before(middle) + f64::from(middle - self.own.span.first) * self.weight_of_step;
+        self.cell = select_unpredictable(before <= self.most, middle, self.cell);
+        self.count -= half;
+    }
+    /// What has been found.
+    #[inline(always)]
+    pub(super) fn found(&self) -> Found {
+        let span = self.own.span;
+        let mut found = self.find(self.cell);
+        // rounding may have crossed an edge
+        while found.cell > span.first && self.step < found.steps[0] {
+            found = self.find(found.cell - 1);
+        }
+        while found.cell < span.last && self.step >= found.steps[0] + found.steps[1] {
+            found = self.find(found.cell + 1);
+        }
+        found
+    }
+    #[inline(always)]
+    fn find(&self, cell: u32) -> Found {
+        self.place.find(&self.own, self.weight, cell)
     }
 }
 
@@ -286,31 +408,22 @@ impl<'a> PortalTable<'a> {
     pub fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }
-    #[inline]
-    fn sum(&self, column: u32, row: u32) -> u64 {
-        self.sums.get(column as usize * (self.height + 1) + row as usize).copied().unwrap_or(0)
+    /// Sums over the rows of the columns before one. A table has one more of them than columns, each with one more entry than rows.
+    #[inline(always)]
+    fn column(&self, column: u32) -> &'a [u64] {
+        let stride = self.height + 1;
+        &self.sums[column as usize * stride..][..stride]
     }
     /// The columns, by what these rows of them weigh, in 2⁻¹⁵ of the unit.
-    #[inline]
-    pub(super) fn columns(&self, columns: Span, rows: Span) -> Distribution<impl Fn(u32) -> u64> {
+    #[inline(always)]
+    pub(super) fn columns(&self, columns: Span, rows: Span) -> Distribution<Columns<'a>> {
         let parts = rows.parts().map(|part| (part * WHOLE_ROW as f64) as u64);
-        let table = *self;
-        Distribution::new(columns, move |column| {
-            let sum = |row: u32| table.sum(column, row);
-            let (first, last) = (rows.first, rows.last);
-            let head = sum(first + 1).saturating_sub(sum(first)).saturating_mul(parts[0]);
-            if first == last {
-                return head;
-            }
-            let inner = sum(last).saturating_sub(sum(first + 1)).saturating_mul(WHOLE_ROW);
-            let tail = sum(last + 1).saturating_sub(sum(last)).saturating_mul(parts[1]);
-            head.saturating_add(inner).saturating_add(tail)
-        })
+        let rows = [rows.first, rows.last].map(|row| row as usize);
+        Distribution::new(columns, Columns { table: *self, rows, parts })
     }
     /// These rows of a column.
-    #[inline]
-    pub(super) fn rows(&self, column: u32, rows: Span) -> Distribution<impl Fn(u32) -> u64> {
-        let table = *self;
-        Distribution::new(rows, move |row| table.sum(column + 1, row).saturating_sub(table.sum(column, row)))
+    #[inline(always)]
+    pub(super) fn rows(&self, column: u32, rows: Span) -> Distribution<Rows<'a>> {
+        Distribution::new(rows, Rows { sums: [column, column + 1].map(|column| self.column(column)) })
     }
 }

@@ -69,12 +69,27 @@ pub(super) fn portals(input: &mut Input<'_>) {
             assert!(s.pdf > 0.0, "a lost sample: {openings:?} {place:?} {u:?}");
         }
         if s.pdf > 0.0 {
-            assert!(sky.sees(p, w) && sky.sees_cone(p, w, 0.0), "{openings:?} {place:?} {u:?}");
+            assert!(sky.sees(p, w), "{openings:?} {place:?} {u:?}");
             assert!((w.length_squared() - 1.0).abs() < 1e-6, "{openings:?} {place:?} {u:?}");
         }
         let back = sampler.invert(w);
         assert!([back.x, back.y].iter().all(|x| (0.0..1.0).contains(x)), "{openings:?} {place:?} {u:?}: {back:?}");
     }
+    let normal = input.direction();
+    let (above, wide_above) = (
+        sky.by_radiance_above(p, vectors_of(|_| normal)),
+        sky.by_radiance_above::<f32x8>(vectors_of(|_| place), vectors_of(|_| normal)),
+    );
+    let u = input.square();
+    let s = above.sample(squares_of(&[u]));
+    let w = s.direction;
+    assert_eq!((s.pdf > 0.0, above.pdf(w)), (s.emits, s.pdf), "{openings:?} {place:?} {normal:?} {u:?}");
+    assert!(
+        s.pdf.is_finite() && (s.pdf == 0.0 || sampler.pdf(w) > 0.0),
+        "{openings:?} {place:?} {normal:?} {u:?}: {s:?}"
+    );
+    let eight = wide_above.sample(squares_of(&[u]));
+    assert_eq!((eight.pdf.lane(6).to_bits(), eight.direction.lane(6)), (s.pdf.to_bits(), w));
     let any = input.direction();
     let w: Vec3<f32> = vectors_of(|_| any);
     let pdf = sampler.pdf(w);
