@@ -13,7 +13,6 @@
 use super::message::shown;
 use crate::files::read_file;
 use crate::intensity::Intensity;
-use etendue::light::Profile;
 use std::path::Path;
 
 /// A signed axis of light space: x, y or z, and its sign.
@@ -210,8 +209,7 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
         _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)]),
     };
     // angles that differ by too little are the same once they are mirrored
-    Profile::new(&polar, &azimuth, &values).map_err(|error| format!("{name}: {error}"))?;
-    let intensity = Intensity::Angles { polar, azimuth, values };
+    let intensity = Intensity::angles(polar, azimuth, values).map_err(|error| format!("{name}: {error}"))?;
     Ok(Photometry { intensity, greatest: greatest * factor, axes, warnings })
 }
 
