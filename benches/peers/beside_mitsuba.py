@@ -1,5 +1,5 @@
-"""Compares the renderer with Mitsuba 3 on meshes with textures under ten lights and more, and under lights that show pictures, at equal
-time on one core.
+"""Compares the renderer with Mitsuba 3 on meshes with textures under ten lights and more, and under lights that show pictures, a panel
+with a spread, the sky through portals, and a luminaire of an IES file, at equal time on one core.
 
     pip install mitsuba numpy OpenEXR              # and LLVM, which DRJIT_LIBLLVM_PATH names
     cargo build --release
@@ -9,7 +9,8 @@ writes scenes for both programs to FOLDER, and prints two tables: how far the me
 of independent samples, and the error and time of each. Seconds are those of rendering alone, medians of 5. Errors are root mean squares
 over the pixels, relative to the mean, of the difference from an image of ours of many samples, less the error that this image claims.
 Mitsuba's is the best of four samplers and two integrators. Efficiency is 1/(error² × seconds). With an empty --spp, only means are compared:
-Mitsuba compiles for minutes where there are instances.
+Mitsuba compiles for minutes where there are instances. What Mitsuba lacks, it gets as the nearest that it can have: the spread and the
+luminaire as emitters of `mitsuba_emitters.py`, and the whole sky for the portals.
 """
 import argparse, json, math, os, statistics, subprocess, sys, time
 
@@ -34,6 +35,8 @@ import mitsuba as mi
 mi.set_variant('llvm_ad_rgb')
 mi.set_log_level(mi.LogLevel.Error)
 dr.set_thread_count(1)
+import mitsuba_emitters  # registers them
+
 T = mi.ScalarTransform4f
 
 
@@ -118,6 +121,28 @@ def glass(size):
     return np.where(lead[..., None], 0, rgb * sun[..., None]).astype(np.float32)
 
 
+def weather(rows):
+    """A clear sky: brighter near the horizon and about a sun at 25 degrees above it, whose disk has soft edges. Below the horizon is ground."""
+    polar, azimuth = np.meshgrid((np.arange(rows) + 0.5) * (math.pi / rows), (np.arange(2 * rows) + 0.5) * (math.pi / rows), indexing='ij')
+    x, y, z = np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)
+    high, around = math.radians(25), math.radians(-8)
+    cos = x * math.cos(high) * math.cos(around) + y * math.cos(high) * math.sin(around) + z * math.sin(high)
+    away = np.degrees(np.arccos(np.clip(cos, -1, 1)))
+    up = np.clip(z, 0, 1)
+    sky = np.stack([0.25 + 0.5 * (1 - up) ** 3, 0.45 + 0.45 * (1 - up) ** 3, 1 - 0.1 * up], -1)
+    sky += (np.exp(-away / 12)[..., None] + 4000 * np.exp(-(away / 0.8) ** 2)[..., None]) * [1.0, 0.9, 0.7]
+    return np.where(z[..., None] > 0, sky, 0.15 * np.array([0.5, 0.45, 0.35])).astype(np.float32)
+
+
+def washer():
+    """Intensities of a luminaire that lights a wall at its +x, by 5 degrees from the nadir and by 15 degrees around: candela."""
+    polar, azimuth = np.meshgrid(np.radians(np.arange(0, 181, 5.0)), np.radians(np.arange(0, 361, 15.0)), indexing='ij')
+    x, y, down = np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)
+    aim = math.radians(55)
+    lobe = np.exp(9 * (x * math.sin(aim) + down * math.cos(aim) - 1) - 1.5 * (y - 0.2) ** 2) + 0.04 * np.clip(down, 0, 1)
+    return np.where(polar < math.radians(92), 30 * lobe, 0)
+
+
 def boxes(path, list_of):
     """A mesh of boxes, by their least and greatest coordinates; returns the number of its triangles."""
     points, faces = [], []
@@ -136,7 +161,7 @@ class Scene:
     """A scene for both programs. Lights are parallelograms that emit downwards, or spheres."""
 
     def __init__(self, name, camera, target, fov):
-        self.name, self.count = name, 0
+        self.name, self.count, self.lights = name, 0, 0
         self.integrators = {'path, depth 2': dict(type='path', max_depth=2),
                             'direct, lights only': dict(type='direct', emitter_samples=1, bsdf_samples=0)}
         self.pbrt = ['Scale -1 1 1', f'LookAt {camera[0]} {camera[1]} {camera[2]}  {target[0]} {target[1]} {target[2]}  0 0 1',
@@ -169,18 +194,52 @@ class Scene:
 
     def lamp(self, corner, u, v, radiance):
         emit = f'AreaLightSource "diffuse" "rgb L" [{radiance[0]} {radiance[1]} {radiance[2]}]'
-        self.rectangle(corner, u, v, emit, dict(type='rgb', value=list(radiance)))
+        self.rectangle(corner, u, v, emit, dict(type='area', radiance=dict(type='rgb', value=list(radiance))))
+
+    def panel(self, corner, u, v, radiance, spread):
+        """A rectangle that emits within an angle of its normal, half of `spread`."""
+        emit = f'AreaLightSource "diffuse" "rgb L" [{radiance} {radiance} {radiance}] "float spread" {spread}'
+        self.rectangle(corner, u, v, emit, dict(type='spread', radiance=float(radiance), spread=float(spread)))
+
+    def sky(self, picture, portals):
+        """A sky of longitude and latitude, with its first row at +z and its first column at +x, seen through portals. Texels are constant
+        in ours and interpolated by Mitsuba."""
+        self.write_picture('sky.exr', picture)
+        numbers = ' '.join(f'{x:.9g}' for portal in portals for point in portal for x in point)
+        self.pbrt.append(f'LightSource "infinite" "string filename" "sky.exr" "point3 portal" [{numbers}]')
+        # Mitsuba's first column is at −z, and its columns run towards +x
+        turn = T(np.array([[0, 0, -1, 0], [-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]], float))
+        self.add(dict(type='envmap', bitmap=mi.Bitmap(np.ascontiguousarray(picture[:, ::-1])), to_world=turn))
+        self.lights += 1
+
+    def luminaire(self, at, table):
+        """A luminaire of type C whose intensities are by steps of the same size, from the nadir to the zenith and all around from +x."""
+        rows, columns = table.shape
+        listed = lambda numbers: ' '.join(f'{x:.9g}' for x in numbers)
+        lines = ['IESNA:LM-63-2002', 'TILT=NONE', f'1 -1 1 {rows} {columns} 1 2 0 0 0', '1 1 100',
+                 listed(np.linspace(0, 180, rows)), listed(np.linspace(0, 360, columns))]
+        with open(os.path.join(OPTIONS.folder, 'lamp.ies'), 'w') as file:
+            file.write('\n'.join(lines + [listed(column) for column in table.T]) + '\n')
+        # the nadir is −y of the light
+        self.pbrt.append(f'AttributeBegin Translate {at[0]} {at[1]} {at[2]} Rotate 90 1 0 0 '
+                         'LightSource "goniometric" "string filename" "lamp.ies" AttributeEnd')
+        x, y, z = map(float, at)
+        self.add(dict(type='luminaire', x=x, y=y, z=z, table=mi.TensorXf(table[..., None].astype(np.float32))))
+        self.lights += 1
+
+    def write_picture(self, file, picture):
+        header = dict(compression=OpenEXR.ZIP_COMPRESSION, type=OpenEXR.scanlineimage)
+        OpenEXR.File(header, dict(RGB=picture)).write(os.path.join(OPTIONS.folder, file))
 
     def screen(self, corner, u, v, picture):
         """A rectangle that shows an array of radiance."""
         file = f'{self.name}{self.count}.exr'
-        header = dict(compression=OpenEXR.ZIP_COMPRESSION, type=OpenEXR.scanlineimage)
-        OpenEXR.File(header, dict(RGB=picture)).write(os.path.join(OPTIONS.folder, file))
+        self.write_picture(file, picture)
         # in Mitsuba, v is 0 at the first row
         bitmap = dict(type='bitmap', bitmap=mi.Bitmap(np.ascontiguousarray(picture[::-1])), raw=True, wrap_mode='clamp')
-        self.rectangle(corner, u, v, f'AreaLightSource "diffuse" "string filename" "{file}"', bitmap)
+        self.rectangle(corner, u, v, f'AreaLightSource "diffuse" "string filename" "{file}"', dict(type='area', radiance=bitmap))
 
-    def rectangle(self, corner, u, v, emit, radiance):
+    def rectangle(self, corner, u, v, emit, emitter):
         p = [corner, np.add(corner, u), np.add(corner, v), np.add(np.add(corner, u), v)]
         numbers = ' '.join(f'{x:.9g}' for point in p for x in point)
         self.pbrt.append(f'AttributeBegin Material "diffuse" "rgb reflectance" [0 0 0] {emit} '
@@ -191,7 +250,8 @@ class Scene:
         normal = np.cross(u, v)
         matrix[:3, 2] = normal / np.linalg.norm(normal)
         self.add(dict(type='rectangle', to_world=T(matrix), bsdf=dict(type='diffuse', reflectance=dict(type='rgb', value=0.0)),
-                      emitter=dict(type='area', radiance=radiance)))
+                      emitter=emitter))
+        self.lights += 1
 
     def ball(self, center, radius, radiance):
         emit = f'AreaLightSource "diffuse" "rgb L" [{radiance[0]} {radiance[1]} {radiance[2]}]'
@@ -200,6 +260,7 @@ class Scene:
         self.add(dict(type='sphere', center=list(center), radius=radius,
                       bsdf=dict(type='diffuse', reflectance=dict(type='rgb', value=0.0)),
                       emitter=dict(type='area', radiance=dict(type='rgb', value=list(radiance)))))
+        self.lights += 1
 
     def grove(self, file, picture, triangles, places):
         """Instances of a mesh with holes where the picture is black."""
@@ -300,6 +361,33 @@ def scenes():
     scene.mesh('hall.ply', count, (0, 0, 0), 1, 0)
     scene.screen((1.2, -2.95, 1), (-2.4, 0, 0), (0, 0, 2.6), glass(256))
     yield scene
+    scene = Scene('spread', (0.6, -5.2, 2.4), (0, 0, 0.5), 45)
+    tables = [((-4, -4, -0.1), (4, 4, 0)), ((-4, 2.5, 0), (4, 2.6, 4)), ((-0.5, -0.5, 0), (0.5, 0.5, 0.7)), ((-1.6, -0.4, 0), (-1, 0.2, 1.2)),
+              ((0.9, 0.2, 0), (1.5, 0.8, 0.4))]
+    count = boxes(os.path.join(OPTIONS.folder, 'tables.ply'), tables)
+    scene.mesh('tables.ply', count, (0, 0, 0), 1, 0)
+    # above the edges of the image; the second edge points backwards, so that the normal points down
+    scene.panel((-1, 0.8, 3), (2, 0, 0), (0, -1.6, 0), 4.0, 20)
+    yield scene
+    scene = Scene('portals', (1.5, -1.6, 1.6), (-1, 0.5, 0.9), 75)
+    windows = [(-1.6, -0.9, 0.8, 2.2), (-0.4, 0.4, 0.9, 2.0), (0.9, 1.5, 0.3, 2.4)]
+    room = [((-2, -2, -0.1), (2, 2, 0)), ((-2, -2, 3), (2, 2, 3.1)), ((-2.1, -2, 0), (-2, 2, 3)), ((-2, -2.1, 0), (2, -2, 3)),
+            ((-2, 2, 0), (2, 2.1, 3)), ((-0.8, -0.3, 0), (0.1, 0.5, 0.6))]
+    ends = [-2] + [y for window in windows for y in window[:2]] + [2]
+    room += [((2, low, 0), (2.001, high, 3)) for low, high in zip(ends[::2], ends[1::2])]
+    room += [((2, y0, 0), (2.001, y1, z0)) for y0, y1, z0, _ in windows] + [((2, y0, z1), (2.001, y1, 3)) for y0, y1, _, z1 in windows]
+    count = boxes(os.path.join(OPTIONS.folder, 'portals.ply'), room)
+    scene.mesh('portals.ply', count, (0, 0, 0), 1, 0)
+    # the sky is where (p3 − p0) × (p1 − p0) points to
+    scene.sky(weather(1024), [[(2, y0, z0), (2, y0, z1), (2, y1, z1), (2, y1, z0)] for y0, y1, z0, z1 in windows])
+    yield scene
+    scene = Scene('washer', (-2.6, -1.2, 1.7), (1.5, 0.3, 1.1), 70)
+    gallery = [((-3, -3, -0.1), (2, 3, 0)), ((2, -3, 0), (2.1, 3, 3)), ((-3, 3, 0), (2, 3.1, 3)), ((1.5, -0.9, 0), (1.8, -0.6, 1.1)),
+               ((1.93, 0.3, 1), (2, 1.3, 1.9)), ((0.2, 0.6, 0), (0.9, 1.3, 0.45))]
+    count = boxes(os.path.join(OPTIONS.folder, 'gallery.ply'), gallery)
+    scene.mesh('gallery.ply', count, (0, 0, 0), 1, 0)
+    scene.luminaire((1.1, 0.1, 2.9), washer())
+    yield scene
 
 
 def grove():
@@ -381,8 +469,7 @@ def main():
         z = (own.mean((0, 1)) - reference.mean((0, 1))) / spread
         pixels = (own - reference) / np.sqrt(variance + own_variance + 1e-20)
         many = np.mean(np.abs(pixels) > 4)
-        lights = sum(1 for shape in scene.mitsuba.values() if isinstance(shape, dict) and 'emitter' in shape)
-        print(f'| {scene.name} | {scene.triangles:,} | {lights} | {parts * each} each | {np.abs(z).max():.2f} | {many:.5f} |', flush=True)
+        print(f'| {scene.name} | {scene.triangles:,} | {scene.lights} | {parts * each} each | {np.abs(z).max():.2f} | {many:.5f} |', flush=True)
         # the one with the least noise
         truth, said = ours(path, OPTIONS.reference, 99, 1)
         noise, level = (said['error'] * truth.mean()) ** 2, truth.mean()

@@ -35,10 +35,10 @@
 //! | a flat light with a [`Picture`] | [`by_area`](Pictured::by_area) | [`by_solid_angle`](Pictured::by_solid_angle) | [`by_projected_solid_angle`](Pictured::by_projected_solid_angle) |
 //! | a [`Sphere`] or [`BilinearPatch`] with a [`Picture`] | [`by_visible_area`](Pictured::by_visible_area) | | |
 //! | [`PointLight`], [`SpotLight`], [`DirectionalLight`] | `by_delta`: one direction, `delta` holds | | |
-//! | [`PointLight`] with a [`Profile`] or a [`Projector`] | [`by_profile`](PointLight::by_profile): the same | | |
+//! | [`PointLight`] or [`SpotLight`] with a [`Profile`] or a [`Projector`] | [`by_profile`](PointLight::by_profile): the same | | |
 //!
 //! Some lights emit only within an angle of their normal, a [`Spread`]. Their method `by_spread` samples the part that a point sees:
-//! [`Parallelogram`], [`Rectangle`] and [`Disk`] have it.
+//! [`Parallelogram`], [`Rectangle`] and [`Disk`] have it. A [`LuminousOpening`] gives flat lights the intensities of a [`Profile`].
 //!
 //! Cells are empty where no map is here that keeps the contract at every size: for the solid angles of cylinders, annuli and bilinear
 //! patches, and the projected solid angle of disks. A sun and a constant environment have no area.
@@ -88,6 +88,7 @@
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.
 
 mod annulus;
+mod around;
 mod cylinder;
 mod daylight;
 mod delta;
@@ -96,6 +97,7 @@ mod distant;
 mod environment;
 mod flat;
 mod line;
+mod opening;
 mod patch;
 mod picture;
 mod pictured;
@@ -129,6 +131,7 @@ pub use flat::{
     TriangleByProjectedSolidAngle, TriangleBySolidAngle,
 };
 pub use line::{Line, LineByAngle, LineByLength, LineByProjectedSolidAngle, PlacedLine};
+pub use opening::LuminousOpening;
 pub use patch::{BilinearPatch, PatchByArea, PlacedPatch};
 pub use picture::{Picture, Region, mean_of_bilinear};
 pub use pictured::{ByPicture, PictureSample, Pictured};

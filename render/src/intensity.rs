@@ -2,7 +2,7 @@
 
 use crate::packet::{V8, X8, select};
 use etendue::Vec3;
-use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, Projector};
+use etendue::light::{EnvironmentMap, ImageEnvironment, Profile, ProfileError, Projector};
 
 /// Relative radiant intensities by direction in the space of the light, whose greatest is 1. They all are finite and at least 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +15,8 @@ pub enum Intensity {
         azimuth: Vec<f32>,
         /// All polar angles of the first azimuth come first.
         values: Vec<f32>,
+        /// Those of the [`Profile`].
+        ends: [f32; 2],
     },
     /// An image of all directions, constant within each texel.
     Sphere {
@@ -45,14 +47,19 @@ impl Intensity {
         ImageEnvironment::build(&texels, width, map, &mut table).ok()?;
         Some(Self::Sphere { map, width, texels, table })
     }
-    fn profile<'a>(polar: &'a [f32], azimuth: &'a [f32], values: &'a [f32]) -> Profile<'a> {
-        Profile::new(polar, azimuth, values).expect("the scene reader has checked the angles")
+    /// A photometric table.
+    ///
+    /// # Errors
+    /// Those of [`Profile::new`].
+    pub fn angles(polar: Vec<f32>, azimuth: Vec<f32>, values: Vec<f32>) -> Result<Self, ProfileError> {
+        let ends = Profile::new(&polar, &azimuth, &values)?.ends();
+        Ok(Self::Angles { polar, azimuth, values, ends })
     }
     /// Intensity in the unit direction `w`, in which light travels.
     pub fn at(&self, w: V8) -> V8 {
         match self {
-            Self::Angles { polar, azimuth, values } => {
-                let value: X8 = Self::profile(polar, azimuth, values).intensity(w);
+            Self::Angles { polar, azimuth, values, ends } => {
+                let value: X8 = Profile::from_checked(polar, azimuth, values, *ends).intensity(w);
                 Vec3::new(value, value, value)
             }
             Self::Sphere { map, width, texels, table } => {
@@ -76,7 +83,9 @@ impl Intensity {
     /// ∫I dω of each channel.
     pub fn flux(&self) -> [f64; 3] {
         match self {
-            Self::Angles { polar, azimuth, values } => [Self::profile(polar, azimuth, values).power(); 3],
+            Self::Angles { polar, azimuth, values, ends } => {
+                [Profile::from_checked(polar, azimuth, values, *ends).power(); 3]
+            }
             Self::Sphere { map, width, texels, .. } => {
                 let height = texels.len() / width;
                 let row = |(y, row): (usize, &[f32])| {
@@ -98,7 +107,9 @@ impl Intensity {
     /// Cosine of an angle to +z from which on it is dark; −1 if it may shine in all directions.
     pub fn cos_cone(&self) -> f32 {
         match self {
-            Self::Angles { polar, azimuth, values } => Self::profile(polar, azimuth, values).cos_cone(),
+            Self::Angles { polar, azimuth, values, ends } => {
+                Profile::from_checked(polar, azimuth, values, *ends).cos_cone()
+            }
             Self::Sphere { .. } => -1.0,
             Self::Projected { projector, .. } => projector.cos_cone(),
         }

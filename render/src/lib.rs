@@ -28,6 +28,7 @@ pub mod image;
 pub mod integrator;
 pub mod intensity;
 pub mod light_picture;
+pub mod light_profile;
 pub mod lights;
 pub mod limits;
 pub mod merge;

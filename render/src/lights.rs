@@ -12,7 +12,8 @@ use crate::bvh::BuildError;
 use crate::bvh::NOTHING;
 use crate::geometry::Geometry;
 use crate::light_picture::{LightPicture, PictureIrradiance};
-use crate::packet::{M8, V8, X8, equal};
+use crate::light_profile::LightProfile;
+use crate::packet::{M8, V8, X8, equal, select};
 use crate::scene::{Emission, Scene, Shape};
 use crate::sky::Sky;
 use crate::technique::Measure;
@@ -28,9 +29,9 @@ use many::{ManyAt, ManyLights};
 use pictures::Tables;
 use rayon::prelude::*;
 use record::{
-    DIRECTED, DISTANT, KINDS, LightRecord, ONLY_AREAS, ONLY_DELTAS, PARALLELOGRAM, PICTURED, PICTURES, POINT,
-    PackedLight, Powered, SKY, SPHERE, SPOT, SPREAD, SPREADS, TRIANGLE, TWO_SIDED, UNEVEN, area_lights, delta_lights,
-    squared_radius,
+    DIRECTED, DISTANT, KINDS, LightRecord, ONLY_AREAS, ONLY_DELTAS, PARALLELOGRAM, PICTURED, PICTURES, POINT, PROFILED,
+    PROFILES, PackedLight, Powered, SKY, SPHERE, SPOT, SPREAD, SPREADS, TRIANGLE, TWO_SIDED, UNEVEN, area_lights,
+    delta_lights, squared_radius,
 };
 use std::sync::Arc;
 
@@ -44,6 +45,7 @@ pub struct Lights {
     unpacked: Vec<u32>,
     shapes: Arc<[Shape]>,
     pictures: Arc<[LightPicture]>,
+    profiles: Arc<[LightProfile]>,
     /// By which shapes with pictures are sampled.
     tables: Tables,
     /// By which the light of a few shapes with pictures is known without samples, in the order of the lights.
@@ -51,7 +53,8 @@ pub struct Lights {
     /// For 2 to [`FEW`] lights that all have an area.
     spatial: Option<SpatialLights>,
     many: ManyLights,
-    /// Bit k is set if there is a light of kind k, [`SPREADS`] if one has a spread, and [`PICTURES`] if one shows a picture.
+    /// Bit k is set if there is a light of kind k, [`SPREADS`] if one has a spread, [`PICTURES`] if one shows a picture, and [`PROFILES`] if
+    /// one with an area has a profile.
     kinds: u32,
     directed: Vec<DirectedLight>,
     sky: Option<Arc<Sky>>,
@@ -113,7 +116,8 @@ impl Lights {
     fn of(all: Powered, scene: &Scene, sky: Option<Arc<Sky>>) -> Result<Self, BuildError> {
         let shapes = &scene.shapes;
         let flag = |kind: u32, flag: u32, bit: u32| if kind & flag == 0 { 0 } else { bit };
-        let bits = |kind: u32| 1 << (kind & KINDS) | flag(kind, SPREAD, SPREADS) | flag(kind, PICTURED, PICTURES);
+        let flags = [(SPREAD, SPREADS), (PICTURED, PICTURES), (PROFILED, PROFILES)];
+        let bits = |kind: u32| flags.iter().fold(1 << (kind & KINDS), |bits, (own, bit)| bits | flag(kind, *own, *bit));
         let kinds = all.iter().fold(0, |kinds, (light, _)| kinds | bits(light.kind));
         let greatest = all.iter().fold(f64::MIN_POSITIVE, |m, (_, power)| m.max(*power));
         // relative to the greatest, so that all are finite
@@ -140,13 +144,14 @@ impl Lights {
         own.packed = all[own.unpacked.len()..].iter().map(|(record, _)| record.pack()).collect();
         own.shapes = Arc::clone(shapes);
         own.pictures = Arc::clone(&scene.pictures);
+        own.profiles = Arc::clone(&scene.profiles);
         if kinds & PICTURES != 0 {
             own.tables = Tables::new(shapes, &scene.pictures);
         }
         if kinds & PICTURES != 0 && own.only_few_areas() {
             let irradiance = |(light, _): &(LightRecord, f64)| {
                 let Shape { emission, geometry, .. } = shapes.get(light.shape as usize)?;
-                let emission = emission.filter(|emission| emission.spread.is_none())?;
+                let emission = emission.filter(|emission| emission.spread.is_none() && emission.profile.is_none())?;
                 PictureIrradiance::new(&scene.pictures[emission.picture? as usize], geometry)
             };
             own.irradiances = all.par_iter().map(irradiance).collect();
@@ -280,10 +285,27 @@ impl Lights {
         }
         let sample = drawn.unwrap_or_else(|| unreachable!("there is a light"));
         if let Some(normal) = normal_of_light {
-            let factor = spread::attenuation(normal, sample.direction, &chosen.spread, chosen.has(SPREAD));
+            let lanes = chosen.has(SPREAD) & !chosen.has(PROFILED);
+            let factor = spread::attenuation(normal, sample.direction, &chosen.spread, lanes);
             chosen.radiance = chosen.radiance * factor;
+            if self.kinds & PROFILES != 0 {
+                self.distribute(chosen, sample.direction, normal.normalize());
+            }
         }
         sample
+    }
+    /// Multiplies the radiance of lights with profiles by what these have in the sampled directions.
+    fn distribute(&self, chosen: &mut Chosen, direction: V8, normal: V8) {
+        let mut left = chosen.has(PROFILED);
+        while left.any() {
+            let index = chosen.shape.as_array()[left.bits().trailing_zeros() as usize & 7];
+            let lanes = left & equal(chosen.shape, u32x8::splat(index));
+            left = left & !lanes;
+            if let Some(profile) = self.shapes[index as usize].emission.and_then(|emission| emission.profile) {
+                let factor = self.profiles[profile as usize].factor(-direction, normal);
+                chosen.radiance = chosen.radiance * select(lanes, factor, X8::splat(1.0));
+            }
+        }
     }
     /// Samples every kind of light that the scene has, but for those with directions of their own, each in its lanes.
     fn mixed(&self, chosen: &mut Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> Option<Drawn> {

@@ -26,6 +26,7 @@
 //! | `goniometric`, `projection` | themselves, with the texel of a direction; also IES files, which pbrt does not read |
 //! | `portal` | itself, in world space; a ray that escapes beside it is black, as in pbrt |
 //! | `"float spread"` of area lights, which pbrt does not have | the full angle of [`Spread`](etendue::light::Spread) in degrees, as in Cycles |
+//! | `"string profile"` of spot and area lights, which pbrt does not have | intensities by direction, as below |
 //! | media, motion | ignored; stills at the start |
 //! | `cropwindow`, `pixelbounds` | that part of the image; all of it with a lens |
 //! | `orthographic` | a far perspective camera; `realistic` and `spherical` have 50 degrees |
@@ -44,6 +45,12 @@
 //! | `float illuminance` | illuminance of the horizontal plane by the sky, instead | |
 //! | `float sun` | illuminance of a surface that faces the sun, by its disk of 0.53° | 0: no disk |
 //!
+//! A profile is an IES file or an image, as those of `goniometric` lights. It lies so that its nadir is along the axis of a spot light, or the
+//! normal of a flat light (of files of type A, the photometric horizontal is), and the photometric horizontal in the plane of that and of the
+//! light's +x (of type A, the zenith, and +y). The intensity of a spot light is `I` times candela values, or texels, times the falloff. Of flat
+//! lights `L` and `power` stay what they are, and the profile distributes it: see [`LuminousOpening`](etendue::light::LuminousOpening).
+//! `"float tilt"` is the angle in degrees by which a luminaire with an IES file is tilted, for the factors that the file has for it.
+//!
 //! | in glTF files | becomes |
 //! |---|---|
 //! | metallic-roughness, specular-glossiness, index of refraction | glTF's GGX over diffuse |
@@ -54,6 +61,7 @@
 //! | normal and occlusion maps, vertex colours, skins, morphs, animations | ignored |
 //! | points and lines | left out |
 
+mod area_lights;
 mod builder;
 mod builtin;
 mod daylight;
@@ -75,6 +83,7 @@ mod params;
 mod ply;
 mod portal_sides;
 mod portals;
+mod profiles;
 mod reader;
 mod shape_attributes;
 mod shapes;
@@ -94,7 +103,7 @@ use crate::image;
 use builtin::{BUILTIN, DESCRIBED, MANY_LIGHTS};
 pub use description::{CameraSettings, Corners, Details, FilmSettings, Lens, Scene, Shape};
 pub use environment::{Environment, SkyRadiance, SunDisk};
-pub use lights::{DeltaLight, Emission};
+pub use lights::{Cone, DeltaLight, Emission};
 pub use materials::{Material, Roughness, Varying};
 pub use message::Message;
 use message::utf8;

@@ -6,6 +6,7 @@ use crate::bsdf::{Finish, Metal, PLAIN, albedo, finish};
 use crate::bvh::{BuildError, Bvh, Hits, Rays, SHAPE, ShapeSet};
 use crate::geometry::Affine;
 use crate::light_picture::{LightPicture, coordinates};
+use crate::light_profile::LightProfile;
 use crate::packet::{M8, V8, X8, equal};
 use crate::scene::{Corners, Details, Geometry, Material, Scene, Shape, Varying};
 use etendue::light::Spread;
@@ -46,6 +47,8 @@ pub struct Surfaces {
     shapes: Arc<[Shape]>,
     /// What some of them show.
     pictures: Arc<[LightPicture]>,
+    /// How some of them distribute light.
+    profiles: Arc<[LightProfile]>,
     /// Albedos of the materials; white for metals and mirrors that are not black.
     albedos: Vec<[f32; 3]>,
     finishes: Vec<Finish>,
@@ -125,6 +128,7 @@ impl Surfaces {
             is_plain: !detailed && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
             shapes: Arc::clone(&scene.shapes),
             pictures: Arc::clone(&scene.pictures),
+            profiles: Arc::clone(&scene.profiles),
             bvh,
             albedos: means.iter().map(albedo).collect(),
             finishes: means.iter().map(|material| finish(&material.isotropic())).collect(),
@@ -262,7 +266,9 @@ impl Surfaces {
             None => emission.radiance.into(),
             Some(picture) => self.shown(picture, hits, lit, shape, outward, rays),
         };
-        if let Some(spread) = emission.spread {
+        if let Some(profile) = emission.profile {
+            radiance = radiance * self.profiles[profile as usize].factor(-rays.direction, outward);
+        } else if let Some(spread) = emission.spread {
             radiance = radiance * Spread::splat(spread).attenuation(rays.direction, outward);
         }
         Some((radiance, lit))

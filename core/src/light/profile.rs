@@ -139,6 +139,19 @@ impl<'a> Profile<'a> {
         };
         Ok(Self { polar, azimuth, values, cos })
     }
+    /// The profile of a table that [`new`](Self::new) has accepted before, and its [`ends`](Self::ends) then, in no time. Of other tables,
+    /// intensities are any numbers, or a panic where values are missing.
+    #[inline]
+    #[must_use]
+    pub fn from_checked(polar: &'a [f32], azimuth: &'a [f32], values: &'a [f32], ends: [f32; 2]) -> Self {
+        Self { polar, azimuth, values, cos: ends }
+    }
+    /// What [`from_checked`](Self::from_checked) takes: cosines of the polar angles from which and up to which there is light, beyond ±1
+    /// at the poles.
+    #[must_use]
+    pub fn ends(&self) -> [f32; 2] {
+        self.cos
+    }
 
     /// Intensity in the unit direction `w`, in which light travels.
     #[inline(always)]

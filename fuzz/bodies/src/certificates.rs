@@ -120,6 +120,7 @@ fn scene(triangles: Vec<[[f32; 3]; 3]>, shapes: Vec<Shape>, camera: CameraSettin
         details: Default::default(),
         shapes: shapes.into(),
         pictures: Default::default(),
+        profiles: Default::default(),
         delta_lights: Vec::new(),
         intensities: Vec::new(),
         environment: None,

@@ -139,8 +139,8 @@ impl<'a> Analytic<'a> {
             let emission = shape.emission?;
             let closed = match scene.lights.irradiance(light) {
                 Some(irradiance) => Closed::Picture(irradiance),
-                None if emission.picture.is_some() || emission.spread.is_some() => Closed::No,
-                None => Closed::Constant,
+                None if emission.is_even() => Closed::Constant,
+                None => Closed::No,
             };
             Some(AreaLight { form: shape.geometry.convex(), radiance: emission.radiance, closed })
         };

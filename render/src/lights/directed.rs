@@ -2,8 +2,8 @@
 
 use crate::intensity::Intensity;
 use crate::packet::{M8, V8, X8, each_bit};
-use crate::scene::{DeltaLight, Scene};
-use etendue::{LightSample, LightSampler, Mask, PointLight, Real, Vec2, Vec3, u32x8};
+use crate::scene::{Cone, DeltaLight, Scene};
+use etendue::{LightSample, LightSampler, Mask, PointLight, Real, SpotLight, Vec2, Vec3, u32x8};
 use std::sync::Arc;
 
 /// What a light emits, and how it is turned.
@@ -12,13 +12,21 @@ pub(super) struct DirectedLight {
     /// Rows of the matrix from the world to the light.
     rows: [[f32; 3]; 3],
     intensity: Arc<Intensity>,
+    /// The cone of a spot light.
+    cone: Option<SpotLight<f32>>,
 }
 
 /// Those of a scene, in the order of its delta lights.
 pub(super) fn directed_lights(scene: &Scene) -> Vec<DirectedLight> {
     let light = |light: &DeltaLight| match *light {
-        DeltaLight::Directed { to_light: rows, table, .. } => {
-            Some(DirectedLight { rows, intensity: Arc::clone(&scene.intensities[table as usize]) })
+        DeltaLight::Directed { position, to_light: rows, table, cone, .. } => {
+            let cone = cone.map(|Cone { axis, cos_inner, cos_outer, .. }| SpotLight {
+                position: position.into(),
+                axis: axis.into(),
+                cos_inner,
+                cos_outer,
+            });
+            Some(DirectedLight { rows, intensity: Arc::clone(&scene.intensities[table as usize]), cone })
         }
         _ => None,
     };
@@ -36,9 +44,13 @@ pub(super) fn sample(lights: &[DirectedLight], index: u32x8, place: V8, p: V8, h
             let light = index.as_array()[left.trailing_zeros() as usize & 7];
             let mut same = 0_u32;
             each_bit(left, |lane| same |= u32::from(index.as_array()[lane] == light) << lane);
-            let DirectedLight { rows, intensity } = &lights[light as usize];
+            let DirectedLight { rows, intensity, cone } = &lights[light as usize];
             let [x, y, z] = rows.map(|row| V8::from(row).dot(w));
-            found = V8::blend(M8::from_bits(same), intensity.at(Vec3::new(x, y, z)), found);
+            let mut own = intensity.at(Vec3::new(x, y, z));
+            if let Some(cone) = cone {
+                own = own * SpotLight::splat(*cone).falloff(w);
+            }
+            found = V8::blend(M8::from_bits(same), own, found);
             left &= !same;
         }
         let some = (found.x + found.y + found.z).gt(X8::lit(0.0));

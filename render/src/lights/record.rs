@@ -22,14 +22,17 @@ pub(super) const KINDS: u32 = 7;
 pub(super) const TWO_SIDED: u32 = 8;
 pub(super) const SPREAD: u32 = 16;
 pub(super) const PICTURED: u32 = 32;
+pub(super) const PROFILED: u32 = 64;
 /// Beside the bits of the kinds: there is a light with a spread.
 pub(super) const SPREADS: u32 = 1 << 8;
 /// Beside the bits of the kinds: there is a light that shows a picture.
 pub(super) const PICTURES: u32 = 1 << 9;
+/// Beside the bits of the kinds: there is a light with an area and a profile.
+pub(super) const PROFILES: u32 = 1 << 10;
 /// Lights whose radiance or intensity differs by direction, but for the sky.
-pub(super) const UNEVEN: u32 = 1 << DIRECTED | SPREADS;
+pub(super) const UNEVEN: u32 = 1 << DIRECTED | SPREADS | PROFILES;
 pub(super) const ONLY_DELTAS: u32 = 1 << POINT | 1 << SPOT | 1 << DISTANT | 1 << DIRECTED;
-pub(super) const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | SPREADS | PICTURES;
+pub(super) const ONLY_AREAS: u32 = 1 << SPHERE | 1 << TRIANGLE | 1 << PARALLELOGRAM | SPREADS | PICTURES | PROFILES;
 
 /// A light.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,9 +47,9 @@ pub(super) struct LightRecord {
     /// Radiance, the mean of a picture; intensity of a point or spot light, the greatest of a directed light, irradiance of a distant
     /// light.
     pub(super) radiance: [f32; 3],
-    /// Its spread, where [`SPREAD`] is set.
+    /// Its spread, where [`SPREAD`] is set; with a profile, the cone beyond which that is dark.
     pub(super) spread: Spread<f32>,
-    /// Its kind, [`TWO_SIDED`], [`SPREAD`] and [`PICTURED`].
+    /// Its kind, [`TWO_SIDED`], [`SPREAD`], [`PICTURED`] and [`PROFILED`].
     pub(super) kind: u32,
     /// Index of its shape, or [`NOTHING`].
     pub(super) shape: u32,
@@ -72,6 +75,9 @@ impl LightRecord {
         let power = sum(emission.radiance) * shape.geometry.area() * sides;
         let radiance = emission.radiance;
         let mut record = Self { place, first, second, radiance, kind: kind | flag, shape: index, ..Self::default() };
+        if emission.profile.is_some() {
+            record.kind |= PROFILED;
+        }
         if let Some(spread) = emission.spread {
             (record.spread, record.kind) = (spread, record.kind | SPREAD);
         }
@@ -183,11 +189,17 @@ pub(super) fn delta_lights(scene: &Scene) -> Powered {
                 // a cone too narrow for its cosine to differ from 1 still has a chance
                 (LightRecord { place, first, second, radiance, kind: SPOT, ..none }, cone.max(1e-7) * sum(radiance))
             }
-            DeltaLight::Directed { position: place, to_light: [_, _, first], intensity: radiance, table } => {
+            DeltaLight::Directed { position: place, to_light: [_, _, pole], intensity: radiance, table, cone } => {
                 let shape = &scene.intensities[table as usize];
-                let second = [f32::from_bits(directed), shape.cos_cone(), 0.0];
+                // the narrower of two cones
+                let own = (pole, shape.cos_cone());
+                let (first, cos) = match cone {
+                    Some(cone) if cone.cos_outer >= own.1 => (cone.axis, cone.cos_outer),
+                    _ => own,
+                };
+                let second = [f32::from_bits(directed), cos, 0.0];
                 directed += 1;
-                let flux = shape.flux();
+                let flux = cone.map_or_else(|| shape.flux(), |cone| [cone.flux; 3]);
                 let power = (0..3).map(|k| f64::from(radiance[k]) * flux[k]).sum::<f64>() / PI;
                 (LightRecord { place, first, second, radiance, kind: DIRECTED, ..none }, power)
             }

@@ -269,7 +269,8 @@ impl Builder {
     /// Adds a copy of an object.
     fn copy(&mut self, parts: &Self, ctm: &Transform) {
         let flip = ctm.determinant() < 0.0;
-        let mut surface = ShapeAttributes { ctm: *ctm, flip, material: 0, emission: None, picture: None, power: None };
+        let mut surface =
+            ShapeAttributes { ctm: *ctm, flip, material: 0, emission: None, picture: None, profile: None, power: None };
         for (i, triangle) in (0..).zip(&parts.triangles) {
             surface.material = parts.triangle_materials[i as usize];
             let corners = parts.details.of(i);
@@ -320,6 +321,7 @@ impl Builder {
             details: self.details.into(),
             shapes: self.shapes.into(),
             pictures: self.lamps.pictures.into(),
+            profiles: self.lamps.profiles.into(),
             delta_lights,
             intensities,
             environment,

@@ -7,6 +7,7 @@ use super::message::Message;
 use crate::geometry::{Geometry, Instance};
 use crate::intensity::Intensity;
 use crate::light_picture::LightPicture;
+use crate::light_profile::LightProfile;
 use crate::texture::Mask;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -43,6 +44,8 @@ pub struct Scene {
     pub shapes: Arc<[Shape]>,
     /// The pictures that shapes emit. What renders the scene shares them.
     pub pictures: Arc<[LightPicture]>,
+    /// How shapes with profiles distribute what they emit. What renders the scene shares them.
+    pub profiles: Arc<[LightProfile]>,
     /// Point, spot and distant lights.
     pub delta_lights: Vec<DeltaLight>,
     /// Relative intensities of those that differ by direction.

@@ -1,22 +1,20 @@
-//! Reads point lights whose intensity differs by direction: `LightSource "goniometric"` and `"projection"`.
+//! Reads point lights whose intensity differs by direction: `LightSource "goniometric"` and `"projection"`, and `"spot"` with a `profile`.
 
-use super::ies;
-use super::lights::{DeltaLight, Files, MOST_TEXELS, scale, turned};
+use super::ies::Axis;
+use super::lights::{Cone, DeltaLight, Files, power, scale, turned};
 use super::message::{Message, Notes};
 use super::params::{Params, brightness, rounded, shown};
+use super::profiles::{self, Profile, picture};
 use super::spectrum::luminance;
 use super::transform::Transform;
 use crate::image::Picture;
 use crate::intensity::Intensity;
-use etendue::light::{EnvironmentMap, Projector};
+use crate::packet::V8;
+use etendue::SpotLight;
+use etendue::light::Projector;
 
-/// Axes of the images of directions, in light space: pbrt has y up, and images have z.
-const UP: [ies::Axis; 3] = [(0, 1.0), (2, 1.0), (1, 1.0)];
-/// Axes of projected images.
-const FORWARD: [ies::Axis; 3] = [(0, 1.0), (1, 1.0), (2, 1.0)];
-
-/// An intensity, its greatest value, and its axes.
-type Shape = (Intensity, f64, [ies::Axis; 3]);
+/// Axes of projected images, in light space.
+const FORWARD: [Axis; 3] = [(0, 1.0), (1, 1.0), (2, 1.0)];
 
 /// Reads a light of this kind; `None` if it emits nothing. `table` is the index that its intensity will have.
 ///
@@ -37,23 +35,16 @@ pub(super) fn read(
     let name = name.ok_or_else(|| params.error("needs the name of a file, as in \"string filename\" \"lamp.exr\""))?;
     let tint = params.light("I", files.resolve)?.unwrap_or([1.0; 3]);
     let scale = scale(params)?;
-    let power = params.float("power")?;
-    if let Some(x) = power.filter(|&x| x <= 0.0) {
-        return Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(x))));
-    }
+    let power = power(params)?;
     let found = if kind == "projection" {
         let fov = params.float("fov")?.unwrap_or(90.0);
         if !(fov > 0.0 && fov < 180.0) {
             return Err(params.error(format!("\"fov\": must be between 0 and 180 degrees, not {}", shown(fov))));
         }
         projected(&picture(params, &name, files)?, fov).map_err(|what| params.error(format!("{name}: {what}")))?
-    } else if name.to_ascii_lowercase().ends_with(".ies") {
-        let ies::Photometry { intensity, greatest, axes, warnings } =
-            ies::read(&(files.resolve)(&name), &name).map_err(|what| params.error(what))?;
-        warnings.into_iter().for_each(|what| notes.warn(params.error(what)));
-        (greatest > 0.0).then_some((intensity, greatest, axes))
     } else {
-        sphere(&picture(params, &name, files)?).map_err(|what| params.error(format!("{name}: {what}")))?
+        let profile = profiles::read(&name, params, files, notes)?;
+        profile.map(|Profile { intensity, greatest, aim, .. }| (intensity, greatest, aim.axes))
     };
     let to_light = turned(params, ctm)?;
     let position = ctm.point([0.0; 3]).map(|x| x as f32);
@@ -64,9 +55,22 @@ pub(super) fn read(
         notes.warn(params.error("emits nothing"));
         return Ok(None);
     };
-    let mut color: [f64; 3] = std::array::from_fn(|k| tint[k] * scale[k] * greatest);
+    let color = std::array::from_fn(|k| tint[k] * scale[k] * greatest);
+    let Some(intensity) = strength(color, power, || shape.flux(), params, notes)? else { return Ok(None) };
+    let to_light = axes.map(|(axis, sign)| to_light[axis].map(|x| x * sign as f32));
+    Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone: None }, shape)))
+}
+
+/// The greatest intensity of a light: this one, unless a power is given. `flux` is the power for the intensity 1. `None` if it is 0.
+fn strength(
+    mut color: [f64; 3],
+    power: Option<f64>,
+    flux: impl FnOnce() -> [f64; 3],
+    params: &Params,
+    notes: &mut Notes,
+) -> Result<Option<[f32; 3]>, Message> {
     if let Some(power) = power {
-        let flux = shape.flux();
+        let flux = flux();
         let emitted = luminance(std::array::from_fn(|k| color[k] * flux[k]));
         color = color.map(|x| if emitted > 0.0 { x * power / emitted } else { 0.0 });
     }
@@ -78,43 +82,40 @@ pub(super) fn read(
         notes.warn(params.error("emits nothing"));
         return Ok(None);
     }
-    let to_light = axes.map(|(axis, sign)| to_light[axis].map(|x| x * sign as f32));
-    Ok(Some((DeltaLight::Directed { position, to_light, intensity, table }, shape)))
+    Ok(Some(intensity))
 }
 
-/// Reads an image without what no light can have.
-fn picture(params: &Params, name: &str, files: &Files<'_>) -> Result<Picture, Message> {
-    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
-    let (width, height) = (image.width, image.height);
-    if width * height > MOST_TEXELS {
-        return Err(params.error(format!("{name}: {width}×{height} texels: at most 2^26 are supported")));
-    }
-    let is_wrong = |rgb: &[f32; 3]| !rgb.iter().all(|x| (0.0..=f32::MAX).contains(x));
-    if let Some(i) = image.radiance.iter().position(is_wrong) {
-        let (x, y, texel) = (i % width, i / width, image.radiance[i]);
-        return Err(params.error(format!("{name}: texel ({x}, {y}) is {texel:?}: must be finite, and at least 0")));
-    }
-    Ok(image)
-}
-
-/// The means of the channels as an image of all directions; `None` if it is black.
-fn sphere(image: &Picture) -> Result<Option<Shape>, String> {
-    let map = if image.width == image.height {
-        EnvironmentMap::EqualArea
-    } else if image.width == 2 * image.height {
-        EnvironmentMap::Equirectangular
-    } else {
-        return Err(format!("{}×{} texels: must be square, or twice as wide as high", image.width, image.height));
+/// A spot light with the intensity of a profile that is aimed along its axis, times its own falloff and intensity; `None` if it emits
+/// nothing. `table` is the index that the profile will have.
+pub(super) fn spot(
+    spot: DeltaLight,
+    power: Option<f64>,
+    profile: Profile,
+    params: &Params,
+    ctm: &Transform,
+    notes: &mut Notes,
+    table: u32,
+) -> Result<Option<(DeltaLight, Intensity)>, Message> {
+    let DeltaLight::Spot { position, axis, cos_inner, cos_outer, intensity } = spot else {
+        unreachable!("only spot lights have cones")
     };
-    let means: Vec<f64> =
-        image.radiance.iter().map(|rgb| rgb.iter().map(|&x| f64::from(x)).sum::<f64>() / 3.0).collect();
-    let greatest = means.iter().fold(0.0, |most: f64, &x| most.max(x));
-    let texels = means.iter().map(|x| (x / greatest.max(f64::MIN_POSITIVE)) as f32).collect();
-    Ok(Intensity::sphere(map, image.width, texels).map(|shape| (shape, greatest, UP)))
+    let ahead = profile.aim.ahead().map(|x| x as f32);
+    let upright = SpotLight { position: [0.0; 3].into(), axis: ahead.into(), cos_inner, cos_outer };
+    let flux = upright.power(|w: V8| profile.intensity.at(w).x);
+    if flux <= 0.0 {
+        notes.warn(params.error("emits nothing: its profile is dark in its cone"));
+        return Ok(None);
+    }
+    let color = intensity.map(|x| f64::from(x) * profile.greatest);
+    let Some(intensity) = strength(color, power, || [flux; 3], params, notes)? else { return Ok(None) };
+    let to_light = profile.aim.aimed(axis.map(f64::from), ctm);
+    let cone = Some(Cone { axis, cos_inner, cos_outer, flux });
+    Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone }, profile.intensity)))
 }
 
-/// A projected image, of which `fov` is the full angle of the shorter side in degrees; `None` if it is black.
-fn projected(image: &Picture, fov: f64) -> Result<Option<Shape>, String> {
+/// A projected image, of which `fov` is the full angle of the shorter side in degrees, with its greatest value and its axes; `None` if it is
+/// black.
+fn projected(image: &Picture, fov: f64) -> Result<Option<(Intensity, f64, [Axis; 3])>, String> {
     let (width, height) = (image.width as f64, image.height as f64);
     let shorter = libm::tan(fov.to_radians() / 2.0);
     let tan_half = [width, height].map(|side| (shorter * side / width.min(height)) as f32);

@@ -1,8 +1,11 @@
 //! Reads photometric data of luminaires: IES files, ANSI/IES LM-63 of 1986 to 2019.
 //!
 //! The intensity is candela value × multiplier × ballast factor, and × the ballast-lamp factor in files of before 2002; at its place, later
-//! ones have something else. Data of `TILT` are read but not applied: they tell what changes when the luminaire is tilted from the position
-//! in which it was measured. In light space −y is the nadir, and the photometric horizontal is +x.
+//! ones have something else. In light space −y is the nadir, and the photometric horizontal is +x.
+//!
+//! Some lamps are dimmer when the luminaire is tilted from the position in which it was measured, aimed at the nadir. `TILT` lists angles
+//! of tilt and factors, between which they are linear; the number before them, of how the lamp lies in the luminaire, tells what they
+//! depend on, and changes nothing. A scene does not know where the ground is, so that the parameter `tilt` of the light gives the angle.
 //!
 //! | type | polar axis | vertical angle | horizontal angle |
 //! |---|---|---|---|
@@ -13,8 +16,7 @@
 use super::message::shown;
 use crate::files::read_file;
 use crate::intensity::Intensity;
-use etendue::light::Profile;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A signed axis of light space: x, y or z, and its sign.
 pub(super) type Axis = (usize, f64);
@@ -26,8 +28,14 @@ pub(super) struct Photometry {
     pub(super) intensity: Intensity,
     /// The greatest intensity in candela.
     pub(super) greatest: f64,
+    /// The factor of the tilt, which `greatest` has.
+    pub(super) of_tilt: f64,
     /// The axes of the profile's space, in light space.
     pub(super) axes: [Axis; 3],
+    /// Where the luminaire is aimed at, in light space: the nadir, or the photometric horizontal in type A.
+    pub(super) ahead: Axis,
+    /// What is at its side: the photometric horizontal, or the zenith in type A.
+    pub(super) aside: Axis,
     /// What of the file is ignored.
     pub(super) warnings: Vec<String>,
 }
@@ -104,37 +112,74 @@ fn mirrored(columns: Columns, about: f32) -> Columns {
     all
 }
 
-/// Reads a file that messages call `name`.
-pub(super) fn read(path: &Path, name: &str) -> Result<Photometry, String> {
-    let bytes = read_file(path).map_err(|error| format!("cannot read {name:?}: {error}"))?;
-    parse(&String::from_utf8_lossy(&bytes), name)
+/// Where a file is found by its name.
+pub(super) type Find<'a> = &'a dyn Fn(&str) -> PathBuf;
+
+fn text_of(name: &str, find: Find<'_>) -> Result<String, String> {
+    let bytes = read_file(&find(name)).map_err(|error| format!("cannot read {name:?}: {error}"))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Reads the file with this name, for a luminaire that is tilted by an angle in degrees, if that is known.
+pub(super) fn read(name: &str, tilt: Option<f64>, find: Find<'_>) -> Result<Photometry, String> {
+    parse(&text_of(name, find)?, name, tilt, find)
+}
+
+/// Words of a text with the numbers of their lines, after so many lines.
+fn words(text: &str, after: usize) -> Vec<(usize, &str)> {
+    let separates = |c: char| c.is_whitespace() || c == ',' || c == '\u{1a}';
+    (1..)
+        .zip(text.lines())
+        .skip(after)
+        .flat_map(|(line, text)| text.split(separates).filter(|word| !word.is_empty()).map(move |word| (line, word)))
+        .collect()
+}
+
+/// Reads the data of `TILT`, and returns the factor of an angle in degrees.
+fn tilted(numbers: &mut Numbers<'_>, tilt: Option<f64>) -> Result<f64, String> {
+    numbers.within("lamp-to-luminaire geometry", 1.0, 3.0)?;
+    let count = numbers.count("number of tilt angles")?;
+    let angles = numbers.angles(count, "tilt angle", 0.0, 360.0)?;
+    let line = numbers.line();
+    let factors: Result<Vec<f64>, String> = (0..count).map(|_| numbers.within("tilt factor", 0.0, f64::MAX)).collect();
+    let (Some(tilt), factors) = (tilt, factors?) else { return Ok(1.0) };
+    let [first, last] = [angles[0], angles[count - 1]].map(f64::from);
+    if !(first..=last).contains(&tilt) {
+        let what = format!("its factors of TILT are for {first} to {last} degrees, not for {}", shown(tilt));
+        return Err(numbers.error(line, what));
+    }
+    let next = angles.partition_point(|&angle| f64::from(angle) <= tilt).min(count - 1);
+    let [low, high] = [next.saturating_sub(1), next];
+    let [from, to] = [angles[low], angles[high]].map(f64::from);
+    let t = if to > from { (tilt - from) / (to - from) } else { 0.0 };
+    Ok(factors[low] * (1.0 - t) + factors[high] * t)
 }
 
 /// Reads the text of a file that messages call `name`.
-pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
+pub(super) fn parse(text: &str, name: &str, tilt: Option<f64>, find: Find<'_>) -> Result<Photometry, String> {
     let lines = || (1..).zip(text.lines());
-    let Some((line, tilt)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
+    let Some((line, source)) = lines().find_map(|(line, text)| Some((line, text.trim().strip_prefix("TILT=")?.trim())))
     else {
         return Err(format!("{name}: no line begins with TILT=, after which an IES file has its numbers"));
     };
-    let separates = |c: char| c.is_whitespace() || c == ',' || c == '\u{1a}';
-    let words = lines()
-        .skip(line)
-        .flat_map(|(line, text)| text.split(separates).filter(|word| !word.is_empty()).map(move |word| (line, word)));
-    let mut numbers = Numbers { name, words: words.collect(), next: 0 };
+    let mut numbers = Numbers { name, words: words(text, line), next: 0 };
     let mut warnings = Vec::new();
-    match tilt {
-        "NONE" => {}
-        "INCLUDE" => {
-            numbers.within("lamp-to-luminaire geometry", 1.0, 3.0)?;
-            let count = numbers.count("number of tilt angles")?;
-            numbers.angles(count, "tilt angle", 0.0, 360.0)?;
-            for _ in 0..count {
-                numbers.within("tilt factor", 0.0, f64::MAX)?;
-            }
-            warnings.push(format!("{name}:{line}: the factors of TILT are not applied"));
+    let of_tilt = match source {
+        "NONE" => 1.0,
+        "INCLUDE" => tilted(&mut numbers, tilt)?,
+        // without an angle, it need not be there
+        _ if tilt.is_none() => 1.0,
+        other => {
+            // it is beside this one
+            let other = Path::new(name).with_file_name(other).to_string_lossy().into_owned();
+            let text = text_of(&other, find).map_err(|what| format!("{name}:{line}: {what}"))?;
+            tilted(&mut Numbers { name: &other, words: words(&text, 0), next: 0 }, tilt)?
         }
-        other => warnings.push(format!("{name}:{line}: the factors of TILT={other} are not applied")),
+    };
+    if source != "NONE" && tilt.is_none() {
+        warnings.push(format!(
+            "{name}:{line}: the factors of TILT are not applied: \"float tilt\" tells by how many degrees the luminaire is tilted"
+        ));
     }
     numbers.number("number of lamps")?;
     numbers.number("lumens per lamp")?;
@@ -204,15 +249,15 @@ pub(super) fn parse(text: &str, name: &str) -> Result<Photometry, String> {
     let unit = if greatest > 0.0 { greatest } else { 1.0 };
     let values: Vec<f32> = columns.iter().flat_map(|(_, column)| column.iter().map(|x| (x / unit) as f32)).collect();
     let azimuth: Vec<f32> = columns.iter().map(|(angle, _)| *angle).collect();
-    let (polar, axes): (Vec<f32>, _) = match name_of(kind) {
-        'C' => (polar, [(0, 1.0), (2, 1.0), (1, -1.0)]),
-        'B' => (polar.iter().map(|v| v + 90.0).collect(), [(1, -1.0), (2, -1.0), (0, -1.0)]),
-        _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)]),
+    let nadir = ((1, -1.0), (0, 1.0));
+    let (polar, axes, (ahead, aside)): (Vec<f32>, _, _) = match name_of(kind) {
+        'C' => (polar, [(0, 1.0), (2, 1.0), (1, -1.0)], nadir),
+        'B' => (polar.iter().map(|v| v + 90.0).collect(), [(1, -1.0), (2, -1.0), (0, -1.0)], nadir),
+        _ => (polar.iter().map(|v| v + 90.0).collect(), [(0, 1.0), (2, -1.0), (1, -1.0)], ((0, 1.0), (1, 1.0))),
     };
     // angles that differ by too little are the same once they are mirrored
-    Profile::new(&polar, &azimuth, &values).map_err(|error| format!("{name}: {error}"))?;
-    let intensity = Intensity::Angles { polar, azimuth, values };
-    Ok(Photometry { intensity, greatest: greatest * factor, axes, warnings })
+    let intensity = Intensity::angles(polar, azimuth, values).map_err(|error| format!("{name}: {error}"))?;
+    Ok(Photometry { intensity, greatest: greatest * factor * of_tilt, of_tilt, axes, ahead, aside, warnings })
 }
 
 /// The letter of a photometric type.

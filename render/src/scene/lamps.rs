@@ -6,8 +6,10 @@ use super::shape_attributes::ShapeAttributes;
 use super::spectrum::luminance;
 use crate::geometry::Geometry;
 use crate::light_picture::{LightPicture, WORLD};
+use crate::light_profile::LightProfile;
 use crate::texture::{Mapping, Picture};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Most cells between texels that the means over all shapes of a scene may take, so that a small file cannot ask for any number.
 const MOST_CELLS: u64 = 1 << 28;
@@ -16,13 +18,14 @@ const MOST_CELLS: u64 = 1 << 28;
 #[derive(Debug)]
 pub(super) struct Lamps {
     pub(super) pictures: Vec<LightPicture>,
+    pub(super) profiles: Vec<LightProfile>,
     /// How many cells of pictures may still be looked at.
     cells: u64,
 }
 
 impl Default for Lamps {
     fn default() -> Self {
-        Self { pictures: Vec::new(), cells: MOST_CELLS }
+        Self { pictures: Vec::new(), profiles: Vec::new(), cells: MOST_CELLS }
     }
 }
 
@@ -35,6 +38,7 @@ impl Lamps {
         mapping: impl FnOnce() -> Mapping,
     ) -> Option<Emission> {
         let Emission { radiance, two_sided, spread, .. } = surface.emission?;
+        let profile = self.profile(surface, geometry);
         let powered = |color: [f32; 3], mean: [f32; 3]| match surface.power {
             Some(power) => {
                 // a Lambertian emitter of mean radiance L has the power πAL on each side that emits
@@ -45,7 +49,7 @@ impl Lamps {
             None => color,
         };
         let Some(picture) = &surface.picture else {
-            return Some(Emission { radiance: powered(radiance, radiance), two_sided, picture: None, spread });
+            return Some(Emission { radiance: powered(radiance, radiance), two_sided, picture: None, spread, profile });
         };
         let picture = Picture { mapping: mapping().then(&picture.mapping), ..picture.clone() };
         let axes = if matches!(geometry, Geometry::Sphere { .. }) { surface.ctm.axes()? } else { WORLD };
@@ -58,6 +62,22 @@ impl Lamps {
         }
         let index = self.pictures.len() as u32;
         self.pictures.push(LightPicture { factor: powered(radiance, mean), ..shown });
-        Some(Emission { radiance: powered(mean, mean), two_sided, picture: Some(index), spread })
+        Some(Emission { radiance: powered(mean, mean), two_sided, picture: Some(index), spread, profile })
+    }
+
+    /// The index of the profile of a flat shape, if it has one: that of the last one for shapes that follow each other in a plane.
+    fn profile(&mut self, surface: &ShapeAttributes, geometry: &Geometry) -> Option<u32> {
+        let distribution = surface.profile.as_ref()?;
+        let [_, normal] = geometry.plane()?;
+        let to_light = distribution.aim.aimed([normal.x, normal.y, normal.z], &surface.ctm);
+        let (intensity, opening) = (Arc::clone(&distribution.intensity), distribution.opening);
+        let profile = LightProfile { to_light, intensity, opening };
+        let is_last = |last: &LightProfile| {
+            (last.to_light, last.opening) == (to_light, opening) && Arc::ptr_eq(&last.intensity, &profile.intensity)
+        };
+        if !self.profiles.last().is_some_and(is_last) {
+            self.profiles.push(profile);
+        }
+        Some(self.profiles.len() as u32 - 1)
     }
 }

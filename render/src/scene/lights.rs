@@ -1,4 +1,4 @@
-//! Reads `LightSource` and `AreaLightSource`.
+//! Reads `LightSource`.
 
 use super::daylight;
 use super::environment::{Environment, SkyRadiance};
@@ -10,12 +10,9 @@ use super::spectrum::luminance;
 use super::transform::{Transform, sub, unit};
 use crate::files::FileError;
 use crate::image::Picture;
-use crate::texture::{self, Colors, Mapping, Texels, Wrap};
 use etendue::Vec2;
 use etendue::light::{EnvironmentMap, ImageEnvironment, Portal, Spread, Texel};
-use std::collections::HashMap;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// A light that is seen from every point in a single direction, and that no ray can hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +47,8 @@ pub enum DeltaLight {
         intensity: [f32; 3],
         /// Index of its relative intensity in the scene.
         table: u32,
+        /// The cone of a spot light, by whose falloff the intensity is multiplied.
+        cone: Option<Cone>,
     },
     /// Parallel light from infinitely far away.
     Distant {
@@ -58,6 +57,19 @@ pub enum DeltaLight {
         /// Irradiance of a surface that faces the light, linear RGB.
         irradiance: [f32; 3],
     },
+}
+
+/// The cone of a spot light whose intensity differs by direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Unit vector along which the light travels.
+    pub axis: [f32; 3],
+    /// Cosine of the angle up to which the falloff is 1.
+    pub cos_inner: f32,
+    /// Cosine of the angle from which on it is 0.
+    pub cos_outer: f32,
+    /// ∫ falloff · relative intensity dω, in steradians.
+    pub flux: f64,
 }
 
 /// Emission of a surface.
@@ -69,8 +81,18 @@ pub struct Emission {
     pub two_sided: bool,
     /// The picture that the surface shows, if its radiance varies: an index into [`Scene::pictures`](super::Scene::pictures).
     pub picture: Option<u32>,
-    /// The cone about the normal within which a flat light emits, unless that is all of a hemisphere.
+    /// The cone about the normal within which a flat light emits, unless that is all of a hemisphere. Of a light with a profile only the
+    /// angle counts.
     pub spread: Option<Spread<f32>>,
+    /// How a flat light distributes what it emits, if not by the spread: an index into [`Scene::profiles`](super::Scene::profiles).
+    pub profile: Option<u32>,
+}
+
+impl Emission {
+    /// Whether its radiance is the same at all points and in all directions of the sides that emit.
+    pub(crate) fn is_even(&self) -> bool {
+        self.picture.is_none() && self.spread.is_none() && self.profile.is_none()
+    }
 }
 
 /// What a `LightSource` directive creates.
@@ -177,96 +199,12 @@ pub(super) fn read(
     Ok(source)
 }
 
-/// What an `AreaLightSource` makes of shapes.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Area {
-    /// Nothing if it is dark. With a picture, the radiance is what its texels are multiplied by.
-    pub(super) emission: Option<Emission>,
-    /// The picture that each shape shows by its texture coordinates.
-    pub(super) picture: Option<texture::Picture>,
-    /// The power of each light, if the scene gives it.
-    pub(super) power: Option<f64>,
-}
-
-/// The pictures of lights that were read so far, by the files that name them and their names there.
-pub(super) type Shown = HashMap<(Arc<str>, String), Arc<Texels>>;
-
-/// Reads an `AreaLightSource`.
-pub(super) fn area(
-    kind: &str,
-    params: &mut Params,
-    files: &Files<'_>,
-    known: &mut Shown,
-    notes: &mut Notes,
-) -> Result<Area, Message> {
-    if kind != "diffuse" && kind != "area" {
-        return Err(params.error("not supported, only \"diffuse\""));
-    }
-    params.given("nsamples");
-    params.given("samples");
-    let texels = match params.text("filename")? {
-        Some(name) => Some(shown_texels(&name, params, files, known, notes)?),
-        None => None,
-    };
-    // pbrt-v4 refuses a radiance beside a picture
-    let radiance = params.light("L", files.resolve)?.unwrap_or([1.0; 3]);
+/// Reads the power that a light shall have.
+pub(super) fn power(params: &mut Params) -> Result<Option<f64>, Message> {
     let power = params.float("power")?;
-    if let Some(power) = power.filter(|&power| power <= 0.0) {
-        return Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(power))));
-    }
-    let scale = scale(params)?;
-    let radiance: [f64; 3] = std::array::from_fn(|k| radiance[k] * scale[k]);
-    let two_sided = params.flag("twosided")?.unwrap_or(false);
-    let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
-    let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
-    let spread = spread(params)?;
-    // on the axis
-    let gain = spread.map_or(1.0, |spread| f64::from(spread.tan_half) * f64::from(spread.gain));
-    let most = (f64::from(MOST_RADIANCE) / gain) as f32;
-    let too_large = || params.error(format!("the radiance {brightest:?}: at most {most:e} is supported"));
-    let brightest = rounded(brightest).filter(|rgb| rgb.iter().all(|&x| x <= most)).ok_or_else(too_large)?;
-    let radiance = rounded(radiance).ok_or_else(too_large)?;
-    brightness(brightest).into_iter().for_each(|text| notes.warn(params.error(text)));
-    let dark = brightest == [0.0; 3];
-    if dark {
-        notes.warn(params.error("emits nothing"));
-    }
-    // pbrt's (0, 0) is the lower left corner
-    let mapping = Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]);
-    let picture = texels.map(|texels| texture::Picture { texels, mapping, wrap: [Wrap::Clamp; 2], bilinear: true });
-    let emission = Emission { radiance, two_sided, picture: None, spread };
-    Ok(Area { emission: (!dark).then_some(emission), picture, power })
-}
-
-/// The texels of the picture of a light, which is read once.
-fn shown_texels(
-    name: &str,
-    params: &Params,
-    files: &Files<'_>,
-    known: &mut Shown,
-    notes: &mut Notes,
-) -> Result<Arc<Texels>, Message> {
-    let key = (Arc::clone(&params.place.file), name.to_owned());
-    if let Some(texels) = known.get(&key) {
-        return Ok(Arc::clone(texels));
-    }
-    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
-    let (colors, warning) = radiances(&image, name, [1.0; 3]).map_err(|what| params.error(what))?;
-    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
-    let Picture { width, height, .. } = image;
-    let texels = Arc::new(Texels { width, height, colors: Colors::Float(colors), alpha: None });
-    known.insert(key, Arc::clone(&texels));
-    Ok(texels)
-}
-
-/// The spread of an area light: the full angle in degrees, as in Cycles. pbrt has none.
-fn spread(params: &mut Params) -> Result<Option<Spread<f32>>, Message> {
-    match params.float("spread")? {
-        None => Ok(None),
-        Some(angle) if !(0.1..=180.0).contains(&angle) => {
-            Err(params.error(format!("\"spread\": must be from 0.1 to 180 degrees, not {}", shown(angle))))
-        }
-        Some(angle) => Ok((angle < 180.0).then(|| Spread::new(angle.to_radians()))),
+    match power.filter(|&x| x <= 0.0) {
+        Some(x) => Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(x)))),
+        None => Ok(power),
     }
 }
 
@@ -404,7 +342,11 @@ pub(super) fn sky_of(
 }
 
 /// What the texels of an image emit, and a warning if some of it is negative. Fails if there are too many, or if one is not finite.
-fn radiances(image: &Picture, name: &str, scale: [f64; 3]) -> Result<(Vec<[f32; 3]>, Option<String>), String> {
+pub(super) fn radiances(
+    image: &Picture,
+    name: &str,
+    scale: [f64; 3],
+) -> Result<(Vec<[f32; 3]>, Option<String>), String> {
     let (width, height) = (image.width, image.height);
     let told = |what: String| format!("{}: {what}", shortened(name));
     if width * height > MOST_TEXELS {

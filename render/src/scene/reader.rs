@@ -1,5 +1,6 @@
 //! Interprets the directives of a scene file and keeps the graphics state.
 
+use super::area_lights::{self, Area, Shown};
 use super::builder::{Builder, Rest};
 use super::builtin::BUILTIN_IMAGES;
 use super::description::{CameraSettings, FilmSettings, Scene};
@@ -8,13 +9,14 @@ use super::environment::Environment;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::lexer::{Lexer, Token, shortened};
-use super::lights::{self, Area, DeltaLight, Files, Shown};
+use super::lights::{self, DeltaLight, Files};
 use super::material_parameters::{self, Context, Finish};
 use super::materials::Material;
 use super::message::{Message, Place, utf8};
 use super::named_materials::NamedMaterials;
 use super::params::{Param, Params, Resolve};
 use super::portal_sides;
+use super::profiles;
 use super::shape_attributes::ShapeAttributes;
 use super::shapes;
 use super::textures::Textures;
@@ -394,7 +396,7 @@ impl Reader<'_> {
                 let resolve = |name: &str| resolved(main_dir, inputs, name, dir);
                 let open = |name: &str| opened(*is_builtin, name, &resolve);
                 let files = Files { resolve: &resolve, open: &open };
-                state.area = lights::area(kind, &mut params, &files, shown, &mut out.notes)?;
+                state.area = area_lights::read(kind, &mut params, &files, shown, &mut out.notes)?;
             }
             "LightSource" => {
                 self.with_defaults("light", &mut params);
@@ -479,8 +481,24 @@ impl Reader<'_> {
             }
             return Ok(());
         }
+        let profile = match if kind == "spot" { params.text("profile")? } else { None } {
+            // of its power, the falloff is only a part
+            Some(name) => Some((profiles::read(&name, params, &files, &mut out.notes)?, lights::power(params)?)),
+            None => None,
+        };
         match lights::read(kind, params, &state.ctm, &files, &mut out.notes)? {
-            lights::Source::Delta(light) => self.delta_lights.push(light),
+            lights::Source::Delta(light) => match profile {
+                None => self.delta_lights.push(light),
+                Some((None, _)) => out.notes.warn(params.error("emits nothing")),
+                Some((Some(profile), power)) => {
+                    let table = self.intensities.len() as u32;
+                    let light = directed::spot(light, power, profile, params, &state.ctm, &mut out.notes, table)?;
+                    if let Some((light, intensity)) = light {
+                        self.delta_lights.push(light);
+                        self.intensities.push(intensity.into());
+                    }
+                }
+            },
             lights::Source::Environment(environment) => {
                 let facing = |portal: &Portal| (*portal, portal_sides::faces_away(params));
                 self.portals.extend(environment.portals.iter().map(facing));
@@ -518,7 +536,7 @@ impl Reader<'_> {
             return Ok(());
         }
         let opacity = opacity.filter(|opacity| opacity.constant().is_none_or(|[x, ..]| x < 1.0));
-        let Area { mut emission, picture, power } = self.state.area.clone();
+        let Area { mut emission, picture, mut profile, power } = self.state.area.clone();
         let Some(material) = self.named.of_shape(self.state.material, &mut self.out) else {
             if emission.is_some() {
                 self.out.notes.warn(params.error("a light of material \"interface\" emits nothing, as in pbrt"));
@@ -533,10 +551,11 @@ impl Reader<'_> {
             emission = None;
         }
         if let Some(emission) = emission.as_mut().filter(|emission| kind == "sphere" && emission.spread.is_some()) {
+            let what = if profile.is_some() { "profile" } else { "spread" };
             self.out
                 .notes
-                .stand_in("spread", || params.error("a sphere has no \"spread\": it emits in all directions"));
-            emission.spread = None;
+                .stand_in(what, || params.error(format!("a sphere has no {what:?}: it emits in all directions")));
+            (emission.spread, profile) = (None, None);
         }
         let mask = opacity.map(|opacity| Mask { opacity, least: None });
         if mask.is_some() && emission.is_some() {
@@ -551,6 +570,7 @@ impl Reader<'_> {
             },
             emission,
             picture,
+            profile,
             power,
         };
         let Self { out, inputs, main_dir, is_builtin, .. } = self;

@@ -1,8 +1,10 @@
 //! What a scene file says of all of a shape, and how that moves it to world space.
 
+use super::area_lights::Distribution;
 use super::lights::Emission;
 use super::transform::{Transform, cross, dot, scaled, unit};
 use crate::texture::Picture;
+use std::sync::Arc;
 
 /// What applies to all of a shape.
 #[derive(Clone, Debug)]
@@ -16,6 +18,8 @@ pub(super) struct ShapeAttributes {
     /// What the shape emits, relative to the radiance of `emission`, by its texture coordinates. It is empty where that radiance is the same
     /// everywhere.
     pub(super) picture: Option<Picture>,
+    /// How a flat shape distributes what it emits.
+    pub(super) profile: Option<Arc<Distribution>>,
     /// If given, the power of each emitting triangle, sphere or parallelogram; only the colour of `emission` then counts.
     pub(super) power: Option<f64>,
 }

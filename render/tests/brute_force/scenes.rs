@@ -24,6 +24,7 @@ pub(crate) fn scene(triangles: Vec<Triangle>, shapes: Vec<Shape>) -> Scene {
         details: Arc::default(),
         shapes: shapes.into(),
         pictures: Arc::default(),
+        profiles: Arc::default(),
         delta_lights: Vec::new(),
         intensities: Vec::new(),
         environment: None,

@@ -206,7 +206,7 @@ fn lights_far_away_have_their_share_of_the_power() {
     }
 }
 
-/// Among many lamps of IES files, projected images and panels with a spread, none is lost: where a sample of a light contributes, its pmf is
+/// Among many lamps of IES files, projected images, panels with a spread, and spots and panels with profiles, none is lost: where a sample of a light contributes, its pmf is
 /// positive, and the pdf of its direction is, bit for bit, that with which it was drawn.
 #[test]
 fn directed_and_spread_lights_are_never_lost() {
@@ -222,13 +222,36 @@ fn directed_and_spread_lights_are_never_lost() {
         |x: usize, y: usize| if (x + y).is_multiple_of(2) { (1.0_f32, 0.0_f32, 2.0_f32) } else { (0.0, 0.0, 0.0) };
     exr::prelude::write_rgb_file(folder.join("slide.exr"), 4, 3, texel).unwrap();
     let mut text = "Camera \"perspective\"\nWorldBegin\n".to_owned();
-    for i in 0..120 {
+    for i in 0..160 {
         let [x, y, z] = [37, 61, 89].map(|k| i * k % 101).map(|k| 0.02 * f64::from(k) - 1.0);
         let lamp = |name: &str| format!("LightSource \"goniometric\" \"string filename\" \"{name}.ies\"");
-        let light = match i % 6 {
+        let profile = |name: &str| format!("\"string profile\" \"{name}.ies\"");
+        let spot = |name: &str| {
+            format!("LightSource \"spot\" \"float coneangle\" {} \"float conedeltaangle\" 2 {}", 3 + i, profile(name))
+        };
+        let panel = |more: &str| {
+            format!(
+                "AreaLightSource \"diffuse\" {more} Shape \"bilinearmesh\" \"point3 P\" [0 0 0 .3 0 0 0 .2 0 .3 .2 0]"
+            )
+        };
+        let light = match i % 8 {
             0 => lamp("narrow"),
             1 => lamp("wide"),
             2 => lamp("up"),
+            6 => {
+                if i % 16 == 6 {
+                    spot("narrow")
+                } else {
+                    spot("wide")
+                }
+            }
+            7 => {
+                if i % 16 == 7 {
+                    panel(&profile("narrow"))
+                } else {
+                    panel(&(profile("up") + " \"bool twosided\" true"))
+                }
+            }
             3 => format!("LightSource \"projection\" \"string filename\" \"slide.exr\" \"float fov\" {}", 5 + i),
             k => {
                 let shape =
@@ -243,7 +266,7 @@ fn directed_and_spread_lights_are_never_lost() {
     std::fs::remove_dir_all(&folder).unwrap();
     let lights = Lights::new(&scene, None).unwrap();
     let (areas, all) = (scene.shapes.len() as u32, lights.len() as u32);
-    assert!(areas == 60 && all == 140, "{areas} and {all}");
+    assert!(areas == 80 && all == 180, "{areas} and {all}");
     let mut found = [0_u32; 2];
     for number in 0..cases(300, 10_000) {
         let lanes = u32x8::from_fn(|k| number * 8 + k as u32);

@@ -11,6 +11,7 @@ mod own_scenes;
 mod parts;
 mod pictures;
 mod portals;
+mod profiles;
 mod references;
 mod sampler;
 mod sensor;

@@ -101,6 +101,7 @@ impl Adder<'_, '_> {
             material: surface.material,
             emission: None,
             picture: None,
+            profile: None,
             power: None,
         };
         let wide = |v: &[f32; 3]| v.map(f64::from);

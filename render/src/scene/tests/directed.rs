@@ -118,7 +118,7 @@ fn types_b_and_a_have_other_axes() {
 fn damaged_files_are_errors() {
     let whole = file(NEW, 3, "-90 -1 0 90", "0 30 90", "8 0 8 2 1 2 3 4 5 6 7 8")
         .replace("TILT=NONE", "TILT=INCLUDE\n1 2 0 90 1 1");
-    let judge = |text: &str| match ies::parse(text, "a.ies") {
+    let judge = |text: &str| match ies::parse(text, "a.ies", None, &|name| PathBuf::from(name)) {
         Ok(found) => {
             let flux = found.intensity.flux()[0];
             assert!((0.0..=12.6).contains(&flux) && found.greatest >= 0.0, "{flux}: {text}");
@@ -152,7 +152,11 @@ fn damaged_files_are_errors() {
     assert!(read > 100, "{read}");
     // once mirrored, these are the same
     let close = file(NEW, 1, "0 90", "0 1e-9 90", "8 0 8 2 1 2");
-    assert!(ies::parse(&close, "a.ies").unwrap_err().contains("a.ies: angles do not ascend"));
+    assert!(
+        ies::parse(&close, "a.ies", None, &|name| PathBuf::from(name))
+            .unwrap_err()
+            .contains("a.ies: angles do not ascend")
+    );
 }
 
 /// The power that a scene asks for is what the light emits, summed over directions.
@@ -291,4 +295,51 @@ fn errors_name_file_line_and_value() {
     }
     let error = folder.load("Scale 1 2 1 LightSource \"projection\" \"string filename\" \"odd.exr\"").unwrap_err();
     assert!(error.contains("rotations, reflections and uniform scales"), "{error}");
+}
+
+/// Profiles of spot and area lights, and factors of TILT, that are none.
+#[test]
+fn faulty_profiles_and_tilts_name_what_is_wrong() {
+    let folder = Folder::new("profile-errors");
+    folder.write("a.ies", &file(NEW, 1, "0 90", "0", "8 2").replace("TILT=NONE", "TILT=INCLUDE\n1 2 10 90 1 0.9"));
+    folder.write("up.ies", &file(NEW, 1, "90 91 180", "0", "0 8 2"));
+    folder.write("lost.ies", &file(NEW, 1, "0 90", "0", "8 2").replace("TILT=NONE", "TILT=none.tlt"));
+    write_rgb_file(folder.0.join("odd.exr"), 3, 2, |_, _| (1.0, 1.0, 1.0)).unwrap();
+    let spot = |more: &str| format!("LightSource \"spot\" \"string profile\" {more}");
+    let area = |more: &str| format!("AreaLightSource \"diffuse\" \"string profile\" {more}");
+    for (light, what) in [
+        (spot("\"none.ies\""), "cannot read \"none.ies\""),
+        (area("\"none.ies\""), "cannot read \"none.ies\""),
+        (spot("\"odd.exr\""), "odd.exr: 3×2 texels: must be square, or twice as wide as high"),
+        (spot("\"up.ies\" \"float power\" -1"), "\"power\": must be greater than 0, not -1"),
+        (spot("\"a.ies\" \"float scale\" 2e37"), "its greatest intensity is "),
+        (spot("\"a.ies\" \"float tilt\" 181"), "\"tilt\": must be from 0 to 180 degrees, not 181"),
+        (area("\"a.ies\" \"float tilt\" -1"), "\"tilt\": must be from 0 to 180 degrees, not -1"),
+        (area("\"a.ies\" \"float tilt\" 5"), "a.ies:4: its factors of TILT are for 10 to 90 degrees, not for 5"),
+        (spot("\"lost.ies\" \"float tilt\" 5"), "lost.ies:3: cannot read \"none.tlt\""),
+        (area("\"a.ies\" \"float spread\" 20"), "\"spread\" and \"profile\": a light has one or the other"),
+        (area("\"a.ies\" \"float scale\" 3e37 \"float tilt\" 10"), "at most "),
+    ] {
+        let error = folder.load(&light).unwrap_err();
+        assert!(error.starts_with("a.pbrt:2: ") && error.contains(what), "{light}\n{error}\n{what}");
+    }
+    let quad = "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  4 0 0  0 3 0  4 3 0]";
+    // dark where the light shines; without an angle, the factors of TILT are a warning, and their file is not read
+    for (light, what) in [
+        (spot("\"up.ies\""), "emits nothing: its profile is dark in its cone"),
+        (area(&format!("\"up.ies\" {quad}")), "emits nothing"),
+        (spot("\"lost.ies\""), "lost.ies:3: the factors of TILT are not applied: \"float tilt\" tells"),
+        (spot("\"up.ies\" \"float coneangle\" 20 \"float tilt\" 5"), "emits nothing"),
+    ] {
+        let scene = folder.load(&light).unwrap_or_else(|error| panic!("{error}"));
+        assert!(scene.warnings[0].text.contains(what), "{light}\n{:?}", scene.warnings);
+    }
+    let scene = folder.load(&area("\"a.ies\" \"float tilt\" 10 Shape \"sphere\"")).unwrap();
+    let emission = scene.shapes[0].emission.unwrap();
+    assert_eq!((emission.spread, emission.profile, scene.stand_ins.len()), (None, None, 1));
+    // triangles in a plane share what they have
+    let two = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 1 3 2] \"point3 P\" [0 0 0  4 0 0  0 3 0  4 3 0]";
+    let scene = folder.load(&area(&format!("\"a.ies\" \"float tilt\" 10 {two} Rotate 90 1 0 0 {quad}"))).unwrap();
+    let profiles: Vec<_> = scene.shapes.iter().map(|shape| shape.emission.unwrap().profile).collect();
+    assert_eq!((profiles, scene.profiles.len()), (vec![Some(0), Some(0), Some(1)], 2));
 }

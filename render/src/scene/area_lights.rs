@@ -1,0 +1,155 @@
+//! Reads `AreaLightSource`.
+
+use super::lights::{Emission, Files, power, radiances, scale};
+use super::message::{Message, Notes};
+use super::params::{MOST_RADIANCE, Params, brightness, rounded, shown};
+use super::profiles::{self, Aim, Profile};
+use crate::image::Picture;
+use crate::intensity::Intensity;
+use crate::packet::V8;
+use crate::texture::{self, Colors, Mapping, Texels, Wrap};
+use etendue::light::{LuminousOpening, Spread};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// The tangent of an angle to the normal that all of a hemisphere is within.
+const WIDE: f64 = 1e6;
+
+/// What an `AreaLightSource` makes of shapes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Area {
+    /// Nothing if it is dark. With a picture, the radiance is what its texels are multiplied by.
+    pub(super) emission: Option<Emission>,
+    /// The picture that each shape shows by its texture coordinates.
+    pub(super) picture: Option<texture::Picture>,
+    /// How flat shapes distribute what they emit.
+    pub(super) profile: Option<Arc<Distribution>>,
+    /// The power of each light, if the scene gives it.
+    pub(super) power: Option<f64>,
+}
+
+/// A profile of flat lights, which each has along its normal.
+#[derive(Debug)]
+pub(super) struct Distribution {
+    pub(super) intensity: Arc<Intensity>,
+    pub(super) aim: Aim,
+    pub(super) opening: LuminousOpening<f32>,
+    /// The cone about the normal beyond which it is dark.
+    cone: Spread<f32>,
+}
+
+/// The pictures of lights that were read so far, by the files that name them and their names there.
+pub(super) type Shown = HashMap<(Arc<str>, String), Arc<Texels>>;
+
+/// Reads an `AreaLightSource`.
+pub(super) fn read(
+    kind: &str,
+    params: &mut Params,
+    files: &Files<'_>,
+    known: &mut Shown,
+    notes: &mut Notes,
+) -> Result<Area, Message> {
+    if kind != "diffuse" && kind != "area" {
+        return Err(params.error("not supported, only \"diffuse\""));
+    }
+    params.given("nsamples");
+    params.given("samples");
+    let texels = match params.text("filename")? {
+        Some(name) => Some(shown_texels(&name, params, files, known, notes)?),
+        None => None,
+    };
+    // pbrt-v4 refuses a radiance beside a picture
+    let radiance = params.light("L", files.resolve)?.unwrap_or([1.0; 3]);
+    let power = power(params)?;
+    let scale = scale(params)?;
+    let two_sided = params.flag("twosided")?.unwrap_or(false);
+    let (of_tilt, profile) = match params.text("profile")? {
+        Some(name) => distribution(&name, two_sided, params, files, notes)?,
+        None => (1.0, None),
+    };
+    let radiance: [f64; 3] = std::array::from_fn(|k| radiance[k] * scale[k] * of_tilt);
+    let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
+    let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
+    let spread = spread(params)?;
+    if spread.is_some() && profile.is_some() {
+        return Err(params.error("\"spread\" and \"profile\": a light has one or the other"));
+    }
+    // the greatest factor of the spread is on the axis, and that of a profile at most at its least cosine
+    let gain = match &profile {
+        Some(distribution) => f64::from(distribution.opening.factor(0.0, 1.0)),
+        None => spread.map_or(1.0, |spread| f64::from(spread.tan_half) * f64::from(spread.gain)),
+    };
+    let most = (f64::from(MOST_RADIANCE) / gain) as f32;
+    let too_large = || params.error(format!("the radiance {brightest:?}: at most {most:e} is supported"));
+    let brightest = rounded(brightest).filter(|rgb| rgb.iter().all(|&x| x <= most)).ok_or_else(too_large)?;
+    let radiance = rounded(radiance).ok_or_else(too_large)?;
+    brightness(brightest).into_iter().for_each(|text| notes.warn(params.error(text)));
+    let dark = brightest == [0.0; 3];
+    if dark {
+        notes.warn(params.error("emits nothing"));
+    }
+    // pbrt's (0, 0) is the lower left corner
+    let mapping = Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]);
+    let picture = texels.map(|texels| texture::Picture { texels, mapping, wrap: [Wrap::Clamp; 2], bilinear: true });
+    let (spread, profile) = match profile {
+        Some(distribution) => (Some(distribution.cone), Some(Arc::new(distribution))),
+        None => (spread, None),
+    };
+    let emission = Emission { radiance, two_sided, picture: None, spread, profile: None };
+    Ok(Area { emission: (!dark).then_some(emission), picture, profile, power })
+}
+
+/// Reads the profile of an area light, and a factor of the radiance: that of its tilt, or 0 if the light is dark.
+fn distribution(
+    name: &str,
+    two_sided: bool,
+    params: &mut Params,
+    files: &Files<'_>,
+    notes: &mut Notes,
+) -> Result<(f64, Option<Distribution>), Message> {
+    let Some(Profile { intensity, of_tilt, aim, .. }) = profiles::read(name, params, files, notes)? else {
+        return Ok((0.0, None));
+    };
+    let ahead = aim.ahead();
+    let Some(opening) = LuminousOpening::new(ahead.into(), two_sided, |w: V8| intensity.at(w).x) else {
+        return Ok((0.0, None));
+    };
+    // about another axis, or behind, the cone of the intensity tells nothing
+    let cos = if ahead[2] == 1.0 && !two_sided { f64::from(intensity.cos_cone()) } else { -1.0 };
+    // a little wider, since directions are rounded
+    let tangent = if cos > 0.02 { libm::sqrt(1.0 - cos * cos) / cos * 1.001 + 1e-4 } else { WIDE };
+    let cone = Spread { tan_half: tangent as f32, gain: 0.0 };
+    Ok((of_tilt, Some(Distribution { intensity: intensity.into(), aim, opening, cone })))
+}
+
+/// The texels of the picture of a light, which is read once.
+fn shown_texels(
+    name: &str,
+    params: &Params,
+    files: &Files<'_>,
+    known: &mut Shown,
+    notes: &mut Notes,
+) -> Result<Arc<Texels>, Message> {
+    let key = (Arc::clone(&params.place.file), name.to_owned());
+    if let Some(texels) = known.get(&key) {
+        return Ok(Arc::clone(texels));
+    }
+    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
+    let (colors, warning) = radiances(&image, name, [1.0; 3]).map_err(|what| params.error(what))?;
+    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
+    let Picture { width, height, .. } = image;
+    let texels = Arc::new(Texels { width, height, colors: Colors::Float(colors), alpha: None });
+    known.insert(key, Arc::clone(&texels));
+    Ok(texels)
+}
+
+/// The spread of an area light: the full angle in degrees, as in Cycles. pbrt has none.
+fn spread(params: &mut Params) -> Result<Option<Spread<f32>>, Message> {
+    match params.float("spread")? {
+        None => Ok(None),
+        Some(angle) if !(0.1..=180.0).contains(&angle) => {
+            Err(params.error(format!("\"spread\": must be from 0.1 to 180 degrees, not {}", shown(angle))))
+        }
+        Some(angle) => Ok((angle < 180.0).then(|| Spread::new(angle.to_radians()))),
+    }
+}

@@ -1,0 +1,119 @@
+//! Reads intensities by direction from IES files and images, and aims them along the axes of lights.
+
+use super::ies::{self, Axis};
+use super::lights::{Files, MOST_TEXELS};
+use super::message::{Message, Notes};
+use super::params::{Params, shown};
+use super::transform::{Transform, cross, dot, scaled, sub, unit};
+use crate::image::Picture;
+use crate::intensity::Intensity;
+use etendue::light::EnvironmentMap;
+
+/// An intensity by direction.
+#[derive(Debug)]
+pub(super) struct Profile {
+    pub(super) intensity: Intensity,
+    /// The greatest intensity, with the factor of the tilt.
+    pub(super) greatest: f64,
+    pub(super) of_tilt: f64,
+    pub(super) aim: Aim,
+}
+
+/// How a luminaire lies in light space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Aim {
+    /// The axes of the space of its intensity.
+    pub(super) axes: [Axis; 3],
+    /// The direction in which it is aimed, and one at its side.
+    ahead: Axis,
+    aside: Axis,
+}
+
+/// Axes of the images of directions: pbrt has y up, and images have z.
+const UP: [Axis; 3] = [(0, 1.0), (2, 1.0), (1, 1.0)];
+
+/// Reads an IES file, or pbrt's square image of directions, or an older one of longitude and latitude; `None` if it is dark. The parameter
+/// `tilt` is that of the luminaire.
+pub(super) fn read(
+    name: &str,
+    params: &mut Params,
+    files: &Files<'_>,
+    notes: &mut Notes,
+) -> Result<Option<Profile>, Message> {
+    if !name.to_ascii_lowercase().ends_with(".ies") {
+        let image = picture(params, name, files)?;
+        return sphere(&image).map_err(|what| params.error(format!("{name}: {what}")));
+    }
+    let tilt = params.float("tilt")?;
+    if let Some(tilt) = tilt.filter(|tilt| !(0.0..=180.0).contains(tilt)) {
+        return Err(params.error(format!("\"tilt\": must be from 0 to 180 degrees, not {}", shown(tilt))));
+    }
+    let ies::Photometry { intensity, greatest, of_tilt, axes, ahead, aside, warnings } =
+        ies::read(name, tilt, files.resolve).map_err(|what| params.error(what))?;
+    warnings.into_iter().for_each(|what| notes.warn(params.error(what)));
+    let aim = Aim { axes, ahead, aside };
+    Ok((greatest > 0.0).then_some(Profile { intensity, greatest, of_tilt, aim }))
+}
+
+/// Reads an image without what no light can have.
+pub(super) fn picture(params: &Params, name: &str, files: &Files<'_>) -> Result<Picture, Message> {
+    let image = (files.open)(name).map_err(|error| params.error(error.to_string()))?;
+    let (width, height) = (image.width, image.height);
+    if width * height > MOST_TEXELS {
+        return Err(params.error(format!("{name}: {width}×{height} texels: at most 2^26 are supported")));
+    }
+    let is_wrong = |rgb: &[f32; 3]| !rgb.iter().all(|x| (0.0..=f32::MAX).contains(x));
+    if let Some(i) = image.radiance.iter().position(is_wrong) {
+        let (x, y, texel) = (i % width, i / width, image.radiance[i]);
+        return Err(params.error(format!("{name}: texel ({x}, {y}) is {texel:?}: must be finite, and at least 0")));
+    }
+    Ok(image)
+}
+
+/// The means of the channels as an image of all directions; `None` if it is black.
+fn sphere(image: &Picture) -> Result<Option<Profile>, String> {
+    let map = if image.width == image.height {
+        EnvironmentMap::EqualArea
+    } else if image.width == 2 * image.height {
+        EnvironmentMap::Equirectangular
+    } else {
+        return Err(format!("{}×{} texels: must be square, or twice as wide as high", image.width, image.height));
+    };
+    let means: Vec<f64> =
+        image.radiance.iter().map(|rgb| rgb.iter().map(|&x| f64::from(x)).sum::<f64>() / 3.0).collect();
+    let greatest = means.iter().fold(0.0, |most: f64, &x| most.max(x));
+    let texels = means.iter().map(|x| (x / greatest.max(f64::MIN_POSITIVE)) as f32).collect();
+    let aim = Aim { axes: UP, ahead: (1, -1.0), aside: (0, 1.0) };
+    let profile = |intensity| Profile { intensity, greatest, of_tilt: 1.0, aim };
+    Ok(Intensity::sphere(map, image.width, texels).map(profile))
+}
+
+impl Aim {
+    /// The unit direction in which the luminaire is aimed, in the space of the intensity.
+    pub(super) fn ahead(&self) -> [f64; 3] {
+        let (ahead, sign) = self.ahead;
+        self.axes.map(|(axis, own)| if axis == ahead { own * sign } else { 0.0 })
+    }
+    /// Rows of the orthogonal matrix from world space to that of the intensity, when the luminaire is aimed along the unit vector `axis`. It
+    /// is turned about that so that what is at its side stays in the plane of the axis and of where the transform of the light would put
+    /// it: photometric horizontals are at +x, and at −y where +x is along the axis.
+    pub(super) fn aimed(&self, axis: [f64; 3], ctm: &Transform) -> [[f32; 3]; 3] {
+        let (ahead, aside) = (self.ahead, self.aside);
+        let across = |(k, sign): Axis| {
+            let mut direction = [0.0; 3];
+            direction[k] = sign;
+            let v = unit(ctm.vector(direction))?;
+            let v = sub(v, scaled(axis, dot(v, axis)));
+            (dot(v, v) > 1e-6).then(|| unit(v))?
+        };
+        let third = 3 - ahead.0 - aside.0;
+        let any = || unit(cross(axis, if axis[0].abs() < 0.5 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }));
+        let side = across(aside).or_else(|| across(ahead)).or_else(any).unwrap_or([0.0; 3]);
+        let mut axes = [[0.0; 3]; 3];
+        (axes[ahead.0], axes[aside.0]) = (scaled(axis, ahead.1), scaled(side, aside.1));
+        // as left- or right-handed as the transform
+        let sign = if ctm.determinant() < 0.0 { -1.0 } else { 1.0 };
+        axes[third] = scaled(cross(axes[(third + 1) % 3], axes[(third + 2) % 3]), sign);
+        self.axes.map(|(k, sign)| axes[k].map(|x| (x * sign) as f32))
+    }
+}

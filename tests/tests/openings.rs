@@ -1,0 +1,178 @@
+//! Flat lights and spot lights with profiles: factors and powers by their definitions, summed in double precision.
+
+use core::f64::consts::{PI, TAU};
+use etendue::light::{LuminousOpening, Profile};
+use etendue::{LightSampler, Real, SpotLight, Vec2, Vec3, f32x8, f32x16};
+use etendue_oracle::tier::cases;
+use etendue_oracle::{V3, along, basis, dot, unit};
+use etendue_properties::generators::Random;
+use etendue_properties::properties::Coordinates;
+
+/// A table by steps of 5° from the pole and of 15° around it.
+struct Table {
+    polar: Vec<f32>,
+    azimuth: Vec<f32>,
+    values: Vec<f32>,
+}
+
+impl Table {
+    fn new(value: impl Fn(f64, f64) -> f64) -> Self {
+        let steps = |count: u16, step: u16| -> Vec<f32> { (0..count).map(|i| f32::from(i * step)).collect() };
+        let (polar, azimuth) = (steps(37, 5), steps(25, 15));
+        let values = azimuth.iter().flat_map(|&a| polar.iter().map(move |&p| (p, a)));
+        let values = values.map(|(p, a)| value(f64::from(p), f64::from(a % 360.0)) as f32).collect();
+        Self { polar, azimuth, values }
+    }
+    fn profile(&self) -> Profile<'_> {
+        Profile::new(&self.polar, &self.azimuth, &self.values).unwrap()
+    }
+    /// The value in a unit direction, by its definition.
+    fn at(&self, [x, y, z]: V3) -> f64 {
+        let rows = x.hypot(y).atan2(z).to_degrees() / 5.0;
+        let columns = y.atan2(x).rem_euclid(TAU).to_degrees() / 15.0;
+        let (row, column) = ((rows as usize).min(35), (columns as usize).min(23));
+        let (t, s) = (rows - row as f64, columns - column as f64);
+        let value = |i: usize, j: usize| f64::from(self.values[(column + j) * 37 + row + i]);
+        let across = |i: usize| value(i, 0) * (1.0 - s) + value(i, 1) * s;
+        across(0) * (1.0 - t) + across(1) * t
+    }
+}
+
+/// A lamp that shines all around, a narrow beam, one that is dark on half its sides, and one that shines upwards alone.
+fn tables() -> [Table; 4] {
+    [
+        Table::new(|polar, azimuth| 2.0 + polar.to_radians().cos() + azimuth.to_radians().sin()),
+        Table::new(|polar, _| f64::max(10.0 - polar, 0.0)),
+        Table::new(|polar, azimuth| if azimuth > 100.0 { 0.0 } else { polar * (180.0 - polar) }),
+        Table::new(|polar, azimuth| if polar > 90.0 { 1.0 + azimuth / 360.0 } else { 0.0 }),
+    ]
+}
+
+/// Where the intensity begins to fall.
+fn least() -> f64 {
+    85_f64.to_radians().cos()
+}
+
+fn vector<R: Real>(v: V3) -> Vec3<R> {
+    Coordinates::gather(&[v])
+}
+
+/// ∫ f(w, cosθ) dω over the angles θ to the axis up to `most` degrees, by small steps.
+fn sum(axis: V3, most: f64, f: impl Fn(V3, f64) -> f64) -> f64 {
+    let (s, t) = basis(axis);
+    // about the axis of the tables, azimuths are linear between the steps
+    let columns = if axis == [0.0, 0.0, 1.0] { 144 } else { 720 };
+    // two points of Gauss and Legendre in each half degree, but for narrow cones
+    let rows = (2.0 * most).max(40.0).ceil();
+    let mut all = 0.0;
+    for i in 0..2 * rows as u32 {
+        let off = if i % 2 == 0 { -0.5 } else { 0.5 } / 3.0_f64.sqrt();
+        let theta = (f64::from(i / 2) + 0.5 + off) / rows * most.to_radians();
+        let mut row = 0.0;
+        for j in 0..columns {
+            let turn = (f64::from(j) + 0.5) / f64::from(columns) * TAU;
+            let across = along(s.map(|x| x * turn.cos()), t, turn.sin());
+            row += f(along(axis.map(|x| x * theta.cos()), across, theta.sin()), theta.cos());
+        }
+        all += row * theta.sin();
+    }
+    all * TAU / f64::from(columns) * most.to_radians() / (2.0 * rows)
+}
+
+/// Whatever the table and however it is turned, the power is that of the light without it, and the factor that of the formula. The opening
+/// has the same bits whether it is summed by one direction or by many.
+#[test]
+fn openings_keep_the_power() {
+    let normals = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], unit([0.3, -0.5, -0.7])];
+    let mut dark = 0;
+    for (kind, table) in tables().iter().enumerate() {
+        let profile = table.profile();
+        for (normal, two_sided) in normals.into_iter().flat_map(|n| [(n, false), (n, true)]) {
+            let (most, sides) = if two_sided { (180.0, 2.0) } else { (90.0, 1.0) };
+            let found = LuminousOpening::<f64>::new(vector(normal), two_sided, |w: Vec3<f64>| profile.intensity(w));
+            let flux = sum(normal, most, |w, cos| table.at(w) * (cos.abs() / least()).min(1.0));
+            let Some(opening) = found else {
+                assert!(flux == 0.0 && !two_sided, "{kind} {normal:?}: {flux}");
+                dark += 1;
+                continue;
+            };
+            let gain = sides * PI / flux;
+            let most_off = if normal == normals[0] { 1e-6 } else { 1e-3 };
+            let off = (opening.gain / gain - 1.0).abs();
+            assert!(off < most_off, "{kind} {normal:?}: {} for {gain}", opening.gain);
+            let power = sum(normal, most, |w, cos| opening.factor(cos, table.at(w)) * cos.abs());
+            assert!((power / (sides * PI) - 1.0).abs() < most_off, "{kind} {normal:?}: {power}");
+            let one = LuminousOpening::<f32>::new(vector(normal), two_sided, |w: Vec3<f32>| profile.intensity(w));
+            let wide = |found: Option<LuminousOpening<f32>>| found.unwrap().gain.to_bits();
+            let eight = LuminousOpening::new(vector(normal), two_sided, |w: Vec3<f32x8>| profile.intensity(w));
+            let more = LuminousOpening::new(vector(normal), two_sided, |w: Vec3<f32x16>| profile.intensity(w));
+            assert_eq!([wide(one), wide(one)], [wide(eight), wide(more)]);
+            assert!((f64::from(one.unwrap().gain) / gain - 1.0).abs() < most_off + 1e-6);
+        }
+    }
+    // a beam that is behind, and what shines upwards alone
+    assert_eq!(dark, 2);
+}
+
+/// From far away an opening is the luminaire that was measured: its radiance times the area that is seen is the intensity, but for the last
+/// degrees next to its plane, where that falls in proportion to the cosine.
+#[test]
+fn openings_have_the_intensities_of_their_table() {
+    let mut random = Random::new(3);
+    let table = &tables()[0];
+    let profile = table.profile();
+    let opening = LuminousOpening::<f32>::new(vector([0.0, 0.0, 1.0]), false, |w: Vec3<f32x8>| profile.intensity(w));
+    let opening = opening.unwrap();
+    let of = |w: V3| {
+        let w = vector::<f32>(w);
+        f64::from(opening.factor(w.z, profile.intensity(w))) * f64::from(w.z.abs())
+    };
+    let scale = of([0.0, 0.0, 1.0]) / table.at([0.0, 0.0, 1.0]);
+    for _ in 0..cases(1000, 100_000) {
+        let w = random.direction();
+        let wanted = table.at(w) * (w[2].abs() / least()).min(1.0);
+        assert!((of(w) / scale - wanted).abs() < 1e-5 * wanted.max(0.1), "{w:?}: {} for {wanted}", of(w) / scale);
+    }
+}
+
+/// A spot light with a profile: pdf distance²/(falloff · intensity), none where either is 0, and the power of both.
+#[test]
+fn spot_lights_take_profiles() {
+    let mut random = Random::new(5);
+    for (kind, table) in tables().iter().enumerate() {
+        let profile = table.profile();
+        for (inner, outer) in [(10.0_f64, 30.0_f64), (0.0, 5.0), (40.0, 40.0), (70.0, 150.0)] {
+            let axis = if kind == 1 { [0.0, 0.0, 1.0] } else { random.direction() };
+            let position = [1.0, 2.0, 3.0];
+            let [cos_inner, cos_outer] = [inner, outer].map(|degrees| degrees.to_radians().cos());
+            let light = SpotLight { position: vector::<f64>(position), axis: vector(axis), cos_inner, cos_outer };
+            let falloff = |cos: f64| {
+                if inner == outer {
+                    return f64::from(u8::from(cos >= cos_inner));
+                }
+                let t = ((cos - cos_outer) / (cos_inner - cos_outer)).clamp(0.0, 1.0);
+                t * t * (3.0 - 2.0 * t)
+            };
+            let wanted = sum(axis, outer, |w, cos| table.at(w) * falloff(cos));
+            let power = light.power(|w: Vec3<f64>| profile.intensity(w));
+            let most =
+                sum(axis, outer, |_, cos| falloff(cos)) * table.values.iter().fold(0.0, |m: f32, x| m.max(*x)) as f64;
+            assert!(
+                (power - wanted).abs() <= 1e-3 * wanted.max(0.01 * most),
+                "{kind} {inner} {outer}: {power} for {wanted}"
+            );
+            let narrow = light.map(|x| x as f32).power(|w: Vec3<f32x8>| profile.intensity(w));
+            assert!((narrow - power).abs() <= 1e-5 * power.max(0.01 * most), "{narrow} for {power}");
+            for _ in 0..cases(100, 10_000) {
+                let w = random.direction();
+                let distance = random.magnitude(0.1, 10.0);
+                let p = along(position, w, distance);
+                let s = light.by_profile(vector(p), |w| profile.intensity(w)).sample(Vec2::new(0.5, 0.5));
+                let strength = table.at(w) * falloff(dot(w, axis));
+                let (got, truth) = (s.weight(), strength / (distance * distance));
+                assert!((got - truth).abs() < 1e-9 * (1.0 + truth), "{kind}: {got} for {truth}");
+                assert_eq!(s.pdf > 0.0, strength > 0.0, "{kind}");
+            }
+        }
+    }
+}
