@@ -125,6 +125,13 @@ impl<'a> ProjectedImage<'a> {
         let table = PiecewiseConstant2d::build_by_cells(weights, width, solid_angle, buffer)?;
         Ok(Self { projector, table })
     }
+    /// The image whose table [`build`](Self::build) has left in the buffer, for the same projector.
+    ///
+    /// # Errors
+    /// If the length of the buffer is not that of a table with so many columns.
+    pub fn from_buffer(projector: Projector, buffer: &'a [f32], width: usize) -> Result<Self, TableError> {
+        Ok(Self { projector, table: PiecewiseConstant2d::from_buffer(buffer, width)? })
+    }
 }
 
 /// Directions in proportion to the weights.
