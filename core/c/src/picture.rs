@@ -16,7 +16,7 @@ use etendue_batch::{
 
 /// The most columns or rows, and the most texels.
 const MOST: usize = 1 << 24;
-const MOST_TEXELS: usize = 1 << 29;
+const MOST_TEXELS: usize = u32::MAX as usize / 2;
 
 /// The part of the unit square of surface coordinates that a light covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,18 +91,18 @@ impl EtenduePicture {
 
 fn is_size(width: usize, height: usize) -> bool {
     let sizes = 1..=MOST;
-    sizes.contains(&width) && sizes.contains(&height) && width * height <= MOST_TEXELS
+    sizes.contains(&width) && sizes.contains(&height) && width <= MOST_TEXELS / height
 }
 
 /// Number of floats in the table of a picture; 0 for a single texel, and for a picture without columns or rows, with more than 2^24 of them,
-/// or with more than 2^29 texels.
+/// or with 2^31 texels or more.
 #[unsafe(no_mangle)]
 pub extern "C" fn etendue_picture_table(width: usize, height: usize) -> usize {
     if is_size(width, height) { Picture::buffer(width, height) } else { 0 }
 }
 
 /// Number of floats in the table of a picture that is interpolated between the centres of its texels; 0 for a picture without columns or
-/// rows, with 2^24 of them or more, or with more than 2^29 texels between centres.
+/// rows, with 2^24 of them or more, or with 2^31 texels or more between centres.
 #[unsafe(no_mangle)]
 pub extern "C" fn etendue_picture_interpolated_table(width: usize, height: usize) -> usize {
     if width == 0 || height == 0 || width >= MOST || height >= MOST {
