@@ -3282,12 +3282,12 @@ EtendueStatus etendue_image_environment_hit_batch(const EtendueImageEnvironment 
                                                   const EtendueSampleColumns *out);
 
 // Number of floats in the table of a picture; 0 for a single texel, and for a picture without columns or rows, with more than 2^24 of them,
-// or with more than 2^29 texels.
+// or with 2^31 texels or more.
 size_t etendue_picture_table(size_t width,
                              size_t height);
 
 // Number of floats in the table of a picture that is interpolated between the centres of its texels; 0 for a picture without columns or
-// rows, with 2^24 of them or more, or with more than 2^29 texels between centres.
+// rows, with 2^24 of them or more, or with 2^31 texels or more between centres.
 size_t etendue_picture_interpolated_table(size_t width,
                                           size_t height);
 
