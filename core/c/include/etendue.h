@@ -865,7 +865,7 @@ typedef struct {
 
 // What a projector emits of an image, for light tracing, in memory of the caller: a texel by its weight times its solid angle, and in the
 // texel uniform in the plane of the image. The pdf is the probability of the texel times the number of texels, over
-// 4 tan_half[0] tan_half[1] cos(theta)^3, per steradian; 0 where the weight is 0, and outside the image.
+// 4 tx ty cos(theta)^3, per steradian, with the tangents tx and ty; 0 where the weight is 0, and outside the image.
 typedef struct {
   // The table that etendue_projected_image_build wrote.
   const float *table;
@@ -3921,7 +3921,7 @@ EtendueStatus etendue_point_light_by_profile_prepare(const EtenduePointLight *li
 
 // The position `uv` in the image of the unit direction `w`, and whether it is there: where it is not, `inside` is 0, and so is the position.
 //
-// u = (1 + x/(z tan_half[0]))/2, v = (1 - y/(z tan_half[1]))/2.
+// u = (1 + x/(z tx))/2, v = (1 - y/(z ty))/2, with the tangents tx and ty of half the angles of view.
 EtendueStatus etendue_projector_place(const EtendueProjector *projector,
                                       const float *w,
                                       float *uv,

@@ -242,7 +242,7 @@ pub unsafe extern "C" fn etendue_portal_environment_sees_cone_batch(
 /// The sky through portals as a point sees it: from each point exactly the part is sampled that it sees, by the weights of the texels.
 ///
 /// The pdf is the probability of the cells over the solid angle that they cover there, per steradian, summed over portals; 0 where no portal
-/// is seen, and from behind. `uv` of a sample are the numbers that [`etendue_octahedral_sample`] maps to the direction.
+/// is seen, and from behind. `uv` of a sample are the numbers that etendue_octahedral_sample maps to the direction.
 ///
 /// It has no data of its own beside the environment and the point: each call prepares for the point, which takes as long as some samples, so
 /// that batches are faster. The fields are set by `prepare`.

@@ -124,7 +124,7 @@ pub unsafe extern "C" fn etendue_profile_cos_cone(profile: *const EtendueProfile
 }
 
 /// Fills an image of width x height texels with the mean of the intensity over each texel of an equirectangular map, row by row, which is
-/// greater than 0 where there is light. [`etendue_image_environment_build`] samples what the light emits with these weights. Returns
+/// greater than 0 where there is light. etendue_image_environment_build samples what the light emits with these weights. Returns
 /// ETENDUE_STATUS_COUNT for an image without columns or rows.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn etendue_profile_means(
