@@ -247,13 +247,17 @@ fn spread_and_daylight() {
     let panel = EtendueRectangle { corner: [-9.0, 1.0, -9.0], edge_s: [18.0, 0.0, 0.0], edge_t: [0.0, 0.0, 18.0] };
     let core = Rectangle::<f32>::new([-9.0, 1.0, -9.0].into(), [18.0, 0.0, 0.0].into(), [0.0, 0.0, 18.0].into());
     let mut sampler = core::mem::MaybeUninit::uninit();
-    // SAFETY: all pointers here are to what the header says
-    unsafe {
+    // SAFETY: all pointers here are to what the header says, and the function writes the sampler
+    let sampler = unsafe {
         assert_eq!(etendue_spread_prepare(1.2, &mut same), EtendueStatus::Ok);
         assert_eq!(bits(&[same.tan_half, same.gain]), bits(&[spread.tan_half, spread.gain]));
         let prepared = etendue_rectangle_by_spread_prepare(&panel, P.as_ptr(), &same, sampler.as_mut_ptr());
         assert_eq!(prepared, EtendueStatus::Ok);
-        assert_same!("spread", core.by_spread(Vec3::from(P), &spread), sampler.assume_init(), rectangle_by_solid_angle);
+        sampler.assume_init()
+    };
+    assert_same!("spread", core.by_spread(Vec3::from(P), &spread), sampler, rectangle_by_solid_angle);
+    // SAFETY: all pointers here are to what the header says
+    unsafe {
         for i in 0..COUNT {
             let (w, n) = (direction(i), direction(i + COUNT));
             let factor = etendue_spread_attenuation(&same, three(w).as_ptr(), three(n).as_ptr());
